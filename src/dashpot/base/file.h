@@ -1,0 +1,18 @@
+#pragma once
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace dashpot {
+
+/// The whole file, gunzipped when its content is gzip. Throws Error when it cannot be read.
+std::string read_file(const std::filesystem::path& path);
+
+/// Writes to a temporary name beside `path` and renames it: on any failure (disk full, no right to
+/// write) throws Error and the old file stands unchanged. Makes missing folders.
+void write_file(const std::filesystem::path& path, std::string_view content);
+
+/// SHA-256 of the file's bytes, in hexadecimal.
+std::string sha256_of_file(const std::filesystem::path& path);
+
+}  // namespace dashpot

@@ -1,0 +1,25 @@
+#pragma once
+#include <atomic>
+#include <functional>
+#include <string>
+
+namespace dashpot {
+
+/// How far long work has come.
+struct Progress {
+  std::string stage;    ///< "fit modified_bouc_wen, fold 2 of 4"
+  double fraction = 0;  ///< of the whole job, 0...1
+};
+
+/// What long work talks to: it reports through it and is stopped by it. Safe from several threads.
+struct Monitor {
+  std::function<void(const Progress&)> on_progress;  ///< may be empty; called from one thread at a time
+  const std::atomic<bool>* stop = nullptr;           ///< set by a signal handler, say
+
+  /// Reports, and throws Interrupted when `stop` is set.
+  void report(const std::string& stage, double fraction) const;
+  /// Throws Interrupted when `stop` is set.
+  void check() const;
+};
+
+}  // namespace dashpot

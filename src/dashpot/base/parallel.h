@@ -1,0 +1,15 @@
+#pragma once
+#include <cstddef>
+#include <functional>
+
+namespace dashpot {
+
+/// Threads to use when the caller asks for 0: the cores this process may run on.
+int default_threads();
+
+/// Calls task(0) ... task(count - 1), each once, on up to `threads` threads (0: default_threads()).
+/// Tasks write only to their own slot, so results do not depend on the number of threads. The
+/// exception of the lowest failing index is rethrown after all running tasks have ended.
+void parallel_for(std::size_t count, int threads, const std::function<void(std::size_t)>& task);
+
+}  // namespace dashpot

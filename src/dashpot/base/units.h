@@ -1,0 +1,30 @@
+#pragma once
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace dashpot {
+
+/// Exponents of the SI base units kg, m, s, A, K.
+using Dimension = std::array<int, 5>;
+
+/// A unit as `value_si = factor * value + offset`.
+struct Unit {
+  Dimension dimension{};
+  double factor = 1;
+  double offset = 0;  ///< only degC and degF have one
+};
+
+/// Reads "mm", "N*s/m", "cm/s^2", "1/(m*A)", "kN", "in", "lbf", "g0", "degC", "1", "%". Also accepts
+/// "N s/m", "N.s/m", "m/s²" and the spellings "newton", "Newtons", "sec", "volts". Nothing when unknown.
+std::optional<Unit> parse_unit(std::string_view text);
+
+/// As parse_unit, but throws Error(where, ...) that names the unit and near ones.
+Unit require_unit(std::string_view text, const std::string& where);
+
+/// `unit` (an SI unit text with powers of A, as in a law's table) with V in place of A: parameters of a
+/// model that is driven by a voltage. "N*s/(m*A)" -> "N*s/(m*V)".
+std::string with_drive_unit(std::string_view unit, std::string_view drive_unit);
+
+}  // namespace dashpot

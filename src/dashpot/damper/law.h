@@ -1,0 +1,118 @@
+#pragma once
+#include <cstring>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "dashpot/damper/dependence.h"
+
+namespace dashpot {
+
+struct StateInfo {
+  std::string_view name, unit;
+};
+
+/// One row of a law's parameter table. Bounds hold for the parameter at every current in the domain.
+struct ParamInfo {
+  std::string_view name, unit;
+  double value;  ///< default: an example damper of the 3 kN class
+  double lower, upper;
+  double start;        ///< where a fit starts, in units of the data's own force, stroke and speed
+  Form form;           ///< how it depends on current unless the user says otherwise
+  bool bias = false;   ///< a constant force: replaced by the record offsets during a fit
+  bool fixed = false;  ///< not fitted unless asked for
+  std::string_view meaning;
+};
+
+/// A force law as the rest of Dashpot sees it: a table and functions of
+/// (parameters at the present current, displacement m, velocity m/s, internal state).
+struct Law {
+  std::string_view name, title;
+  std::string_view equation;  ///< plain text, one relation per line
+  std::string_view source;
+  std::string_view remarks;  ///< validity, and what differs from the source
+  std::vector<StateInfo> states;
+  std::vector<ParamInfo> params;
+  double lag_rate = 0;  ///< 1/s, default rate of the coil's first-order lag; 0: none
+  /// Internal state after a long rest at displacement x.
+  void (*rest)(const double* p, double x, double* z) = nullptr;
+  void (*derivative)(const double* p, double x, double v, const double* z, double* dz) = nullptr;
+  double (*force)(const double* p, double x, double v, const double* z) = nullptr;
+  /// Bound of the fastest internal rate, 1/s: an explicit integrator keeps rate * step below its limit.
+  double (*rate)(const double* p, double v) = nullptr;
+
+  std::size_t index_of(std::string_view param) const;  ///< throws Error naming the known ones
+};
+
+/// A row as a law's .cpp writes it: the field instead of the order.
+template <class P>
+struct Param {
+  double P::* field;
+  std::string_view name, unit;
+  double value, lower, upper, start;
+  Form form = Form::Constant;
+  std::string_view meaning;
+  bool bias = false;
+  bool fixed = false;
+};
+
+template <class P>
+struct LawTable {
+  std::string_view name, title, equation, source, remarks;
+  std::vector<StateInfo> states;
+  std::vector<Param<P>> params;
+  double lag_rate = 0;
+};
+
+namespace detail {
+template <class P>
+P from_array(const double* p) {
+  P own;
+  std::memcpy(&own, p, sizeof own);
+  return own;
+}
+}  // namespace detail
+
+/// Turns a C law (a struct of doubles in table order, and its functions) into a Law. The conformance
+/// test checks that the table has the order of the struct.
+template <class P, auto Force>
+Law static_law(const LawTable<P>& table) {
+  static_assert(sizeof(P) % sizeof(double) == 0);
+  Law law{.name = table.name,
+          .title = table.title,
+          .equation = table.equation,
+          .source = table.source,
+          .remarks = table.remarks,
+          .states = table.states,
+          .params = {},
+          .lag_rate = table.lag_rate};
+  for (const Param<P>& p : table.params)
+    law.params.push_back(
+        {p.name, p.unit, p.value, p.lower, p.upper, p.start, p.form, p.bias, p.fixed, p.meaning});
+  law.force = [](const double* p, double x, double v, const double* z) {
+    const P own = detail::from_array<P>(p);
+    return Force(&own, x, v, z);
+  };
+  return law;
+}
+
+template <class P, auto Force, auto Derivative, auto Rest, auto Rate>
+Law state_law(const LawTable<P>& table) {
+  Law law = static_law<P, Force>(table);
+  law.derivative = [](const double* p, double x, double v, const double* z, double* dz) {
+    const P own = detail::from_array<P>(p);
+    Derivative(&own, x, v, z, dz);
+  };
+  law.rest = [](const double* p, double x, double* z) {
+    const P own = detail::from_array<P>(p);
+    Rest(&own, x, z);
+  };
+  law.rate = [](const double* p, double v) {
+    const P own = detail::from_array<P>(p);
+    return Rate(&own, v);
+  };
+  return law;
+}
+
+}  // namespace dashpot

@@ -1,0 +1,51 @@
+#pragma once
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "dashpot/base/value.h"
+
+namespace dashpot {
+
+/// What a damper sees at one instant.
+struct DamperInput {
+  double displacement = 0;  ///< m, extension positive
+  double velocity = 0;      ///< m/s, extension positive
+  double current = 0;       ///< A commanded to the coil (V where the model is voltage-driven)
+};
+
+/// Where the training data were: outside, the model extrapolates.
+struct Domain {
+  double displacement_min = 0, displacement_max = 0;  ///< m
+  double velocity_min = 0, velocity_max = 0;          ///< m/s
+  double current_min = 0, current_max = 0;            ///< A or V
+};
+
+/// What a simulation steps. The description is immutable; the state is a flat array of the caller's.
+class DamperModel {
+ public:
+  virtual ~DamperModel() = default;
+
+  virtual std::string kind() const = 0;  ///< "law" or "network"
+  virtual std::string name() const = 0;  ///< as the registry knows it: "bingham"
+  virtual bool needs_displacement() const noexcept = 0;
+  virtual std::size_t parameter_count() const noexcept = 0;
+  virtual std::size_t state_size() const noexcept = 0;
+
+  /// State after a long rest at the input's displacement and current, velocity 0.
+  virtual void rest(const DamperInput& input, std::span<double> state) const noexcept = 0;
+  /// Brings the state from the instant of `from` to that of `to`, dt seconds later; inputs are linear
+  /// in between. Allocates nothing.
+  virtual void advance(const DamperInput& from, const DamperInput& to, double dt,
+                       std::span<double> state) const noexcept = 0;
+  /// Force at this instant, N, positive when it resists extension.
+  virtual double force(const DamperInput& input, std::span<const double> state) const noexcept = 0;
+
+  /// The same model giving force + offset.
+  virtual std::unique_ptr<DamperModel> with_offset(double newton) const = 0;
+  /// The kind's own part of a model file.
+  virtual Value to_json() const = 0;
+};
+
+}  // namespace dashpot

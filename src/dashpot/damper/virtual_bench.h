@@ -1,0 +1,35 @@
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "dashpot/damper/model.h"
+#include "dashpot/record/dataset.h"
+
+namespace dashpot {
+
+/// One motion of the bench: a sine of this amplitude (m) and frequency (Hz).
+struct SineMotion {
+  double amplitude, frequency;
+};
+
+/// A test bench that exists only in the computer: a damper with known parameters, driven through a
+/// matrix of sines and constant currents, and sensors as imperfect as real ones.
+struct BenchOptions {
+  std::vector<SineMotion> motions = {{0.025, 0.25}, {0.025, 0.5}, {0.005, 3}, {0.002, 5}};
+  std::vector<double> drive_levels = {0, 0.25, 0.5, 0.75, 1};  ///< A or V
+  double sample_rate = 500;                                    ///< Hz
+  double cycles = 4;                                           ///< recorded per test, at least one second
+  double force_noise = 0.01;              ///< standard deviation, share of the record's force span
+  double displacement_noise = 2e-6;       ///< m, standard deviation
+  double force_resolution = 1.0;          ///< N per count of the load cell's converter
+  double displacement_resolution = 1e-6;  ///< m per count
+  double force_offset = 30;               ///< N, standard deviation of the zero from record to record
+  std::uint64_t seed = 1;
+};
+
+/// The campaign as a dataset: channels displacement, force and drive, velocity derived as from a real
+/// recording. Conditions, drive levels and the true offsets (in the notes) are filled in.
+Dataset run_virtual_bench(const DamperModel& damper, const std::string& drive_unit,
+                          const BenchOptions& options);
+
+}  // namespace dashpot

@@ -1,0 +1,75 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "dashpot/damper/model.h"
+#include "dashpot/identify/metrics.h"
+#include "dashpot/record/dataset.h"
+
+namespace dashpot {
+
+/// The record's motion and drive as the model sees them. Throws Error naming the missing channel.
+/// A record without displacement gives 0 there.
+std::vector<DamperInput> damper_inputs(const Record& record, std::string_view drive_unit);
+
+/// Force over a record in free run: the model sees motion and current only. From rest at the first
+/// sample. `diverged_at`: time of the first force that is not finite; what follows is NaN.
+struct FreeRun {
+  std::vector<double> force;          ///< N, one per sample
+  std::optional<double> diverged_at;  ///< s
+};
+FreeRun free_run(const DamperModel& model, const std::vector<DamperInput>& inputs,
+                 const std::vector<double>& time);
+
+/// How the force zero of a record (gas, load cell) is treated.
+enum class OffsetMode {
+  Record,  ///< one free offset per record: a declared nuisance, printed
+  None     ///< the model's own bias must do
+};
+
+/// A model on one record.
+struct RecordResult {
+  std::string record, condition;
+  std::optional<double> drive_level;
+  bool left_out = false;
+  std::size_t warm_up = 0;
+  double offset = 0;               ///< N, added to the model's force
+  Metrics metrics;                 ///< with the offset
+  Metrics metrics_without_offset;  ///< the model as it stands in its file
+  ErrorSums sums, sums_without_offset;
+  double energy_error = 0;  ///< %, of the energy dissipated per record
+  std::optional<double> diverged_at;
+  std::vector<double> time, displacement, velocity, drive, measured, modelled;  ///< offset included
+};
+
+struct BandResult {
+  std::string name;          ///< "|v| < 5 % of max (pre-yield)"
+  double low = 0, high = 0;  ///< m/s
+  Metrics metrics;
+};
+
+struct Evaluation {
+  std::vector<RecordResult> records;
+  Metrics pooled;  ///< all samples of all scored records
+  Metrics pooled_without_offset;
+  double worst_esr = 0;  ///< %, worst record
+  std::string worst_record;
+  std::vector<BandResult> bands;  ///< by |v|: pre-yield, low, middle, high
+  std::size_t diverged = 0;
+};
+
+/// Free run over each record, scored from its warm-up on. Records whose `offset` is preset (by name)
+/// keep it: an offset learnt on the training part of a record serves its left-out part.
+struct EvaluateOptions {
+  OffsetMode offset = OffsetMode::Record;
+  std::vector<std::pair<std::string, double>> known_offsets;
+  int threads = 0;
+};
+Evaluation evaluate(const DamperModel& model, const std::vector<Record>& records, std::string_view drive_unit,
+                    const EvaluateOptions& options = {});
+
+/// Several evaluations (one per fold) as one.
+Evaluation pool(const std::vector<Evaluation>& evaluations);
+
+}  // namespace dashpot

@@ -1,0 +1,74 @@
+#pragma once
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "dashpot/base/monitor.h"
+#include "dashpot/damper/model_file.h"
+#include "dashpot/identify/evaluate.h"
+#include "dashpot/record/split.h"
+
+namespace dashpot {
+
+struct IdentifyOptions {
+  OffsetMode offset = OffsetMode::Record;
+  int starts = 4;
+  std::uint64_t seed = 1;
+  int threads = 0;
+  Monitor monitor;
+};
+
+/// A fitted parameter with its 95 % interval. Networks have none.
+struct FittedParameter {
+  std::string name, unit, meaning;
+  double value = 0;
+  double low = 0, high = 0;  ///< 95 % interval; equal to value when fixed
+  bool fixed = false;
+  bool at_bound = false;
+  bool weak = false;  ///< cannot be told from these data; the message says with what
+};
+
+struct FitReport {
+  enum class Status { Converged, IterationLimit, Failed };
+  Status status = Status::Failed;
+  std::string message;
+  std::shared_ptr<const DamperModel> model;  ///< with the mean record offset as its bias
+  std::vector<FittedParameter> parameters;
+  std::vector<std::pair<std::string, double>> offsets;  ///< N, per training record, beyond the model's bias
+  std::vector<std::string> warnings;                    ///< identifiability, bounds, divergence, in words
+  int iterations = 0;
+  double seconds = 0;
+  double training_rmse = 0;  ///< N, free run
+};
+
+/// Fits the model of that name (a law or a network preset) to all records together in free run.
+/// Throws Error when the records cannot serve (a channel missing, no motion). Not converging is a status.
+FitReport identify(const std::string& model, const std::vector<Record>& training,
+                   const std::string& drive_unit, const IdentifyOptions& options);
+
+/// One model, fitted on everything and judged on what was left out.
+struct RankedModel {
+  std::string name, title;
+  FitReport fit;        ///< on all records: the model that is saved
+  Evaluation training;  ///< of `fit` on all its records
+  std::vector<FitReport> fold_fits;
+  Evaluation left_out;  ///< the folds' models, each on its left-out records, pooled
+  double seconds = 0;
+  double nanoseconds_per_step = 0;  ///< cost of advance + force, measured
+};
+
+struct Ranking {
+  LeaveOut leave_out;
+  std::vector<std::string> folds;   ///< their names
+  std::vector<RankedModel> models;  ///< best first, by left-out ESR with offsets; diverged last
+};
+
+/// Cross-validates each model over the folds of the split and ranks them. Without training roles,
+/// `fit` uses all records; with Roles or Fraction it uses the training part.
+Ranking rank(const std::vector<std::string>& models, const Dataset& dataset, const LeaveOut& leave_out,
+             const IdentifyOptions& options);
+
+/// The model as a file: domain and provenance taken from the records.
+ModelFile to_model_file(const RankedModel& ranked, const Dataset& dataset, const std::string& command);
+
+}  // namespace dashpot

@@ -1,0 +1,51 @@
+#pragma once
+#include <cmath>
+#include <filesystem>
+#include <string>
+
+#include <doctest/doctest.h>
+
+/// |actual - expected| <= rel |expected| + abs, with both numbers in the message.
+#define CHECK_CLOSE(actual, expected, rel, abs)                                                 \
+  do {                                                                                          \
+    const double check_actual = (actual), check_expected = (expected);                          \
+    CAPTURE(check_actual);                                                                      \
+    CAPTURE(check_expected);                                                                    \
+    CHECK(std::abs(check_actual - check_expected) <= (rel) * std::abs(check_expected) + (abs)); \
+  } while (false)
+
+/// The message of the dashpot::Error (or other exception) that `code` throws; "" when it throws none.
+template <class Code>
+std::string message_of(Code code) {
+  try {
+    code();
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+  return {};
+}
+
+/// A folder of its own for one test, removed at the end.
+class TemporaryFolder {
+ public:
+  TemporaryFolder();
+  ~TemporaryFolder();
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  const std::filesystem::path& path() const { return path_; }
+  /// Writes a file into it and returns its path.
+  std::filesystem::path write(const std::string& name, const std::string& content) const;
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// The measured recordings beside the project, or a skip line and an empty path when absent.
+std::filesystem::path shared_data(const std::string& folder);
+
+/// A program's exit code and what it printed (stdout and stderr together).
+struct ProgramResult {
+  int exit_code = -1;
+  std::string output;
+};
+ProgramResult run_program(const std::string& command_line);
