@@ -1,0 +1,131 @@
+#include "dashpot/base/value.h"
+
+#include <algorithm>
+
+#include "dashpot/base/error.h"
+#include "dashpot/base/text.h"
+
+namespace dashpot {
+namespace {
+
+std::string_view name_of(Value::Kind kind) {
+  switch (kind) {
+    case Value::Kind::Null:
+      return "empty";
+    case Value::Kind::Bool:
+      return "true or false";
+    case Value::Kind::Number:
+      return "a number";
+    case Value::Kind::String:
+      return "text";
+    case Value::Kind::Array:
+      return "a list";
+    case Value::Kind::Object:
+      return "a mapping";
+  }
+  return "";
+}
+
+void require_kind(const Value& value, Value::Kind wanted) {
+  if (value.kind() == wanted) return;
+  throw Error(value.where(),
+              "is " + std::string(name_of(value.kind())) + ", not " + std::string(name_of(wanted)));
+}
+
+}  // namespace
+
+Value Value::array(std::vector<Value> items) {
+  Value value;
+  value.kind_ = Kind::Array;
+  value.items_ = std::move(items);
+  return value;
+}
+
+Value Value::array(const std::vector<double>& numbers) {
+  return array(std::vector<Value>(numbers.begin(), numbers.end()));
+}
+
+Value Value::array(const std::vector<std::string>& strings) {
+  return array(std::vector<Value>(strings.begin(), strings.end()));
+}
+
+Value Value::object(std::vector<Member> members) {
+  Value value;
+  value.kind_ = Kind::Object;
+  value.members_ = std::move(members);
+  return value;
+}
+
+bool Value::as_bool() const { return require_kind(*this, Kind::Bool), bool_; }
+double Value::as_number() const { return require_kind(*this, Kind::Number), number_; }
+const std::string& Value::as_string() const { return require_kind(*this, Kind::String), string_; }
+const std::vector<Value>& Value::items() const { return require_kind(*this, Kind::Array), items_; }
+const std::vector<Value::Member>& Value::members() const {
+  return require_kind(*this, Kind::Object), members_;
+}
+
+std::vector<double> Value::as_numbers() const {
+  std::vector<double> numbers;
+  for (const Value& item : items()) numbers.push_back(item.as_number());
+  return numbers;
+}
+
+const Value* Value::find(std::string_view key) const {
+  for (const Member& member : members())
+    if (member.first == key) return &member.second;
+  return nullptr;
+}
+
+void Value::add(std::string key, Value value) {
+  require_kind(*this, Kind::Object);
+  members_.emplace_back(std::move(key), std::move(value));
+}
+
+void Value::push_back(Value value) {
+  require_kind(*this, Kind::Array);
+  items_.push_back(std::move(value));
+}
+
+ObjectReader::ObjectReader(const Value& value, std::string what) : value_(value), what_(std::move(what)) {
+  if (value.kind() != Value::Kind::Object)
+    throw Error(value.where(),
+                what_ + " must be a mapping of keys to values, not " + std::string(name_of(value.kind())));
+}
+
+const Value* ObjectReader::optional(std::string_view key) {
+  asked_.emplace_back(key);
+  const Value* found = value_.find(key);
+  return found && found->is_null() ? nullptr : found;
+}
+
+const Value& ObjectReader::required(std::string_view key) {
+  if (const Value* found = optional(key)) return *found;
+  throw Error(value_.where(), what_ + " needs '" + std::string(key) + "'");
+}
+
+double ObjectReader::number(std::string_view key) { return required(key).as_number(); }
+std::string ObjectReader::string(std::string_view key) { return required(key).as_string(); }
+
+double ObjectReader::number(std::string_view key, double fallback) {
+  const Value* found = optional(key);
+  return found ? found->as_number() : fallback;
+}
+
+std::string ObjectReader::string(std::string_view key, std::string fallback) {
+  const Value* found = optional(key);
+  return found ? found->as_string() : fallback;
+}
+
+bool ObjectReader::boolean(std::string_view key, bool fallback) {
+  const Value* found = optional(key);
+  return found ? found->as_bool() : fallback;
+}
+
+void ObjectReader::finish() const {
+  for (const auto& [key, value] : value_.members()) {
+    if (std::find(asked_.begin(), asked_.end(), key) != asked_.end()) continue;
+    throw Error(value.where(), what_ + " has an unknown key '" + key + "'", suggest(key, asked_));
+  }
+}
+
+}  // namespace dashpot

@@ -1,0 +1,37 @@
+#include "dashpot/base/text.h"
+
+#include <cmath>
+
+#include "support.h"
+
+using namespace dashpot;
+
+TEST_CASE("a number is the whole text or nothing") {
+  CHECK(*parse_number(" 1.5e-3 ") == 1.5e-3);
+  CHECK(*parse_number("+2") == 2);
+  CHECK(*parse_number("-0,25", ',') == -0.25);
+  for (const char* bad : {"", " ", "1.5x", "1,5", "++1", "abc", "1 2", "0x10"})
+    CHECK_MESSAGE(!parse_number(bad), bad);
+  CHECK_MESSAGE(!parse_number("1.234,5", ','), "a point is no digit where the comma is the decimal sign");
+  CHECK(std::isnan(*parse_number("nan")));
+}
+
+TEST_CASE("exact text reads back as the same double") {
+  for (const double x : {0.1, 1.0 / 3, 6.02214076e23, -5e-324, 1e300})
+    CHECK(*parse_number(format_exact(x)) == x);
+  CHECK(format_number(0.0045123) == "0.004512");
+  CHECK(format_number(3.63e6, 3) == "3.63e+06");
+}
+
+TEST_CASE("split keeps empty parts and join undoes it") {
+  CHECK(split("a,,b,", ',') == std::vector<std::string>{"a", "", "b", ""});
+  CHECK(join(split("a,,b,", ','), ",") == "a,,b,");
+}
+
+TEST_CASE("a mistyped word finds its neighbour") {
+  const std::vector<std::string> known = {"bingham", "modified_bouc_wen", "tanh_kwok"};
+  CHECK(closest("bingam", known) == "bingham");
+  CHECK(closest("modified", known) == "modified_bouc_wen");
+  CHECK(!closest("polynomial", known));
+  CHECK(suggest("Bingham", known) == "did you mean 'bingham'? known: bingham, modified_bouc_wen, tanh_kwok");
+}

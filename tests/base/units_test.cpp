@@ -1,0 +1,56 @@
+#include "dashpot/base/units.h"
+
+#include "support.h"
+
+using namespace dashpot;
+
+static void check_factor(const char* text, double factor, Dimension dimension) {
+  CAPTURE(text);
+  const auto unit = parse_unit(text);
+  REQUIRE(unit);
+  CHECK_CLOSE(unit->factor, factor, 1e-15, 0);
+  CHECK(unit->dimension == dimension);
+}
+
+TEST_CASE("units in all their spellings") {
+  check_factor("mm", 1e-3, {0, 1});
+  check_factor("cm/s", 1e-2, {0, 1, -1});
+  check_factor("N*s/cm", 100, {1, 0, -1});
+  check_factor("N s/m", 1, {1, 0, -1});
+  check_factor("N.s/m", 1, {1, 0, -1});
+  check_factor("N*s/(m*A)", 1, {1, 0, -1, -1});
+  check_factor("kN", 1e3, {1, 1, -2});
+  check_factor("Newtons", 1, {1, 1, -2});
+  check_factor("m/s²", 1, {0, 1, -2});
+  check_factor("m/s2", 1, {0, 1, -2});
+  check_factor("mA", 1e-3, {0, 0, 0, 1});
+  check_factor("in", 0.0254, {0, 1});
+  check_factor("min", 60, {0, 0, 1});
+  check_factor("g0", 9.80665, {0, 1, -2});
+  check_factor("%", 0.01, {});
+  // The trap of the published Bouc-Wen sets: 363 cm^-2 is 3.63e6 m^-2, not 3.63e-2.
+  check_factor("cm^-2", 1e4, {0, -2});
+  check_factor("1/cm^2", 1e4, {0, -2});
+}
+
+TEST_CASE("degrees Celsius have an offset and no powers") {
+  CHECK_CLOSE(parse_unit("degC")->offset, 273.15, 0, 1e-12);
+  CHECK_CLOSE(parse_unit("°C")->offset, 273.15, 0, 1e-12);
+  CHECK(!parse_unit("degC^2"));
+  CHECK(!parse_unit("m/degC"));
+}
+
+TEST_CASE("what is no unit is refused") {
+  for (const char* bad : {"", "furlong", "m/", "/s", "m//s", "m^x", "m^99", "N*", "(m", "mmm"})
+    CHECK_MESSAGE(!parse_unit(bad), bad);
+  CHECK(message_of([] {
+          require_unit("furlong", "run.csv, column x");
+        }).find("run.csv, column x: unknown unit 'furlong'") == 0);
+}
+
+TEST_CASE("a voltage-driven model counts per volt") {
+  CHECK(with_drive_unit("N*s/(m*A)", "V") == "N*s/(m*V)");
+  CHECK(with_drive_unit("N/A^2", "V") == "N/V^2");
+  CHECK(with_drive_unit("N/A", "A") == "N/A");
+  CHECK(with_drive_unit("mA", "V") == "mA");
+}

@@ -1,0 +1,65 @@
+#include "dashpot/base/value.h"
+
+#include <limits>
+
+#include "support.h"
+
+using namespace dashpot;
+
+TEST_CASE("JSON round trip keeps order, kinds and every digit") {
+  const std::string text = R"({"z":1,"a":[0.1,-0.0,1e+300,"\u00e9\"",true,null],"o":{}})";
+  const Value value = parse_json(text, "test");
+  CHECK(value.members()[0].first == "z");
+  CHECK(value.find("a")->items()[0].as_number() == 0.1);
+  CHECK(parse_json(format_json(value), "again").find("a")->items()[3].as_string() == "\u00e9\"");
+  CHECK(format_json(parse_json(format_json(value, false), ""), false) == format_json(value, false));
+}
+
+TEST_CASE("damaged JSON says where") {
+  CHECK(message_of([] { parse_json("{\n\"a\": 1,\n}", "m.json"); }).find("m.json:3: is not valid JSON") == 0);
+  CHECK(message_of([] { parse_json(std::string(100000, '['), "deep.json"); }) ==
+        "deep.json: is nested more than 200 levels deep");
+  CHECK(!message_of([] { format_json(Value(std::numeric_limits<double>::quiet_NaN())); }).empty());
+}
+
+TEST_CASE("a wrong kind names the place") {
+  const Value value = parse_json(R"({"a":{"b":"x"}})", "m.json");
+  CHECK(message_of([&] { value.find("a")->find("b")->as_number(); }) == "m.json, a.b: is text, not a number");
+}
+
+TEST_CASE("unknown, missing and present keys") {
+  const Value value = parse_yaml("name: x\nrate: 5\nvelocty: 3\n", "d.yaml");
+  ObjectReader reader(value, "a dataset file");
+  CHECK(reader.string("name") == "x");
+  CHECK(reader.number("rate", 1) == 5);
+  CHECK(reader.number("velocity", 7) == 7);
+  CHECK(message_of([&] { reader.finish(); }) ==
+        "d.yaml:3: a dataset file has an unknown key 'velocty'; did you mean 'velocity'? known: name, rate, "
+        "velocity");
+  CHECK(message_of([&] { reader.required("files"); }) == "d.yaml:1: a dataset file needs 'files'");
+}
+
+TEST_CASE("YAML scalars by the core schema, with their lines") {
+  const Value value = parse_yaml("a: 1.5\nb: '1.5'\nc: true\nd: text\ne:\nf: [1, 2]\n", "d.yaml");
+  CHECK(value.find("a")->as_number() == 1.5);
+  CHECK(value.find("b")->as_string() == "1.5");
+  CHECK(value.find("c")->as_bool());
+  CHECK(value.find("d")->as_string() == "text");
+  CHECK(value.find("e")->is_null());
+  CHECK(value.find("f")->as_numbers() == std::vector<double>{1, 2});
+  CHECK(value.find("d")->where() == "d.yaml:4");
+  CHECK(message_of([] { parse_yaml("a: 1\na: 2\n", "d.yaml"); }) == "d.yaml:2: the key 'a' stands twice");
+  CHECK(message_of([] { parse_yaml("a: [1, 2\n", "d.yaml"); }).find("is not valid YAML") !=
+        std::string::npos);
+}
+
+TEST_CASE("YAML aliases cannot fill the memory") {
+  std::string bomb = "a0: &a0 [1,1,1,1,1,1,1,1,1,1]\n";
+  for (int k = 1; k < 9; ++k) {
+    const std::string last = "*a" + std::to_string(k - 1);
+    bomb += "a" + std::to_string(k) + ": &a" + std::to_string(k) + " [" + last;
+    for (int j = 0; j < 9; ++j) bomb += "," + last;
+    bomb += "]\n";
+  }
+  CHECK(message_of([&] { parse_yaml(bomb, "bomb.yaml"); }) == "bomb.yaml: has more than 100000 entries");
+}
