@@ -1,0 +1,183 @@
+#include "dashpot/identify/evaluate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "dashpot/base/error.h"
+#include "dashpot/base/parallel.h"
+#include "dashpot/base/text.h"
+
+namespace dashpot {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+std::string_view drive_channel(std::string_view drive_unit) {
+  return drive_unit == "V" ? "voltage" : "current";
+}
+
+const double* known_offset(const EvaluateOptions& options, const std::string& record) {
+  for (const auto& [name, offset] : options.known_offsets)
+    if (name == record) return &offset;
+  return nullptr;
+}
+
+/// Mean of measured - modelled over the scored samples.
+double mean_error(const RecordResult& result) {
+  double sum = 0;
+  for (std::size_t k = result.warm_up; k < result.measured.size(); ++k)
+    sum += result.measured[k] - result.modelled[k];
+  return sum / static_cast<double>(result.measured.size() - result.warm_up);
+}
+
+ErrorSums error_sums(const RecordResult& result, double offset) {
+  ErrorSums sums;
+  for (std::size_t k = result.warm_up; k < result.measured.size(); ++k)
+    sums.add(result.measured[k], result.modelled[k] + offset);
+  return sums;
+}
+
+double energy_error_percent(const RecordResult& r) {
+  const std::span time(r.time), velocity(r.velocity), measured(r.measured), modelled(r.modelled);
+  const double truth =
+      dissipated_energy(time.subspan(r.warm_up), velocity.subspan(r.warm_up), measured.subspan(r.warm_up));
+  const double model =
+      dissipated_energy(time.subspan(r.warm_up), velocity.subspan(r.warm_up), modelled.subspan(r.warm_up));
+  return 100 * (model - truth) / std::abs(truth);
+}
+
+RecordResult evaluate_record(const DamperModel& model, const Record& record, std::string_view drive_unit,
+                             const EvaluateOptions& options) {
+  RecordResult result;
+  result.record = record.name;
+  result.condition = record.condition;
+  result.drive_level = record.drive_level;
+  result.warm_up = record.warm_up;
+  result.time = record.time;
+  result.measured = record.channel("force").samples;
+  result.velocity = record.channel("velocity").samples;
+  result.drive = record.channel(drive_channel(drive_unit)).samples;
+  if (const Channel* displacement = record.find("displacement")) result.displacement = displacement->samples;
+
+  FreeRun run = free_run(model, damper_inputs(record, drive_unit), record.time);
+  result.modelled = std::move(run.force);
+  result.diverged_at = run.diverged_at;
+  if (result.diverged_at) return result;
+
+  if (const double* known = known_offset(options, record.name)) {
+    result.offset = *known;
+  } else if (options.offset == OffsetMode::Record) {
+    result.offset = mean_error(result);
+  }
+  result.sums = error_sums(result, result.offset);
+  result.sums_without_offset = error_sums(result, 0);
+  result.metrics = metrics(result.sums);
+  result.metrics_without_offset = metrics(result.sums_without_offset);
+  for (double& force : result.modelled) force += result.offset;
+  result.energy_error = energy_error_percent(result);
+  return result;
+}
+
+/// Where |v| is divided, as shares of the largest |v| in the records.
+constexpr struct {
+  std::string_view name;
+  double low, high;
+} kBands[] = {{"pre-yield, |v| below 5 % of the largest", 0, 0.05},
+              {"low, 5-25 %", 0.05, 0.25},
+              {"middle, 25-60 %", 0.25, 0.6},
+              {"high, above 60 %", 0.6, 1}};
+
+std::vector<BandResult> velocity_bands(const std::vector<RecordResult>& records) {
+  double fastest = 0;
+  for (const RecordResult& r : records)
+    for (const double v : r.velocity) fastest = std::max(fastest, std::abs(v));
+  std::vector<BandResult> bands;
+  for (const auto& band : kBands) {
+    const bool last = band.high == 1;
+    ErrorSums sums;
+    for (const RecordResult& r : records) {
+      if (r.diverged_at) continue;
+      for (std::size_t k = r.warm_up; k < r.measured.size(); ++k) {
+        const double share = std::abs(r.velocity[k]) / fastest;
+        if (share >= band.low && (share < band.high || last)) sums.add(r.measured[k], r.modelled[k]);
+      }
+    }
+    bands.push_back({std::string(band.name), band.low * fastest, band.high * fastest, metrics(sums)});
+  }
+  return bands;
+}
+
+/// The figures over all records; those that diverged are counted, never averaged.
+Evaluation summarise(std::vector<RecordResult> records) {
+  Evaluation evaluation;
+  evaluation.records = std::move(records);
+  ErrorSums sums, without;
+  for (const RecordResult& r : evaluation.records) {
+    if (r.diverged_at) {
+      ++evaluation.diverged;
+      continue;
+    }
+    sums.add(r.sums);
+    without.add(r.sums_without_offset);
+    if (r.metrics.esr >= evaluation.worst_esr) {
+      evaluation.worst_esr = r.metrics.esr;
+      evaluation.worst_record = r.record;
+    }
+  }
+  evaluation.pooled = metrics(sums);
+  evaluation.pooled_without_offset = metrics(without);
+  evaluation.bands = velocity_bands(evaluation.records);
+  return evaluation;
+}
+
+}  // namespace
+
+std::vector<DamperInput> damper_inputs(const Record& record, std::string_view drive_unit) {
+  const std::vector<double>& velocity = record.channel("velocity").samples;
+  const std::vector<double>& drive = record.channel(drive_channel(drive_unit)).samples;
+  const Channel* displacement = record.find("displacement");
+  std::vector<DamperInput> inputs(record.size());
+  for (std::size_t k = 0; k < inputs.size(); ++k)
+    inputs[k] = {displacement ? displacement->samples[k] : 0.0, velocity[k], drive[k]};
+  return inputs;
+}
+
+FreeRun free_run(const DamperModel& model, const std::vector<DamperInput>& inputs,
+                 const std::vector<double>& time) {
+  FreeRun run;
+  run.force.resize(inputs.size(), kNaN);
+  std::vector<double> state(model.state_size());
+  if (!inputs.empty()) model.rest(inputs.front(), state);
+  for (std::size_t k = 0; k < inputs.size(); ++k) {
+    if (k > 0) model.advance(inputs[k - 1], inputs[k], time[k] - time[k - 1], state);
+    run.force[k] = model.force(inputs[k], state);
+    if (!std::isfinite(run.force[k])) {
+      run.diverged_at = time[k];
+      run.force[k] = kNaN;
+      break;
+    }
+  }
+  return run;
+}
+
+Evaluation evaluate(const DamperModel& model, const std::vector<Record>& records, std::string_view drive_unit,
+                    const EvaluateOptions& options) {
+  for (const Record& record : records)
+    if (model.needs_displacement() && !record.find("displacement"))
+      throw Error(record.name, "has no displacement, which " + model.name() + " needs",
+                  "record it, or use a model of velocity and current only");
+  std::vector<RecordResult> results(records.size());
+  parallel_for(records.size(), options.threads,
+               [&](std::size_t k) { results[k] = evaluate_record(model, records[k], drive_unit, options); });
+  return summarise(std::move(results));
+}
+
+Evaluation pool(const std::vector<Evaluation>& evaluations) {
+  std::vector<RecordResult> records;
+  for (const Evaluation& evaluation : evaluations)
+    records.insert(records.end(), evaluation.records.begin(), evaluation.records.end());
+  return summarise(std::move(records));
+}
+
+}  // namespace dashpot

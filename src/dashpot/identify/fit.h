@@ -1,0 +1,17 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "dashpot/damper/law.h"
+#include "dashpot/damper/registry.h"
+#include "dashpot/identify/identify.h"
+
+// The two ways of fitting behind identify().
+namespace dashpot {
+
+FitReport fit_law(const Law& law, const std::vector<Record>& training, const std::string& drive_unit,
+                  const IdentifyOptions& options);
+FitReport fit_network(const NetworkPreset& preset, const std::vector<Record>& training,
+                      const std::string& drive_unit, const IdentifyOptions& options);
+
+}  // namespace dashpot

@@ -1,0 +1,62 @@
+#include "dashpot/identify/identify.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "dashpot/base/error.h"
+#include "dashpot/identify/fit.h"
+
+namespace dashpot {
+namespace {
+
+void require_usable(const std::string& model, const std::vector<Record>& training) {
+  if (training.empty()) throw Error(model, "there is no record to fit it on");
+  const bool needs_displacement = [&] {
+    if (is_law(model)) return find_law(model).needs_displacement;
+    const auto& inputs = find_network_preset(model).inputs;
+    return std::find(inputs.begin(), inputs.end(), "displacement") != inputs.end();
+  }();
+  for (const Record& record : training)
+    if (needs_displacement && !record.find("displacement"))
+      throw Error(record.name, "has no displacement, which " + model + " needs",
+                  "record it, or leave this model out with --models");
+}
+
+/// Gives the model the mean offset of its training records as its bias, and reports what each record
+/// differs by.
+void settle_offsets(FitReport& report, const std::vector<Record>& training, const std::string& drive_unit,
+                    const IdentifyOptions& options) {
+  if (options.offset == OffsetMode::None) return;
+  const Evaluation on_training = evaluate(*report.model, training, drive_unit, {.threads = options.threads});
+  const double n = static_cast<double>(on_training.records.size());
+  double mean = 0, square = 0;
+  for (const RecordResult& r : on_training.records) mean += r.offset / n;
+  for (const RecordResult& r : on_training.records) square += (r.offset - mean) * (r.offset - mean);
+  report.model = report.model->with_offset(mean);
+  for (const RecordResult& r : on_training.records) report.offsets.emplace_back(r.record, r.offset - mean);
+  if (!is_law(report.model->name())) return;
+  const double spread = n > 1 ? 1.96 * std::sqrt(square / (n - 1) / n) : 0;
+  for (const ParamInfo& param : find_law(report.model->name()).params) {
+    if (!param.bias) continue;
+    for (FittedParameter& fitted : report.parameters)
+      if (fitted.name == param.name)
+        fitted = {fitted.name, fitted.unit,   "mean force offset of the records",
+                  mean,        mean - spread, mean + spread};
+  }
+}
+
+}  // namespace
+
+FitReport identify(const std::string& model, const std::vector<Record>& training,
+                   const std::string& drive_unit, const IdentifyOptions& options) {
+  require_usable(model, training);
+  const auto begin = std::chrono::steady_clock::now();
+  FitReport report = is_law(model) ? fit_law(find_law(model), training, drive_unit, options)
+                                   : fit_network(find_network_preset(model), training, drive_unit, options);
+  if (report.status != FitReport::Status::Failed) settle_offsets(report, training, drive_unit, options);
+  report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return report;
+}
+
+}  // namespace dashpot

@@ -1,0 +1,69 @@
+#pragma once
+#include <span>
+#include <string>
+#include <vector>
+
+#include "dashpot/base/random.h"
+#include "dashpot/damper/law_model.h"
+#include "dashpot/identify/evaluate.h"
+
+namespace dashpot {
+
+/// How large the quantities in a set of records are: what a fit's starting values are scaled by.
+struct DataScale {
+  double force = 1;                     ///< N, half the largest force span of a record
+  double stroke = 1;                    ///< m, half the largest displacement span
+  double speed = 1;                     ///< m/s, largest |v|
+  double drive_min = 0, drive_max = 0;  ///< A or V
+  std::size_t drive_levels = 0;         ///< distinct levels, 3 when more or varying
+  bool drive_varies = false;            ///< within a record
+
+  /// Size of a quantity of this unit in these data: N -> force, s/m -> 1/speed, 1/m^2 -> 1/stroke^2 ...
+  double of_unit(std::string_view unit) const;
+};
+DataScale data_scale(const std::vector<Record>& records, std::string_view drive_unit);
+
+/// The unknowns of a law's fit. A parameter that depends on current is described by its values at one,
+/// two or three currents across the data's range, so that the table's bounds are box bounds; each
+/// value is counted in the size expected from the data. The coil's lag rate joins them when the drive
+/// varies within a record.
+class LawUnknowns {
+ public:
+  LawUnknowns(const Law& law, const DataScale& scale, std::string drive_unit, OffsetMode offset);
+
+  std::size_t size() const { return lower_.size(); }
+  const std::vector<double>& lower() const { return lower_; }
+  const std::vector<double>& upper() const { return upper_; }
+  /// Where the fit starts; with `random`, each value is moved by a factor of 1/3 to 3.
+  std::vector<double> start(Random* random = nullptr) const;
+  LawModel model(std::span<const double> unknowns) const;
+
+  /// One coefficient of the model as a linear combination of unknowns.
+  struct Coefficient {
+    std::string name, unit, meaning;
+    double value = 0;
+    std::size_t first = 0;        ///< index of the first unknown it depends on
+    std::vector<double> weights;  ///< empty: fixed
+    bool at_bound = false;
+  };
+  std::vector<Coefficient> coefficients(std::span<const double> unknowns) const;
+
+ private:
+  struct Row {
+    std::size_t first = 0;  ///< index of its first unknown
+    std::size_t count = 0;  ///< unknowns; 0: fixed at `value`
+    double size = 1;        ///< SI value of one unit of the unknown
+    double value = 0;
+    Form form = Form::Constant;
+  };
+  std::vector<double> weights(Form form, std::size_t coefficient) const;
+
+  const Law* law_;
+  std::string drive_unit_;
+  double drive_min_, drive_max_;
+  std::vector<Row> rows_;  ///< one per parameter of the law
+  bool fits_lag_ = false;
+  std::vector<double> lower_, upper_, start_;
+};
+
+}  // namespace dashpot
