@@ -13,13 +13,16 @@ struct StateInfo {
   std::string_view name, unit;
 };
 
+/// Room that a model keeps for a law's numbers while it steps, so that stepping allocates nothing.
+constexpr std::size_t kMaxStates = 8, kMaxParams = 24;
+
 /// One row of a law's parameter table. Bounds hold for the parameter at every current in the domain.
 struct ParamInfo {
   std::string_view name, unit;
-  double value;  ///< default: an example damper of the 3 kN class
-  double lower, upper;
-  double start;        ///< where a fit starts, in units of the data's own force, stroke and speed
-  Form form;           ///< how it depends on current unless the user says otherwise
+  double value = 0;  ///< default: an example damper of the 3 kN class
+  double lower = 0, upper = 0;
+  double start = 0;        ///< where a fit starts, in the data's own half force span, half stroke and top speed
+  Form form = Form::Constant;  ///< how it depends on current unless the user says otherwise
   bool bias = false;   ///< a constant force: replaced by the record offsets during a fit
   bool fixed = false;  ///< not fitted unless asked for
   std::string_view meaning;
@@ -35,6 +38,7 @@ struct Law {
   std::vector<StateInfo> states;
   std::vector<ParamInfo> params;
   double lag_rate = 0;  ///< 1/s, default rate of the coil's first-order lag; 0: none
+  bool needs_displacement = true;  ///< false: neither force nor states depend on x
   /// Internal state after a long rest at displacement x.
   void (*rest)(const double* p, double x, double* z) = nullptr;
   void (*derivative)(const double* p, double x, double v, const double* z, double* dz) = nullptr;
@@ -45,7 +49,7 @@ struct Law {
   std::size_t index_of(std::string_view param) const;  ///< throws Error naming the known ones
 };
 
-/// A row as a law's .cpp writes it: the field instead of the order.
+/// A row as a law's .cpp writes it. The field decides which place in the parameter array it names.
 template <class P>
 struct Param {
   double P::* field;
@@ -63,6 +67,7 @@ struct LawTable {
   std::vector<StateInfo> states;
   std::vector<Param<P>> params;
   double lag_rate = 0;
+  bool needs_displacement = true;
 };
 
 namespace detail {
@@ -72,10 +77,18 @@ P from_array(const double* p) {
   std::memcpy(&own, p, sizeof own);
   return own;
 }
+
+/// Position of a field in a struct of doubles.
+template <class P>
+std::size_t position_of(double P::* field) {
+  const P own{};
+  const auto distance = reinterpret_cast<const char*>(&(own.*field)) - reinterpret_cast<const char*>(&own);
+  return static_cast<std::size_t>(distance) / sizeof(double);
+}
 }  // namespace detail
 
-/// Turns a C law (a struct of doubles in table order, and its functions) into a Law. The conformance
-/// test checks that the table has the order of the struct.
+/// Turns a C law (a struct of doubles and its functions) into a Law. A field that the table leaves out
+/// shows as a row without a name; the conformance test looks for one.
 template <class P, auto Force>
 Law static_law(const LawTable<P>& table) {
   static_assert(sizeof(P) % sizeof(double) == 0);
@@ -85,11 +98,12 @@ Law static_law(const LawTable<P>& table) {
           .source = table.source,
           .remarks = table.remarks,
           .states = table.states,
-          .params = {},
-          .lag_rate = table.lag_rate};
+          .params = std::vector<ParamInfo>(sizeof(P) / sizeof(double)),
+          .lag_rate = table.lag_rate,
+          .needs_displacement = table.needs_displacement};
   for (const Param<P>& p : table.params)
-    law.params.push_back(
-        {p.name, p.unit, p.value, p.lower, p.upper, p.start, p.form, p.bias, p.fixed, p.meaning});
+    law.params[detail::position_of(p.field)] = {p.name,  p.unit, p.value, p.lower, p.upper,
+                                                p.start, p.form, p.bias,  p.fixed, p.meaning};
   law.force = [](const double* p, double x, double v, const double* z) {
     const P own = detail::from_array<P>(p);
     return Force(&own, x, v, z);

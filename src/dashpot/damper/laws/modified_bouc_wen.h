@@ -1,0 +1,71 @@
+/* Modified Bouc-Wen (phenomenological model): a Bouc-Wen element and a dashpot c0 in series with a dashpot c1.
+ *
+ *   y' = (alpha z + c0 v + k0 (x - y)) / (c0 + c1)
+ *   z' = A w - gamma |w| z |z|^(n-1) - beta w |z|^n,   w = v - y'
+ *   F  = alpha z + c0 w + k0 (x - y) + k1 (x - x0) + f0   ( = c1 y' + k1 (x - x0) + f0 )
+ *
+ * x m, v m/s (extension positive); F N, same sign as v. States: y m, z m. At rest y = x and z = 0.
+ * gamma multiplies |w| z: gamma and beta change places between papers. z may be rescaled by any s > 0 with alpha / s,
+ * s A, gamma / s^(n-1), beta / s^(n-1): only three of alpha, A, gamma, beta are independent.
+ * |z| settles at (A / (gamma + beta))^(1/n).
+ * Source: B. F. Spencer, S. J. Dyke, M. K. Sain, J. D. Carlson, J. Eng. Mech. 123 (1997) 230-238.
+ * Differs from it: f0, which is 0 there.
+ */
+#ifndef DASHPOT_LAW_MODIFIED_BOUC_WEN_H
+#define DASHPOT_LAW_MODIFIED_BOUC_WEN_H
+#include <math.h>
+
+typedef struct ModifiedBoucWen {
+  double alpha; /* N/m, hysteresis gain */
+  double c0;    /* N*s/m, damping at high speed */
+  double c1;    /* N*s/m, damping in series: the roll-off at low speed */
+  double k0;    /* N/m, stiffness at high speed */
+  double k1;    /* N/m, accumulator stiffness */
+  double x0;    /* m, where the accumulator spring is relaxed */
+  double gamma; /* 1/m^2, loop shape: multiplies |w| z |z|^(n-1); the unit holds for n = 2 */
+  double beta;  /* 1/m^2, loop shape: multiplies w |z|^n */
+  double A;     /* 1, loop slope */
+  double n;     /* 1, sharpness of the knee */
+  double f0;    /* N, offset */
+} ModifiedBoucWen;
+
+/* |z|^(n-1) */
+static inline double modified_bouc_wen_power(const ModifiedBoucWen* p, double z) {
+  return p->n == 2 ? fabs(z) : pow(fabs(z), p->n - 1);
+}
+
+/* y' */
+static inline double modified_bouc_wen_series_speed(const ModifiedBoucWen* p, double x, double v,
+                                                    const double* z) {
+  return (p->alpha * z[1] + p->c0 * v + p->k0 * (x - z[0])) / (p->c0 + p->c1);
+}
+
+static inline void modified_bouc_wen_rest(const ModifiedBoucWen* p, double x, double* z) {
+  (void)p;
+  z[0] = x;
+  z[1] = 0;
+}
+
+static inline void modified_bouc_wen_derivative(const ModifiedBoucWen* p, double x, double v, const double* z,
+                                                double* dz) {
+  const double dy = modified_bouc_wen_series_speed(p, x, v, z);
+  const double w = v - dy;
+  dz[0] = dy;
+  dz[1] = p->A * w - modified_bouc_wen_power(p, z[1]) * (p->gamma * fabs(w) * z[1] + p->beta * w * fabs(z[1]));
+}
+
+static inline double modified_bouc_wen_force(const ModifiedBoucWen* p, double x, double v, const double* z) {
+  const double w = v - modified_bouc_wen_series_speed(p, x, v, z);
+  return p->alpha * z[1] + p->c0 * w + p->k0 * (x - z[0]) + p->k1 * (x - p->x0) + p->f0;
+}
+
+/* 1/s: bound of the rate at which z settles and y creeps, at speed v */
+static inline double modified_bouc_wen_rate(const ModifiedBoucWen* p, double v) {
+  const double ratio = p->A / (p->gamma + p->beta);
+  const double z_max = p->n == 2 ? sqrt(ratio) : pow(ratio, 1 / p->n);
+  const double drag = p->c0 + p->c1;
+  const double w = fabs(v) + p->alpha * z_max / drag;
+  return p->n * p->A * w / z_max + (p->alpha * p->A + p->k0) / drag;
+}
+
+#endif
