@@ -1,0 +1,107 @@
+#include "dashpot/damper/neural/network_model.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "dashpot/base/error.h"
+#include "dashpot/base/text.h"
+
+namespace dashpot {
+namespace {
+
+double DamperInput::* field_of(std::string_view input, const std::string& where) {
+  if (input == "displacement") return &DamperInput::displacement;
+  if (input == "velocity") return &DamperInput::velocity;
+  if (input == "current") return &DamperInput::current;
+  throw Error(where, "unknown network input '" + std::string(input) + "'",
+              suggest(input, {"displacement", "velocity", "current"}));
+}
+
+void require_shape(const Mlp& mlp, std::size_t inputs, const std::string& where) {
+  const auto fail = [&](const std::string& what, const std::string& right) { throw Error(where, what, right); };
+  const auto& layers = mlp.layers;
+  if (layers.size() < 2 || layers.front() != inputs || layers.back() != 1)
+    fail("the layers do not go from " + std::to_string(inputs) + " inputs to one force",
+         "write [inputs, neurons, ..., 1]");
+  for (const std::size_t width : layers)
+    if (width < 1 || width > Mlp::kMaxWidth)
+      fail("a layer has " + std::to_string(width) + " neurons", "1 to " + std::to_string(Mlp::kMaxWidth));
+  if (const std::size_t wanted = Mlp::parameter_count(layers); mlp.parameters.size() != wanted)
+    fail("has " + std::to_string(mlp.parameters.size()) + " weights",
+         "these layers need " + std::to_string(wanted));
+  if (mlp.input_mean.size() != inputs || mlp.input_scale.size() != inputs)
+    fail("the input means and scales are not one per input", "");
+  const auto positive = [](double scale) { return scale > 0 && std::isfinite(scale); };
+  if (!std::all_of(mlp.input_scale.begin(), mlp.input_scale.end(), positive) || !positive(mlp.output_scale))
+    fail("a scale is not a positive number", "");
+}
+
+std::vector<std::size_t> read_layers(const Value& value) {
+  std::vector<std::size_t> layers;
+  for (const Value& item : value.items()) {
+    const double width = item.as_number();
+    if (!(width >= 1 && width <= Mlp::kMaxWidth && width == std::floor(width)))
+      throw Error(item.where(), "a layer of " + format_number(width) + " neurons",
+                  "write a whole number, 1 to " + std::to_string(Mlp::kMaxWidth));
+    layers.push_back(static_cast<std::size_t>(width));
+  }
+  return layers;
+}
+
+}  // namespace
+
+NetworkModel::NetworkModel(std::string name, std::vector<std::string> inputs, Mlp mlp, double offset)
+    : name_(std::move(name)), inputs_(std::move(inputs)), mlp_(std::move(mlp)), offset_(offset) {
+  for (const std::string& input : inputs_) fields_.push_back(field_of(input, name_));
+  require_shape(mlp_, inputs_.size(), name_);
+}
+
+bool NetworkModel::needs_displacement() const noexcept {
+  return std::find(inputs_.begin(), inputs_.end(), "displacement") != inputs_.end();
+}
+
+double NetworkModel::force(const DamperInput& input, std::span<const double>) const noexcept {
+  std::array<double, Mlp::kMaxWidth> raw;
+  for (std::size_t k = 0; k < fields_.size(); ++k) raw[k] = input.*fields_[k];
+  return mlp_.evaluate(raw.data()) + offset_;
+}
+
+std::unique_ptr<DamperModel> NetworkModel::with_offset(double newton) const {
+  return std::make_unique<NetworkModel>(name_, inputs_, mlp_, offset_ + newton);
+}
+
+Value NetworkModel::to_json() const {
+  return Value::object({{"name", name_},
+                        {"inputs", Value::array(inputs_)},
+                        {"layers", Value::array(std::vector<double>(mlp_.layers.begin(), mlp_.layers.end()))},
+                        {"input_mean", Value::array(mlp_.input_mean)},
+                        {"input_scale", Value::array(mlp_.input_scale)},
+                        {"output_mean", mlp_.output_mean},
+                        {"output_scale", mlp_.output_scale},
+                        {"parameters", Value::array(mlp_.parameters)},
+                        {"offset", offset_}});
+}
+
+std::unique_ptr<NetworkModel> network_model_from_json(const Value& value) {
+  ObjectReader reader(value, "a network model");
+  std::string name = reader.string("name");
+  std::vector<std::string> inputs;
+  for (const Value& item : reader.required("inputs").items()) {
+    field_of(item.as_string(), item.where());
+    inputs.push_back(item.as_string());
+  }
+  Mlp mlp;
+  mlp.layers = read_layers(reader.required("layers"));
+  mlp.input_mean = reader.required("input_mean").as_numbers();
+  mlp.input_scale = reader.required("input_scale").as_numbers();
+  mlp.output_mean = reader.number("output_mean");
+  mlp.output_scale = reader.number("output_scale");
+  mlp.parameters = reader.required("parameters").as_numbers();
+  const double offset = reader.number("offset");
+  reader.finish();
+  require_shape(mlp, inputs.size(), value.where());
+  return std::make_unique<NetworkModel>(std::move(name), std::move(inputs), std::move(mlp), offset);
+}
+
+}  // namespace dashpot

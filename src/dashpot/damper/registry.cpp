@@ -1,0 +1,77 @@
+#include "dashpot/damper/registry.h"
+
+#include <algorithm>
+#include <array>
+
+#include "dashpot/base/error.h"
+#include "dashpot/base/text.h"
+
+namespace dashpot {
+
+extern const Law kBingham, kModifiedBoucWen, kTanhKwok;
+
+namespace {
+
+constexpr std::array kLaws{&kBingham, &kModifiedBoucWen, &kTanhKwok};
+
+constexpr std::string_view kOneSensorPaper =
+    "Tudon-Martinez et al., the one-sensor paper: static network 8.22 % and 4.38 % (rms / half span)";
+
+const std::array<NetworkPreset, 2>& presets() {
+  static const std::array<NetworkPreset, 2> list{{
+      {.name = "static_network",
+       .title = "Static network, one sensor",
+       .equation = "F = w2 . tanh(W1 [v, i] + b1) + b2",
+       .source = kOneSensorPaper,
+       .remarks = "41 parameters; no state and no displacement, so no hysteresis. The activation is not stated in "
+                  "the source; tanh with a linear output is assumed.",
+       .inputs = {"velocity", "current"},
+       .hidden = {10}},
+      {.name = "static_network_two_sensors",
+       .title = "Static network, two sensors",
+       .equation = "F = w2 . tanh(W1 [x, v, i] + b1) + b2",
+       .source = kOneSensorPaper,
+       .remarks = "51 parameters; displacement tells the branches of a loop apart, for motions like those it was "
+                  "trained on.",
+       .inputs = {"displacement", "velocity", "current"},
+       .hidden = {10}},
+  }};
+  return list;
+}
+
+const Law* law_named(std::string_view name) {
+  const auto found = std::find_if(kLaws.begin(), kLaws.end(), [&](const Law* law) { return law->name == name; });
+  return found == kLaws.end() ? nullptr : *found;
+}
+
+[[noreturn]] void throw_unknown(std::string_view name, const std::string& where) {
+  throw Error(where, "unknown model '" + std::string(name) + "'", suggest(name, model_names()));
+}
+
+}  // namespace
+
+std::span<const Law* const> laws() { return kLaws; }
+
+std::span<const NetworkPreset> network_presets() { return presets(); }
+
+std::vector<std::string> model_names() {
+  std::vector<std::string> names;
+  for (const Law* law : laws()) names.emplace_back(law->name);
+  for (const NetworkPreset& preset : network_presets()) names.emplace_back(preset.name);
+  return names;
+}
+
+const Law& find_law(std::string_view name, const std::string& where) {
+  if (const Law* law = law_named(name)) return *law;
+  throw_unknown(name, where);
+}
+
+const NetworkPreset& find_network_preset(std::string_view name, const std::string& where) {
+  for (const NetworkPreset& preset : network_presets())
+    if (preset.name == name) return preset;
+  throw_unknown(name, where);
+}
+
+bool is_law(std::string_view name) { return law_named(name) != nullptr; }
+
+}  // namespace dashpot
