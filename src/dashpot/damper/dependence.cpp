@@ -40,13 +40,17 @@ std::string coefficient_name(std::string_view param, Form form, std::size_t inde
 }
 
 std::string coefficient_unit(std::string_view unit, std::size_t index, std::string_view drive_unit) {
-  if (index == 0) return std::string(unit);
-  const std::string drive = std::string(drive_unit) + (index == 1 ? "" : "^" + std::to_string(index));
-  const std::size_t slash = unit.find('/');
-  if (slash == std::string_view::npos) return std::string(unit) + "/" + drive;
-  std::string_view below = unit.substr(slash + 1);
-  if (below.front() == '(') below = below.substr(1, below.size() - 2);
-  return std::string(unit.substr(0, slash + 1)) + "(" + std::string(below) + "*" + drive + ")";
+  std::string text(unit);
+  if (index == 0) return text;
+  std::string drive(drive_unit);
+  if (index > 1) drive.append("^").append(std::to_string(index));
+  const std::size_t slash = text.find('/');
+  if (slash == std::string::npos) return text.append("/").append(drive);
+  if (text[slash + 1] == '(')
+    text.pop_back();
+  else
+    text.insert(slash + 1, "(");
+  return text.append("*").append(drive).append(")");
 }
 
 }  // namespace dashpot

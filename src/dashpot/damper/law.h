@@ -21,10 +21,10 @@ struct ParamInfo {
   std::string_view name, unit;
   double value = 0;  ///< default: an example damper of the 3 kN class
   double lower = 0, upper = 0;
-  double start = 0;        ///< where a fit starts, in the data's own half force span, half stroke and top speed
+  double start = 0;  ///< where a fit starts, in the data's own half force span, half stroke and top speed
   Form form = Form::Constant;  ///< how it depends on current unless the user says otherwise
-  bool bias = false;   ///< a constant force: replaced by the record offsets during a fit
-  bool fixed = false;  ///< not fitted unless asked for
+  bool bias = false;           ///< a constant force: replaced by the record offsets during a fit
+  bool fixed = false;          ///< not fitted unless asked for
   std::string_view meaning;
 };
 
@@ -37,7 +37,7 @@ struct Law {
   std::string_view remarks;  ///< validity, and what differs from the source
   std::vector<StateInfo> states;
   std::vector<ParamInfo> params;
-  double lag_rate = 0;  ///< 1/s, default rate of the coil's first-order lag; 0: none
+  double lag_rate = 0;             ///< 1/s, default rate of the coil's first-order lag; 0: none
   bool needs_displacement = true;  ///< false: neither force nor states depend on x
   /// Internal state after a long rest at displacement x.
   void (*rest)(const double* p, double x, double* z) = nullptr;

@@ -21,7 +21,8 @@ constexpr double kMaxSubsteps = 1000;
 /// a deviation that decays at the lag rate: this is exact.
 class Path {
  public:
-  Path(const DamperInput& from, const DamperInput& to, double dt, double lag_rate, double coil_current) noexcept
+  Path(const DamperInput& from, const DamperInput& to, double dt, double lag_rate,
+       double coil_current) noexcept
       : from_(from),
         displacement_slope_((to.displacement - from.displacement) / dt),
         velocity_slope_((to.velocity - from.velocity) / dt),
@@ -51,7 +52,8 @@ struct StageParams {
 };
 
 /// One classical Runge-Kutta step of length h from time t on.
-void rk4_step(const Law& law, const Path& path, const StageParams& p, double t, double h, double* z) noexcept {
+void rk4_step(const Law& law, const Path& path, const StageParams& p, double t, double h,
+              double* z) noexcept {
   const std::size_t n = law.states.size();
   const double x_middle = path.displacement(t + h / 2), v_middle = path.velocity(t + h / 2);
   States k1, k2, k3, k4, trial;
@@ -93,7 +95,10 @@ void require_shape(const Law& law, const Dependence& parameters) {
 }  // namespace
 
 LawModel::LawModel(const Law& law, Dependence parameters, std::string drive_unit, double lag_rate)
-    : law_(&law), parameters_(std::move(parameters)), drive_unit_(std::move(drive_unit)), lag_rate_(lag_rate) {
+    : law_(&law),
+      parameters_(std::move(parameters)),
+      drive_unit_(std::move(drive_unit)),
+      lag_rate_(lag_rate) {
   require_shape(law, parameters_);
   if (drive_unit_ != "A" && drive_unit_ != "V")
     throw Error("drive_unit", "is '" + drive_unit_ + "'", "write A (current) or V (voltage)");
@@ -179,7 +184,8 @@ double LawModel::force(const DamperInput& input, std::span<const double> state) 
 
 std::unique_ptr<DamperModel> LawModel::with_offset(double newton) const {
   Dependence moved = parameters_;
-  const auto bias = std::find_if(law_->params.begin(), law_->params.end(), [](const ParamInfo& p) { return p.bias; });
+  const auto bias =
+      std::find_if(law_->params.begin(), law_->params.end(), [](const ParamInfo& p) { return p.bias; });
   if (bias == law_->params.end()) throw Error(name(), "the law has no offset parameter");
   moved.coefficients[static_cast<std::size_t>(bias - law_->params.begin())][0] += newton;
   return std::make_unique<LawModel>(*law_, std::move(moved), drive_unit_, lag_rate_);
@@ -196,8 +202,9 @@ void require_bounds(const LawModel& model, double current, const std::string& wh
       power *= std::abs(current);
     }
     if (p[k] >= info.lower - slack && p[k] <= info.upper + slack) continue;
-    throw Error(where, std::string(info.name) + " is " + format_number(p[k]) + " " + std::string(info.unit) + " at " +
-                           format_number(current) + " " + model.drive_unit(),
+    throw Error(where,
+                std::string(info.name) + " is " + format_number(p[k]) + " " + std::string(info.unit) +
+                    " at " + format_number(current) + " " + model.drive_unit(),
                 "it must lie within " + format_number(info.lower) + " ... " + format_number(info.upper));
   }
 }

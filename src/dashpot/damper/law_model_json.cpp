@@ -24,7 +24,8 @@ void read_parameter(const Value& value, const ParamInfo& info, Dependence& into)
   into.forms.push_back(parse_form(form.as_string(), form.where()));
   into.coefficients.push_back(numbers.as_numbers());
   for (double& coefficient : into.coefficients.back()) coefficient *= factor;
-  if (const std::size_t wanted = coefficient_count(into.forms.back()); into.coefficients.back().size() != wanted)
+  if (const std::size_t wanted = coefficient_count(into.forms.back());
+      into.coefficients.back().size() != wanted)
     throw Error(numbers.where(), "has " + std::to_string(into.coefficients.back().size()) + " numbers",
                 "a " + form.as_string() + " parameter has " + std::to_string(wanted));
 }
@@ -38,8 +39,10 @@ Value LawModel::to_json() const {
                    Value::object({{"form", name_of(parameters_.forms[k])},
                                   {"coefficients", Value::array(parameters_.coefficients[k])},
                                   {"unit", law_->params[k].unit}}));
-  return Value::object(
-      {{"law", law_->name}, {"drive_unit", drive_unit_}, {"lag_rate", lag_rate_}, {"parameters", parameters}});
+  return Value::object({{"law", law_->name},
+                        {"drive_unit", drive_unit_},
+                        {"lag_rate", lag_rate_},
+                        {"parameters", parameters}});
 }
 
 std::unique_ptr<LawModel> law_model_from_json(const Value& value) {

@@ -84,7 +84,8 @@ Provenance read_provenance(const Value& value) {
 void require_format(ObjectReader& reader) {
   const Value& format = reader.required("format");
   if (format.as_string() != kFormat)
-    throw Error(format.where(), "is '" + format.as_string() + "', not a model file", "write " + std::string(kFormat));
+    throw Error(format.where(), "is '" + format.as_string() + "', not a model file",
+                "write " + std::string(kFormat));
   const Value& version = reader.required("version");
   if (version.as_number() != kVersion)
     throw Error(version.where(), "version " + format_number(version.as_number()) + " is not known here",
@@ -94,7 +95,8 @@ void require_format(ObjectReader& reader) {
 std::unique_ptr<DamperModel> read_law(const Value& value, const ModelFile& file) {
   auto model = law_model_from_json(value);
   if (model->drive_unit() != file.drive_unit)
-    throw Error(value.where(), "drive_unit is " + model->drive_unit() + ", but " + file.drive_unit + " for the file");
+    throw Error(value.where(),
+                "drive_unit is " + model->drive_unit() + ", but " + file.drive_unit + " for the file");
   require_bounds(*model, file.domain.current_min, value.where());
   require_bounds(*model, file.domain.current_max, value.where());
   return model;
@@ -103,7 +105,8 @@ std::unique_ptr<DamperModel> read_law(const Value& value, const ModelFile& file)
 std::unique_ptr<DamperModel> read_model(const Value& kind, const Value& value, const ModelFile& file) {
   if (kind.as_string() == "law") return read_law(value, file);
   if (kind.as_string() == "network") return network_model_from_json(value);
-  throw Error(kind.where(), "unknown kind '" + kind.as_string() + "'", suggest(kind.as_string(), {"law", "network"}));
+  throw Error(kind.where(), "unknown kind '" + kind.as_string() + "'",
+              suggest(kind.as_string(), {"law", "network"}));
 }
 
 }  // namespace
@@ -136,8 +139,12 @@ ModelFile parse_model(std::string_view text, const std::string& source) {
   return file;
 }
 
-ModelFile load_model(const std::filesystem::path& path) { return parse_model(read_file(path), path.string()); }
+ModelFile load_model(const std::filesystem::path& path) {
+  return parse_model(read_file(path), path.string());
+}
 
-void save_model(const ModelFile& file, const std::filesystem::path& path) { write_file(path, format_model(file)); }
+void save_model(const ModelFile& file, const std::filesystem::path& path) {
+  write_file(path, format_model(file));
+}
 
 }  // namespace dashpot

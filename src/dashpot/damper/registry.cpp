@@ -23,16 +23,18 @@ const std::array<NetworkPreset, 2>& presets() {
        .title = "Static network, one sensor",
        .equation = "F = w2 . tanh(W1 [v, i] + b1) + b2",
        .source = kOneSensorPaper,
-       .remarks = "41 parameters; no state and no displacement, so no hysteresis. The activation is not stated in "
-                  "the source; tanh with a linear output is assumed.",
+       .remarks =
+           "41 parameters; no state and no displacement, so no hysteresis. The activation is not stated in "
+           "the source; tanh with a linear output is assumed.",
        .inputs = {"velocity", "current"},
        .hidden = {10}},
       {.name = "static_network_two_sensors",
        .title = "Static network, two sensors",
        .equation = "F = w2 . tanh(W1 [x, v, i] + b1) + b2",
        .source = kOneSensorPaper,
-       .remarks = "51 parameters; displacement tells the branches of a loop apart, for motions like those it was "
-                  "trained on.",
+       .remarks =
+           "51 parameters; displacement tells the branches of a loop apart, for motions like those it was "
+           "trained on.",
        .inputs = {"displacement", "velocity", "current"},
        .hidden = {10}},
   }};
@@ -40,7 +42,8 @@ const std::array<NetworkPreset, 2>& presets() {
 }
 
 const Law* law_named(std::string_view name) {
-  const auto found = std::find_if(kLaws.begin(), kLaws.end(), [&](const Law* law) { return law->name == name; });
+  const auto found =
+      std::find_if(kLaws.begin(), kLaws.end(), [&](const Law* law) { return law->name == name; });
   return found == kLaws.end() ? nullptr : *found;
 }
 

@@ -1,15 +1,15 @@
-/* Modified Bouc-Wen (phenomenological model): a Bouc-Wen element and a dashpot c0 in series with a dashpot c1.
+/* Modified Bouc-Wen (phenomenological model): a Bouc-Wen element and a dashpot c0 in series with a dashpot
+ * c1.
  *
  *   y' = (alpha z + c0 v + k0 (x - y)) / (c0 + c1)
  *   z' = A w - gamma |w| z |z|^(n-1) - beta w |z|^n,   w = v - y'
  *   F  = alpha z + c0 w + k0 (x - y) + k1 (x - x0) + f0   ( = c1 y' + k1 (x - x0) + f0 )
  *
  * x m, v m/s (extension positive); F N, same sign as v. States: y m, z m. At rest y = x and z = 0.
- * gamma multiplies |w| z: gamma and beta change places between papers. z may be rescaled by any s > 0 with alpha / s,
- * s A, gamma / s^(n-1), beta / s^(n-1): only three of alpha, A, gamma, beta are independent.
- * |z| settles at (A / (gamma + beta))^(1/n).
- * Source: B. F. Spencer, S. J. Dyke, M. K. Sain, J. D. Carlson, J. Eng. Mech. 123 (1997) 230-238.
- * Differs from it: f0, which is 0 there.
+ * gamma multiplies |w| z: gamma and beta change places between papers. z may be rescaled by any s > 0 with
+ * alpha / s, s A, gamma / s^(n-1), beta / s^(n-1): only three of alpha, A, gamma, beta are independent. |z|
+ * settles at (A / (gamma + beta))^(1/n). Source: B. F. Spencer, S. J. Dyke, M. K. Sain, J. D. Carlson, J.
+ * Eng. Mech. 123 (1997) 230-238. Differs from it: f0, which is 0 there.
  */
 #ifndef DASHPOT_LAW_MODIFIED_BOUC_WEN_H
 #define DASHPOT_LAW_MODIFIED_BOUC_WEN_H
@@ -51,7 +51,8 @@ static inline void modified_bouc_wen_derivative(const ModifiedBoucWen* p, double
   const double dy = modified_bouc_wen_series_speed(p, x, v, z);
   const double w = v - dy;
   dz[0] = dy;
-  dz[1] = p->A * w - modified_bouc_wen_power(p, z[1]) * (p->gamma * fabs(w) * z[1] + p->beta * w * fabs(z[1]));
+  dz[1] =
+      p->A * w - modified_bouc_wen_power(p, z[1]) * (p->gamma * fabs(w) * z[1] + p->beta * w * fabs(z[1]));
 }
 
 static inline double modified_bouc_wen_force(const ModifiedBoucWen* p, double x, double v, const double* z) {

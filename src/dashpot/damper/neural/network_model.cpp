@@ -19,7 +19,9 @@ double DamperInput::* field_of(std::string_view input, const std::string& where)
 }
 
 void require_shape(const Mlp& mlp, std::size_t inputs, const std::string& where) {
-  const auto fail = [&](const std::string& what, const std::string& right) { throw Error(where, what, right); };
+  const auto fail = [&](const std::string& what, const std::string& right) {
+    throw Error(where, what, right);
+  };
   const auto& layers = mlp.layers;
   if (layers.size() < 2 || layers.front() != inputs || layers.back() != 1)
     fail("the layers do not go from " + std::to_string(inputs) + " inputs to one force",

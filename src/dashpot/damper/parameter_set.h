@@ -1,0 +1,31 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "dashpot/damper/law_model.h"
+
+namespace dashpot {
+
+/// A published set of parameters: a file of data/parameters, converted to SI.
+struct ParameterSet {
+  std::string name;    ///< "spencer1997"
+  std::string damper;  ///< what was measured
+  std::string source;
+  bool verified = false;                ///< false: an example, not to be called published
+  std::string reason;                   ///< how it was verified, or why it is not
+  double drive_min = 0, drive_max = 0;  ///< A or V, where it holds
+  LawModel model;
+};
+
+/// Names of the sets that come with Dashpot, in alphabetical order.
+std::vector<std::string> parameter_set_names();
+
+/// Throws Error "unknown parameter set 'spencer'; did you mean ..." or on what is wrong in the file.
+ParameterSet load_parameter_set(const std::string& name);
+/// As load_parameter_set, but only the model.
+LawModel load_parameters(const std::string& name);
+
+/// The text of such a file. `source` stands in messages.
+ParameterSet parse_parameter_set(std::string_view text, const std::string& source, const std::string& name);
+
+}  // namespace dashpot

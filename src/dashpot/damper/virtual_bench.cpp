@@ -1,0 +1,140 @@
+#include "dashpot/damper/virtual_bench.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "dashpot/base/error.h"
+#include "dashpot/base/random.h"
+#include "dashpot/base/text.h"
+#include "dashpot/record/differentiate.h"
+
+namespace dashpot {
+namespace {
+
+constexpr double kInnerStep = 1e-4;  // s, at most: fine enough that the motion between is a straight line
+
+/// The piston starts at rest at its lower end, so that a free run from rest is exact from the first sample.
+DamperInput piston(const SineMotion& motion, double drive, double t) {
+  const double w = 2 * std::numbers::pi * motion.frequency;
+  return {-motion.amplitude * std::cos(w * t), motion.amplitude * w * std::sin(w * t), drive};
+}
+
+/// True displacement and force at the samples.
+struct Truth {
+  std::vector<double> time, displacement, force;
+};
+
+Truth simulate(const DamperModel& damper, const SineMotion& motion, double drive,
+               const BenchOptions& options) {
+  const double dt = 1 / options.sample_rate;
+  const double duration = std::max(options.cycles / motion.frequency, 1.0);
+  const auto samples = static_cast<std::size_t>(std::llround(duration / dt)) + 1;
+  const auto inner = static_cast<std::size_t>(std::ceil(dt / kInnerStep));
+  const double h = dt / static_cast<double>(inner);
+  DamperInput now = piston(motion, drive, 0);
+  std::vector<double> state(damper.state_size());
+  damper.rest(now, state);
+  Truth truth;
+  for (std::size_t k = 0; k < samples; ++k) {
+    const double t = static_cast<double>(k) * dt;
+    truth.time.push_back(t);
+    truth.displacement.push_back(now.displacement);
+    truth.force.push_back(damper.force(now, state));
+    for (std::size_t step = 1; step <= inner; ++step) {
+      const DamperInput next = piston(motion, drive, t + static_cast<double>(step) * h);
+      damper.advance(now, next, h, state);
+      now = next;
+    }
+  }
+  return truth;
+}
+
+/// What a sensor with this zero, noise and converter makes of true values.
+std::vector<double> measure(std::vector<double> values, double zero, double noise, double resolution,
+                            Random& random) {
+  for (double& value : values) {
+    value += zero + noise * random.normal();
+    if (resolution > 0) value = resolution * std::round(value / resolution);
+  }
+  return values;
+}
+
+double span(const std::vector<double>& values) {
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  return *high - *low;
+}
+
+/// The velocity as a reader would derive it from the measured displacement.
+Channel derived_velocity(const std::vector<double>& displacement, double dt) {
+  const double cutoff = choose_cutoff_hz(displacement, dt);
+  return {"velocity", "m/s", differentiate_zero_phase(displacement, dt, cutoff),
+          "derived from displacement, " + format_number(cutoff) + " Hz zero-phase"};
+}
+
+Record run_test(const DamperModel& damper, const SineMotion& motion, double drive,
+                const std::string& drive_unit, const BenchOptions& options, Random& random) {
+  const Truth truth = simulate(damper, motion, drive, options);
+  const double offset = options.force_offset * random.normal();
+  const double dt = 1 / options.sample_rate;
+  std::vector<double> displacement =
+      measure(truth.displacement, 0, options.displacement_noise, options.displacement_resolution, random);
+  std::vector<double> force =
+      measure(truth.force, offset, options.force_noise * span(truth.force), options.force_resolution, random);
+
+  Record record;
+  record.condition =
+      format_number(1000 * motion.amplitude) + " mm " + format_number(motion.frequency) + " Hz";
+  record.name = record.condition + ", " + format_number(drive) + " " + drive_unit;
+  record.source = "virtual bench";
+  record.drive_level = drive;
+  record.time = truth.time;
+  record.sample_time = dt;
+  record.channels.push_back({"displacement", "m", displacement, "simulated sensor"});
+  record.channels.push_back(derived_velocity(displacement, dt));
+  record.channels.push_back({"force", "N", std::move(force), "simulated load cell"});
+  record.channels.push_back({drive_unit == "V" ? "voltage" : "current", drive_unit,
+                             std::vector<double>(truth.time.size(), drive), "constant, as set"});
+  record.notes.push_back("true force offset " + format_number(offset, 6) + " N");
+  return record;
+}
+
+void require_usable(const std::string& drive_unit, const BenchOptions& options) {
+  if (drive_unit != "A" && drive_unit != "V")
+    throw Error("virtual bench", "drive unit '" + drive_unit + "'", "write A or V");
+  if (options.motions.empty() || options.drive_levels.empty())
+    throw Error("virtual bench", "no motion or no drive level", "give at least one of each");
+  if (!(options.sample_rate > 0 && options.cycles > 0))
+    throw Error("virtual bench", "the sample rate and the cycles must be above 0");
+  for (const SineMotion& motion : options.motions)
+    if (!(motion.amplitude > 0 && motion.frequency > 0 && motion.frequency < options.sample_rate / 10))
+      throw Error("virtual bench",
+                  "a motion of " + format_number(1000 * motion.amplitude) + " mm at " +
+                      format_number(motion.frequency) + " Hz",
+                  "amplitude above 0, frequency above 0 and below a tenth of the sample rate");
+}
+
+}  // namespace
+
+Dataset run_virtual_bench(const DamperModel& damper, const std::string& drive_unit,
+                          const BenchOptions& options) {
+  require_usable(drive_unit, options);
+  Random random(options.seed);
+  Dataset dataset;
+  dataset.name = "virtual bench: " + damper.name();
+  dataset.citation = "simulated by Dashpot, seed " + std::to_string(options.seed);
+  dataset.drive_unit = drive_unit;
+  for (const SineMotion& motion : options.motions)
+    for (const double drive : options.drive_levels)
+      dataset.records.push_back(run_test(damper, motion, drive, drive_unit, options, random));
+  dataset.notes.push_back("simulated, not measured; the true model is " +
+                          format_json(damper.to_json(), false));
+  dataset.notes.push_back("force noise " + format_number(100 * options.force_noise) +
+                          " % of the span, displacement noise " +
+                          format_number(1e6 * options.displacement_noise) + " um, resolution " +
+                          format_number(options.force_resolution) + " N and " +
+                          format_number(1e6 * options.displacement_resolution) + " um");
+  return dataset;
+}
+
+}  // namespace dashpot
