@@ -49,7 +49,7 @@ std::string coefficient_unit(std::string_view unit, std::size_t index, std::stri
   if (text[slash + 1] == '(')
     text.pop_back();
   else
-    text.insert(slash + 1, "(");
+    text.insert(slash + 1, 1, '(');
   return text.append("*").append(drive).append(")");
 }
 

@@ -1,0 +1,42 @@
+#include <cstdlib>
+#include <new>
+
+#include "conformance/laws.h"
+#include "support.h"
+
+using namespace dashpot;
+
+namespace {
+thread_local std::size_t allocations = 0;
+}
+
+void* operator new(std::size_t size) {
+  ++allocations;
+  if (void* block = std::malloc(size ? size : 1)) return block;
+  throw std::bad_alloc();
+}
+void operator delete(void* block) noexcept { std::free(block); }
+void operator delete(void* block, std::size_t) noexcept { std::free(block); }
+
+TEST_CASE("stepping a law allocates nothing") {
+  for_each_law([](const Law& law) {
+    Dependence d;
+    for (const ParamInfo& info : law.params) {
+      d.forms.push_back(info.form);
+      d.coefficients.emplace_back(coefficient_count(info.form), 0.0).front() = info.value;
+    }
+    const LawModel model(law, d, "A", 100);
+    std::vector<double> state(model.state_size());
+    model.rest(sine(0), state);
+    double sum = 0;
+    const std::size_t before = allocations;
+    for (int k = 0; k < 1000; ++k) {
+      model.advance(sine(k * 1e-3, 1), sine((k + 1) * 1e-3, 0.5), 1e-3, state);
+      sum += model.force(sine((k + 1) * 1e-3, 0.5), state);
+    }
+    CHECK(allocations == before);
+    CHECK(std::isfinite(sum));
+    const std::vector<double> control(10);
+    CHECK(allocations == before + 1);  // the counter counts
+  });
+}

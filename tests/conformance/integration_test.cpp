@@ -1,0 +1,55 @@
+#include <cmath>
+
+#include "conformance/laws.h"
+#include "support.h"
+
+using namespace dashpot;
+
+namespace {
+
+/// Force at the end of 20 ms in `steps` steps: a motion that a straight line describes exactly, so that what
+/// is left is the integrator's error.
+double force_after_ramp(const LawModel& model, int steps) {
+  const auto at = [](double s) { return DamperInput{1e-5 * s, 0.002 + 0.001 * s, 0.2 + 0.3 * s}; };
+  std::vector<double> state(model.state_size());
+  model.rest({0, 0, 0.2}, state);
+  for (int k = 0; k < steps; ++k)
+    model.advance(at(static_cast<double>(k) / steps), at((k + 1.0) / steps), 0.02 / steps, state);
+  return model.force(at(1), state);
+}
+
+double force_on_sine(const LawModel& model, int steps) {
+  std::vector<double> state(model.state_size());
+  model.rest(sine(0), state);
+  for (int k = 0; k < steps; ++k)
+    model.advance(sine(0.1 * k / steps), sine(0.1 * (k + 1) / steps), 0.1 / steps, state);
+  return model.force(sine(0.1), state);
+}
+
+template <class Run>
+double measured_order(Run run, int steps) {
+  const double exact = run(64 * steps);
+  return std::log2(std::abs(run(steps) - exact) / std::abs(run(2 * steps) - exact));
+}
+
+}  // namespace
+
+TEST_CASE("laws with states: order 4 under inputs that are straight lines, 2 under a sine") {
+  for_each_law([](const Law& law) {
+    if (law.states.empty()) return;
+    // Every parameter grows with the current, which lags: the stages must see it at their own times.
+    Dependence d;
+    for (const ParamInfo& info : law.params) {
+      d.forms.push_back(info.fixed ? Form::Constant : Form::Linear);
+      d.coefficients.push_back(info.fixed ? std::vector{info.value}
+                                          : std::vector{info.value, 0.5 * info.value});
+    }
+    const LawModel driven(law, d, "A", 40);
+    CHECK(measured_order([&](int n) { return force_after_ramp(driven, n); }, 64) > 3.7);
+    // Between samples the sine is taken as straight: that error, of order 2, is what is left.
+    const LawModel constant = LawModel::constant(law, defaults(law));
+    const double order = measured_order([&](int n) { return force_on_sine(constant, n); }, 4000);
+    CAPTURE(order);
+    CHECK(order > 1.8);
+  });
+}

@@ -1,0 +1,165 @@
+#include "dashpot/damper/laws/modified_bouc_wen.h"
+
+#include <algorithm>
+#include <numbers>
+#include <vector>
+
+#include "dashpot/base/random.h"
+#include "dashpot/damper/parameter_set.h"
+#include "support.h"
+
+using namespace dashpot;
+
+namespace {
+
+constexpr double kStep = 5e-6;  // s: the drive is a straight line within a step to 1e-9
+
+struct Sine {
+  double amplitude, frequency, voltage;
+  DamperInput at(double t) const {
+    const double w = 2 * std::numbers::pi * frequency;
+    return {amplitude * std::sin(w * t), amplitude * w * std::cos(w * t), voltage};
+  }
+};
+
+/// Calls visit(t, input, force, state) at every step, from the zero state (no voltage in the coil) on.
+template <class Visit>
+void simulate(const LawModel& model, const Sine& sine, double duration, Visit visit) {
+  std::vector<double> state(model.state_size());
+  model.rest({}, state);
+  const auto steps = std::llround(duration / kStep);
+  for (long long k = 0;; ++k) {
+    const double t = static_cast<double>(k) * kStep;
+    const DamperInput input = sine.at(t);
+    visit(t, input, model.force(input, state), state);
+    if (k == steps) return;
+    model.advance(input, sine.at(static_cast<double>(k + 1) * kStep), kStep, state);
+  }
+}
+
+constexpr double kTimes[] = {0.05, 0.1, 0.2, 0.25, 0.4, 0.5};
+
+/// Forces at the times at which MODELS.md prints them.
+std::vector<double> forces(const LawModel& model, const Sine& sine) {
+  std::vector<double> found;
+  simulate(model, sine, 0.5, [&](double t, const DamperInput&, double force, const std::vector<double>&) {
+    for (const double wanted : kTimes)
+      if (std::abs(t - wanted) < kStep / 2) found.push_back(force);
+  });
+  return found;
+}
+
+/// Printed to eight significant digits: half a unit of the eighth, and what the straight-line drive adds.
+void check_forces(const std::vector<double>& found, const std::vector<double>& printed) {
+  REQUIRE(found.size() == printed.size());
+  for (std::size_t k = 0; k < printed.size(); ++k) {
+    CAPTURE(kTimes[k]);
+    CHECK_CLOSE(found[k], printed[k], 1e-8, 1e-5);
+  }
+}
+
+/// The same set in SI, built without the file.
+LawModel spencer_si() {
+  const Law& law = load_parameters("spencer1997").law();
+  Dependence d;
+  const auto add = [&](std::vector<double> c) {
+    d.forms.push_back(static_cast<Form>(c.size() - 1));
+    d.coefficients.push_back(std::move(c));
+  };
+  add({14000, 69500}), add({2100, 350}), add({28300, 295}), add({4690}), add({500}), add({0.143});
+  add({3.63e6}), add({3.63e6}), add({301}), add({2}), add({0});
+  return LawModel(law, d, "V", 190);
+}
+
+}  // namespace
+
+TEST_CASE("Spencer's set in cm and in SI give the forces of TC-4.5") {
+  const std::vector<std::pair<double, std::vector<double>>> printed{
+      {0, {385.72013, 65.404021, -617.25625, -529.92749, 473.07619, 65.433473}},
+      {1.5, {1069.1411, 21.86209, -1336.465, -1212.1764, 1193.4801, 21.86209}},
+      {2.25, {1403.2336, -3.4677, -1687.9443, -1545.6985, 1545.5429, -3.4677004}}};
+  for (const LawModel& model : {load_parameters("spencer1997"), spencer_si()})
+    for (const auto& [voltage, expected] : printed) {
+      CAPTURE(voltage);
+      check_forces(forces(model, {0.015, 2.5, voltage}), expected);
+    }
+}
+
+TEST_CASE("the states of TC-4.5 at 1.5 V") {
+  std::vector<double> at_50_ms;
+  simulate(load_parameters("spencer1997"), {0.015, 2.5, 1.5}, 0.05,
+           [&](double, const DamperInput&, double, const std::vector<double>& state) { at_50_ms = state; });
+  CHECK_CLOSE(at_50_ms[0], 2.0075591e-3, 0, 1e-10);
+  CHECK_CLOSE(at_50_ms[1], 6.4389483e-3, 0, 1e-10);
+  CHECK_CLOSE(at_50_ms[2], 1.4998877, 0, 1e-7);
+}
+
+TEST_CASE("the cycle of TC-4.5: energy and extreme forces") {
+  struct Cycle {
+    double voltage, highest, lowest, energy;
+  };
+  for (const Cycle& printed :
+       {Cycle{1.5, 1196.6351, -1339.6203, 68.48754}, {2.25, 1548.0975, -1690.515, 88.743401}}) {
+    double highest = -INFINITY, lowest = INFINITY, energy = 0, power_before = NAN;
+    simulate(load_parameters("spencer1997"), {0.015, 2.5, printed.voltage}, 0.8,
+             [&](double t, const DamperInput& input, double force, const std::vector<double>&) {
+               if (t < 0.4 - kStep / 2) return;
+               highest = std::max(highest, force);
+               lowest = std::min(lowest, force);
+               const double power = force * input.velocity;
+               if (!std::isnan(power_before)) energy += kStep * (power + power_before) / 2;
+               power_before = power;
+             });
+    CHECK_CLOSE(highest, printed.highest, 1e-8, 5e-5);
+    CHECK_CLOSE(lowest, printed.lowest, 1e-8, 5e-5);
+    CHECK_CLOSE(energy, printed.energy, 1e-7, 0);
+  }
+}
+
+TEST_CASE("Lai and Liao's set gives the forces of TC-4.5b") {
+  const LawModel model = load_parameters("lai_liao2002");
+  check_forces(forces(model, {0.008, 10, 0}),
+               {-455.61511, 414.18518, 414.18826, -455.60894, 414.19422, 414.1971});
+  check_forces(forces(model, {0.008, 10, 1}),
+               {-1504.5912, 1463.3545, 1463.3551, -1504.6686, 1463.3561, 1463.3567});
+  check_forces(forces(model, {0.008, 10, 2}),
+               {-2553.6702, 2512.5318, 2512.532, -2553.8267, 2512.5326, 2512.5329});
+}
+
+TEST_CASE("both forms of the force agree: through the elements and through the dashpot c1") {
+  Random random(7);
+  const ModifiedBoucWen p{118250, 2625, 28742.5, 4690, 500, 0.143, 3.63e6, 3.63e6, 301, 2, 12};
+  for (int k = 0; k < 1000; ++k) {
+    const double x = random.uniform(-0.03, 0.03), v = random.uniform(-0.5, 0.5);
+    const double z[2] = {random.uniform(-0.03, 0.03), random.uniform(-0.007, 0.007)};
+    double dz[2];
+    modified_bouc_wen_derivative(&p, x, v, z, dz);
+    CHECK_CLOSE(modified_bouc_wen_force(&p, x, v, z), p.c1 * dz[0] + p.k1 * (x - p.x0) + p.f0, 1e-12, 1e-9);
+  }
+}
+
+TEST_CASE("the exponent: the fast path for n = 2 is the limit of the general one, and n = 1 works") {
+  const double z[2] = {0.001, -0.004};
+  double fast[2], general[2];
+  ModifiedBoucWen p{118250, 2625, 28742.5, 4690, 500, 0, 3.63e6, 3.63e6, 301, 2, 0};
+  modified_bouc_wen_derivative(&p, 0.002, 0.1, z, fast);
+  p.n = 2 + 1e-12;
+  modified_bouc_wen_derivative(&p, 0.002, 0.1, z, general);
+  CHECK_CLOSE(general[1], fast[1], 1e-9, 0);
+
+  // n = 1 at z = 0: z' = A (v - y'), with y' = c0 v / (c0 + c1) at x = y
+  const double zero[2] = {0, 0};
+  p.n = 1;
+  modified_bouc_wen_derivative(&p, 0, 0.1, zero, general);
+  CHECK_CLOSE(general[1], 301 * 0.1 * 28742.5 / (28742.5 + 2625), 1e-12, 0);
+}
+
+TEST_CASE("z has no scale: alpha/s, s A, gamma/s and beta/s give the same force") {
+  const Law& law = load_parameters("spencer1997").law();
+  std::vector<double> p{118250, 2625, 28742.5, 4690, 500, 0, 3.63e6, 3.63e6, 301, 2, 0};
+  const std::vector<double> before = forces(LawModel::constant(law, p), {0.015, 2.5, 0});
+  const double s = 1.0 / 301;
+  p[0] /= s, p[6] /= s, p[7] /= s, p[8] *= s;
+  const std::vector<double> after = forces(LawModel::constant(law, p), {0.015, 2.5, 0});
+  for (std::size_t k = 0; k < before.size(); ++k) CHECK_CLOSE(after[k], before[k], 1e-9, 1e-9);
+}

@@ -1,0 +1,88 @@
+#include "dashpot/damper/model_file.h"
+
+#include "dashpot/base/file.h"
+#include "dashpot/damper/neural/network_model.h"
+#include "dashpot/damper/parameter_set.h"
+#include "support.h"
+
+using namespace dashpot;
+
+namespace {
+
+ModelFile example(std::unique_ptr<DamperModel> model, std::string drive_unit) {
+  ModelFile file;
+  file.model = std::move(model);
+  file.drive_unit = std::move(drive_unit);
+  file.sample_time = 1.0 / 3004.8;
+  file.domain = {-0.015, 0.015, -0.3, 0.3, 0, 2.25};
+  file.provenance = {
+      "2026-01-02T03:04:05Z", "dashpot identify data", "campaign", "someone", {{"a.csv", "00ff"}}, {"r1"}};
+  file.quality = Value::object({{"esr", 0.1 + 0.2}});
+  return file;
+}
+
+ModelFile spencer() { return example(std::make_unique<LawModel>(load_parameters("spencer1997")), "V"); }
+
+Mlp small_network() {
+  Mlp mlp;
+  mlp.layers = {2, 3, 1};
+  for (int k = 0; k < 13; ++k) mlp.parameters.push_back(std::sin(k + 1.0) / 3);
+  mlp.input_mean = {0.1, 0.7};
+  mlp.input_scale = {0.3, 1.1};
+  mlp.output_mean = -3;
+  mlp.output_scale = 812.5;
+  return mlp;
+}
+
+std::string message_after(const std::string& from, const std::string& to) {
+  std::string text = format_model(spencer());
+  const std::size_t at = text.find(from);
+  REQUIRE(at != std::string::npos);
+  text.replace(at, from.size(), to);
+  return message_of([&] { parse_model(text, "m.json"); });
+}
+
+}  // namespace
+
+TEST_CASE("a law's file comes back as it was, to the last bit") {
+  const TemporaryFolder folder;
+  const ModelFile saved = spencer();
+  save_model(saved, folder.path() / "m.json");
+  const ModelFile loaded = load_model(folder.path() / "m.json");
+  CHECK(format_model(loaded) == format_model(saved));
+  CHECK(loaded.sample_time == 1.0 / 3004.8);
+  CHECK(loaded.domain.current_max == 2.25);
+  CHECK(loaded.provenance.files.at(0).sha256 == "00ff");
+  CHECK(loaded.quality.find("esr")->as_number() == 0.1 + 0.2);
+  const auto& law = dynamic_cast<const LawModel&>(*loaded.model);
+  CHECK(law.parameters().coefficients == load_parameters("spencer1997").parameters().coefficients);
+}
+
+TEST_CASE("a network's file comes back as it was, to the last bit") {
+  const ModelFile saved =
+      example(std::make_unique<NetworkModel>(
+                  "static_network", std::vector<std::string>{"velocity", "current"}, small_network(), 4.5),
+              "A");
+  const ModelFile loaded = parse_model(format_model(saved), "m.json");
+  CHECK(format_model(loaded) == format_model(saved));
+  for (const double v : {-0.2, 0.0, 0.13})
+    CHECK(loaded.model->force({0, v, 0.5}, {}) == saved.model->force({0, v, 0.5}, {}));
+}
+
+TEST_CASE("a model file that cannot be used says where and why") {
+  const auto mentions = [](const std::string& text, const char* part) {
+    CAPTURE(text);
+    return text.find("m.json") == 0 && text.find(part) != std::string::npos;
+  };
+  CHECK(mentions(message_after("dashpot-model", "other"), "write dashpot-model"));
+  CHECK(mentions(message_after("\"version\": 1", "\"version\": 2"), "this Dashpot reads version 1"));
+  CHECK(mentions(message_after("\"kind\": \"law\"", "\"kind\": \"laws\""), "did you mean 'law'"));
+  CHECK(mentions(message_after("\"sample_time\"", "\"sampletime\""), "needs 'sample_time'"));
+  CHECK(mentions(message_after("\"quality\"", "\"qualities\""), "unknown key 'qualities'"));
+  CHECK(mentions(message_after("\"unit\": \"m/s\"", "\"unit\": \"mm/s\""), "write m/s"));
+  CHECK(mentions(message_after("\"min\": -0.3", "\"min\": 0.5"), "min is above max"));
+  CHECK(mentions(message_after("\"drive_unit\": \"V\"", "\"drive_unit\": \"A\""), ""));
+  CHECK(mentions(message_after("\"max\": 2.25", "\"max\": 1e9"), "alpha is"));
+  CHECK(mentions(message_of([] { parse_model("{\"format\": \"dashpot-model\"", "m.json"); }), ""));
+  CHECK(message_of([] { load_model("/nowhere/m.json"); }).find("/nowhere/m.json") != std::string::npos);
+}

@@ -1,0 +1,65 @@
+#include "dashpot/damper/neural/network_model.h"
+
+#include "support.h"
+
+using namespace dashpot;
+
+namespace {
+
+/// The (2,10,1) network of TC-12; its two inputs come from the named channels.
+NetworkModel network(const std::vector<std::string>& inputs) {
+  Mlp mlp;
+  mlp.layers = {2, 10, 1};
+  mlp.parameters.resize(41);
+  for (int i = 0; i < 10; ++i) {
+    mlp.parameters[2 * i] = std::sin(i + 1.0);
+    mlp.parameters[2 * i + 1] = std::cos(i + 1.0);
+    mlp.parameters[20 + i] = 0.1 * (i - 4.5);
+    mlp.parameters[30 + i] = (i % 2 ? -1.0 : 1.0) / (i + 1);
+  }
+  mlp.parameters[40] = 0.05;
+  mlp.input_mean = {0, 0};
+  mlp.input_scale = {1, 1};
+  return NetworkModel("test", inputs, mlp);
+}
+
+}  // namespace
+
+TEST_CASE("the named inputs reach the network in their order (TC-12)") {
+  const NetworkModel one = network({"velocity", "current"});
+  CHECK_CLOSE(one.force({99, 0.3, -0.5}, {}), -0.40879391, 0, 5e-9);
+  CHECK_CLOSE(one.force({99, 1, 1}, {}), 0.53232924, 0, 5e-9);
+  CHECK_FALSE(one.needs_displacement());
+  const NetworkModel other = network({"current", "displacement"});
+  CHECK_CLOSE(other.force({-0.5, 99, 0.3}, {}), -0.40879391, 0, 5e-9);
+  CHECK(other.needs_displacement());
+}
+
+TEST_CASE("an offset adds up and survives JSON") {
+  const auto moved = network({"velocity", "current"}).with_offset(3)->with_offset(0.5);
+  CHECK_CLOSE(moved->force({0, 1, 1}, {}), 0.53232924 + 3.5, 0, 5e-9);
+  const auto back = network_model_from_json(parse_json(format_json(moved->to_json()), "m.json"));
+  CHECK(back->force({0, 1, 1}, {}) == moved->force({0, 1, 1}, {}));
+}
+
+TEST_CASE("a network that does not fit together is refused") {
+  const auto message = [](const std::string& from, const std::string& to) {
+    std::string text = format_json(network({"velocity", "current"}).to_json(), false);
+    const std::size_t at = text.find(from);
+    REQUIRE(at != std::string::npos);
+    text.replace(at, from.size(), to);
+    return message_of([&] { network_model_from_json(parse_json(text, "m.json")); });
+  };
+  const auto mentions = [](const std::string& text, const char* part) {
+    CAPTURE(text);
+    return text.find(part) != std::string::npos;
+  };
+  CHECK(message("velocity", "velocity") == "");
+  CHECK(mentions(message("velocity", "speed"), "unknown network input 'speed'"));
+  CHECK(mentions(message("\"velocity\",", ""), "do not go from 1 inputs to one force"));
+  CHECK(mentions(message("[2,10,1]", "[2,11,1]"), "these layers need 45"));
+  CHECK(mentions(message("[2,10,1]", "[2,1e9,1]"), "write a whole number"));
+  CHECK(mentions(message("[2,10,1]", "[2,-1,1]"), "write a whole number"));
+  CHECK(mentions(message("\"input_scale\":[1", "\"input_scale\":[0"), "a scale is not a positive number"));
+  CHECK(mentions(message("\"offset\"", "\"off\""), "needs 'offset'"));
+}

@@ -1,0 +1,60 @@
+#include "dashpot/damper/parameter_set.h"
+
+#include "dashpot/base/file.h"
+#include "support.h"
+
+using namespace dashpot;
+
+TEST_CASE("centimetres are converted: Spencer's set in SI") {
+  const LawModel model = load_parameters("spencer1997");
+  const auto coefficient = [&](const char* name, std::size_t k) {
+    return model.parameters().coefficients[model.law().index_of(name)][k];
+  };
+  // the SI column of MODELS.md 4.5; 363 cm^-2 is 3.63e6 m^-2, not 363e-4
+  CHECK_CLOSE(coefficient("alpha", 0), 14000, 1e-15, 0);
+  CHECK_CLOSE(coefficient("alpha", 1), 69500, 1e-15, 0);
+  CHECK_CLOSE(coefficient("c0", 1), 350, 1e-15, 0);
+  CHECK_CLOSE(coefficient("c1", 0), 28300, 1e-15, 0);
+  CHECK_CLOSE(coefficient("k0", 0), 4690, 1e-15, 0);
+  CHECK_CLOSE(coefficient("x0", 0), 0.143, 1e-15, 0);
+  CHECK_CLOSE(coefficient("gamma", 0), 3.63e6, 1e-15, 0);
+  CHECK(coefficient("A", 0) == 301);
+  CHECK(model.lag_rate() == 190);
+  CHECK(model.drive_unit() == "V");
+}
+
+TEST_CASE("every set that comes with Dashpot loads, holds over its range and says whether it was verified") {
+  const std::vector<std::string> names = parameter_set_names();
+  CHECK(names == std::vector<std::string>{"kwok2006", "lai_liao2002", "spencer1997"});
+  for (const std::string& name : names) {
+    const ParameterSet set = load_parameter_set(name);
+    CHECK(set.name == name);
+    CHECK_FALSE(set.source.empty());
+    CHECK_FALSE(set.reason.empty());
+    CHECK(set.verified == (name != "kwok2006"));
+    CHECK(set.drive_max > set.drive_min);
+  }
+}
+
+TEST_CASE("a wrong name is answered with the near one") {
+  const std::string message = message_of([] { load_parameters("spencer97"); });
+  CHECK(message.find("unknown parameter set 'spencer97'") != std::string::npos);
+  CHECK(message.find("did you mean 'spencer1997'") != std::string::npos);
+}
+
+TEST_CASE("a wrong file is refused with its key") {
+  const std::string good = read_file(DASHPOT_PROJECT_DIR "/data/parameters/spencer1997.json");
+  const auto message = [&](const std::string& from, const std::string& to) {
+    std::string text = good;
+    text.replace(text.find(from), from.size(), to);
+    return message_of([&] { parse_parameter_set(text, "set.json", "set"); });
+  };
+  CHECK(message("N/cm", "N/cm") == "");
+  CHECK(message("N/cm", "N/furlong").find("unknown unit 'N/furlong'") != std::string::npos);
+  CHECK(message("N/cm", "N*s").find("'N*s' does not measure alpha") != std::string::npos);
+  CHECK(message("\"verified\": true", "\"verified\": 1").find("set.json") != std::string::npos);
+  CHECK(message("\"damper\"", "\"dampr\"").find("'damper'") != std::string::npos);
+  CHECK(message("[0, 2.25]", "[2.25, 0]").find("is not a range") != std::string::npos);
+  // at 9 V the range is far outside the fit, but no bound is broken; at -9 V alpha is negative
+  CHECK(message("[0, 2.25]", "[-9, 2.25]").find("alpha is") != std::string::npos);
+}

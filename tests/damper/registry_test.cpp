@@ -1,0 +1,36 @@
+#include "dashpot/damper/registry.h"
+
+#include <algorithm>
+
+#include "support.h"
+
+using namespace dashpot;
+
+TEST_CASE("laws stand in alphabetical order, networks follow") {
+  const std::vector<std::string> names = model_names();
+  CHECK(names == std::vector<std::string>{"bingham", "modified_bouc_wen", "tanh_kwok", "static_network",
+                                          "static_network_two_sensors"});
+  CHECK(std::is_sorted(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(laws().size())));
+  for (const Law* law : laws()) {
+    CHECK(&find_law(law->name) == law);
+    CHECK(is_law(law->name));
+  }
+  CHECK_FALSE(is_law("static_network"));
+}
+
+TEST_CASE("the one-sensor paper's networks") {
+  // 41 and 51 parameters: MODELS.md 12
+  const auto parameters = [](const NetworkPreset& p) {
+    return p.hidden[0] * (p.inputs.size() + 1) + p.hidden[0] + 1;
+  };
+  CHECK(parameters(find_network_preset("static_network")) == 41);
+  CHECK(parameters(find_network_preset("static_network_two_sensors")) == 51);
+}
+
+TEST_CASE("an unknown name is answered with the near one") {
+  const std::string message = message_of([] { find_law("bingam", "model.json, law"); });
+  CHECK(message.find("model.json, law: unknown model 'bingam'; did you mean 'bingham'?") == 0);
+  CHECK(message_of([] { find_network_preset("bingham"); }).find("unknown model") != std::string::npos);
+  CHECK(message_of([] { find_law("bingham").index_of("c9"); }).find("known: c0, f_c, f0, v_s") !=
+        std::string::npos);
+}
