@@ -1,12 +1,14 @@
 #pragma once
+#include <cmath>
 #include <numbers>
 #include <string>
 #include <vector>
 
 #include "dashpot/damper/law_model.h"
 #include "dashpot/damper/registry.h"
+#include "support.h"
 
-/// Calls test(law) for every law of the registry, as a subcase that bears its name.
+/// Calls test(law) for every law of the registry; messages bear its name.
 template <class Test>
 void for_each_law(Test test) {
   for (const dashpot::Law* law : dashpot::laws()) {
