@@ -12,7 +12,7 @@ using namespace dashpot;
 
 namespace {
 
-constexpr double kStep = 5e-6;  // s: the drive is a straight line within a step to 1e-9
+constexpr double kStep = 2.5e-6;  // s: the drive is a straight line within it to 1e-9
 
 struct Sine {
   double amplitude, frequency, voltage;
