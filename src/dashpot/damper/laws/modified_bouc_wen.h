@@ -34,10 +34,11 @@ static inline double modified_bouc_wen_power(const ModifiedBoucWen* p, double z)
   return p->n == 2 ? fabs(z) : pow(fabs(z), p->n - 1);
 }
 
-/* y' */
+/* y'; the division does not wait for the states */
 static inline double modified_bouc_wen_series_speed(const ModifiedBoucWen* p, double x, double v,
                                                     const double* z) {
-  return (p->alpha * z[1] + p->c0 * v + p->k0 * (x - z[0])) / (p->c0 + p->c1);
+  const double ease = 1 / (p->c0 + p->c1);
+  return (p->alpha * z[1] + p->c0 * v + p->k0 * (x - z[0])) * ease;
 }
 
 static inline void modified_bouc_wen_rest(const ModifiedBoucWen* p, double x, double* z) {
