@@ -4,13 +4,16 @@
 #include <string>
 #include <vector>
 
+#include "dashpot/numerics/symmetric.h"
+
 namespace dashpot {
 
 /// min 0.5 |r(x)|^2 within bounds. Levenberg-Marquardt by Ceres.
 struct LeastSquaresProblem {
   std::size_t residuals = 0;
-  std::vector<double> lower, upper;  ///< one per unknown; +-infinity allowed
-  /// Residuals at x. Returns false where they cannot be computed (the step is then rejected).
+  std::vector<double> lower, upper;  ///< one per unknown; +-infinity allowed; equal: that unknown is fixed
+  /// Residuals at x. Returns false where they cannot be computed (the step is then rejected), and so
+  /// counts a residual that is not finite. Called from several threads at a time.
   std::function<bool(std::span<const double> x, std::span<double> r)> residual;
   /// Jacobian row by row (residuals x unknowns) at x, together with the residuals; empty: forward
   /// differences, one column per task on the farm.
@@ -21,7 +24,7 @@ struct LeastSquaresOptions {
   int max_iterations = 100;
   double function_tolerance = 1e-8;  ///< stop when the cost falls by less than this share
   double difference_step = 1e-6;     ///< relative to max(|x|, 1)
-  int threads = 0;
+  int threads = 0;                   ///< results do not depend on it
   std::function<void(int iteration, double cost)> on_iteration;  ///< may throw to stop
 };
 
@@ -29,20 +32,14 @@ struct LeastSquaresReport {
   bool converged = false;
   std::string message;
   int iterations = 0;
-  double cost = 0;  ///< 0.5 |r|^2
+  double cost = 0;  ///< 0.5 |r|^2; infinity when the residuals cannot be computed at the start
   std::vector<double> x;
-  std::vector<double> normal_matrix;  ///< J'J at the end, row by row, for covariances
+  std::vector<double>
+      normal_matrix;  ///< J'J at the end, row by row, for covariances; empty when there is no J
 };
 
+/// The start is moved into the bounds first. What the callbacks throw comes out.
 LeastSquaresReport solve(const LeastSquaresProblem& problem, std::vector<double> start,
                          const LeastSquaresOptions& options = {});
-
-/// Inverse of a symmetric matrix (n x n, row by row) by eigenvalues; directions whose eigenvalue is
-/// below `tolerance` times the largest are reported in `weak` (unit vectors) and left out.
-struct SymmetricInverse {
-  std::vector<double> inverse;
-  std::vector<std::vector<double>> weak;
-};
-SymmetricInverse invert_symmetric(std::span<const double> matrix, std::size_t n, double tolerance = 1e-12);
 
 }  // namespace dashpot

@@ -9,8 +9,8 @@ namespace dashpot {
 /// dt s, uniform. Throws Error when the cut-off is not below half the sample rate or fewer than 4 samples.
 std::vector<double> differentiate_zero_phase(std::span<const double> x, double dt, double cutoff_hz);
 
-/// A cut-off for it: ten times the frequency below which 99 % of the motion's power lies, within
-/// [10 Hz, 0.4 / dt].
+/// A cut-off for it: ten times the frequency below which 99 % of the motion's power (its mean apart)
+/// lies, within [10 Hz, 0.4 / dt].
 double choose_cutoff_hz(std::span<const double> x, double dt);
 
 }  // namespace dashpot

@@ -1,8 +1,7 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
-#include <span>
-#include <string>
+#include <functional>
 #include <vector>
 
 namespace dashpot {
@@ -22,7 +21,8 @@ struct Mlp {
   double evaluate(const double* input) const noexcept;
 };
 
-/// Nguyen-Widrow-like random weights from the seed; scales must be set already.
+/// Random weights from the seed, in the manner of Nguyen and Widrow (IJCNN 1990): each neuron's slope lies
+/// somewhere in the range of its inputs, and together they cover it.
 void initialise(Mlp& mlp, std::uint64_t seed);
 
 /// Samples to train on: `inputs` row by row (samples x inputs), raw units.
@@ -35,20 +35,25 @@ struct TrainingSamples {
 
 struct TrainOptions {
   int max_iterations = 200;
-  double tolerance = 1e-7;     ///< stop when the cost falls by less than this share over 5 iterations
-  double weight_decay = 1e-6;  ///< on standardised weights, relative to the mean squared error of 1
-  std::uint64_t seed = 1;
+  double tolerance = 1e-7;     ///< stop when the cost falls by less than this share over 5 steps
+  double weight_decay = 1e-8;  ///< on standardised weights, relative to the mean squared error of 1
+  /// The same on offsets: where records held at one current leave open what is offset and what is the
+  /// current's effect, it is the current's effect.
+  double offset_decay = 1e-3;
+  std::uint64_t seed = 1;  ///< of the start, when mlp.parameters is empty
+  std::function<void(int iteration, double rmse)> on_iteration;  ///< raw units; may throw to stop
 };
 
 struct TrainReport {
   bool converged = false;
   int iterations = 0;
   double rmse = 0;              ///< raw units, offsets removed
-  std::vector<double> offsets;  ///< raw units, one per group, mean zero... added to the network's output
+  std::vector<double> offsets;  ///< raw units, one per group, mean zero; added to the network's output
 };
 
 /// Full-batch Levenberg-Marquardt on the mean squared error, with one free offset per group (a
-/// declared nuisance, eliminated exactly by centring residuals and Jacobian per group).
+/// declared nuisance, eliminated exactly by centring residuals and Jacobian per group). Starts from
+/// mlp.parameters; its layers and scales must be set. The same bits for the same input.
 TrainReport train(Mlp& mlp, const TrainingSamples& samples, const TrainOptions& options);
 
 }  // namespace dashpot

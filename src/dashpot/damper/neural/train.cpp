@@ -1,0 +1,127 @@
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <numeric>
+
+#include "dashpot/damper/neural/mlp.h"
+#include "dashpot/damper/neural/normal_equations.h"
+#include "dashpot/numerics/symmetric.h"
+
+namespace dashpot {
+namespace {
+
+/// Levenberg-Marquardt on  |r|^2 / samples + weight_decay |w|^2.  Damping is scaled by the largest
+/// diagonal seen (More, 1978) and follows the gain ratio (Marquardt, 1963; doubling growth after
+/// refused steps: Nielsen, 1999).
+class LevenbergMarquardt {
+ public:
+  LevenbergMarquardt(Mlp& mlp, const SampleBlocks& blocks, double weight_decay)
+      : mlp_(mlp), blocks_(blocks), weight_decay_(weight_decay), scale_(mlp.parameters.size(), 0.0) {
+    linearise();
+  }
+
+  double cost() const { return cost_; }
+  const NormalEquations& equations() const { return equations_; }
+  bool stuck() const { return damping_ > 1e12; }
+
+  /// Tries one step; true when it lowers the cost and was taken.
+  bool step() {
+    const std::size_t n = scale_.size();
+    std::vector<double> damped = matrix_, step(n), trial(n);
+    for (std::size_t k = 0; k < n; ++k) damped[k * n + k] += damping_ * scale_[k];
+    if (!solve_positive_definite(damped, descent_, step)) return reject();
+    double predicted = 0;
+    for (std::size_t k = 0; k < n; ++k) {
+      predicted += step[k] * (damping_ * scale_[k] * step[k] + descent_[k]);
+      trial[k] = mlp_.parameters[k] + step[k];
+    }
+    const double gain = (cost_ - cost_at(squared_error(mlp_.layers, trial, blocks_), trial)) / predicted;
+    if (!(gain > 0)) return reject();
+    damping_ *= gain > 0.75 ? 0.1 : gain > 0.25 ? 1 : 2;
+    growth_ = 2;
+    mlp_.parameters = std::move(trial);
+    linearise();
+    return true;
+  }
+
+ private:
+  bool reject() {
+    damping_ *= growth_;
+    growth_ *= 2;
+    return false;
+  }
+
+  double cost_at(double error, const std::vector<double>& w) const {
+    return error / static_cast<double>(blocks_.samples) +
+           weight_decay_ * std::inner_product(w.begin(), w.end(), w.begin(), 0.0);
+  }
+
+  void linearise() {
+    const std::vector<double>& w = mlp_.parameters;
+    equations_ = normal_equations(mlp_.layers, w, blocks_);
+    cost_ = cost_at(equations_.squared_error, w);
+    const double share = 1 / static_cast<double>(blocks_.samples);
+    matrix_ = equations_.matrix;
+    descent_ = equations_.gradient;
+    for (double& entry : matrix_) entry *= share;
+    for (std::size_t k = 0; k < w.size(); ++k) {
+      double& diagonal = matrix_[k * w.size() + k];
+      diagonal += weight_decay_;
+      descent_[k] = -(descent_[k] * share + weight_decay_ * w[k]);
+      scale_[k] = std::max(scale_[k], diagonal);
+    }
+  }
+
+  Mlp& mlp_;
+  const SampleBlocks& blocks_;
+  double weight_decay_;
+  std::vector<double> scale_;
+  double damping_ = 1, growth_ = 2;
+  NormalEquations equations_;
+  double cost_ = 0;
+  std::vector<double> matrix_, descent_;
+};
+
+/// Of the residuals alone, the price of the offsets taken out.
+double mean_square(const NormalEquations& equations, const SampleBlocks& blocks) {
+  double sum = equations.squared_error;
+  for (std::size_t g = 0; g < equations.offsets.size(); ++g)
+    sum -= blocks.offset_price(blocks.groups[g], equations.offsets[g]);
+  return std::max(0.0, sum) / static_cast<double>(blocks.samples);
+}
+
+/// The mean offset belongs to the network: moves it into the bias of its output.
+std::vector<double> raw_offsets(Mlp& mlp, std::vector<double> offsets) {
+  const double mean =
+      std::accumulate(offsets.begin(), offsets.end(), 0.0) / static_cast<double>(offsets.size());
+  mlp.parameters.back() += mean;
+  for (double& offset : offsets) offset = mlp.output_scale * (offset - mean);
+  return offsets;
+}
+
+}  // namespace
+
+TrainReport train(Mlp& mlp, const TrainingSamples& samples, const TrainOptions& options) {
+  assert(!samples.targets.empty() && samples.inputs.size() == samples.targets.size() * mlp.layers.front());
+  constexpr std::size_t kWindow = 5;  // steps over which the cost must still fall
+  if (mlp.parameters.empty()) initialise(mlp, options.seed);
+  const SampleBlocks blocks = make_blocks(mlp, samples, options.offset_decay);
+  LevenbergMarquardt search(mlp, blocks, options.weight_decay);
+  const auto rmse = [&] { return mlp.output_scale * std::sqrt(mean_square(search.equations(), blocks)); };
+
+  TrainReport report;
+  std::vector<double> costs{search.cost()};
+  while (!report.converged && report.iterations < options.max_iterations) {
+    ++report.iterations;
+    if (search.step()) costs.push_back(search.cost());
+    const bool level = costs.size() > kWindow &&
+                       costs[costs.size() - 1 - kWindow] - costs.back() < options.tolerance * costs.back();
+    report.converged = level || search.stuck();
+    if (options.on_iteration) options.on_iteration(report.iterations, rmse());
+  }
+  report.rmse = rmse();
+  if (!samples.group.empty()) report.offsets = raw_offsets(mlp, search.equations().offsets);
+  return report;
+}
+
+}  // namespace dashpot

@@ -1,0 +1,221 @@
+#include "dashpot/numerics/least_squares.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cassert>
+#include <cmath>
+#include <exception>
+#include <limits>
+#include <numeric>
+
+#include <ceres/ceres.h>
+#include <glog/logging.h>
+
+#include "dashpot/base/parallel.h"
+
+namespace dashpot {
+namespace {
+
+bool all_finite(std::span<const double> values) {
+  return std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
+}
+
+/// The whole problem as one Ceres residual block. Every unknown is a parameter block of its own, so
+/// that Ceres asks for the Jacobian column by column and a fixed unknown is simply a constant block.
+/// Exceptions must not travel through Ceres: the first one is kept in `failure`.
+class WholeProblem final : public ceres::CostFunction {
+ public:
+  WholeProblem(const LeastSquaresProblem& problem, const LeastSquaresOptions& options,
+               std::exception_ptr& failure)
+      : problem_(problem), options_(options), failure_(failure) {
+    set_num_residuals(static_cast<int>(problem.residuals));
+    mutable_parameter_block_sizes()->assign(problem.lower.size(), 1);
+  }
+
+  bool Evaluate(double const* const* unknowns, double* residuals, double** columns) const override {
+    std::vector<double> x(problem_.lower.size());
+    for (std::size_t k = 0; k < x.size(); ++k) x[k] = *unknowns[k];
+    return evaluate(x, {residuals, problem_.residuals}, columns);
+  }
+
+  /// columns: nullptr, or one pointer per unknown, nullptr where its column is not wanted.
+  bool evaluate(std::span<const double> x, std::span<double> r, double** columns) const {
+    if (failure_) return false;
+    try {
+      if (!columns) return residual(x, r);
+      return problem_.jacobian ? analytic(x, r, columns) : differences(x, r, columns);
+    } catch (...) {
+      failure_ = std::current_exception();
+      return false;
+    }
+  }
+
+ private:
+  bool residual(std::span<const double> x, std::span<double> r) const {
+    return problem_.residual(x, r) && all_finite(r);
+  }
+
+  bool analytic(std::span<const double> x, std::span<double> r, double** columns) const {
+    std::vector<double> rows(r.size() * x.size());
+    if (!problem_.jacobian(x, r, rows) || !all_finite(r) || !all_finite(rows)) return false;
+    for (std::size_t k = 0; k < x.size(); ++k) {
+      if (!columns[k]) continue;
+      for (std::size_t i = 0; i < r.size(); ++i) columns[k][i] = rows[i * x.size() + k];
+    }
+    return true;
+  }
+
+  bool differences(std::span<const double> x, std::span<double> r, double** columns) const {
+    if (!residual(x, r)) return false;
+    std::atomic<bool> complete = true;
+    parallel_for(x.size(), options_.threads, [&](std::size_t k) {
+      if (columns[k] && !difference_column(x, r, k, {columns[k], r.size()})) complete = false;
+    });
+    return complete;
+  }
+
+  /// Steps up, or down when a bound leaves more room there; the other way when the residuals fail.
+  bool difference_column(std::span<const double> x, std::span<const double> r, std::size_t k,
+                         std::span<double> column) const {
+    const double step = options_.difference_step * std::max(std::abs(x[k]), 1.0);
+    const double up = std::min(x[k] + step, problem_.upper[k]);
+    const double down = std::max(x[k] - step, problem_.lower[k]);
+    const bool upward = problem_.upper[k] >= x[k] + step || up - x[k] >= x[k] - down;
+    std::vector<double> moved(x.begin(), x.end());
+    for (const double target : upward ? std::array{up, down} : std::array{down, up}) {
+      moved[k] = target;
+      if (target == x[k] || !residual(moved, column)) continue;
+      for (std::size_t i = 0; i < r.size(); ++i) column[i] = (column[i] - r[i]) / (target - x[k]);
+      return true;
+    }
+    return false;
+  }
+
+  const LeastSquaresProblem& problem_;
+  const LeastSquaresOptions& options_;
+  std::exception_ptr& failure_;
+};
+
+/// Passes iterations on, and stops Ceres once a callback has thrown.
+class Listener final : public ceres::IterationCallback {
+ public:
+  /// `before`: iterations of earlier runs.
+  Listener(const LeastSquaresOptions& options, const int& before, std::exception_ptr& failure)
+      : options_(options), before_(before), failure_(failure) {}
+
+  ceres::CallbackReturnType operator()(const ceres::IterationSummary& summary) override {
+    try {
+      if (!failure_ && options_.on_iteration)
+        options_.on_iteration(before_ + summary.iteration, summary.cost);
+    } catch (...) {
+      failure_ = std::current_exception();
+    }
+    return failure_ ? ceres::SOLVER_ABORT : ceres::SOLVER_CONTINUE;
+  }
+
+ private:
+  const LeastSquaresOptions& options_;
+  const int& before_;
+  std::exception_ptr& failure_;
+};
+
+ceres::Solver::Options ceres_options(const LeastSquaresOptions& options, Listener& listener) {
+  ceres::Solver::Options result;
+  result.linear_solver_type = ceres::DENSE_QR;
+  result.max_num_iterations = options.max_iterations;
+  result.function_tolerance = options.function_tolerance;
+  result.max_num_consecutive_invalid_steps = 50;  // residuals may fail in a large part of the space
+  result.update_state_every_iteration = true;     // so that x is the best one also after a failure
+  result.logging_type = ceres::SILENT;
+  result.callbacks.push_back(&listener);
+  return result;
+}
+
+/// Unknowns that a bound holds at x (a fixed unknown is held by both).
+std::vector<bool> held_by_bounds(const LeastSquaresProblem& problem, const std::vector<double>& x) {
+  std::vector<bool> held(x.size());
+  for (std::size_t k = 0; k < x.size(); ++k) held[k] = x[k] == problem.lower[k] || x[k] == problem.upper[k];
+  return held;
+}
+
+/// Runs Ceres from report.x on; `held` unknowns stay where they are.
+void run(const LeastSquaresProblem& problem, const std::vector<bool>& held,
+         const ceres::Solver::Options& options, WholeProblem& whole, LeastSquaresReport& report) {
+  ceres::Problem::Options ownership;
+  ownership.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  ceres::Problem target(ownership);
+  std::vector<double*> blocks;
+  for (double& x : report.x) blocks.push_back(&x);
+  target.AddResidualBlock(&whole, nullptr, blocks);
+  for (std::size_t k = 0; k < blocks.size(); ++k) {
+    if (held[k]) {
+      target.SetParameterBlockConstant(blocks[k]);
+      continue;
+    }
+    if (std::isfinite(problem.lower[k])) target.SetParameterLowerBound(blocks[k], 0, problem.lower[k]);
+    if (std::isfinite(problem.upper[k])) target.SetParameterUpperBound(blocks[k], 0, problem.upper[k]);
+  }
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &target, &summary);
+  report.converged = summary.termination_type == ceres::CONVERGENCE;
+  report.message = summary.message;
+  report.iterations += std::max(0, static_cast<int>(summary.iterations.size()) - 1);
+}
+
+/// Cost and J'J at report.x; rows and columns of fixed unknowns are zero.
+void describe_end(const WholeProblem& whole, const LeastSquaresProblem& problem, LeastSquaresReport& report) {
+  const std::size_t n = report.x.size(), m = problem.residuals;
+  std::vector<double> r(m), jacobian(m * n, 0.0);
+  std::vector<double*> columns(n, nullptr);
+  for (std::size_t k = 0; k < n; ++k)
+    if (problem.lower[k] < problem.upper[k]) columns[k] = &jacobian[k * m];
+  const bool has_jacobian = whole.evaluate(report.x, r, columns.data());
+  if (!has_jacobian && !whole.evaluate(report.x, r, nullptr)) {
+    report.cost = std::numeric_limits<double>::infinity();
+    return;
+  }
+  report.cost = 0.5 * std::inner_product(r.begin(), r.end(), r.begin(), 0.0);
+  if (!has_jacobian) return;
+  report.normal_matrix.resize(n * n);
+  for (std::size_t a = 0; a < n; ++a)
+    for (std::size_t b = 0; b <= a; ++b)
+      report.normal_matrix[a * n + b] = report.normal_matrix[b * n + a] =
+          std::inner_product(&jacobian[a * m], &jacobian[a * m] + m, &jacobian[b * m], 0.0);
+}
+
+}  // namespace
+
+LeastSquaresReport solve(const LeastSquaresProblem& problem, std::vector<double> start,
+                         const LeastSquaresOptions& options) {
+  assert(!start.empty() && problem.lower.size() == start.size() && problem.upper.size() == start.size());
+  FLAGS_minloglevel = google::GLOG_FATAL;  // Ceres warns on stderr of what the report says anyway
+
+  LeastSquaresReport report;
+  report.x = std::move(start);
+  for (std::size_t k = 0; k < report.x.size(); ++k)
+    report.x[k] = std::clamp(report.x[k], problem.lower[k], problem.upper[k]);
+
+  std::exception_ptr failure;
+  Listener listener(options, report.iterations, failure);
+  WholeProblem whole(problem, options, failure);
+  ceres::Solver::Options settings = ceres_options(options, listener);
+  std::vector<bool> fixed(report.x.size());
+  for (std::size_t k = 0; k < fixed.size(); ++k) fixed[k] = problem.lower[k] == problem.upper[k];
+  run(problem, fixed, settings, whole, report);
+
+  // Ceres cuts its steps off at the bounds, and then creeps along them: the end goes better without the
+  // unknowns that have arrived at one.
+  const std::vector<bool> held = held_by_bounds(problem, report.x);
+  settings.max_num_iterations -= report.iterations;
+  if (report.converged && held != fixed && settings.max_num_iterations > 0)
+    run(problem, held, settings, whole, report);
+
+  if (!failure) describe_end(whole, problem, report);
+  if (failure) std::rethrow_exception(failure);
+  if (!std::isfinite(report.cost)) report.message = "the residuals cannot be computed at the start";
+  report.converged = report.converged && !report.normal_matrix.empty();
+  return report;
+}
+
+}  // namespace dashpot
