@@ -45,6 +45,10 @@ struct Law {
   double (*force)(const double* p, double x, double v, const double* z) = nullptr;
   /// Bound of the fastest internal rate, 1/s: an explicit integrator keeps rate * step below its limit.
   double (*rate)(const double* p, double v) = nullptr;
+  /// Optional: one step of the law's own integrator, stable at any length h, with x[0], v[0] at its start
+  /// and x[1], v[1] at its end. Returns 0 where it does not apply. Taken where the explicit one would need
+  /// many steps.
+  int (*step)(const double* p, const double* x, const double* v, double h, double* z) = nullptr;
 
   std::size_t index_of(std::string_view param) const;  ///< throws Error naming the known ones
 };
@@ -125,6 +129,15 @@ Law state_law(const LawTable<P>& table) {
   law.rate = [](const double* p, double v) {
     const P own = detail::from_array<P>(p);
     return Rate(&own, v);
+  };
+  return law;
+}
+
+template <class P, auto Step>
+Law with_step(Law law) {
+  law.step = [](const double* p, const double* x, const double* v, double h, double* z) {
+    const P own = detail::from_array<P>(p);
+    return Step(&own, x, v, h, z);
   };
   return law;
 }

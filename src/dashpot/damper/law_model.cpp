@@ -5,75 +5,12 @@
 
 #include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
+#include "dashpot/damper/integrate.h"
 
 namespace dashpot {
 namespace {
 
 using Params = std::array<double, kMaxParams>;
-using States = std::array<double, kMaxStates>;
-
-// RK4 is stable up to rate * step = 2.78 on the real axis. Where the cap is reached the run diverges, and is
-// reported so, instead of taking hours.
-constexpr double kStepLimit = 2.0;
-constexpr double kMaxSubsteps = 1000;
-
-/// Motion and coil current within one step. The command is linear in time; so is the coil's current, but for
-/// a deviation that decays at the lag rate: this is exact.
-class Path {
- public:
-  Path(const DamperInput& from, const DamperInput& to, double dt, double lag_rate,
-       double coil_current) noexcept
-      : from_(from),
-        displacement_slope_((to.displacement - from.displacement) / dt),
-        velocity_slope_((to.velocity - from.velocity) / dt),
-        current_slope_((to.current - from.current) / dt),
-        lag_rate_(lag_rate) {
-    if (lag_rate == 0) return;
-    from_.current -= current_slope_ / lag_rate;
-    deviation_ = coil_current - from_.current;
-    if (std::abs(deviation_) <= 1e-14 * std::abs(from_.current)) deviation_ = 0;
-  }
-  double displacement(double t) const noexcept { return from_.displacement + displacement_slope_ * t; }
-  double velocity(double t) const noexcept { return from_.velocity + velocity_slope_ * t; }
-  double current(double t) const noexcept {
-    const double settled = from_.current + current_slope_ * t;
-    return deviation_ == 0 ? settled : settled + deviation_ * std::exp(-lag_rate_ * t);
-  }
-  bool current_varies() const noexcept { return current_slope_ != 0 || deviation_ != 0; }
-
- private:
-  DamperInput from_;
-  double displacement_slope_, velocity_slope_, current_slope_, lag_rate_, deviation_ = 0;
-};
-
-/// The law's parameters at the start, the middle and the end of a substep.
-struct StageParams {
-  const double *start, *middle, *end;
-};
-
-/// One classical Runge-Kutta step of length h from time t on.
-void rk4_step(const Law& law, const Path& path, const StageParams& p, double t, double h,
-              double* z) noexcept {
-  const std::size_t n = law.states.size();
-  const double x_middle = path.displacement(t + h / 2), v_middle = path.velocity(t + h / 2);
-  States k1, k2, k3, k4, trial;
-  const auto move = [&](const States& slope, double step) {
-    for (std::size_t s = 0; s < n; ++s) trial[s] = z[s] + step * slope[s];
-  };
-  law.derivative(p.start, path.displacement(t), path.velocity(t), z, k1.data());
-  move(k1, h / 2);
-  law.derivative(p.middle, x_middle, v_middle, trial.data(), k2.data());
-  move(k2, h / 2);
-  law.derivative(p.middle, x_middle, v_middle, trial.data(), k3.data());
-  move(k3, h);
-  law.derivative(p.end, path.displacement(t + h), path.velocity(t + h), trial.data(), k4.data());
-  for (std::size_t s = 0; s < n; ++s) z[s] += h / 6 * (k1[s] + 2 * (k2[s] + k3[s]) + k4[s]);
-}
-
-double substeps(double rate, double dt) noexcept {
-  const double wanted = std::ceil(rate * dt / kStepLimit);
-  return wanted > 1 ? std::min(wanted, kMaxSubsteps) : 1;  // 1 for NaN too
-}
 
 void require_shape(const Law& law, const Dependence& parameters) {
   const std::string where = "parameters of " + std::string(law.name);
@@ -128,16 +65,6 @@ std::size_t LawModel::parameter_count() const noexcept {
 
 std::size_t LawModel::state_size() const noexcept { return law_->states.size() + (lag_rate_ > 0 ? 1 : 0); }
 
-void LawModel::parameters_at(double current, double* out) const noexcept {
-  const std::size_t count = law_->params.size();
-  if (!follows_current_) {
-    std::copy_n(by_power_[0].data(), count, out);
-    return;
-  }
-  for (std::size_t k = 0; k < count; ++k)
-    out[k] = by_power_[0][k] + current * (by_power_[1][k] + current * by_power_[2][k]);
-}
-
 void LawModel::rest(const DamperInput& input, std::span<double> state) const noexcept {
   if (law_->rest) {
     Params p;
@@ -150,30 +77,9 @@ void LawModel::rest(const DamperInput& input, std::span<double> state) const noe
 void LawModel::advance(const DamperInput& from, const DamperInput& to, double dt,
                        std::span<double> state) const noexcept {
   const std::size_t states = law_->states.size();
-  const Path path(from, to, dt, lag_rate_, lag_rate_ > 0 ? state[states] : 0);
+  const InputPath path(from, to, dt, lag_rate_, lag_rate_ > 0 ? state[states] : 0);
   if (lag_rate_ > 0) state[states] = path.current(dt);
-  if (states == 0) return;
-
-  const double top_speed = std::max(std::abs(from.velocity), std::abs(to.velocity));
-  Params start, middle, end;
-  parameters_at(path.current(0), start.data());
-  double rate = law_->rate(start.data(), top_speed);
-  const bool varies = follows_current_ && path.current_varies();
-  if (varies) {
-    parameters_at(path.current(dt), end.data());
-    rate = std::max(rate, law_->rate(end.data(), top_speed));
-  }
-  const double count = substeps(rate, dt), h = dt / count;
-  for (double k = 0; k < count; ++k) {
-    if (!varies) {
-      rk4_step(*law_, path, {start.data(), start.data(), start.data()}, k * h, h, state.data());
-      continue;
-    }
-    parameters_at(path.current((k + 0.5) * h), middle.data());
-    parameters_at(path.current((k + 1) * h), end.data());
-    rk4_step(*law_, path, {start.data(), middle.data(), end.data()}, k * h, h, state.data());
-    start = end;
-  }
+  if (states > 0) integrate(*this, path, dt, state.data());
 }
 
 double LawModel::force(const DamperInput& input, std::span<const double> state) const noexcept {

@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <string>
@@ -35,7 +36,16 @@ class LawModel final : public DamperModel {
   Value to_json() const override;
 
   /// The parameters at a current, in table order, into out[0 ... law().params.size()-1].
-  void parameters_at(double current, double* out) const noexcept;
+  void parameters_at(double current, double* out) const noexcept {
+    const std::size_t count = law_->params.size();
+    if (!follows_current_) {
+      std::copy_n(by_power_[0].data(), count, out);
+      return;
+    }
+    for (std::size_t k = 0; k < count; ++k)
+      out[k] = by_power_[0][k] + current * (by_power_[1][k] + current * by_power_[2][k]);
+  }
+  bool follows_current() const noexcept { return follows_current_; }
 
   const Law& law() const { return *law_; }
   const Dependence& parameters() const { return parameters_; }

@@ -19,7 +19,7 @@ struct DamperInput {
 struct Domain {
   double displacement_min = 0, displacement_max = 0;  ///< m
   double velocity_min = 0, velocity_max = 0;          ///< m/s
-  double current_min = 0, current_max = 0;            ///< A or V
+  double current_min = 0, current_max = 0;            ///< A or V; spikes at switching left out
 };
 
 /// What a simulation steps. The description is immutable; the state is a flat array of the caller's.

@@ -143,6 +143,27 @@ std::vector<DamperInput> damper_inputs(const Record& record, std::string_view dr
   return inputs;
 }
 
+DriveRange drive_range(const std::vector<Record>& records, std::string_view drive_unit) {
+  DriveRange range;
+  std::vector<double> samples, levels;
+  for (const Record& record : records) {
+    const std::vector<double>& drive = record.channel(drive_channel(drive_unit)).samples;
+    samples.insert(samples.end(), drive.begin(), drive.end());
+    if (record.drive_level)
+      levels.push_back(*record.drive_level);
+    else
+      range.varies = true;
+  }
+  if (samples.empty()) return range;
+  std::sort(samples.begin(), samples.end());
+  std::sort(levels.begin(), levels.end());
+  range.levels = static_cast<std::size_t>(std::unique(levels.begin(), levels.end()) - levels.begin());
+  const std::size_t margin = range.varies ? samples.size() / 200 : 0;
+  range.low = samples[margin];
+  range.high = samples[samples.size() - 1 - margin];
+  return range;
+}
+
 FreeRun free_run(const DamperModel& model, const std::vector<DamperInput>& inputs,
                  const std::vector<double>& time) {
   FreeRun run;

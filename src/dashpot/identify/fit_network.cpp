@@ -65,10 +65,9 @@ FitReport fit_network(const NetworkPreset& preset, const std::vector<Record>& tr
   std::vector<Mlp> networks(starts, standardised(preset, samples));
   std::vector<TrainReport> reports(starts);
   parallel_for(starts, options.threads, [&](std::size_t k) {
-    options.monitor.check();
     TrainOptions train_options;
-    train_options.seed = options.seed + k;
-    initialise(networks[k], train_options.seed);
+    train_options.on_iteration = [&options](int, double) { options.monitor.check(); };
+    initialise(networks[k], options.seed + k);
     reports[k] = train(networks[k], samples, train_options);
   });
   std::size_t best = 0;

@@ -28,41 +28,28 @@ double DataScale::of_unit(std::string_view unit) const {
 }
 
 DataScale data_scale(const std::vector<Record>& records, std::string_view drive_unit) {
-  DataScale scale{.force = 0,
-                  .stroke = 0,
-                  .speed = 0,
-                  .drive_min = std::numeric_limits<double>::infinity(),
-                  .drive_max = -std::numeric_limits<double>::infinity()};
-  std::vector<double> levels;
+  DataScale scale{.force = 0, .stroke = 0, .speed = 0, .drive = drive_range(records, drive_unit)};
   for (const Record& record : records) {
     scale.force = std::max(scale.force, half_span(record.channel("force").samples));
     if (const Channel* displacement = record.find("displacement"))
       scale.stroke = std::max(scale.stroke, half_span(displacement->samples));
-    for (const DamperInput& input : damper_inputs(record, drive_unit)) {
-      scale.speed = std::max(scale.speed, std::abs(input.velocity));
-      scale.drive_min = std::min(scale.drive_min, input.current);
-      scale.drive_max = std::max(scale.drive_max, input.current);
-    }
-    if (record.drive_level)
-      levels.push_back(*record.drive_level);
-    else
-      scale.drive_varies = true;
+    for (const double v : record.channel("velocity").samples)
+      scale.speed = std::max(scale.speed, std::abs(v));
   }
   if (scale.force <= 0 || scale.speed <= 0)
     throw Error("", "the training records hold no motion or no force",
                 "check the channels with 'dashpot inspect'");
   if (scale.stroke <= 0) scale.stroke = scale.speed;  // no displacement channel: one second at full speed
-  std::sort(levels.begin(), levels.end());
-  levels.erase(std::unique(levels.begin(), levels.end()), levels.end());
-  scale.drive_levels = scale.drive_varies ? 3 : std::min<std::size_t>(levels.size(), 3);
   return scale;
 }
 
 LawUnknowns::LawUnknowns(const Law& law, const DataScale& scale, std::string drive_unit, OffsetMode offset)
     : law_(&law),
       drive_unit_(std::move(drive_unit)),
-      drive_min_(scale.drive_min),
-      drive_max_(scale.drive_max) {
+      drive_min_(scale.drive.low),
+      drive_max_(scale.drive.high) {
+  // With two levels of current a parabola cannot be told from a line, with one nothing can.
+  const std::size_t levels = scale.drive.varies ? 3 : std::clamp<std::size_t>(scale.drive.levels, 1, 3);
   for (const ParamInfo& param : law.params) {
     Row row;
     row.first = size();
@@ -70,9 +57,7 @@ LawUnknowns::LawUnknowns(const Law& law, const DataScale& scale, std::string dri
     const bool bias_is_nuisance = param.bias && offset == OffsetMode::Record;
     if (bias_is_nuisance) row.value = 0;
     if (!param.fixed && !bias_is_nuisance) {
-      // With two levels of current a parabola cannot be told from a line, with one nothing can.
-      row.form = static_cast<Form>(
-          std::min<std::size_t>(static_cast<std::size_t>(param.form), scale.drive_levels - 1));
+      row.form = std::min(param.form, static_cast<Form>(levels - 1));
       row.count = coefficient_count(row.form);
       row.size = scale.of_unit(param.unit) * (param.start != 0 ? std::abs(param.start) : 1);
       const double start = std::clamp((param.start > 0) - (param.start < 0) + 0.0, param.lower / row.size,
@@ -83,7 +68,7 @@ LawUnknowns::LawUnknowns(const Law& law, const DataScale& scale, std::string dri
     }
     rows_.push_back(row);
   }
-  fits_lag_ = scale.drive_varies;
+  fits_lag_ = scale.drive.varies;
   if (fits_lag_) {
     lower_.push_back(kLagLower / kLagStart);
     upper_.push_back(kLagUpper / kLagStart);

@@ -11,12 +11,10 @@ namespace dashpot {
 
 /// How large the quantities in a set of records are: what a fit's starting values are scaled by.
 struct DataScale {
-  double force = 1;                     ///< N, half the largest force span of a record
-  double stroke = 1;                    ///< m, half the largest displacement span
-  double speed = 1;                     ///< m/s, largest |v|
-  double drive_min = 0, drive_max = 0;  ///< A or V
-  std::size_t drive_levels = 0;         ///< distinct levels, 3 when more or varying
-  bool drive_varies = false;            ///< within a record
+  double force = 1;   ///< N, half the largest force span of a record
+  double stroke = 1;  ///< m, half the largest displacement span
+  double speed = 1;   ///< m/s, largest |v|
+  DriveRange drive;
 
   /// Size of a quantity of this unit in these data: N -> force, s/m -> 1/speed, 1/m^2 -> 1/stroke^2 ...
   double of_unit(std::string_view unit) const;

@@ -134,15 +134,14 @@ class RankingRun {
 };
 
 Domain domain_of(const std::vector<Record>& records, std::string_view drive_unit) {
-  Domain domain{INFINITY, -INFINITY, INFINITY, -INFINITY, INFINITY, -INFINITY};
+  const DriveRange drive = drive_range(records, drive_unit);
+  Domain domain{INFINITY, -INFINITY, INFINITY, -INFINITY, drive.low, drive.high};
   for (const Record& record : records)
     for (const DamperInput& input : damper_inputs(record, drive_unit)) {
       domain.displacement_min = std::min(domain.displacement_min, input.displacement);
       domain.displacement_max = std::max(domain.displacement_max, input.displacement);
       domain.velocity_min = std::min(domain.velocity_min, input.velocity);
       domain.velocity_max = std::max(domain.velocity_max, input.velocity);
-      domain.current_min = std::min(domain.current_min, input.current);
-      domain.current_max = std::max(domain.current_max, input.current);
     }
   return domain;
 }

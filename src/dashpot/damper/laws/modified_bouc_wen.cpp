@@ -5,8 +5,9 @@
 namespace dashpot {
 
 extern const Law kModifiedBoucWen;
-const Law kModifiedBoucWen = state_law<ModifiedBoucWen, modified_bouc_wen_force, modified_bouc_wen_derivative,
-                                       modified_bouc_wen_rest, modified_bouc_wen_rate>({
+const Law kModifiedBoucWen = with_step<ModifiedBoucWen, modified_bouc_wen_step>(state_law<
+    ModifiedBoucWen, modified_bouc_wen_force, modified_bouc_wen_derivative, modified_bouc_wen_rest,
+    modified_bouc_wen_rate>({
     .name = "modified_bouc_wen",
     .title = "Modified Bouc-Wen (Spencer)",
     .equation = "y' = (alpha z + c0 v + k0 (x - y)) / (c0 + c1)\n"
@@ -45,6 +46,6 @@ const Law kModifiedBoucWen = state_law<ModifiedBoucWen, modified_bouc_wen_force,
             {&ModifiedBoucWen::f0, "f0", "N", 0, -1e6, 1e6, 0, Form::Constant, "offset force", true},
         },
     .lag_rate = 190,
-});
+}));
 
 }  // namespace dashpot
