@@ -12,9 +12,10 @@ namespace {
 
 constexpr double kNormal95 = 1.959963984540054;  // two-sided 95 % point of the normal distribution
 
-LeastSquaresOptions solver_options(const IdentifyOptions& options, int iterations) {
+LeastSquaresOptions solver_options(const IdentifyOptions& options, int iterations, double tolerance) {
   LeastSquaresOptions solver;
   solver.max_iterations = iterations;
+  solver.function_tolerance = tolerance;
   solver.threads = options.threads;
   solver.on_iteration = [&options](int, double) { options.monitor.check(); };
   return solver;
@@ -23,16 +24,16 @@ LeastSquaresOptions solver_options(const IdentifyOptions& options, int iteration
 /// Tries several starts on the first part of each record and returns the most promising end point.
 std::vector<double> best_start(const LawUnknowns& unknowns, const std::vector<Record>& training,
                                const std::string& drive_unit, const IdentifyOptions& options) {
-  constexpr double kShare = 0.3;
-  constexpr int kIterations = 25;
+  constexpr double kShare = 0.2, kTolerance = 1e-2;
+  constexpr int kIterations = 15;
   const LawResiduals residuals(unknowns, training, drive_unit, options.offset, kShare);
   const LeastSquaresProblem problem = residuals.problem();
   Random random(options.seed);
   std::vector<double> best = unknowns.start();
   double best_cost = INFINITY;
   for (int k = 0; k < std::max(1, options.starts); ++k) {
-    const LeastSquaresReport tried =
-        solve(problem, unknowns.start(k == 0 ? nullptr : &random), solver_options(options, kIterations));
+    const LeastSquaresReport tried = solve(problem, unknowns.start(k == 0 ? nullptr : &random),
+                                           solver_options(options, kIterations, kTolerance));
     if (!tried.x.empty() && std::isfinite(tried.cost) && tried.cost < best_cost) {
       best_cost = tried.cost;
       best = tried.x;
@@ -100,12 +101,13 @@ FitReport::Status status_of(const LeastSquaresReport& solved) {
 FitReport fit_law(const Law& law, const std::vector<Record>& training, const std::string& drive_unit,
                   const IdentifyOptions& options) {
   constexpr int kIterations = 100;
+  constexpr double kTolerance = 1e-6;
   const DataScale scale = data_scale(training, drive_unit);
   const LawUnknowns unknowns(law, scale, drive_unit, options.offset);
   const LawResiduals residuals(unknowns, training, drive_unit, options.offset);
   const LeastSquaresReport solved =
       solve(residuals.problem(), best_start(unknowns, training, drive_unit, options),
-            solver_options(options, kIterations));
+            solver_options(options, kIterations, kTolerance));
   FitReport report;
   report.status = status_of(solved);
   report.message = solved.message;

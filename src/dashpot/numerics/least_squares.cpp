@@ -97,27 +97,40 @@ class WholeProblem final : public ceres::CostFunction {
   std::exception_ptr& failure_;
 };
 
-/// Passes iterations on, and stops Ceres once a callback has thrown.
+/// Unknowns that a bound holds at x (a fixed unknown is held by both).
+std::vector<bool> held_by_bounds(const LeastSquaresProblem& problem, const std::vector<double>& x) {
+  std::vector<bool> held(x.size());
+  for (std::size_t k = 0; k < x.size(); ++k) held[k] = x[k] == problem.lower[k] || x[k] == problem.upper[k];
+  return held;
+}
+
+/// Passes iterations on; stops Ceres once a callback has thrown, or when another unknown arrives at a bound.
 class Listener final : public ceres::IterationCallback {
  public:
-  /// `before`: iterations of earlier runs.
-  Listener(const LeastSquaresOptions& options, const int& before, std::exception_ptr& failure)
-      : options_(options), before_(before), failure_(failure) {}
+  Listener(const LeastSquaresProblem& problem, const LeastSquaresOptions& options,
+           const LeastSquaresReport& report, std::exception_ptr& failure)
+      : problem_(problem), options_(options), report_(report), failure_(failure) {}
+
+  void set_held(const std::vector<bool>& held) { held_ = held; }
 
   ceres::CallbackReturnType operator()(const ceres::IterationSummary& summary) override {
     try {
       if (!failure_ && options_.on_iteration)
-        options_.on_iteration(before_ + summary.iteration, summary.cost);
+        options_.on_iteration(report_.iterations + summary.iteration, summary.cost);
     } catch (...) {
       failure_ = std::current_exception();
     }
-    return failure_ ? ceres::SOLVER_ABORT : ceres::SOLVER_CONTINUE;
+    if (failure_) return ceres::SOLVER_ABORT;
+    const bool arrived = held_by_bounds(problem_, report_.x) != held_;
+    return arrived && summary.iteration > 0 ? ceres::SOLVER_TERMINATE_SUCCESSFULLY : ceres::SOLVER_CONTINUE;
   }
 
  private:
+  const LeastSquaresProblem& problem_;
   const LeastSquaresOptions& options_;
-  const int& before_;
+  const LeastSquaresReport& report_;
   std::exception_ptr& failure_;
+  std::vector<bool> held_;
 };
 
 ceres::Solver::Options ceres_options(const LeastSquaresOptions& options, Listener& listener) {
@@ -130,13 +143,6 @@ ceres::Solver::Options ceres_options(const LeastSquaresOptions& options, Listene
   result.logging_type = ceres::SILENT;
   result.callbacks.push_back(&listener);
   return result;
-}
-
-/// Unknowns that a bound holds at x (a fixed unknown is held by both).
-std::vector<bool> held_by_bounds(const LeastSquaresProblem& problem, const std::vector<double>& x) {
-  std::vector<bool> held(x.size());
-  for (std::size_t k = 0; k < x.size(); ++k) held[k] = x[k] == problem.lower[k] || x[k] == problem.upper[k];
-  return held;
 }
 
 /// Runs Ceres from report.x on; `held` unknowns stay where they are.
@@ -163,7 +169,7 @@ void run(const LeastSquaresProblem& problem, const std::vector<bool>& held,
   report.iterations += std::max(0, static_cast<int>(summary.iterations.size()) - 1);
 }
 
-/// Cost and J'J at report.x; rows and columns of fixed unknowns are zero.
+/// Cost, J'J and J'r at report.x; rows and columns of fixed unknowns are zero.
 void describe_end(const WholeProblem& whole, const LeastSquaresProblem& problem, LeastSquaresReport& report) {
   const std::size_t n = report.x.size(), m = problem.residuals;
   std::vector<double> r(m), jacobian(m * n, 0.0);
@@ -177,11 +183,31 @@ void describe_end(const WholeProblem& whole, const LeastSquaresProblem& problem,
   }
   report.cost = 0.5 * std::inner_product(r.begin(), r.end(), r.begin(), 0.0);
   if (!has_jacobian) return;
-  report.normal_matrix.resize(n * n);
-  for (std::size_t a = 0; a < n; ++a)
+  report.normal_matrix.assign(n * n, 0.0);
+  report.gradient.assign(n, 0.0);
+  for (std::size_t a = 0; a < n; ++a) {
+    const double* column = &jacobian[a * m];
+    report.gradient[a] = std::inner_product(column, column + m, r.begin(), 0.0);
     for (std::size_t b = 0; b <= a; ++b)
       report.normal_matrix[a * n + b] = report.normal_matrix[b * n + a] =
-          std::inner_product(&jacobian[a * m], &jacobian[a * m] + m, &jacobian[b * m], 0.0);
+          std::inner_product(column, column + m, &jacobian[b * m], 0.0);
+  }
+}
+
+/// Lets go of unknowns that would lower the cost by leaving their bound, each once. True when there are any.
+bool release(const LeastSquaresProblem& problem, const LeastSquaresReport& report, std::vector<bool>& held,
+             std::vector<bool>& released) {
+  bool any = false;
+  for (std::size_t k = 0; k < held.size() && !report.gradient.empty(); ++k) {
+    const bool inward = report.x[k] == problem.lower[k] ? report.gradient[k] < 0 : report.gradient[k] > 0;
+    if (!held[k] || released[k] || !inward || problem.lower[k] == problem.upper[k]) continue;
+    // The gain that the unknown's own curvature promises must be worth another run.
+    const double curvature = report.normal_matrix[k * held.size() + k];
+    if (report.gradient[k] * report.gradient[k] < 2e-6 * report.cost * curvature) continue;
+    held[k] = false;
+    released[k] = any = true;
+  }
+  return any;
 }
 
 }  // namespace
@@ -197,21 +223,25 @@ LeastSquaresReport solve(const LeastSquaresProblem& problem, std::vector<double>
     report.x[k] = std::clamp(report.x[k], problem.lower[k], problem.upper[k]);
 
   std::exception_ptr failure;
-  Listener listener(options, report.iterations, failure);
+  Listener listener(problem, options, report, failure);
   WholeProblem whole(problem, options, failure);
   ceres::Solver::Options settings = ceres_options(options, listener);
-  std::vector<bool> fixed(report.x.size());
-  for (std::size_t k = 0; k < fixed.size(); ++k) fixed[k] = problem.lower[k] == problem.upper[k];
-  run(problem, fixed, settings, whole, report);
 
-  // Ceres cuts its steps off at the bounds, and then creeps along them: the end goes better without the
-  // unknowns that have arrived at one.
-  const std::vector<bool> held = held_by_bounds(problem, report.x);
-  settings.max_num_iterations -= report.iterations;
-  if (report.converged && held != fixed && settings.max_num_iterations > 0)
+  // Ceres cuts its steps off at the bounds, and then creeps along them. So an unknown that arrives at a bound
+  // is held there and the run goes on without it; at the end those that pull away from theirs are let go.
+  std::vector<bool> held = held_by_bounds(problem, report.x), released(held.size(), false);
+  for (std::size_t k = 0; k < held.size(); ++k) held[k] = problem.lower[k] == problem.upper[k];
+  while (!failure) {
+    settings.max_num_iterations = std::max(1, options.max_iterations - report.iterations);
+    listener.set_held(held);
     run(problem, held, settings, whole, report);
-
-  if (!failure) describe_end(whole, problem, report);
+    const std::vector<bool> now = held_by_bounds(problem, report.x);
+    const bool arrived = now != held;
+    held = now;
+    if (arrived && report.iterations < options.max_iterations) continue;
+    if (!failure) describe_end(whole, problem, report);
+    if (report.iterations >= options.max_iterations || !release(problem, report, held, released)) break;
+  }
   if (failure) std::rethrow_exception(failure);
   if (!std::isfinite(report.cost)) report.message = "the residuals cannot be computed at the start";
   report.converged = report.converged && !report.normal_matrix.empty();

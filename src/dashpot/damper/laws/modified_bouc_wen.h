@@ -96,21 +96,21 @@ static inline int modified_bouc_wen_step(const ModifiedBoucWen* p, const double*
   const double side = push >= p->alpha * z[1] ? 1 : -1;
   const double z0 = side * z[1];
   double low = 0, high = (side * push - p->alpha * z0) / drag;
-  double w = high;
+  double w = high, z1 = z0;
   int k;
   for (k = 0; k < 60; ++k) {
-    const double z1 = modified_bouc_wen_travel(p, z0, w * h);
-    const double excess = drag * w + 0.5 * p->alpha * (z0 + z1) - side * push;
-    const double bend = p->beta + (z1 > 0 ? p->gamma : -p->gamma);
-    double next = w - excess / (drag + 0.5 * p->alpha * h * (p->A - bend * z1 * z1));
+    double excess, bend, next;
+    z1 = modified_bouc_wen_travel(p, z0, w * h);
+    excess = drag * w + 0.5 * p->alpha * (z0 + z1) - side * push;
     if (excess > 0) high = w;
     else low = w;
-    if (!(next >= low && next <= high)) next = 0.5 * (low + high);
-    if (fabs(next - w) <= 1e-13 * high) break;
-    w = next;
+    bend = p->beta + (z1 > 0 ? p->gamma : -p->gamma);
+    next = w - excess / (drag + 0.5 * p->alpha * h * (p->A - bend * z1 * z1));
+    if (fabs(next - w) <= 1e-12 * high) break;
+    w = next >= low && next <= high ? next : 0.5 * (low + high);
   }
   z[0] += h * (mean_v - side * w);
-  z[1] = side * modified_bouc_wen_travel(p, z0, w * h);
+  z[1] = side * z1;
   return 1;
 }
 
