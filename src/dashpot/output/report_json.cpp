@@ -70,8 +70,8 @@ Value fit_json(const FitReport& fit) {
 Value model_json(const RankedModel& model, const std::vector<std::string>& folds) {
   Value fold_fits = Value::array();
   for (std::size_t i = 0; i < model.fold_fits.size(); ++i) {
-    Value fit = Value::object({{"fold", i < folds.size() ? folds[i] : ""}});
-    for (const auto& [key, value] : fit_json(model.fold_fits[i]).members()) fit.add(key, value);
+    Value fit = fit_json(model.fold_fits[i]);
+    fit.add("fold", i < folds.size() ? folds[i] : "");
     fold_fits.push_back(std::move(fit));
   }
   const auto& fitted = model.fit.model;

@@ -47,7 +47,7 @@ std::vector<std::string> ranking_row(const RankedModel& model) {
 
 std::string interval_text(const FittedParameter& p) {
   if (p.fixed) return "fixed";
-  return "[" + number_text(p.low, 4) + ", " + number_text(p.high, 4) + "]";
+  return fmt::format("[{}, {}]", number_text(p.low, 4), number_text(p.high, 4));
 }
 
 std::string remark(const FittedParameter& p) {
@@ -57,7 +57,7 @@ std::string remark(const FittedParameter& p) {
 
 std::string markdown_row(const std::vector<std::string>& cells) {
   std::string row = "|";
-  for (const std::string& cell : cells) row += " " + markdown_cell(cell) + " |";
+  for (const std::string& cell : cells) row += fmt::format(" {} |", markdown_cell(cell));
   return row + "\n";
 }
 
@@ -80,11 +80,11 @@ std::string markdown_model(const RankedModel& model) {
     for (const FittedParameter& p : model.fit.parameters) {
       const std::string remarks = remark(p);
       text += markdown_row({p.name, number_text(p.value, 5), interval_text(p), p.unit,
-                            p.meaning + (remarks.empty() ? "" : " (" + remarks + ")")});
+                            p.meaning + (remarks.empty() ? "" : fmt::format(" ({})", remarks))});
     }
     text += "\n";
   }
-  for (const std::string& warning : model.fit.warnings) text += "* " + markdown_cell(warning) + "\n";
+  for (const std::string& warning : model.fit.warnings) text += fmt::format("* {}\n", markdown_cell(warning));
   text += "\n| Left-out record | ESR % | RMSE N | Fit % | Offset N |\n|---|---:|---:|---:|---:|\n";
   for (const RecordResult& r : model.left_out.records)
     text += markdown_row({r.record + (r.diverged_at ? " (diverged)" : ""), percent_text(r.metrics.esr),
@@ -106,14 +106,20 @@ constexpr MetricColumn kMetricColumns[] = {{"rmse_N", &Metrics::rmse},
                                            {"max_error_N", &Metrics::max_error}};
 
 std::string csv_line(const RankedModel& model, const RecordResult& record, bool left_out) {
-  std::string line = csv_field(model.name) + "," + csv_field(record.record) + "," +
-                     csv_field(record.condition) + "," +
-                     (record.drive_level ? format_exact(*record.drive_level) : "") + "," +
-                     (left_out ? "yes" : "no") + "," + std::to_string(record.metrics.samples);
-  for (const auto& [name, member] : kMetricColumns) line += "," + format_exact(record.metrics.*member);
-  return line + "," + format_exact(record.metrics_without_offset.esr) + "," + format_exact(record.offset) +
-         "," + format_exact(record.energy_error) + "," +
-         (record.diverged_at ? format_exact(*record.diverged_at) : "") + "\n";
+  const auto optional_text = [](const std::optional<double>& value) {
+    return value ? format_exact(*value) : std::string();
+  };
+  std::vector<std::string> fields = {csv_field(model.name),
+                                     csv_field(record.record),
+                                     csv_field(record.condition),
+                                     optional_text(record.drive_level),
+                                     left_out ? "yes" : "no",
+                                     std::to_string(record.metrics.samples)};
+  for (const auto& [name, member] : kMetricColumns) fields.push_back(format_exact(record.metrics.*member));
+  for (const double value : {record.metrics_without_offset.esr, record.offset, record.energy_error})
+    fields.push_back(format_exact(value));
+  fields.push_back(optional_text(record.diverged_at));
+  return join(fields, ",") + "\n";
 }
 
 }  // namespace
