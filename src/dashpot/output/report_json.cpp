@@ -18,10 +18,10 @@ Value record_json(const RecordResult& record) {
                         {"drive_level", optional_number(record.drive_level)},
                         {"left_out", record.left_out},
                         {"scored_from", record.time.empty() ? Value() : Value(record.time[first])},
-                        {"offset", record.offset},
+                        {"offset_N", record.offset},
                         {"metrics", to_json(record.metrics)},
                         {"metrics_without_offset", to_json(record.metrics_without_offset)},
-                        {"energy_error", record.energy_error},
+                        {"energy_error_percent", record.energy_error},
                         {"diverged_at", optional_number(record.diverged_at)}});
 }
 
@@ -33,7 +33,7 @@ Value evaluation_json(const Evaluation& evaluation) {
         {{"name", band.name}, {"low", band.low}, {"high", band.high}, {"metrics", to_json(band.metrics)}}));
   return Value::object({{"pooled", to_json(evaluation.pooled)},
                         {"pooled_without_offset", to_json(evaluation.pooled_without_offset)},
-                        {"worst_esr", evaluation.worst_esr},
+                        {"worst_esr_percent", evaluation.worst_esr},
                         {"worst_record", evaluation.worst_record},
                         {"diverged", evaluation.diverged},
                         {"bands", std::move(bands)},
@@ -56,12 +56,12 @@ Value fit_json(const FitReport& fit) {
   Value parameters = Value::array(), offsets = Value::array();
   for (const FittedParameter& parameter : fit.parameters) parameters.push_back(parameter_json(parameter));
   for (const auto& [record, offset] : fit.offsets)
-    offsets.push_back(Value::object({{"record", record}, {"offset", offset}}));
+    offsets.push_back(Value::object({{"record", record}, {"offset_N", offset}}));
   return Value::object({{"status", status_name(fit.status)},
                         {"message", fit.message},
                         {"iterations", fit.iterations},
                         {"seconds", fit.seconds},
-                        {"training_rmse", fit.training_rmse},
+                        {"training_rmse_N", fit.training_rmse},
                         {"parameters", std::move(parameters)},
                         {"offsets", std::move(offsets)},
                         {"warnings", Value::array(fit.warnings)}});

@@ -35,6 +35,16 @@ function trim_zeros(text) {
   return text.includes(".") ? text.replace(/\.?0+$/, "") : text;
 }
 
+// As short as the number allows: 0.8, 12, 0.005.
+function short_text(value, digits = 3) {
+  return trim_zeros(number_text(value, digits));
+}
+
+// A number and its unit stay on one line.
+function unbroken(text) {
+  return text.replace(/(\d) (%|N|A|V|mm|Hz)(?![a-z])/g, "$1\u00a0$2");
+}
+
 function seconds_text(seconds) {
   if (!is_number(seconds)) return kMissing;
   return seconds < 1 ? `${number_text(1000 * seconds, 2)} ms` : `${number_text(seconds, 2)} s`;
@@ -48,7 +58,7 @@ function element(tag, attributes = {}, ...children) {
     if (name.startsWith("on")) node.addEventListener(name.slice(2), value);
     else node.setAttribute(name, value === true ? "" : value);
   }
-  node.append(...children.flat().filter((child) => child !== null && child !== undefined));
+  node.append(...children.flat(Infinity).filter((child) => child !== null && child !== undefined));
   return node;
 }
 

@@ -8,7 +8,7 @@ function inspect_head(data) {
 }
 
 function inspect_record_table(data, on_row) {
-  const number = (title, key) => ({title, value: (r) => r[key], text: (r) => number_text(r[key]), numeric: true});
+  const number = (title, key) => ({title, value: (r) => r[key], text: (r) => short_text(r[key]), numeric: true});
   return sortable_table("Records", [
     {title: "Record", value: (r) => r.name}, {title: "Condition", value: (r) => r.condition},
     number(`Drive ${data.dataset.drive_unit}`, "drive_level"), {title: "Samples", value: (r) => r.samples, numeric: true},
@@ -22,7 +22,7 @@ function inspect_record_table(data, on_row) {
 function readings_table(data) {
   return sortable_table("Columns, as they were understood", [
     {title: "File", value: (r) => r.file}, {title: "Column", value: (r) => r.column}, {title: "Channel", value: (r) => r.channel || kMissing},
-    {title: "Unit", value: (r) => r.unit}, {title: "Factor to SI", value: (r) => r.factor, text: (r) => number_text(r.factor, 6), numeric: true},
+    {title: "Unit", value: (r) => r.unit}, {title: "Factor to SI", value: (r) => r.factor, text: (r) => short_text(r.factor, 6), numeric: true},
     {title: "Basis", value: (r) => r.basis}], data.readings);
 }
 

@@ -7,8 +7,7 @@ const kPadding = 0.04;
 const all_plots = [];
 
 class Plot {
-  // `make_spec` is asked again when the theme changes, since colours are part of a spec.
-  constructor(title, note = null) {
+  constructor(title, note = null, help = null) {
     this.hidden = new Set();
     this.legend = element("div", {class: "legend"});
     this.reset_button = element("button", {type: "button", class: "reset", hidden: true, onclick: () => this.reset()},
@@ -19,12 +18,14 @@ class Plot {
     this.canvas.append(this.readout);
     this.node = element("figure", {class: "plot"},
       element("figcaption", {}, element("h3", {}, title), this.reset_button),
-      this.legend, this.canvas, note ? element("p", {class: "note"}, note) : null);
+      this.legend, this.canvas, note ? element("p", {class: "note"}, note) : null,
+      help ? element("p", {class: "note help"}, help) : null);
     this.title = title;
     new ResizeObserver(() => this.resize()).observe(this.canvas);
     all_plots.push(this);
   }
 
+  // `make_spec` is asked again when the theme changes, since colours are part of a spec.
   show(make_spec) {
     this.make_spec = make_spec;
     this.view = null;
@@ -105,8 +106,9 @@ class Plot {
 
   on_scale() {
     if (!this.u || this.u.scales.y.min === null) return;
-    const view = this.present_view();
-    const zoomed = ["x", "y"].some((key) => view[key].some((v, i) => Math.abs(v - this.full[key][i]) > 1e-9 * (this.full[key][1] - this.full[key][0])));
+    const view = this.present_view(), {full} = this;
+    const zoomed = ["x", "y"].some((key) => view[key].some((edge, i) =>
+      Math.abs(edge - full[key][i]) > 1e-9 * (full[key][1] - full[key][0])));
     this.view = zoomed ? view : null;
     this.reset_button.hidden = !zoomed;
   }

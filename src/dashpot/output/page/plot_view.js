@@ -34,8 +34,16 @@ function scaled(view, factor) {
 function category_ticks(axis) {
   if (!axis.values) return {values: (_, ticks) => ticks.map(tick_text(ticks))};
   return {
-    splits: () => axis.values.map((_, i) => i), values: () => axis.values, grid: {show: false}, ticks: {show: false},
+    splits: () => axis.values.map((_, i) => i), values: () => axis.values.map(two_lines), size: 46, grid: {show: false}, ticks: {show: false},
   };
+}
+
+// Words before and after the middle, so that neighbours do not run into each other.
+function two_lines(text) {
+  const breaks = [...text.matchAll(/ /g)].map(({index}) => index);
+  if (text.length < 12 || !breaks.length) return text;
+  const middle = breaks.reduce((a, b) => Math.abs(b - text.length / 2) < Math.abs(a - text.length / 2) ? b : a);
+  return `${text.slice(0, middle)}\n${text.slice(middle + 1)}`;
 }
 
 // As many decimals as the distance of the ticks asks for.
@@ -68,14 +76,14 @@ function nearest_index(u, series, by_x) {
 // Lines of the read-out: every series at the nearest x, or the one nearest point.
 function read_values(u, visible, spec) {
   const name = (axis) => axis.label.replace(/ [(].*/, ""), unit = (axis) => (axis.label.match(/[(](.*)[)]/) ?? ["", ""])[1];
-  const at = (axis, value) => axis.values ? axis.values[Math.round(value)] ?? "" : `${name(axis)} ${number_text(value, 4)} ${unit(axis)}`;
+  const at = (axis, value) => axis.values ? axis.values[Math.round(value)] ?? "" : `${name(axis)} ${short_text(value, 4)} ${unit(axis)}`;
   const listed = visible.filter((series) => !series.silent);
   if (!listed.length) return null;
   if (spec.nearest === "x") {
     const found = listed.map((series) => [series, nearest_index(u, series, true).index]).filter(([, i]) => i >= 0);
     if (!found.length) return null;
     return [[null, at(spec.x, found[0][0].x[found[0][1]])],
-      ...found.map(([series, i]) => [series, `${series.short ?? series.label}: ${number_text(series.y[i], 4)} ${unit(spec.y)}`])];
+      ...found.map(([series, i]) => [series, `${series.short ?? series.label}: ${short_text(series.y[i], 4)} ${unit(spec.y)}`])];
   }
   let best = null;
   for (const series of listed) {

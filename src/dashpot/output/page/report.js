@@ -14,7 +14,7 @@ function closer_section(report, choice, on_choice) {
   return {node, show: () => {
     model.querySelector("select").value = String(report.models.indexOf(choice.model));
     record.querySelector("select").value = choice.record;
-    node.querySelector(".chosen").textContent = chosen_text(choice);
+    node.querySelector(".chosen").textContent = unbroken(chosen_text(choice));
     show_closer(plots, report, choice.model, choice.record);
   }};
 }
@@ -28,8 +28,8 @@ function chosen_text({model, record}) {
   if (!result) return `${model.title} was not judged on ${record}.`;
   if (is_number(result.diverged_at)) return `${model.title} diverged at ${number_text(result.diverged_at)} s.`;
   const {metrics} = result;
-  return `${model.title}: ESR ${percent_text(metrics.esr)} %, RMSE ${number_text(metrics.rmse)} N, fit ${percent_text(metrics.fit)} %, `
-    + `greatest error ${number_text(metrics.max_error)} N, energy error ${percent_text(result.energy_error)} %, offset ${number_text(result.offset)} N.`;
+  return `${model.title}: ESR ${percent_text(metrics.esr_percent)} %, RMSE ${number_text(metrics.rmse_N)} N, fit ${percent_text(metrics.fit_percent)} %, `
+    + `greatest error ${number_text(metrics.max_error_N)} N, energy error ${percent_text(result.energy_error_percent)} %, offset ${number_text(result.offset_N)} N.`;
 }
 
 function start_report(report) {

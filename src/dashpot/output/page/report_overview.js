@@ -10,7 +10,7 @@ function heat_map(report, model) {
     const here = records.filter((one) => (one.condition || one.record) === condition && key(one) === level);
     if (!here.length) return element("td", {class: "none"}, kMissing);
     if (here.some(({diverged_at}) => is_number(diverged_at))) return element("td", {class: "heat diverged", title: names(here)}, "diverged");
-    const esr = here.reduce((sum, {metrics}) => sum + metrics.esr, 0) / here.length;
+    const esr = here.reduce((sum, {metrics}) => sum + metrics.esr_percent, 0) / here.length;
     const node = element("td", {class: "heat", title: names(here)}, percent_text(esr));
     node.style.setProperty("--heat", `${heat_share(esr)}%`);
     return node;
@@ -20,7 +20,7 @@ function heat_map(report, model) {
   return element("div", {class: "table-frame", tabindex: 0, role: "region", "aria-label": "ESR by condition and drive"},
     element("table", {class: "heat-map"}, element("caption", {}, `ESR in %, ${model.title}`),
       element("thead", {}, element("tr", {}, element("th", {scope: "col"}, "Condition"),
-        levels.map((level) => element("th", {scope: "col", class: "number"}, is_number(level) ? `${number_text(level)} ${drive_unit}` : level)))),
+        levels.map((level) => element("th", {scope: "col", class: "number"}, is_number(level) ? `${short_text(level)} ${drive_unit}` : level)))),
       element("tbody", {}, conditions.map((condition) => element("tr", {}, element("th", {scope: "row"}, condition),
         levels.map((level) => cell(condition, level)))))));
 }
@@ -47,8 +47,10 @@ function peak_spec(report, model) {
   return {x: {label: "Peak velocity (m/s)"}, y: {label: "Peak force (N)"}, height: 320, series: sorted.flatMap((group, index) => {
     const points = group.points.sort((a, b) => a.x - b.x), tint = level_colour(index, sorted.length);
     const common = {label: group.label, x: points.map(({x}) => x), colour: tint, names: points.map(({name}) => name)};
+    // The line is broken between compression and extension: nothing was judged in between.
+    const line = [...points.filter(({x}) => x < 0), {x: NaN, modelled: NaN}, ...points.filter(({x}) => x >= 0)];
     return [
-      {...common, y: points.map(({modelled}) => modelled), width: 1.5, dash: [5, 3], unlisted: true, silent: true},
+      {...common, x: line.map(({x}) => x), y: line.map(({modelled}) => modelled), width: 1.5, dash: [5, 3], unlisted: true, silent: true},
       {...common, y: points.map(({measured}) => measured), kind: "points", short: `measured, ${group.label}`},
       {...common, y: points.map(({modelled}) => modelled), kind: "points", hollow: true, radius: 4.5, short: `modelled, ${group.label}`, unlisted: true},
     ];
@@ -64,7 +66,7 @@ function bands_spec(report) {
     series: models.map((model) => ({
       label: model.title, kind: "bars", bar_width: width, colour: series_colour(report.models.indexOf(model)),
       x: names.map((_, i) => i + (models.indexOf(model) - (models.length - 1) / 2) * width),
-      y: model.left_out.bands.map(({metrics}) => metrics.rmse),
+      y: model.left_out.bands.map(({metrics}) => metrics.rmse_N),
     }))};
 }
 

@@ -9,11 +9,14 @@ function traces(report, model, record_name) {
     drive: series_of(record.drive), measured: series_of(record.measured), modelled: series_of(record.modelled[model.name])};
 }
 
+const kHelp = "Every plot: drag to zoom, Shift and drag to move, double-click to reset; with the keyboard + − arrows 0.";
+const kLoopNote = "Lines: measured. Dashes: modelled.";
+
 function closer_plots(report) {
   return {
-    force: new Plot("Force in time", "Drag to zoom, Shift and drag to move, double-click to reset; with the keyboard: + − arrows 0. The shaded part is simulated but not scored."),
-    force_velocity: new Plot("Force against velocity"),
-    force_displacement: new Plot("Force against displacement"),
+    force: new Plot("Force in time", "The shaded part is simulated but not scored.", kHelp),
+    force_velocity: new Plot("Force against velocity", kLoopNote),
+    force_displacement: new Plot("Force against displacement", kLoopNote),
     residual: new Plot("Residual in time"),
     histogram: new Plot("Distribution of the residual"),
     autocorrelation: new Plot("Autocorrelation of the residual",
@@ -33,9 +36,11 @@ function show_closer(plots, report, model, record_name) {
 }
 
 function force_spec(own) {
+  const outcome = own && (is_number(own.result.diverged_at) ? `diverged at ${short_text(own.result.diverged_at)} s`
+    : `fit ${percent_text(own.result.metrics.fit_percent)} %`);
   const series = own ? [
     {label: "measured", x: own.time, y: own.measured, colour: colour("measured"), width: 2.2},
-    {label: `modelled, fit ${percent_text(own.result.metrics.fit)} %`, x: own.time, y: own.modelled, colour: colour("modelled"), width: 1.4},
+    {label: `modelled, ${outcome}`, short: "modelled", x: own.time, y: own.modelled, colour: colour("modelled"), width: 1.4},
   ] : [];
   return {x: {label: "Time (s)"}, y: {label: "Force (N)"}, nearest: "x", height: 340, series, shade_until: own?.result.scored_from};
 }
@@ -62,7 +67,7 @@ function loop_spec(report, model, record_name, axis) {
 }
 
 function drive_text(report, {record, drive_level}) {
-  return is_number(drive_level) ? `${number_text(drive_level)} ${report.dataset.drive_unit}` : record;
+  return is_number(drive_level) ? `${short_text(drive_level)} ${report.dataset.drive_unit}` : record;
 }
 
 function residual_spec(own) {

@@ -9,7 +9,7 @@ function report_head(report) {
     element("h1", {}, report.dataset.name),
     element("p", {class: "under"}, `${counted(report.dataset.records, "record")} · ${counted(report.models.length, "model")} · `
       + `${report.protocol_title} · ${report.date}`),
-    element("p", {class: "verdict"}, report.verdict),
+    element("p", {class: "verdict"}, unbroken(report.verdict)),
     best && best.left_out.records.length ? key_figures(best) : null);
 }
 
@@ -18,14 +18,14 @@ function counted(count, noun) {
 }
 
 function key_figures(best) {
-  const {pooled, worst_esr, worst_record} = best.left_out;
+  const {pooled, worst_esr_percent, worst_record} = best.left_out;
   const figure = (value, unit, label) => element("div", {class: "figure"},
     element("div", {class: "value"}, value, element("small", {}, unit)), element("div", {class: "label"}, label));
   return element("div", {class: "figures", "aria-label": `Key figures of ${best.title}`},
-    figure(percent_text(pooled.esr), "%", "of the force's power left unexplained (ESR)"),
-    figure(number_text(pooled.rmse), "N", "RMS error, free run, left-out records"),
-    figure(percent_text(pooled.fit), "%", "fit"),
-    figure(percent_text(worst_esr), "%", `ESR of the worst record, ${worst_record}`));
+    figure(percent_text(pooled.esr_percent), "%", "of the force's power left unexplained (ESR)"),
+    figure(number_text(pooled.rmse_N), "N", "RMS error, free run, left-out records"),
+    figure(percent_text(pooled.fit_percent), "%", "fit: 100 (1 − √ESR)"),
+    figure(percent_text(worst_esr_percent), "%", unbroken(`ESR of the worst record, ${worst_record}`)));
 }
 
 function ranking_columns(report) {
@@ -33,15 +33,15 @@ function ranking_columns(report) {
   const percent = (title, value, hint) => ({title, value, text: (m) => percent_text(value(m)), numeric: true, hint});
   return [
     {title: "Model", value: (m) => m.title, text: model_cell},
-    percent("ESR %", left_out("esr"), "Error power over force power, left-out records, one offset per record"),
-    {title: "RMSE N", value: left_out("rmse"), text: (m) => number_text(left_out("rmse")(m)), numeric: true, hint: "Root mean square error"},
-    {...percent("Fit %", left_out("fit"), "100 (1 − √ESR)"), ascending: false},
+    percent("ESR %", left_out("esr_percent"), "Error power over force power, left-out records, one offset per record"),
+    {title: "RMSE N", value: left_out("rmse_N"), text: (m) => number_text(left_out("rmse_N")(m)), numeric: true, hint: "Root mean square error"},
+    {...percent("Fit %", left_out("fit_percent"), "100 (1 − √ESR)"), ascending: false},
     {title: "R²", value: left_out("r2"), text: (m) => fixed_text(left_out("r2")(m), 3), numeric: true, ascending: false, hint: "1 − ESR"},
-    percent("RMS / half-span %", left_out("rms_half_span"), "200 RMSE / (Fmax − Fmin)"),
-    percent("Worst ESR %", (m) => m.left_out.worst_esr, "ESR of the worst left-out record"),
+    percent("RMS / half-span %", left_out("rms_half_span_percent"), "200 RMSE / (Fmax − Fmin)"),
+    percent("Worst ESR %", (m) => m.left_out.worst_esr_percent, "ESR of the worst left-out record"),
     {title: "Worst record", value: (m) => m.left_out.worst_record, hint: "Left-out record with the greatest ESR"},
-    percent("ESR % without offset", (m) => m.left_out.pooled_without_offset.esr, "The model as it stands in its file"),
-    percent("Training ESR %", (m) => m.training.pooled.esr, "The final fit, on the records that it was fitted on"),
+    percent("ESR % without offset", (m) => m.left_out.pooled_without_offset.esr_percent, "The model as it stands in its file"),
+    percent("Training ESR %", (m) => m.training.pooled.esr_percent, "The final fit, on the records that it was fitted on"),
     {title: "Parameters", value: (m) => m.parameter_count, numeric: true, hint: "Free numbers of the model"},
     {title: "ns / step", value: (m) => m.nanoseconds_per_step, text: (m) => number_text(m.nanoseconds_per_step, 2), numeric: true, hint: "Time of one step on this machine"},
     {title: "Fit time", value: (m) => m.seconds, text: (m) => seconds_text(m.seconds), numeric: true, hint: "All folds and the final fit"},

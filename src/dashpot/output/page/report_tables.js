@@ -21,12 +21,12 @@ function offset_table(model) {
   const percent = (title, value) => ({title, value, text: (r) => percent_text(value(r)), numeric: true});
   return sortable_table(`Left-out records, ${model.title}`, [
     {title: "Record", value: (r) => r.record},
-    percent("ESR %", (r) => r.metrics.esr),
-    {title: "RMSE N", value: (r) => r.metrics.rmse, text: (r) => number_text(r.metrics.rmse), numeric: true},
-    {...percent("Fit %", (r) => r.metrics.fit), ascending: false},
-    {title: "Offset N", value: (r) => r.offset, text: (r) => number_text(r.offset), numeric: true, hint: "Added to the model's force: the zero of the load cell, gas"},
-    percent("ESR % without offset", (r) => r.metrics_without_offset.esr),
-    percent("Energy error %", (r) => r.energy_error),
+    percent("ESR %", (r) => r.metrics.esr_percent),
+    {title: "RMSE N", value: (r) => r.metrics.rmse_N, text: (r) => number_text(r.metrics.rmse_N), numeric: true},
+    {...percent("Fit %", (r) => r.metrics.fit_percent), ascending: false},
+    {title: "Offset N", value: (r) => r.offset_N, text: (r) => number_text(r.offset_N), numeric: true, hint: "Added to the model's force: the zero of the load cell, gas"},
+    percent("ESR % without offset", (r) => r.metrics_without_offset.esr_percent),
+    percent("Energy error %", (r) => r.energy_error_percent),
     {title: "Diverged at", value: (r) => r.diverged_at, text: (r) => is_number(r.diverged_at) ? `${number_text(r.diverged_at)} s` : kMissing, numeric: true},
   ], rows, {row_class: (r) => is_number(r.diverged_at) ? "diverged" : null});
 }
