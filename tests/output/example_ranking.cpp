@@ -113,7 +113,8 @@ void diverge(RecordResult& result) {
 
 std::vector<BandResult> bands_of(const std::vector<RecordResult>& records) {
   constexpr double kEdges[] = {0, 0.02, 0.08, 0.16, 0.5};
-  const char* names[] = {"|v| < 5 % (pre-yield)", "low", "middle", "high"};
+  const char* names[] = {"pre-yield, |v| below 5 % of the largest", "low, 5-25 %", "middle, 25-60 %",
+                         "high, above 60 %"};
   std::vector<BandResult> bands;
   for (std::size_t band = 0; band < 4; ++band) {
     ErrorSums sums;

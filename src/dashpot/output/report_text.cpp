@@ -15,22 +15,23 @@ std::string seconds_text(double seconds) {
   return seconds < 1 ? number_text(1000 * seconds, 2) + " ms" : number_text(seconds, 2) + " s";
 }
 
-std::string name_with_marks(const RankedModel& model) {
-  std::string name = display_name(model);
-  if (model.left_out.diverged) name += fmt::format(" (diverged on {})", model.left_out.diverged);
-  if (model.fit.status == FitReport::Status::Failed) name += " (fit failed)";
-  return name;
+std::string status_text(const RankedModel& model) {
+  if (model.left_out.diverged) return fmt::format("{} diverged", model.left_out.diverged);
+  if (model.fit.status == FitReport::Status::Failed) return "fit failed";
+  return model.fit.status == FitReport::Status::IterationLimit ? "limit" : "";
 }
 
-const std::vector<TextColumn> kRankingColumns = {
-    {"Model", false, 0, true}, {"ESR %", true},         {"RMSE N", true},  {"Fit %", true},
-    {"R2", true, 6},           {"rms/half %", true, 4}, {"Worst %", true}, {"Worst record", false, 5, true},
-    {"No offs. %", true, 1},   {"Train %", true, 2},    {"Par.", true, 3}, {"ns/step", true, 7},
-    {"Time", true, 3}};
+const std::vector<TextColumn> kRankingColumns = {{"Model", false, 0, true}, {"ESR %", true},
+                                                 {"RMSE N", true},          {"Fit %", true},
+                                                 {"R2", true, 6},           {"rms/half %", true, 4},
+                                                 {"Worst %", true},         {"Worst record", false, 5, true},
+                                                 {"No offs. %", true, 1},   {"Train %", true, 2},
+                                                 {"Par.", true, 3},         {"ns/step", true, 7},
+                                                 {"Time", true, 3},         {"Status"}};
 
 std::vector<std::string> ranking_row(const RankedModel& model) {
   const Metrics& pooled = model.left_out.pooled;
-  return {name_with_marks(model),
+  return {model.name,
           percent_text(pooled.esr),
           number_text(pooled.rmse),
           percent_text(pooled.fit),
@@ -42,7 +43,8 @@ std::vector<std::string> ranking_row(const RankedModel& model) {
           percent_text(model.training.pooled.esr),
           model.fit.model ? std::to_string(model.fit.model->parameter_count()) : "-",
           number_text(model.nanoseconds_per_step, 3),
-          seconds_text(model.seconds)};
+          seconds_text(model.seconds),
+          status_text(model)};
 }
 
 std::string interval_text(const FittedParameter& p) {
@@ -109,12 +111,9 @@ std::string csv_line(const RankedModel& model, const RecordResult& record, bool 
   const auto optional_text = [](const std::optional<double>& value) {
     return value ? format_exact(*value) : std::string();
   };
-  std::vector<std::string> fields = {csv_field(model.name),
-                                     csv_field(record.record),
-                                     csv_field(record.condition),
-                                     optional_text(record.drive_level),
-                                     left_out ? "yes" : "no",
-                                     std::to_string(record.metrics.samples)};
+  std::vector<std::string> fields = {csv_field(model.name),       csv_field(record.record),
+                                     csv_field(record.condition), optional_text(record.drive_level),
+                                     left_out ? "yes" : "no",     std::to_string(record.metrics.samples)};
   for (const auto& [name, member] : kMetricColumns) fields.push_back(format_exact(record.metrics.*member));
   for (const double value : {record.metrics_without_offset.esr, record.offset, record.energy_error})
     fields.push_back(format_exact(value));

@@ -8,7 +8,7 @@ namespace dashpot {
 
 namespace {
 
-constexpr std::size_t kGap = 2, kShortest = 12;
+constexpr std::size_t kGap = 2, kShortest = 20;
 
 /// Characters, not bytes: continuation bytes of UTF-8 take no room.
 std::size_t shown_width(const std::string& text) {

@@ -9,7 +9,7 @@ struct TextColumn {
   std::string title;
   bool numeric = false;  ///< right-aligned
   int priority = 0;      ///< the greatest go first when the table is too wide; 0 always stays
-  bool elastic = false;  ///< may be shortened, to 12 characters
+  bool elastic = false;  ///< may be shortened, to 20 characters
 };
 
 /// Aligned columns, two spaces apart, with a rule below the titles, within `width` characters where
