@@ -51,16 +51,17 @@ using Series = std::vector<double> RecordResult::*;
 /// One panel: loops of the records of one condition; lines are measured, dashes modelled.
 void loop_panel(GnuplotFigure& figure, const std::vector<const RecordResult*>& records,
                 const std::string& unit, Series axis) {
-  std::vector<std::string> curves;
+  const std::string x = axis == &RecordResult::displacement ? "(1000*$1)" : "1";  // mm are shorter in print
+  std::vector<std::string> measured, modelled;
   for (std::size_t i = 0; i < records.size(); ++i) {
     const std::string data = add_curves(figure, *records[i], records[i]->*axis);
-    const std::string colour = level_colour(i, records.size());
-    curves.push_back(fmt::format("{} using 1:2 with lines lw 1.6 lc rgb '{}' title {}", data, colour,
-                                 gnuplot_quoted(drive_label(*records[i], unit))));
-    curves.push_back(fmt::format("{} using 1:3 with lines lw 1.2 dt (6,4) lc rgb '#1c2127' {}", data,
-                                 i == 0 ? "title 'model'" : "notitle"));
+    measured.push_back(fmt::format("{} using {}:2 with lines lw 1.8 lc rgb '{}' title {}", data, x,
+                                   level_colour(i, records.size()),
+                                   gnuplot_quoted(drive_label(*records[i], unit))));
+    modelled.push_back(fmt::format("{} using {}:3 with lines lw 0.9 dt (8,5) lc rgb '#1c2127' {}", data, x,
+                                   i == 0 ? "title 'model'" : "notitle"));
   }
-  figure.command("plot " + join(curves, ", "));
+  figure.command("plot " + join(measured, ", ") + ", " + join(modelled, ", "));
 }
 
 std::vector<std::vector<const RecordResult*>> by_condition(const Evaluation& evaluation) {
@@ -78,7 +79,7 @@ std::vector<std::vector<const RecordResult*>> by_condition(const Evaluation& eva
   return groups;
 }
 
-/// Panels of all conditions, three abreast, at most twelve.
+/// Panels of all conditions, up to three abreast, at most twelve.
 std::vector<fs::path> loops(const RankedModel& model, const std::string& unit, Series axis,
                             const fs::path& folder) {
   auto groups = by_condition(model.left_out);
@@ -88,13 +89,13 @@ std::vector<fs::path> loops(const RankedModel& model, const std::string& unit, S
   });
   if (groups.empty()) return {};
   groups.resize(std::min<std::size_t>(groups.size(), 12));
-  const std::size_t columns = std::min<std::size_t>(3, groups.size());
+  const std::size_t columns = groups.size() == 4 ? 2 : std::min<std::size_t>(3, groups.size());
   const std::size_t rows = (groups.size() + columns - 1) / columns;
   const bool is_velocity = axis == &RecordResult::velocity;
-  GnuplotFigure figure(6.5 * static_cast<double>(columns) + 1, 5.8 * static_cast<double>(rows));
+  GnuplotFigure figure(6.5 * static_cast<double>(columns) + 1, 6.2 * static_cast<double>(rows));
   figure.command(fmt::format("set multiplot layout {},{}", rows, columns));
-  figure.command("set key top left reverse Left width -2\nset ylabel 'Force (N)' offset 1,0");
-  figure.command(is_velocity ? "set xlabel 'Velocity (m/s)'" : "set xlabel 'Displacement (m)'");
+  figure.command("set ylabel 'Force (N)' offset 1,0");
+  figure.command(is_velocity ? "set xlabel 'Velocity (m/s)'" : "set xlabel 'Displacement (mm)'");
   for (const auto& group : groups) {
     const RecordResult& first = *group.front();
     figure.command("set title " + gnuplot_quoted(first.condition.empty() ? first.record : first.condition) +
@@ -109,7 +110,7 @@ std::vector<fs::path> force_trace(const RankedModel& model, const RecordResult& 
                                   const fs::path& folder) {
   GnuplotFigure figure(16, 7);
   const std::string data = add_curves(figure, record, record.time);
-  figure.command("set key top right horizontal outside\nset xlabel 'Time (s)'\nset ylabel 'Force (N)'");
+  figure.command("set xrange [] noextend\nset xlabel 'Time (s)'\nset ylabel 'Force (N)'");
   figure.command("set title " + gnuplot_quoted(record.record) + " noenhanced");
   figure.command(fmt::format(
       "plot {0} using 1:2 with lines lw 2 lc rgb '{1}' title 'measured', "
@@ -135,7 +136,8 @@ std::vector<fs::path> ranking_bars(const Ranking& ranking, const fs::path& folde
   const std::string data = figure.data({places, errors});
   figure.command("set ytics (" + tics + ") scale 0 noenhanced\nset yrange [" +
                  fmt::format("{}:-0.6]", static_cast<double>(places.size()) - 0.4));
-  figure.command("unset key\nset grid noytics\nset xlabel 'Left-out error, ESR (%)'\nset rmargin 8");
+  figure.command(
+      "unset key\nset grid noytics\nset xlabel 'Left-out error, ESR (%)'\nset rmargin 8\nset bmargin 3.2");
   figure.command(
       fmt::format("set xrange [0:*]\nplot {0} using (0.5*$2):1:(0.5*$2):(0.34) with boxxyerror lc rgb '{1}', "
                   "{0} using 2:1:(sprintf('%.3g',$2)) with labels left offset 0.5,0",

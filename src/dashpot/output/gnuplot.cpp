@@ -53,7 +53,9 @@ constexpr const char* kStyle = R"(set encoding utf8
 set border 3 lc rgb '#5b6570' lw 0.8
 set tics nomirror out scale 0.6 textcolor rgb '#1c2127'
 set grid back lc rgb '#e4e7ea' lw 0.6
-set key noenhanced samplen 2.2 spacing 1.15
+set key noenhanced bmargin center horizontal reverse Left samplen 1.4 width -1
+set bmargin 5.2
+set xlabel offset 0,0.5
 set style fill solid 0.85 noborder
 set datafile missing '?'
 set minussign
@@ -92,7 +94,7 @@ std::vector<fs::path> GnuplotFigure::write(const fs::path& folder, const std::st
       "set terminal svg size {:.0f},{:.0f} font 'FreeSans,11' background rgb 'white'\nset output {}\n}} else "
       "{{\n"
       "set terminal pdfcairo size {:.2f}cm,{:.2f}cm font 'FreeSans,8' linewidth 1\nset output {}\n}}\n",
-      width_ * 40, height_ * 40, gnuplot_quoted(svg.string()), width_, height_, gnuplot_quoted(pdf.string()));
+      width_ * 46, height_ * 46, gnuplot_quoted(svg.string()), width_, height_, gnuplot_quoted(pdf.string()));
   text += commands_ + "unset output\n}\n";
   write_file(script, text);
   const std::string printed = run_gnuplot(script);

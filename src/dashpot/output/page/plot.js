@@ -1,6 +1,6 @@
 // One plot for everything on the page: uPlot in its x-y mode with our axes, zoom, read-out and legend.
 //
-// spec = {x: {label, values?}, y: {label, zero?}, series: [{label, x, y, kind, colour, ...}],
+// spec = {x: {label, values?, ticks?, range?}, y: {label, zero?}, series: [{label, x, y, kind, colour, ...}],
 //         shade_until?, height?, nearest?: "x" | "point", empty?}
 
 const kPadding = 0.04;

@@ -34,16 +34,8 @@ function scaled(view, factor) {
 function category_ticks(axis) {
   if (!axis.values) return {values: (_, ticks) => ticks.map(tick_text(ticks))};
   return {
-    splits: () => axis.values.map((_, i) => i), values: () => axis.values.map(two_lines), size: 46, grid: {show: false}, ticks: {show: false},
+    splits: () => axis.values.map((_, i) => i), values: () => axis.ticks ?? axis.values, size: 46, grid: {show: false}, ticks: {show: false},
   };
-}
-
-// Words before and after the middle, so that neighbours do not run into each other.
-function two_lines(text) {
-  const breaks = [...text.matchAll(/ /g)].map(({index}) => index);
-  if (text.length < 12 || !breaks.length) return text;
-  const middle = breaks.reduce((a, b) => Math.abs(b - text.length / 2) < Math.abs(a - text.length / 2) ? b : a);
-  return `${text.slice(0, middle)}\n${text.slice(middle + 1)}`;
 }
 
 // As many decimals as the distance of the ticks asks for.
