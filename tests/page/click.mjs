@@ -50,9 +50,16 @@ async function open(name, options = {}) {
 const plot = (page, title) => page.locator("figure.plot", {has: page.getByRole("heading", {name: title, exact: true})});
 const first_model = (page) => page.locator("#ranking tbody tr .model-name").first().textContent();
 
-// Whether anything but background was drawn.
-const has_ink = (figure) => figure.locator("canvas").evaluate((canvas) =>
-  canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data.some((value, i) => i % 4 === 3 && value > 0));
+// Whether a curve was drawn: axes and grid are grey, curves are coloured.
+const has_ink = (figure) => figure.locator("canvas").evaluate((canvas) => {
+  const {data} = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+  let coloured = 0;
+  for (let i = 0; i < data.length; i += 4) {
+    const rgb = [data[i], data[i + 1], data[i + 2]];
+    if (data[i + 3] > 128 && Math.max(...rgb) - Math.min(...rgb) > 60) coloured++;
+  }
+  return coloured > 150;
+});
 
 async function ranking(page) {
   assert.match(await page.locator(".verdict").textContent(), /Modified Bouc-Wen.*worst record/);
