@@ -29,8 +29,8 @@ std::string csv_report(const ReportInput& input);
 std::string ranking_table(const Ranking& ranking, int width = 100);
 std::string parameter_table(const FitReport& fit);
 
-/// Figures for print, as SVG and PDF, drawn by gnuplot into `folder`. Throws Error when gnuplot is
-/// missing or fails. Returns the paths.
+/// Figures for print, as SVG and PDF, drawn by gnuplot into `folder`; each script with its data stays beside
+/// its figures. Throws Error when gnuplot is missing or fails. Returns the paths of the figures.
 std::vector<std::filesystem::path> write_figures(const ReportInput& input,
                                                  const std::filesystem::path& folder);
 

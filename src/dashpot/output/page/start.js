@@ -1,0 +1,10 @@
+// Reads the page's data and builds the page.
+
+function start() {
+  const data = JSON.parse(document.getElementById("data").textContent);
+  start_theme();
+  (data.page === "inspect" ? start_inspect : start_report)(data);
+  on_theme_change(redraw_all_plots);
+  document.documentElement.dataset.ready = "true";
+}
+start();

@@ -1,0 +1,13 @@
+#pragma once
+#include "dashpot/output/report.h"
+
+namespace dashpot {
+
+/// Name, citation, files and notes of a dataset: what every page shows as provenance.
+Value dataset_json(const Dataset& dataset);
+
+/// Displayed series of all left-out records, packed, and the statistics of every residual.
+Value series_json(const Ranking& ranking);
+Value residuals_json(const Ranking& ranking);
+
+}  // namespace dashpot

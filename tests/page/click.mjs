@@ -1,0 +1,145 @@
+// Opens the example pages from files in headless Chromium and clicks through them.
+// usage: node click.mjs EXAMPLE_PAGES_PROGRAM [FOLDER_FOR_SCREENSHOTS]; exit 77: skipped.
+import assert from "node:assert/strict";
+import {execFileSync} from "node:child_process";
+import {existsSync, mkdtempSync, rmSync} from "node:fs";
+import {tmpdir} from "node:os";
+import {join} from "node:path";
+import {pathToFileURL} from "node:url";
+
+const kChromium = "/usr/bin/chromium";
+const kFlags = ["--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
+  "--disable-background-networking", "--disable-component-update", "--disable-sync"];
+
+function skip(reason) {
+  console.log(`SKIPPED: ${reason}`);
+  process.exit(77);
+}
+
+const [program, screenshots] = process.argv.slice(2);
+const playwright = await import("playwright-core").catch(() => skip("playwright-core is not in node_modules; run 'npm ci --ignore-scripts'"));
+if (!existsSync(kChromium)) skip(`${kChromium} is missing; install chromium`);
+
+const folder = mkdtempSync(join(tmpdir(), "dashpot-page-"));
+execFileSync(program, [folder]);
+const context = await playwright.chromium.launchPersistentContext(join(folder, "profile"),
+  {executablePath: kChromium, args: kFlags, viewport: {width: 1280, height: 900}, colorScheme: "light"});
+
+// A fresh page that fails the test on any script error and on any request that is not its own file.
+async function open(name, options = {}) {
+  const page = await context.newPage();
+  const problems = [];
+  page.on("pageerror", (error) => problems.push(error.stack));
+  page.on("console", (message) => { if (message.type() === "error") problems.push(message.text()); });
+  page.on("request", (request) => { if (!request.url().startsWith("file://")) problems.push(`asked for ${request.url()}`); });
+  if (options.width) await page.setViewportSize({width: options.width, height: 900});
+  await page.emulateMedia({colorScheme: options.scheme ?? "light"});
+  await page.goto(pathToFileURL(join(folder, name)).href);
+  await page.waitForSelector("html[data-ready]");
+  await page.waitForSelector("canvas");
+  return {page, done: async () => {
+    const title = `${name} ${options.scheme ?? "light"} ${options.width ?? ""}`;
+    if (screenshots) await page.screenshot({path: join(screenshots, `${title.trim().replaceAll(" ", "-")}.png`), fullPage: true});
+    const [content, window] = await page.evaluate(() => [document.documentElement.scrollWidth, innerWidth]);
+    assert.ok(content <= window, `${title}: the page is ${content} px wide in a window of ${window}`);
+    assert.deepEqual(problems, [], title);
+    await page.close();
+  }};
+}
+
+const plot = (page, title) => page.locator("figure.plot", {has: page.getByRole("heading", {name: title, exact: true})});
+const first_model = (page) => page.locator("#ranking tbody tr .model-name").first().textContent();
+
+// Whether a curve was drawn: axes and grid are grey, curves are coloured.
+const has_ink = (figure) => figure.locator("canvas").evaluate((canvas) => {
+  const {data} = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+  let coloured = 0;
+  for (let i = 0; i < data.length; i += 4) {
+    const rgb = [data[i], data[i + 1], data[i + 2]];
+    if (data[i + 3] > 128 && Math.max(...rgb) - Math.min(...rgb) > 60) coloured++;
+  }
+  return coloured > 150;
+});
+
+async function ranking(page) {
+  assert.match(await page.locator(".verdict").textContent(), /Modified Bouc-Wen.*worst record/);
+  assert.equal(await first_model(page), "Modified Bouc-Wen (Spencer)");
+  const esr = page.locator("#ranking thead button", {hasText: /^ESR %$/});
+  await esr.click();
+  await esr.click();
+  assert.equal(await first_model(page), "Bingham", "sorted by falling ESR");
+  assert.equal(await page.locator("#ranking th[aria-sort=descending]").count(), 1);
+  assert.match(await page.locator("#ranking").textContent(), /diverged on 1 record/);
+}
+
+async function choosing(page) {
+  await page.locator("#ranking tbody tr", {hasText: "Hyperbolic"}).click();
+  assert.equal(await page.locator("#model").inputValue(), "1", "a click on a row chooses its model");
+  assert.match(await plot(page, "Force in time").locator(".legend").textContent(), /modelled, fit \d+\.\d %/);
+  await page.locator("#model").focus();
+  await page.keyboard.press("ArrowDown");
+  assert.match(await page.locator(".heat-map caption").textContent(), /Bingham/, "the keyboard chooses too");
+  await page.selectOption("#record", "20 mm 2 Hz 1.6 A");
+  assert.match(await page.locator(".chosen").textContent(), /diverged at 1\.5/);
+  assert.equal(await page.locator(".heat.diverged").count(), 1);
+  await page.selectOption("#model", "0");
+  for (const figure of await page.locator("figure.plot").all()) assert.ok(await has_ink(figure), await figure.textContent());
+  assert.equal(await page.locator("figure.plot").count(), 8);
+}
+
+async function zooming(page) {
+  const figure = plot(page, "Force in time"), reset = figure.getByRole("button", {name: "Reset view"});
+  await figure.scrollIntoViewIfNeeded();
+  const {x, y, width, height} = await figure.locator(".u-over").boundingBox();
+  await page.mouse.move(x + 0.5 * width, y + 0.5 * height);
+  assert.match(await figure.locator(".readout").textContent(), /Time 1\.\d+ s.*measured.*modelled/);
+  assert.ok(!await reset.isVisible());
+  await page.mouse.move(x + 0.3 * width, y + 0.3 * height);
+  await page.mouse.down();
+  await page.mouse.move(x + 0.6 * width, y + 0.7 * height, {steps: 4});
+  await page.mouse.up();
+  assert.ok(await reset.isVisible(), "a drag zooms");
+  await reset.click();
+  assert.ok(!await reset.isVisible(), "reset shows everything");
+  await figure.locator(".canvas").focus();
+  await page.keyboard.press("+");
+  assert.ok(await reset.isVisible(), "the keyboard zooms");
+  await page.keyboard.press("0");
+  assert.ok(!await reset.isVisible());
+  const measured = figure.locator(".legend button", {hasText: "measured"});
+  await measured.click();
+  assert.equal(await measured.getAttribute("aria-pressed"), "false");
+  await figure.locator(".legend button", {hasText: "measured"}).click();
+}
+
+async function theme(page) {
+  const paper = () => page.evaluate(() => getComputedStyle(document.body).backgroundColor);
+  assert.equal(await paper(), "rgb(255, 255, 255)");
+  await page.getByRole("button", {name: "Dark"}).click();
+  assert.equal(await paper(), "rgb(20, 23, 27)");
+  await page.reload();
+  await page.waitForSelector("html[data-ready]");
+  assert.equal(await paper(), "rgb(20, 23, 27)", "the choice is remembered");
+  await page.emulateMedia({media: "print"});
+  assert.ok(!await page.locator(".choices").isVisible(), "controls are not printed");
+  await page.emulateMedia({media: "screen"});
+  await page.getByRole("button", {name: "Light"}).click();
+  await page.evaluate(() => localStorage.clear());
+}
+
+try {
+  const report = await open("report.html");
+  for (const step of [ranking, choosing, zooming, theme]) await step(report.page);
+  await report.done();
+  for (const options of [{scheme: "dark"}, {width: 390}]) await (await open("report.html", options)).done();
+
+  const inspect = await open("inspect.html");
+  await inspect.page.selectOption("#record", "1");
+  assert.match(await inspect.page.locator(".warnings").textContent(), /<script>alert/, "text stays text");
+  assert.match(await plot(inspect.page, "Velocity").locator(".legend").textContent(), /derived from displacement/);
+  await inspect.done();
+  console.log("the pages work");
+} finally {
+  await context.close();
+  rmSync(folder, {recursive: true, force: true});
+}
