@@ -34,8 +34,8 @@ struct LeastSquaresReport {
   int iterations = 0;
   double cost = 0;  ///< 0.5 |r|^2; infinity when the residuals cannot be computed at the start
   std::vector<double> x;
-  std::vector<double>
-      normal_matrix;  ///< J'J at the end, row by row, for covariances; empty when there is no J
+  std::vector<double> normal_matrix;  ///< J'J at the end, row by row; empty when there is no J
+  std::vector<double> gradient;       ///< J'r at the end, likewise
 };
 
 /// The start is moved into the bounds first. What the callbacks throw comes out.
