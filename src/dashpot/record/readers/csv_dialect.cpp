@@ -1,0 +1,178 @@
+#include "dashpot/record/readers/csv_dialect.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+
+#include "dashpot/base/error.h"
+#include "dashpot/base/text.h"
+#include "dashpot/base/units.h"
+
+namespace dashpot {
+namespace {
+
+using Cells = std::vector<std::string_view>;
+
+std::string_view strip_comment(std::string_view line) {
+  line = trim(line);
+  while (!line.empty() && (line.front() == '#' || line.front() == '%' || line.front() == '!'))
+    line = trim(line.substr(1));
+  return line;
+}
+
+void drop_trailing_empty(Cells& cells) {
+  while (!cells.empty() && cells.back().empty()) cells.pop_back();
+}
+
+/// At least half of the cells that hold something are numbers: dates and events may stand beside them.
+bool holds_numbers(const Cells& cells, char decimal) {
+  std::size_t numbers = 0, filled = 0;
+  for (const std::string_view cell : cells) {
+    filled += !cell.empty();
+    numbers += parse_number(cell, decimal).has_value();
+  }
+  return numbers > 0 && 2 * numbers >= filled;
+}
+
+std::string_view trim_end(std::string_view text, std::string_view characters) {
+  return text.substr(0, text.find_last_not_of(characters) + 1);
+}
+
+struct Guess {
+  CsvDialect dialect;
+  std::size_t data_lines = 0, columns = 0, numbers = 0, filled = 0;
+
+  /// Lines that fit, times the share of their cells that are numbers; then the number of numbers.
+  std::pair<double, std::size_t> rank() const {
+    const double share = static_cast<double>(numbers) / static_cast<double>(std::max<std::size_t>(filled, 1));
+    return {static_cast<double>(data_lines) * share, numbers};
+  }
+};
+
+/// How well a separator and a decimal sign explain the lines: data lines with one common cell count.
+Guess try_dialect(const std::vector<std::string>& lines, char separator, char decimal) {
+  Guess guess;
+  guess.dialect.separator = separator;
+  guess.dialect.decimal = decimal;
+  std::vector<std::size_t> counts(lines.size(), 0);
+  std::map<std::size_t, std::size_t> tally;
+  Cells cells;
+  for (std::size_t k = 0; k < lines.size(); ++k) {
+    if (is_comment(lines[k])) continue;
+    split_cells(lines[k], separator, cells);
+    if (!holds_numbers(cells, decimal)) continue;
+    for (const std::string_view cell : cells) {
+      guess.numbers += parse_number(cell, decimal).has_value();
+      guess.filled += !cell.empty();
+    }
+    ++tally[counts[k] = cells.size()];
+  }
+  for (const auto& [count, times] : tally)
+    if (times >= guess.data_lines) guess.data_lines = times, guess.columns = count;
+  // The table starts where at least this line and the next one hold numbers in that many cells.
+  for (std::size_t k = 0; k < lines.size(); ++k) {
+    const bool here = counts[k] == guess.columns && counts[k] > 0;
+    const bool next = k + 1 >= lines.size() || counts[k + 1] > 0 || trim(lines[k + 1]).empty();
+    if (!here || !(next || guess.data_lines < 2)) continue;
+    guess.dialect.first_data_line = k;
+    break;
+  }
+  return guess;
+}
+
+std::string bare_unit(std::string_view cell) {
+  cell = trim(cell);
+  if (cell.size() > 1 && (cell.front() == '[' || cell.front() == '(')) cell = cell.substr(1, cell.size() - 2);
+  return std::string(trim(cell));
+}
+
+bool is_units_row(const Cells& cells) {
+  bool any = false;
+  for (const std::string_view cell : cells) {
+    const std::string unit = bare_unit(cell);
+    if (unit.empty()) continue;
+    if (!parse_unit(unit)) return false;
+    any = true;
+  }
+  return any;
+}
+
+/// The cells of the last line before `before` that can head `columns` columns; its index or npos.
+std::size_t find_header(const std::vector<std::string>& lines, const CsvDialect& dialect, std::size_t before,
+                        std::size_t columns, Cells& cells) {
+  // Only the nearest line that holds something is a header: junk stands further up.
+  for (std::size_t k = before; k-- > 0;) {
+    const std::string_view line = strip_comment(lines[k]);
+    if (line.empty()) continue;
+    split_cells(line, dialect.separator, cells);
+    Cells filled = cells;
+    drop_trailing_empty(filled);
+    if (filled.empty()) continue;
+    const bool fits =
+        filled.size() <= columns && filled.size() + 1 >= columns && !holds_numbers(cells, dialect.decimal);
+    return fits && (columns > 1 || cells.size() == 1) ? k : std::string::npos;
+  }
+  return std::string::npos;
+}
+
+void read_header(const std::vector<std::string>& lines, std::size_t columns, CsvDialect& dialect) {
+  dialect.names.assign(columns, "");
+  dialect.units.assign(columns, "");
+  Cells cells;
+  std::size_t at = find_header(lines, dialect, dialect.first_data_line, columns, cells);
+  if (at == std::string::npos) return;
+  if (is_units_row(cells)) {
+    Cells above;
+    const std::size_t name_line = find_header(lines, dialect, at, columns, above);
+    if (name_line != std::string::npos) {
+      for (std::size_t k = 0; k < std::min(columns, cells.size()); ++k)
+        dialect.units[k] = bare_unit(cells[k]);
+      cells = above;
+    }
+  }
+  for (std::size_t k = 0; k < std::min(columns, cells.size()); ++k) dialect.names[k] = std::string(cells[k]);
+}
+
+}  // namespace
+
+bool is_comment(std::string_view line) {
+  line = trim(line);
+  return line.empty() || line.front() == '#' || line.front() == '%' || line.front() == '!' ||
+         line.substr(0, 2) == "//";
+}
+
+void split_cells(std::string_view line, char separator, std::vector<std::string_view>& cells) {
+  constexpr std::string_view kBlanks = " \t";
+  const std::string_view ends = separator == ' ' ? kBlanks : std::string_view(&separator, 1);
+  const std::string_view padding = separator == '\t' ? std::string_view(" ") : kBlanks;
+  cells.clear();
+  line = trim_end(line, separator == ' ' ? kBlanks : std::string_view());
+  for (std::size_t start = 0;; ++start) {
+    start = std::min(line.find_first_not_of(padding, start), line.size());
+    const bool quoted = start < line.size() && line[start] == '"';
+    const std::size_t close = quoted ? line.find('"', start + 1) : std::string_view::npos;
+    const std::size_t from = close == std::string_view::npos ? start : close + 1;
+    const std::size_t end = std::min(line.find_first_of(ends, from), line.size());
+    cells.push_back(close == std::string_view::npos ? trim(line.substr(start, end - start))
+                                                    : trim(line.substr(start + 1, close - start - 1)));
+    start = end;
+    if (end == line.size()) return;
+  }
+}
+
+CsvDialect sniff_dialect(const std::vector<std::string>& lines, const std::string& file) {
+  constexpr std::array<std::pair<char, char>, 7> kCandidates{
+      {{'\t', '.'}, {';', '.'}, {',', '.'}, {'\t', ','}, {';', ','}, {' ', '.'}, {' ', ','}}};
+  Guess best;
+  for (const auto& [separator, decimal] : kCandidates) {
+    Guess guess = try_dialect(lines, separator, decimal);
+    if (guess.rank() > best.rank()) best = std::move(guess);
+  }
+  if (best.data_lines == 0)
+    throw Error(file, "no line holds numbers in columns",
+                "give a table: a line of names, then one line per sample");
+  read_header(lines, best.columns, best.dialect);
+  return best.dialect;
+}
+
+}  // namespace dashpot

@@ -1,0 +1,27 @@
+#pragma once
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace dashpot {
+
+/// How a text table is written.
+struct CsvDialect {
+  char separator = ',';  ///< ' ' stands for any run of blanks
+  char decimal = '.';
+  std::size_t first_data_line = 0;  ///< index into the sample of lines
+  std::vector<std::string> names;   ///< one per column; all "" when no line names them
+  std::vector<std::string> units;   ///< from a row of units; "" where there is none
+};
+
+/// Splits one line into cells, trimmed and without their quotes. Cells point into `line`. A quoted cell
+/// ends at its next quote: no number and no sensible name contains one.
+void split_cells(std::string_view line, char separator, std::vector<std::string_view>& cells);
+
+/// A comment or an empty line holds no sample.
+bool is_comment(std::string_view line);
+
+/// Understands a table from its first lines. Throws Error(file, ...) when no line holds numbers.
+CsvDialect sniff_dialect(const std::vector<std::string>& lines, const std::string& file);
+
+}  // namespace dashpot

@@ -1,0 +1,43 @@
+#pragma once
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+struct gzFile_s;
+
+namespace dashpot {
+
+/// The lines of a text file (plain or gzip), read block by block: memory does not grow with the file.
+class LineSource {
+ public:
+  explicit LineSource(const std::filesystem::path& path);
+  ~LineSource();
+  LineSource(const LineSource&) = delete;
+  LineSource& operator=(const LineSource&) = delete;
+
+  /// The next line without its end (LF, CRLF or CR LF mixed), or nothing at the end. Valid until the
+  /// next call. Throws Error on a damaged file, and on a line too long for a table of numbers.
+  std::optional<std::string_view> next();
+  std::size_t line() const { return line_; }  ///< number of the line that next() gave, from 1
+  double bytes_per_line() const;              ///< so far, on disk
+  double bytes_in_file() const { return file_size_; }
+
+ private:
+  bool fill();
+
+  std::string path_;
+  std::unique_ptr<gzFile_s, int (*)(gzFile_s*)> file_;
+  std::vector<char> buffer_;
+  std::size_t begin_ = 0, end_ = 0;
+  std::size_t line_ = 0;
+  double file_size_ = 0;
+  bool at_end_ = false;
+};
+
+/// The first bytes of a file, gunzipped. Throws Error when it cannot be opened.
+std::string read_head(const std::filesystem::path& path, std::size_t bytes);
+
+}  // namespace dashpot

@@ -1,0 +1,56 @@
+#include "dashpot/record/readers/reader.h"
+
+#include "dashpot/base/error.h"
+#include "dashpot/base/text.h"
+#include "dashpot/record/readers/csv.h"
+#include "dashpot/record/readers/daq_text.h"
+#include "dashpot/record/readers/family_json.h"
+#include "dashpot/record/readers/line_source.h"
+#include "dashpot/record/readers/mat.h"
+
+namespace fs = std::filesystem;
+
+namespace dashpot {
+namespace {
+
+// The most telling content first: CSV takes any text that is left.
+constexpr Reader kReaders[] = {
+    {"MAT", ".mat", is_mat, read_mat},
+    {"family JSON", ".json with its inp_*.json", is_family_json, read_family_json},
+    {"DAQ text log", ".txt", is_daq_text, read_daq_text},
+    {"CSV", ".csv .txt .tsv .dat .asc", is_csv, read_csv},
+};
+
+}  // namespace
+
+std::span<const Reader> readers() { return kReaders; }
+
+fs::path without_gz(const fs::path& path) {
+  return lower(path.extension().string()) == ".gz" ? path.parent_path() / path.stem() : path;
+}
+
+const Reader* find_reader(const fs::path& path) {
+  const std::string extension = lower(without_gz(path).extension().string());
+  const std::string head = read_head(path, 4096);
+  for (const Reader& reader : kReaders)
+    if (reader.recognises(path, extension, head)) return &reader;
+  return nullptr;
+}
+
+std::vector<RawTable> read_tables(const fs::path& path) {
+  if (read_head(path, 1).empty())
+    throw Error(path.string(), "is empty (0 bytes)", "copy it again from its source");
+  const Reader* reader = find_reader(path);
+  if (!reader)
+    throw Error(path.string(), "is not a recording that Dashpot can read", "it reads " + known_formats());
+  return reader->read(path);
+}
+
+std::string known_formats() {
+  std::vector<std::string> formats;
+  for (const Reader& reader : kReaders)
+    formats.push_back(std::string(reader.name) + " (" + std::string(reader.extensions) + ")");
+  return join(formats, ", ") + ", each also as .gz except MAT";
+}
+
+}  // namespace dashpot

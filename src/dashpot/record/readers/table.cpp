@@ -1,0 +1,30 @@
+#include "dashpot/record/readers/table.h"
+
+#include <algorithm>
+
+#include "dashpot/base/text.h"
+
+namespace dashpot {
+
+bool RawTable::named() const {
+  return std::any_of(columns.begin(), columns.end(), [](const RawColumn& c) { return !c.name.empty(); });
+}
+
+std::string RawTable::where(std::size_t row) const {
+  const std::string place = part.empty() ? file : file + ", " + part;
+  if (lines.empty()) return place + ", row " + std::to_string(row + 1);
+  auto jump = std::upper_bound(lines.begin(), lines.end(), row,
+                               [](std::size_t r, const auto& line) { return r < line.first; });
+  if (jump != lines.begin()) --jump;
+  return file + ":" + std::to_string(jump->second + row - jump->first);
+}
+
+std::string RawTable::column_list() const {
+  if (!named()) return std::to_string(columns.size()) + " columns without names";
+  std::vector<std::string> names;
+  for (const RawColumn& column : columns) names.push_back("'" + column.name + "'");
+  if (names.size() > 24) names.resize(24), names.push_back("...");
+  return join(names, ", ");
+}
+
+}  // namespace dashpot

@@ -1,0 +1,47 @@
+#pragma once
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace dashpot {
+
+/// A cell that is not a finite number.
+struct BadCell {
+  std::size_t row = 0;
+  std::string text;  ///< "" when the cell is empty
+};
+
+/// A column of a file as it stands there. A cell that is not a finite number is NaN in `values`; only
+/// when the column is used is that an error.
+struct RawColumn {
+  std::string name;  ///< "" in a file without names
+  std::string unit;  ///< from a units row or fixed by the format; "" when the name may hold it
+  std::vector<double> values;
+  std::optional<BadCell> bad;  ///< the first one
+};
+
+/// One test run as a file holds it: named columns of equal length.
+struct RawTable {
+  std::string file;
+  std::string part;            ///< "" or what of the file this is: "part 2, rows 9301-17600"
+  std::size_t part_index = 0;  ///< counts the parts of one group from 0
+  std::string group;           ///< "" or what the parts of one group share: a damper's key
+  std::vector<RawColumn> columns;
+  std::vector<std::pair<std::string, double>> scalars;     ///< single numbers beside the columns: Ts
+  std::optional<double> sample_time;                       ///< s, when the format itself states it
+  std::vector<std::pair<std::string, double>> conditions;  ///< SI, when the format itself states them
+  std::vector<std::pair<std::size_t, std::size_t>> lines;  ///< (row, line) where the numbering jumps
+  std::vector<std::string> notes;
+
+  std::size_t rows() const { return columns.empty() ? 0 : columns.front().values.size(); }
+  bool named() const;  ///< some column has a name
+  /// "run3.csv:118", or "run3.mat, row 117" where there are no lines.
+  std::string where(std::size_t row) const;
+  /// "'t_s', 'x_mm'", or "3 columns without names".
+  std::string column_list() const;
+};
+
+}  // namespace dashpot
