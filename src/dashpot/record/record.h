@@ -3,6 +3,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace dashpot {
@@ -31,6 +32,8 @@ struct Record {
   std::string source;                 ///< file, and the part of it: "ME5mm3Hz.txt.gz, rows 9308-17607"
   std::string condition;              ///< the motion: records at several currents under one motion share it
   std::optional<double> drive_level;  ///< A or V when it is constant over the record
+  /// What else was constant, in SI: gap m, yield_stress Pa, viscosity Pa*s, temperature K ...
+  std::vector<std::pair<std::string, double>> conditions;
   std::vector<double> time;           ///< s, increasing, one per sample
   double sample_time = 0;             ///< s when uniformly sampled, else 0
   std::vector<Channel> channels;

@@ -1,0 +1,156 @@
+#include "dashpot/record/channel_names.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "dashpot/base/text.h"
+#include "dashpot/record/record.h"
+
+namespace dashpot {
+namespace {
+
+struct Names {
+  std::string_view channel;
+  std::string_view words;   ///< anywhere at the start or end of a name; English, Spanish, Portuguese, German
+  std::string_view exact;   ///< only as the whole name, case kept
+};
+
+constexpr Names kNames[] = {
+    {"time", "time tiempo tempo zeit timestamp", "t T tout Tout"},
+    {"displacement", "displacement displace displ disp dist stroke position pos desplazamiento deslocamento posicion posicao carrera "
+                     "curso weg hub extension travel", "x X d D s"},
+    {"velocity", "velocity vel speed velocidad velocidade geschwindigkeit xdot dxdt", "v"},
+    {"acceleration", "acceleration accel aceleracion aceleracao beschleunigung", "a acc"},
+    {"force", "force forc fuerza forca kraft load carga loadcell", "F f"},
+    {"current", "current corriente corrente strom amperage", "I i"},
+    {"voltage", "voltage volts voltaje tension tensao spannung", "E u U"},
+    {"temperature", "temperature temp temperatura temperatur", "Temp"},
+};
+
+/// May mean two things: the unit must tell.
+struct Ambiguous {
+  std::string_view name, first, second;
+};
+constexpr Ambiguous kAmbiguous[] = {{"V", "velocity", "voltage"}, {"A", "acceleration", "current"}};
+
+constexpr std::string_view kWishes = "target reference ref setpoint set command cmd commanded desired error min max mean";
+
+bool contains_word(std::string_view list, std::string_view word) {
+  const std::vector<std::string> words = split(list, ' ');
+  return std::find(words.begin(), words.end(), word) != words.end();
+}
+
+/// Letters with accents (UTF-8 or Latin-1) as plain ones: the names stand without.
+std::string fold_accents(std::string_view text) {
+  static constexpr std::string_view kPlain = "aaaaaaaceeeeiiiidnooooo*ouuuuyps";  // of U+00C0 ... and U+00E0 ...
+  std::string out;
+  for (std::size_t k = 0; k < text.size(); ++k) {
+    auto byte = static_cast<unsigned char>(text[k]);
+    if (byte == 0xC3 && k + 1 < text.size()) byte = static_cast<unsigned char>(text[++k]) | 0xC0;
+    if (byte >= 0xC0) {
+      out += kPlain[byte & 0x1f];
+    } else if (byte != 0xC2) {
+      out += static_cast<char>(byte);
+    }
+  }
+  return out;
+}
+
+std::vector<std::string> words_of(std::string_view name) {
+  std::string spaced;
+  for (const char c : lower(fold_accents(name))) spaced += (c >= 'a' && c <= 'z') || c == '\'' ? c : ' ';
+  std::vector<std::string> words = split(spaced, ' ');
+  std::erase(words, "");
+  return words;
+}
+
+/// The channel of a name without its unit; "" when unknown.
+std::string channel_of(std::string_view name) {
+  for (const Names& known : kNames)
+    if (contains_word(known.exact, name)) return std::string(known.channel);
+  const std::vector<std::string> words = words_of(name);
+  if (words.empty()) return {};
+  for (const std::string& end : {words.front(), words.back()})
+    for (const Names& known : kNames)
+      if (contains_word(known.words, end)) return std::string(known.channel);
+  return {};
+}
+
+bool is_wish(std::string_view name) {
+  const std::vector<std::string> words = words_of(name);
+  return std::any_of(words.begin(), words.end(), [](const std::string& w) { return contains_word(kWishes, w); });
+}
+
+bool fits(std::string_view channel, const Unit& unit) { return parse_unit(si_unit(channel))->dimension == unit.dimension; }
+
+struct Parts {
+  std::string name, unit;
+};
+
+/// The ways in which a column name may hold a unit, the plainest first: "x [mm]", "x (mm)", "x/mm",
+/// "x, mm", "x in mm", "F_N", "v_mm_s".
+std::vector<Parts> possible_parts(std::string_view column) {
+  std::vector<Parts> parts;
+  const auto add = [&](std::string_view name, std::string unit) {
+    unit = std::string(trim(unit));
+    if (!trim(name).empty() && parse_unit(unit)) parts.push_back({std::string(trim(name)), unit});
+  };
+  for (const auto& [open, close] : {std::pair{'[', ']'}, std::pair{'(', ')'}, std::pair{'{', '}'}}) {
+    const std::size_t from = column.find(open), to = column.rfind(close);
+    if (from != std::string_view::npos && to != std::string_view::npos && to > from)
+      add(column.substr(0, from), std::string(column.substr(from + 1, to - from - 1)));
+  }
+  for (const std::string_view mark : {"/", ",", " in ", " ", "_"})
+    if (const std::size_t at = column.find(mark); at != std::string_view::npos)
+      add(column.substr(0, at), std::string(column.substr(at + mark.size())));
+  if (const std::size_t last = column.rfind('_'); last != std::string_view::npos && last > 0) {
+    add(column.substr(0, last), std::string(column.substr(last + 1)));
+    if (const std::size_t before = column.rfind('_', last - 1); before != std::string_view::npos)
+      add(column.substr(0, before), std::string(column.substr(before + 1, last - before - 1)) + "/" + std::string(column.substr(last + 1)));
+  }
+  if (const std::size_t last = column.rfind(' '); last != std::string_view::npos)
+    add(column.substr(0, last), std::string(column.substr(last + 1)));
+  return parts;
+}
+
+NamedChannel resolve(const std::string& name, const std::string& unit) {
+  const auto parsed = unit.empty() ? std::nullopt : parse_unit(unit);
+  for (const Ambiguous& word : kAmbiguous) {
+    if (word.name != name) continue;
+    for (const std::string_view channel : {word.first, word.second})
+      if (parsed && fits(channel, *parsed)) return {std::string(channel), unit, {}};
+    return {{}, unit, "'" + name + "' may be " + std::string(word.first) + " or " + std::string(word.second)};
+  }
+  const std::string channel = channel_of(name);
+  if (channel.empty()) return {};
+  if (is_wish(name)) return {{}, unit, "'" + name + "' is not a measurement by its name"};
+  if (parsed && !fits(channel, *parsed)) return {{}, unit, "unit '" + unit + "' does not fit " + channel};
+  return {channel, unit, {}};
+}
+
+}  // namespace
+
+std::string_view si_unit(std::string_view channel) {
+  if (channel == "time") return "s";
+  for (const StandardChannel& standard : standard_channels())
+    if (standard.name == channel) return standard.unit;
+  return {};
+}
+
+NamedChannel recognise_channel(std::string_view column, std::string_view row_unit) {
+  const std::string whole(trim(column)), row(row_unit);
+  NamedChannel refused;
+  for (const Parts& parts : possible_parts(whole)) {
+    NamedChannel found = resolve(parts.name, parts.unit);
+    const bool two_units = !found.channel.empty() && !row.empty() && parse_unit(row) && row != found.unit;
+    if (two_units) found.problem = "two units: '" + found.unit + "' in its name and '" + row + "' below it";
+    if (!found.channel.empty()) return found;
+    if (refused.problem.empty()) refused = found;
+  }
+  if (!row.empty() && !parse_unit(row)) return {{}, {}, "unit '" + row + "' is unknown"};
+  NamedChannel found = resolve(whole, row);
+  if (found.channel.empty() && found.problem.empty()) return refused;
+  return found;
+}
+
+}  // namespace dashpot

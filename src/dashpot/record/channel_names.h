@@ -1,0 +1,24 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "dashpot/base/units.h"
+
+namespace dashpot {
+
+/// What a column is by its name: "F_N" -> force in N; "Desplazamiento [mm]" -> displacement in mm.
+struct NamedChannel {
+  std::string channel;  ///< "" when not recognised; "time" for the time base
+  std::string unit;     ///< "" when the name holds none
+  std::string problem;  ///< why a name that looks familiar is not used
+};
+
+/// `row_unit`: from a units row; "" when there is none. Conservative: a name that may mean two things
+/// ("V", "A" without a unit) or a wish instead of a measurement ("target force") is not used.
+NamedChannel recognise_channel(std::string_view column, std::string_view row_unit);
+
+/// SI unit text of a channel or "time"; "" for a channel that is not standard.
+std::string_view si_unit(std::string_view channel);
+
+}  // namespace dashpot

@@ -1,0 +1,233 @@
+#include "dashpot/record/dataset_file.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "dashpot/base/error.h"
+#include "dashpot/base/file.h"
+#include "dashpot/base/text.h"
+#include "dashpot/base/units.h"
+#include "dashpot/base/value.h"
+#include "dashpot/record/channel_names.h"
+
+namespace fs = std::filesystem;
+
+namespace dashpot {
+namespace {
+
+std::optional<double> optional_number(ObjectReader& reader, std::string_view key) {
+  const Value* value = reader.optional(key);
+  if (!value) return std::nullopt;
+  const double number = value->as_number();
+  if (!std::isfinite(number)) throw Error(value->where(), "'" + std::string(key) + "' is not a finite number");
+  return number;
+}
+
+std::optional<double> positive_number(ObjectReader& reader, std::string_view key) {
+  const auto number = optional_number(reader, key);
+  if (number && !(*number > 0)) throw Error(reader.required(key).where(), "'" + std::string(key) + "' must be positive");
+  return number;
+}
+
+/// A text or a list of texts.
+std::vector<std::string> texts(const Value& value) {
+  if (value.kind() != Value::Kind::Array) return {value.as_string()};
+  std::vector<std::string> out;
+  for (const Value& item : value.items()) out.push_back(item.as_string());
+  return out;
+}
+
+void read_column(const Value& value, ChannelStatement& statement) {
+  if (value.kind() != Value::Kind::Number) {
+    statement.column = value.as_string();
+    return;
+  }
+  const double number = value.as_number();
+  if (number < 1 || number > 10000 || number != std::floor(number))
+    throw Error(value.where(), "column " + format_number(number) + " does not exist", "a name, or a number from 1");
+  statement.index = static_cast<std::size_t>(number);
+}
+
+void require_unit_of(const ChannelStatement& statement, const std::string& where) {
+  const Unit unit = require_unit(statement.unit, where);
+  const std::string_view si = si_unit(statement.channel);
+  if (!si.empty() && parse_unit(si)->dimension != unit.dimension)
+    throw Error(where, "unit '" + statement.unit + "' does not fit " + statement.channel,
+                "a unit that converts to " + std::string(si));
+}
+
+ChannelStatement read_channel(const std::string& channel, const Value& value) {
+  ChannelStatement statement;
+  statement.channel = channel;
+  statement.where = value.where();
+  if (value.kind() != Value::Kind::Object) {
+    read_column(value, statement);
+    return statement;
+  }
+  ObjectReader reader(value, "a channel");
+  read_column(reader.required("column"), statement);
+  statement.unit = reader.string("unit", "");
+  if (!statement.unit.empty()) require_unit_of(statement, reader.required("unit").where());
+  statement.scale = reader.number("scale", 1);
+  statement.offset = reader.number("offset", 0);
+  statement.sign = reader.number("sign", 1);
+  if (std::abs(statement.sign) != 1) throw Error(reader.required("sign").where(), "'sign' is neither 1 nor -1");
+  if (!std::isfinite(statement.scale) || statement.scale == 0 || !std::isfinite(statement.offset))
+    throw Error(statement.where, "'scale' or 'offset' is not a usable number");
+  const std::string centre = reader.string("centre", "");
+  if (!centre.empty() && centre != "mean") throw Error(reader.required("centre").where(), "'centre' is '" + centre + "'", "it can be 'mean'");
+  statement.centre = !centre.empty();
+  reader.finish();
+  return statement;
+}
+
+void read_time(const Value& value, FileStatement& out) {
+  ObjectReader reader(value, "a time base");
+  const Value* column = reader.optional("column");
+  const auto rate = positive_number(reader, "sample_rate");
+  out.sample_time = positive_number(reader, "sample_time");
+  if ((column != nullptr) + rate.has_value() + out.sample_time.has_value() != 1)
+    throw Error(value.where(), "a time base is stated by one of 'column', 'sample_rate' (Hz), 'sample_time' (s)");
+  if (rate) out.sample_time = 1 / *rate;
+  if (column) {
+    ChannelStatement statement;
+    statement.channel = "time";
+    statement.where = value.where();
+    read_column(*column, statement);
+    statement.unit = reader.string("unit", "");
+    if (!statement.unit.empty()) require_unit_of(statement, reader.required("unit").where());
+    out.channels.push_back(std::move(statement));
+  }
+  reader.finish();
+}
+
+void read_cut(const Value& value, FileStatement& out) {
+  ObjectReader reader(value, "a cut");
+  out.cut_from = optional_number(reader, "from");
+  out.cut_to = optional_number(reader, "to");
+  out.cut_rest = reader.boolean("rest", false);
+  reader.finish();
+}
+
+LevelStatement read_level(const Value& value) {
+  if (value.kind() == Value::Kind::Number) return value.as_number();
+  if (value.kind() == Value::Kind::Array) return value.as_numbers();
+  ObjectReader reader(value, "a drive level");
+  LevelStatement level = reader.string("manifest");
+  reader.finish();
+  return level;
+}
+
+/// "1.0 mm", "25 degC" or a plain number in SI.
+double read_condition(const Value& value) {
+  if (value.kind() == Value::Kind::Number) return value.as_number();
+  const std::string& text = value.as_string();
+  const std::size_t space = text.find(' ');
+  const auto number = parse_number(text.substr(0, space));
+  if (!number || space == std::string::npos) throw Error(value.where(), "'" + text + "' is not a number with a unit", "as '25 degC' or '1 mm'");
+  const Unit unit = require_unit(trim(std::string_view(text).substr(space)), value.where());
+  return unit.factor * *number + unit.offset;
+}
+
+RoleStatement read_role(const Value& value) {
+  ObjectReader reader(value, "a role");
+  RoleStatement role;
+  const std::string name = reader.string("role");
+  if (name != "training" && name != "left_out")
+    throw Error(reader.required("role").where(), "role '" + name + "' is unknown", "'training' or 'left_out'");
+  role.role = name == "training" ? Role::Training : Role::LeftOut;
+  role.from = optional_number(reader, "from");
+  role.to = optional_number(reader, "to");
+  role.score_from = optional_number(reader, "score_from");
+  reader.finish();
+  return role;
+}
+
+std::vector<RoleStatement> read_roles(const Value& value) {
+  std::vector<RoleStatement> roles;
+  if (value.kind() == Value::Kind::String)  // roles: training
+    return {read_role([&] {
+      Value role = Value::object({{"role", value}});
+      role.set_where(value.where());
+      return role;
+    }())};
+  for (const Value& item : value.items()) roles.push_back(read_role(item));
+  return roles;
+}
+
+FileStatement read_files(const Value& value) {
+  ObjectReader reader(value, "an entry of 'files'");
+  FileStatement out;
+  out.where = value.where();
+  out.match = texts(reader.required("match"));
+  if (const Value* time = reader.optional("time")) read_time(*time, out);
+  if (const Value* channels = reader.optional("channels")) {
+    for (const auto& [channel, statement] : channels->members()) out.channels.push_back(read_channel(channel, statement));
+    out.only_stated = true;
+  }
+  if (const Value* cut = reader.optional("cut")) read_cut(*cut, out);
+  out.resample_hz = positive_number(reader, "resample");
+  out.velocity_cutoff_hz = positive_number(reader, "velocity_cutoff").value_or(0);
+  out.name = reader.string("name", "");
+  out.condition = reader.string("condition", "");
+  if (const Value* level = reader.optional("level")) out.level = read_level(*level);
+  if (const Value* conditions = reader.optional("conditions"))
+    for (const auto& [name, condition] : conditions->members()) out.conditions.emplace_back(name, read_condition(condition));
+  if (const Value* roles = reader.optional("roles")) out.roles = read_roles(*roles);
+  reader.finish();
+  return out;
+}
+
+void read_recognise(const Value& value, DatasetFile& out) {
+  ObjectReader reader(value, "a recognised file");
+  out.recognise_file = reader.string("file");
+  out.recognise_sha256 = lower(reader.string("sha256"));
+  reader.finish();
+}
+
+}  // namespace
+
+DatasetFile load_dataset_file(const fs::path& path) {
+  const Value value = parse_yaml(read_file(path), path.string());
+  ObjectReader reader(value, "a dataset file");
+  DatasetFile out;
+  out.path = path.string();
+  out.name = reader.string("name", path.stem().string());
+  out.citation = reader.string("citation", "");
+  out.root = path.parent_path() / reader.string("root", ".");
+  out.drive_unit = reader.string("drive", "");
+  if (!out.drive_unit.empty() && out.drive_unit != "A" && out.drive_unit != "V")
+    throw Error(reader.required("drive").where(), "drive '" + out.drive_unit + "' is unknown", "'A' (current) or 'V' (voltage)");
+  out.manifest = reader.string("manifest", "");
+  if (const Value* leave_out = reader.optional("leave_out")) {
+    try {
+      out.leave_out = parse_leave_out(leave_out->as_string());
+    } catch (const Error& error) {
+      throw Error(leave_out->where(), error.what());
+    }
+  }
+  if (const Value* recognise = reader.optional("recognise")) read_recognise(*recognise, out);
+  for (const Value& files : reader.required("files").items()) out.files.push_back(read_files(files));
+  if (const Value* notes = reader.optional("notes")) out.notes = texts(*notes);
+  reader.finish();
+  return out;
+}
+
+std::vector<fs::path> shipped_dataset_files() {
+  std::vector<fs::path> folders;
+  if (const char* stated = std::getenv("DASHPOT_DATA")) folders.emplace_back(stated);
+  folders.emplace_back(DASHPOT_DATA_SOURCE_DIR);
+  folders.emplace_back(DASHPOT_DATA_INSTALL_DIR);
+  for (const fs::path& folder : folders) {
+    std::error_code error;
+    std::vector<fs::path> files;
+    for (const auto& entry : fs::directory_iterator(folder / "datasets", error))
+      if (entry.path().extension() == ".yaml") files.push_back(entry.path());
+    std::sort(files.begin(), files.end());
+    if (!files.empty()) return files;
+  }
+  return {};
+}
+
+}  // namespace dashpot

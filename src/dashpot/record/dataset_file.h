@@ -1,0 +1,71 @@
+#pragma once
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "dashpot/record/dataset.h"
+
+namespace dashpot {
+
+/// How a channel is made from a column, as a dataset file states it:
+/// sample = sign * scale * (raw - offset), in `unit`, then converted to SI.
+struct ChannelStatement {
+  std::string channel;  ///< a standard channel, "time", or a name of its own
+  std::string column;   ///< name in the file; "" when `index` says which
+  std::size_t index = 0;  ///< from 1; 0: by name
+  std::string unit;       ///< "": from the name, else SI
+  double scale = 1, offset = 0, sign = 1;
+  bool centre = false;  ///< subtract the record's mean
+  std::string where;
+};
+
+/// Part of a record with a role of its own.
+struct RoleStatement {
+  Role role = Role::Training;
+  std::optional<double> from, to, score_from;  ///< s
+};
+
+/// A drive level: a number, one number per part of the file, or a column of the manifest.
+using LevelStatement = std::variant<std::monostate, double, std::vector<double>, std::string>;
+
+/// What is stated about the files of one kind.
+struct FileStatement {
+  std::vector<std::string> match;  ///< patterns relative to the root: "*.csv"
+  std::vector<ChannelStatement> channels;
+  bool only_stated = false;  ///< columns that are not stated are not used
+  std::optional<double> sample_time;  ///< s: time = row * sample_time
+  std::optional<double> cut_from, cut_to;  ///< s
+  bool cut_rest = false;                   ///< drop what comes before the motion starts
+  std::optional<double> resample_hz;
+  double velocity_cutoff_hz = 0;  ///< 0: not stated
+  std::string name;               ///< template of the record's name; "" : from the file's
+  std::string condition;          ///< template; "" : inferred
+  LevelStatement level;
+  std::vector<std::pair<std::string, double>> conditions;  ///< SI
+  std::vector<RoleStatement> roles;
+  std::string where;
+};
+
+/// A dataset file: what people state about recordings. docs/dataset-files.md explains every key.
+struct DatasetFile {
+  std::string path;  ///< "" when nothing was stated
+  std::string name, citation;
+  std::filesystem::path root;
+  std::string drive_unit;  ///< "A", "V" or "" (inferred)
+  std::string manifest;    ///< "" : manifest.csv when there is one
+  std::optional<LeaveOut> leave_out;
+  std::string recognise_file, recognise_sha256;
+  std::vector<FileStatement> files;
+  std::vector<std::string> notes;
+};
+
+/// Throws Error(file:line, ...) on an unknown key, unit, role or number.
+DatasetFile load_dataset_file(const std::filesystem::path& path);
+
+/// The dataset files that ship with Dashpot: of $DASHPOT_DATA, the source tree or the installation.
+std::vector<std::filesystem::path> shipped_dataset_files();
+
+}  // namespace dashpot
