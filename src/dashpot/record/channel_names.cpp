@@ -11,14 +11,17 @@ namespace {
 
 struct Names {
   std::string_view channel;
-  std::string_view words;   ///< anywhere at the start or end of a name; English, Spanish, Portuguese, German
-  std::string_view exact;   ///< only as the whole name, case kept
+  std::string_view words;  ///< anywhere at the start or end of a name; English, Spanish, Portuguese, German
+  std::string_view exact;  ///< only as the whole name, case kept
 };
 
 constexpr Names kNames[] = {
     {"time", "time tiempo tempo zeit timestamp", "t T tout Tout"},
-    {"displacement", "displacement displace displ disp dist stroke position pos desplazamiento deslocamento posicion posicao carrera "
-                     "curso weg hub extension travel", "x X d D s"},
+    {"displacement",
+     "displacement displace displ disp dist stroke position pos desplazamiento deslocamento posicion posicao "
+     "carrera "
+     "curso weg hub extension travel",
+     "x X d D s"},
     {"velocity", "velocity vel speed velocidad velocidade geschwindigkeit xdot dxdt", "v"},
     {"acceleration", "acceleration accel aceleracion aceleracao beschleunigung", "a acc"},
     {"force", "force forc fuerza forca kraft load carga loadcell", "F f"},
@@ -33,7 +36,8 @@ struct Ambiguous {
 };
 constexpr Ambiguous kAmbiguous[] = {{"V", "velocity", "voltage"}, {"A", "acceleration", "current"}};
 
-constexpr std::string_view kWishes = "target reference ref setpoint set command cmd commanded desired error min max mean";
+constexpr std::string_view kWishes =
+    "target reference ref setpoint set command cmd commanded desired error min max mean";
 
 bool contains_word(std::string_view list, std::string_view word) {
   const std::vector<std::string> words = split(list, ' ');
@@ -42,7 +46,8 @@ bool contains_word(std::string_view list, std::string_view word) {
 
 /// Letters with accents (UTF-8 or Latin-1) as plain ones: the names stand without.
 std::string fold_accents(std::string_view text) {
-  static constexpr std::string_view kPlain = "aaaaaaaceeeeiiiidnooooo*ouuuuyps";  // of U+00C0 ... and U+00E0 ...
+  static constexpr std::string_view kPlain =
+      "aaaaaaaceeeeiiiidnooooo*ouuuuyps";  // of U+00C0 ... and U+00E0 ...
   std::string out;
   for (std::size_t k = 0; k < text.size(); ++k) {
     auto byte = static_cast<unsigned char>(text[k]);
@@ -78,10 +83,13 @@ std::string channel_of(std::string_view name) {
 
 bool is_wish(std::string_view name) {
   const std::vector<std::string> words = words_of(name);
-  return std::any_of(words.begin(), words.end(), [](const std::string& w) { return contains_word(kWishes, w); });
+  return std::any_of(words.begin(), words.end(),
+                     [](const std::string& w) { return contains_word(kWishes, w); });
 }
 
-bool fits(std::string_view channel, const Unit& unit) { return parse_unit(si_unit(channel))->dimension == unit.dimension; }
+bool fits(std::string_view channel, const Unit& unit) {
+  return parse_unit(si_unit(channel))->dimension == unit.dimension;
+}
 
 struct Parts {
   std::string name, unit;
@@ -106,7 +114,8 @@ std::vector<Parts> possible_parts(std::string_view column) {
   if (const std::size_t last = column.rfind('_'); last != std::string_view::npos && last > 0) {
     add(column.substr(0, last), std::string(column.substr(last + 1)));
     if (const std::size_t before = column.rfind('_', last - 1); before != std::string_view::npos)
-      add(column.substr(0, before), std::string(column.substr(before + 1, last - before - 1)) + "/" + std::string(column.substr(last + 1)));
+      add(column.substr(0, before), std::string(column.substr(before + 1, last - before - 1)) + "/" +
+                                        std::string(column.substr(last + 1)));
   }
   if (const std::size_t last = column.rfind(' '); last != std::string_view::npos)
     add(column.substr(0, last), std::string(column.substr(last + 1)));
@@ -118,14 +127,20 @@ NamedChannel resolve(const std::string& name, const std::string& unit) {
   for (const Ambiguous& word : kAmbiguous) {
     if (word.name != name) continue;
     for (const std::string_view channel : {word.first, word.second})
-      if (parsed && fits(channel, *parsed)) return {std::string(channel), unit, {}};
-    return {{}, unit, "'" + name + "' may be " + std::string(word.first) + " or " + std::string(word.second)};
+      if (parsed && fits(channel, *parsed)) return {std::string(channel), unit, {}, true};
+    return {{},
+            unit,
+            "'" + name + "' may be " + std::string(word.first) + " or " + std::string(word.second),
+            false};
   }
   const std::string channel = channel_of(name);
   if (channel.empty()) return {};
-  if (is_wish(name)) return {{}, unit, "'" + name + "' is not a measurement by its name"};
-  if (parsed && !fits(channel, *parsed)) return {{}, unit, "unit '" + unit + "' does not fit " + channel};
-  return {channel, unit, {}};
+  if (is_wish(name)) return {{}, unit, "'" + name + "' is not a measurement by its name", false};
+  if (parsed && !fits(channel, *parsed))
+    return {{}, unit, "unit '" + unit + "' does not fit " + channel, false};
+  const bool letters_only =
+      std::none_of(name.begin(), name.end(), [](char c) { return (c >= '0' && c <= '9') || c == '('; });
+  return {channel, unit, {}, letters_only && words_of(name).size() == 1};
 }
 
 }  // namespace
@@ -147,7 +162,7 @@ NamedChannel recognise_channel(std::string_view column, std::string_view row_uni
     if (!found.channel.empty()) return found;
     if (refused.problem.empty()) refused = found;
   }
-  if (!row.empty() && !parse_unit(row)) return {{}, {}, "unit '" + row + "' is unknown"};
+  if (!row.empty() && !parse_unit(row)) return {{}, {}, "unit '" + row + "' is unknown", false};
   NamedChannel found = resolve(whole, row);
   if (found.channel.empty() && found.problem.empty()) return refused;
   return found;

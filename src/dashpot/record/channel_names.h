@@ -12,6 +12,7 @@ struct NamedChannel {
   std::string channel;  ///< "" when not recognised; "time" for the time base
   std::string unit;     ///< "" when the name holds none
   std::string problem;  ///< why a name that looks familiar is not used
+  bool plain = false;   ///< the name is the channel's and nothing else: "force", not "force2"
 };
 
 /// `row_unit`: from a units row; "" when there is none. Conservative: a name that may mean two things

@@ -20,13 +20,15 @@ std::optional<double> optional_number(ObjectReader& reader, std::string_view key
   const Value* value = reader.optional(key);
   if (!value) return std::nullopt;
   const double number = value->as_number();
-  if (!std::isfinite(number)) throw Error(value->where(), "'" + std::string(key) + "' is not a finite number");
+  if (!std::isfinite(number))
+    throw Error(value->where(), "'" + std::string(key) + "' is not a finite number");
   return number;
 }
 
 std::optional<double> positive_number(ObjectReader& reader, std::string_view key) {
   const auto number = optional_number(reader, key);
-  if (number && !(*number > 0)) throw Error(reader.required(key).where(), "'" + std::string(key) + "' must be positive");
+  if (number && !(*number > 0))
+    throw Error(reader.required(key).where(), "'" + std::string(key) + "' must be positive");
   return number;
 }
 
@@ -45,7 +47,8 @@ void read_column(const Value& value, ChannelStatement& statement) {
   }
   const double number = value.as_number();
   if (number < 1 || number > 10000 || number != std::floor(number))
-    throw Error(value.where(), "column " + format_number(number) + " does not exist", "a name, or a number from 1");
+    throw Error(value.where(), "column " + format_number(number) + " does not exist",
+                "a name, or a number from 1");
   statement.index = static_cast<std::size_t>(number);
 }
 
@@ -72,11 +75,13 @@ ChannelStatement read_channel(const std::string& channel, const Value& value) {
   statement.scale = reader.number("scale", 1);
   statement.offset = reader.number("offset", 0);
   statement.sign = reader.number("sign", 1);
-  if (std::abs(statement.sign) != 1) throw Error(reader.required("sign").where(), "'sign' is neither 1 nor -1");
+  if (std::abs(statement.sign) != 1)
+    throw Error(reader.required("sign").where(), "'sign' is neither 1 nor -1");
   if (!std::isfinite(statement.scale) || statement.scale == 0 || !std::isfinite(statement.offset))
     throw Error(statement.where, "'scale' or 'offset' is not a usable number");
   const std::string centre = reader.string("centre", "");
-  if (!centre.empty() && centre != "mean") throw Error(reader.required("centre").where(), "'centre' is '" + centre + "'", "it can be 'mean'");
+  if (!centre.empty() && centre != "mean")
+    throw Error(reader.required("centre").where(), "'centre' is '" + centre + "'", "it can be 'mean'");
   statement.centre = !centre.empty();
   reader.finish();
   return statement;
@@ -88,7 +93,8 @@ void read_time(const Value& value, FileStatement& out) {
   const auto rate = positive_number(reader, "sample_rate");
   out.sample_time = positive_number(reader, "sample_time");
   if ((column != nullptr) + rate.has_value() + out.sample_time.has_value() != 1)
-    throw Error(value.where(), "a time base is stated by one of 'column', 'sample_rate' (Hz), 'sample_time' (s)");
+    throw Error(value.where(),
+                "a time base is stated by one of 'column', 'sample_rate' (Hz), 'sample_time' (s)");
   if (rate) out.sample_time = 1 / *rate;
   if (column) {
     ChannelStatement statement;
@@ -125,7 +131,8 @@ double read_condition(const Value& value) {
   const std::string& text = value.as_string();
   const std::size_t space = text.find(' ');
   const auto number = parse_number(text.substr(0, space));
-  if (!number || space == std::string::npos) throw Error(value.where(), "'" + text + "' is not a number with a unit", "as '25 degC' or '1 mm'");
+  if (!number || space == std::string::npos)
+    throw Error(value.where(), "'" + text + "' is not a number with a unit", "as '25 degC' or '1 mm'");
   const Unit unit = require_unit(trim(std::string_view(text).substr(space)), value.where());
   return unit.factor * *number + unit.offset;
 }
@@ -135,7 +142,8 @@ RoleStatement read_role(const Value& value) {
   RoleStatement role;
   const std::string name = reader.string("role");
   if (name != "training" && name != "left_out")
-    throw Error(reader.required("role").where(), "role '" + name + "' is unknown", "'training' or 'left_out'");
+    throw Error(reader.required("role").where(), "role '" + name + "' is unknown",
+                "'training' or 'left_out'");
   role.role = name == "training" ? Role::Training : Role::LeftOut;
   role.from = optional_number(reader, "from");
   role.to = optional_number(reader, "to");
@@ -146,12 +154,6 @@ RoleStatement read_role(const Value& value) {
 
 std::vector<RoleStatement> read_roles(const Value& value) {
   std::vector<RoleStatement> roles;
-  if (value.kind() == Value::Kind::String)  // roles: training
-    return {read_role([&] {
-      Value role = Value::object({{"role", value}});
-      role.set_where(value.where());
-      return role;
-    }())};
   for (const Value& item : value.items()) roles.push_back(read_role(item));
   return roles;
 }
@@ -163,7 +165,8 @@ FileStatement read_files(const Value& value) {
   out.match = texts(reader.required("match"));
   if (const Value* time = reader.optional("time")) read_time(*time, out);
   if (const Value* channels = reader.optional("channels")) {
-    for (const auto& [channel, statement] : channels->members()) out.channels.push_back(read_channel(channel, statement));
+    for (const auto& [channel, statement] : channels->members())
+      out.channels.push_back(read_channel(channel, statement));
     out.only_stated = true;
   }
   if (const Value* cut = reader.optional("cut")) read_cut(*cut, out);
@@ -173,7 +176,8 @@ FileStatement read_files(const Value& value) {
   out.condition = reader.string("condition", "");
   if (const Value* level = reader.optional("level")) out.level = read_level(*level);
   if (const Value* conditions = reader.optional("conditions"))
-    for (const auto& [name, condition] : conditions->members()) out.conditions.emplace_back(name, read_condition(condition));
+    for (const auto& [name, condition] : conditions->members())
+      out.conditions.emplace_back(name, read_condition(condition));
   if (const Value* roles = reader.optional("roles")) out.roles = read_roles(*roles);
   reader.finish();
   return out;
@@ -198,7 +202,8 @@ DatasetFile load_dataset_file(const fs::path& path) {
   out.root = path.parent_path() / reader.string("root", ".");
   out.drive_unit = reader.string("drive", "");
   if (!out.drive_unit.empty() && out.drive_unit != "A" && out.drive_unit != "V")
-    throw Error(reader.required("drive").where(), "drive '" + out.drive_unit + "' is unknown", "'A' (current) or 'V' (voltage)");
+    throw Error(reader.required("drive").where(), "drive '" + out.drive_unit + "' is unknown",
+                "'A' (current) or 'V' (voltage)");
   out.manifest = reader.string("manifest", "");
   if (const Value* leave_out = reader.optional("leave_out")) {
     try {

@@ -13,8 +13,8 @@ namespace dashpot {
 /// How a channel is made from a column, as a dataset file states it:
 /// sample = sign * scale * (raw - offset), in `unit`, then converted to SI.
 struct ChannelStatement {
-  std::string channel;  ///< a standard channel, "time", or a name of its own
-  std::string column;   ///< name in the file; "" when `index` says which
+  std::string channel;    ///< a standard channel, "time", or a name of its own
+  std::string column;     ///< name in the file; "" when `index` says which
   std::size_t index = 0;  ///< from 1; 0: by name
   std::string unit;       ///< "": from the name, else SI
   double scale = 1, offset = 0, sign = 1;
@@ -35,8 +35,8 @@ using LevelStatement = std::variant<std::monostate, double, std::vector<double>,
 struct FileStatement {
   std::vector<std::string> match;  ///< patterns relative to the root: "*.csv"
   std::vector<ChannelStatement> channels;
-  bool only_stated = false;  ///< columns that are not stated are not used
-  std::optional<double> sample_time;  ///< s: time = row * sample_time
+  bool only_stated = false;                ///< columns that are not stated are not used
+  std::optional<double> sample_time;       ///< s: time = row * sample_time
   std::optional<double> cut_from, cut_to;  ///< s
   bool cut_rest = false;                   ///< drop what comes before the motion starts
   std::optional<double> resample_hz;

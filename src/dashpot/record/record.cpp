@@ -18,11 +18,14 @@ constexpr StandardChannel kStandard[] = {
 std::span<const StandardChannel> standard_channels() { return kStandard; }
 
 const Channel* Record::find(std::string_view wanted) const {
-  const auto at = std::find_if(channels.begin(), channels.end(), [&](const Channel& c) { return c.name == wanted; });
+  const auto at =
+      std::find_if(channels.begin(), channels.end(), [&](const Channel& c) { return c.name == wanted; });
   return at == channels.end() ? nullptr : &*at;
 }
 
-Channel* Record::find(std::string_view wanted) { return const_cast<Channel*>(std::as_const(*this).find(wanted)); }
+Channel* Record::find(std::string_view wanted) {
+  return const_cast<Channel*>(std::as_const(*this).find(wanted));
+}
 
 const Channel& Record::channel(std::string_view wanted) const {
   if (const Channel* found = find(wanted)) return *found;

@@ -34,8 +34,8 @@ struct Record {
   std::optional<double> drive_level;  ///< A or V when it is constant over the record
   /// What else was constant, in SI: gap m, yield_stress Pa, viscosity Pa*s, temperature K ...
   std::vector<std::pair<std::string, double>> conditions;
-  std::vector<double> time;           ///< s, increasing, one per sample
-  double sample_time = 0;             ///< s when uniformly sampled, else 0
+  std::vector<double> time;  ///< s, increasing, one per sample
+  double sample_time = 0;    ///< s when uniformly sampled, else 0
   std::vector<Channel> channels;
   std::size_t warm_up = 0;  ///< first samples that are simulated but not scored
   Role role = Role::Unassigned;

@@ -1,0 +1,253 @@
+#include "dashpot/record/build_record.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "dashpot/base/error.h"
+#include "dashpot/base/text.h"
+#include "dashpot/record/differentiate.h"
+#include "dashpot/record/time_base.h"
+
+namespace dashpot {
+namespace {
+
+std::string label(const RawColumn& column, std::size_t index) {
+  return column.name.empty() ? "column " + std::to_string(index + 1) : column.name;
+}
+
+const ColumnUse* find_use(const ColumnUses& uses, std::string_view channel) {
+  for (const ColumnUse& use : uses.used)
+    if (use.channel == channel) return &use;
+  return nullptr;
+}
+
+/// "" when the table is a recording of a damper: a motion and a force.
+std::string refusal(const RawTable& table, const ColumnUses& uses) {
+  const bool motion = find_use(uses, "displacement") || find_use(uses, "velocity");
+  const bool force = find_use(uses, "force");
+  if (motion && force) return {};
+  const std::string missing = !motion && !force ? "displacement (or velocity) and force"
+                              : motion          ? "force"
+                                                : "displacement (or velocity)";
+  const std::string how =
+      table.named()
+          ? "state in a dataset file which column it is: 'channels: {force: {column: NAME, unit: N}}'"
+          : "no line names the columns: state them by number in a dataset file: 'channels: {force: {column: "
+            "2, unit: N}}'";
+  return "no column is " + missing + " by its name (it has " + table.column_list() + "); " + how;
+}
+
+void require_numbers(const RawTable& table, const ColumnUse& use) {
+  const RawColumn& column = table.columns[use.column];
+  if (!column.bad) return;
+  const std::string what = use.channel + " (" + label(column, use.column) + ") is ";
+  throw Error(table.where(column.bad->row),
+              what + (column.bad->text.empty() ? "empty" : "'" + column.bad->text + "', not a finite number"),
+              "write it as 12.5, or leave the row out");
+}
+
+/// s, of a single number beside the columns that is a sample time or a rate by its name.
+std::optional<double> sample_time_of_scalars(const RawTable& table, std::string& basis) {
+  for (const auto& [name, value] : table.scalars) {
+    const std::string word = lower(name);
+    const bool step = word == "ts" || word == "dt" || word == "sample_time" || word == "sampletime";
+    const bool rate = word == "fs" || word == "sample_rate" || word == "samplerate";
+    if ((!step && !rate) || !(value > 0) || !std::isfinite(value)) continue;
+    basis = "row times " + name;
+    return step ? value : 1 / value;
+  }
+  return std::nullopt;
+}
+
+/// How time was understood, in words.
+std::string set_time(Record& record, const RawTable& table, const ColumnUses& uses,
+                     const FileStatement& statement) {
+  std::string basis = "stated";
+  std::optional<double> step = statement.sample_time;
+  if (const ColumnUse* use = find_use(uses, "time"); use && !step) {
+    const std::vector<double>& stamps = table.columns[use->column].values;
+    require_increasing(stamps, table);
+    record.sample_time = uniform_step(stamps) * use->factor;
+    record.time.resize(stamps.size());
+    const double start = use->factor * (stamps[0] - use->raw_offset);
+    if (record.sample_time > 0) record.time = uniform_time(stamps.size(), record.sample_time);
+    for (std::size_t k = 0; k < stamps.size(); ++k)
+      record.time[k] =
+          record.sample_time > 0 ? record.time[k] + start : use->factor * (stamps[k] - use->raw_offset);
+    return record.sample_time > 0 ? "uniform within the printed digits" : "not uniform: kept as it is";
+  }
+  if (!step && (step = table.sample_time)) basis = "row times the file's sampling interval";
+  if (!step) step = sample_time_of_scalars(table, basis);
+  if (!step)
+    throw Error(table.file, "no column is time by its name (it has " + table.column_list() + ")",
+                "state in a dataset file 'time: {sample_rate: 1000}' or 'time: {column: NAME, unit: s}'");
+  record.sample_time = *step;
+  record.time = uniform_time(table.rows(), *step);
+  return basis;
+}
+
+void take_channels(Record& record, RawTable& table, const ColumnUses& uses) {
+  for (const ColumnUse& use : uses.used) {
+    if (use.channel == "time") continue;
+    RawColumn& column = table.columns[use.column];
+    Channel channel{use.channel, use.si_unit, std::move(column.values),
+                    "column " + label(column, use.column)};
+    if (use.unit != use.si_unit) channel.origin += ", " + use.unit + " -> " + use.si_unit;
+    if (use.factor < 0) channel.origin += ", sign flipped";
+    for (double& value : channel.samples) value = use.factor * (value - use.raw_offset);
+    record.channels.push_back(std::move(channel));
+  }
+}
+
+const Channel& motion_of(const Record& record) {
+  const Channel* displacement = record.find("displacement");
+  return displacement ? *displacement : record.channel("velocity");
+}
+
+void cut(Record& record, const FileStatement& statement) {
+  const double from = statement.cut_from.value_or(record.time.front());
+  const double to = statement.cut_to.value_or(record.time.back());
+  auto first = static_cast<std::size_t>(std::lower_bound(record.time.begin(), record.time.end(), from) -
+                                        record.time.begin());
+  auto last = static_cast<std::size_t>(std::upper_bound(record.time.begin(), record.time.end(), to) -
+                                       record.time.begin());
+  if (last < first + 2)
+    throw Error(record.name,
+                "the cut from " + format_number(from) + " s to " + format_number(to) + " s leaves nothing",
+                "the record runs from " + format_number(record.time.front()) + " s to " +
+                    format_number(record.time.back()) + " s");
+  if (statement.cut_rest) {
+    const std::size_t n = last - first;
+    const auto [begin, end] = moving_part(std::span(record.time).subspan(first, n),
+                                          std::span(motion_of(record).samples).subspan(first, n));
+    last = first + end;
+    first += begin;
+  }
+  if (first == 0 && last == record.size()) return;
+  const std::string note =
+      "cut to " + format_number(record.time[first], 6) + "..." + format_number(record.time[last - 1], 6) +
+      " s" + (statement.cut_rest ? ", without the rest before and after the motion" : ", as stated");
+  record = record.slice(first, last);
+  record.notes.push_back(note);
+}
+
+void centre(Record& record, const ColumnUses& uses) {
+  for (const ColumnUse& use : uses.used) {
+    Channel* channel = use.centre ? record.find(use.channel) : nullptr;
+    if (!channel) continue;
+    const double mean = std::accumulate(channel->samples.begin(), channel->samples.end(), 0.0) /
+                        static_cast<double>(record.size());
+    for (double& value : channel->samples) value -= mean;
+    record.notes.push_back(channel->name + " centred: mean " + format_number(mean) + " " + channel->unit +
+                           " subtracted");
+  }
+}
+
+void add_velocity(Record& record, const BuildContext& context) {
+  if (record.find("velocity")) return;
+  const std::vector<double>& x = record.channel("displacement").samples;
+  if (!(record.sample_time > 0))
+    throw Error(record.source, "velocity cannot be derived: the time stamps are not uniform",
+                "state in a dataset file a velocity column, 'resample: RATE' (Hz), or the 'sample_rate' when "
+                "the stamps are wrong");
+  double cutoff = context.statement->velocity_cutoff_hz;
+  std::string basis = "stated";
+  if (!(cutoff > 0) && context.velocity_cutoff_hz > 0)
+    cutoff = context.velocity_cutoff_hz, basis = "as asked";
+  if (!(cutoff > 0)) cutoff = choose_cutoff_hz(x, record.sample_time), basis = "chosen from the motion";
+  record.channels.push_back(
+      {"velocity", "m/s", differentiate_zero_phase(x, record.sample_time, cutoff),
+       "derived from displacement, " + format_number(cutoff, 3) + " Hz zero-phase (" + basis + ")"});
+}
+
+/// A damper takes energy out. When nobody stated the sign of the force and it puts energy in, it is
+/// recorded the other way round.
+void settle_sign(Record& record, const ColumnUses& uses) {
+  Channel* force = record.find("force");
+  if (find_use(uses, "force")->stated) return;
+  const std::vector<double>& v = record.channel("velocity").samples;
+  double energy = 0, throughput = 0;
+  for (std::size_t k = 1; k < record.size(); ++k) {
+    const double part = force->samples[k] * v[k] * (record.time[k] - record.time[k - 1]);
+    energy += part;
+    throughput += std::abs(part);
+  }
+  if (energy > -0.2 * throughput || throughput == 0) return;
+  for (double& value : force->samples) value = -value;
+  force->origin += ", sign flipped";
+  record.notes.push_back(
+      "force sign flipped: as recorded the damper would put energy in (state 'sign: 1' to keep it)");
+}
+
+void add_drive(Record& record, const std::optional<KnownLevel>& level) {
+  if (level) {
+    const char* name = level->unit == "V" ? "voltage" : "current";
+    record.drive_level = level->value;
+    if (!record.find(name))
+      record.channels.push_back({name, level->unit, std::vector<double>(record.size(), level->value),
+                                 "constant, from " + level->basis});
+    return;
+  }
+  for (const char* name : {"current", "voltage"}) {
+    const Channel* drive = record.find(name);
+    if (!drive) continue;
+    const auto [low, high] = std::minmax_element(drive->samples.begin(), drive->samples.end());
+    const double mean = std::accumulate(drive->samples.begin(), drive->samples.end(), 0.0) /
+                        static_cast<double>(record.size());
+    // Sensor noise on a constant level: levels are set in steps of hundredths at the finest.
+    if (*high - *low <= std::max(0.02, 0.05 * std::abs(mean)))
+      record.drive_level = std::round(mean * 100) / 100;
+    return;
+  }
+}
+
+std::vector<ColumnReading> readings_of(const RawTable& table, const ColumnUses& uses,
+                                       const std::string& time_basis) {
+  std::vector<ColumnReading> readings;
+  for (const ColumnUse& use : uses.used) {
+    ColumnReading reading{table.file,  label(table.columns[use.column], use.column),
+                          use.channel, use.unit,
+                          use.factor,  use.raw_offset,
+                          use.basis};
+    if (use.channel == "time") reading.basis += "; " + time_basis;
+    if (use.centre) reading.basis += "; mean of the record subtracted";
+    readings.push_back(std::move(reading));
+  }
+  if (!find_use(uses, "time")) readings.push_back({table.file, "(row)", "time", "s", 1, 0, time_basis});
+  for (const auto& [column, why] : uses.unused)
+    readings.push_back({table.file, label(table.columns[column], column), "", "", 1, 0, why});
+  return readings;
+}
+
+}  // namespace
+
+BuiltRecord build_record(RawTable table, const BuildContext& context) {
+  BuiltRecord built;
+  const ColumnUses uses = understand_columns(table, *context.statement, context.stated_in);
+  built.refusal = refusal(table, uses);
+  if (!built.refusal.empty()) return built;
+  for (const ColumnUse& use : uses.used) require_numbers(table, use);
+  if (table.rows() < 2)
+    throw Error(table.file,
+                "has " + std::to_string(table.rows()) + (table.rows() == 1 ? " sample" : " samples"),
+                "a recording has at least 2, and hundreds to be of use");
+  Record& record = built.record;
+  record.name = context.name;
+  record.source = table.part.empty() ? table.file : table.file + ", " + table.part;
+  record.conditions = table.conditions;
+  record.conditions.insert(record.conditions.end(), context.statement->conditions.begin(),
+                           context.statement->conditions.end());
+  record.notes = table.notes;
+  built.readings = readings_of(table, uses, set_time(record, table, uses, *context.statement));
+  take_channels(record, table, uses);
+  cut(record, *context.statement);
+  if (context.statement->resample_hz) resample(record, *context.statement->resample_hz);
+  centre(record, uses);
+  add_velocity(record, context);
+  settle_sign(record, uses);
+  add_drive(record, context.level);
+  return built;
+}
+
+}  // namespace dashpot

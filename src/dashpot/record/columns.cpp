@@ -1,0 +1,154 @@
+#include "dashpot/record/columns.h"
+
+#include <algorithm>
+#include <set>
+
+#include "dashpot/base/error.h"
+#include "dashpot/base/text.h"
+#include "dashpot/base/units.h"
+#include "dashpot/record/channel_names.h"
+
+namespace dashpot {
+namespace {
+
+std::string column_name(const RawTable& table, std::size_t column) {
+  const std::string& name = table.columns[column].name;
+  return name.empty() ? "column " + std::to_string(column + 1) : name;
+}
+
+std::size_t find_column(const RawTable& table, const ChannelStatement& statement) {
+  if (statement.index > table.columns.size())
+    throw Error(table.file, "has no column " + std::to_string(statement.index),
+                "it has " + table.column_list());
+  if (statement.index > 0) return statement.index - 1;
+  std::vector<std::string> names;
+  for (std::size_t k = 0; k < table.columns.size(); ++k) {
+    if (table.columns[k].name == statement.column) return k;
+    names.push_back(table.columns[k].name);
+  }
+  if (!table.named())
+    throw Error(table.file, "no line names its columns, so there is no '" + statement.column + "'",
+                "state the column's number in the dataset file, as in 'column: 2'");
+  throw Error(table.file,
+              "has no column '" + statement.column + "' for " + statement.channel + " (stated at " +
+                  statement.where + ")",
+              "it has " + table.column_list());
+}
+
+void set_unit(ColumnUse& use, const std::string& unit_text, const ChannelStatement& statement) {
+  const std::string_view si = si_unit(use.channel);
+  use.unit = unit_text.empty() ? std::string(si) : unit_text;
+  use.si_unit = si.empty() ? use.unit : std::string(si);
+  const Unit unit = use.unit.empty() ? Unit{} : require_unit(use.unit, statement.where);
+  // A channel without a standard unit keeps the unit of its file.
+  const double to_si = si.empty() ? 1 : unit.factor, shift = si.empty() ? 0 : unit.offset;
+  use.factor = statement.sign * statement.scale * to_si;
+  use.raw_offset = statement.offset - shift / use.factor;
+  use.centre = statement.centre;
+}
+
+ColumnUse use_stated(const RawTable& table, const ChannelStatement& statement, const std::string& stated_in) {
+  ColumnUse use;
+  use.column = find_column(table, statement);
+  use.channel = statement.channel;
+  use.stated = true;
+  use.basis = "stated in " + stated_in;
+  std::string unit = statement.unit;
+  if (unit.empty()) {
+    const RawColumn& column = table.columns[use.column];
+    const NamedChannel named = recognise_channel(column.name, column.unit);
+    unit = !column.unit.empty() ? column.unit : named.channel == use.channel ? named.unit : "";
+    use.basis += unit.empty() ? ", assumed SI: no unit given" : ", unit from the file";
+  }
+  set_unit(use, unit, statement);
+  return use;
+}
+
+/// A column that claims a channel by its name.
+struct Claim {
+  std::size_t column;
+  NamedChannel named;
+};
+
+bool same_values(const RawColumn& a, const RawColumn& b) { return !a.bad && !b.bad && a.values == b.values; }
+
+/// The one of several claims that counts: the only plain name, or all hold the same values.
+const Claim* choose(const std::vector<Claim>& claims, const RawTable& table) {
+  const Claim* plain = nullptr;
+  std::size_t plain_names = 0;
+  for (const Claim& claim : claims)
+    if (claim.named.plain && plain_names++ == 0) plain = &claim;
+  if (claims.size() == 1) return &claims.front();
+  if (plain_names == 1) return plain;
+  const bool same = std::all_of(claims.begin(), claims.end(), [&](const Claim& claim) {
+    return same_values(table.columns[claim.column], table.columns[claims.front().column]);
+  });
+  return same ? &claims.front() : nullptr;
+}
+
+[[noreturn]] void refuse_two(const std::vector<Claim>& claims, const RawTable& table) {
+  const std::string& channel = claims.front().named.channel;
+  throw Error(table.file,
+              "columns '" + column_name(table, claims[0].column) + "' and '" +
+                  column_name(table, claims[1].column) + "' are both " + channel + " by their names",
+              "state which in a dataset file, as in 'channels: {" + channel +
+                  ": {column: " + column_name(table, claims[0].column) + "}}'");
+}
+
+void use_claims(const std::vector<Claim>& claims, const RawTable& table, ColumnUses& out) {
+  const Claim* chosen = choose(claims, table);
+  if (!chosen) refuse_two(claims, table);
+  for (const Claim& claim : claims)
+    if (&claim != chosen)
+      out.unused.emplace_back(claim.column, "not used: '" + column_name(table, chosen->column) + "' is the " +
+                                                claim.named.channel);
+  if (!chosen->named.problem.empty())
+    throw Error(table.where(0),
+                "column '" + column_name(table, chosen->column) + "' has " + chosen->named.problem,
+                "state the right one in a dataset file, or correct the header");
+  ColumnUse use;
+  use.column = chosen->column;
+  use.channel = chosen->named.channel;
+  use.basis = chosen->named.unit.empty() ? "header; assumed SI: no unit given" : "header";
+  ChannelStatement plain;
+  plain.where = table.where(0);
+  set_unit(use, chosen->named.unit, plain);
+  out.used.push_back(std::move(use));
+}
+
+}  // namespace
+
+ColumnUses understand_columns(const RawTable& table, const FileStatement& statement,
+                              const std::string& stated_in) {
+  ColumnUses out;
+  std::set<std::size_t> taken;
+  std::set<std::string> stated;
+  for (const ChannelStatement& channel : statement.channels) {
+    out.used.push_back(use_stated(table, channel, stated_in));
+    taken.insert(out.used.back().column);
+    if (!stated.insert(channel.channel).second)
+      throw Error(channel.where, channel.channel + " is stated twice");
+  }
+  std::vector<std::vector<Claim>> claims;
+  for (std::size_t k = 0; k < table.columns.size(); ++k) {
+    if (taken.count(k)) continue;
+    const NamedChannel named = recognise_channel(table.columns[k].name, table.columns[k].unit);
+    const bool wanted = !stated.count(named.channel) && (!statement.only_stated || named.channel == "time") &&
+                        !(named.channel == "time" && statement.sample_time);
+    if (named.channel.empty() || !wanted) {
+      out.unused.emplace_back(k,
+                              "not used: " + (!named.problem.empty()   ? named.problem
+                                              : !named.channel.empty() ? "the dataset file states otherwise"
+                                                                       : "name not known"));
+      continue;
+    }
+    auto same = std::find_if(claims.begin(), claims.end(),
+                             [&](const auto& c) { return c.front().named.channel == named.channel; });
+    if (same == claims.end()) same = claims.insert(claims.end(), std::vector<Claim>{});
+    same->push_back({k, named});
+  }
+  for (const auto& group : claims) use_claims(group, table, out);
+  return out;
+}
+
+}  // namespace dashpot

@@ -1,0 +1,32 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "dashpot/record/dataset_file.h"
+#include "dashpot/record/readers/table.h"
+
+namespace dashpot {
+
+/// A column that is used, and how: sample_si = factor * (raw - raw_offset).
+struct ColumnUse {
+  std::size_t column = 0;
+  std::string channel;
+  std::string unit;     ///< as read
+  std::string si_unit;  ///< as stored
+  double factor = 1, raw_offset = 0;
+  bool centre = false;
+  bool stated = false;
+  std::string basis;
+};
+
+struct ColumnUses {
+  std::vector<ColumnUse> used;                              ///< one per channel
+  std::vector<std::pair<std::size_t, std::string>> unused;  ///< column, why
+};
+
+/// What every column of a table is, from the statements and, where these are silent, the names.
+/// Throws Error when a stated column is missing or two columns claim one channel.
+ColumnUses understand_columns(const RawTable& table, const FileStatement& statement,
+                              const std::string& stated_in);
+
+}  // namespace dashpot
