@@ -134,12 +134,12 @@ ColumnUses understand_columns(const RawTable& table, const FileStatement& statem
     if (taken.count(k)) continue;
     const NamedChannel named = recognise_channel(table.columns[k].name, table.columns[k].unit);
     const bool wanted = !stated.count(named.channel) && (!statement.only_stated || named.channel == "time") &&
-                        !(named.channel == "time" && statement.sample_time);
+                        !(named.channel == "time" && (statement.sample_time || table.sample_time));
     if (named.channel.empty() || !wanted) {
-      out.unused.emplace_back(k,
-                              "not used: " + (!named.problem.empty()   ? named.problem
-                                              : !named.channel.empty() ? "the dataset file states otherwise"
-                                                                       : "name not known"));
+      out.unused.emplace_back(
+          k, "not used: " + (!named.problem.empty()   ? named.problem
+                             : !named.channel.empty() ? "stated otherwise, or given by the format"
+                                                      : "name not known"));
       continue;
     }
     auto same = std::find_if(claims.begin(), claims.end(),

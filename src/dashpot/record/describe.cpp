@@ -1,0 +1,157 @@
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "dashpot/base/text.h"
+#include "dashpot/record/dataset.h"
+
+namespace dashpot {
+namespace {
+
+using Row = std::vector<std::string>;
+
+/// Characters of a UTF-8 text, for alignment.
+std::size_t width(const std::string& text) {
+  return static_cast<std::size_t>(
+      std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
+}
+
+std::string align(const std::vector<Row>& rows) {
+  std::vector<std::size_t> widths;
+  for (const Row& row : rows) {
+    widths.resize(std::max(widths.size(), row.size()), 0);
+    for (std::size_t k = 0; k < row.size(); ++k) widths[k] = std::max(widths[k], width(row[k]));
+  }
+  std::string out;
+  for (const Row& row : rows) {
+    std::string line = " ";
+    for (std::size_t k = 0; k < row.size(); ++k)
+      line += " " + row[k] + std::string(widths[k] - width(row[k]) + 1, ' ');
+    out += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
+  }
+  return out;
+}
+
+std::string conversion(const ColumnReading& reading) {
+  if (reading.channel.empty()) return {};
+  std::string text = "x " + format_number(reading.factor, 6);
+  if (reading.raw_offset != 0) text = "(raw - " + format_number(reading.raw_offset, 6) + ") " + text;
+  return text;
+}
+
+/// The readings of one file as rows; files with the same rows are shown once.
+struct Understood {
+  std::vector<Row> rows;
+  std::vector<std::string> files;
+};
+
+std::vector<Understood> group_readings(const std::vector<ColumnReading>& readings) {
+  std::vector<Understood> groups, files;
+  for (const ColumnReading& reading : readings) {
+    const std::string name = std::filesystem::path(reading.file).filename().string();
+    if (files.empty() || files.back().files.front() != name) files.push_back({{}, {name}});
+    Row row{reading.column, reading.channel.empty() ? "-" : reading.channel, reading.unit,
+            conversion(reading), reading.basis};
+    std::vector<Row>& rows = files.back().rows;
+    // The parts of one file are read alike.
+    if (std::find(rows.begin(), rows.end(), row) == rows.end()) rows.push_back(std::move(row));
+  }
+  for (Understood& file : files) {
+    const auto same =
+        std::find_if(groups.begin(), groups.end(), [&](const Understood& g) { return g.rows == file.rows; });
+    if (same == groups.end()) {
+      groups.push_back(std::move(file));
+    } else {
+      same->files.push_back(file.files.front());
+    }
+  }
+  return groups;
+}
+
+std::string range(const Record& record, std::string_view channel, double scale) {
+  const Channel* found = record.find(channel);
+  if (!found || found->samples.empty()) return "-";
+  const auto [low, high] = std::minmax_element(found->samples.begin(), found->samples.end());
+  return format_number(*low * scale, 3) + "..." + format_number(*high * scale, 3);
+}
+
+std::string fastest(const Record& record) {
+  const Channel* velocity = record.find("velocity");
+  if (!velocity) return "-";
+  double most = 0;
+  for (const double v : velocity->samples) most = std::max(most, std::abs(v));
+  return format_number(most, 3);
+}
+
+std::string drive(const Record& record, const std::string& unit) {
+  if (record.drive_level) return format_number(*record.drive_level) + " " + unit;
+  const std::string varying = range(record, unit == "V" ? "voltage" : "current", 1);
+  return varying == "-" ? "unknown" : varying + " " + unit;
+}
+
+std::string role(const Record& record) {
+  return record.role == Role::Training ? "training" : record.role == Role::LeftOut ? "left out" : "";
+}
+
+std::string step(const Record& record) {
+  return record.sample_time > 0 ? format_number(record.sample_time * 1e3, 5) : "varies";
+}
+
+std::string record_table(const Dataset& dataset) {
+  std::vector<Row> rows{{"record", "condition", "drive", "samples", "step ms", "length s", "displacement mm",
+                         "speed m/s", "force N", "role"}};
+  for (const Record& record : dataset.records)
+    rows.push_back(
+        {record.name, record.condition, drive(record, dataset.drive_unit), std::to_string(record.size()),
+         step(record), format_number(record.time.back() - record.time.front()),
+         range(record, "displacement", 1e3), fastest(record), range(record, "force", 1), role(record)});
+  return align(rows);
+}
+
+/// A note that several records share is printed once, with their number.
+std::vector<std::string> record_notes(const Dataset& dataset) {
+  std::vector<std::pair<std::string, std::vector<std::string>>> notes;
+  const auto add = [&](const std::string& note, const std::string& record) {
+    const auto at =
+        std::find_if(notes.begin(), notes.end(), [&](const auto& known) { return known.first == note; });
+    if (at == notes.end()) {
+      notes.push_back({note, {record}});
+    } else if (at->second.back() != record) {
+      at->second.push_back(record);
+    }
+  };
+  for (const Record& record : dataset.records) {
+    for (const std::string& note : record.notes) add(note, record.name);
+    for (const Channel& channel : record.channels)
+      if (!channel.origin.starts_with("column ")) add(channel.name + " " + channel.origin, record.name);
+  }
+  std::vector<std::string> lines;
+  for (const auto& [note, records] : notes)
+    lines.push_back((records.size() == 1 ? records.front() : std::to_string(records.size()) + " records") +
+                    ": " + note);
+  return lines;
+}
+
+}  // namespace
+
+std::string describe(const Dataset& dataset) {
+  std::string out = dataset.name + ": " + std::to_string(dataset.records.size()) + " records from " +
+                    std::to_string(dataset.files.size()) + " files\n";
+  if (!dataset.citation.empty()) out += "  cite: " + dataset.citation + "\n";
+  for (const Understood& group : group_readings(dataset.readings)) {
+    out += "\n" + group.files.front();
+    if (group.files.size() > 1) out += " and " + std::to_string(group.files.size() - 1) + " more like it";
+    std::vector<Row> rows{{"column", "channel", "unit", "to SI", "why"}};
+    rows.insert(rows.end(), group.rows.begin(), group.rows.end());
+    out += "\n" + align(rows);
+  }
+  out += "\n" + record_table(dataset);
+  std::vector<std::string> notes = dataset.notes;
+  const std::vector<std::string> of_records = record_notes(dataset);
+  notes.insert(notes.end(), of_records.begin(), of_records.end());
+  if (!notes.empty()) out += "\nnotes\n";
+  for (const std::string& note : notes) out += "  " + note + "\n";
+  return out;
+}
+
+}  // namespace dashpot

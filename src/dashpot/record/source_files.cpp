@@ -1,0 +1,105 @@
+#include "dashpot/record/source_files.h"
+
+#include <algorithm>
+#include <cstring>
+#include <fnmatch.h>
+
+#include "dashpot/base/error.h"
+#include "dashpot/base/text.h"
+#include "dashpot/record/channel_names.h"
+#include "dashpot/record/readers/csv.h"
+
+namespace fs = std::filesystem;
+
+namespace dashpot {
+namespace {
+
+void list_folder(const fs::path& folder, std::vector<SourcePath>& out) {
+  std::error_code error;
+  fs::recursive_directory_iterator at(folder, error), end;
+  for (; !error && at != end; at.increment(error)) {
+    const std::string name = at->path().filename().string();
+    if (name.starts_with(".")) {
+      at.disable_recursion_pending();
+    } else if (at->is_regular_file(error)) {
+      out.push_back({at->path(), at->path().lexically_relative(folder).string(), false});
+    }
+  }
+  if (error) throw Error(folder.string(), "cannot be read: " + error.message());
+}
+
+/// strverscmp puts leading zeros first, which file names want too: run01 before run1.
+bool by_number(const SourcePath& a, const SourcePath& b) {
+  return strverscmp(a.relative.c_str(), b.relative.c_str()) < 0;
+}
+
+}  // namespace
+
+std::vector<SourcePath> list_files(const std::vector<fs::path>& paths) {
+  std::vector<SourcePath> out;
+  for (const fs::path& path : paths) {
+    std::error_code error;
+    const fs::file_status status = fs::status(path, error);
+    if (!fs::exists(status))
+      throw Error(path.string(), error && error != std::errc::no_such_file_or_directory
+                                     ? "cannot be read: " + error.message()
+                                     : "there is no such file or folder");
+    if (!fs::is_directory(status)) {
+      out.push_back({path, path.filename().string(), true});
+      continue;
+    }
+    std::vector<SourcePath> inside;
+    list_folder(path, inside);
+    std::sort(inside.begin(), inside.end(), by_number);
+    out.insert(out.end(), inside.begin(), inside.end());
+  }
+  return out;
+}
+
+bool matches(const std::string& pattern, const SourcePath& file) {
+  return fnmatch(pattern.c_str(), file.relative.c_str(), 0) == 0 ||
+         fnmatch(pattern.c_str(), file.path.filename().c_str(), 0) == 0;
+}
+
+Manifest::Manifest(const fs::path& path) : path_(path.string()) {
+  TextTable table = read_text_table(path);
+  names_ = std::move(table.names);
+  rows_ = std::move(table.rows);
+  const auto at = std::find(names_.begin(), names_.end(), "file");
+  if (at == names_.end())
+    throw Error(path_, "has no column 'file'", "its first line names the columns, one of them 'file'");
+  file_column_ = static_cast<std::size_t>(at - names_.begin());
+}
+
+const std::vector<std::string>* Manifest::row_of(const std::string& file) const {
+  for (const auto& row : rows_)
+    if (row[file_column_] == file) return &row;
+  return nullptr;
+}
+
+std::optional<std::string> Manifest::cell(const std::string& file, const std::string& column) const {
+  const auto* row = row_of(file);
+  const auto at = std::find(names_.begin(), names_.end(), column);
+  if (!row || at == names_.end()) return std::nullopt;
+  return (*row)[static_cast<std::size_t>(at - names_.begin())];
+}
+
+double Manifest::number(const std::string& file, const std::string& column) const {
+  const auto text = cell(file, column);
+  if (!text)
+    throw Error(path_, "has no '" + column + "' for " + file, "its columns are " + join(names_, ", "));
+  const auto value = parse_number(*text);
+  if (!value) throw Error(path_, "'" + column + "' of " + file + " is '" + *text + "', not a number");
+  return *value;
+}
+
+std::optional<std::pair<std::string, std::string>> Manifest::level_column() const {
+  for (const std::string& name : names_) {
+    const std::string channel = recognise_channel(name, "").channel;
+    if (channel == "current" || channel == "voltage")
+      return std::pair(name, channel == "current" ? std::string("A") : std::string("V"));
+  }
+  return std::nullopt;
+}
+
+}  // namespace dashpot

@@ -1,0 +1,51 @@
+#pragma once
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace dashpot {
+
+/// A file that the caller pointed at, alone or through its folder.
+struct SourcePath {
+  std::filesystem::path path;
+  std::string relative;  ///< to the folder that was pointed at
+  bool named = false;    ///< pointed at itself, so that it may not be passed over
+};
+
+/// The files of the paths, folders searched to the bottom, sorted by name with numbers in their order
+/// ("run2" before "run10"); hidden files left out. Throws Error on a path that cannot be read.
+std::vector<SourcePath> list_files(const std::vector<std::filesystem::path>& paths);
+
+/// Whether a pattern with * ? [...] fits the relative path or the file's name.
+bool matches(const std::string& pattern, const SourcePath& file);
+
+/// Table of the files of a folder, with a column "file": it selects them and states their conditions.
+class Manifest {
+ public:
+  Manifest() = default;
+  /// Throws Error when it has no column "file".
+  explicit Manifest(const std::filesystem::path& path);
+
+  bool empty() const { return rows_.empty(); }
+  const std::string& path() const { return path_; }
+  bool lists(const std::string& file) const { return row_of(file) != nullptr; }
+  /// The cell of a file; nothing when the file or the column is not there.
+  std::optional<std::string> cell(const std::string& file, const std::string& column) const;
+  /// As a number; throws Error naming the manifest when it is none.
+  double number(const std::string& file, const std::string& column) const;
+  /// The first column that is a current (A) or a voltage (V) by its name, with its unit.
+  std::optional<std::pair<std::string, std::string>> level_column() const;
+  const std::vector<std::string>& columns() const { return names_; }
+
+ private:
+  const std::vector<std::string>* row_of(const std::string& file) const;
+
+  std::string path_;
+  std::vector<std::string> names_;
+  std::vector<std::vector<std::string>> rows_;
+  std::size_t file_column_ = 0;
+};
+
+}  // namespace dashpot

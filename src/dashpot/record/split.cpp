@@ -1,0 +1,210 @@
+#include "dashpot/record/split.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "dashpot/base/error.h"
+#include "dashpot/base/text.h"
+
+namespace dashpot {
+namespace {
+
+struct Way {
+  LeaveOut::By by;
+  std::string_view name;
+};
+constexpr Way kWays[] = {{LeaveOut::By::Condition, "condition"},
+                         {LeaveOut::By::Current, "current"},
+                         {LeaveOut::By::Record, "record"},
+                         {LeaveOut::By::Fraction, "fraction"},
+                         {LeaveOut::By::Roles, "roles"}};
+
+template <class T>
+void add_new(std::vector<T>& values, const T& value) {
+  if (std::find(values.begin(), values.end(), value) == values.end()) values.push_back(value);
+}
+
+std::vector<std::string> conditions(const Dataset& dataset) {
+  std::vector<std::string> all;
+  for (const Record& record : dataset.records) add_new(all, record.condition);
+  return all;
+}
+
+/// Ascending.
+std::vector<double> levels(const Dataset& dataset) {
+  std::vector<double> all;
+  for (const Record& record : dataset.records)
+    if (record.drive_level) add_new(all, *record.drive_level);
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+bool has_role(const Dataset& dataset, Role role) {
+  return std::any_of(dataset.records.begin(), dataset.records.end(),
+                     [&](const Record& r) { return r.role == role; });
+}
+
+bool has_roles(const Dataset& dataset) {
+  return has_role(dataset, Role::Training) && has_role(dataset, Role::LeftOut);
+}
+
+std::string ways_that_work(const Dataset& dataset) {
+  std::vector<std::string> ways;
+  if (conditions(dataset).size() > 1) ways.emplace_back("'condition'");
+  if (levels(dataset).size() > 2) ways.emplace_back("'current'");
+  if (dataset.records.size() > 1) ways.emplace_back("'record'");
+  ways.emplace_back("'fraction=0.3'");
+  if (has_roles(dataset)) ways.emplace_back("'roles'");
+  return "leave out by " + join(ways, ", ");
+}
+
+[[noreturn]] void impossible(const Dataset& dataset, const std::string& what) {
+  throw Error(dataset.name, "cannot be divided so: " + what, ways_that_work(dataset));
+}
+
+template <class Chosen>
+Fold fold_by(const Dataset& dataset, const std::string& name, const Chosen& left_out) {
+  Fold fold;
+  fold.name = name;
+  for (const Record& record : dataset.records)
+    (left_out(record) ? fold.left_out : fold.training).push_back(record);
+  if (fold.left_out.empty()) impossible(dataset, "no record is '" + name.substr(name.find(' ') + 1) + "'");
+  if (fold.training.empty()) impossible(dataset, "nothing is left to train on " + name);
+  return fold;
+}
+
+std::vector<Fold> by_condition(const Dataset& dataset, const LeaveOut& how) {
+  const std::vector<std::string> all = conditions(dataset);
+  if (all.size() < 2)
+    impossible(dataset, "all records have one condition, '" + (all.empty() ? "" : all[0]) + "'");
+  std::vector<Fold> folds;
+  for (const std::string& condition : how.values.empty() ? all : how.values)
+    folds.push_back(
+        fold_by(dataset, "without " + condition, [&](const Record& r) { return r.condition == condition; }));
+  return folds;
+}
+
+std::vector<double> chosen_levels(const Dataset& dataset, const LeaveOut& how) {
+  if (how.values.empty()) {
+    const std::vector<double> all = levels(dataset);
+    if (all.size() < 3)
+      impossible(dataset, std::to_string(all.size()) + " constant drive level(s): no inner one to leave out");
+    return {all.begin() + 1, all.end() - 1};
+  }
+  std::vector<double> out;
+  for (const std::string& text : how.values) {
+    const auto value = parse_number(text);
+    if (!value) impossible(dataset, "'" + text + "' is not a drive level");
+    out.push_back(*value);
+  }
+  return out;
+}
+
+/// Two levels are the same within their printed digits: 0.87 means 0.8712.
+bool same_level(double level, double asked) {
+  return std::abs(level - asked) <= 0.005 * std::max(1.0, std::abs(asked));
+}
+
+std::vector<Fold> by_current(const Dataset& dataset, const LeaveOut& how) {
+  std::vector<Fold> folds;
+  for (const double level : chosen_levels(dataset, how))
+    folds.push_back(
+        fold_by(dataset, "without " + format_number(level) + " " + dataset.drive_unit,
+                [&](const Record& r) { return r.drive_level && same_level(*r.drive_level, level); }));
+  return folds;
+}
+
+std::vector<Fold> by_record(const Dataset& dataset, const LeaveOut& how) {
+  if (dataset.records.size() < 2) impossible(dataset, "it has one record");
+  std::vector<std::string> names = how.values;
+  if (names.empty())
+    for (const Record& record : dataset.records) names.push_back(record.name);
+  std::vector<Fold> folds;
+  for (const std::string& name : names)
+    folds.push_back(fold_by(dataset, "without " + name, [&](const Record& r) { return r.name == name; }));
+  return folds;
+}
+
+/// The left-out record runs from its start, so that the model reaches its state, and is scored at its end.
+std::vector<Fold> by_fraction(const Dataset& dataset, const LeaveOut& how) {
+  Fold fold;
+  fold.name = "without the last " + format_number(100 * how.fraction, 3) + " % of each record";
+  for (const Record& record : dataset.records) {
+    const auto at =
+        static_cast<std::size_t>(std::lround((1 - how.fraction) * static_cast<double>(record.size())));
+    if (at < record.warm_up + 2 || at + 2 > record.size())
+      impossible(dataset, record.name + " is too short for a fraction of " + format_number(how.fraction));
+    fold.training.push_back(record.slice(0, at));
+    fold.left_out.push_back(record);
+    fold.left_out.back().warm_up = at;
+  }
+  return {fold};
+}
+
+std::vector<Fold> by_roles(const Dataset& dataset) {
+  if (!has_roles(dataset)) impossible(dataset, "its dataset file gives no roles");
+  Fold fold;
+  fold.name = "as the dataset file states";
+  for (const Record& record : dataset.records) {
+    if (record.role == Role::Training) fold.training.push_back(record);
+    if (record.role == Role::LeftOut) fold.left_out.push_back(record);
+  }
+  return {fold};
+}
+
+}  // namespace
+
+LeaveOut parse_leave_out(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  const std::string name = lower(trim(std::string_view(text).substr(0, equals)));
+  const auto way =
+      std::find_if(std::begin(kWays), std::end(kWays), [&](const Way& w) { return w.name == name; });
+  if (way == std::end(kWays))
+    throw Error("", "cannot leave out by '" + text + "'",
+                "'condition', 'current', 'current=0.5,1', 'record', 'fraction=0.3' or 'roles'");
+  LeaveOut out;
+  out.by = way->by;
+  if (equals == std::string::npos) return out;
+  const std::string rest = text.substr(equals + 1);
+  if (out.by == LeaveOut::By::Fraction) {
+    out.fraction = parse_number(rest).value_or(0);
+    if (!(out.fraction > 0 && out.fraction < 1))
+      throw Error("", "fraction '" + rest + "' cannot be left out",
+                  "a number between 0 and 1: 'fraction=0.3'");
+    return out;
+  }
+  if (out.by == LeaveOut::By::Roles)
+    throw Error("", "'roles' takes no values", "the dataset file states them");
+  for (const std::string& value : split(rest, ',')) {
+    if (trim(value).empty()) throw Error("", "an empty value in '" + text + "'", "as 'current=0.5,1'");
+    out.values.emplace_back(trim(value));
+  }
+  return out;
+}
+
+std::string format_leave_out(const LeaveOut& leave_out) {
+  const auto way =
+      std::find_if(std::begin(kWays), std::end(kWays), [&](const Way& w) { return w.by == leave_out.by; });
+  std::string text(way->name);
+  if (leave_out.by == LeaveOut::By::Fraction) return text + "=" + format_exact(leave_out.fraction);
+  return leave_out.values.empty() ? text : text + "=" + join(leave_out.values, ",");
+}
+
+std::vector<Fold> split(const Dataset& dataset, const LeaveOut& leave_out) {
+  if (dataset.records.empty()) throw Error(dataset.name, "has no records to divide");
+  switch (leave_out.by) {
+    case LeaveOut::By::Current:
+      return by_current(dataset, leave_out);
+    case LeaveOut::By::Record:
+      return by_record(dataset, leave_out);
+    case LeaveOut::By::Fraction:
+      return by_fraction(dataset, leave_out);
+    case LeaveOut::By::Roles:
+      return by_roles(dataset);
+    case LeaveOut::By::Condition:
+      break;
+  }
+  return by_condition(dataset, leave_out);
+}
+
+}  // namespace dashpot
