@@ -106,7 +106,8 @@ Sources find_sources(std::vector<fs::path> paths, const LoadOptions& options) {
     if (auto shipped = find_shipped(sources.files)) {
       sources.stated = std::move(*shipped);
       sources.stated.notes.insert(sources.stated.notes.begin(),
-                                  "recognised: understood as " + sources.stated.path + " states");
+                                  "recognised: understood as the dataset file " +
+                                      fs::path(sources.stated.path).filename().string() + " states");
       return sources;
     }
   sources.stated = nothing_stated(paths);
@@ -164,6 +165,7 @@ class Loader {
     }
     if (dataset_.records.empty()) refuse_nothing();
     infer_conditions(dataset_.records, name_rests_);
+    sort_by_level();
     make_names_unique();
     settle_drive();
     return std::move(dataset_);
@@ -295,6 +297,15 @@ class Loader {
                          ? ""
                          : "; " + stated_in_ +
                                " says which files: give the folder that holds them, or state 'root:' in it"));
+  }
+
+  /// Within a condition by drive level; conditions stay in the order of their files.
+  void sort_by_level() {
+    std::map<std::string, std::size_t> order;
+    for (const Record& record : dataset_.records) order.emplace(record.condition, order.size());
+    std::stable_sort(dataset_.records.begin(), dataset_.records.end(), [&](const Record& a, const Record& b) {
+      return std::pair(order[a.condition], a.drive_level) < std::pair(order[b.condition], b.drive_level);
+    });
   }
 
   void make_names_unique() {

@@ -72,7 +72,7 @@ std::string range(const Record& record, std::string_view channel, double scale) 
   const Channel* found = record.find(channel);
   if (!found || found->samples.empty()) return "-";
   const auto [low, high] = std::minmax_element(found->samples.begin(), found->samples.end());
-  return format_number(*low * scale, 3) + "..." + format_number(*high * scale, 3);
+  return format_number(*low * scale) + "..." + format_number(*high * scale);
 }
 
 std::string fastest(const Record& record) {
@@ -108,28 +108,59 @@ std::string record_table(const Dataset& dataset) {
   return align(rows);
 }
 
-/// A note that several records share is printed once, with their number.
-std::vector<std::string> record_notes(const Dataset& dataset) {
-  std::vector<std::pair<std::string, std::vector<std::string>>> notes;
-  const auto add = [&](const std::string& note, const std::string& record) {
-    const auto at =
-        std::find_if(notes.begin(), notes.end(), [&](const auto& known) { return known.first == note; });
-    if (at == notes.end()) {
-      notes.push_back({note, {record}});
-    } else if (at->second.back() != record) {
-      at->second.push_back(record);
+/// A note without its numbers: notes of one pattern are shown once.
+std::string pattern_of(const std::string& note) {
+  std::string out;
+  for (const char c : note)
+    if (!(c >= '0' && c <= '9')) out += c;
+  return out;
+}
+
+/// Notes of one pattern, and what they are about.
+struct SharedNote {
+  std::string pattern, text;
+  std::vector<std::string> subjects;
+  bool differs = false;  ///< in its numbers
+};
+
+void add_note(std::vector<SharedNote>& notes, const std::string& text, const std::string& subject) {
+  const std::string pattern = pattern_of(text);
+  const auto at =
+      std::find_if(notes.begin(), notes.end(), [&](const SharedNote& n) { return n.pattern == pattern; });
+  if (at == notes.end()) return notes.push_back({pattern, text, {subject}, false});
+  at->differs = at->differs || at->text != text;
+  if (at->subjects.back() != subject) at->subjects.push_back(subject);
+}
+
+std::string format_note(const SharedNote& note, std::string_view plural) {
+  std::string subject = note.subjects.front();
+  if (note.subjects.size() > 1)
+    subject = std::to_string(note.subjects.size()) + " " + std::string(plural) + " (" + subject + ", " +
+              note.subjects[1] + (note.subjects.size() > 2 ? " ...)" : ")");
+  return (subject.empty() ? "" : subject + ": ") + note.text + (note.differs ? ", and likewise" : "");
+}
+
+std::string note_list(const Dataset& dataset) {
+  constexpr std::string_view kPassedOver = ": passed over: ";
+  std::vector<SharedNote> of_files, of_records;
+  for (const std::string& note : dataset.notes) {
+    const std::size_t at = note.find(kPassedOver);
+    if (at == std::string::npos) {
+      of_files.push_back({note, note, {""}, false});
+    } else {
+      add_note(of_files, note.substr(at + 2), note.substr(0, at));
     }
-  };
-  for (const Record& record : dataset.records) {
-    for (const std::string& note : record.notes) add(note, record.name);
-    for (const Channel& channel : record.channels)
-      if (!channel.origin.starts_with("column ")) add(channel.name + " " + channel.origin, record.name);
   }
-  std::vector<std::string> lines;
-  for (const auto& [note, records] : notes)
-    lines.push_back((records.size() == 1 ? records.front() : std::to_string(records.size()) + " records") +
-                    ": " + note);
-  return lines;
+  for (const Record& record : dataset.records) {
+    for (const std::string& note : record.notes) add_note(of_records, note, record.name);
+    for (const Channel& channel : record.channels)
+      if (!channel.origin.starts_with("column "))
+        add_note(of_records, channel.name + " " + channel.origin, record.name);
+  }
+  std::string out;
+  for (const SharedNote& note : of_files) out += "  " + format_note(note, "files") + "\n";
+  for (const SharedNote& note : of_records) out += "  " + format_note(note, "records") + "\n";
+  return out.empty() ? out : "\nnotes\n" + out;
 }
 
 }  // namespace
@@ -145,12 +176,7 @@ std::string describe(const Dataset& dataset) {
     rows.insert(rows.end(), group.rows.begin(), group.rows.end());
     out += "\n" + align(rows);
   }
-  out += "\n" + record_table(dataset);
-  std::vector<std::string> notes = dataset.notes;
-  const std::vector<std::string> of_records = record_notes(dataset);
-  notes.insert(notes.end(), of_records.begin(), of_records.end());
-  if (!notes.empty()) out += "\nnotes\n";
-  for (const std::string& note : notes) out += "  " + note + "\n";
+  out += "\n" + record_table(dataset) + note_list(dataset);
   return out;
 }
 
