@@ -180,6 +180,17 @@ void settle_sign(Record& record, const ColumnUses& uses) {
       "force sign flipped: as recorded the damper would put energy in (state 'sign: 1' to keep it)");
 }
 
+/// A unit that was assumed and cannot be right: no test bench strokes 2 m.
+void doubt_units(Record& record, const ColumnUses& uses) {
+  const ColumnUse* use = find_use(uses, "displacement");
+  if (!use || use->basis.find("assumed") == std::string::npos) return;
+  const auto& x = record.channel("displacement").samples;
+  const auto [low, high] = std::minmax_element(x.begin(), x.end());
+  if (*high - *low > 2)
+    record.notes.push_back("displacement spans " + format_number(*high - *low) +
+                           " m: its unit was assumed and is wrong; state 'unit: mm'");
+}
+
 void add_drive(Record& record, const std::optional<KnownLevel>& level) {
   if (level) {
     const char* name = level->unit == "V" ? "voltage" : "current";
@@ -246,6 +257,7 @@ BuiltRecord build_record(RawTable table, const BuildContext& context) {
   centre(record, uses);
   add_velocity(record, context);
   settle_sign(record, uses);
+  doubt_units(record, uses);
   add_drive(record, context.level);
   return built;
 }

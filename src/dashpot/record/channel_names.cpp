@@ -143,6 +143,14 @@ NamedChannel resolve(const std::string& name, const std::string& unit) {
   return {channel, unit, {}, letters_only && words_of(name).size() == 1};
 }
 
+/// "x(2)".
+bool is_matrix_column(std::string_view name) {
+  const std::size_t open = name.rfind('(');
+  return open != std::string_view::npos && open > 0 && name.back() == ')' &&
+         name.substr(open).find_first_not_of("()0123456789") == std::string_view::npos &&
+         name.size() - open > 2;
+}
+
 }  // namespace
 
 std::string_view si_unit(std::string_view channel) {
@@ -154,6 +162,7 @@ std::string_view si_unit(std::string_view channel) {
 
 NamedChannel recognise_channel(std::string_view column, std::string_view row_unit) {
   const std::string whole(trim(column)), row(row_unit);
+  if (is_matrix_column(whole)) return {{}, {}, "a column of a matrix has no name of its own", false};
   NamedChannel refused;
   for (const Parts& parts : possible_parts(whole)) {
     NamedChannel found = resolve(parts.name, parts.unit);

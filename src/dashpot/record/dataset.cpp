@@ -184,7 +184,13 @@ class Loader {
       return pass_over(file, "not in manifest.csv");
     if (!stated && !file.named && fs::file_size(file.path) > 0 && !find_reader(file.path))
       return pass_over(file, "not a recording by its format");
-    std::vector<RawTable> tables = read_tables(file.path);
+    std::vector<RawTable> tables;
+    try {
+      tables = read_tables(file.path);
+    } catch (const NoTable&) {
+      if (file.named || stated) throw;
+      return pass_over(file, "it holds no table of numbers");
+    }
     const std::size_t parts = tables.size();
     bool used = false;
     for (RawTable& table : tables) used = load_table(file, *statement, std::move(table), parts) || used;

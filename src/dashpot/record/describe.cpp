@@ -153,6 +153,10 @@ std::string note_list(const Dataset& dataset) {
   }
   for (const Record& record : dataset.records) {
     for (const std::string& note : record.notes) add_note(of_records, note, record.name);
+    std::vector<std::string> conditions;
+    for (const auto& [name, value] : record.conditions)
+      conditions.push_back(name + " " + format_number(value));
+    if (!conditions.empty()) add_note(of_records, "SI: " + join(conditions, ", "), record.name);
     for (const Channel& channel : record.channels)
       if (!channel.origin.starts_with("column "))
         add_note(of_records, channel.name + " " + channel.origin, record.name);

@@ -9,14 +9,28 @@
 namespace dashpot {
 namespace {
 
+bool whole(double value) { return std::abs(value - std::round(value)) <= 1e-6 + 4e-16 * std::abs(value); }
+
 /// The power of ten to which the stamps are printed, or 0 when they have all their digits.
 double printed_digit(std::span<const double> stamps) {
   const auto looked_at = stamps.first(std::min<std::size_t>(stamps.size(), 5000));
-  for (double scale = 1; scale < 1e10; scale *= 10) {
-    const auto on_grid = [&](double t) {
-      return std::abs(t * scale - std::round(t * scale)) <= 1e-6 + 4e-16 * std::abs(t * scale);
-    };
-    if (std::all_of(looked_at.begin(), looked_at.end(), on_grid)) return 1 / scale;
+  for (double scale = 1; scale < 1e10; scale *= 10)
+    if (std::all_of(looked_at.begin(), looked_at.end(), [&](double t) { return whole(t * scale); }))
+      return 1 / scale;
+  return 0;
+}
+
+double power_of_ten(double t) {
+  return t == 0 ? 1e-300 : std::pow(10.0, std::floor(std::log10(std::abs(t))));
+}
+
+/// To how many significant digits the stamps are printed (0.0003328 ... 24.6496: 6), or 0 for all.
+int significant_digits(std::span<const double> stamps) {
+  for (int digits = 3; digits < 10; ++digits) {
+    const double scale = std::pow(10.0, digits - 1);
+    if (std::all_of(stamps.begin(), stamps.end(),
+                    [&](double t) { return whole(t / power_of_ten(t) * scale); }))
+      return digits;
   }
   return 0;
 }
@@ -67,12 +81,18 @@ double uniform_step(std::span<const double> stamps) {
   if (stamps.size() < 2) return 0;
   const Line line = fit_line(stamps);
   const double digit = printed_digit(stamps);
+  const int digits = digit > 0 ? significant_digits(stamps) : 0;
+  const double coarsest = digits > 0 ? std::pow(10.0, 1 - digits) * power_of_ten(stamps.back()) : digit;
   // Coarse digits (0 1 2 4 5) cannot show that a gap is rounding: then only an exact grid is uniform.
-  const double rounding = digit < 0.25 * line.step ? 0.55 * digit : 0;
-  const double tolerance = rounding + 1e-6 * line.step;
+  const bool rounded = std::max(digit, coarsest) < 0.5 * line.step;
+  const auto tolerance = [&](double t) {
+    const double place = digits > 0 ? std::max(digit, std::pow(10.0, 1 - digits) * power_of_ten(t)) : digit;
+    return (rounded ? 0.6 * place : 0) + 1e-6 * line.step;
+  };
   for (std::size_t k = 0; k < stamps.size(); ++k)
-    if (std::abs(stamps[k] - line.start - line.step * static_cast<double>(k)) > tolerance) return 0;
-  return snapped(line.step, 2 * tolerance / static_cast<double>(stamps.size() - 1), digit);
+    if (std::abs(stamps[k] - line.start - line.step * static_cast<double>(k)) > tolerance(stamps[k]))
+      return 0;
+  return snapped(line.step, 2 * tolerance(stamps.back()) / static_cast<double>(stamps.size() - 1), digit);
 }
 
 void require_increasing(std::span<const double> stamps, const RawTable& table) {

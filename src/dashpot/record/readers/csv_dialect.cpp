@@ -4,9 +4,9 @@
 #include <array>
 #include <map>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
 #include "dashpot/base/units.h"
+#include "dashpot/record/readers/table.h"
 
 namespace dashpot {
 namespace {
@@ -169,8 +169,8 @@ CsvDialect sniff_dialect(const std::vector<std::string>& lines, const std::strin
     if (guess.rank() > best.rank()) best = std::move(guess);
   }
   if (best.data_lines == 0)
-    throw Error(file, "no line holds numbers in columns",
-                "give a table: a line of names, then one line per sample");
+    throw NoTable(file, "no line holds numbers in columns",
+                  "give a table: a line of names, then one line per sample");
   read_header(lines, best.columns, best.dialect);
   return best.dialect;
 }

@@ -21,7 +21,7 @@ void split_cells(std::string_view line, char separator, std::vector<std::string_
 /// A comment or an empty line holds no sample.
 bool is_comment(std::string_view line);
 
-/// Understands a table from its first lines. Throws Error(file, ...) when no line holds numbers.
+/// Understands a table from its first lines. Throws NoTable when no line holds numbers.
 CsvDialect sniff_dialect(const std::vector<std::string>& lines, const std::string& file);
 
 }  // namespace dashpot

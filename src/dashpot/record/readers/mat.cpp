@@ -161,7 +161,7 @@ RawTable to_table(Collector collector, const std::string& file) {
     }
   }
   if (table.columns.empty())
-    throw Error(file, "holds no arrays of numbers", "a recording has one vector per channel");
+    throw NoTable(file, "holds no arrays of numbers", "a recording has one vector per channel");
   return table;
 }
 

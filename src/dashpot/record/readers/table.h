@@ -6,7 +6,15 @@
 #include <utility>
 #include <vector>
 
+#include "dashpot/base/error.h"
+
 namespace dashpot {
+
+/// A readable file that holds no table of numbers: a text, say. In a folder it is passed over.
+class NoTable : public Error {
+ public:
+  using Error::Error;
+};
 
 /// A cell that is not a finite number.
 struct BadCell {
