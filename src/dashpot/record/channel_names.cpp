@@ -171,10 +171,9 @@ NamedChannel recognise_channel(std::string_view column, std::string_view row_uni
     if (!found.channel.empty()) return found;
     if (refused.problem.empty()) refused = found;
   }
+  if (!refused.problem.empty()) return refused;
   if (!row.empty() && !parse_unit(row)) return {{}, {}, "unit '" + row + "' is unknown", false};
-  NamedChannel found = resolve(whole, row);
-  if (found.channel.empty() && found.problem.empty()) return refused;
-  return found;
+  return resolve(whole, row);
 }
 
 }  // namespace dashpot

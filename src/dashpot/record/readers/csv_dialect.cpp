@@ -69,14 +69,8 @@ Guess try_dialect(const std::vector<std::string>& lines, char separator, char de
   }
   for (const auto& [count, times] : tally)
     if (times >= guess.data_lines) guess.data_lines = times, guess.columns = count;
-  // The table starts where at least this line and the next one hold numbers in that many cells.
-  for (std::size_t k = 0; k < lines.size(); ++k) {
-    const bool here = counts[k] == guess.columns && counts[k] > 0;
-    const bool next = k + 1 >= lines.size() || counts[k + 1] > 0 || trim(lines[k + 1]).empty();
-    if (!here || !(next || guess.data_lines < 2)) continue;
-    guess.dialect.first_data_line = k;
-    break;
-  }
+  const auto start = std::find(counts.begin(), counts.end(), guess.columns);
+  guess.dialect.first_data_line = static_cast<std::size_t>(start - counts.begin());
   return guess;
 }
 

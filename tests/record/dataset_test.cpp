@@ -1,0 +1,260 @@
+#include "dashpot/record/dataset.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "dashpot/base/file.h"
+#include "dashpot/record/dataset_file.h"
+#include "dashpot/record/split.h"
+#include "support.h"
+
+using namespace dashpot;
+
+namespace {
+
+/// A sine of 10 mm and 1 Hz, 100 Hz for 3 s, with force = 1000 N*s/m * v; `sign` turns the force round.
+std::string sine_csv(double sign = 1) {
+  std::string text = "t_s,x_mm,F_N\n";
+  for (int k = 0; k < 300; ++k) {
+    const double t = k / 100.0, w = 2 * M_PI;
+    char line[96];
+    std::snprintf(line, sizeof line, "%.2f,%.6f,%.6f\n", t, 10 * std::sin(w * t),
+                  sign * 10 * w * std::cos(w * t));
+    text += line;
+  }
+  return text;
+}
+
+Dataset load(const std::filesystem::path& path) { return load_dataset({path}); }
+
+std::string message_for(const std::string& name, const std::string& text) {
+  const TemporaryFolder folder;
+  const auto path = folder.write(name, text);
+  return message_of([&] { load(path); });
+}
+
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+}  // namespace
+
+TEST_CASE("a folder of CSV files is understood by its names") {
+  const TemporaryFolder folder;
+  folder.write("run_0A.csv", sine_csv());
+  folder.write("run_0.5A.csv", sine_csv());
+  folder.write("notes.txt", "nothing but words\n");
+  const Dataset dataset = load(folder.path());
+  REQUIRE(dataset.records.size() == 2);
+  CHECK(dataset.drive_unit == "A");
+  CHECK(*dataset.records[0].drive_level == 0);
+  CHECK(*dataset.records[1].drive_level == 0.5);
+  CHECK(dataset.records[0].condition == "10 mm 1 Hz");
+  CHECK(dataset.records[1].condition == dataset.records[0].condition);
+  CHECK(dataset.records[0].sample_time == 0.01);
+  CHECK(has(describe(dataset), "notes.txt: passed over: it holds no table of numbers"));
+  const Channel& velocity = dataset.records[0].channel("velocity");
+  CHECK(has(velocity.origin, "Hz zero-phase"));
+  // The middle of the record, away from the filter's ends: v = 2 pi 10 mm/s cos.
+  CHECK_CLOSE(velocity.samples[100], 0.0628318, 0.01, 0);
+  CHECK(dataset.records[1].channel("current").samples[7] == 0.5);
+}
+
+TEST_CASE("a force that is recorded the other way round is turned and said so") {
+  const TemporaryFolder folder;
+  const Dataset dataset = load(folder.write("run_1A.csv", sine_csv(-1)));
+  CHECK_CLOSE(dataset.records[0].channel("force").samples[0], 62.83, 1e-3, 0);
+  CHECK(has(describe(dataset), "force sign flipped"));
+}
+
+TEST_CASE("wrong input is refused with its place") {
+  const std::string good = "t_s,x_mm,F_N\n0,1,2\n0.1,2,3\n";
+  CHECK(has(message_for("a.csv", "t_s,x_mm\n0,1\n0.1,2\n"),
+            "no column is force by its name (it has 't_s', 'x_mm')"));
+  CHECK(has(message_for("a.csv", good + "0.2,abc,3\n0.3,2,3\n"),
+            "a.csv:4: displacement (x_mm) is 'abc', not a finite number"));
+  CHECK(has(message_for("a.csv", good + "0.2,2,nan\n0.3,2,3\n"), "a.csv:4: force (F_N) is 'nan'"));
+  CHECK(has(message_for("a.csv", good + "0.2,2,inf\n0.3,2,3\n"), "a.csv:4: force (F_N) is 'inf'"));
+  CHECK(has(message_for("a.csv", good + "0.2,2,\n0.3,2,3\n"), "a.csv:4: force (F_N) is empty"));
+  CHECK(has(message_for("a.csv", good + "0.05,2,3\n"), "a.csv:4: time runs backwards"));
+  CHECK(has(message_for("a.csv", good + "0.1,2,3\n"), "a.csv:4: time 0.1 is repeated"));
+  CHECK(has(message_for("a.csv", "t,x [mm],F\ns,m,N\n0,1,2\n1,2,3\n"),
+            "two units: 'mm' in its name and 'm' below it"));
+  CHECK(has(message_for("a.csv", "t,x_mm,displacement_mm,F\n0,1,1,2\n1,2,3,3\n"), "are both displacement"));
+  CHECK(has(message_for("a.csv", "t,x,F\n0,1,2\n"), "has 1 sample"));
+  CHECK(has(message_for("a.csv", "0,1,2\n1,2,3\n"), "state them by number in a dataset file"));
+  CHECK(has(message_for("a.csv", ""), "is empty (0 bytes)"));
+  CHECK(has(message_for("a.csv", "x_mm,F_N\n0,1\n1,2\n"), "no column is time by its name"));
+  CHECK(has(message_for("a.csv", "t,x,F\n0,1,2\n0.1,2,3\n0.35,3,3\n0.4,2,1\n0.5,1,1\n"),
+            "time stamps are not uniform"));
+  CHECK(has(message_of([] { load("/nowhere/at/all"); }), "there is no such file or folder"));
+  const TemporaryFolder folder;
+  CHECK(has(message_of([&] { load(folder.path()); }), "Dashpot looks for MAT (.mat)"));
+}
+
+TEST_CASE("a dataset file states what cannot be inferred") {
+  const TemporaryFolder folder;
+  std::string text;
+  for (int k = 0; k < 400; ++k)
+    text +=
+        std::to_string(k % 7) + ";" + std::to_string(100 + k) + ";" + std::to_string(k < 200 ? 1 : 2) + "\n";
+  folder.write("a.txt", text);
+  folder.write("dataset.yaml", R"(name: stated
+drive: V
+leave_out: fraction=0.25
+files:
+  - match: "*.txt"
+    time: {sample_rate: 100}
+    channels:
+      displacement: {column: 2, unit: cm, scale: 2, offset: 100, sign: -1}
+      force: {column: 1, unit: kN, sign: 1}
+      voltage: 3
+    cut: {from: 0.5, to: 2.5}
+    velocity_cutoff: 12
+    conditions: {temperature: 25 degC}
+    condition: ramp
+)");
+  const Dataset dataset = load(folder.path());
+  REQUIRE(dataset.records.size() == 1);
+  const Record& record = dataset.records[0];
+  CHECK(record.size() == 201);
+  CHECK(record.condition == "ramp");
+  CHECK(record.time[0] == 0.5);
+  CHECK_CLOSE(record.channel("displacement").samples[0], -1.0, 1e-12, 0);  // -(2 * 50) cm
+  CHECK(record.channel("force").samples[0] == 1000.0 * (50 % 7));
+  CHECK(has(record.channel("velocity").origin, "12 Hz zero-phase (stated)"));
+  CHECK_CLOSE(record.conditions.at(0).second, 298.15, 1e-12, 0);
+  CHECK(!record.drive_level);
+  CHECK(dataset.drive_unit == "V");
+  CHECK(format_leave_out(*dataset.leave_out) == "fraction=0.25");
+}
+
+TEST_CASE("mistakes in a dataset file are refused at their line") {
+  const auto message = [](const std::string& line) {
+    const TemporaryFolder folder;
+    folder.write("a.csv", sine_csv());
+    folder.write("dataset.yaml", "files:\n  - match: a.csv\n    " + line + "\n");
+    return message_of([&] { load(folder.path()); });
+  };
+  CHECK(message("level: 1").empty());
+  CHECK(has(message("cutt: {}"), "dataset.yaml"));
+  CHECK(has(message("cutt: {}"), "cutt"));
+  CHECK(has(message("channels: {force: {column: F, unit: N}}"), "has no column 'F' for force"));
+  CHECK(has(message("channels: {force: {column: F, unit: N}}"), "it has 't_s', 'x_mm', 'F_N'"));
+  CHECK(has(message("channels: {force: {column: F_N, unit: mm}}"), "dataset.yaml:3"));
+  CHECK(has(message("channels: {force: {column: F_N, sign: 2}}"), "'sign' is neither 1 nor -1"));
+  CHECK(has(message("time: {sample_rate: -1}"), "must be positive"));
+  CHECK(has(message("condition: '{amp}'"), "'{amp}' in '{amp}' is unknown"));
+  CHECK(has(message("cut: {from: 7}"), "leaves nothing"));
+}
+
+TEST_CASE("roles give parts of one record that both run from its start") {
+  const TemporaryFolder folder;
+  folder.write("a.csv", sine_csv());
+  folder.write("dataset.yaml",
+               "leave_out: roles\nfiles:\n  - match: a.csv\n    level: 1\n    roles:\n"
+               "      - {role: training, to: 2, score_from: 0.5}\n      - {role: left_out, score_from: 2}\n");
+  const Dataset dataset = load(folder.path());
+  REQUIRE(dataset.records.size() == 2);
+  CHECK(dataset.records[0].size() == 200);
+  CHECK(dataset.records[0].warm_up == 50);
+  CHECK(dataset.records[1].size() == 300);
+  CHECK(dataset.records[1].warm_up == 200);
+  CHECK(split(dataset, *dataset.leave_out).size() == 1);
+}
+
+// What the folders hold is described in their README and manifests.
+TEST_CASE("utfsm without any dataset file") {
+  const auto folder = shared_data("utfsm");
+  if (folder.empty()) return;
+  LoadOptions by_names;
+  by_names.recognise = false;
+  const Dataset dataset = load_dataset({folder}, by_names);
+  CHECK(dataset.records.size() == 20);
+  std::set<std::string> conditions;
+  std::set<double> levels;
+  for (const Record& record : dataset.records)
+    conditions.insert(record.condition), levels.insert(record.drive_level.value_or(-1));
+  CHECK(conditions.size() == 4);
+  CHECK(levels == std::set<double>{0, 0.25, 0.5, 0.75, 1});
+  for (const char* file : {"ME25mm0x25Hz.txt.gz", "ME5mm3Hz.txt.gz", "published_bouc_wen_parameters.mat"})
+    CHECK(std::any_of(dataset.notes.begin(), dataset.notes.end(),
+                      [&](const std::string& n) { return n.starts_with(file); }));
+}
+
+TEST_CASE("the shipped dataset files recognise the measured recordings") {
+  struct Shipped {
+    const char *folder, *name, *drive;
+    std::size_t records, folds;
+  };
+  for (const Shipped shipped : {Shipped{"utfsm", "utfsm", "A", 20, 4}, Shipped{"utfpr", "utfpr", "V", 38, 2},
+                                Shipped{"nees-2012-1158", "nees-2012-1158", "V", 1, 1},
+                                Shipped{"sysidentpy-simulated", "sysidentpy-simulated", "V", 2, 1},
+                                Shipped{"family-dnn", "family-dnn", "A", 108, 18},
+                                Shipped{"utfsm/ME5mm3Hz.txt.gz", "utfsm-daq-logs", "A", 5, 3}}) {
+    CAPTURE(std::string(shipped.folder));
+    const auto path = shared_data(shipped.folder);
+    if (path.empty()) return;
+    const Dataset dataset = load(path);
+    CHECK(dataset.name == shipped.name);
+    CHECK(dataset.drive_unit == shipped.drive);
+    CHECK(dataset.records.size() == shipped.records);
+    REQUIRE(dataset.leave_out);
+    CHECK(split(dataset, *dataset.leave_out).size() == shipped.folds);
+    for (const Record& record : dataset.records) {
+      CHECK(record.sample_time > 0);
+      CHECK(record.find("velocity"));
+      CHECK(record.find(dataset.drive_unit == "A" ? "current" : "voltage"));
+    }
+  }
+}
+
+TEST_CASE("utfsm force ranges are those of its manifest, from the DAQ logs too") {
+  const auto folder = shared_data("utfsm");
+  if (folder.empty()) return;
+  const auto range = [](const Record& record) {
+    const auto& f = record.channel("force").samples;
+    return std::pair(*std::min_element(f.begin(), f.end()), *std::max_element(f.begin(), f.end()));
+  };
+  const auto check = [&](const Dataset& dataset, const std::string& name) {
+    const auto at = std::find_if(dataset.records.begin(), dataset.records.end(),
+                                 [&](const Record& r) { return r.name == name; });
+    REQUIRE(at != dataset.records.end());
+    CHECK_CLOSE(range(*at).first, -1492, 0, 1);  // manifest.csv: sine_5mm_3Hz_1A
+    CHECK_CLOSE(range(*at).second, 1609, 0, 1);
+  };
+  check(load(folder), "sine_5mm_3Hz_1A");
+  check(load(folder / "ME5mm3Hz.txt.gz"), "5 mm 3 Hz, 1 A");
+}
+
+TEST_CASE("nees ends at 21.15 s on the stated grid, and 14 s of it train") {
+  const auto folder = shared_data("nees-2012-1158");
+  if (folder.empty()) return;
+  const Dataset dataset = load(folder);
+  const Record& record = dataset.records.front();
+  CHECK(record.sample_time == 1 / 3004.8);
+  CHECK_CLOSE(record.time.back(), 21.15, 0, 1 / 3004.8);
+  CHECK_CLOSE(split(dataset, *dataset.leave_out)[0].training[0].time.back(), 14.0, 0, 2e-3);
+  CHECK_CLOSE(record.channel("displacement").samples[0], 0.00021147, 1e-9, 0);
+}
+
+TEST_CASE("family records carry geometry and yield stress in SI") {
+  const auto folder = shared_data("family-dnn");
+  if (folder.empty()) return;
+  const Dataset dataset = load(folder);
+  const Record& record = dataset.records[1];  // 03L_1.0R, field level 1; inp_twofluidexp.json
+  CHECK(*record.drive_level == 0.25);
+  CHECK(record.conditions[0] == std::pair<std::string, double>{"yield_stress", 20122.8539});
+  CHECK(record.conditions.back() == std::pair<std::string, double>{"pole_length", 0.006});
+}
+
+TEST_CASE("any file may hold any bytes") {
+  const TemporaryFolder folder;
+  for (const char* name : {"a.csv", "a.mat", "a.txt", "a.json", "inp_a.json", "a.csv.gz"}) {
+    for (const char* text : {"\x1f\x8b\x08garbage", "MATLAB 5.0", "MATLAB 7.3", "Header Size:  7", "{}",
+                             "{\"a\":[{}]}", "\0\0\0\0"}) {
+      folder.write("inp_a.json", "{}");
+      const auto path = folder.write(name, text);
+      CHECK(!message_of([&] { load_dataset({path}); }).empty());
+    }
+  }
+}

@@ -1,0 +1,138 @@
+#include "dashpot/record/readers/csv.h"
+
+#include <zlib.h>
+
+#include "dashpot/base/error.h"
+#include "dashpot/base/random.h"
+#include "dashpot/record/readers/csv_dialect.h"
+#include "dashpot/record/readers/reader.h"
+#include "support.h"
+
+using namespace dashpot;
+
+namespace {
+
+RawTable read_text(const std::string& text) {
+  const TemporaryFolder folder;
+  return read_csv(folder.write("run.csv", text)).front();
+}
+
+std::vector<std::string> names(const RawTable& table) {
+  std::vector<std::string> out;
+  for (const RawColumn& column : table.columns) out.push_back(column.name);
+  return out;
+}
+
+}  // namespace
+
+// Expected values are the numbers that the texts show.
+TEST_CASE("tables in the shapes that people have") {
+  struct Shape {
+    const char* what;
+    std::string text;
+    std::vector<std::string> names;
+  };
+  const Shape shapes[] = {
+      {"plain", "t,x,F\n0,1.5,2\n0.1,2.5,-3\n", {"t", "x", "F"}},
+      {"byte order mark, CRLF", "\xEF\xBB\xBFt,x,F\r\n0,1.5,2\r\n0.1,2.5,-3\r\n", {"t", "x", "F"}},
+      {"quotes, trailing commas", "\"t\",\"x, raw\",\"F\",\n0,1.5,2,\n0.1,2.5,-3,\n", {"t", "x, raw", "F"}},
+      {"semicolons, decimal commas", "t;x;F\n0;1,5;2\n0,1;2,5;-3\n", {"t", "x", "F"}},
+      {"tabs", "t\tx\tF\n0\t1.5\t2\n0.1\t2.5\t-3", {"t", "x", "F"}},
+      {"tabs, decimal commas", "t\tx\tF\n0\t1,5\t2\n0,1\t2,5\t-3", {"t", "x", "F"}},
+      {"blanks", "  t   x   F\n  0   1.5  2\n 0.1  2.5  -3\n", {"t", "x", "F"}},
+      {"blanks, decimal commas", "t x F\n0 1,5 2\n0,1 2,5 -3\n", {"t", "x", "F"}},
+      {"junk before",
+       "Bench 7\nDate: 3.4.2022\nOperator;none\n\nt,x,F\n0,1.5,2\n0.1,2.5,-3\n",
+       {"t", "x", "F"}},
+      {"comments", "# bench 7\n# t, x, F\n0, 1.5, 2\n# paused\n0.1, 2.5, -3\n", {"t", "x", "F"}},
+      {"no names", "0,1.5,2\n0.1,2.5,-3\n", {"", "", ""}},
+      {"signs and exponents", "t,x,F\n0,+1.5,2e0\n1e-1,25E-1,-3\n", {"t", "x", "F"}},
+  };
+  for (const Shape& shape : shapes) {
+    CAPTURE(std::string(shape.what));
+    const RawTable table = read_text(shape.text);
+    CHECK(names(table) == shape.names);
+    REQUIRE(table.rows() == 2);
+    CHECK(table.columns[0].values == std::vector<double>{0, 0.1});
+    CHECK(table.columns[1].values == std::vector<double>{1.5, 2.5});
+    CHECK(table.columns[2].values == std::vector<double>{2, -3});
+  }
+}
+
+TEST_CASE("a row of units below the names") {
+  const RawTable table = read_text("time;disp;force\n[s];(mm);N\n0;1;2\n1;2;3\n");
+  CHECK(table.columns[0].unit == "s");
+  CHECK(table.columns[1].unit == "mm");
+  CHECK(table.columns[2].unit == "N");
+  CHECK(table.columns[1].name == "disp");
+}
+
+TEST_CASE("cells that are no numbers keep their place") {
+  const RawTable table = read_text("t,x,comment\n0,1,start\n1,abc,go\n2,,go\n3,4,end\n");
+  REQUIRE(table.columns[1].bad);
+  CHECK(table.columns[1].bad->text == "abc");
+  CHECK(table.where(table.columns[1].bad->row).find("run.csv:3") != std::string::npos);
+}
+
+TEST_CASE("lines are counted through comments and blank lines") {
+  const RawTable table = read_text("t,x\n\n0,1\n# pause\n\n1,2\n2,3\n");
+  CHECK(table.where(0).find(":3") != std::string::npos);
+  CHECK(table.where(1).find(":6") != std::string::npos);
+  CHECK(table.where(2).find(":7") != std::string::npos);
+}
+
+TEST_CASE("too many cells and texts without numbers are refused") {
+  CHECK(message_of([] {
+          read_text("t,x\n0,1\n1,2,3\n2,3\n");
+        }).find("run.csv:3: has 3 cells, the table has 2") != std::string::npos);
+  CHECK(message_of([] { read_text("just words\nand more\n"); }).find("no line holds numbers") !=
+        std::string::npos);
+}
+
+TEST_CASE("gzip is read as the text it holds, and a cut gzip is refused") {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "run.csv.gz";
+  gzFile file = gzopen(path.c_str(), "wb");
+  for (int k = 0; k < 2000; ++k) gzprintf(file, "%d,%d.5\n", k, k * k);
+  gzclose(file);
+  const RawTable table = read_tables(path).front();
+  REQUIRE(table.rows() == 2000);
+  CHECK(table.columns[1].values[30] == 900.5);
+  std::filesystem::resize_file(path, std::filesystem::file_size(path) / 2);
+  CHECK(message_of([&] { read_tables(path); }).find("cannot be read") != std::string::npos);
+}
+
+TEST_CASE("a file longer than the read block keeps every row") {
+  const TemporaryFolder folder;
+  std::string text = "t,x\n";
+  for (int k = 0; k < 200000; ++k) text += std::to_string(k) + "," + std::to_string(-k) + "\n";
+  const RawTable table = read_csv(folder.write("long.csv", text)).front();
+  REQUIRE(table.rows() == 200000);
+  for (std::size_t k = 0; k < table.rows(); ++k) {
+    if (table.columns[0].values[k] != static_cast<double>(k)) FAIL("row " << k);
+    if (table.columns[1].values[k] != -static_cast<double>(k)) FAIL("row " << k);
+  }
+}
+
+TEST_CASE("0 bytes") {
+  const TemporaryFolder folder;
+  const auto path = folder.write("empty.csv", "");
+  CHECK(message_of([&] { read_tables(path); }).find("empty.csv: is empty (0 bytes)") != std::string::npos);
+}
+
+// The sanitizers judge this test; any Error is a right answer.
+TEST_CASE("arbitrary bytes never crash the text readers") {
+  const TemporaryFolder folder;
+  Random random(7);
+  const std::string alphabet = "0123456789.,;\t\n\r \"#-+eE[]()tF\xC3\xA9";
+  for (int round = 0; round < 400; ++round) {
+    std::string text = round % 3 == 0 ? "Header Size:  7\nSampling Interval: 0.1\na, b, Events\n" : "";
+    for (std::size_t k = random.index(400); k > 0; --k)
+      text += round % 5 == 0 ? static_cast<char>(random.next()) : alphabet[random.index(alphabet.size())];
+    const auto path = folder.write("bytes.csv", text);
+    try {
+      read_tables(path);
+    } catch (const Error&) {
+    }
+  }
+}

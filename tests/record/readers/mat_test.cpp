@@ -1,0 +1,102 @@
+#include "dashpot/record/readers/mat.h"
+
+#include <matio.h>
+
+#include "dashpot/base/error.h"
+#include "dashpot/base/file.h"
+#include "dashpot/base/random.h"
+#include "dashpot/record/readers/mat_guard.h"
+#include "support.h"
+
+using namespace dashpot;
+
+namespace {
+
+/// A file of x (3 numbers), F (3 x 2), Ts and a text, written with the MAT library itself.
+std::filesystem::path write_mat(const TemporaryFolder& folder, mat_ft version,
+                                matio_compression compression) {
+  const auto path = folder.path() / ("v" + std::to_string(version) + std::to_string(compression) + ".mat");
+  mat_t* file = Mat_CreateVer(path.c_str(), nullptr, version);
+  REQUIRE(file);
+  double x[] = {1, 2, 3}, force[] = {10, 20, 30, 40, 50, 60}, step[] = {0.01};
+  const auto write = [&](const char* name, double* data, std::size_t rows, std::size_t columns) {
+    std::size_t dims[] = {rows, columns};
+    matvar_t* variable = Mat_VarCreate(name, MAT_C_DOUBLE, MAT_T_DOUBLE, 2, dims, data, 0);
+    Mat_VarWrite(file, variable, compression);
+    Mat_VarFree(variable);
+  };
+  write("x", x, 3, 1);
+  write("F", force, 3, 2);
+  write("Ts", step, 1, 1);
+  Mat_Close(file);
+  return path;
+}
+
+}  // namespace
+
+TEST_CASE("MAT files of all versions hold the same") {
+  const TemporaryFolder folder;
+  struct Kind {
+    mat_ft version;
+    matio_compression compression;
+  };
+  for (const Kind kind :
+       {Kind{MAT_FT_MAT4, MAT_COMPRESSION_NONE}, Kind{MAT_FT_MAT5, MAT_COMPRESSION_NONE},
+        Kind{MAT_FT_MAT5, MAT_COMPRESSION_ZLIB}, Kind{MAT_FT_MAT73, MAT_COMPRESSION_NONE}}) {
+    const auto path = write_mat(folder, kind.version, kind.compression);
+    CAPTURE(path.string());
+    const RawTable table = read_mat(path).front();
+    REQUIRE(table.columns.size() == 3);
+    CHECK(table.rows() == 3);
+    for (const RawColumn& column : table.columns) {
+      if (column.name == "x") CHECK(column.values == std::vector<double>{1, 2, 3});
+      if (column.name == "F(2)") CHECK(column.values == std::vector<double>{40, 50, 60});
+    }
+    REQUIRE(table.scalars.size() == 1);
+    CHECK(table.scalars[0].second == 0.01);
+  }
+}
+
+TEST_CASE("a cut MAT file is refused with its name, at every length") {
+  const TemporaryFolder folder;
+  for (const matio_compression compression : {MAT_COMPRESSION_NONE, MAT_COMPRESSION_ZLIB}) {
+    const std::string bytes = read_file(write_mat(folder, MAT_FT_MAT5, compression));
+    const std::size_t sizes[] = {10, 127, 128, 131, 140, 170, bytes.size() / 2, bytes.size() - 1};
+    for (const std::size_t size : sizes) {
+      CAPTURE(size);
+      const auto path = folder.write("cut.mat", bytes.substr(0, size));
+      CHECK(message_of([&] { read_mat(path); }).find("cut.mat: damaged or cut off MAT file") !=
+            std::string::npos);
+    }
+  }
+  const std::string hdf5 = read_file(write_mat(folder, MAT_FT_MAT73, MAT_COMPRESSION_NONE));
+  const auto path = folder.write("cut73.mat", hdf5.substr(0, hdf5.size() / 2));
+  CHECK(message_of([&] { read_mat(path); }).find("cut73.mat") != std::string::npos);
+}
+
+TEST_CASE("a MAT file that promises more than it holds is refused before anything is allocated") {
+  const TemporaryFolder folder;
+  std::string bytes = read_file(write_mat(folder, MAT_FT_MAT5, MAT_COMPRESSION_NONE));
+  bytes[128 + 8 + 16 + 8 + 3] = 0x40;  // the rows of x: 2^30 + 3
+  const auto path = folder.write("huge.mat", bytes);
+  CHECK(message_of([&] { read_mat(path); }).find("damaged or cut off MAT file") != std::string::npos);
+}
+
+// The sanitizers and the memory limit judge this test; any Error is a right answer.
+TEST_CASE("damaged MAT files never crash") {
+  const TemporaryFolder folder;
+  Random random(11);
+  for (const matio_compression compression : {MAT_COMPRESSION_NONE, MAT_COMPRESSION_ZLIB}) {
+    const std::string bytes = read_file(write_mat(folder, MAT_FT_MAT5, compression));
+    for (int round = 0; round < 300; ++round) {
+      std::string damaged = bytes;
+      for (std::size_t k = 1 + random.index(4); k > 0; --k)
+        damaged[random.index(damaged.size())] = static_cast<char>(random.next());
+      const auto path = folder.write("damaged.mat", damaged);
+      try {
+        read_mat(path);
+      } catch (const Error&) {
+      }
+    }
+  }
+}

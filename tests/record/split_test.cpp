@@ -1,0 +1,79 @@
+#include "dashpot/record/split.h"
+
+#include "support.h"
+
+using namespace dashpot;
+
+namespace {
+
+/// Two motions at 0, 0.5 and 1 A, 10 samples each.
+Dataset small_dataset() {
+  Dataset dataset;
+  dataset.name = "small";
+  for (const char* condition : {"slow", "fast"})
+    for (const double level : {0.0, 0.5, 1.0}) {
+      Record record;
+      record.name = std::string(condition) + " " + std::to_string(level);
+      record.condition = condition;
+      record.drive_level = level;
+      for (int k = 0; k < 10; ++k) record.time.push_back(k);
+      record.channels = {{"force", "N", record.time, ""}};
+      dataset.records.push_back(record);
+    }
+  return dataset;
+}
+
+}  // namespace
+
+TEST_CASE("each condition, inner current and record is left out once") {
+  const Dataset dataset = small_dataset();
+  const auto conditions = split(dataset, parse_leave_out("condition"));
+  REQUIRE(conditions.size() == 2);
+  CHECK(conditions[1].name == "without fast");
+  CHECK(conditions[1].training.size() == 3);
+  CHECK(conditions[1].left_out.front().condition == "fast");
+  const auto currents = split(dataset, parse_leave_out("current"));
+  REQUIRE(currents.size() == 1);
+  CHECK(currents[0].left_out.size() == 2);
+  CHECK(*currents[0].left_out[0].drive_level == 0.5);
+  CHECK(split(dataset, parse_leave_out("current=0,1")).size() == 2);
+  CHECK(split(dataset, parse_leave_out("record")).size() == 6);
+}
+
+TEST_CASE("a left-out fraction runs from the start and is scored at the end") {
+  const auto folds = split(small_dataset(), parse_leave_out("fraction=0.3"));
+  REQUIRE(folds.size() == 1);
+  CHECK(folds[0].training[0].size() == 7);
+  CHECK(folds[0].left_out[0].size() == 10);
+  CHECK(folds[0].left_out[0].warm_up == 7);
+}
+
+TEST_CASE("roles") {
+  Dataset dataset = small_dataset();
+  CHECK(message_of([&] { split(dataset, parse_leave_out("roles")); }).find("gives no roles") !=
+        std::string::npos);
+  dataset.records[0].role = Role::Training;
+  dataset.records[1].role = Role::LeftOut;
+  const auto folds = split(dataset, parse_leave_out("roles"));
+  CHECK(folds[0].training.size() == 1);
+  CHECK(folds[0].left_out.size() == 1);
+}
+
+TEST_CASE("an impossible split says which ways would work") {
+  Dataset dataset = small_dataset();
+  for (Record& record : dataset.records) record.condition = "one";
+  const std::string message = message_of([&] { split(dataset, parse_leave_out("condition")); });
+  CHECK(message.find("one condition") != std::string::npos);
+  CHECK(message.find("'current'") != std::string::npos);
+  CHECK(message_of([&] { split(dataset, parse_leave_out("current=0.7")); }).find("no record is '0.7 A'") !=
+        std::string::npos);
+}
+
+TEST_CASE("ways of leaving out as text") {
+  for (const char* text : {"condition", "current", "current=0.5,1", "record", "fraction=0.33", "roles"})
+    CHECK(format_leave_out(parse_leave_out(text)) == text);
+  for (const char* text : {"", "conditions", "fraction=2", "fraction=x", "current=", "roles=1"}) {
+    CAPTURE(text);
+    CHECK(!message_of([&] { parse_leave_out(text); }).empty());
+  }
+}

@@ -1,0 +1,68 @@
+#include "dashpot/record/time_base.h"
+
+#include "support.h"
+
+using namespace dashpot;
+
+namespace {
+
+double rounded(double value, double places) { return std::round(value * places) / places; }
+
+}  // namespace
+
+TEST_CASE("stamps within the rounding of their digits are uniform") {
+  std::vector<double> exact, decimals, significant, jittered, gap;
+  for (int k = 0; k < 3000; ++k) {
+    exact.push_back(k / 200.0);
+    decimals.push_back(rounded(k / 3004.8, 1e5));
+    const double t = k * 0.0123;
+    significant.push_back(t == 0 ? 0 : rounded(t, std::pow(10, 4 - std::floor(std::log10(t)))));
+    jittered.push_back(k / 200.0 + (k % 7 == 3 ? 1e-3 : 0));
+    gap.push_back(k / 200.0 + (k > 1500 ? 0.005 : 0));
+  }
+  CHECK(uniform_step(exact) == 1 / 200.0);
+  CHECK_CLOSE(uniform_step(decimals), 1 / 3004.8, 1e-6, 0);
+  CHECK_CLOSE(uniform_step(significant), 0.0123, 1e-6, 0);
+  CHECK(uniform_step(jittered) == 0);
+  CHECK(uniform_step(gap) == 0);
+  CHECK(uniform_step(std::vector<double>{0, 1, 2, 4, 5}) == 0);
+}
+
+TEST_CASE("time that does not increase is refused at its line") {
+  RawTable table;
+  table.file = "run.csv";
+  table.lines = {{0, 2}};
+  CHECK(message_of([&] {
+          require_increasing(std::vector<double>{0, 1, 1}, table);
+        }).find("run.csv:4: time 1 is repeated") == 0);
+  CHECK(message_of([&] {
+          require_increasing(std::vector<double>{0, 1, 0.5}, table);
+        }).find("run.csv:4: time runs backwards: 0.5 after 1") == 0);
+}
+
+TEST_CASE("resampling interpolates linearly") {
+  Record record;
+  record.time = {0, 0.1, 0.4, 1};
+  record.channels = {{"force", "N", {0, 1, 4, 10}, ""}};  // 10 t
+  resample(record, 5);
+  REQUIRE(record.size() == 6);
+  CHECK(record.sample_time == 0.2);
+  for (std::size_t k = 0; k < 6; ++k)
+    CHECK_CLOSE(record.channels[0].samples[k], 2.0 * static_cast<double>(k), 0, 1e-12);
+}
+
+TEST_CASE("rest at both ends is found, and turning points are not rest") {
+  std::vector<double> time, motion;
+  for (int k = 0; k < 1000; ++k) {
+    time.push_back(k * 0.01);
+    motion.push_back(k < 200 || k >= 700 ? 0 : std::sin(2 * M_PI * (k - 200) * 0.01));
+  }
+  const auto [first, last] = moving_part(time, motion);
+  CHECK(first >= 200);
+  CHECK(first <= 202);
+  CHECK(last >= 698);
+  CHECK(last <= 700);
+  std::vector<double> cosine;
+  for (int k = 0; k < 1000; ++k) cosine.push_back(std::cos(2 * M_PI * k * 0.01));
+  CHECK(moving_part(time, cosine) == std::pair<std::size_t, std::size_t>{0, 1000});
+}
