@@ -60,22 +60,21 @@ std::optional<double> sample_time_of_scalars(const RawTable& table, std::string&
   return std::nullopt;
 }
 
-/// How time was understood, in words.
-std::string set_time(Record& record, const RawTable& table, const ColumnUses& uses,
+/// Takes the time column, or makes time; how it was understood, in words.
+std::string set_time(Record& record, RawTable& table, const ColumnUses& uses,
                      const FileStatement& statement) {
   std::string basis = "stated";
   std::optional<double> step = statement.sample_time;
   if (const ColumnUse* use = find_use(uses, "time"); use && !step) {
-    const std::vector<double>& stamps = table.columns[use->column].values;
-    require_increasing(stamps, table);
-    record.sample_time = uniform_step(stamps) * use->factor;
-    record.time.resize(stamps.size());
-    const double start = use->factor * (stamps[0] - use->raw_offset);
-    if (record.sample_time > 0) record.time = uniform_time(stamps.size(), record.sample_time);
-    for (std::size_t k = 0; k < stamps.size(); ++k)
-      record.time[k] =
-          record.sample_time > 0 ? record.time[k] + start : use->factor * (stamps[k] - use->raw_offset);
-    return record.sample_time > 0 ? "uniform within the printed digits" : "not uniform: kept as it is";
+    record.time = std::move(table.columns[use->column].values);
+    require_increasing(record.time, table);
+    record.sample_time = uniform_step(record.time) * use->factor;
+    for (double& stamp : record.time) stamp = use->factor * (stamp - use->raw_offset);
+    if (!(record.sample_time > 0)) return "not uniform: kept as it is";
+    const double start = record.time[0];
+    record.time = uniform_time(record.time.size(), record.sample_time);
+    for (double& stamp : record.time) stamp += start;
+    return "uniform within the printed digits";
   }
   if (!step && (step = table.sample_time)) basis = "row times the file's sampling interval";
   if (!step) step = sample_time_of_scalars(table, basis);

@@ -34,8 +34,9 @@ bool holds_numbers(const Cells& cells, char decimal) {
   return numbers > 0 && 2 * numbers >= filled;
 }
 
-std::string_view trim_end(std::string_view text, std::string_view characters) {
-  return text.substr(0, text.find_last_not_of(characters) + 1);
+std::string_view trim_right(std::string_view text) {
+  while (!text.empty() && static_cast<unsigned char>(text.back()) <= ' ') text.remove_suffix(1);
+  return text;
 }
 
 struct Guess {
@@ -130,24 +131,24 @@ void read_header(const std::vector<std::string>& lines, std::size_t columns, Csv
 }  // namespace
 
 bool is_comment(std::string_view line) {
+  if (!line.empty() && line.front() >= '0' && line.front() <= '9') return false;
   line = trim(line);
   return line.empty() || line.front() == '#' || line.front() == '%' || line.front() == '!' ||
          line.substr(0, 2) == "//";
 }
 
 void split_cells(std::string_view line, char separator, std::vector<std::string_view>& cells) {
-  constexpr std::string_view kBlanks = " \t";
-  const std::string_view ends = separator == ' ' ? kBlanks : std::string_view(&separator, 1);
-  const std::string_view padding = separator == '\t' ? std::string_view(" ") : kBlanks;
+  const bool blanks = separator == ' ';
   cells.clear();
-  line = trim_end(line, separator == ' ' ? kBlanks : std::string_view());
+  if (blanks) line = trim(line);
   for (std::size_t start = 0;; ++start) {
-    start = std::min(line.find_first_not_of(padding, start), line.size());
+    while (start < line.size() && (line[start] == ' ' || (line[start] == '\t' && separator != '\t'))) ++start;
     const bool quoted = start < line.size() && line[start] == '"';
     const std::size_t close = quoted ? line.find('"', start + 1) : std::string_view::npos;
     const std::size_t from = close == std::string_view::npos ? start : close + 1;
-    const std::size_t end = std::min(line.find_first_of(ends, from), line.size());
-    cells.push_back(close == std::string_view::npos ? trim(line.substr(start, end - start))
+    const std::size_t end =
+        std::min(blanks ? line.find_first_of(" \t", from) : line.find(separator, from), line.size());
+    cells.push_back(close == std::string_view::npos ? trim_right(line.substr(start, end - start))
                                                     : trim(line.substr(start + 1, close - start - 1)));
     start = end;
     if (end == line.size()) return;

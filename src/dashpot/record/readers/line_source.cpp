@@ -56,6 +56,7 @@ std::optional<std::string_view> LineSource::next() {
     std::string_view text(buffer_.data() + begin_,
                           end_of_line ? static_cast<std::size_t>(end_of_line - from) : end_ - begin_);
     begin_ += text.size() + (end_of_line ? 1 : 0);
+    consumed_ += text.size() + 1;
     if (!text.empty() && text.back() == '\r') text.remove_suffix(1);
     ++line_;
     return text;
@@ -63,8 +64,7 @@ std::optional<std::string_view> LineSource::next() {
 }
 
 double LineSource::bytes_per_line() const {
-  const auto consumed = static_cast<double>(gzoffset(file_.get()));
-  return line_ == 0 ? 0 : consumed / static_cast<double>(line_);
+  return line_ == 0 ? 0 : static_cast<double>(consumed_) / static_cast<double>(line_);
 }
 
 /// Moves the begun line to the front and reads on; false at the end of the file.

@@ -22,7 +22,7 @@ class LineSource {
   /// next call. Throws Error on a damaged file, and on a line too long for a table of numbers.
   std::optional<std::string_view> next();
   std::size_t line() const { return line_; }  ///< number of the line that next() gave, from 1
-  double bytes_per_line() const;              ///< so far, on disk
+  double bytes_per_line() const;              ///< mean so far
   double bytes_in_file() const { return file_size_; }
 
  private:
@@ -32,7 +32,7 @@ class LineSource {
   std::unique_ptr<gzFile_s, int (*)(gzFile_s*)> file_;
   std::vector<char> buffer_;
   std::size_t begin_ = 0, end_ = 0;
-  std::size_t line_ = 0;
+  std::size_t line_ = 0, consumed_ = 0;
   double file_size_ = 0;
   bool at_end_ = false;
 };
