@@ -26,7 +26,7 @@ std::string align(const std::vector<Row>& rows) {
   for (const Row& row : rows) {
     std::string line = " ";
     for (std::size_t k = 0; k < row.size(); ++k)
-      line += " " + row[k] + std::string(widths[k] - width(row[k]) + 1, ' ');
+      line.append(" ").append(row[k]).append(widths[k] - width(row[k]) + 1, ' ');
     out += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
   }
   return out;
@@ -35,8 +35,8 @@ std::string align(const std::vector<Row>& rows) {
 std::string conversion(const ColumnReading& reading) {
   if (reading.channel.empty()) return {};
   std::string text = "x " + format_number(reading.factor, 6);
-  if (reading.raw_offset != 0) text = "(raw - " + format_number(reading.raw_offset, 6) + ") " + text;
-  return text;
+  if (reading.raw_offset == 0) return text;
+  return "(raw - " + format_number(reading.raw_offset, 6) + ") " + text;
 }
 
 /// The readings of one file as rows; files with the same rows are shown once.
@@ -174,13 +174,13 @@ std::string describe(const Dataset& dataset) {
                     std::to_string(dataset.files.size()) + " files\n";
   if (!dataset.citation.empty()) out += "  cite: " + dataset.citation + "\n";
   for (const Understood& group : group_readings(dataset.readings)) {
-    out += "\n" + group.files.front();
+    out.append("\n").append(group.files.front());
     if (group.files.size() > 1) out += " and " + std::to_string(group.files.size() - 1) + " more like it";
     std::vector<Row> rows{{"column", "channel", "unit", "to SI", "why"}};
     rows.insert(rows.end(), group.rows.begin(), group.rows.end());
-    out += "\n" + align(rows);
+    out.append("\n").append(align(rows));
   }
-  out += "\n" + record_table(dataset) + note_list(dataset);
+  out.append("\n").append(record_table(dataset)).append(note_list(dataset));
   return out;
 }
 

@@ -57,6 +57,29 @@ TEST_CASE("MAT files of all versions hold the same") {
   }
 }
 
+TEST_CASE("fields of a structure are columns") {
+  const TemporaryFolder folder;
+  for (const mat_ft version : {MAT_FT_MAT5, MAT_FT_MAT73}) {
+    const auto path = folder.path() / "struct.mat";
+    std::filesystem::remove(path);
+    mat_t* file = Mat_CreateVer(path.c_str(), nullptr, version);
+    REQUIRE(file);
+    double force[] = {5, 6, 7, 8};
+    std::size_t one[] = {1, 1}, four[] = {4, 1};
+    const char* fields[] = {"force"};
+    matvar_t* variable = Mat_VarCreateStruct2("test", 2, one, fields);
+    Mat_VarSetStructFieldByName(variable, "force", 0,
+                                Mat_VarCreate("force", MAT_C_DOUBLE, MAT_T_DOUBLE, 2, four, force, 0));
+    Mat_VarWrite(file, variable, MAT_COMPRESSION_NONE);
+    Mat_VarFree(variable);
+    Mat_Close(file);
+    const RawTable table = read_mat(path).front();
+    REQUIRE(table.columns.size() == 1);
+    CHECK(table.columns[0].name == "test.force");
+    CHECK(table.columns[0].values == std::vector<double>{5, 6, 7, 8});
+  }
+}
+
 TEST_CASE("a cut MAT file is refused with its name, at every length") {
   const TemporaryFolder folder;
   for (const matio_compression compression : {MAT_COMPRESSION_NONE, MAT_COMPRESSION_ZLIB}) {

@@ -1,0 +1,28 @@
+#pragma once
+#include <filesystem>
+#include <vector>
+
+#include "dashpot/record/dataset_file.h"
+#include "dashpot/record/source_files.h"
+
+namespace dashpot {
+
+/// What the caller pointed at: files, and what is stated about them.
+struct Sources {
+  std::vector<SourcePath> files;
+  DatasetFile stated;  ///< without a path when nobody stated anything: every file is tried by its names
+};
+
+/// Separates recordings from a dataset file among the paths; without one looks for dataset.yaml in the
+/// folder, then for a shipped dataset file that recognises the recordings.
+Sources find_sources(std::vector<std::filesystem::path> paths, const LoadOptions& options);
+
+/// The manifest beside the recordings; an empty one when there is none and none is stated.
+Manifest find_manifest(const Sources& sources);
+
+bool is_dataset_file(const std::filesystem::path& path);
+
+/// The first entry whose pattern fits, or nullptr.
+const FileStatement* statement_for(const DatasetFile& stated, const SourcePath& file);
+
+}  // namespace dashpot
