@@ -15,7 +15,7 @@ namespace {
 /// A file of x (3 numbers), F (3 x 2), Ts and a text, written with the MAT library itself.
 std::filesystem::path write_mat(const TemporaryFolder& folder, mat_ft version,
                                 matio_compression compression) {
-  const auto path = folder.path() / ("v" + std::to_string(version) + std::to_string(compression) + ".mat");
+  const auto path = folder.path() / (std::to_string(version) + "-" + std::to_string(compression) + ".mat");
   mat_t* file = Mat_CreateVer(path.c_str(), nullptr, version);
   REQUIRE(file);
   double x[] = {1, 2, 3}, force[] = {10, 20, 30, 40, 50, 60}, step[] = {0.01};
@@ -66,7 +66,7 @@ TEST_CASE("fields of a structure are columns") {
     REQUIRE(file);
     double force[] = {5, 6, 7, 8};
     std::size_t one[] = {1, 1}, four[] = {4, 1};
-    const char* fields[] = {"force"};
+    const char* fields[] = {"force", nullptr};
     matvar_t* variable = Mat_VarCreateStruct2("test", 2, one, fields);
     Mat_VarSetStructFieldByName(variable, "force", 0,
                                 Mat_VarCreate("force", MAT_C_DOUBLE, MAT_T_DOUBLE, 2, four, force, 0));
