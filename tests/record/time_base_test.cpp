@@ -26,6 +26,9 @@ TEST_CASE("stamps within the rounding of their digits are uniform") {
   CHECK(uniform_step(jittered) == 0);
   CHECK(uniform_step(gap) == 0);
   CHECK(uniform_step(std::vector<double>{0, 1, 2, 4, 5}) == 0);
+  std::vector<double> long_test;
+  for (int k = 0; k < 3000000; ++k) long_test.push_back(k / 1000.0);
+  CHECK(uniform_step(long_test) == 0.001);
 }
 
 TEST_CASE("time that does not increase is refused at its line") {

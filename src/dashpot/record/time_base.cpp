@@ -39,16 +39,18 @@ struct Line {
   double start = 0, step = 0;
 };
 
-/// Least-squares line through stamp over index.
+/// Least-squares line through stamp over index. Sums in long double: 1e8 stamps lose 1e-9 s otherwise.
 Line fit_line(std::span<const double> stamps) {
-  const auto n = static_cast<double>(stamps.size());
-  const double middle = (n - 1) / 2;
-  double mean = 0, product = 0;
-  for (const double t : stamps) mean += (t - stamps[0]) / n;
-  for (std::size_t k = 0; k < stamps.size(); ++k)
-    product += (static_cast<double>(k) - middle) * (stamps[k] - stamps[0] - mean);
-  const double step = product / (n * (n * n - 1) / 12);
-  return {stamps[0] + mean - step * middle, step};
+  const auto n = static_cast<long double>(stamps.size());
+  const long double middle = (n - 1) / 2;
+  long double sum = 0, product = 0;
+  for (std::size_t k = 0; k < stamps.size(); ++k) {
+    const long double t = static_cast<long double>(stamps[k]) - stamps[0];
+    sum += t;
+    product += (static_cast<long double>(k) - middle) * t;
+  }
+  const long double step = product / (n * (n * n - 1) / 12);
+  return {stamps[0] + static_cast<double>(sum / n - step * middle), static_cast<double>(step)};
 }
 
 /// A rate that is a whole number of hertz, or a step with the printed digits, when the fit allows it.
@@ -87,10 +89,10 @@ double uniform_step(std::span<const double> stamps) {
   const bool rounded = std::max(digit, coarsest) < 0.5 * line.step;
   const auto tolerance = [&](double t) {
     const double place = digits > 0 ? std::max(digit, std::pow(10.0, 1 - digits) * power_of_ten(t)) : digit;
-    return (rounded ? 0.6 * place : 0) + 1e-6 * line.step;
+    return (rounded ? 0.6 * place : 0) + 1e-6 * line.step + 1e-15 * std::abs(t);
   };
   for (std::size_t k = 0; k < stamps.size(); ++k)
-    if (std::abs(stamps[k] - line.start - line.step * static_cast<double>(k)) > tolerance(stamps[k]))
+    if (std::abs(stamps[k] - (line.start + line.step * static_cast<double>(k))) > tolerance(stamps[k]))
       return 0;
   return snapped(line.step, 2 * tolerance(stamps.back()) / static_cast<double>(stamps.size() - 1), digit);
 }
