@@ -1,1 +1,111 @@
-int main() {}
+#include <algorithm>
+#include <atomic>
+#include <csignal>
+#include <iterator>
+#include <new>
+#include <unistd.h>
+
+#include "arguments.h"
+#include "commands.h"
+#include "console.h"
+#include "dashpot/base/text.h"
+#include "help.h"
+
+namespace dashpot::cli {
+namespace {
+
+std::atomic<bool> stop_asked = false;
+static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler writes it");
+constexpr int kInterrupted = 128 + SIGINT;
+
+/// The first signal asks long work to end in order, the second ends the program.
+void on_signal(int) {
+  if (stop_asked.exchange(true)) _exit(kInterrupted);
+}
+
+void catch_signals() {
+  struct sigaction action {};
+  action.sa_handler = on_signal;
+  for (const int signal : {SIGINT, SIGTERM}) sigaction(signal, &action, nullptr);
+}
+
+std::vector<Option> common_options(Console& console) {
+  return {{.names = "--json",
+           .target = &console.json,
+           .help = "print the result as JSON on stdout; all else goes to stderr"},
+          {.names = "-q,--quiet", .target = &console.quiet, .help = "no progress and no notes on stderr"}};
+}
+
+Command find_command(const std::string& name) {
+  std::vector<std::string> names;
+  for (Command& command : all_commands()) {
+    if (command.name == name) return std::move(command);
+    names.push_back(command.name);
+  }
+  throw UsageError("", "unknown command '" + name + "'", suggest(name, names));
+}
+
+int run_command(const std::string& name, const std::vector<std::string>& arguments, Console& console) {
+  const Command command = find_command(name);
+  std::vector<Option> options = command.options;
+  const std::vector<Option> common = common_options(console);
+  options.insert(options.end(), common.begin(), common.end());
+  // Help prints the defaults, so it is written before anything is parsed into them.
+  const std::string help = command_help(command, common, console);
+  if (!parse_arguments(name, options, arguments)) {
+    console.json = false;
+    console.print(help);
+    return kDone;
+  }
+  return command.run(console);
+}
+
+int run(const std::vector<std::string>& words, Console& console) {
+  if (words.empty() || words.front() == "--help" || words.front() == "-h") {
+    console.print(overview(all_commands(), console));
+    return kDone;
+  }
+  const std::vector<std::string> rest(words.begin() + 1, words.end());
+  if (words.front() == "help")
+    return rest.empty() ? run({}, console) : run_command(rest.front(), {"--help"}, console);
+  if (words.front() == "--help-markdown") {
+    console.print(help_markdown(all_commands(), common_options(console)));
+    return kDone;
+  }
+  if (words.front() == "--version") return run_command("version", rest, console);
+  return run_command(words.front(), rest, console);
+}
+
+int run_and_explain(const std::vector<std::string>& words, Console& console) {
+  try {
+    const int code = run(words, console);
+    console.finish();
+    return code;
+  } catch (const Interrupted&) {
+    console.error("interrupted; files that were being written stand as they were before");
+    return kInterrupted;
+  } catch (const UsageError& error) {
+    console.error(error.what());
+    return kUsage;
+  } catch (const Error& error) {
+    console.error(error.what());
+  } catch (const std::bad_alloc&) {
+    console.error("out of memory; fewer records at once need less");
+  } catch (const std::exception& error) {
+    console.error(std::string("unexpected: ") + error.what());
+  }
+  return kUnusableInput;
+}
+
+}  // namespace
+}  // namespace dashpot::cli
+
+int main(int argc, char** argv) {
+  using namespace dashpot::cli;
+  catch_signals();
+  const std::vector<std::string> words(argv + 1, argv + argc);
+  std::string line = "dashpot";
+  for (const std::string& word : words) line += ' ' + shell_quoted(word);
+  Console console(line, stop_asked);
+  return run_and_explain(words, console);
+}
