@@ -94,7 +94,6 @@ void refuse_leftovers(const std::string& command, const std::vector<Option>& opt
 
 }  // namespace
 
-std::string Option::long_name() const { return names.substr(names.find(',') + 1); }
 
 bool parse_arguments(const std::string& command, const std::vector<Option>& options,
                      const std::vector<std::string>& arguments) {

@@ -47,6 +47,8 @@ struct Option {
   std::string long_name() const;  ///< "--quiet", or the name of an argument by position
 };
 
+void append(std::vector<Option>& options, const std::vector<Option>& more);
+
 /// One thing that the program does.
 struct Command {
   std::string name;

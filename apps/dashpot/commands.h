@@ -17,4 +17,7 @@ Command version_command();
 /// Every command, in the order of the overview.
 std::vector<Command> all_commands();
 
+/// The options that every command has besides its own.
+std::vector<Option> common_options(Console& console);
+
 }  // namespace dashpot::cli

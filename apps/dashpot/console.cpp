@@ -59,6 +59,13 @@ void Console::print_json(const Value& value) {
   if (!text.ends_with('\n')) std::fputc('\n', stdout);
 }
 
+void Console::talk(std::string_view text) {
+  if (quiet) return;
+  progress_.clear();
+  std::fflush(stdout);
+  std::fwrite(text.data(), 1, text.size(), stderr);
+}
+
 void Console::note(std::string_view text) {
   if (!quiet) message("note", "1", text);
 }

@@ -24,7 +24,9 @@ class Console {
   void print(std::string_view text);
   /// A result for programs, on stdout.
   void print_json(const Value& value);
-  /// What the work met on its way, on stderr; wrapped.
+  /// Talk about the work, on stderr; nothing when quiet.
+  void talk(std::string_view text);
+  /// What the work met on its way, on stderr. Warnings and errors come even when quiet.
   void note(std::string_view text);
   void warn(std::string_view text);
   void error(std::string_view text);

@@ -29,13 +29,6 @@ void catch_signals() {
   for (const int signal : {SIGINT, SIGTERM}) sigaction(signal, &action, nullptr);
 }
 
-std::vector<Option> common_options(Console& console) {
-  return {{.names = "--json",
-           .target = &console.json,
-           .help = "print the result as JSON on stdout; all else goes to stderr"},
-          {.names = "-q,--quiet", .target = &console.quiet, .help = "no progress and no notes on stderr"}};
-}
-
 Command find_command(const std::string& name) {
   std::vector<std::string> names;
   for (Command& command : all_commands()) {
@@ -47,9 +40,9 @@ Command find_command(const std::string& name) {
 
 int run_command(const std::string& name, const std::vector<std::string>& arguments, Console& console) {
   const Command command = find_command(name);
-  std::vector<Option> options = command.options;
   const std::vector<Option> common = common_options(console);
-  options.insert(options.end(), common.begin(), common.end());
+  std::vector<Option> options = command.options;
+  append(options, common);
   // Help prints the defaults, so it is written before anything is parsed into them.
   const std::string help = command_help(command, common, console);
   if (!parse_arguments(name, options, arguments)) {
