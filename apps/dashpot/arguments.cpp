@@ -25,7 +25,8 @@ double number_in(const std::string& text, const Option& option, bool whole) {
 template <class Integer>
 Integer integer_in(const std::string& text, const Option& option) {
   const double value = number_in(text, option, true);
-  const double largest = std::min(static_cast<double>(std::numeric_limits<Integer>::max()), 9007199254740992.0);
+  const double largest =
+      std::min(static_cast<double>(std::numeric_limits<Integer>::max()), 9007199254740992.0);
   if (value > largest || value < static_cast<double>(std::numeric_limits<Integer>::min()))
     throw UsageError(option.long_name(), text + " is too large", "give at most " + format_exact(largest));
   return static_cast<Integer>(value);
@@ -93,7 +94,6 @@ void refuse_leftovers(const std::string& command, const std::vector<Option>& opt
 }
 
 }  // namespace
-
 
 bool parse_arguments(const std::string& command, const std::vector<Option>& options,
                      const std::vector<std::string>& arguments) {

@@ -23,8 +23,7 @@ class UsageError : public Error {
 
 /// Where an option's value goes. What stands there before parsing is the default, which help prints.
 /// A bool is a switch: naming it turns the variable over.
-using Target =
-    std::variant<bool*, int*, std::uint64_t*, double*, std::string*, std::vector<std::string>*>;
+using Target = std::variant<bool*, int*, std::uint64_t*, double*, std::string*, std::vector<std::string>*>;
 
 /// What a value names, so that a shell can complete it.
 enum class Takes { Word, File, Folder };

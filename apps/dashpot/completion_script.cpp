@@ -40,8 +40,8 @@ std::string bash_command(const Command& command, const std::vector<Option>& comm
     }
     names += " " + join(split(option.names, ','), " ");
     if (!option.is_switch())
-      values += fmt::format("        {}) {}; return;;\n", join(split(option.names, ','), "|"),
-                            bash_values(option));
+      values +=
+          fmt::format("        {}) {}; return;;\n", join(split(option.names, ','), "|"), bash_values(option));
   }
   return fmt::format(
       "    {})\n      case $previous in\n{}      esac\n"

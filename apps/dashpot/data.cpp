@@ -31,29 +31,30 @@ std::string drive_levels(const Dataset& dataset) {
 }  // namespace
 
 std::vector<Option> data_options(DataSettings& settings) {
-  return {{.names = "DATA",
-           .target = &settings.paths,
-           .help = "recordings: files or folders (CSV, DAQ text, MAT, JSON; also .gz), or a dataset file (.yaml)",
-           .takes = Takes::File,
-           .required = true},
-          {.names = "--dataset",
-           .target = &settings.load.dataset_file,
-           .help = "a dataset file that states channels, units and conditions",
-           .value = "FILE",
-           .takes = Takes::File,
-           .default_text = "dataset.yaml beside the data, if there"},
-          {.names = "--no-recognise",
-           .target = &settings.load.recognise,
-           .help = "do not look for these recordings among the known published ones"},
-          {.names = "--velocity-cutoff",
-           .target = &settings.load.velocity_cutoff_hz,
-           .help = "cut-off of the zero-phase filter that velocity is derived with",
-           .value = "HZ",
-           .minimum = 0,
-           .default_text = "from the motion, and stated"},
-          {.names = "-v,--verbose",
-           .target = &settings.verbose,
-           .help = "print all that was understood of the data"}};
+  return {
+      {.names = "DATA",
+       .target = &settings.paths,
+       .help = "recordings: files or folders (CSV, DAQ text, MAT, JSON; also .gz), or a dataset file (.yaml)",
+       .takes = Takes::File,
+       .required = true},
+      {.names = "--dataset",
+       .target = &settings.load.dataset_file,
+       .help = "a dataset file that states channels, units and conditions",
+       .value = "FILE",
+       .takes = Takes::File,
+       .default_text = "dataset.yaml beside the data, if there"},
+      {.names = "--no-recognise",
+       .target = &settings.load.recognise,
+       .help = "do not look for these recordings among the known published ones"},
+      {.names = "--velocity-cutoff",
+       .target = &settings.load.velocity_cutoff_hz,
+       .help = "cut-off of the zero-phase filter that velocity is derived with",
+       .value = "HZ",
+       .minimum = 0,
+       .default_text = "from the motion, and stated"},
+      {.names = "-v,--verbose",
+       .target = &settings.verbose,
+       .help = "print all that was understood of the data"}};
 }
 
 std::string summary(const Dataset& dataset) {

@@ -34,10 +34,11 @@ std::string percent(double value) { return fmt::format("{:.2f}", value); }
 
 std::vector<std::string> record_row(const RecordResult& r) {
   const std::string level = r.drive_level ? format_number(*r.drive_level) : "varies";
-  if (r.diverged_at) return {r.record, level, "", "", "", "", "", "diverged at " + format_number(*r.diverged_at) + " s"};
+  if (r.diverged_at)
+    return {r.record, level, "", "", "", "", "", "diverged at " + format_number(*r.diverged_at) + " s"};
   const Metrics& m = r.metrics;
-  return {r.record, level, format_number(m.rmse), percent(m.rms_half_span), percent(m.esr), percent(m.fit),
-          percent(r.energy_error), format_number(r.offset, 3)};
+  return {r.record,       level,          format_number(m.rmse),   percent(m.rms_half_span),
+          percent(m.esr), percent(m.fit), percent(r.energy_error), format_number(r.offset, 3)};
 }
 
 std::vector<std::string> pooled_row(const std::string& name, const Metrics& m) {
@@ -45,8 +46,8 @@ std::vector<std::string> pooled_row(const std::string& name, const Metrics& m) {
 }
 
 std::string record_table(const Evaluation& evaluation, const std::string& drive_unit, int width) {
-  Table table({"record", ">" + drive_unit, ">RMSE N", ">rms/half-span %", ">ESR %", ">fit %", ">energy error %",
-               ">offset N"});
+  Table table({"record", ">" + drive_unit, ">RMSE N", ">rms/half-span %", ">ESR %", ">fit %",
+               ">energy error %", ">offset N"});
   for (const RecordResult& r : evaluation.records) table.row(record_row(r));
   if (evaluation.pooled.samples > 0) {
     table.row(pooled_row("all", evaluation.pooled));
@@ -99,8 +100,8 @@ Value evaluation_json(const ModelFile& file, const Evaluation& evaluation,
 }
 
 /// The report of `identify` with this model alone in it, fitted elsewhere.
-void write_report(const Settings& settings, const Dataset& dataset, ModelFile file, const Evaluation& evaluation,
-                  Console& console) {
+void write_report(const Settings& settings, const Dataset& dataset, ModelFile file,
+                  const Evaluation& evaluation, Console& console) {
   RankedModel ranked;
   ranked.name = file.model->name();
   ranked.title = settings.model;
@@ -135,14 +136,16 @@ int run(const Settings& settings, Console& console) {
   const Evaluation evaluation = evaluate(*file.model, dataset.records, dataset.drive_unit, options);
   console.check_stop();
   const std::vector<Extrapolation> outside = extrapolations(file, dataset);
-  console.print('\n' + console.bold(file.model->name()) + " in free run, nothing fitted but the force zero of each record\n\n");
+  console.print('\n' + console.bold(file.model->name()) +
+                " in free run, nothing fitted but the force zero of each record\n\n");
   console.print(record_table(evaluation, dataset.drive_unit, console.width()));
   if (evaluation.pooled.samples > 0) console.print('\n' + band_table(evaluation, console.width()));
   for (const Extrapolation& e : outside) console.warn(describe(e));
   if (console.json) console.print_json(evaluation_json(file, evaluation, outside));
   if (!settings.report.empty()) write_report(settings, dataset, std::move(file), evaluation, console);
   if (evaluation.diverged == 0) return kDone;
-  console.error(fmt::format("the model diverged on {} of {} records", evaluation.diverged, evaluation.records.size()));
+  console.error(
+      fmt::format("the model diverged on {} of {} records", evaluation.diverged, evaluation.records.size()));
   return kNotUsable;
 }
 
@@ -150,19 +153,20 @@ int run(const Settings& settings, Console& console) {
 
 Command evaluate_command() {
   auto settings = std::make_shared<Settings>();
-  Command command{.name = "evaluate",
-                  .title = "Judge a model file on recordings, without fitting",
-                  .description =
-                      "Runs a model in free run over each recording (motion and current in, force out) and prints "
-                      "its errors per record, pooled and by velocity. Says where the recordings leave the range "
-                      "that the model was fitted on.",
-                  .options = {{.names = "MODEL",
-                               .target = &settings->model,
-                               .help = "a model file that 'dashpot identify' wrote",
-                               .takes = Takes::File,
-                               .required = true}},
-                  .example = std::string(kExample),
-                  .run = [settings](Console& console) { return run(*settings, console); }};
+  Command command{
+      .name = "evaluate",
+      .title = "Judge a model file on recordings, without fitting",
+      .description =
+          "Runs a model in free run over each recording (motion and current in, force out) and prints "
+          "its errors per record, pooled and by velocity. Says where the recordings leave the range "
+          "that the model was fitted on.",
+      .options = {{.names = "MODEL",
+                   .target = &settings->model,
+                   .help = "a model file that 'dashpot identify' wrote",
+                   .takes = Takes::File,
+                   .required = true}},
+      .example = std::string(kExample),
+      .run = [settings](Console& console) { return run(*settings, console); }};
   append(command.options, data_options(settings->data));
   append(command.options,
          {{.names = "--force-offset",

@@ -20,10 +20,9 @@ struct Quantity {
 
 std::vector<Quantity> quantities(const ModelFile& file) {
   const Domain& d = file.domain;
-  std::vector<Quantity> all = {
-      {"velocity", "m/s", d.velocity_min, d.velocity_max, &DamperInput::velocity},
-      {file.drive_unit == "V" ? "voltage" : "current", file.drive_unit, d.current_min, d.current_max,
-       &DamperInput::current}};
+  std::vector<Quantity> all = {{"velocity", "m/s", d.velocity_min, d.velocity_max, &DamperInput::velocity},
+                               {file.drive_unit == "V" ? "voltage" : "current", file.drive_unit,
+                                d.current_min, d.current_max, &DamperInput::current}};
   if (file.model->needs_displacement())
     all.push_back({"displacement", "m", d.displacement_min, d.displacement_max, &DamperInput::displacement});
   return all;
@@ -62,10 +61,10 @@ std::string describe(const Extrapolation& e) {
   const auto range = [&](double low, double high) {
     return format_number(low, 3) + " ... " + format_number(high, 3) + " " + e.unit;
   };
-  return fmt::format("{} % of the samples have a {} outside the model's range {} (the recordings span {}): it "
-                     "extrapolates there",
-                     format_number(100 * e.share, 2), e.quantity, range(e.low, e.high),
-                     range(e.data_low, e.data_high));
+  return fmt::format(
+      "{} % of the samples have a {} outside the model's range {} (the recordings span {}): it "
+      "extrapolates there",
+      format_number(100 * e.share, 2), e.quantity, range(e.low, e.high), range(e.data_low, e.data_high));
 }
 
 Value to_json(const std::vector<Extrapolation>& extrapolations) {

@@ -90,9 +90,10 @@ std::string option_text(const Option& option) {
 std::string overview(const std::vector<Command>& commands, const Console& console) {
   const auto width = static_cast<std::size_t>(console.width());
   std::string text = console.bold("Dashpot") + " " DASHPOT_VERSION "\n" +
-                     paragraph("Turns test-bench recordings of magnetorheological dampers into models that can be "
-                               "trusted.",
-                               width);
+                     paragraph(
+                         "Turns test-bench recordings of magnetorheological dampers into models that can be "
+                         "trusted.",
+                         width);
   text += '\n' + console.bold("Start here") +
           "\n"
           "  dashpot demo                 a virtual damper, measured and identified, in seconds\n"
@@ -121,7 +122,8 @@ std::string help_markdown(const std::vector<Command>& commands, const std::vecto
       "Exit codes: 0 done; 1 unusable input; 2 the command line cannot be understood; 3 it ran, but the "
       "result is not usable; 130 interrupted.\n";
   for (const Command& command : commands) {
-    text += "\n## dashpot " + command.name + "\n\n    " + usage(command) + "\n\n" + command.description + "\n\n";
+    text +=
+        "\n## dashpot " + command.name + "\n\n    " + usage(command) + "\n\n" + command.description + "\n\n";
     if (!command.options.empty()) text += markdown_options(command.options) + '\n';
     text += "```sh\n" + command.example + "\n```\n";
   }

@@ -46,23 +46,24 @@ int run(const Settings& settings, Console& console) {
   print_results(input, console);
   write_results(input, settings.results, console);
   if (console.json) console.print_json(json_report(input));
-  return verdict(ranking, console);
+  return exit_code_of(ranking, console);
 }
 
 }  // namespace
 
 Command identify_command() {
   auto settings = std::make_shared<Settings>();
-  Command command{
-      .name = "identify",
-      .title = "Turn recordings into ranked damper models and a report",
-      .description =
-          "Fits each model to all training records together and judges it in free run (motion and current in, "
-          "force out) on records that it has not seen. Ranks the models by that error, saves each as a file and "
-          "writes a report.",
-      .options = data_options(settings->data),
-      .example = std::string(kExample),
-      .run = [settings](Console& console) { return run(*settings, console); }};
+  Command command{.name = "identify",
+                  .title = "Turn recordings into ranked damper models and a report",
+                  .description =
+                      "Fits each model to all training records together and judges it in free run (motion "
+                      "and current in, "
+                      "force out) on records that it has not seen. Ranks the models by that error, saves "
+                      "each as a file and "
+                      "writes a report.",
+                  .options = data_options(settings->data),
+                  .example = std::string(kExample),
+                  .run = [settings](Console& console) { return run(*settings, console); }};
   command.options.push_back(
       {.names = "--leave-out",
        .target = &settings->leave_out,

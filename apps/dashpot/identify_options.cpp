@@ -18,36 +18,38 @@ bool needs_displacement(const std::string& model) {
 }  // namespace
 
 std::vector<Option> fit_options(FitSettings& settings) {
-  return {{.names = "--models",
-           .target = &settings.models,
-           .help = "the models to fit, separated by commas",
-           .value = "NAMES",
-           .choices = model_names(),
-           .default_text = "all that the data allow"},
-          {.names = "--force-offset",
-           .target = &settings.force_offset,
-           .help = "the force zero (gas, load cell): a free offset per record, or none beside the model's own",
-           .value = "MODE",
-           .choices = {"record", "none"}},
-          {.names = "--starts",
-           .target = &settings.options.starts,
-           .help = "starting points of each fit",
-           .value = "N",
-           .minimum = 1},
-          {.names = "--seed",
-           .target = &settings.options.seed,
-           .help = "seed of all random numbers: the same seed gives the same result",
-           .value = "N",
-           .minimum = 0},
-          {.names = "--threads",
-           .target = &settings.options.threads,
-           .help = "threads to use; the result does not depend on it",
-           .value = "N",
-           .minimum = 0,
-           .default_text = "all cores"}};
+  return {
+      {.names = "--models",
+       .target = &settings.models,
+       .help = "the models to fit, separated by commas",
+       .value = "NAMES",
+       .choices = model_names(),
+       .default_text = "all that the data allow"},
+      {.names = "--force-offset",
+       .target = &settings.force_offset,
+       .help = "the force zero (gas, load cell): a free offset per record, or none beside the model's own",
+       .value = "MODE",
+       .choices = {"record", "none"}},
+      {.names = "--starts",
+       .target = &settings.options.starts,
+       .help = "starting points of each fit",
+       .value = "N",
+       .minimum = 1},
+      {.names = "--seed",
+       .target = &settings.options.seed,
+       .help = "seed of all random numbers: the same seed gives the same result",
+       .value = "N",
+       .minimum = 0},
+      {.names = "--threads",
+       .target = &settings.options.threads,
+       .help = "threads to use; the result does not depend on it",
+       .value = "N",
+       .minimum = 0,
+       .default_text = "all cores"}};
 }
 
-std::vector<std::string> chosen_models(const FitSettings& settings, const Dataset& dataset, Console& console) {
+std::vector<std::string> chosen_models(const FitSettings& settings, const Dataset& dataset,
+                                       Console& console) {
   if (!settings.models.empty()) return settings.models;
   const bool has_displacement =
       std::ranges::all_of(dataset.records, [](const Record& r) { return r.find("displacement") != nullptr; });

@@ -1,3 +1,5 @@
+#include "dashpot/output/inspect.h"
+
 #include <cmath>
 #include <memory>
 
@@ -7,7 +9,6 @@
 #include "console.h"
 #include "dashpot/base/file.h"
 #include "dashpot/base/text.h"
-#include "dashpot/output/inspect.h"
 #include "data.h"
 #include "layout.h"
 #include "results.h"
@@ -61,9 +62,8 @@ Value inspect_json(const Dataset& dataset, const std::vector<VelocityCheck>& che
                                      {"notes", Value::array(r.notes)}}));
   }
   for (const VelocityCheck& check : checks)
-    velocities.push_back(Value::object({{"record", check.record},
-                                        {"cutoff_hz", check.cutoff_hz},
-                                        {"rms_percent", check.rms_percent}}));
+    velocities.push_back(Value::object(
+        {{"record", check.record}, {"cutoff_hz", check.cutoff_hz}, {"rms_percent", check.rms_percent}}));
   return Value::object({{"name", dataset.name},
                         {"drive_unit", dataset.drive_unit},
                         {"columns", std::move(columns)},
@@ -97,7 +97,8 @@ Command inspect_command() {
       .title = "Show what is understood of recordings",
       .description =
           "Reads recordings as 'identify' would and prints what each column was taken for, its unit, the "
-          "conditions of each record, and what was inferred or passed over. Where velocity was measured, also "
+          "conditions of each record, and what was inferred or passed over. Where velocity was measured, "
+          "also "
           "compares it with the velocity derived from displacement.",
       .options = data_options(settings->data),
       .example = std::string(kExample),

@@ -10,7 +10,8 @@
 namespace dashpot::cli {
 namespace {
 
-const std::vector<std::string> kColumns = {"parameter", "unit", "default", "bounds", "over current", "meaning"};
+const std::vector<std::string> kColumns = {"parameter", "unit",         "default",
+                                           "bounds",    "over current", "meaning"};
 
 ParameterLine parameter_line(const ParamInfo& p) {
   return {std::string(p.name),

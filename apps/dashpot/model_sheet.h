@@ -15,10 +15,10 @@ struct ParameterLine {
 /// A registered model as the documentation shows it, law or network alike.
 struct ModelSheet {
   std::string name, kind, title, equation, source, remarks;
-  std::vector<std::string> inputs;
-  std::vector<std::string> states;  ///< "z, m"
-  std::vector<ParameterLine> parameters;  ///< a network has weights instead
-  std::size_t numbers = 0;  ///< fitted, with the usual forms of dependence on current
+  std::vector<std::string> inputs = {};
+  std::vector<std::string> states = {};        ///< "z, m"
+  std::vector<ParameterLine> parameters = {};  ///< a network has weights instead
+  std::size_t numbers = 0;                     ///< fitted, with the usual forms of dependence on current
 };
 
 ModelSheet model_sheet(const std::string& name);

@@ -53,7 +53,8 @@ int run(const Settings& settings, Console& console) {
   else if (settings.markdown)
     console.print(markdown_page(names));
   else if (all)
-    console.print(overview_table(console.width()) + "\n'dashpot models NAME' shows equation, parameters and source.\n");
+    console.print(overview_table(console.width()) +
+                  "\n'dashpot models NAME' shows equation, parameters and source.\n");
   else
     console.print(sheet_text(model_sheet(settings.name), console.width()));
   return kDone;
@@ -65,8 +66,9 @@ Command models_command() {
   auto settings = std::make_shared<Settings>();
   return {.name = "models",
           .title = "The damper models: equations, parameters, sources",
-          .description = "Lists the models that can be identified, or shows one: its equation, the table of its "
-                         "parameters (units, defaults, bounds), states, source and limits.",
+          .description =
+              "Lists the models that can be identified, or shows one: its equation, the table of its "
+              "parameters (units, defaults, bounds), states, source and limits.",
           .options = {{.names = "NAME",
                        .target = &settings->name,
                        .help = "the model to show",

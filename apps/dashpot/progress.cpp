@@ -12,9 +12,9 @@ namespace dashpot::cli {
 namespace {
 
 using namespace std::chrono_literals;
-constexpr auto kRedraw = 100ms;   // fast enough to look alive
-constexpr auto kLogLine = 5s;     // slow enough for a log to stay readable
-constexpr auto kSettle = 3s;      // no forecast before this
+constexpr auto kRedraw = 100ms;  // fast enough to look alive
+constexpr auto kLogLine = 5s;    // slow enough for a log to stay readable
+constexpr auto kSettle = 3s;     // no forecast before this
 constexpr int kBarColumns = 24;
 constexpr int kLeastColumns = 50;  // narrower terminals get no bar, only words
 

@@ -46,9 +46,7 @@ std::vector<Option> result_options(ResultSettings& settings) {
           {.names = "--figures",
            .target = &settings.figures,
            .help = "also draw the figures as SVG and PDF, for a paper (needs gnuplot)"},
-          {.names = "--no-report",
-           .target = &settings.report,
-           .help = "write the model files only"}};
+          {.names = "--no-report", .target = &settings.report, .help = "write the model files only"}};
 }
 
 std::string date_now() {
@@ -90,7 +88,7 @@ void write_results(const ReportInput& input, const ResultSettings& settings, Con
   if (settings.figures) console.print("Figures  " + (folder / "figures").string() + "/\n");
 }
 
-int verdict(const Ranking& ranking, Console& console) {
+int exit_code_of(const Ranking& ranking, Console& console) {
   if (std::ranges::any_of(ranking.models, is_usable)) return kDone;
   console.error("no model gave a usable force on the records left out; the table and the warnings say why");
   return kNotUsable;

@@ -25,7 +25,7 @@ void print_results(const ReportInput& input, Console& console);
 void write_results(const ReportInput& input, const ResultSettings& settings, Console& console);
 
 /// kDone, or kNotUsable with the reason printed when no model gave a finite force.
-int verdict(const Ranking& ranking, Console& console);
+int exit_code_of(const Ranking& ranking, Console& console);
 
 /// Now, in UTC: "2026-05-01T12:00:00Z".
 std::string date_now();
