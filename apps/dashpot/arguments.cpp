@@ -34,7 +34,8 @@ Integer integer_in(const std::string& text, const Option& option) {
 
 void check_choice(const std::string& word, const Option& option) {
   if (option.choices.empty() || std::ranges::find(option.choices, word) != option.choices.end()) return;
-  throw UsageError(option.long_name(), "unknown value '" + word + "'", suggest(word, option.choices));
+  throw UsageError(option.is_positional() ? "" : option.long_name(),
+                   "unknown " + option.noun + " '" + word + "'", suggest(word, option.choices));
 }
 
 /// Writes the words given for one option to its variable.
@@ -89,8 +90,7 @@ void refuse_leftovers(const std::string& command, const std::vector<Option>& opt
   for (const Option& option : options)
     if (!option.is_positional()) known.push_back(option.long_name());
   const std::optional<std::string> near = closest(word, known);
-  throw UsageError(command, "unknown option '" + word + "'",
-                   near ? "did you mean '" + *near + "'?" : "'dashpot " + command + " --help' lists them");
+  throw UsageError(command, "unknown option '" + word + "'", near ? "did you mean '" + *near + "'?" : "");
 }
 
 }  // namespace
@@ -104,6 +104,9 @@ bool parse_arguments(const std::string& command, const std::vector<Option>& opti
     app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
   } catch (const CLI::CallForHelp&) {
     return false;
+  } catch (const CLI::ArgumentMismatch& error) {
+    const std::string text = error.what();  // "--starts: 1 required ..."
+    throw UsageError(text.substr(0, text.find(':')), "needs a value");
   } catch (const CLI::ParseError& error) {
     throw UsageError(command, error.what());
   }

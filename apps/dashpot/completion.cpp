@@ -16,6 +16,7 @@ Command completion_command() {
                    .target = shell.get(),
                    .help = "bash, zsh or fish",
                    .choices = {"bash", "zsh", "fish"},
+                   .noun = "shell",
                    .required = true}},
       .example =
           "# For this bash only; put the line into ~/.bashrc to keep it:\n"

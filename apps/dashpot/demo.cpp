@@ -22,8 +22,7 @@ struct Settings {
 };
 
 constexpr std::string_view kExample =
-    "# Then read demo/report.html:\n"
-    "dashpot demo --output demo\n"
+    "dashpot demo --output demo    # then read demo/report.html\n"
     "\n"
     "# The recordings that it made are ordinary files:\n"
     "dashpot inspect demo/recordings/";

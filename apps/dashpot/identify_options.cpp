@@ -24,6 +24,7 @@ std::vector<Option> fit_options(FitSettings& settings) {
        .help = "the models to fit, separated by commas",
        .value = "NAMES",
        .choices = model_names(),
+       .noun = "model",
        .default_text = "all that the data allow"},
       {.names = "--force-offset",
        .target = &settings.force_offset,

@@ -16,17 +16,19 @@ namespace {
 
 std::atomic<bool> stop_asked = false;
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler writes it");
-constexpr int kInterrupted = 128 + SIGINT;
+std::atomic<int> stop_signal = 0;
 
 /// The first signal asks long work to end in order, the second ends the program.
-void on_signal(int) {
-  if (stop_asked.exchange(true)) _exit(kInterrupted);
+void on_signal(int number) {
+  stop_signal = number;
+  if (stop_asked.exchange(true)) _exit(128 + number);
 }
 
 void catch_signals() {
   struct sigaction action{};
   action.sa_handler = on_signal;
-  for (const int signal : {SIGINT, SIGTERM}) sigaction(signal, &action, nullptr);
+  for (const int number : {SIGINT, SIGTERM}) sigaction(number, &action, nullptr);
+  std::signal(SIGXFSZ, SIG_IGN);  // a limit on file size is then an error with a message
 }
 
 Command find_command(const std::string& name) {
@@ -35,7 +37,9 @@ Command find_command(const std::string& name) {
     if (command.name == name) return std::move(command);
     names.push_back(command.name);
   }
-  throw UsageError("", "unknown command '" + name + "'", suggest(name, names));
+  throw UsageError(
+      "", std::string("unknown ") + (name.starts_with('-') ? "option" : "command") + " '" + name + "'",
+      suggest(name, names));
 }
 
 int run_command(const std::string& name, const std::vector<std::string>& arguments, Console& console) {
@@ -69,6 +73,13 @@ int run(const std::vector<std::string>& words, Console& console) {
   return run_command(words.front(), rest, console);
 }
 
+/// The command line that explains what went wrong on this one.
+std::string help_for(const std::vector<std::string>& words) {
+  const bool known =
+      std::ranges::any_of(all_commands(), [&](const Command& c) { return c.name == words.front(); });
+  return known ? "dashpot " + words.front() + " --help" : "dashpot --help";
+}
+
 int run_and_explain(const std::vector<std::string>& words, Console& console) {
   try {
     const int code = run(words, console);
@@ -76,9 +87,10 @@ int run_and_explain(const std::vector<std::string>& words, Console& console) {
     return code;
   } catch (const Interrupted&) {
     console.error("interrupted; files that were being written stand as they were before");
-    return kInterrupted;
+    return 128 + stop_signal;
   } catch (const UsageError& error) {
     console.error(error.what());
+    console.talk("'" + help_for(words) + "' explains.\n");
     return kUsage;
   } catch (const Error& error) {
     console.error(error.what());

@@ -22,7 +22,7 @@ constexpr std::string_view kExample =
     "dashpot models modified_bouc_wen";
 
 std::string overview_table(int width) {
-  Table table({"name", "kind", ">numbers", ">states", "title"});
+  Table table({"name", "kind", ">to fit", ">states", "title"});
   for (const std::string& name : model_names()) {
     const ModelSheet sheet = model_sheet(name);
     table.row({sheet.name, sheet.kind, std::to_string(sheet.numbers), std::to_string(sheet.states.size()),
@@ -72,7 +72,8 @@ Command models_command() {
           .options = {{.names = "NAME",
                        .target = &settings->name,
                        .help = "the model to show",
-                       .choices = model_names()},
+                       .choices = model_names(),
+                       .noun = "model"},
                       {.names = "--markdown",
                        .target = &settings->markdown,
                        .help = "print a page for the documentation"}},

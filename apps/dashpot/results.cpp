@@ -7,6 +7,8 @@
 
 #include "console.h"
 #include "dashpot/base/file.h"
+#include "dashpot/output/words.h"
+#include "layout.h"
 
 namespace dashpot::cli {
 namespace {
@@ -67,7 +69,8 @@ ReportInput report_input(const Dataset& dataset, const Ranking& ranking, const C
 }
 
 void print_results(const ReportInput& input, Console& console) {
-  console.print('\n' + ranking_table(input.ranking, console.width()));
+  console.print('\n' + ranking_table(input.ranking, console.width()) + '\n' +
+                paragraph(verdict(input.ranking), static_cast<std::size_t>(console.width())));
   const RankedModel& best = input.ranking.models.front();
   if (!best.fit.parameters.empty())
     console.print('\n' + console.bold(best.name) + ", fitted on all training records\n" +
