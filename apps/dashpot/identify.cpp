@@ -30,15 +30,20 @@ constexpr std::string_view kExample =
     "# Then read results/report.html, and use the best model:\n"
     "dashpot evaluate results/models/tanh_kwok.json more-recordings/";
 
-LeaveOut chosen_leave_out(const std::string& text, const Dataset& dataset) {
-  if (!text.empty()) return parse_leave_out(text);
-  return dataset.leave_out.value_or(LeaveOut{});
+/// What the command line says, before the long work begins; nothing when it says nothing.
+std::optional<LeaveOut> stated_leave_out(const std::string& text) {
+  if (text.empty()) return std::nullopt;
+  try {
+    return parse_leave_out(text);
+  } catch (const Error& error) {
+    throw UsageError("--leave-out", error.what());
+  }
 }
 
 int run(const Settings& settings, Console& console) {
-  if (!settings.leave_out.empty()) parse_leave_out(settings.leave_out);  // before the long work
+  const std::optional<LeaveOut> stated = stated_leave_out(settings.leave_out);
   const Dataset dataset = load_recordings(settings.data, console);
-  const LeaveOut leave_out = chosen_leave_out(settings.leave_out, dataset);
+  const LeaveOut leave_out = stated.value_or(dataset.leave_out.value_or(LeaveOut{}));
   console.talk("judged by leaving out: " + format_leave_out(leave_out) + '\n');
   const Ranking ranking = rank(chosen_models(settings.fit, dataset, console), dataset, leave_out,
                                identify_options(settings.fit, console));

@@ -28,7 +28,7 @@ TEST_CASE("bench: the same seed gives the same bytes, another seed others") {
   const TemporaryFolder folder;
   const auto bytes_of = [&](const std::string& name, const std::string& seed) {
     const std::string to = (folder.path() / name).string();
-    REQUIRE(::dashpot("bench --motions 5x2 --levels 1 --seed " + seed + " --output " + to).exit_code == 0);
+    REQUIRE(run_dashpot("bench --motions 5x2 --levels 1 --seed " + seed + " --output " + to).exit_code == 0);
     return read_file(folder.path() / name / "5_mm_2_Hz_1_V.csv");
   };
   const std::string first = bytes_of("a", "3");
@@ -38,7 +38,7 @@ TEST_CASE("bench: the same seed gives the same bytes, another seed others") {
 }
 
 TEST_CASE("bench: a motion too fast to be sampled is refused with the limit") {
-  const ProgramResult result = ::dashpot("bench --motions 5x90 --levels 1 --output /tmp/never");
+  const ProgramResult result = run_dashpot("bench --motions 5x90 --levels 1 --output /tmp/never");
   CHECK(result.exit_code == 1);
   CHECK(contains(result.output, "tenth of the sample rate"));
 }

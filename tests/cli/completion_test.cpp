@@ -23,7 +23,7 @@ std::string bash_completion(const std::string& words, int count) {
 TEST_CASE("the completion scripts are valid in their shells") {
   for (const std::string shell : {"bash", "zsh", "fish"}) {
     CAPTURE(shell);
-    const ProgramResult script = dashpot("completion " + shell);
+    const ProgramResult script = run_dashpot("completion " + shell);
     CHECK(script.exit_code == 0);
     CHECK(contains(script.output, "identify"));
     if (!is_installed(shell)) continue;

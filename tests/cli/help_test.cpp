@@ -20,36 +20,36 @@ std::size_t longest_line(const std::string& text) {
 }  // namespace
 
 TEST_CASE("dashpot alone welcomes and names every command") {
-  const ProgramResult result = dashpot("");
+  const ProgramResult result = run_dashpot("");
   CHECK(result.exit_code == 0);
   for (const char* command : kCommands) CHECK(contains(result.output, command));
-  CHECK(dashpot("--help").output == result.output);
+  CHECK(run_dashpot("--help").output == result.output);
 }
 
 TEST_CASE("every command explains itself with an example") {
   for (const char* command : kCommands) {
     CAPTURE(command);
-    const ProgramResult result = dashpot(std::string(command) + " --help");
+    const ProgramResult result = run_dashpot(std::string(command) + " --help");
     CHECK(result.exit_code == 0);
     CHECK(contains(result.output, std::string("dashpot ") + command));
     CHECK(contains(result.output, "\nExample\n"));
-    CHECK(dashpot(std::string("help ") + command).output == result.output);
+    CHECK(run_dashpot(std::string("help ") + command).output == result.output);
   }
 }
 
 TEST_CASE("help keeps to the width of the terminal, but for the examples, which must be copied whole") {
-  const std::string help = dashpot("identify --help", "COLUMNS=60").output;
+  const std::string help = run_dashpot("identify --help", "COLUMNS=60").output;
   CHECK(longest_line(help.substr(0, help.find("\nExample\n"))) <= 60);
 }
 
 TEST_CASE("help prints the defaults that the program uses") {
-  const std::string help = dashpot("identify --help").output;
+  const std::string help = run_dashpot("identify --help").output;
   CHECK(contains(help, "(default: dashpot-results)"));
   CHECK(contains(help, "(default: record)"));
 }
 
 TEST_CASE("the documentation page names every command") {
-  const ProgramResult page = dashpot("--help-markdown");
+  const ProgramResult page = run_dashpot("--help-markdown");
   CHECK(page.exit_code == 0);
   for (const char* command : kCommands) CHECK(contains(page.output, std::string("\n## dashpot ") + command));
 }
@@ -80,7 +80,7 @@ TEST_CASE("a wrong command line exits with 2 and says what would be right") {
   };
   for (const auto& c : cases) {
     CAPTURE(c.arguments);
-    const ProgramResult result = dashpot(c.arguments);
+    const ProgramResult result = run_dashpot(c.arguments);
     CAPTURE(result.output);
     CHECK(result.exit_code == 2);
     CHECK(contains(result.output, c.message));
@@ -89,12 +89,12 @@ TEST_CASE("a wrong command line exits with 2 and says what would be right") {
 }
 
 TEST_CASE("version") {
-  CHECK(dashpot("version").output.starts_with("dashpot "));
-  CHECK(dashpot("--version").output == dashpot("version").output);
-  CHECK(contains(dashpot("version --json").output, "\"version\":"));
+  CHECK(run_dashpot("version").output.starts_with("dashpot "));
+  CHECK(run_dashpot("--version").output == run_dashpot("version").output);
+  CHECK(contains(run_dashpot("version --json").output, "\"version\":"));
 }
 
-TEST_CASE("no colour where stdout is no terminal") { CHECK(!contains(dashpot("").output, "\x1b")); }
+TEST_CASE("no colour where stdout is no terminal") { CHECK(!contains(run_dashpot("").output, "\x1b")); }
 
 TEST_CASE("a full standard output is an error") {
   const ProgramResult result = run_program("( " DASHPOT_PROGRAM " models > /dev/full )");

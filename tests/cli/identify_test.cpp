@@ -14,8 +14,8 @@ const fs::path& small_results() {
   static const TemporaryFolder folder;
   static const fs::path path = [] {
     const fs::path results = folder.path() / "results";
-    const ProgramResult made = ::dashpot("identify " + small_campaign().string() +
-                                         " --models bingham,tanh_kwok --output " + results.string());
+    const ProgramResult made = run_dashpot("identify " + small_campaign().string() +
+                                           " --models bingham,tanh_kwok --output " + results.string());
     REQUIRE_MESSAGE(made.exit_code == 0, made.output);
     return results;
   }();
@@ -38,7 +38,7 @@ TEST_CASE("identify prints the ranking on stdout and progress on stderr") {
   const TemporaryFolder folder;
   const std::string arguments = "identify " + small_campaign().string() +
                                 " --models bingham --no-report --output " + folder.path().string();
-  const ProgramResult out = dashpot_stdout(arguments);
+  const ProgramResult out = stdout_of_dashpot(arguments);
   CHECK(out.exit_code == 0);
   CHECK(contains(out.output, "bingham"));
   CHECK(contains(out.output, "Models "));
@@ -49,15 +49,16 @@ TEST_CASE("identify prints the ranking on stdout and progress on stderr") {
 
 TEST_CASE("identify --json: stdout is one JSON document") {
   const TemporaryFolder folder;
-  const ProgramResult out = dashpot_stdout("identify " + small_campaign().string() +
-                                           " --models bingham --json --output " + folder.path().string());
+  const ProgramResult out = stdout_of_dashpot("identify " + small_campaign().string() +
+                                              " --models bingham --json --output " + folder.path().string());
   CHECK(out.exit_code == 0);
   CHECK(parse_json(out.output, "identify --json").kind() == Value::Kind::Object);
 }
 
 TEST_CASE("evaluate: a saved model runs on recordings again, with the error that it had on them") {
   const std::string model = (small_results() / "models/tanh_kwok.json").string();
-  const ProgramResult out = dashpot_stdout("evaluate " + model + " " + small_campaign().string() + " --json");
+  const ProgramResult out =
+      stdout_of_dashpot("evaluate " + model + " " + small_campaign().string() + " --json");
   REQUIRE(out.exit_code == 0);
   const Value result = parse_json(out.output, "evaluate --json");
   const Value file = parse_json(read_file(model), model);
@@ -71,9 +72,9 @@ TEST_CASE("evaluate: a saved model runs on recordings again, with the error that
 TEST_CASE("evaluate: says where recordings leave the model's range") {
   const TemporaryFolder folder;
   const std::string data = (folder.path() / "fast").string();
-  REQUIRE(::dashpot("bench --motions 30x2 --levels 1 --output " + data).exit_code == 0);
+  REQUIRE(run_dashpot("bench --motions 30x2 --levels 1 --output " + data).exit_code == 0);
   const ProgramResult result =
-      ::dashpot("evaluate " + (small_results() / "models/bingham.json").string() + " " + data);
+      run_dashpot("evaluate " + (small_results() / "models/bingham.json").string() + " " + data);
   CAPTURE(result.output);
   CHECK(result.exit_code == 0);
   CHECK(contains(result.output, "have a velocity outside the model's range"));
@@ -82,8 +83,8 @@ TEST_CASE("evaluate: says where recordings leave the model's range") {
 TEST_CASE("evaluate: writes a report page") {
   const TemporaryFolder folder;
   const std::string page = (folder.path() / "page.html").string();
-  const ProgramResult result = ::dashpot("evaluate " + (small_results() / "models/bingham.json").string() +
-                                         " " + small_campaign().string() + " --report " + page);
+  const ProgramResult result = run_dashpot("evaluate " + (small_results() / "models/bingham.json").string() +
+                                           " " + small_campaign().string() + " --report " + page);
   CAPTURE(result.output);
   CHECK(result.exit_code == 0);
   CHECK(fs::exists(page));
@@ -94,19 +95,20 @@ TEST_CASE("evaluate: a model file with an unknown key, of another drive, or none
   std::string text = read_file(small_results() / "models/bingham.json");
   text.insert(text.find('{') + 1, "\"colour\": \"red\",");
   const ProgramResult key =
-      ::dashpot("evaluate " + folder.write("odd.json", text).string() + " " + small_campaign().string());
+      run_dashpot("evaluate " + folder.write("odd.json", text).string() + " " + small_campaign().string());
   CHECK(key.exit_code == 1);
   CHECK(contains(key.output, "odd.json"));
   CHECK(contains(key.output, "colour"));
 
-  const ProgramResult none = ::dashpot("evaluate nowhere.json " + small_campaign().string());
+  const ProgramResult none = run_dashpot("evaluate nowhere.json " + small_campaign().string());
   CHECK(none.exit_code == 1);
   CHECK(contains(none.output, "nowhere.json"));
 
   const std::string amperes = (folder.path() / "amperes").string();
-  REQUIRE(::dashpot("bench --damper kwok2006 --motions 5x2 --levels 0,1 --output " + amperes).exit_code == 0);
+  REQUIRE(run_dashpot("bench --damper kwok2006 --motions 5x2 --levels 0,1 --output " + amperes).exit_code ==
+          0);
   const ProgramResult drive =
-      ::dashpot("evaluate " + (small_results() / "models/bingham.json").string() + " " + amperes);
+      run_dashpot("evaluate " + (small_results() / "models/bingham.json").string() + " " + amperes);
   CHECK(drive.exit_code == 1);
   CHECK(contains(drive.output, "driven in V"));
 }

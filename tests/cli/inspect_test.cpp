@@ -7,7 +7,7 @@
 using namespace dashpot;
 
 TEST_CASE("inspect says what each column is") {
-  const ProgramResult result = ::dashpot("inspect " + small_campaign().string());
+  const ProgramResult result = run_dashpot("inspect " + small_campaign().string());
   CAPTURE(result.output);
   CHECK(result.exit_code == 0);
   for (const char* part : {"9 records", "3 conditions", "x_mm", "displacement", "F_N", "voltage"})
@@ -15,7 +15,7 @@ TEST_CASE("inspect says what each column is") {
 }
 
 TEST_CASE("inspect --json holds columns and records, on stdout alone") {
-  const ProgramResult result = dashpot_stdout("inspect " + small_campaign().string() + " --json");
+  const ProgramResult result = stdout_of_dashpot("inspect " + small_campaign().string() + " --json");
   const Value value = parse_json(result.output, "inspect --json");
   CHECK(value.find("records")->items().size() == 9);
   CHECK(value.find("drive_unit")->as_string() == "V");
@@ -25,7 +25,7 @@ TEST_CASE("inspect --json holds columns and records, on stdout alone") {
 TEST_CASE("inspect writes its page") {
   const TemporaryFolder folder;
   const std::string to = (folder.path() / "look").string();
-  CHECK(::dashpot("inspect " + small_campaign().string() + " --output " + to).exit_code == 0);
+  CHECK(run_dashpot("inspect " + small_campaign().string() + " --output " + to).exit_code == 0);
   CHECK(std::filesystem::file_size(to + "/inspect.html") > 1000);
 }
 
@@ -39,7 +39,7 @@ TEST_CASE("inspect compares a measured velocity with the derived one") {
   }
   const TemporaryFolder folder;
   const std::string file = folder.write("run_1.0A.csv", text).string();
-  const ProgramResult result = dashpot_stdout("inspect " + file + " --json");
+  const ProgramResult result = stdout_of_dashpot("inspect " + file + " --json");
   const Value value = parse_json(result.output, "inspect --json");
   const Value& list = *value.find("derived_velocity");
   REQUIRE(list.items().size() == 1);
@@ -48,17 +48,17 @@ TEST_CASE("inspect compares a measured velocity with the derived one") {
 
 TEST_CASE("what cannot be read exits with 1 and is named") {
   const TemporaryFolder folder;
-  const ProgramResult missing = ::dashpot("inspect " + (folder.path() / "nowhere").string());
+  const ProgramResult missing = run_dashpot("inspect " + (folder.path() / "nowhere").string());
   CHECK(missing.exit_code == 1);
   CHECK(contains(missing.output, "nowhere"));
 
-  const ProgramResult empty = ::dashpot("inspect " + folder.write("empty.csv", "").string());
+  const ProgramResult empty = run_dashpot("inspect " + folder.write("empty.csv", "").string());
   CHECK(empty.exit_code == 1);
   CHECK(contains(empty.output, "empty.csv"));
 
   const std::string text =
       folder.write("bad.csv", "t_s,x_mm,F_N,i_A\n0,1,2,0\n0.1,1,abc,0\n0.2,1,2,0\n0.3,1,2,0\n");
-  const ProgramResult bad = ::dashpot("inspect " + text);
+  const ProgramResult bad = run_dashpot("inspect " + text);
   CHECK(bad.exit_code == 1);
   CHECK(contains(bad.output, "bad.csv:3"));
 }

@@ -7,12 +7,13 @@
 // What the tests of the command line share.
 
 /// The program with these arguments, in a folder of its own, with a fixed width.
-inline ProgramResult dashpot(const std::string& arguments, const std::string& environment = "COLUMNS=100") {
+inline ProgramResult run_dashpot(const std::string& arguments,
+                                 const std::string& environment = "COLUMNS=100") {
   return run_program(environment + " " DASHPOT_PROGRAM " " + arguments);
 }
 
 /// The same, but only what it prints on stdout.
-inline ProgramResult dashpot_stdout(const std::string& arguments) {
+inline ProgramResult stdout_of_dashpot(const std::string& arguments) {
   return run_program("( " DASHPOT_PROGRAM " " + arguments + " 2>/dev/null )");
 }
 
@@ -27,8 +28,8 @@ inline const std::filesystem::path& small_campaign() {
   static const std::filesystem::path path = [] {
     const std::filesystem::path data = folder.path() / "small";
     const ProgramResult made =
-        dashpot("bench --motions 15x1,10x2,5x3 --levels 0,1,2 --cycles 2 --sample-rate 200 --output " +
-                data.string());
+        run_dashpot("bench --motions 15x1,10x2,5x3 --levels 0,1,2 --cycles 2 --sample-rate 200 --output " +
+                    data.string());
     REQUIRE_MESSAGE(made.exit_code == 0, made.output);
     return data;
   }();
