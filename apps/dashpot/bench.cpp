@@ -25,12 +25,13 @@ int run(const Settings& settings, Console& console) {
   const ParameterSet damper = load_parameter_set(settings.campaign.damper);
   const Dataset campaign = run_campaign(settings.campaign, damper);
   console.check_stop();
-  const std::filesystem::path statement = write_campaign(campaign, settings.folder, console.command_line());
+  const std::filesystem::path statement =
+      write_campaign(campaign, damper, settings.folder, console.command_line());
   console.talk(damper.damper + "; " + damper.source + '\n');
   if (!damper.verified) console.note("these parameters are an example: " + damper.reason);
   console.print(summary(campaign) + "\n\nRecordings  " + settings.folder + "/*.csv\nConditions  " +
-                statement.string() + "\nNext        dashpot identify " + shell_quoted(settings.folder) +
-                '\n');
+                statement.string() + "\nTruth       " + settings.folder +
+                "/truth.json\nNext        dashpot identify " + shell_quoted(settings.folder) + '\n');
   if (console.json)
     console.print_json(Value::object({{"folder", settings.folder},
                                       {"dataset", statement.string()},

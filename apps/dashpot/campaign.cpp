@@ -64,14 +64,21 @@ std::string quoted(const std::string& text) { return format_json(Value(text), fa
 std::string dataset_yaml(const Dataset& campaign, const std::string& command) {
   std::string text = "# Written by: " + command + "\nname: " + quoted(campaign.name) +
                      "\ncitation: " + quoted(campaign.citation) + "\ndrive: " + campaign.drive_unit +
-                     "\nnotes:\n";
-  for (const std::string& note : campaign.notes) text += "  - " + quoted(note) + '\n';
-  text += "files:\n";
+                     "\nnotes: simulated, not measured; truth.json holds the damper's parameters\nfiles:\n";
   for (const Record& record : campaign.records)
     text += fmt::format("  - match: {}\n    name: {}\n    condition: {}\n    level: {}\n",
                         quoted(file_name(record)), quoted(record.name), quoted(record.condition),
                         format_exact(record.drive_level.value_or(0)));
   return text;
+}
+
+Value truth_json(const Dataset& campaign, const ParameterSet& damper) {
+  Value records = Value::object();
+  for (const Record& record : campaign.records) records.add(record.name, Value::array(record.notes));
+  return Value::object({{"damper", damper.name},
+                        {"source", damper.source},
+                        {"model", damper.model.to_json()},
+                        {"records", std::move(records)}});
 }
 
 }  // namespace
@@ -129,12 +136,16 @@ Dataset run_campaign(const CampaignSettings& settings, const ParameterSet& dampe
   options.drive_levels.clear();
   for (const std::string& level : settings.levels) options.drive_levels.push_back(parse_level(level));
   if (options.drive_levels.empty()) options.drive_levels = levels_over(damper.drive_min, damper.drive_max);
-  return run_virtual_bench(damper.model, damper.model.drive_unit(), options);
+  Dataset campaign = run_virtual_bench(damper.model, damper.model.drive_unit(), options);
+  campaign.name = "virtual bench, " + damper.name;
+  return campaign;
 }
 
-fs::path write_campaign(const Dataset& campaign, const fs::path& folder, const std::string& command) {
+fs::path write_campaign(const Dataset& campaign, const ParameterSet& damper, const fs::path& folder,
+                        const std::string& command) {
   for (const Record& record : campaign.records)
     write_file(folder / file_name(record), csv_of(record, campaign));
+  write_file(folder / "truth.json", format_json(truth_json(campaign, damper)));
   const fs::path statement = folder / "dataset.yaml";
   write_file(statement, dataset_yaml(campaign, command));
   return statement;

@@ -6,15 +6,12 @@
 
 #include "console.h"
 #include "dashpot/base/text.h"
+#include "dashpot/output/words.h"
 
 namespace dashpot::cli {
 namespace {
 
 constexpr std::size_t kNotesInBrief = 6;
-
-std::string counted(std::size_t count, const std::string& noun) {
-  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
-}
 
 std::string drive_levels(const Dataset& dataset) {
   std::set<double> levels;
@@ -24,7 +21,7 @@ std::string drive_levels(const Dataset& dataset) {
   const std::string noun = dataset.drive_unit == "V" ? "voltage" : "current";
   if (levels.size() == 1)
     return fmt::format("1 {}, {} {}", noun, format_number(*levels.begin()), dataset.drive_unit);
-  return fmt::format("{}s {} ... {} {}", counted(levels.size(), noun).c_str(), format_number(*levels.begin()),
+  return fmt::format("{} {} ... {} {}", counted(levels.size(), noun), format_number(*levels.begin()),
                      format_number(*levels.rbegin()), dataset.drive_unit);
 }
 

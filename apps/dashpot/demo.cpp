@@ -53,7 +53,7 @@ int run(const Settings& settings, Console& console) {
   campaign.bench.seed = settings.fit.options.seed;
   const ParameterSet damper = load_parameter_set(campaign.damper);
   console.talk("Virtual test bench: " + damper.damper + "\n  " + damper.source + '\n');
-  const auto statement = write_campaign(run_campaign(campaign, damper),
+  const auto statement = write_campaign(run_campaign(campaign, damper), damper,
                                         settings.results.folder + "/recordings", console.command_line());
   // From here on as with real recordings: the files are all there is.
   const Dataset dataset = load_recordings({.paths = {statement.string()}, .load = {}}, console);
