@@ -15,8 +15,18 @@
 namespace dashpot::cli {
 namespace {
 
-struct Settings {
+/// A campaign that takes seconds to identify and still tells every parameter.
+CampaignSettings small_campaign() {
   CampaignSettings campaign;
+  campaign.motions = {"25x0.5", "10x1", "5x3", "2x5"};
+  campaign.levels = {"0", "0.75", "1.5", "2.25"};
+  campaign.bench.cycles = 2;
+  campaign.bench.sample_rate = 200;
+  return campaign;
+}
+
+struct Settings {
+  CampaignSettings campaign = small_campaign();
   FitSettings fit;
   ResultSettings results{.folder = "dashpot-demo"};
 };
