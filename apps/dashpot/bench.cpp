@@ -30,8 +30,8 @@ int run(const Settings& settings, Console& console) {
   console.talk(damper.damper + "; " + damper.source + '\n');
   if (!damper.verified) console.note("these parameters are an example: " + damper.reason);
   console.print(summary(campaign) + "\n\nRecordings  " + settings.folder + "/*.csv\nConditions  " +
-                statement.string() + "\nTruth       " + settings.folder +
-                "/truth.json\nNext        dashpot identify " + shell_quoted(settings.folder) + '\n');
+                statement.string() + "\nNext        dashpot identify " + shell_quoted(settings.folder) +
+                '\n');
   if (console.json)
     console.print_json(Value::object({{"folder", settings.folder},
                                       {"dataset", statement.string()},

@@ -61,24 +61,16 @@ std::string csv_of(const Record& record, const Dataset& campaign) {
 /// JSON text is YAML too, and quotes what has to be quoted.
 std::string quoted(const std::string& text) { return format_json(Value(text), false); }
 
-std::string dataset_yaml(const Dataset& campaign, const std::string& command) {
-  std::string text = "# Written by: " + command + "\nname: " + quoted(campaign.name) +
+std::string dataset_yaml(const Dataset& campaign, const ParameterSet& damper, const std::string& command) {
+  std::string text = "# Written by " + quoted(command) + "\n# True model (" + damper.source + "):\n#   " +
+                     format_json(damper.model.to_json(), false) + "\nname: " + quoted(campaign.name) +
                      "\ncitation: " + quoted(campaign.citation) + "\ndrive: " + campaign.drive_unit +
-                     "\nnotes: simulated, not measured; truth.json holds the damper's parameters\nfiles:\n";
+                     "\nnotes: simulated, not measured\nfiles:\n";
   for (const Record& record : campaign.records)
-    text += fmt::format("  - match: {}\n    name: {}\n    condition: {}\n    level: {}\n",
-                        quoted(file_name(record)), quoted(record.name), quoted(record.condition),
-                        format_exact(record.drive_level.value_or(0)));
+    text += fmt::format("  - match: {}  # {}\n    name: {}\n    condition: {}\n    level: {}\n",
+                        quoted(file_name(record)), join(record.notes, "; "), quoted(record.name),
+                        quoted(record.condition), format_exact(record.drive_level.value_or(0)));
   return text;
-}
-
-Value truth_json(const Dataset& campaign, const ParameterSet& damper) {
-  Value records = Value::object();
-  for (const Record& record : campaign.records) records.add(record.name, Value::array(record.notes));
-  return Value::object({{"damper", damper.name},
-                        {"source", damper.source},
-                        {"model", damper.model.to_json()},
-                        {"records", std::move(records)}});
 }
 
 }  // namespace
@@ -145,9 +137,8 @@ fs::path write_campaign(const Dataset& campaign, const ParameterSet& damper, con
                         const std::string& command) {
   for (const Record& record : campaign.records)
     write_file(folder / file_name(record), csv_of(record, campaign));
-  write_file(folder / "truth.json", format_json(truth_json(campaign, damper)));
   const fs::path statement = folder / "dataset.yaml";
-  write_file(statement, dataset_yaml(campaign, command));
+  write_file(statement, dataset_yaml(campaign, damper, command));
   return statement;
 }
 
