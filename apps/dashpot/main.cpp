@@ -1,1 +1,116 @@
-int main() {}
+#include <algorithm>
+#include <atomic>
+#include <csignal>
+#include <iterator>
+#include <new>
+#include <unistd.h>
+
+#include "arguments.h"
+#include "commands.h"
+#include "console.h"
+#include "dashpot/base/text.h"
+#include "help.h"
+
+namespace dashpot::cli {
+namespace {
+
+std::atomic<bool> stop_asked = false;
+static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler writes it");
+std::atomic<int> stop_signal = 0;
+
+/// The first signal asks long work to end in order, the second ends the program.
+void on_signal(int number) {
+  stop_signal = number;
+  if (stop_asked.exchange(true)) _exit(128 + number);
+}
+
+void catch_signals() {
+  struct sigaction action{};
+  action.sa_handler = on_signal;
+  for (const int number : {SIGINT, SIGTERM}) sigaction(number, &action, nullptr);
+  std::signal(SIGXFSZ, SIG_IGN);  // a limit on file size is then an error with a message
+}
+
+Command find_command(const std::string& name) {
+  std::vector<std::string> names;
+  for (Command& command : all_commands()) {
+    if (command.name == name) return std::move(command);
+    names.push_back(command.name);
+  }
+  throw UsageError(
+      "", std::string("unknown ") + (name.starts_with('-') ? "option" : "command") + " '" + name + "'",
+      suggest(name, names));
+}
+
+int run_command(const std::string& name, const std::vector<std::string>& arguments, Console& console) {
+  const Command command = find_command(name);
+  const std::vector<Option> common = common_options(console);
+  std::vector<Option> options = command.options;
+  append(options, common);
+  // Help prints the defaults, so it is written before anything is parsed into them.
+  const std::string help = command_help(command, common, console);
+  if (!parse_arguments(name, options, arguments)) {
+    console.json = false;
+    console.print(help);
+    return kDone;
+  }
+  return command.run(console);
+}
+
+int run(const std::vector<std::string>& words, Console& console) {
+  if (words.empty() || words.front() == "--help" || words.front() == "-h") {
+    console.print(overview(all_commands(), console));
+    return kDone;
+  }
+  const std::vector<std::string> rest(words.begin() + 1, words.end());
+  if (words.front() == "help")
+    return rest.empty() ? run({}, console) : run_command(rest.front(), {"--help"}, console);
+  if (words.front() == "--help-markdown") {
+    console.print(help_markdown(all_commands(), common_options(console)));
+    return kDone;
+  }
+  if (words.front() == "--version") return run_command("version", rest, console);
+  return run_command(words.front(), rest, console);
+}
+
+/// The command line that explains what went wrong on this one.
+std::string help_for(const std::vector<std::string>& words) {
+  const bool known =
+      std::ranges::any_of(all_commands(), [&](const Command& c) { return c.name == words.front(); });
+  return known ? "dashpot " + words.front() + " --help" : "dashpot --help";
+}
+
+int run_and_explain(const std::vector<std::string>& words, Console& console) {
+  try {
+    const int code = run(words, console);
+    console.finish();
+    return code;
+  } catch (const Interrupted&) {
+    console.error("interrupted; files that were being written stand as they were before");
+    return 128 + stop_signal;
+  } catch (const UsageError& error) {
+    console.error(error.what());
+    console.talk("'" + help_for(words) + "' explains.\n");
+    return kUsage;
+  } catch (const Error& error) {
+    console.error(error.what());
+  } catch (const std::bad_alloc&) {
+    console.error("out of memory; fewer records at once need less");
+  } catch (const std::exception& error) {
+    console.error(std::string("unexpected: ") + error.what());
+  }
+  return kUnusableInput;
+}
+
+}  // namespace
+}  // namespace dashpot::cli
+
+int main(int argc, char** argv) {
+  using namespace dashpot::cli;
+  catch_signals();
+  const std::vector<std::string> words(argv + 1, argv + argc);
+  std::string line = "dashpot";
+  for (const std::string& word : words) line += ' ' + shell_quoted(word);
+  Console console(line, stop_asked);
+  return run_and_explain(words, console);
+}

@@ -1,0 +1,120 @@
+#include "arguments.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <CLI/CLI.hpp>
+
+#include "dashpot/base/text.h"
+
+namespace dashpot::cli {
+namespace {
+
+double number_in(const std::string& text, const Option& option, bool whole) {
+  const std::optional<double> value = parse_number(text);
+  if (!value || !std::isfinite(*value) || (whole && *value != std::floor(*value)))
+    throw UsageError(option.long_name(), "'" + text + "' is not a " + (whole ? "whole number" : "number"),
+                     whole ? "write it as 4" : "write it as 0.25");
+  if (option.minimum && *value < *option.minimum)
+    throw UsageError(option.long_name(), text + " is too small",
+                     "give at least " + format_number(*option.minimum));
+  return *value;
+}
+
+/// A whole number that the type can hold.
+template <class Integer>
+Integer integer_in(const std::string& text, const Option& option) {
+  const double value = number_in(text, option, true);
+  const double largest =
+      std::min(static_cast<double>(std::numeric_limits<Integer>::max()), 9007199254740992.0);
+  if (value > largest || value < static_cast<double>(std::numeric_limits<Integer>::min()))
+    throw UsageError(option.long_name(), text + " is too large", "give at most " + format_exact(largest));
+  return static_cast<Integer>(value);
+}
+
+void check_choice(const std::string& word, const Option& option) {
+  if (option.choices.empty() || std::ranges::find(option.choices, word) != option.choices.end()) return;
+  throw UsageError(option.is_positional() ? "" : option.long_name(),
+                   "unknown " + option.noun + " '" + word + "'", suggest(word, option.choices));
+}
+
+/// Writes the words given for one option to its variable.
+struct Store {
+  const Option& option;
+  const std::vector<std::string>& words;
+
+  void operator()(bool*) const {}  // a switch has no words
+  void operator()(int* target) const { *target = integer_in<int>(words.back(), option); }
+  void operator()(std::uint64_t* target) const { *target = integer_in<std::uint64_t>(words.back(), option); }
+  void operator()(double* target) const { *target = number_in(words.back(), option, false); }
+  void operator()(std::string* target) const {
+    check_choice(words.back(), option);
+    *target = words.back();
+  }
+  void operator()(std::vector<std::string>* target) const {
+    target->clear();
+    for (const std::string& word : words) {
+      // Paths may hold commas; lists of names are separated by them.
+      const std::vector<std::string> parts =
+          option.is_positional() ? std::vector<std::string>{word} : split(word, ',');
+      for (const std::string& part : parts) {
+        check_choice(std::string(trim(part)), option);
+        target->emplace_back(trim(part));
+      }
+    }
+  }
+};
+
+void add(CLI::App& app, const Option& option) {
+  if (option.is_switch()) {
+    bool* target = std::get<bool*>(option.target);
+    app.add_flag_callback(option.names, [target] { *target = !*target; });
+    return;
+  }
+  CLI::Option* added = app.add_option(option.names, [&option](const CLI::results_t& words) {
+    std::visit(Store{option, words}, option.target);
+    return true;
+  });
+  added->multi_option_policy(option.is_list() ? CLI::MultiOptionPolicy::TakeAll
+                                              : CLI::MultiOptionPolicy::TakeLast);
+  if (option.is_list() && option.is_positional()) added->expected(1, CLI::detail::expected_max_vector_size);
+}
+
+void refuse_leftovers(const std::string& command, const std::vector<Option>& options,
+                      const std::vector<std::string>& leftovers) {
+  if (leftovers.empty()) return;
+  const std::string word = leftovers.front().substr(0, leftovers.front().find('='));
+  if (word.front() != '-')
+    throw UsageError(command, "'" + word + "' is one argument too many", "give options as --name value");
+  std::vector<std::string> known = {"--help"};
+  for (const Option& option : options)
+    if (!option.is_positional()) known.push_back(option.long_name());
+  const std::optional<std::string> near = closest(word, known);
+  throw UsageError(command, "unknown option '" + word + "'", near ? "did you mean '" + *near + "'?" : "");
+}
+
+}  // namespace
+
+bool parse_arguments(const std::string& command, const std::vector<Option>& options,
+                     const std::vector<std::string>& arguments) {
+  CLI::App app;
+  app.allow_extras();
+  for (const Option& option : options) add(app, option);
+  try {
+    app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
+  } catch (const CLI::CallForHelp&) {
+    return false;
+  } catch (const CLI::ArgumentMismatch& error) {
+    const std::string text = error.what();  // "--starts: 1 required ..."
+    throw UsageError(text.substr(0, text.find(':')), "needs a value");
+  } catch (const CLI::ParseError& error) {
+    throw UsageError(command, error.what());
+  }
+  refuse_leftovers(command, options, app.remaining());
+  for (const Option& option : options)
+    if (option.required && app.count(option.names) == 0)
+      throw UsageError(command, option.long_name() + " is missing", option.help);
+  return true;
+}
+
+}  // namespace dashpot::cli

@@ -1,0 +1,32 @@
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "command.h"
+#include "dashpot/damper/parameter_set.h"
+#include "dashpot/damper/virtual_bench.h"
+
+namespace dashpot::cli {
+
+/// What a virtual test campaign is made of.
+struct CampaignSettings {
+  CampaignSettings();
+
+  std::string damper = "spencer1997";
+  std::vector<std::string> motions;  ///< "25x0.25": mm x Hz
+  std::vector<std::string> levels;   ///< A or V; none: five over the damper's range
+  BenchOptions bench;
+};
+
+std::vector<Option> campaign_options(CampaignSettings& settings);
+
+/// The recordings of the campaign. Throws UsageError on a motion or level that cannot be read.
+Dataset run_campaign(const CampaignSettings& settings, const ParameterSet& damper);
+
+/// One CSV file per record, as a real bench would leave them, and dataset.yaml, whose comments tell the
+/// truth that a real bench does not know. Returns the path of dataset.yaml.
+std::filesystem::path write_campaign(const Dataset& campaign, const ParameterSet& damper,
+                                     const std::filesystem::path& folder, const std::string& command);
+
+}  // namespace dashpot::cli

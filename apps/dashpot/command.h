@@ -1,0 +1,62 @@
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "dashpot/base/error.h"
+
+namespace dashpot::cli {
+
+class Console;
+
+/// Exit codes of the program; 128 + signal when it was stopped.
+enum ExitCode { kDone = 0, kUnusableInput = 1, kUsage = 2, kNotUsable = 3 };
+
+/// A command line that cannot be understood.
+class UsageError : public Error {
+ public:
+  using Error::Error;
+};
+
+/// Where an option's value goes. What stands there before parsing is the default, which help prints.
+/// A bool is a switch: naming it turns the variable over.
+using Target = std::variant<bool*, int*, std::uint64_t*, double*, std::string*, std::vector<std::string>*>;
+
+/// What a value names, so that a shell can complete it.
+enum class Takes { Word, File, Folder };
+
+/// One row of a command's table of options.
+struct Option {
+  std::string names;  ///< "-q,--quiet", "--starts", or "DATA" for an argument by position
+  Target target;
+  std::string help;
+  std::string value = {};                 ///< what help calls the value: "HZ"
+  std::vector<std::string> choices = {};  ///< the words allowed; empty: any
+  std::string noun = "value";             ///< what a message calls a word: "unknown model 'x'"
+  Takes takes = Takes::Word;
+  std::optional<double> minimum = {};  ///< least number allowed
+  std::string default_text = {};       ///< in words, where the variable's value does not say it
+  bool required = false;
+
+  bool is_positional() const { return names.front() != '-'; }
+  bool is_switch() const { return std::holds_alternative<bool*>(target); }
+  bool is_list() const { return std::holds_alternative<std::vector<std::string>*>(target); }
+  std::string long_name() const;  ///< "--quiet", or the name of an argument by position
+};
+
+void append(std::vector<Option>& options, const std::vector<Option>& more);
+
+/// One thing that the program does.
+struct Command {
+  std::string name;
+  std::string title;        ///< one line, for the overview
+  std::string description;  ///< what it does, for its own help
+  std::vector<Option> options;
+  std::string example;  ///< worked, with comments: what to type and what comes of it
+  std::function<int(Console&)> run;
+};
+
+}  // namespace dashpot::cli

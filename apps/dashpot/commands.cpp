@@ -1,0 +1,19 @@
+#include "commands.h"
+
+#include "console.h"
+
+namespace dashpot::cli {
+
+std::vector<Command> all_commands() {
+  return {identify_command(), evaluate_command(), inspect_command(),    models_command(),
+          bench_command(),    demo_command(),     completion_command(), version_command()};
+}
+
+std::vector<Option> common_options(Console& console) {
+  return {{.names = "--json",
+           .target = &console.json,
+           .help = "print the result as JSON on stdout; all else goes to stderr"},
+          {.names = "-q,--quiet", .target = &console.quiet, .help = "no progress and no notes on stderr"}};
+}
+
+}  // namespace dashpot::cli

@@ -1,0 +1,23 @@
+#pragma once
+#include <vector>
+
+#include "command.h"
+
+namespace dashpot::cli {
+
+Command identify_command();
+Command evaluate_command();
+Command models_command();
+Command inspect_command();
+Command bench_command();
+Command demo_command();
+Command completion_command();
+Command version_command();
+
+/// Every command, in the order of the overview.
+std::vector<Command> all_commands();
+
+/// The options that every command has besides its own.
+std::vector<Option> common_options(Console& console);
+
+}  // namespace dashpot::cli

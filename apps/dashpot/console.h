@@ -1,0 +1,58 @@
+#pragma once
+#include <atomic>
+#include <cstdio>
+#include <string>
+#include <string_view>
+
+#include "dashpot/base/monitor.h"
+#include "dashpot/base/value.h"
+#include "progress.h"
+
+namespace dashpot::cli {
+
+/// Where the program talks. Results go to stdout, all talk about the work to stderr; with --json, stdout
+/// holds the JSON text alone.
+class Console {
+ public:
+  /// `stop` is set when the user interrupts.
+  Console(std::string command_line, const std::atomic<bool>& stop);
+
+  bool quiet = false;  ///< neither progress nor notes
+  bool json = false;   ///< results for programs
+
+  /// A result for people: stdout, or stderr beside JSON (nothing then when quiet).
+  void print(std::string_view text);
+  /// A result for programs, on stdout.
+  void print_json(const Value& value);
+  /// Talk about the work, on stderr; nothing when quiet.
+  void talk(std::string_view text);
+  /// What the work met on its way, on stderr. Warnings and errors come even when quiet.
+  void note(std::string_view text);
+  void warn(std::string_view text);
+  void error(std::string_view text);
+
+  /// For long work: draws progress and passes the interruption on.
+  Monitor monitor();
+  /// Throws Interrupted when the user asked to stop.
+  void check_stop() const;
+  /// Throws Error when stdout could not take what was printed.
+  void finish();
+
+  int width() const { return width_; }  ///< columns for results
+  std::string bold(std::string_view text) const;
+  /// The command line as it can be typed again.
+  const std::string& command_line() const { return command_line_; }
+
+ private:
+  void message(std::string_view label, std::string_view colour, std::string_view text);
+
+  std::string command_line_;
+  const std::atomic<bool>& stop_;
+  int width_;
+  ProgressLine progress_;
+};
+
+/// One word of a command line, quoted for a shell where it must be.
+std::string shell_quoted(std::string_view word);
+
+}  // namespace dashpot::cli

@@ -1,0 +1,105 @@
+#include <algorithm>
+#include <memory>
+
+#include <fmt/core.h>
+
+#include "campaign.h"
+#include "commands.h"
+#include "console.h"
+#include "dashpot/base/text.h"
+#include "data.h"
+#include "identify_options.h"
+#include "recovery.h"
+#include "results.h"
+
+namespace dashpot::cli {
+namespace {
+
+/// A campaign that takes seconds to identify and still tells every parameter.
+CampaignSettings small_campaign() {
+  CampaignSettings campaign;
+  campaign.motions = {"25x0.5", "10x1", "5x3", "2x5"};
+  campaign.levels = {"0", "0.75", "1.5", "2.25"};
+  campaign.bench.cycles = 2;
+  campaign.bench.sample_rate = 200;
+  return campaign;
+}
+
+struct Settings {
+  CampaignSettings campaign = small_campaign();
+  FitSettings fit;
+  ResultSettings results{.folder = "dashpot-demo"};
+};
+
+constexpr std::string_view kExample =
+    "dashpot demo --output demo    # then read demo/report.html\n"
+    "\n"
+    "# The recordings that it made are ordinary files:\n"
+    "dashpot inspect demo/recordings/";
+
+/// Whether each parameter that the data can tell has been found.
+bool print_recovery(const std::vector<RecoveredParameter>& parameters, Console& console) {
+  console.print('\n' + console.bold("Known parameters against those found") + '\n' +
+                recovery_table(parameters, console.width()));
+  const auto missed = std::ranges::count_if(
+      parameters, [](const RecoveredParameter& p) { return !p.recovered() && !p.weak; });
+  if (missed == 0 && !parameters.empty()) {
+    console.print(
+        fmt::format("All known parameters that these data can tell are recovered, within their joint 95 % "
+                    "interval or {} %.\n",
+                    format_number(100 * kRecoveryTolerance)));
+    return true;
+  }
+  console.error(fmt::format("{} of {} known parameters were not recovered", missed, parameters.size()));
+  return false;
+}
+
+const RankedModel& find_model(const Ranking& ranking, const std::string& name) {
+  return *std::ranges::find(ranking.models, name, &RankedModel::name);
+}
+
+int run(const Settings& settings, Console& console) {
+  CampaignSettings campaign = settings.campaign;
+  campaign.bench.seed = settings.fit.options.seed;
+  const ParameterSet damper = load_parameter_set(campaign.damper);
+  console.talk("Virtual test bench: " + damper.damper + "\n  " + damper.source + '\n');
+  const auto statement = write_campaign(run_campaign(campaign, damper), damper,
+                                        settings.results.folder + "/recordings", console.command_line());
+  // From here on as with real recordings: the files are all there is.
+  const Dataset dataset = load_recordings({.paths = {statement.string()}, .load = {}}, console);
+  FitSettings fit = settings.fit;
+  const std::string truth = damper.model.name();
+  if (!fit.models.empty() && std::ranges::find(fit.models, truth) == fit.models.end())
+    fit.models.push_back(truth);
+  const Ranking ranking = rank(chosen_models(fit, dataset, console), dataset,
+                               dataset.leave_out.value_or(LeaveOut{}), identify_options(fit, console));
+  const ReportInput input = report_input(dataset, ranking, console);
+  print_results(input, console);
+  const std::vector<RecoveredParameter> parameters = compare(damper.model, find_model(ranking, truth).fit);
+  const bool recovered = print_recovery(parameters, console);
+  write_results(input, settings.results, console);
+  if (console.json)
+    console.print_json(Value::object(
+        {{"recovered", recovered}, {"parameters", to_json(parameters)}, {"report", json_report(input)}}));
+  return recovered ? exit_code_of(ranking, console) : kNotUsable;
+}
+
+}  // namespace
+
+Command demo_command() {
+  auto settings = std::make_shared<Settings>();
+  Command command{
+      .name = "demo",
+      .title = "See it all at work: a virtual damper, measured and identified",
+      .description =
+          "Records a virtual damper with known parameters, identifies models from the files as from a "
+          "real campaign, checks that the known parameters are found again, and writes the report. "
+          "Needs no data.",
+      .options = fit_options(settings->fit),
+      .example = std::string(kExample),
+      .run = [settings](Console& console) { return run(*settings, console); }};
+  append(command.options, result_options(settings->results));
+  return command;
+}
+
+}  // namespace dashpot::cli

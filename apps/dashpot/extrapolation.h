@@ -1,0 +1,26 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "dashpot/base/value.h"
+#include "dashpot/damper/model_file.h"
+#include "dashpot/record/dataset.h"
+
+namespace dashpot::cli {
+
+/// How much of the recordings lies outside the range of one quantity that a model was fitted on.
+struct Extrapolation {
+  std::string quantity, unit;
+  double low = 0, high = 0;            ///< the model's range
+  double data_low = 0, data_high = 0;  ///< the recordings' range
+  double share = 0;                    ///< of the samples
+};
+
+/// One per quantity of which some samples lie outside (by more than 1 % of the range).
+std::vector<Extrapolation> extrapolations(const ModelFile& file, const Dataset& dataset);
+
+/// "12 % of the samples have a velocity outside ...: the model extrapolates there".
+std::string describe(const Extrapolation& extrapolation);
+Value to_json(const std::vector<Extrapolation>& extrapolations);
+
+}  // namespace dashpot::cli

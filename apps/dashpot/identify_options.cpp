@@ -1,0 +1,72 @@
+#include "identify_options.h"
+
+#include <algorithm>
+
+#include "console.h"
+#include "dashpot/base/text.h"
+#include "dashpot/damper/registry.h"
+
+namespace dashpot::cli {
+namespace {
+
+bool needs_displacement(const std::string& model) {
+  if (is_law(model)) return find_law(model).needs_displacement;
+  const std::vector<std::string>& inputs = find_network_preset(model).inputs;
+  return std::ranges::find(inputs, "displacement") != inputs.end();
+}
+
+}  // namespace
+
+std::vector<Option> fit_options(FitSettings& settings) {
+  return {
+      {.names = "--models",
+       .target = &settings.models,
+       .help = "the models to fit, separated by commas",
+       .value = "NAMES",
+       .choices = model_names(),
+       .noun = "model",
+       .default_text = "all that the data allow"},
+      {.names = "--force-offset",
+       .target = &settings.force_offset,
+       .help = "the force zero (gas, load cell): a free offset per record, or none beside the model's own",
+       .value = "MODE",
+       .choices = {"record", "none"}},
+      {.names = "--starts",
+       .target = &settings.options.starts,
+       .help = "starting points of each fit",
+       .value = "N",
+       .minimum = 1},
+      {.names = "--seed",
+       .target = &settings.options.seed,
+       .help = "seed of all random numbers: the same seed gives the same result",
+       .value = "N",
+       .minimum = 0},
+      {.names = "--threads",
+       .target = &settings.options.threads,
+       .help = "threads to use; the result does not depend on it",
+       .value = "N",
+       .minimum = 0,
+       .default_text = "all cores"}};
+}
+
+std::vector<std::string> chosen_models(const FitSettings& settings, const Dataset& dataset,
+                                       Console& console) {
+  if (!settings.models.empty()) return settings.models;
+  const bool has_displacement =
+      std::ranges::all_of(dataset.records, [](const Record& r) { return r.find("displacement") != nullptr; });
+  std::vector<std::string> models, passed_over;
+  for (const std::string& model : model_names())
+    (has_displacement || !needs_displacement(model) ? models : passed_over).push_back(model);
+  if (!passed_over.empty())
+    console.note("not every record has a displacement, which these models need: " + join(passed_over, ", "));
+  return models;
+}
+
+IdentifyOptions identify_options(const FitSettings& settings, Console& console) {
+  IdentifyOptions options = settings.options;
+  options.offset = settings.force_offset == "none" ? OffsetMode::None : OffsetMode::Record;
+  options.monitor = console.monitor();
+  return options;
+}
+
+}  // namespace dashpot::cli

@@ -1,0 +1,30 @@
+#pragma once
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "dashpot/base/value.h"
+
+namespace dashpot::cli {
+
+/// A parameter of a model in text, in the order of the sheet's columns.
+struct ParameterLine {
+  std::string name, unit, value, bounds, form, meaning;
+};
+
+/// A registered model as the documentation shows it, law or network alike.
+struct ModelSheet {
+  std::string name, kind, title, equation, source, remarks;
+  std::vector<std::string> inputs = {};
+  std::vector<std::string> states = {};        ///< "z, m"
+  std::vector<ParameterLine> parameters = {};  ///< a network has weights instead
+  std::size_t numbers = 0;                     ///< fitted, with the usual forms of dependence on current
+};
+
+ModelSheet model_sheet(const std::string& name);
+
+std::string sheet_text(const ModelSheet& sheet, int width);
+std::string sheet_markdown(const ModelSheet& sheet);
+Value sheet_json(const ModelSheet& sheet);
+
+}  // namespace dashpot::cli

@@ -1,0 +1,84 @@
+#include <memory>
+
+#include "commands.h"
+#include "console.h"
+#include "dashpot/damper/registry.h"
+#include "layout.h"
+#include "model_sheet.h"
+
+namespace dashpot::cli {
+namespace {
+
+struct Settings {
+  std::string name;
+  bool markdown = false;
+};
+
+constexpr std::string_view kExample =
+    "# What is there to choose from?\n"
+    "dashpot models\n"
+    "\n"
+    "# The equation, parameters and source of one of them:\n"
+    "dashpot models modified_bouc_wen";
+
+std::string overview_table(int width) {
+  Table table({"name", "kind", ">to fit", ">states", "title"});
+  for (const std::string& name : model_names()) {
+    const ModelSheet sheet = model_sheet(name);
+    table.row({sheet.name, sheet.kind, std::to_string(sheet.numbers), std::to_string(sheet.states.size()),
+               sheet.title});
+  }
+  return table.text(static_cast<std::size_t>(width));
+}
+
+std::string markdown_page(const std::vector<std::string>& names) {
+  std::string text =
+      "# Models\n\nMade by `dashpot models --markdown` from the tables that the program itself uses. SI "
+      "units; extension positive; a force that resists extension is positive.\n";
+  for (const std::string& name : names) text += '\n' + sheet_markdown(model_sheet(name));
+  return text;
+}
+
+Value json_list(const std::vector<std::string>& names) {
+  Value list = Value::array();
+  for (const std::string& name : names) list.push_back(sheet_json(model_sheet(name)));
+  return list;
+}
+
+int run(const Settings& settings, Console& console) {
+  const bool all = settings.name.empty();
+  const std::vector<std::string> names = all ? model_names() : std::vector{settings.name};
+  if (console.json)
+    console.print_json(all ? json_list(names) : sheet_json(model_sheet(settings.name)));
+  else if (settings.markdown)
+    console.print(markdown_page(names));
+  else if (all)
+    console.print(overview_table(console.width()) +
+                  "\n'dashpot models NAME' shows equation, parameters and source.\n");
+  else
+    console.print(sheet_text(model_sheet(settings.name), console.width()));
+  return kDone;
+}
+
+}  // namespace
+
+Command models_command() {
+  auto settings = std::make_shared<Settings>();
+  return {.name = "models",
+          .title = "The damper models: equations, parameters, sources",
+          .description =
+              "Lists the models that can be identified, or shows one: its equation, the table of its "
+              "parameters (units, defaults, bounds), states, source and limits.",
+          .options = {{.names = "NAME",
+                       .target = &settings->name,
+                       .help = "the model to show",
+                       .choices = model_names(),
+                       .noun = "model"},
+                      {.names = "--markdown",
+                       .target = &settings->markdown,
+                       .help = "print a page for the documentation"}},
+          .example = std::string(kExample),
+          .run = [settings](Console& console) { return run(*settings, console); }};
+}
+
+}  // namespace dashpot::cli

@@ -1,0 +1,67 @@
+#include "progress.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include <fmt/core.h>
+
+#include "layout.h"
+
+namespace dashpot::cli {
+namespace {
+
+using namespace std::chrono_literals;
+constexpr auto kRedraw = 100ms;  // fast enough to look alive
+constexpr auto kLogLine = 5s;    // slow enough for a log to stay readable
+constexpr auto kSettle = 3s;     // no forecast before this
+constexpr int kBarColumns = 24;
+constexpr int kLeastColumns = 50;  // narrower terminals get no bar, only words
+
+}  // namespace
+
+void ProgressLine::show(const Progress& progress) {
+  const Clock::time_point now = Clock::now();
+  if (!started_) {
+    started_ = true;
+    start_ = now;
+    last_ = width_ > 0 ? now - kRedraw : now;
+  }
+  if (now - last_ < (width_ > 0 ? Clock::duration(kRedraw) : Clock::duration(kLogLine))) return;
+  last_ = now;
+  if (width_ > 0) {
+    fmt::print(stderr, "\r\x1b[K{}", bar(progress));
+    drawn_ = true;
+  } else {
+    fmt::print(stderr, "{:3.0f} %  {}\n", 100 * std::clamp(progress.fraction, 0.0, 1.0), progress.stage);
+  }
+  std::fflush(stderr);
+}
+
+void ProgressLine::clear() {
+  if (!drawn_) return;
+  fmt::print(stderr, "\r\x1b[K");
+  std::fflush(stderr);
+  drawn_ = false;
+}
+
+std::string ProgressLine::bar(const Progress& progress) const {
+  const double fraction = std::clamp(progress.fraction, 0.0, 1.0);
+  const auto filled = static_cast<std::size_t>(std::lround(fraction * kBarColumns));
+  std::string line = fmt::format("{:3.0f} %", 100 * fraction);
+  if (width_ >= kLeastColumns)
+    line += " [" + std::string(filled, '=') + std::string(kBarColumns - filled, ' ') + "]";
+  line += remaining(fraction) + "  " + progress.stage;
+  const std::size_t room = static_cast<std::size_t>(width_ - 1);
+  return columns_of(line) > room ? line.substr(0, room) : line;
+}
+
+std::string ProgressLine::remaining(double fraction) const {
+  const Clock::duration spent = last_ - start_;
+  if (spent < kSettle || fraction < 0.02) return {};
+  const double seconds = std::chrono::duration<double>(spent).count() * (1 - fraction) / fraction;
+  if (seconds < 90) return fmt::format(" {:.0f} s left", std::ceil(seconds));
+  return fmt::format(" {:.0f} min left", std::ceil(seconds / 60));
+}
+
+}  // namespace dashpot::cli

@@ -1,0 +1,30 @@
+#pragma once
+#include <chrono>
+#include <string>
+
+#include "dashpot/base/monitor.h"
+
+namespace dashpot::cli {
+
+/// How far work has come, on stderr: one line that redraws itself on a terminal, plain lines every few
+/// seconds in a log.
+class ProgressLine {
+ public:
+  /// width: columns of the terminal; 0: a log.
+  explicit ProgressLine(int width) : width_(width) {}
+  void show(const Progress& progress);
+  /// Takes the line off the terminal, so that other text can be printed.
+  void clear();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  std::string bar(const Progress& progress) const;
+  std::string remaining(double fraction) const;
+
+  int width_;
+  bool drawn_ = false;
+  bool started_ = false;
+  Clock::time_point start_, last_;
+};
+
+}  // namespace dashpot::cli

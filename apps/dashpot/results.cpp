@@ -1,0 +1,100 @@
+#include "results.h"
+
+#include <algorithm>
+#include <ctime>
+
+#include <fmt/core.h>
+
+#include "console.h"
+#include "dashpot/base/file.h"
+#include "dashpot/output/words.h"
+#include "layout.h"
+
+namespace dashpot::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_usable(const RankedModel& model) {
+  return model.fit.status != FitReport::Status::Failed && model.left_out.diverged == 0;
+}
+
+void write_models(const ReportInput& input, const fs::path& folder, Console& console) {
+  for (const RankedModel& ranked : input.ranking.models) {
+    console.check_stop();
+    if (!ranked.fit.model) continue;
+    ModelFile file = to_model_file(ranked, input.dataset, input.command);
+    file.provenance.created = input.date;
+    save_model(file, folder / (ranked.name + ".json"));
+  }
+}
+
+void write_reports(const ReportInput& input, const fs::path& folder, Console& console) {
+  console.check_stop();
+  write_file(folder / "report.html", html_report(input));
+  write_file(folder / "report.json", format_json(json_report(input)));
+  write_file(folder / "report.md", markdown_report(input));
+  write_file(folder / "report.csv", csv_report(input));
+}
+
+}  // namespace
+
+std::vector<Option> result_options(ResultSettings& settings) {
+  return {{.names = "-o,--output",
+           .target = &settings.folder,
+           .help = "folder for the report and the model files",
+           .value = "DIR",
+           .takes = Takes::Folder},
+          {.names = "--figures",
+           .target = &settings.figures,
+           .help = "also draw the figures as SVG and PDF, for a paper (needs gnuplot)"},
+          {.names = "--no-report", .target = &settings.report, .help = "write the model files only"}};
+}
+
+std::string date_now() {
+  const std::time_t now = std::time(nullptr);
+  std::tm utc{};
+  gmtime_r(&now, &utc);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &utc);
+  return text;
+}
+
+ReportInput report_input(const Dataset& dataset, const Ranking& ranking, const Console& console) {
+  return {.dataset = dataset,
+          .ranking = ranking,
+          .command = console.command_line(),
+          .version = DASHPOT_VERSION,
+          .date = date_now()};
+}
+
+void print_results(const ReportInput& input, Console& console) {
+  console.print('\n' + ranking_table(input.ranking, console.width()) + '\n' +
+                paragraph(verdict(input.ranking), static_cast<std::size_t>(console.width())));
+  const RankedModel& best = input.ranking.models.front();
+  if (!best.fit.parameters.empty())
+    console.print('\n' + console.bold(best.name) + ", fitted on all training records\n" +
+                  parameter_table(best.fit));
+  for (const RankedModel& ranked : input.ranking.models)
+    for (const std::string& warning : ranked.fit.warnings) console.warn(ranked.name + ": " + warning);
+}
+
+void write_results(const ReportInput& input, const ResultSettings& settings, Console& console) {
+  const fs::path folder = settings.folder;
+  write_models(input, folder / "models", console);
+  if (settings.report) write_reports(input, folder, console);
+  if (settings.figures) write_figures(input, folder / "figures");
+  console.print("\n");
+  if (settings.report)
+    console.print("Report   " + (folder / "report.html").string() + " (also .json, .md, .csv)\n");
+  console.print("Models   " + (folder / "models").string() + "/\n");
+  if (settings.figures) console.print("Figures  " + (folder / "figures").string() + "/\n");
+}
+
+int exit_code_of(const Ranking& ranking, Console& console) {
+  if (std::ranges::any_of(ranking.models, is_usable)) return kDone;
+  console.error("no model gave a usable force on the records left out; the table and the warnings say why");
+  return kNotUsable;
+}
+
+}  // namespace dashpot::cli

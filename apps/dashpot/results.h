@@ -1,0 +1,36 @@
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "command.h"
+#include "dashpot/identify/identify.h"
+#include "dashpot/output/report.h"
+
+namespace dashpot::cli {
+
+/// Where the results of an identification go, and which.
+struct ResultSettings {
+  std::string folder = "dashpot-results";
+  bool report = true;
+  bool figures = false;
+};
+
+std::vector<Option> result_options(ResultSettings& settings);
+
+/// The ranking, the best model's parameters and what to beware of.
+void print_results(const ReportInput& input, Console& console);
+
+/// Writes model files, report and figures, and prints where they are.
+void write_results(const ReportInput& input, const ResultSettings& settings, Console& console);
+
+/// kDone, or kNotUsable with the reason printed when no model gave a finite force.
+int exit_code_of(const Ranking& ranking, Console& console);
+
+/// Now, in UTC: "2026-05-01T12:00:00Z".
+std::string date_now();
+
+/// What stands in a report beside the figures.
+ReportInput report_input(const Dataset& dataset, const Ranking& ranking, const Console& console);
+
+}  // namespace dashpot::cli

@@ -1,0 +1,41 @@
+#include "velocity_check.h"
+
+#include <cmath>
+
+#include "dashpot/record/differentiate.h"
+
+namespace dashpot::cli {
+namespace {
+
+bool is_measured(const Channel& velocity) { return !velocity.origin.starts_with("derived"); }
+
+double rms_difference_percent(const std::vector<double>& derived, const std::vector<double>& measured) {
+  double difference = 0, power = 0;
+  for (std::size_t k = 0; k < measured.size(); ++k) {
+    difference += (derived[k] - measured[k]) * (derived[k] - measured[k]);
+    power += measured[k] * measured[k];
+  }
+  return 100 * std::sqrt(difference / power);
+}
+
+}  // namespace
+
+std::vector<VelocityCheck> check_velocities(const Dataset& dataset, double cutoff_hz) {
+  constexpr std::size_t kFewestSamples = 4;  // to differentiate
+  std::vector<VelocityCheck> checks;
+  for (const Record& record : dataset.records) {
+    const Channel* displacement = record.find("displacement");
+    const Channel* velocity = record.find("velocity");
+    if (!displacement || !velocity || !is_measured(*velocity) || record.sample_time <= 0 ||
+        record.size() < kFewestSamples)
+      continue;
+    const std::vector<double>& x = displacement->samples;
+    const double cutoff = cutoff_hz > 0 ? cutoff_hz : choose_cutoff_hz(x, record.sample_time);
+    const std::vector<double> derived = differentiate_zero_phase(x, record.sample_time, cutoff);
+    const double percent = rms_difference_percent(derived, velocity->samples);
+    if (std::isfinite(percent)) checks.push_back({record.name, cutoff, percent});  // not without motion
+  }
+  return checks;
+}
+
+}  // namespace dashpot::cli

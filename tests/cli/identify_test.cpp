@@ -1,0 +1,114 @@
+#include <filesystem>
+
+#include "dashpot/base/file.h"
+#include "dashpot/base/value.h"
+#include "program.h"
+
+using namespace dashpot;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Two quick models on the small campaign, once for all tests here.
+const fs::path& small_results() {
+  static const TemporaryFolder folder;
+  static const fs::path path = [] {
+    const fs::path results = folder.path() / "results";
+    const ProgramResult made = run_dashpot("identify " + small_campaign().string() +
+                                           " --models bingham,tanh_kwok --output " + results.string());
+    REQUIRE_MESSAGE(made.exit_code == 0, made.output);
+    return results;
+  }();
+  return path;
+}
+
+}  // namespace
+
+TEST_CASE("identify: a folder of recordings becomes a ranking, model files and a report") {
+  for (const char* file : {"report.html", "report.json", "report.md", "report.csv", "models/bingham.json",
+                           "models/tanh_kwok.json"}) {
+    CAPTURE(file);
+    CHECK(fs::exists(small_results() / file));
+  }
+  const Value report = parse_json(read_file(small_results() / "report.json"), "report.json");
+  CHECK(report.kind() == Value::Kind::Object);
+}
+
+TEST_CASE("identify prints the ranking on stdout and progress on stderr") {
+  const TemporaryFolder folder;
+  const std::string arguments = "identify " + small_campaign().string() +
+                                " --models bingham --no-report --output " + folder.path().string();
+  const ProgramResult out = stdout_of_dashpot(arguments);
+  CHECK(out.exit_code == 0);
+  CHECK(contains(out.output, "bingham"));
+  CHECK(contains(out.output, "Models "));
+  CHECK(!contains(out.output, "note:"));
+  CHECK(!fs::exists(folder.path() / "report.html"));
+  CHECK(fs::exists(folder.path() / "models/bingham.json"));
+}
+
+TEST_CASE("identify --json: stdout is one JSON document") {
+  const TemporaryFolder folder;
+  const ProgramResult out = stdout_of_dashpot("identify " + small_campaign().string() +
+                                              " --models bingham --json --output " + folder.path().string());
+  CHECK(out.exit_code == 0);
+  CHECK(parse_json(out.output, "identify --json").kind() == Value::Kind::Object);
+}
+
+TEST_CASE("evaluate: a saved model runs on recordings again, with the error that it had on them") {
+  const std::string model = (small_results() / "models/tanh_kwok.json").string();
+  const ProgramResult out =
+      stdout_of_dashpot("evaluate " + model + " " + small_campaign().string() + " --json");
+  REQUIRE(out.exit_code == 0);
+  const Value result = parse_json(out.output, "evaluate --json");
+  const Value file = parse_json(read_file(model), model);
+  CHECK(result.find("records")->items().size() == 9);
+  CHECK(result.find("outside_domain")->items().empty());
+  // The same model, records and offsets as the fit ended with: its own training error.
+  CHECK_CLOSE(result.find("pooled")->find("rmse")->as_number(),
+              file.find("quality")->find("training")->find("rmse")->as_number(), 1e-3, 0);
+}
+
+TEST_CASE("evaluate: says where recordings leave the model's range") {
+  const TemporaryFolder folder;
+  const std::string data = (folder.path() / "fast").string();
+  REQUIRE(run_dashpot("bench --motions 30x2 --levels 1 --output " + data).exit_code == 0);
+  const ProgramResult result =
+      run_dashpot("evaluate " + (small_results() / "models/bingham.json").string() + " " + data);
+  CAPTURE(result.output);
+  CHECK(result.exit_code == 0);
+  CHECK(contains(result.output, "have a velocity outside the model's range"));
+}
+
+TEST_CASE("evaluate: writes a report page") {
+  const TemporaryFolder folder;
+  const std::string page = (folder.path() / "page.html").string();
+  const ProgramResult result = run_dashpot("evaluate " + (small_results() / "models/bingham.json").string() +
+                                           " " + small_campaign().string() + " --report " + page);
+  CAPTURE(result.output);
+  CHECK(result.exit_code == 0);
+  CHECK(fs::exists(page));
+}
+
+TEST_CASE("evaluate: a model file with an unknown key, of another drive, or none at all") {
+  const TemporaryFolder folder;
+  std::string text = read_file(small_results() / "models/bingham.json");
+  text.insert(text.find('{') + 1, "\"colour\": \"red\",");
+  const ProgramResult key =
+      run_dashpot("evaluate " + folder.write("odd.json", text).string() + " " + small_campaign().string());
+  CHECK(key.exit_code == 1);
+  CHECK(contains(key.output, "odd.json"));
+  CHECK(contains(key.output, "colour"));
+
+  const ProgramResult none = run_dashpot("evaluate nowhere.json " + small_campaign().string());
+  CHECK(none.exit_code == 1);
+  CHECK(contains(none.output, "nowhere.json"));
+
+  const std::string amperes = (folder.path() / "amperes").string();
+  REQUIRE(run_dashpot("bench --damper kwok2006 --motions 5x2 --levels 0,1 --output " + amperes).exit_code ==
+          0);
+  const ProgramResult drive =
+      run_dashpot("evaluate " + (small_results() / "models/bingham.json").string() + " " + amperes);
+  CHECK(drive.exit_code == 1);
+  CHECK(contains(drive.output, "driven in V"));
+}

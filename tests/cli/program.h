@@ -1,0 +1,37 @@
+#pragma once
+#include <filesystem>
+#include <string>
+
+#include "support.h"
+
+// What the tests of the command line share.
+
+/// The program with these arguments, in a folder of its own, with a fixed width.
+inline ProgramResult run_dashpot(const std::string& arguments,
+                                 const std::string& environment = "COLUMNS=100") {
+  return run_program(environment + " " DASHPOT_PROGRAM " " + arguments);
+}
+
+/// The same, but only what it prints on stdout.
+inline ProgramResult stdout_of_dashpot(const std::string& arguments) {
+  return run_program("( " DASHPOT_PROGRAM " " + arguments + " 2>/dev/null )");
+}
+
+inline bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+/// A campaign of nine short records of a known damper (the published parameters of spencer1997), made
+/// once. Small enough for tests, with enough motion to identify simple models.
+inline const std::filesystem::path& small_campaign() {
+  static const TemporaryFolder folder;
+  static const std::filesystem::path path = [] {
+    const std::filesystem::path data = folder.path() / "small";
+    const ProgramResult made =
+        run_dashpot("bench --motions 15x1,10x2,5x3 --levels 0,1,2 --cycles 2 --sample-rate 200 --output " +
+                    data.string());
+    REQUIRE_MESSAGE(made.exit_code == 0, made.output);
+    return data;
+  }();
+  return path;
+}
