@@ -21,12 +21,20 @@ LeastSquaresOptions solver_options(const IdentifyOptions& options, int iteration
   return solver;
 }
 
+/// How much of each record the starts are tried on: all of small data, a fifth of large ones.
+double trial_share(const std::vector<Record>& training) {
+  constexpr double kEnoughSamples = 8000, kLeastShare = 0.2;
+  double samples = 0;
+  for (const Record& record : training) samples += static_cast<double>(record.size());
+  return std::clamp(kEnoughSamples / samples, kLeastShare, 1.0);
+}
+
 /// Tries several starts on the first part of each record and returns the most promising end point.
 std::vector<double> best_start(const LawUnknowns& unknowns, const std::vector<Record>& training,
                                const std::string& drive_unit, const IdentifyOptions& options) {
-  constexpr double kShare = 0.2, kTolerance = 1e-2;
+  constexpr double kTolerance = 1e-2;
   constexpr int kIterations = 15;
-  const LawResiduals residuals(unknowns, training, drive_unit, options.offset, kShare);
+  const LawResiduals residuals(unknowns, training, drive_unit, options.offset, trial_share(training));
   const LeastSquaresProblem problem = residuals.problem();
   Random random(options.seed);
   std::vector<double> best = unknowns.start();
