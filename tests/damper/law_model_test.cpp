@@ -78,11 +78,38 @@ TEST_CASE("large steps are divided: 500 Hz samples follow the converged force") 
 
 TEST_CASE("a hopelessly stiff law ends as a force that is not finite, in bounded time") {
   const Law& law = find_law("modified_bouc_wen");
-  const LawModel model = LawModel::constant(law, {1e9, 0, 0.1, 0, 0, 0, 1e12, 1e12, 1e5, 2, 0});
+  const LawModel model =
+      LawModel::constant(law, {1e9, 0, 0.1, 0, 0, 0, 1e12, 1e12, 1e5, 3, 0});  // n = 3: no step of its own
   std::vector<double> state(2);
   model.rest({}, state);
   for (int k = 0; k < 20; ++k) model.advance({0, 1, 0}, {0, 1, 0}, 0.1, state);
   CHECK_FALSE(std::isfinite(model.force({0, 1, 0}, state)));
+}
+
+TEST_CASE("the law's own step: bounded at any stiffness, and of second order") {
+  const Law& law = find_law("modified_bouc_wen");
+  const double z_max = std::sqrt(301 / 2e8);
+  const LawModel stiff = LawModel::constant(law, {1e6, 100, 2e4, 0, 0, 0, 1e8, 1e8, 301, 2, 0});
+  std::vector<double> state(2);
+  stiff.rest({}, state);
+  for (int k = 0; k < 200; ++k) {
+    const double v = std::cos(0.1 * k), next = std::cos(0.1 * (k + 1));
+    stiff.advance({0, v, 0}, {0, next, 0}, 0.1, state);
+    CHECK(std::abs(state[1]) <= z_max * (1 + 1e-12));
+  }
+  // Straight-line motion through a reversal: halving the step divides the error by four.
+  const auto end_of = [&](int steps) {
+    const double p[] = {118250, 2625, 28742.5, 4690, 500, 0, 3.63e6, 3.63e6, 301, 2, 0};
+    double z[] = {0, -0.005};
+    const double h = 4e-3 / steps;
+    for (int k = 0; k < steps; ++k) {
+      const double x[] = {1e-4 * k / steps, 1e-4 * (k + 1) / steps}, v[] = {0.025, 0.025};
+      REQUIRE(law.step(p, x, v, h, z) == 1);
+    }
+    return z[1];
+  };
+  const double truth = end_of(4096);
+  CHECK_CLOSE((end_of(16) - truth) / (end_of(32) - truth), 4, 0.1, 0);
 }
 
 TEST_CASE("a wrong number of parameters or coefficients is refused") {

@@ -15,7 +15,7 @@ using States = std::array<double, kMaxStates>;
 constexpr double kStepLimit = 2.0;
 constexpr double kMaxSubsteps = 200;
 // A law's own step costs about as much as four explicit ones, and as accurate at eight times their length.
-constexpr double kManySubsteps = 3, kOwnStepRatio = 8;
+constexpr double kManySubsteps = 24, kOwnStepRatio = 8;
 
 /// The law's parameters at the start, the middle and the end of a substep.
 struct StageParams {
