@@ -28,8 +28,7 @@ std::string default_of(const Option& option) {
 std::string usage(const Command& command) {
   std::string line = "dashpot " + command.name;
   for (const Option& option : command.options)
-    if (option.is_positional())
-      line += option.required ? " " + option_label(option) : " [" + option_label(option) + "]";
+    if (option.is_positional()) line += fmt::format(option.required ? " {}" : " [{}]", option_label(option));
   return line + " [options]";
 }
 

@@ -65,8 +65,8 @@ TEST_CASE("evaluate: a saved model runs on recordings again, with the error that
   CHECK(result.find("records")->items().size() == 9);
   CHECK(result.find("outside_domain")->items().empty());
   // The same model, records and offsets as the fit ended with: its own training error.
-  CHECK_CLOSE(result.find("pooled")->find("rmse")->as_number(),
-              file.find("quality")->find("training")->find("rmse")->as_number(), 1e-3, 0);
+  CHECK_CLOSE(result.find("pooled")->find("rmse_N")->as_number(),
+              file.find("quality")->find("training")->find("rmse_N")->as_number(), 1e-3, 0);
 }
 
 TEST_CASE("evaluate: says where recordings leave the model's range") {
