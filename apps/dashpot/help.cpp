@@ -28,7 +28,9 @@ std::string default_of(const Option& option) {
 std::string usage(const Command& command) {
   std::string line = "dashpot " + command.name;
   for (const Option& option : command.options)
-    if (option.is_positional()) line += fmt::format(option.required ? " {}" : " [{}]", option_label(option));
+    if (option.is_positional())
+      line += option.required ? fmt::format(" {}", option_label(option))
+                              : fmt::format(" [{}]", option_label(option));
   return line + " [options]";
 }
 
