@@ -38,7 +38,7 @@ std::string bash_command(const Command& command, const std::vector<Option>& comm
       arguments = bash_values(option);
       continue;
     }
-    names += " " + join(split(option.names, ','), " ");
+    names += fmt::format(" {}", join(split(option.names, ','), " "));
     if (!option.is_switch())
       values +=
           fmt::format("        {}) {}; return;;\n", join(split(option.names, ','), "|"), bash_values(option));
@@ -84,7 +84,7 @@ std::string zsh_text(const std::string& text) {
 std::string zsh_action(const Option& option) {
   if (!option.choices.empty())
     return option.is_list() ? "_values -s , word " + join(option.choices, " ")
-                            : "(" + join(option.choices, " ") + ")";
+                            : fmt::format("({})", join(option.choices, " "));
   if (option.takes == Takes::Folder) return "_files -/";
   return option.takes == Takes::File ? "_files" : "";
 }
@@ -92,7 +92,8 @@ std::string zsh_action(const Option& option) {
 std::string zsh_specification(const Option& option) {
   if (option.is_positional())
     return shell_quoted((option.is_list() ? "*:" : ":") + option.names + ":" + zsh_action(option));
-  std::string value = option.is_switch() ? "" : ":" + zsh_text(option.value) + ":" + zsh_action(option);
+  std::string value;
+  if (!option.is_switch()) value = fmt::format(":{}:{}", zsh_text(option.value), zsh_action(option));
   std::vector<std::string> specifications;
   for (const std::string& name : split(option.names, ','))
     specifications.push_back(shell_quoted(name + "[" + zsh_text(option.help) + "]" + value));

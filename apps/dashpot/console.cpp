@@ -9,6 +9,7 @@
 
 #include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
+#include "dashpot/output/safe_text.h"
 #include "layout.h"
 
 namespace dashpot::cli {
@@ -54,7 +55,7 @@ void Console::print(std::string_view text) {
 
 void Console::print_json(const Value& value) {
   progress_.clear();
-  const std::string text = format_json(value);
+  const std::string text = format_json(presentable(value));  // what is not finite becomes null
   std::fwrite(text.data(), 1, text.size(), stdout);
   if (!text.ends_with('\n')) std::fputc('\n', stdout);
 }

@@ -7,6 +7,7 @@
 #include "console.h"
 #include "dashpot/base/file.h"
 #include "dashpot/base/text.h"
+#include "dashpot/output/report_json.h"
 #include "data.h"
 #include "extrapolation.h"
 #include "layout.h"
@@ -28,7 +29,7 @@ constexpr std::string_view kExample =
     "dashpot evaluate results/models/tanh_kwok.json more-recordings/\n"
     "\n"
     "# The same figures for a script:\n"
-    "dashpot evaluate results/models/tanh_kwok.json more-recordings/ --json | jq .pooled.rmse";
+    "dashpot evaluate results/models/tanh_kwok.json more-recordings/ --json | jq .pooled.rmse_N";
 
 std::string percent(double value) { return fmt::format("{:.2f}", value); }
 
@@ -65,37 +66,11 @@ std::string band_table(const Evaluation& evaluation, int width) {
   return table.text(static_cast<std::size_t>(width));
 }
 
-Value record_json(const RecordResult& r) {
-  Value value = Value::object({{"record", r.record},
-                               {"condition", r.condition},
-                               {"drive_level", r.drive_level ? Value(*r.drive_level) : Value()}});
-  if (r.diverged_at) {
-    value.add("diverged_at", *r.diverged_at);
-    return value;
-  }
-  value.add("offset", r.offset);
-  value.add("metrics", to_json(r.metrics));
-  value.add("metrics_without_offset", to_json(r.metrics_without_offset));
-  value.add("energy_error", r.energy_error);
-  return value;
-}
-
-Value evaluation_json(const ModelFile& file, const Evaluation& evaluation,
-                      const std::vector<Extrapolation>& outside) {
-  Value records = Value::array(), bands = Value::array();
-  for (const RecordResult& r : evaluation.records) records.push_back(record_json(r));
-  for (const BandResult& band : evaluation.bands)
-    bands.push_back(Value::object(
-        {{"name", band.name}, {"low", band.low}, {"high", band.high}, {"metrics", to_json(band.metrics)}}));
-  Value value = Value::object({{"model", file.model->name()},
-                               {"records", std::move(records)},
-                               {"diverged", evaluation.diverged},
-                               {"bands", std::move(bands)},
-                               {"outside_domain", to_json(outside)}});
-  if (evaluation.pooled.samples > 0) {
-    value.add("pooled", to_json(evaluation.pooled));
-    value.add("pooled_without_offset", to_json(evaluation.pooled_without_offset));
-  }
+Value result_json(const ModelFile& file, const Evaluation& evaluation,
+                  const std::vector<Extrapolation>& outside) {
+  Value value = evaluation_json(evaluation);
+  value.add("model", file.model->name());
+  value.add("outside_domain", to_json(outside));
   return value;
 }
 
@@ -141,7 +116,7 @@ int run(const Settings& settings, Console& console) {
   console.print(record_table(evaluation, dataset.drive_unit, console.width()));
   if (evaluation.pooled.samples > 0) console.print('\n' + band_table(evaluation, console.width()));
   for (const Extrapolation& e : outside) console.warn(describe(e));
-  if (console.json) console.print_json(evaluation_json(file, evaluation, outside));
+  if (console.json) console.print_json(result_json(file, evaluation, outside));
   if (!settings.report.empty()) write_report(settings, dataset, std::move(file), evaluation, console);
   if (evaluation.diverged == 0) return kDone;
   console.error(

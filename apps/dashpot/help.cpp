@@ -29,7 +29,8 @@ std::string usage(const Command& command) {
   std::string line = "dashpot " + command.name;
   for (const Option& option : command.options)
     if (option.is_positional())
-      line += option.required ? " " + option_label(option) : " [" + option_label(option) + "]";
+      line += option.required ? fmt::format(" {}", option_label(option))
+                              : fmt::format(" [{}]", option_label(option));
   return line + " [options]";
 }
 

@@ -25,21 +25,6 @@ Value record_json(const RecordResult& record) {
                         {"diverged_at", optional_number(record.diverged_at)}});
 }
 
-Value evaluation_json(const Evaluation& evaluation) {
-  Value records = Value::array(), bands = Value::array();
-  for (const RecordResult& record : evaluation.records) records.push_back(record_json(record));
-  for (const BandResult& band : evaluation.bands)
-    bands.push_back(Value::object(
-        {{"name", band.name}, {"low", band.low}, {"high", band.high}, {"metrics", to_json(band.metrics)}}));
-  return Value::object({{"pooled", to_json(evaluation.pooled)},
-                        {"pooled_without_offset", to_json(evaluation.pooled_without_offset)},
-                        {"worst_esr_percent", evaluation.worst_esr},
-                        {"worst_record", evaluation.worst_record},
-                        {"diverged", evaluation.diverged},
-                        {"bands", std::move(bands)},
-                        {"records", std::move(records)}});
-}
-
 Value parameter_json(const FittedParameter& p) {
   return Value::object({{"name", p.name},
                         {"unit", p.unit},
@@ -88,6 +73,21 @@ Value model_json(const RankedModel& model, const std::vector<std::string>& folds
 }
 
 }  // namespace
+
+Value evaluation_json(const Evaluation& evaluation) {
+  Value records = Value::array(), bands = Value::array();
+  for (const RecordResult& record : evaluation.records) records.push_back(record_json(record));
+  for (const BandResult& band : evaluation.bands)
+    bands.push_back(Value::object(
+        {{"name", band.name}, {"low", band.low}, {"high", band.high}, {"metrics", to_json(band.metrics)}}));
+  return Value::object({{"pooled", to_json(evaluation.pooled)},
+                        {"pooled_without_offset", to_json(evaluation.pooled_without_offset)},
+                        {"worst_esr_percent", evaluation.worst_esr},
+                        {"worst_record", evaluation.worst_record},
+                        {"diverged", evaluation.diverged},
+                        {"bands", std::move(bands)},
+                        {"records", std::move(records)}});
+}
 
 Value dataset_json(const Dataset& dataset) {
   Value files = Value::array();
