@@ -76,16 +76,20 @@ static inline double modified_bouc_wen_travel(const ModifiedBoucWen* p, double z
     s -= to_zero;
     z = 0;
   }
-  const double r = sqrt(p->A * (p->beta + p->gamma));
-  const double k = p->A / r;
-  const double t = tanh(r * s);
+  const double k = sqrt(p->A / (p->beta + p->gamma));
+  const double t = tanh(p->A / k * s);
   return (z + k * t) / (1 + z * t / k);
 }
 
-/* States after a step of length h in which x and v go linearly from x0, v0 to x1, v1; returns 0, with the
- * states untouched, unless n = 2. Second order, stable and bounded at any length: z travels exactly along
- * its loop, over the distance w h at whose speed w the equation of y' holds in the mean. In the direction
- * of motion that equation is monotone, so Newton's method within a bracket finds w. */
+/* dz/ds at z, moving towards larger z */
+static inline double modified_bouc_wen_slope(const ModifiedBoucWen* p, double z) {
+  return p->A - (p->beta + (z > 0 ? p->gamma : -p->gamma)) * z * z;
+}
+
+/* States after a step of length h in which x and v go linearly from x[0], v[0] to x[1], v[1]; returns 0, with
+ * the states untouched, unless n = 2. Second order, stable and bounded at any length: z travels exactly
+ * along its loop, over the distance w h at whose speed w the equation of y' holds in the mean. In the
+ * direction of motion that equation is monotone, so Newton's method within a bracket finds w. */
 static inline int modified_bouc_wen_step(const ModifiedBoucWen* p, const double* x, const double* v, double h,
                                          double* z) {
   if (p->n != 2) return 0;
@@ -94,19 +98,26 @@ static inline int modified_bouc_wen_step(const ModifiedBoucWen* p, const double*
   const double push = p->c1 * mean_v - p->k0 * (0.5 * (x[0] + x[1]) - z[0] - 0.5 * h * mean_v);
   /* drag w + alpha (z0 + z1(w)) / 2 = push, mirrored so that w >= 0 */
   const double side = push >= p->alpha * z[1] ? 1 : -1;
-  const double z0 = side * z[1];
+  const double z0 = side * z[1], share = 0.5 * p->alpha;
   double low = 0, high = (side * push - p->alpha * z0) / drag;
-  double w = high, z1 = z0;
+  double w = high * drag / (drag + share * h * fmax(0, modified_bouc_wen_slope(p, z0)));
+  double z1 = z0;
   int k;
   for (k = 0; k < 60; ++k) {
-    double excess, bend, next;
+    double excess, slope, next;
     z1 = modified_bouc_wen_travel(p, z0, w * h);
-    excess = drag * w + 0.5 * p->alpha * (z0 + z1) - side * push;
-    if (excess > 0) high = w;
-    else low = w;
-    bend = p->beta + (z1 > 0 ? p->gamma : -p->gamma);
-    next = w - excess / (drag + 0.5 * p->alpha * h * (p->A - bend * z1 * z1));
-    if (fabs(next - w) <= 1e-12 * high) break;
+    excess = drag * w + share * (z0 + z1) - side * push;
+    slope = modified_bouc_wen_slope(p, z1);
+    next = w - excess / (drag + share * h * slope);
+    if (fabs(next - w) <= 1e-7 * high) { /* the next step would move by the square of this */
+      z1 += slope * h * (next - w);
+      w = next;
+      break;
+    }
+    if (excess > 0)
+      high = w;
+    else
+      low = w;
     w = next >= low && next <= high ? next : 0.5 * (low + high);
   }
   z[0] += h * (mean_v - side * w);
