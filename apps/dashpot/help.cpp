@@ -4,6 +4,7 @@
 
 #include "console.h"
 #include "dashpot/base/text.h"
+#include "dashpot/output/safe_text.h"
 #include "layout.h"
 
 namespace dashpot::cli {
@@ -64,11 +65,8 @@ std::string indented(const std::string& text) {
 
 std::string markdown_options(const std::vector<Option>& options) {
   std::string text = "| option | meaning |\n|---|---|\n";
-  for (const Option& option : options) {
-    std::string cell;
-    for (const char c : option_text(option)) cell += c == '|' ? std::string("\\|") : std::string(1, c);
-    text += "| `" + option_label(option) + "` | " + cell + " |\n";
-  }
+  for (const Option& option : options)
+    text += "| `" + option_label(option) + "` | " + markdown_cell(option_text(option)) + " |\n";
   return text;
 }
 

@@ -5,6 +5,7 @@
 #include "dashpot/base/text.h"
 #include "dashpot/damper/neural/mlp.h"
 #include "dashpot/damper/registry.h"
+#include "dashpot/output/safe_text.h"
 #include "layout.h"
 
 namespace dashpot::cli {
@@ -66,7 +67,11 @@ std::string facts(const ModelSheet& sheet) {
   return text + fmt::format("; {} numbers to fit", sheet.numbers);
 }
 
-std::string markdown_row(const std::vector<std::string>& row) { return "| " + join(row, " | ") + " |\n"; }
+std::string markdown_row(const std::vector<std::string>& row) {
+  std::string text = "|";
+  for (const std::string& cell : row) text += " " + markdown_cell(cell) + " |";
+  return text + "\n";
+}
 
 }  // namespace
 

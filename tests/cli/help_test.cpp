@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <sstream>
 
+#include "dashpot/base/file.h"
 #include "program.h"
 
 namespace {
@@ -48,8 +49,9 @@ TEST_CASE("help prints the defaults that the program uses") {
   CHECK(contains(help, "(default: record)"));
 }
 
-TEST_CASE("the documentation page names every command") {
+TEST_CASE("the documentation page names every command, and the one in docs/ is up to date") {
   const ProgramResult page = run_dashpot("--help-markdown");
+  CHECK(page.output == dashpot::read_file(DASHPOT_PROJECT_DIR "/docs/command-line.md"));
   CHECK(page.exit_code == 0);
   for (const char* command : kCommands) CHECK(contains(page.output, std::string("\n## dashpot ") + command));
 }

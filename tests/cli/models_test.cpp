@@ -1,3 +1,4 @@
+#include "dashpot/base/file.h"
 #include "dashpot/base/value.h"
 #include "dashpot/damper/registry.h"
 #include "program.h"
@@ -34,7 +35,8 @@ TEST_CASE("models --json holds the tables as they stand in the registry") {
   CHECK(first.find("upper")->as_number() == law.params.front().upper);
 }
 
-TEST_CASE("models --markdown has a section per model") {
+TEST_CASE("models --markdown has a section per model, and the page in docs/ is up to date") {
   const ProgramResult page = run_dashpot("models --markdown");
+  CHECK(page.output == read_file(DASHPOT_PROJECT_DIR "/docs/models.md"));
   for (const std::string& name : model_names()) CHECK(contains(page.output, "\n## `" + name + "`"));
 }
