@@ -70,6 +70,14 @@ void print_notes(const Dataset& dataset, Console& console, std::size_t most) {
   for (std::size_t i = 0; i < std::min(most, dataset.notes.size()); ++i) console.note(dataset.notes[i]);
   if (dataset.notes.size() > most)
     console.note(fmt::format("and {} more; --verbose prints them", dataset.notes.size() - most));
+  if (dataset.passed_over.empty()) return;
+  constexpr std::size_t kNamed = 3;
+  std::vector<std::string> files;
+  for (const PassedOver& passed : dataset.passed_over) files.push_back(passed.file);
+  const std::size_t more = files.size() - std::min(files.size(), kNamed);
+  files.resize(files.size() - more);
+  console.note(fmt::format("passed over: {}{}; --verbose says why", join(files, ", "),
+                           more > 0 ? fmt::format(" and {} more", more) : ""));
 }
 
 Dataset load_recordings(const DataSettings& settings, Console& console) {

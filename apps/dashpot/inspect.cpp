@@ -61,6 +61,9 @@ Value inspect_json(const Dataset& dataset, const std::vector<VelocityCheck>& che
                                      {"channels", Value::array(channels)},
                                      {"notes", Value::array(r.notes)}}));
   }
+  Value passed_over = Value::array();
+  for (const PassedOver& passed : dataset.passed_over)
+    passed_over.push_back(Value::object({{"file", passed.file}, {"why", passed.why}}));
   for (const VelocityCheck& check : checks)
     velocities.push_back(Value::object(
         {{"record", check.record}, {"cutoff_hz", check.cutoff_hz}, {"rms_percent", check.rms_percent}}));
@@ -69,6 +72,7 @@ Value inspect_json(const Dataset& dataset, const std::vector<VelocityCheck>& che
                         {"columns", std::move(columns)},
                         {"records", std::move(records)},
                         {"derived_velocity", std::move(velocities)},
+                        {"passed_over", std::move(passed_over)},
                         {"notes", Value::array(dataset.notes)}});
 }
 

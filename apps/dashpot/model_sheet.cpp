@@ -67,12 +67,6 @@ std::string facts(const ModelSheet& sheet) {
   return text + fmt::format("; {} numbers to fit", sheet.numbers);
 }
 
-std::string markdown_row(const std::vector<std::string>& row) {
-  std::string text = "|";
-  for (const std::string& cell : row) text += " " + markdown_cell(cell) + " |";
-  return text + "\n";
-}
-
 }  // namespace
 
 ModelSheet model_sheet(const std::string& name) {

@@ -8,14 +8,14 @@ using namespace dashpot;
 
 TEST_CASE("laws stand in alphabetical order, networks follow") {
   const std::vector<std::string> names = model_names();
-  CHECK(names == std::vector<std::string>{"bingham", "modified_bouc_wen", "tanh_kwok", "static_network",
-                                          "static_network_two_sensors"});
+  CHECK(names == std::vector<std::string>{"bingham", "modified_bouc_wen", "tanh_kwok", "mlp_one_sensor",
+                                          "mlp_two_sensors"});
   CHECK(std::is_sorted(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(laws().size())));
   for (const Law* law : laws()) {
     CHECK(&find_law(law->name) == law);
     CHECK(is_law(law->name));
   }
-  CHECK_FALSE(is_law("static_network"));
+  CHECK_FALSE(is_law("mlp_one_sensor"));
 }
 
 TEST_CASE("the one-sensor paper's networks") {
@@ -23,8 +23,8 @@ TEST_CASE("the one-sensor paper's networks") {
   const auto parameters = [](const NetworkPreset& p) {
     return p.hidden[0] * (p.inputs.size() + 1) + p.hidden[0] + 1;
   };
-  CHECK(parameters(find_network_preset("static_network")) == 41);
-  CHECK(parameters(find_network_preset("static_network_two_sensors")) == 51);
+  CHECK(parameters(find_network_preset("mlp_one_sensor")) == 41);
+  CHECK(parameters(find_network_preset("mlp_two_sensors")) == 51);
 }
 
 TEST_CASE("an unknown name is answered with the near one") {

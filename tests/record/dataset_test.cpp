@@ -177,8 +177,8 @@ TEST_CASE("utfsm without any dataset file") {
   CHECK(conditions.size() == 4);
   CHECK(levels == std::set<double>{0, 0.25, 0.5, 0.75, 1});
   for (const char* file : {"ME25mm0x25Hz.txt.gz", "ME5mm3Hz.txt.gz", "published_bouc_wen_parameters.mat"})
-    CHECK(std::any_of(dataset.notes.begin(), dataset.notes.end(),
-                      [&](const std::string& n) { return n.starts_with(file); }));
+    CHECK(std::any_of(dataset.passed_over.begin(), dataset.passed_over.end(),
+                      [&](const PassedOver& passed) { return passed.file == file; }));
 }
 
 TEST_CASE("the shipped dataset files recognise the measured recordings") {

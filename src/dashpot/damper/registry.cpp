@@ -19,7 +19,7 @@ constexpr std::string_view kOneSensorPaper =
 
 const std::array<NetworkPreset, 2>& presets() {
   static const std::array<NetworkPreset, 2> list{{
-      {.name = "static_network",
+      {.name = "mlp_one_sensor",
        .title = "Static network, one sensor",
        .equation = "F = w2 . tanh(W1 [v, i] + b1) + b2",
        .source = kOneSensorPaper,
@@ -28,7 +28,7 @@ const std::array<NetworkPreset, 2>& presets() {
            "the source; tanh with a linear output is assumed.",
        .inputs = {"velocity", "current"},
        .hidden = {10}},
-      {.name = "static_network_two_sensors",
+      {.name = "mlp_two_sensors",
        .title = "Static network, two sensors",
        .equation = "F = w2 . tanh(W1 [x, v, i] + b1) + b2",
        .source = kOneSensorPaper,

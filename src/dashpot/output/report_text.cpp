@@ -57,12 +57,6 @@ std::string remark(const FittedParameter& p) {
          (p.weak ? "weakly determined" : "");
 }
 
-std::string markdown_row(const std::vector<std::string>& cells) {
-  std::string row = "|";
-  for (const std::string& cell : cells) row += fmt::format(" {} |", markdown_cell(cell));
-  return row + "\n";
-}
-
 std::string markdown_ranking(const Ranking& ranking) {
   std::vector<std::string> titles;
   std::string rule = "|";

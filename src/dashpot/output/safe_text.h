@@ -1,6 +1,7 @@
 #pragma once
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "dashpot/base/value.h"
 
@@ -14,6 +15,8 @@ std::string script_json(const Value& value);
 
 /// One cell of a Markdown table: no pipe, no line end, no markup of its own.
 std::string markdown_cell(std::string_view text);
+/// "| a | b |" and a line end.
+std::string markdown_row(const std::vector<std::string>& cells);
 
 /// One field of a CSV line, quoted when it must be.
 std::string csv_field(std::string_view text);

@@ -180,7 +180,7 @@ class Loader {
 
   void pass_over(const SourcePath& file, const std::string& why) {
     if (file.named) throw Error(file.path.string(), why);
-    dataset_.notes.push_back(file.relative + ": passed over: " + why);
+    dataset_.passed_over.push_back({file.relative, why});
   }
 
   [[noreturn]] void refuse_nothing() const {

@@ -24,6 +24,11 @@ struct SourceFile {
   std::string sha256;
 };
 
+/// A file that gave no record, and why.
+struct PassedOver {
+  std::string file, why;
+};
+
 /// How records are left out to judge a model. `values` narrows it: the levels, conditions or record
 /// names to leave out one after the other; empty: each (for Current: each inner level, since a model
 /// is not asked to extrapolate in current).
@@ -44,7 +49,8 @@ struct Dataset {
   std::vector<Record> records;
   std::vector<SourceFile> files;
   std::vector<ColumnReading> readings;
-  std::vector<std::string> notes;     ///< what was inferred, assumed or passed over, in words
+  std::vector<PassedOver> passed_over;
+  std::vector<std::string> notes;     ///< what was inferred or assumed, in words
   std::optional<LeaveOut> leave_out;  ///< stated in the dataset file
 };
 
@@ -58,7 +64,7 @@ struct LoadOptions {
 /// Reads files and folders (CSV, DAQ text, MAT, the family paper's JSON; each also as .gz) or a
 /// dataset file (.yaml) into one dataset, in SI and Dashpot's signs, with a velocity channel on every
 /// record that has displacement or velocity. Throws Error on anything that cannot be used; what is
-/// passed over stands in `notes`.
+/// passed over stands in `passed_over`.
 Dataset load_dataset(const std::vector<std::filesystem::path>& paths, const LoadOptions& options = {});
 
 /// The table of what was understood, for people: one line per column, then per record.

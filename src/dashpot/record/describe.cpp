@@ -141,16 +141,9 @@ std::string format_note(const SharedNote& note, std::string_view plural) {
 }
 
 std::string note_list(const Dataset& dataset) {
-  constexpr std::string_view kPassedOver = ": passed over: ";
   std::vector<SharedNote> of_files, of_records;
-  for (const std::string& note : dataset.notes) {
-    const std::size_t at = note.find(kPassedOver);
-    if (at == std::string::npos) {
-      of_files.push_back({note, note, {""}, false});
-    } else {
-      add_note(of_files, note.substr(at + 2), note.substr(0, at));
-    }
-  }
+  for (const std::string& note : dataset.notes) of_files.push_back({note, note, {""}, false});
+  for (const auto& [file, why] : dataset.passed_over) add_note(of_files, "passed over: " + why, file);
   for (const Record& record : dataset.records) {
     for (const std::string& note : record.notes) add_note(of_records, note, record.name);
     std::vector<std::string> conditions;
