@@ -48,5 +48,6 @@ TEST_CASE("energy of a linear damper over one period is pi c omega X^2") {
     force.push_back(kDamping * velocity.back());
   }
   // The trapezoidal rule is exact here: whole periods of a sine of twice the frequency.
-  CHECK_CLOSE(dissipated_energy(time, velocity, force), kPi * kDamping * kOmega * kAmplitude * kAmplitude, 1e-12, 0);
+  CHECK_CLOSE(dissipated_energy(time, velocity, force), kPi * kDamping * kOmega * kAmplitude * kAmplitude,
+              1e-12, 0);
 }

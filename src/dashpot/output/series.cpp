@@ -75,7 +75,9 @@ Value pack_int16(std::span<const double> samples, const std::vector<std::size_t>
   for (const std::size_t i : chosen) {
     std::int16_t code = -32768;
     if (std::isfinite(samples[i]))
-      code = static_cast<std::int16_t>(step > 0 ? std::lround((samples[i] - low) / step) - 32767 : -32767);
+      code = static_cast<std::int16_t>(
+          step > 0 ? std::lround(std::min(2 * ((samples[i] / 2 - low / 2) / step), 65534.0)) - 32767
+                   : -32767);
     append_little_endian(bytes, static_cast<std::uint16_t>(code));
   }
   return Value::object({{"low", low}, {"step", step}, {"int16", base64(bytes)}});

@@ -1,0 +1,111 @@
+#include "dashpot/identify/identify.h"
+
+#include <atomic>
+
+#include "dashpot/base/error.h"
+#include "dashpot/damper/parameter_set.h"
+#include "dashpot/damper/registry.h"
+#include "dashpot/damper/virtual_bench.h"
+#include "support.h"
+
+using namespace dashpot;
+
+namespace {
+
+/// A small campaign with a tanh damper whose parameters are known.
+Dataset small_campaign() {
+  BenchOptions options;
+  options.motions = {{0.01, 1}, {0.005, 3}};
+  options.drive_levels = {0, 0.5, 1};
+  options.sample_rate = 200;
+  options.cycles = 2;
+  return run_virtual_bench(load_parameters("kwok2006"), "A", options);
+}
+
+}  // namespace
+
+TEST_CASE("known parameters lie in their intervals, give or take the odds") {
+  const Dataset data = small_campaign();
+  const FitReport report = identify("tanh_kwok", data.records, "A", {});
+  CHECK(report.status == FitReport::Status::Converged);
+  const LawModel truth = load_parameters("kwok2006");
+  std::vector<double> p(truth.law().params.size());
+  int outside = 0, checked = 0;
+  for (const FittedParameter& fitted : report.parameters) {
+    for (std::size_t k = 0; k < truth.law().params.size(); ++k)
+      for (std::size_t c = 0; c < truth.parameters().coefficients[k].size(); ++c) {
+        const std::string name = coefficient_name(truth.law().params[k].name, truth.parameters().forms[k], c);
+        if (name != fitted.name || fitted.fixed || truth.law().params[k].bias) continue;
+        ++checked;
+        const double slack = fitted.high - fitted.low;  // four standard errors, not two
+        outside += std::abs(truth.parameters().coefficients[k][c] - fitted.value) > slack;
+      }
+  }
+  CHECK(checked >= 8);
+  CHECK(outside == 0);
+}
+
+TEST_CASE("offsets of the records are found") {
+  const Dataset data = small_campaign();
+  const FitReport report = identify("tanh_kwok", data.records, "A", {});
+  REQUIRE(report.offsets.size() == data.records.size());
+  double sum = 0;
+  for (const auto& [record, offset] : report.offsets) sum += offset;
+  CHECK_CLOSE(sum, 0, 0, 1e-6);  // the mean is the model's own bias
+}
+
+TEST_CASE("the same bits on any number of threads") {
+  const Dataset data = small_campaign();
+  LeaveOut by_condition;
+  const auto run = [&](int threads) {
+    IdentifyOptions options;
+    options.threads = threads;
+    options.starts = 2;
+    return rank({"bingham", "tanh_kwok", "mlp_one_sensor"}, data, by_condition, options);
+  };
+  const Ranking one = run(1), two = run(2);
+  REQUIRE(one.models.size() == 3);
+  CHECK(one.models[0].name == "tanh_kwok");
+  for (std::size_t k = 0; k < one.models.size(); ++k) {
+    CHECK(one.models[k].name == two.models[k].name);
+    CHECK(one.models[k].left_out.pooled.esr == two.models[k].left_out.pooled.esr);
+    CHECK(format_json(one.models[k].fit.model->to_json()) == format_json(two.models[k].fit.model->to_json()));
+  }
+}
+
+TEST_CASE("the saved model is the ranked one, with its domain and where it comes from") {
+  const Dataset data = small_campaign();
+  LeaveOut by_condition;
+  const Ranking ranking = rank({"bingham"}, data, by_condition, {});
+  const ModelFile file = to_model_file(ranking.models[0], data, "dashpot identify x");
+  CHECK(file.domain.current_max == 1);
+  CHECK_CLOSE(file.domain.displacement_max, 0.01, 0.01, 0);
+  CHECK(file.provenance.training_records.size() == data.records.size());
+  const ModelFile again = parse_model(format_model(file), "again");
+  const Evaluation e = evaluate(*again.model, data.records, "A");
+  CHECK_CLOSE(e.pooled.rmse, ranking.models[0].training.pooled.rmse, 1e-3, 0);
+}
+
+TEST_CASE("a monitor stops a fit") {
+  const Dataset data = small_campaign();
+  std::atomic<bool> stop = true;
+  IdentifyOptions options;
+  options.monitor.stop = &stop;
+  for (const std::string& model : model_names()) {
+    CAPTURE(model);
+    CHECK_THROWS_AS(identify(model, data.records, "A", options), Interrupted);
+  }
+}
+
+TEST_CASE("records that cannot serve are refused in words") {
+  CHECK(message_of([] { identify("bingham", {}, "A", {}); }) == "bingham: there is no record to fit it on");
+  Dataset data = small_campaign();
+  for (Record& record : data.records)
+    std::erase_if(record.channels, [](const Channel& c) { return c.name == "displacement"; });
+  CHECK(message_of([&] { identify("tanh_kwok", data.records, "A", {}); }).find("has no displacement") !=
+        std::string::npos);
+  for (Record& record : data.records)
+    for (double& v : record.find("velocity")->samples) v = 0;
+  CHECK(message_of([&] { identify("bingham", data.records, "A", {}); }).find("no motion or no force") !=
+        std::string::npos);
+}
