@@ -48,10 +48,24 @@ std::string drive_label(const RecordResult& record, const std::string& unit) {
 
 using Series = std::vector<double> RecordResult::*;
 
+/// 1, 2 or 5 times a power of ten: at most five steps over `span`, so that labels do not touch.
+double tic_step(double span) {
+  if (!(span > 0)) return 1;
+  const double power = std::pow(10, std::floor(std::log10(span / 5)));
+  for (const double digit : {1.0, 2.0, 5.0})
+    if (span / (digit * power) <= 5) return digit * power;
+  return 10 * power;
+}
+
 /// One panel: loops of the records of one condition; lines are measured, dashes modelled.
 void loop_panel(GnuplotFigure& figure, const std::vector<const RecordResult*>& records,
                 const std::string& unit, Series axis) {
   const std::string x = axis == &RecordResult::displacement ? "(1000*$1)" : "1";  // mm are shorter in print
+  double low = 0, high = 0;
+  for (const RecordResult* record : records)
+    for (const double value : record->*axis) low = std::min(low, value), high = std::max(high, value);
+  const double scale = axis == &RecordResult::displacement ? 1000 : 1;
+  figure.command(fmt::format("set xtics {}", tic_step(scale * (high - low))));
   std::vector<std::string> measured, modelled;
   for (std::size_t i = 0; i < records.size(); ++i) {
     const std::string data = add_curves(figure, *records[i], records[i]->*axis);

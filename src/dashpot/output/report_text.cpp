@@ -12,7 +12,7 @@ namespace dashpot {
 namespace {
 
 std::string seconds_text(double seconds) {
-  return seconds < 1 ? number_text(1000 * seconds, 2) + " ms" : number_text(seconds, 2) + " s";
+  return seconds < 1 ? fmt::format("{:.0f} ms", 1000 * seconds) : number_text(seconds, 2) + " s";
 }
 
 std::string status_text(const RankedModel& model) {
