@@ -5,9 +5,10 @@
 namespace dashpot {
 
 extern const Law kModifiedBoucWen;
-const Law kModifiedBoucWen = with_step<ModifiedBoucWen, modified_bouc_wen_step>(state_law<
-    ModifiedBoucWen, modified_bouc_wen_force, modified_bouc_wen_derivative, modified_bouc_wen_rest,
-    modified_bouc_wen_rate>({
+const Law kModifiedBoucWen = with_step<
+    ModifiedBoucWen,
+    modified_bouc_wen_step>(state_law<ModifiedBoucWen, modified_bouc_wen_force, modified_bouc_wen_derivative,
+                                      modified_bouc_wen_rest, modified_bouc_wen_rate>({
     .name = "modified_bouc_wen",
     .title = "Modified Bouc-Wen (Spencer)",
     .equation = "y' = (alpha z + c0 v + k0 (x - y)) / (c0 + c1)\n"

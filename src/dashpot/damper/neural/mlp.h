@@ -35,7 +35,7 @@ struct TrainingSamples {
 
 struct TrainOptions {
   int max_iterations = 400;
-  double tolerance = 1e-5;     ///< stop when the cost falls by less than this share over 5 steps
+  double tolerance = 1e-5;  ///< stop when the cost falls by less than this share over 5 steps
   /// On standardised weights, relative to the mean squared error of 1. With less, networks that saw three
   /// levels of current invent forces between them; with more, they round off the knee.
   double weight_decay = 3e-4;
