@@ -38,10 +38,11 @@ function category_ticks(axis) {
   };
 }
 
-// As many decimals as the distance of the ticks asks for.
+// As many decimals as the ticks need: quarters need two.
 function tick_text(ticks) {
-  const step = ticks.length > 1 ? Math.abs(ticks[1] - ticks[0]) : 1;
-  const decimals = Math.min(8, Math.max(0, Math.ceil(-Math.log10(step) - 1e-9)));
+  const is_round = (value, decimals) => Math.abs(value * 10 ** decimals - Math.round(value * 10 ** decimals)) < 1e-6;
+  let decimals = 0;
+  while (decimals < 8 && !ticks.every((value) => value === null || is_round(value, decimals))) decimals++;
   return (value) => value === null ? "" : (value === 0 ? "0" : value.toFixed(decimals).replace("-", "−"));
 }
 

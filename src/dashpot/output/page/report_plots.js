@@ -14,7 +14,7 @@ const kLoopNote = "Lines: measured. Dashes: modelled.";
 
 function closer_plots(report) {
   return {
-    force: new Plot("Force in time", "The shaded part is simulated but not scored.", kHelp),
+    force: new Plot("Force in time", "Where its start is shaded, it is simulated but not scored.", kHelp),
     force_velocity: new Plot("Force against velocity", kLoopNote),
     force_displacement: new Plot("Force against displacement", kLoopNote),
     residual: new Plot("Residual in time"),
@@ -42,7 +42,8 @@ function force_spec(own) {
     {label: "measured", x: own.time, y: own.measured, colour: colour("measured"), width: 2.2},
     {label: `modelled, ${outcome}`, short: "modelled", x: own.time, y: own.modelled, colour: colour("modelled"), width: 1.4},
   ] : [];
-  return {x: {label: "Time (s)"}, y: {label: "Force (N)"}, nearest: "x", height: 340, series, shade_until: own?.result.scored_from};
+  return {x: {label: "Time (s)"}, y: {label: "Force (N)"}, nearest: "x", height: 340, series,
+    shade_until: own?.result.scored_from > own?.time[0] ? own.result.scored_from : null};
 }
 
 // Loops of all records of the chosen motion: lines are measured, dashes modelled, colour is the drive.
@@ -73,7 +74,8 @@ function drive_text(report, {record, drive_level}) {
 function residual_spec(own) {
   const series = own ? [{label: "measured − modelled", x: own.time, y: difference(own.measured, own.modelled),
     colour: colour("modelled"), width: 1}] : [];
-  return {x: {label: "Time (s)"}, y: {label: "Residual (N)"}, nearest: "x", series, shade_until: own?.result.scored_from};
+  return {x: {label: "Time (s)"}, y: {label: "Residual (N)"}, nearest: "x", series,
+    shade_until: own?.result.scored_from > own?.time[0] ? own.result.scored_from : null};
 }
 
 function histogram_spec(statistics) {
