@@ -6,6 +6,7 @@
 #include <mutex>
 #include <sched.h>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace dashpot {
@@ -16,41 +17,68 @@ int default_threads() {
   return static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
 }
 
+namespace {
+
+/// Hands out task numbers and keeps the exception of the lowest failing one.
+class Farm {
+ public:
+  Farm(std::size_t count, const std::function<void(std::size_t)>& task) : count_(count), task_(task) {}
+
+  void work() {
+    for (std::size_t k; (k = next_.fetch_add(1)) < count_;) {
+      try {
+        task_(k);
+      } catch (...) {
+        keep(k, std::current_exception());
+      }
+    }
+  }
+
+  void rethrow() const {
+    if (failure_) std::rethrow_exception(failure_);
+  }
+
+ private:
+  void keep(std::size_t k, std::exception_ptr failure) {
+    const std::lock_guard lock(guard_);
+    next_ = count_;  // start nothing more
+    if (k >= failed_at_) return;
+    failed_at_ = k;
+    failure_ = std::move(failure);
+  }
+
+  std::size_t count_;
+  const std::function<void(std::size_t)>& task_;
+  std::atomic<std::size_t> next_ = 0;
+  std::mutex guard_;
+  std::exception_ptr failure_;
+  std::size_t failed_at_ = static_cast<std::size_t>(-1);
+};
+
+// A farm inside a task would start threads on top of threads: inner loops run where they are.
+thread_local bool inside_a_task = false;
+
+}  // namespace
+
 void parallel_for(std::size_t count, int threads, const std::function<void(std::size_t)>& task) {
-  // A farm inside a task would start threads on top of threads: inner loops run where they are.
-  thread_local bool inside = false;
-  const std::size_t wanted = inside ? 1 : static_cast<std::size_t>(threads > 0 ? threads : default_threads());
+  const auto wanted = inside_a_task ? 1 : static_cast<std::size_t>(threads > 0 ? threads : default_threads());
   const std::size_t workers = std::min(count, wanted);
   if (workers <= 1) {
     for (std::size_t k = 0; k < count; ++k) task(k);
     return;
   }
-  std::atomic<std::size_t> next = 0;
-  std::mutex guard;
-  std::exception_ptr failure;
-  std::size_t failed_at = count;
-  const auto work = [&] {
-    inside = true;
-    for (std::size_t k; (k = next.fetch_add(1)) < count;) {
-      try {
-        task(k);
-      } catch (...) {
-        const std::lock_guard lock(guard);
-        if (k < failed_at) {
-          failed_at = k;
-          failure = std::current_exception();
-        }
-        next = count;  // start nothing more
-      }
-    }
-    inside = false;
+  Farm farm(count, task);
+  const auto work = [&farm] {
+    inside_a_task = true;
+    farm.work();
+    inside_a_task = false;
   };
   {
     std::vector<std::jthread> pool;
     for (std::size_t k = 1; k < workers; ++k) pool.emplace_back(work);
     work();
   }
-  if (failure) std::rethrow_exception(failure);
+  farm.rethrow();
 }
 
 }  // namespace dashpot

@@ -111,7 +111,7 @@ double ObjectReader::number(std::string_view key, double fallback) {
   return found ? found->as_number() : fallback;
 }
 
-std::string ObjectReader::string(std::string_view key, std::string fallback) {
+std::string ObjectReader::string(std::string_view key, const std::string& fallback) {
   const Value* found = optional(key);
   return found ? found->as_string() : fallback;
 }

@@ -15,6 +15,7 @@ class Value {
   using Member = std::pair<std::string, Value>;
 
   Value() = default;
+  // Written like JSON, so converting: NOLINTBEGIN(google-explicit-constructor)
   Value(bool value) : kind_(Kind::Bool), bool_(value) {}
   Value(double value) : kind_(Kind::Number), number_(value) {}
   Value(int value) : Value(static_cast<double>(value)) {}
@@ -22,6 +23,7 @@ class Value {
   Value(std::string value) : kind_(Kind::String), string_(std::move(value)) {}
   Value(std::string_view value) : Value(std::string(value)) {}
   Value(const char* value) : Value(std::string(value)) {}
+  // NOLINTEND(google-explicit-constructor)
 
   static Value array(std::vector<Value> items = {});
   static Value array(const std::vector<double>& numbers);
@@ -67,7 +69,7 @@ class ObjectReader {
   const Value& required(std::string_view key);  ///< throws when absent
   double number(std::string_view key, double fallback);
   double number(std::string_view key);
-  std::string string(std::string_view key, std::string fallback);
+  std::string string(std::string_view key, const std::string& fallback);
   std::string string(std::string_view key);
   bool boolean(std::string_view key, bool fallback);
 

@@ -43,10 +43,10 @@ void rk4_step(const Law& law, const InputPath& path, const StageParams& p, doubl
 }
 
 /// The law's own step, `count` times; false where the law has none for these parameters.
-bool own_steps(const LawModel& model, const InputPath& path, double count, double h, double* z) noexcept {
+bool own_steps(const LawModel& model, const InputPath& path, int count, double h, double* z) noexcept {
   if (!model.law().step) return false;
   Params middle;
-  for (double k = 0; k < count; ++k) {
+  for (int k = 0; k < count; ++k) {
     const double t = k * h;
     model.parameters_at(path.current(t + h / 2), middle.data());
     const double x[] = {path.displacement(t), path.displacement(t + h)};
@@ -71,12 +71,12 @@ void integrate(const LawModel& model, const InputPath& path, double dt, double* 
   }
   const double wanted = std::ceil(rate * dt / kStepLimit);
   if (wanted > kManySubsteps) {
-    const double count = 1 + std::ceil(std::min(wanted, kMaxSubsteps) / kOwnStepRatio);
+    const int count = 1 + static_cast<int>(std::ceil(std::min(wanted, kMaxSubsteps) / kOwnStepRatio));
     if (own_steps(model, path, count, dt / count, z)) return;
   }
-  const double count = wanted > 1 ? std::min(wanted, kMaxSubsteps) : 1;  // 1 for NaN too
+  const int count = wanted > 1 ? static_cast<int>(std::min(wanted, kMaxSubsteps)) : 1;  // 1 for NaN too
   const double h = dt / count;
-  for (double k = 0; k < count; ++k) {
+  for (int k = 0; k < count; ++k) {
     if (!varies) {
       rk4_step(law, path, {start.data(), start.data(), start.data()}, k * h, h, z);
       continue;

@@ -18,7 +18,7 @@ constexpr std::string_view kOneSensorPaper =
     "Tudon-Martinez et al., the one-sensor paper: static network 8.22 % and 4.38 % (rms / half span)";
 
 const std::array<NetworkPreset, 2>& presets() {
-  static const std::array<NetworkPreset, 2> list{{
+  static const std::array<NetworkPreset, 2> kPresets{{
       {.name = "mlp_one_sensor",
        .title = "Static network, one sensor",
        .equation = "F = w2 . tanh(W1 [v, i] + b1) + b2",
@@ -38,7 +38,7 @@ const std::array<NetworkPreset, 2>& presets() {
        .inputs = {"displacement", "velocity", "current"},
        .hidden = {10}},
   }};
-  return list;
+  return kPresets;
 }
 
 const Law* law_named(std::string_view name) {

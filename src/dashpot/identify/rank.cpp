@@ -2,6 +2,7 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "dashpot/base/error.h"
@@ -135,7 +136,8 @@ class RankingRun {
 
 Domain domain_of(const std::vector<Record>& records, std::string_view drive_unit) {
   const DriveRange drive = drive_range(records, drive_unit);
-  Domain domain{INFINITY, -INFINITY, INFINITY, -INFINITY, drive.low, drive.high};
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  Domain domain{kInfinity, -kInfinity, kInfinity, -kInfinity, drive.low, drive.high};
   for (const Record& record : records)
     for (const DamperInput& input : damper_inputs(record, drive_unit)) {
       domain.displacement_min = std::min(domain.displacement_min, input.displacement);
