@@ -27,7 +27,7 @@ struct Workspace {
   std::vector<double> gram;           // jacobian * jacobian' of one group, upper triangle of tiles
   std::size_t parameters = 0;
 
-  Workspace(const std::vector<std::size_t>& layers)
+  explicit Workspace(const std::vector<std::size_t>& layers)
       : activations(std::accumulate(layers.begin(), layers.end(), std::size_t{0})),
         parameters(Mlp::parameter_count(layers)) {
     jacobian.resize((parameters + 1 + kTile - 1) / kTile * kTile);
