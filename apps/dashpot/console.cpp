@@ -1,6 +1,7 @@
 #include "console.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdlib>
 #include <unistd.h>
 
@@ -38,6 +39,11 @@ std::string coloured(std::string_view text, std::string_view colour, int stream)
   return has_colour(stream) ? fmt::format("\x1b[{}m{}\x1b[0m", colour, text) : std::string(text);
 }
 
+void put(std::string_view text, std::FILE* stream) {
+  const std::string safe = terminal_text(text);
+  std::fwrite(safe.data(), 1, safe.size(), stream);
+}
+
 }  // namespace
 
 Console::Console(std::string command_line, const std::atomic<bool>& stop)
@@ -49,8 +55,7 @@ Console::Console(std::string command_line, const std::atomic<bool>& stop)
 void Console::print(std::string_view text) {
   progress_.clear();
   if (json && quiet) return;
-  std::FILE* stream = json ? stderr : stdout;
-  std::fwrite(text.data(), 1, text.size(), stream);
+  put(text, json ? stderr : stdout);
 }
 
 void Console::print_json(const Value& value) {
@@ -64,7 +69,7 @@ void Console::talk(std::string_view text) {
   if (quiet) return;
   progress_.clear();
   std::fflush(stdout);
-  std::fwrite(text.data(), 1, text.size(), stderr);
+  put(text, stderr);
 }
 
 void Console::note(std::string_view text) {
@@ -78,7 +83,7 @@ void Console::error(std::string_view text) { message("error", "1;31", text); }
 void Console::message(std::string_view label, std::string_view colour, std::string_view text) {
   progress_.clear();
   std::fflush(stdout);  // keeps the order where both streams go to one terminal
-  fmt::print(stderr, "{}: {}\n", coloured(label, colour, STDERR_FILENO), text);
+  put(fmt::format("{}: {}\n", coloured(label, colour, STDERR_FILENO), text), stderr);
 }
 
 Monitor Console::monitor() {
@@ -94,8 +99,10 @@ void Console::check_stop() const {
 
 void Console::finish() {
   progress_.clear();
-  if (std::fflush(stdout) != 0 || std::ferror(stdout))
-    throw Error("standard output", "cannot be written", "is the disk full?");
+  errno = 0;
+  if (std::fflush(stdout) == 0 && !std::ferror(stdout)) return;
+  if (errno == EPIPE) throw ReaderGone();
+  throw Error("standard output", "cannot be written", "is the disk full?");
 }
 
 std::string Console::bold(std::string_view text) const { return coloured(text, "1", STDOUT_FILENO); }

@@ -10,6 +10,9 @@
 
 namespace dashpot::cli {
 
+/// Who read stdout through a pipe wants no more: `| head`.
+struct ReaderGone {};
+
 /// Where the program talks. Results go to stdout, all talk about the work to stderr; with --json, stdout
 /// holds the JSON text alone.
 class Console {
@@ -35,7 +38,7 @@ class Console {
   Monitor monitor();
   /// Throws Interrupted when the user asked to stop.
   void check_stop() const;
-  /// Throws Error when stdout could not take what was printed.
+  /// Throws Error when stdout could not take what was printed, ReaderGone when its reader has left.
   void finish();
 
   int width() const { return width_; }  ///< columns for results

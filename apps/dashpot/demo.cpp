@@ -62,6 +62,7 @@ int run(const Settings& settings, Console& console) {
   CampaignSettings campaign = settings.campaign;
   campaign.bench.seed = settings.fit.options.seed;
   const ParameterSet damper = load_parameter_set(campaign.damper);
+  prepare_results(settings.results);
   console.talk("Virtual test bench: " + damper.damper + "\n  " + damper.source + '\n');
   const auto statement = write_campaign(run_campaign(campaign, damper), damper,
                                         settings.results.folder + "/recordings", console.command_line());

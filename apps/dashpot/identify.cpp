@@ -43,6 +43,7 @@ std::optional<LeaveOut> stated_leave_out(const std::string& text) {
 int run(const Settings& settings, Console& console) {
   const std::optional<LeaveOut> stated = stated_leave_out(settings.leave_out);
   const Dataset dataset = load_recordings(settings.data, console);
+  prepare_results(settings.results);
   const LeaveOut leave_out = stated.value_or(dataset.leave_out.value_or(LeaveOut{}));
   console.talk("judged by leaving out: " + format_leave_out(leave_out) + '\n');
   const Ranking ranking = rank(chosen_models(settings.fit, dataset, console), dataset, leave_out,

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <atomic>
 #include <csignal>
+#include <fcntl.h>
 #include <iterator>
 #include <new>
 #include <unistd.h>
@@ -29,6 +30,14 @@ void catch_signals() {
   action.sa_handler = on_signal;
   for (const int number : {SIGINT, SIGTERM}) sigaction(number, &action, nullptr);
   std::signal(SIGXFSZ, SIG_IGN);  // a limit on file size is then an error with a message
+  std::signal(SIGPIPE, SIG_IGN);  // results are written although nobody reads the table
+}
+
+/// A file opened later must not become a closed standard stream: the table would end up in the report.
+/// Opened for the wrong direction, so that using the stream is an error still.
+void hold_standard_streams() {
+  for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (fcntl(descriptor, F_GETFD) < 0) open("/dev/null", descriptor == STDIN_FILENO ? O_WRONLY : O_RDONLY);
 }
 
 Command find_command(const std::string& name) {
@@ -85,6 +94,8 @@ int run_and_explain(const std::vector<std::string>& words, Console& console) {
     const int code = run(words, console);
     console.finish();
     return code;
+  } catch (const ReaderGone&) {
+    return 128 + SIGPIPE;
   } catch (const Interrupted&) {
     console.error("interrupted; files that were being written stand as they were before");
     return 128 + stop_signal;
@@ -107,6 +118,7 @@ int run_and_explain(const std::vector<std::string>& words, Console& console) {
 
 int main(int argc, char** argv) {
   using namespace dashpot::cli;
+  hold_standard_streams();
   catch_signals();
   const std::vector<std::string> words(argv + 1, argv + argc);
   std::string line = "dashpot";

@@ -1,7 +1,10 @@
 #include "results.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <ctime>
+#include <system_error>
+#include <unistd.h>
 
 #include <fmt/core.h>
 
@@ -77,6 +80,15 @@ void print_results(const ReportInput& input, Console& console) {
                   parameter_table(best.fit));
   for (const RankedModel& ranked : input.ranking.models)
     for (const std::string& warning : ranked.fit.warnings) console.warn(ranked.name + ": " + warning);
+}
+
+void prepare_results(const ResultSettings& settings) {
+  const fs::path models = fs::path(settings.folder) / "models";
+  make_folder(models);
+  for (const fs::path& folder : {fs::path(settings.folder), models})
+    if (access(folder.c_str(), W_OK | X_OK) != 0)
+      throw Error(folder.string(), "no file can be written there: " + std::generic_category().message(errno),
+                  "give a folder of your own with --output");
 }
 
 void write_results(const ReportInput& input, const ResultSettings& settings, Console& console) {

@@ -21,6 +21,9 @@ std::vector<Option> result_options(ResultSettings& settings);
 /// The ranking, the best model's parameters and what to beware of.
 void print_results(const ReportInput& input, Console& console);
 
+/// Makes the folder, so that hours of fitting do not end at one that cannot be written.
+void prepare_results(const ResultSettings& settings);
+
 /// Writes model files, report and figures, and prints where they are.
 void write_results(const ReportInput& input, const ResultSettings& settings, Console& console);
 

@@ -29,6 +29,13 @@ TEST_CASE("bytes that are not UTF-8 become U+FFFD, one each") {
   CHECK(valid_utf8("end \xE2\x82") == "end " + bad + bad);         // cut off
 }
 
+TEST_CASE("on a terminal only colours remain of control characters") {
+  CHECK(terminal_text("a\tb\n\x1b[1;31mred\x1b[0m ΔF") == "a\tb\n\x1b[1;31mred\x1b[0m ΔF");
+  CHECK(terminal_text("\x1b[2J\x1b]0;title\x07\r\x7f") == "?[2J?]0;title???");
+  CHECK(terminal_text("\x1b") == "?");
+  CHECK(terminal_text("end\x1b[") == "end?[");
+}
+
 TEST_CASE("what JSON cannot hold becomes null, however deep") {
   const Value value = Value::object({{"a", Value::array(std::vector<double>{1, std::nan("")})},
                                      {"b", std::numeric_limits<double>::infinity()},

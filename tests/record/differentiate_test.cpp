@@ -52,6 +52,8 @@ TEST_CASE("the cut-off is ten times the frequency of the motion, within its limi
   CHECK_CLOSE(choose_cutoff_hz(sine(0.01, 0.5, 0.001, 20000), 0.001), 10, 1e-12, 0);  // lowest
   CHECK_CLOSE(choose_cutoff_hz(sine(0.01, 5, 0.01, 2000), 0.01), 40, 1e-12, 0);       // 0.4 / dt
   CHECK_CLOSE(choose_cutoff_hz(std::vector<double>(50, 1.0), 0.001), 10, 1e-12, 0);   // no motion
+  // A record of 2.5 million samples is looked at in three parts.
+  CHECK_CLOSE(choose_cutoff_hz(sine(0.01, 5, 0.0005, 2'500'000), 0.0005), 50, 0.02, 0);
   std::vector<double> noisy = sine(0.01, 5, 0.001, 20000);
   Random random(1);
   for (double& x : noisy) x += 1e-4 * random.normal();  // 0.02 % of the power

@@ -98,12 +98,14 @@ std::string read_file(const fs::path& path) {
   return content;
 }
 
+void make_folder(const fs::path& path) {
+  std::error_code error;
+  fs::create_directories(path, error);
+  if (error) throw Error(path.string(), "cannot make this folder: " + error.message());
+}
+
 void write_file(const fs::path& path, std::string_view content) {
-  if (path.has_parent_path()) {
-    std::error_code error;
-    fs::create_directories(path.parent_path(), error);
-    if (error) throw Error(path.parent_path().string(), "cannot make this folder: " + error.message());
-  }
+  if (path.has_parent_path()) make_folder(path.parent_path());
   TemporaryFile file(path);
   file.write(content);
   file.rename_to_final();

@@ -12,6 +12,9 @@ std::string read_file(const std::filesystem::path& path);
 /// write) throws Error and the old file stands unchanged. Makes missing folders.
 void write_file(const std::filesystem::path& path, std::string_view content);
 
+/// With all its parents; nothing happens when it is there. Throws Error when it cannot be made.
+void make_folder(const std::filesystem::path& path);
+
 /// SHA-256 of the file's bytes, in hexadecimal.
 std::string sha256_of_file(const std::filesystem::path& path);
 

@@ -26,10 +26,23 @@ std::string_view name_of(Value::Kind kind) {
   return "";
 }
 
-void require_kind(const Value& value, Value::Kind wanted) {
+/// `what` names the value where its place does not: "'scale' ".
+void require_kind(const Value& value, Value::Kind wanted, const std::string& what = {}) {
   if (value.kind() == wanted) return;
   throw Error(value.where(),
-              "is " + std::string(name_of(value.kind())) + ", not " + std::string(name_of(wanted)));
+              what + "is " + std::string(name_of(value.kind())) + ", not " + std::string(name_of(wanted)));
+}
+
+std::string quoted(std::string_view key) { return "'" + std::string(key) + "' "; }
+
+double number_of(const Value& value, std::string_view key) {
+  require_kind(value, Value::Kind::Number, quoted(key));
+  return value.as_number();
+}
+
+std::string string_of(const Value& value, std::string_view key) {
+  require_kind(value, Value::Kind::String, quoted(key));
+  return value.as_string();
 }
 
 }  // namespace
@@ -103,22 +116,24 @@ const Value& ObjectReader::required(std::string_view key) {
   throw Error(value_.where(), what_ + " needs '" + std::string(key) + "'");
 }
 
-double ObjectReader::number(std::string_view key) { return required(key).as_number(); }
-std::string ObjectReader::string(std::string_view key) { return required(key).as_string(); }
+double ObjectReader::number(std::string_view key) { return number_of(required(key), key); }
+std::string ObjectReader::string(std::string_view key) { return string_of(required(key), key); }
 
 double ObjectReader::number(std::string_view key, double fallback) {
   const Value* found = optional(key);
-  return found ? found->as_number() : fallback;
+  return found ? number_of(*found, key) : fallback;
 }
 
 std::string ObjectReader::string(std::string_view key, const std::string& fallback) {
   const Value* found = optional(key);
-  return found ? found->as_string() : fallback;
+  return found ? string_of(*found, key) : fallback;
 }
 
 bool ObjectReader::boolean(std::string_view key, bool fallback) {
   const Value* found = optional(key);
-  return found ? found->as_bool() : fallback;
+  if (!found) return fallback;
+  require_kind(*found, Value::Kind::Bool, quoted(key));
+  return found->as_bool();
 }
 
 void ObjectReader::finish() const {

@@ -115,7 +115,9 @@ Value parse_json(std::string_view text, const std::string& source) {
 
 std::string format_json(const Value& value, bool pretty) {
   try {
-    return to_json(value).dump(pretty ? 2 : -1) + (pretty ? "\n" : "");
+    // File names may hold bytes that are not UTF-8: they must not cost anybody a result.
+    constexpr auto kReplace = Json::error_handler_t::replace;
+    return to_json(value).dump(pretty ? 2 : -1, ' ', false, kReplace) + (pretty ? "\n" : "");
   } catch (const Json::exception& error) {
     throw Error("", std::string("cannot be written as JSON: ") + error.what());
   }

@@ -131,9 +131,14 @@ ModelFile parse_model(std::string_view text, const std::string& source) {
   const Value& kind = reader.required("kind");
   file.drive_unit = reader.string("drive_unit");
   file.sample_time = reader.number("sample_time");
+  if (!(file.sample_time >= 0))
+    throw Error(reader.required("sample_time").where(), "is negative", "seconds, or 0 when it varied");
   file.domain = read_domain(reader.required("domain"), file.drive_unit);
   file.model = read_model(kind, reader.required("model"), file);
-  if (const Value* quality = reader.optional("quality")) file.quality = *quality;
+  if (const Value* quality = reader.optional("quality")) {
+    ObjectReader(*quality, "the quality");  // any keys, but a mapping
+    file.quality = *quality;
+  }
   file.provenance = read_provenance(reader.required("provenance"));
   reader.finish();
   return file;

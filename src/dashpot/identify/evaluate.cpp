@@ -17,6 +17,14 @@ std::string_view drive_channel(std::string_view drive_unit) {
   return drive_unit == "V" ? "voltage" : "current";
 }
 
+const std::vector<double>& drive_samples(const Record& record, std::string_view drive_unit) {
+  const std::string_view name = drive_channel(drive_unit);
+  if (const Channel* drive = record.find(name)) return drive->samples;
+  throw Error(record.name, "has no known " + std::string(name),
+              "give it as a column, in the file name (run_0.5" + std::string(drive_unit) +
+                  ".csv), in manifest.csv or in a dataset file");
+}
+
 const double* known_offset(const EvaluateOptions& options, const std::string& record) {
   for (const auto& [name, offset] : options.known_offsets)
     if (name == record) return &offset;
@@ -57,7 +65,7 @@ RecordResult evaluate_record(const DamperModel& model, const Record& record, std
   result.time = record.time;
   result.measured = record.channel("force").samples;
   result.velocity = record.channel("velocity").samples;
-  result.drive = record.channel(drive_channel(drive_unit)).samples;
+  result.drive = drive_samples(record, drive_unit);
   if (const Channel* displacement = record.find("displacement")) result.displacement = displacement->samples;
 
   FreeRun run = free_run(model, damper_inputs(record, drive_unit), record.time);
@@ -135,7 +143,7 @@ Evaluation summarise(std::vector<RecordResult> records) {
 
 std::vector<DamperInput> damper_inputs(const Record& record, std::string_view drive_unit) {
   const std::vector<double>& velocity = record.channel("velocity").samples;
-  const std::vector<double>& drive = record.channel(drive_channel(drive_unit)).samples;
+  const std::vector<double>& drive = drive_samples(record, drive_unit);
   const Channel* displacement = record.find("displacement");
   std::vector<DamperInput> inputs(record.size());
   for (std::size_t k = 0; k < inputs.size(); ++k)
@@ -147,7 +155,7 @@ DriveRange drive_range(const std::vector<Record>& records, std::string_view driv
   DriveRange range;
   std::vector<double> samples, levels;
   for (const Record& record : records) {
-    const std::vector<double>& drive = record.channel(drive_channel(drive_unit)).samples;
+    const std::vector<double>& drive = drive_samples(record, drive_unit);
     samples.insert(samples.end(), drive.begin(), drive.end());
     if (record.drive_level)
       levels.push_back(*record.drive_level);

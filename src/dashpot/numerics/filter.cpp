@@ -73,8 +73,10 @@ std::vector<double> filter_zero_phase(const std::vector<Biquad>& sections, std::
     filter_forward(sections, y);
     std::reverse(y.begin(), y.end());
   }
-  const auto first = y.begin() + static_cast<std::ptrdiff_t>(margin);
-  return {first, first + static_cast<std::ptrdiff_t>(x.size())};
+  // Cut in place: a second copy of a long record would cost its size again.
+  y.resize(margin + x.size());
+  y.erase(y.begin(), y.begin() + static_cast<std::ptrdiff_t>(margin));
+  return y;
 }
 
 }  // namespace dashpot

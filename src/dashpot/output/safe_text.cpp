@@ -103,6 +103,19 @@ std::string valid_utf8(std::string_view text) {
   return result;
 }
 
+std::string terminal_text(std::string_view text) {
+  std::string result = valid_utf8(text);
+  for (std::size_t k = 0; k < result.size(); ++k) {
+    const auto c = static_cast<unsigned char>(result[k]);
+    if ((c >= ' ' && c != 0x7F) || c == '\n' || c == '\t') continue;
+    const std::size_t end = result.find_first_not_of("0123456789;", k + 2);
+    const bool colour =
+        c == 0x1B && result.substr(k + 1, 1) == "[" && end != std::string::npos && result[end] == 'm';
+    if (!colour) result[k] = '?';
+  }
+  return result;
+}
+
 Value presentable(const Value& value) {
   switch (value.kind()) {
     case Value::Kind::Number:

@@ -24,6 +24,10 @@ std::string csv_field(std::string_view text);
 /// The text with every byte that is not UTF-8 replaced by U+FFFD: record names come from file names.
 std::string valid_utf8(std::string_view text);
 
+/// Text for a terminal: valid UTF-8, and no control character but line ends, tabs and colours becomes
+/// effective, since names come from files.
+std::string terminal_text(std::string_view text);
+
 /// The value as JSON can hold it: numbers that are not finite become null, text becomes valid UTF-8.
 Value presentable(const Value& value);
 

@@ -71,9 +71,7 @@ std::string set_time(Record& record, RawTable& table, const ColumnUses& uses,
     record.sample_time = uniform_step(record.time) * use->factor;
     for (double& stamp : record.time) stamp = use->factor * (stamp - use->raw_offset);
     if (!(record.sample_time > 0)) return "not uniform: kept as it is";
-    const double start = record.time[0];
-    record.time = uniform_time(record.time.size(), record.sample_time);
-    for (double& stamp : record.time) stamp += start;
+    make_uniform(record.time, record.time[0], record.sample_time);
     return "uniform within the printed digits";
   }
   if (!step && (step = table.sample_time)) basis = "row times the file's sampling interval";
@@ -82,8 +80,24 @@ std::string set_time(Record& record, RawTable& table, const ColumnUses& uses,
     throw Error(table.file, "no column is time by its name (it has " + table.column_list() + ")",
                 "state in a dataset file 'time: {sample_rate: 1000}' or 'time: {column: NAME, unit: s}'");
   record.sample_time = *step;
-  record.time = uniform_time(table.rows(), *step);
+  record.time.resize(table.rows());
+  make_uniform(record.time, 0, *step);
   return basis;
+}
+
+/// Squares and products of such numbers leave the range of a double, and no damper has them.
+void require_scale(const Channel& channel, const RawTable& table, const ColumnUse& use) {
+  constexpr double kLargest = 1e30, kSmallest = 1e-30;
+  double largest = 0;
+  for (const double value : channel.samples) largest = std::max(largest, std::abs(value));
+  const bool measured =
+      channel.name == "force" || channel.name == "displacement" || channel.name == "velocity";
+  if (largest <= kLargest && (largest == 0 || largest >= kSmallest || !measured)) return;
+  throw Error(table.file,
+              channel.name + " (" + label(table.columns[use.column], use.column) + ") reaches " +
+                  format_number(largest) + " " + channel.unit + ", which no test gives",
+              "state its unit or scale in a dataset file: 'channels: {" + channel.name +
+                  ": {column: NAME, unit: UNIT}}'");
 }
 
 void take_channels(Record& record, RawTable& table, const ColumnUses& uses) {
@@ -95,6 +109,7 @@ void take_channels(Record& record, RawTable& table, const ColumnUses& uses) {
     if (use.unit != use.si_unit) channel.origin += ", " + use.unit + " -> " + use.si_unit;
     if (use.factor < 0) channel.origin += ", sign flipped";
     for (double& value : channel.samples) value = use.factor * (value - use.raw_offset);
+    require_scale(channel, table, use);
     record.channels.push_back(std::move(channel));
   }
 }
@@ -127,7 +142,7 @@ void cut(Record& record, const FileStatement& statement) {
   const std::string note =
       "cut to " + format_number(record.time[first], 6) + "..." + format_number(record.time[last - 1], 6) +
       " s" + (statement.cut_rest ? ", without the rest before and after the motion" : ", as stated");
-  record = record.slice(first, last);
+  record.keep(first, last);
   record.notes.push_back(note);
 }
 
@@ -155,9 +170,13 @@ void add_velocity(Record& record, const BuildContext& context) {
   if (!(cutoff > 0) && context.velocity_cutoff_hz > 0)
     cutoff = context.velocity_cutoff_hz, basis = "as asked";
   if (!(cutoff > 0)) cutoff = choose_cutoff_hz(x, record.sample_time), basis = "chosen from the motion";
-  record.channels.push_back(
-      {"velocity", "m/s", differentiate_zero_phase(x, record.sample_time, cutoff),
-       "derived from displacement, " + format_number(cutoff, 3) + " Hz zero-phase (" + basis + ")"});
+  try {
+    record.channels.push_back(
+        {"velocity", "m/s", differentiate_zero_phase(x, record.sample_time, cutoff),
+         "derived from displacement, " + format_number(cutoff, 3) + " Hz zero-phase (" + basis + ")"});
+  } catch (const Error& error) {
+    throw Error(record.source, error.what());
+  }
 }
 
 /// A damper takes energy out. When nobody stated the sign of the force and it puts energy in, it is
@@ -179,15 +198,28 @@ void settle_sign(Record& record, const ColumnUses& uses) {
       "force sign flipped: as recorded the damper would put energy in (state 'sign: 1' to keep it)");
 }
 
-/// A unit that was assumed and cannot be right: no test bench strokes 2 m.
+/// What dampers on test benches span, generously: beyond it the unit is doubtful, and only that.
+struct UsualSpan {
+  std::string_view channel;
+  double least, most;  ///< SI
+  std::string_view unit;
+};
+constexpr UsualSpan kUsualSpans[] = {{"displacement", 1e-4, 2, "mm"}, {"force", 2, 2e6, "kN"}};
+
 void doubt_units(Record& record, const ColumnUses& uses) {
-  const ColumnUse* use = find_use(uses, "displacement");
-  if (!use || use->basis.find("assumed") == std::string::npos) return;
-  const auto& x = record.channel("displacement").samples;
-  const auto [low, high] = std::minmax_element(x.begin(), x.end());
-  if (*high - *low > 2)
-    record.notes.push_back("displacement spans " + format_number(*high - *low) +
-                           " m: its unit was assumed and is wrong; state 'unit: mm'");
+  for (const UsualSpan& usual : kUsualSpans) {
+    const ColumnUse* use = find_use(uses, usual.channel);
+    if (!use) continue;
+    const Channel& channel = record.channel(usual.channel);
+    const auto [low, high] = std::minmax_element(channel.samples.begin(), channel.samples.end());
+    const double span = *high - *low;
+    if (span == 0 || (span >= usual.least && span <= usual.most)) continue;
+    const bool assumed = use->basis.find("assumed") != std::string::npos;
+    record.notes.push_back(channel.name + " spans " + format_number(span) + " " + channel.unit +
+                           ": is its unit " + use->unit + " right? It was " +
+                           (assumed ? "assumed" : "taken from the file") +
+                           "; a dataset file states it: 'unit: " + std::string(usual.unit) + "'");
+  }
 }
 
 void add_drive(Record& record, const std::optional<KnownLevel>& level) {
@@ -250,6 +282,7 @@ BuiltRecord build_record(RawTable table, const BuildContext& context) {
                            context.statement->conditions.end());
   record.notes = table.notes;
   built.readings = readings_of(table, uses, set_time(record, table, uses, *context.statement));
+  for (const auto& [column, why] : uses.unused) std::vector<double>().swap(table.columns[column].values);
   take_channels(record, table, uses);
   cut(record, *context.statement);
   if (context.statement->resample_hz) resample(record, *context.statement->resample_hz);

@@ -72,6 +72,8 @@ class Loader {
     const bool is_manifest = !manifest_.empty() && fs::equivalent(file.path, manifest_.path());
     if (is_manifest) return dataset_.notes.push_back(file.relative + ": the manifest");
     if (is_dataset_file(file.path)) return;
+    if (!fs::is_regular_file(file.path))
+      return pass_over(file, "is not a regular file; save what it gives as a file first");
     if (!statement) return pass_over(file, "no 'match' in " + stated_in_ + " fits it");
     const bool stated = !stated_in_.empty();
     if (!stated && !file.named && !manifest_.empty() && !manifest_.lists(name))
@@ -185,7 +187,7 @@ class Loader {
 
   [[noreturn]] void refuse_nothing() const {
     const std::string where =
-        sources_.files.empty() ? std::string() : sources_.files.front().path.parent_path().string();
+        sources_.files.empty() ? sources_.pointed_at : sources_.files.front().path.parent_path().string();
     std::string what = sources_.files.empty()
                            ? "the folder holds no files"
                            : "no recording among " + std::to_string(sources_.files.size()) + " files";

@@ -34,6 +34,18 @@ const Channel& Record::channel(std::string_view wanted) const {
   throw Error(name, "has no channel '" + std::string(wanted) + "'", "it has " + join(names, ", "));
 }
 
+void Record::keep(std::size_t first, std::size_t last) {
+  last = std::min(last, size());
+  first = std::min(first, last);
+  const auto shorten = [&](std::vector<double>& all) {
+    all.resize(last);
+    all.erase(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(first));
+  };
+  shorten(time);
+  for (Channel& channel : channels) shorten(channel.samples);
+  warm_up = warm_up > first ? std::min(warm_up - first, last - first) : 0;
+}
+
 Record Record::slice(std::size_t first, std::size_t last) const {
   last = std::min(last, size());
   first = std::min(first, last);

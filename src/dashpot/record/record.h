@@ -48,6 +48,8 @@ struct Record {
   const Channel& channel(std::string_view name) const;
   /// Samples first ... last-1 of every channel, as a record of its own.
   Record slice(std::size_t first, std::size_t last) const;
+  /// Becomes that slice, in the memory that it has.
+  void keep(std::size_t first, std::size_t last);
 };
 
 }  // namespace dashpot

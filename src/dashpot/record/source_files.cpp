@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 #include <fnmatch.h>
+#include <set>
 
 #include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
@@ -14,19 +15,36 @@ namespace fs = std::filesystem;
 namespace dashpot {
 namespace {
 
-void list_folder(const fs::path& folder, std::vector<SourcePath>& out) {
-  std::error_code error;
-  fs::recursive_directory_iterator at(folder, error), end;
-  for (; !error && at != end; at.increment(error)) {
-    const std::string name = at->path().filename().string();
-    if (name.starts_with(".")) {
-      at.disable_recursion_pending();
-    } else if (at->is_regular_file(error)) {
-      out.push_back({at->path(), at->path().lexically_relative(folder).string(), false});
-    }
+/// Folders behind links are searched too, each folder once.
+class FolderSearch {
+ public:
+  FolderSearch(const fs::path& root, std::vector<SourcePath>& out) : root_(root), out_(out) { search(root); }
+
+ private:
+  void search(const fs::path& folder) {
+    std::error_code error;
+    const fs::path real = fs::canonical(folder, error);
+    if (!error && !seen_.insert(real).second) return;
+    fs::directory_iterator at(folder, error), end;
+    for (; !error && at != end; at.increment(error)) take(at->path());
+    if (error) throw Error(folder.string(), "cannot be read: " + error.message());
   }
-  if (error) throw Error(folder.string(), "cannot be read: " + error.message());
-}
+
+  void take(const fs::path& path) {
+    if (path.filename().string().starts_with(".")) return;
+    std::error_code error;
+    const fs::file_status status = fs::status(path, error);
+    if (status.type() == fs::file_type::not_found)
+      throw Error(path.string(), "is a link to what is not there", "fetch the file, or remove the link");
+    if (!fs::status_known(status)) throw Error(path.string(), "cannot be read: " + error.message());
+    if (fs::is_directory(status)) return search(path);
+    out_.push_back({path, path.lexically_relative(root_).string(), false});
+  }
+
+  fs::path root_;
+  std::vector<SourcePath>& out_;
+  std::set<fs::path> seen_;
+};
 
 /// strverscmp puts leading zeros first, which file names want too: run01 before run1.
 bool by_number(const SourcePath& a, const SourcePath& b) {
@@ -49,7 +67,7 @@ std::vector<SourcePath> list_files(const std::vector<fs::path>& paths) {
       continue;
     }
     std::vector<SourcePath> inside;
-    list_folder(path, inside);
+    FolderSearch(path, inside);
     std::sort(inside.begin(), inside.end(), by_number);
     out.insert(out.end(), inside.begin(), inside.end());
   }

@@ -14,7 +14,8 @@ struct SourcePath {
   bool named = false;    ///< pointed at itself, so that it may not be passed over
 };
 
-/// The files of the paths, folders searched to the bottom, sorted by name with numbers in their order
+/// The files of the paths, folders (also behind links) searched to the bottom, sorted by name with numbers in
+/// their order
 /// ("run2" before "run10"); hidden files left out. Throws Error on a path that cannot be read.
 std::vector<SourcePath> list_files(const std::vector<std::filesystem::path>& paths);
 

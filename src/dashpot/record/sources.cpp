@@ -14,6 +14,12 @@ namespace fs = std::filesystem;
 namespace dashpot {
 namespace {
 
+/// A file that cannot be looked at is none here: whoever needs it says so.
+bool is_file(const fs::path& path) {
+  std::error_code ignored;
+  return fs::is_regular_file(path, ignored);
+}
+
 std::size_t count_matches(const DatasetFile& stated, const std::vector<SourcePath>& files) {
   return static_cast<std::size_t>(std::count_if(
       files.begin(), files.end(), [&](const SourcePath& f) { return statement_for(stated, f) != nullptr; }));
@@ -25,7 +31,7 @@ bool recognises(const DatasetFile& stated, const std::vector<SourcePath>& files)
   for (const SourcePath& file : files) folders.insert(file.path.parent_path());
   return std::any_of(folders.begin(), folders.end(), [&](const fs::path& folder) {
     const fs::path candidate = folder / stated.recognise_file;
-    return fs::is_regular_file(candidate) && sha256_of_file(candidate) == stated.recognise_sha256;
+    return is_file(candidate) && sha256_of_file(candidate) == stated.recognise_sha256;
   });
 }
 
@@ -46,13 +52,13 @@ std::optional<DatasetFile> find_shipped(const std::vector<SourcePath>& files) {
 fs::path stated_dataset_file(std::vector<fs::path>& paths, const LoadOptions& options) {
   fs::path stated = options.dataset_file;
   for (auto at = paths.begin(); at != paths.end();) {
-    const bool yaml = is_dataset_file(*at) && !fs::is_directory(*at);
+    const bool yaml = is_dataset_file(*at) && is_file(*at);
     if (yaml && !stated.empty())
       throw Error(at->string(), "is a second dataset file beside " + stated.string(), "give one");
     if (yaml) stated = *at;
     at = yaml ? paths.erase(at) : at + 1;
   }
-  if (stated.empty() && paths.size() == 1 && fs::is_regular_file(paths[0] / "dataset.yaml"))
+  if (stated.empty() && paths.size() == 1 && is_file(paths[0] / "dataset.yaml"))
     stated = paths[0] / "dataset.yaml";
   return stated;
 }
@@ -89,9 +95,11 @@ Sources find_sources(std::vector<fs::path> paths, const LoadOptions& options) {
   if (!stated.empty()) {
     sources.stated = load_dataset_file(stated);
     if (paths.empty()) paths = {sources.stated.root};
+    sources.pointed_at = paths.front().string();
     sources.files = list_files(paths);
     return sources;
   }
+  sources.pointed_at = paths.front().string();
   sources.files = list_files(paths);
   if (options.recognise)
     if (auto shipped = find_shipped(sources.files)) {
@@ -109,7 +117,7 @@ Manifest find_manifest(const Sources& sources) {
   const std::string name = sources.stated.manifest.empty() ? "manifest.csv" : sources.stated.manifest;
   for (const SourcePath& file : sources.files) {
     const fs::path candidate = file.path.parent_path() / name;
-    if (fs::is_regular_file(candidate)) return Manifest(candidate);
+    if (is_file(candidate)) return Manifest(candidate);
   }
   if (!sources.stated.manifest.empty())
     throw Error(sources.stated.path, "its manifest '" + name + "' is not beside the recordings");

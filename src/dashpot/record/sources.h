@@ -10,7 +10,8 @@ namespace dashpot {
 /// What the caller pointed at: files, and what is stated about them.
 struct Sources {
   std::vector<SourcePath> files;
-  DatasetFile stated;  ///< without a path when nobody stated anything: every file is tried by its names
+  std::string pointed_at;  ///< the first path, for messages
+  DatasetFile stated;      ///< without a path when nobody stated anything: every file is tried by its names
 };
 
 /// Separates recordings from a dataset file among the paths; without one looks for dataset.yaml in the

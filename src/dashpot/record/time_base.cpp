@@ -108,14 +108,12 @@ void require_increasing(std::span<const double> stamps, const RawTable& table) {
   }
 }
 
-std::vector<double> uniform_time(std::size_t rows, double sample_time) {
-  std::vector<double> time(rows);
+void make_uniform(std::span<double> stamps, double start, double sample_time) {
   // By division where the rate is whole: 3 / 1000.0 is the number that people write as 0.003.
   const double rate = std::round(1 / sample_time);
   const bool whole = rate >= 1 && 1 / rate == sample_time;
-  for (std::size_t k = 0; k < rows; ++k)
-    time[k] = whole ? static_cast<double>(k) / rate : static_cast<double>(k) * sample_time;
-  return time;
+  for (std::size_t k = 0; k < stamps.size(); ++k)
+    stamps[k] = start + (whole ? static_cast<double>(k) / rate : static_cast<double>(k) * sample_time);
 }
 
 void resample(Record& record, double rate_hz) {
@@ -124,8 +122,8 @@ void resample(Record& record, double rate_hz) {
   if (count < 2 || count > 1e9)
     throw Error(record.name, "resampling to " + format_number(rate_hz) + " Hz gives " +
                                  format_number(count, 12) + " samples");
-  std::vector<double> time = uniform_time(static_cast<std::size_t>(count), 1 / rate_hz);
-  for (double& t : time) t += record.time.front();
+  std::vector<double> time(static_cast<std::size_t>(count));
+  make_uniform(time, record.time.front(), 1 / rate_hz);
   for (Channel& channel : record.channels) channel.samples = interpolate(record.time, channel.samples, time);
   record.time = std::move(time);
   record.sample_time = 1 / rate_hz;

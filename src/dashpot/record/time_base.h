@@ -15,8 +15,8 @@ double uniform_step(std::span<const double> stamps);
 /// Throws Error at the first stamp that is repeated or runs backwards. `table` gives its place.
 void require_increasing(std::span<const double> stamps, const RawTable& table);
 
-/// row * sample_time.
-std::vector<double> uniform_time(std::size_t rows, double sample_time);
+/// Each stamp becomes start + row * sample_time.
+void make_uniform(std::span<double> stamps, double start, double sample_time);
 
 /// All channels on a uniform grid of that rate by linear interpolation; adds a note.
 void resample(Record& record, double rate_hz);

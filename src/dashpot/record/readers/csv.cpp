@@ -95,16 +95,19 @@ void drop_empty_columns(RawTable& table) {
   while (table.columns.size() > 1 && empty(table.columns.back())) table.columns.pop_back();
 }
 
+bool is_utf16(std::string_view head) { return head.starts_with("\xFF\xFE") || head.starts_with("\xFE\xFF"); }
+
 }  // namespace
 
 bool is_csv(const fs::path&, std::string_view extension, std::string_view head) {
   constexpr std::string_view kExtensions[] = {".csv", ".txt", ".tsv", ".dat", ".asc", ".log", ""};
-  const bool text = head.find('\0') == std::string_view::npos;
+  const bool text = head.find('\0') == std::string_view::npos || is_utf16(head);
   return text &&
          std::find(std::begin(kExtensions), std::end(kExtensions), extension) != std::end(kExtensions);
 }
 
 std::vector<RawTable> read_csv(const fs::path& path) {
+  if (is_utf16(read_head(path, 2))) throw Error(path.string(), "is UTF-16 text", "save it as UTF-8");
   LineSource source(path);
   std::vector<std::string> head;
   while (head.size() < kSniffedLines) {

@@ -64,8 +64,9 @@ void add_conditions(std::vector<RawTable>& levels, const Value& value) {
 
 bool is_family_json(const fs::path& path, std::string_view extension, std::string_view head) {
   const std::size_t start = head.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
+  std::error_code ignored;
   return extension == ".json" && start != std::string_view::npos && head[start] == '{' &&
-         fs::exists(inputs_of(path));
+         fs::exists(inputs_of(path), ignored);
 }
 
 std::vector<RawTable> read_family_json(const fs::path& path) {

@@ -43,6 +43,9 @@ LineSource::LineSource(const fs::path& path) : path_(path.string()), file_(open(
   fill();
   // A byte order mark is not part of the first name.
   if (end_ >= 3 && std::string_view(buffer_.data(), 3) == "\xEF\xBB\xBF") begin_ = 3;
+  const std::string_view head(buffer_.data(), end_);
+  if (head.find('\n') == std::string_view::npos && head.find('\r') != std::string_view::npos)
+    line_end_ = '\r';
 }
 
 LineSource::~LineSource() = default;
@@ -50,7 +53,7 @@ LineSource::~LineSource() = default;
 std::optional<std::string_view> LineSource::next() {
   for (;;) {
     const char* from = buffer_.data() + begin_;
-    const auto* end_of_line = static_cast<const char*>(std::memchr(from, '\n', end_ - begin_));
+    const auto* end_of_line = static_cast<const char*>(std::memchr(from, line_end_, end_ - begin_));
     if (!end_of_line && fill()) continue;
     if (!end_of_line && begin_ == end_) return std::nullopt;
     std::string_view text(buffer_.data() + begin_,

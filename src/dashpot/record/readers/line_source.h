@@ -18,8 +18,9 @@ class LineSource {
   LineSource(const LineSource&) = delete;
   LineSource& operator=(const LineSource&) = delete;
 
-  /// The next line without its end (LF, CRLF or CR LF mixed), or nothing at the end. Valid until the
-  /// next call. Throws Error on a damaged file, and on a line too long for a table of numbers.
+  /// The next line without its end (LF, CRLF or both mixed; CR in a file without LF), or nothing at the end.
+  /// Valid until the next call. Throws Error on a damaged file, and on a line too long for a table of
+  /// numbers.
   std::optional<std::string_view> next();
   std::size_t line() const { return line_; }  ///< number of the line that next() gave, from 1
   double bytes_per_line() const;              ///< mean so far
@@ -34,6 +35,7 @@ class LineSource {
   std::size_t begin_ = 0, end_ = 0;
   std::size_t line_ = 0, consumed_ = 0;
   double file_size_ = 0;
+  char line_end_ = '\n';
   bool at_end_ = false;
 };
 

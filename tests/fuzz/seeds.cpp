@@ -1,0 +1,121 @@
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <matio.h>
+
+#include "dashpot/base/file.h"
+#include "dashpot/damper/law_model.h"
+#include "dashpot/damper/model_file.h"
+#include "dashpot/damper/parameter_set.h"
+
+// Writes small valid inputs of every fuzz target into folders below the one given: where fuzzing starts.
+
+namespace fs = std::filesystem;
+using dashpot::write_file;
+
+namespace {
+
+constexpr int kRows = 16;
+
+double x(int k) { return 10 * std::sin(0.7 * k); }
+double force(int k) { return 100 * std::cos(0.7 * k); }
+
+/// One line per sample: row number or time, x, F.
+std::string rows(const std::string& separator, double step, const std::string& end) {
+  std::string text;
+  for (int k = 0; k < kRows; ++k)
+    text += std::to_string(step * k) + separator + std::to_string(x(k)) + separator +
+            std::to_string(force(k)) + end;
+  return text;
+}
+
+void csv_seeds(const fs::path& folder) {
+  write_file(folder / "plain", "t_s,x_mm,F_N\n" + rows(",", 0.01, "\n"));
+  write_file(folder / "tabs", "junk: 1\n\nTime\tStroke\tForce\n(s)\t(mm)\t(kN)\n" + rows("\t", 0.01, "\r\n"));
+  write_file(folder / "quoted", "# c\n\"t [s]\";\"x [mm]\";\"F [N]\"\n" + rows(";", 0.01, ";\n"));
+  write_file(folder / "comma",
+             "t;displacement(mm);F_N\n0,0;1,5;2\n0,1;2,5;3\n0,2;1,5;2\n0,3;0,5;1\n0,4;1,5;2\n");
+  write_file(folder / "blanks", rows("  ", 0.01, "\n"));
+}
+
+void mat_seed(const fs::path& path, mat_ft version, matio_compression compression) {
+  fs::create_directories(path.parent_path());
+  mat_t* file = Mat_CreateVer(path.c_str(), nullptr, version);
+  if (!file) return;
+  std::vector<double> columns[3];
+  for (int k = 0; k < kRows; ++k) {
+    columns[0].push_back(0.01 * k);
+    columns[1].push_back(x(k));
+    columns[2].push_back(force(k));
+  }
+  const char* names[] = {"t", "x_mm", "F_N"};
+  std::size_t dims[] = {kRows, 1};
+  for (int c = 0; c < 3; ++c) {
+    matvar_t* variable = Mat_VarCreate(names[c], MAT_C_DOUBLE, MAT_T_DOUBLE, 2, dims, columns[c].data(), 0);
+    Mat_VarWrite(file, variable, compression);
+    Mat_VarFree(variable);
+  }
+  Mat_Close(file);
+}
+
+std::string daq_seed() {
+  std::string text =
+      " 4\nSampling Interval: 0.01\nSample Count: 16\nSample Number, CHANNEL0, CHANNEL1, Events\n";
+  for (int k = 0; k < kRows; ++k)
+    text += std::to_string(k) + ", " + std::to_string(x(k)) + ", " + std::to_string(force(k)) +
+            (k == 8   ? ", DAQ Resume\n"
+             : k == 7 ? ", DAQ Pause\n"
+                      : ",\n");
+  return text;
+}
+
+std::string model_seed() {
+  const dashpot::ParameterSet set = dashpot::load_parameter_set("spencer1997");
+  dashpot::ModelFile file;
+  file.model = std::make_unique<dashpot::LawModel>(set.model);
+  file.drive_unit = set.model.drive_unit();
+  return dashpot::format_model(file);
+}
+
+constexpr const char* kFamily =
+    R"({"d1":[{"time":[0,0.1,0.2,0.3,0.4],"velocity":[1,2,1,0,1],"displace":[0,1,2,1,0],"force":[1,2,3,2,1]}]}
+#
+{"d1":{"Ty":[1000],"viscocidad":0.1,"Ap":0.01,"Ag":0.001,"h":0.001,"L":0.01}}
+)";
+constexpr const char* kDataset = R"(name: seed
+drive: A
+leave_out: fraction=0.3
+files:
+  - match: ["*.csv", run*]
+    time: {column: t_s, unit: s}
+    channels:
+      displacement: {column: x_mm, unit: mm, centre: mean}
+      force: {column: 3, unit: N, scale: 2, offset: 1, sign: -1}
+    cut: {from: 0.05, to: 0.35}
+    resample: 200
+    velocity_cutoff: 20
+    name: "{stem}, {level} A"
+    level: 0.5
+    roles: [{role: training, to: 0.2}, {role: left_out, from: 0.2, score_from: 0.25}]
+notes: a note
+)";
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 2) return std::fputs("usage: fuzz_seeds FOLDER\n", stderr), 2;
+  const fs::path folder = argv[1];
+  csv_seeds(folder / "csv");
+  mat_seed(folder / "mat/4", MAT_FT_MAT4, MAT_COMPRESSION_NONE);
+  mat_seed(folder / "mat/5", MAT_FT_MAT5, MAT_COMPRESSION_NONE);
+  mat_seed(folder / "mat/5z", MAT_FT_MAT5, MAT_COMPRESSION_ZLIB);
+  mat_seed(folder / "mat/73", MAT_FT_MAT73, MAT_COMPRESSION_NONE);
+  write_file(folder / "daq_text/log", daq_seed());
+  write_file(folder / "family_json/pair", kFamily);
+  write_file(folder / "dataset_yaml/all", kDataset);
+  write_file(folder / "model_json/law", model_seed());
+  for (const char* unit : {"mm", "N*s/m", "kN", "cm^-2", "degC", "displacement [mm]", "m/s\u00b2"})
+    write_file(folder / "units" / std::to_string(std::hash<std::string>{}(unit)), unit);
+  for (const char* text : {"current=0.87,1.98", "fraction=0.3", "record=a,b", "roles", "condition"})
+    write_file(folder / "leave_out" / std::to_string(std::hash<std::string>{}(text)), text);
+}
