@@ -12,22 +12,21 @@
 
 // What the fuzz targets share. dashpot::Error is the right answer to bad input; all else is a finding.
 
-/// A folder of this process, in memory where there is room for it.
-inline std::filesystem::path fuzz_folder() {
-  static const std::filesystem::path folder = [] {
-    const std::filesystem::path memory = "/dev/shm";
-    const bool has_memory = std::filesystem::is_directory(memory);
-    const auto path = (has_memory ? memory : std::filesystem::temp_directory_path()) /
-                      ("dashpot-fuzz-" + std::to_string(getpid()));
+/// A folder of this process, in memory where there is room for it, removed at the end.
+struct FuzzFolder {
+  std::filesystem::path path;
+  FuzzFolder() {
+    const bool has_memory = std::filesystem::is_directory("/dev/shm");
+    path = (has_memory ? std::filesystem::path("/dev/shm") : std::filesystem::temp_directory_path()) /
+           ("dashpot-fuzz-" + std::to_string(getpid()));
     std::filesystem::create_directories(path);
-    std::atexit([] { std::filesystem::remove_all(fuzz_folder()); });
-    return path;
-  }();
-  return folder;
-}
+  }
+  ~FuzzFolder() { std::filesystem::remove_all(path); }
+};
 
 inline std::filesystem::path fuzz_file(const std::string& name, const std::string& content) {
-  const auto path = fuzz_folder() / name;
+  static const FuzzFolder folder;
+  const auto path = folder.path / name;
   // Not write_file: waiting for the disk would take most of the time.
   std::FILE* file = std::fopen(path.c_str(), "wb");
   if (!file || std::fwrite(content.data(), 1, content.size(), file) != content.size()) std::abort();

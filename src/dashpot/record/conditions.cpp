@@ -50,8 +50,9 @@ Motion motion_of(const Record& record) {
 bool close(double a, double b) { return std::abs(a - b) <= 0.05 * std::max(std::abs(a), std::abs(b)); }
 
 std::string describe_motion(const Motion& motion) {
-  return format_number(motion.amplitude * 1e3, 2) + (motion.velocity ? " mm/s " : " mm ") +
-         format_number(motion.frequency, 2) + " Hz";
+  const std::string text = format_number(motion.amplitude * 1e3, 2) + (motion.velocity ? " mm/s" : " mm");
+  // Less than two crossings: no frequency can be told.
+  return motion.frequency > 0 ? text + " " + format_number(motion.frequency, 2) + " Hz" : text;
 }
 
 bool states_motion(const std::string& name) {

@@ -123,3 +123,11 @@ TEST_CASE("damaged MAT files never crash") {
     }
   }
 }
+
+TEST_CASE("a file of version 7.3 that was cut off says so at every length") {
+  const TemporaryFolder folder;
+  const std::string whole = read_file(write_mat(folder, MAT_FT_MAT73, MAT_COMPRESSION_NONE));
+  for (const std::size_t left : {std::size_t{20}, std::size_t{530}, whole.size() / 2, whole.size() - 1})
+    CHECK(message_of([&] { read_mat(folder.write("cut.mat", whole.substr(0, left))); }).find("cut off") !=
+          std::string::npos);
+}

@@ -174,8 +174,11 @@ bool is_mat(const fs::path&, std::string_view extension, std::string_view head) 
 std::vector<RawTable> read_mat(const fs::path& path) {
   const std::string file = path.string();
   if (path.extension() == ".gz") throw Error(file, "is a packed MAT file", "unpack it with gunzip first");
-  // Version 7.3 is HDF5, which checks its own structure.
-  if (read_head(path, 10) != "MATLAB 7.3") check_mat(read_file(path), file);
+  const std::string head = read_head(path, kMat73Head);
+  if (head.starts_with("MATLAB 7.3"))
+    check_mat73(head, fs::file_size(path), file);
+  else
+    check_mat(read_file(path), file);
   static std::once_flag quiet;  // the MAT library prints otherwise
   std::call_once(quiet, [] { Mat_LogInitFunc("dashpot", [](int, char*) {}); });
   const File mat(Mat_Open(file.c_str(), MAT_ACC_RDONLY), Mat_Close);

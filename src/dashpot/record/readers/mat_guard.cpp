@@ -238,4 +238,17 @@ void check_mat(std::string_view bytes, const std::string& file) {
   check_version4(bytes, file);
 }
 
+void check_mat73(std::string_view head, std::uintmax_t file_size, const std::string& file) {
+  constexpr std::size_t kSuperblock = 512, kPlaces[] = {40, 44, 28, 28};  // of the length, by version
+  if (head.size() < kMat73Head) damaged(file, "it ends inside its header");
+  const std::string_view block = head.substr(kSuperblock);
+  const auto version = static_cast<unsigned char>(block[8]);
+  if (!block.starts_with("\x89HDF\r\n\x1a\n") || version > 3)
+    damaged(file, "it says version 7.3 but is no HDF5");
+  std::uint64_t length;
+  std::memcpy(&length, block.data() + kPlaces[version], sizeof length);
+  if (length > file_size)
+    damaged(file, "it should have " + std::to_string(length) + " bytes and has " + std::to_string(file_size));
+}
+
 }  // namespace dashpot
