@@ -77,7 +77,8 @@ void add(CLI::App& app, const Option& option) {
   });
   added->multi_option_policy(option.is_list() ? CLI::MultiOptionPolicy::TakeAll
                                               : CLI::MultiOptionPolicy::TakeLast);
-  if (option.is_list() && option.is_positional()) added->expected(1, CLI::detail::expected_max_vector_size);
+  if (option.is_list() && option.is_positional())
+    added->expected(1, CLI::detail::expected_max_vector_size)->allow_extra_args();
 }
 
 void refuse_leftovers(const std::string& command, const std::vector<Option>& options,

@@ -83,6 +83,7 @@ void print_results(const ReportInput& input, Console& console) {
 }
 
 void prepare_results(const ResultSettings& settings) {
+  if (settings.folder.empty()) throw UsageError("--output", "the name of the folder is empty");
   const fs::path models = fs::path(settings.folder) / "models";
   make_folder(models);
   for (const fs::path& folder : {fs::path(settings.folder), models})

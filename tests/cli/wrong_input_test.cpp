@@ -312,10 +312,27 @@ TEST_CASE("links are followed once, a link to nothing and a pipe are named") {
   CHECK(pipe.exit_code == 0);
   CHECK(contains(pipe.output, "pipe.csv: passed over: is not a regular file"));
 
+  fs::create_symlink(root / "a_1A.csv", root / "again.csv");
+  const ProgramResult twice = run_dashpot("inspect " + root.string());
+  CHECK(twice.exit_code == 1);
+  CHECK(contains(twice.output, "again.csv: is the same file as "));
+  fs::remove(root / "again.csv");
+
   fs::create_symlink(root / "gone.csv", root / "dangling.csv");
   const ProgramResult dangling = run_dashpot("inspect " + root.string());
   CHECK(dangling.exit_code == 1);
   CHECK(contains(dangling.output, "dangling.csv: is a link to what is not there"));
+}
+
+TEST_CASE("several files and folders are one dataset, each file once") {
+  const TemporaryFolder folder;
+  const std::string a = folder.write("a_1A.csv", csv()).string(),
+                    b = folder.write("more/b_2A.csv", csv()).string();
+  const std::string more = (folder.path() / "more").string();
+  CHECK(contains(run_dashpot("inspect " + a + " " + more).output, "2 records from 2 files"));
+  const ProgramResult twice = run_dashpot("inspect " + a + " " + more + " " + b);
+  CHECK(twice.exit_code == 1);
+  CHECK(contains(twice.output, "is the same file as"));
 }
 
 TEST_CASE("a results folder that cannot be written is refused before the fit") {

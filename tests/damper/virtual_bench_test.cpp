@@ -96,5 +96,6 @@ TEST_CASE("a bench that cannot run says why") {
   CHECK(message([](BenchOptions& o) { o.motions.clear(); }).find("no motion") != std::string::npos);
   CHECK(message([](BenchOptions& o) { o.motions = {{0.01, 200}}; }).find("200 Hz") != std::string::npos);
   CHECK(message([](BenchOptions& o) { o.sample_rate = 0; }).find("sample rate") != std::string::npos);
+  CHECK(message([](BenchOptions& o) { o.sample_rate = 1e12; }).find("at most 1e+08") != std::string::npos);
   CHECK(message_of([] { run_virtual_bench(viscous(), "mA", {}); }).find("write A or V") != std::string::npos);
 }

@@ -106,6 +106,14 @@ void require_usable(const std::string& drive_unit, const BenchOptions& options) 
     throw Error("virtual bench", "no motion or no drive level", "give at least one of each");
   if (!(options.sample_rate > 0 && options.cycles > 0))
     throw Error("virtual bench", "the sample rate and the cycles must be above 0");
+  constexpr double kMostSamples = 1e8;
+  double samples = 0;
+  for (const SineMotion& motion : options.motions)
+    samples += options.cycles / motion.frequency * options.sample_rate *
+               static_cast<double>(options.drive_levels.size());
+  if (samples > kMostSamples)
+    throw Error("virtual bench", "the campaign would have " + format_number(samples) + " samples",
+                "at most " + format_number(kMostSamples) + ": fewer cycles or a lower sample rate");
   for (const SineMotion& motion : options.motions)
     if (!(motion.amplitude > 0 && motion.frequency > 0 && motion.frequency < options.sample_rate / 10))
       throw Error("virtual bench",

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 #include <fnmatch.h>
+#include <map>
 #include <set>
 
 #include "dashpot/base/error.h"
@@ -51,11 +52,23 @@ bool by_number(const SourcePath& a, const SourcePath& b) {
   return strverscmp(a.relative.c_str(), b.relative.c_str()) < 0;
 }
 
+/// A recording that is there twice could be fitted and then judged on as if it had not been seen.
+void refuse_doubles(const std::vector<SourcePath>& files) {
+  std::map<fs::path, fs::path> seen;
+  for (const SourcePath& file : files) {
+    std::error_code ignored;
+    const auto [at, is_new] = seen.emplace(fs::canonical(file.path, ignored), file.path);
+    if (!is_new && !at->first.empty())
+      throw Error(file.path.string(), "is the same file as " + at->second.string(), "give it once");
+  }
+}
+
 }  // namespace
 
 std::vector<SourcePath> list_files(const std::vector<fs::path>& paths) {
   std::vector<SourcePath> out;
   for (const fs::path& path : paths) {
+    if (path.empty()) throw Error("", "a path is empty", "give files, folders or a dataset file");
     std::error_code error;
     const fs::file_status status = fs::status(path, error);
     if (!fs::exists(status))
@@ -71,6 +84,7 @@ std::vector<SourcePath> list_files(const std::vector<fs::path>& paths) {
     std::sort(inside.begin(), inside.end(), by_number);
     out.insert(out.end(), inside.begin(), inside.end());
   }
+  refuse_doubles(out);
   return out;
 }
 
