@@ -106,6 +106,6 @@ TEST_CASE("records that cannot serve are refused in words") {
         std::string::npos);
   for (Record& record : data.records)
     for (double& v : record.find("velocity")->samples) v = 0;
-  CHECK(message_of([&] { identify("bingham", data.records, "A", {}); }).find("no motion or no force") !=
+  CHECK(message_of([&] { identify("bingham", data.records, "A", {}); }).find("nothing moves") !=
         std::string::npos);
 }

@@ -36,10 +36,11 @@ DataScale data_scale(const std::vector<Record>& records, std::string_view drive_
     for (const double v : record.channel("velocity").samples)
       scale.speed = std::max(scale.speed, std::abs(v));
   }
-  const char* constant = scale.speed <= 0 ? "displacement" : scale.force <= 0 ? "force" : nullptr;
-  if (constant)
-    throw Error("training records", std::string("the ") + constant + " is constant in every one of them",
-                "a damper shows its law only while it moves; 'dashpot inspect' shows what was read");
+  if (scale.force <= 0 || scale.speed <= 0)
+    throw Error(
+        "training records",
+        scale.speed <= 0 ? "nothing moves in any of them" : "the force is constant in every one of them",
+        "a damper shows its law only while it moves; 'dashpot inspect' shows what was read");
   if (scale.stroke <= 0) scale.stroke = scale.speed;  // no displacement channel: one second at full speed
   return scale;
 }
