@@ -28,6 +28,8 @@ TEST_CASE("columns are recognised by their names") {
       {"Force/kN", "", "force", "kN"},
       {"measured force", "N", "force", "N"},
       {"I [A]", "", "current", "A"},
+      {"T_C", "", "temperature", "C"},
+      {"T [s]", "", "time", "s"},
       {"current_A_nominal", "", "current", ""},
       {"V", "V", "voltage", "V"},
       {"V", "cm/s", "velocity", "cm/s"},
@@ -43,7 +45,7 @@ TEST_CASE("columns are recognised by their names") {
 }
 
 TEST_CASE("what may mean two things, or is no measurement, is not used") {
-  for (const char* column : {"A", "V", "Y", "fs", "Sample Number", "target force",
+  for (const char* column : {"A", "V", "T", "Y", "fs", "Sample Number", "target force",
                              "displacement setpoint [mm]", "x_F(2)", "force [mm]", ""}) {
     CAPTURE(std::string(column));
     CHECK(recognise_channel(column, "").channel.empty());

@@ -16,7 +16,7 @@ struct Names {
 };
 
 constexpr Names kNames[] = {
-    {"time", "time tiempo tempo zeit timestamp", "t T tout Tout"},
+    {"time", "time tiempo tempo zeit timestamp", "t tout Tout"},
     {"displacement",
      "displacement displace displ disp dist stroke position pos desplazamiento deslocamento posicion posicao "
      "carrera "
@@ -34,7 +34,8 @@ constexpr Names kNames[] = {
 struct Ambiguous {
   std::string_view name, first, second;
 };
-constexpr Ambiguous kAmbiguous[] = {{"V", "velocity", "voltage"}, {"A", "acceleration", "current"}};
+constexpr Ambiguous kAmbiguous[] = {
+    {"V", "velocity", "voltage"}, {"A", "acceleration", "current"}, {"T", "time", "temperature"}};
 
 constexpr std::string_view kWishes =
     "target reference ref setpoint set command cmd commanded desired error min max mean";
