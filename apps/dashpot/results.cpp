@@ -18,10 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool is_usable(const RankedModel& model) {
-  return model.fit.status != FitReport::Status::Failed && model.left_out.diverged == 0;
-}
-
 void write_models(const ReportInput& input, const fs::path& folder, Console& console) {
   for (const RankedModel& ranked : input.ranking.models) {
     console.check_stop();

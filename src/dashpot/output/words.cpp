@@ -42,11 +42,6 @@ const std::string& display_name(const RankedModel& model) {
 
 namespace {
 
-bool usable(const RankedModel& model) {
-  return model.left_out.diverged == 0 && !model.left_out.records.empty() &&
-         std::isfinite(model.left_out.pooled.esr);
-}
-
 std::string next_best(const RankedModel& best, const RankedModel& next) {
   const double ratio = next.left_out.pooled.esr / best.left_out.pooled.esr;
   if (ratio < 1.1)
@@ -57,10 +52,15 @@ std::string next_best(const RankedModel& best, const RankedModel& next) {
 
 }  // namespace
 
+bool is_usable(const RankedModel& model) {
+  return model.fit.status != FitReport::Status::Failed && model.left_out.diverged == 0 &&
+         !model.left_out.records.empty() && std::isfinite(model.left_out.pooled.esr);
+}
+
 std::string verdict(const Ranking& ranking) {
   const auto& models = ranking.models;
   if (models.empty()) return "No model was tried.";
-  if (!usable(models.front()))
+  if (!is_usable(models.front()))
     return "No model can be used: each one failed or diverged on at least one left-out record.";
   const RankedModel& best = models.front();
   const Metrics& pooled = best.left_out.pooled;
@@ -69,7 +69,7 @@ std::string verdict(const Ranking& ranking) {
       "unexplained, an RMS error of {} N; its worst record is {} with {} %.",
       display_name(best), percent_text(pooled.esr), number_text(pooled.rmse), best.left_out.worst_record,
       percent_text(best.left_out.worst_esr));
-  if (models.size() > 1 && usable(models[1])) text += next_best(best, models[1]);
+  if (models.size() > 1 && is_usable(models[1])) text += next_best(best, models[1]);
   const auto diverged =
       std::ranges::count_if(models, [](const RankedModel& m) { return m.left_out.diverged > 0; });
   if (diverged) text += fmt::format(" {} diverged.", counted(diverged, "model"));

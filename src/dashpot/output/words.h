@@ -17,6 +17,9 @@ std::string status_name(FitReport::Status status);
 /// The model's title, or its name when it has none.
 const std::string& display_name(const RankedModel& model);
 
+/// Fitted, and finite on every left-out record.
+bool is_usable(const RankedModel& model);
+
 /// One or two sentences: which model is best, how good it is on what it has not seen, and what is next.
 std::string verdict(const Ranking& ranking);
 /// How records were left out: a few words, and in full.
