@@ -44,7 +44,7 @@ int run(const Settings& settings, Console& console) {
   const std::optional<LeaveOut> stated = stated_leave_out(settings.leave_out);
   const Dataset dataset = load_recordings(settings.data, console);
   prepare_results(settings.results);
-  const LeaveOut leave_out = stated.value_or(dataset.leave_out.value_or(LeaveOut{}));
+  const LeaveOut leave_out = stated ? *stated : default_leave_out(dataset);
   console.talk("judged by leaving out: " + format_leave_out(leave_out) + '\n');
   const Ranking ranking = rank(chosen_models(settings.fit, dataset, console), dataset, leave_out,
                                identify_options(settings.fit, console));
@@ -76,7 +76,8 @@ Command identify_command() {
        .help = "what is left out to judge a model: condition, current, record, roles or fraction; name which "
                "ones as current=0.5,1 or fraction=0.3",
        .value = "WHAT",
-       .default_text = "as the dataset file says, else condition"});
+       .default_text = "as the dataset file says, else the first of condition, current, record and"
+                       "fraction that the records allow"});
   append(command.options, fit_options(settings->fit));
   append(command.options, result_options(settings->results));
   return command;

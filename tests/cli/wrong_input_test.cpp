@@ -173,7 +173,11 @@ TEST_CASE("recordings that cannot be used") {
        kFit,
        1,
        {"nothing moves in any of them"}},
-      {"one record", {{"a_1Hz.csv", csv()}}, kFit, 1, {"cannot be divided", "fraction=0.3"}},
+      {"one record",
+       {{"a_1Hz.csv", csv()}},
+       kFit + " --leave-out condition",
+       1,
+       {"cannot be divided", "fraction=0.3"}},
   };
   for (const Wrong& wrong : table) check(wrong);
 }

@@ -59,6 +59,20 @@ TEST_CASE("roles") {
   CHECK(folds[0].left_out.size() == 1);
 }
 
+TEST_CASE("by default, the strictest way that the records allow") {
+  Dataset dataset = small_dataset();
+  CHECK(default_leave_out(dataset).by == LeaveOut::By::Condition);
+  dataset.records.erase(dataset.records.begin() + 3, dataset.records.end());
+  CHECK(default_leave_out(dataset).by == LeaveOut::By::Current);
+  dataset.records.pop_back();
+  CHECK(default_leave_out(dataset).by == LeaveOut::By::Record);
+  dataset.records.pop_back();
+  CHECK(default_leave_out(dataset).by == LeaveOut::By::Fraction);
+  CHECK_NOTHROW(split(dataset, default_leave_out(dataset)));
+  dataset.leave_out = parse_leave_out("record");
+  CHECK(default_leave_out(dataset).by == LeaveOut::By::Record);
+}
+
 TEST_CASE("an impossible split says which ways would work") {
   Dataset dataset = small_dataset();
   for (Record& record : dataset.records) record.condition = "one";

@@ -190,6 +190,19 @@ std::string format_leave_out(const LeaveOut& leave_out) {
   return leave_out.values.empty() ? text : text + "=" + join(leave_out.values, ",");
 }
 
+LeaveOut default_leave_out(const Dataset& dataset) {
+  if (dataset.leave_out) return *dataset.leave_out;
+  LeaveOut out;
+  if (conditions(dataset).size() > 1) {
+    out.by = LeaveOut::By::Condition;
+  } else if (levels(dataset).size() > 2) {
+    out.by = LeaveOut::By::Current;
+  } else {
+    out.by = dataset.records.size() > 1 ? LeaveOut::By::Record : LeaveOut::By::Fraction;
+  }
+  return out;
+}
+
 std::vector<Fold> split(const Dataset& dataset, const LeaveOut& leave_out) {
   if (dataset.records.empty()) throw Error(dataset.name, "has no records to divide");
   switch (leave_out.by) {

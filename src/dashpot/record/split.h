@@ -13,6 +13,10 @@ struct Fold {
   std::vector<Record> left_out;  ///< judged from `warm_up` on
 };
 
+/// What the dataset file states; else the strictest way that the records allow: by condition, current,
+/// record, or the end of the only one.
+LeaveOut default_leave_out(const Dataset& dataset);
+
 /// Throws Error when the dataset cannot be divided so: one condition only, say; the message names
 /// the ways that would work.
 std::vector<Fold> split(const Dataset& dataset, const LeaveOut& leave_out);
