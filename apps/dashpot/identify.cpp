@@ -76,7 +76,7 @@ Command identify_command() {
        .help = "what is left out to judge a model: condition, current, record, roles or fraction; name which "
                "ones as current=0.5,1 or fraction=0.3",
        .value = "WHAT",
-       .default_text = "as the dataset file says, else the first of condition, current, record and"
+       .default_text = "as the dataset file says, else the first of condition, current, record and "
                        "fraction that the records allow"});
   append(command.options, fit_options(settings->fit));
   append(command.options, result_options(settings->results));
