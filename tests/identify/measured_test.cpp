@@ -51,6 +51,21 @@ TEST_CASE("sysidentpy: the simulated damper, trained and tested on the halves th
   CHECK(model.left_out.pooled.rrse <= 0.02);  // best public free-run figure: 0.0451
 }
 
+TEST_CASE("sysidentpy: the stated parameters meet the second half of the data and not the first") {
+  const auto folder = shared_data("sysidentpy-simulated");
+  if (folder.empty()) return;
+  Record record = load_dataset({folder}).records.back();  // rows 0...3599
+  const auto rmse = [&](std::size_t first, std::size_t last) {
+    Record part = record.slice(0, last);
+    part.warm_up = first;
+    return evaluate(load_parameters("leva_piroddi2002"), {part}, "V", {.offset = OffsetMode::None})
+        .pooled.rmse;
+  };
+  // What the dataset file of the exchanged halves and the parameter file say of these recordings, in N.
+  CHECK_CLOSE(rmse(400, 2000), 10.1, 0.02, 0);
+  CHECK_CLOSE(rmse(2000, 3600), 1.87, 0.02, 0);
+}
+
 TEST_CASE("sysidentpy: every parameter that the data tell to 2 % is found to 2 %") {
   const auto folder = recordings("sysidentpy-simulated");
   if (folder.empty()) return;
