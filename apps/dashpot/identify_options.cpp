@@ -7,15 +7,6 @@
 #include "dashpot/damper/registry.h"
 
 namespace dashpot::cli {
-namespace {
-
-bool needs_displacement(const std::string& model) {
-  if (is_law(model)) return find_law(model).needs_displacement;
-  const std::vector<std::string>& inputs = find_network_preset(model).inputs;
-  return std::ranges::find(inputs, "displacement") != inputs.end();
-}
-
-}  // namespace
 
 std::vector<Option> fit_options(FitSettings& settings) {
   return {
@@ -56,7 +47,7 @@ std::vector<std::string> chosen_models(const FitSettings& settings, const Datase
       std::ranges::all_of(dataset.records, [](const Record& r) { return r.find("displacement") != nullptr; });
   std::vector<std::string> models, passed_over;
   for (const std::string& model : model_names())
-    (has_displacement || !needs_displacement(model) ? models : passed_over).push_back(model);
+    (has_displacement || !model_info(model).needs_displacement() ? models : passed_over).push_back(model);
   if (!passed_over.empty())
     console.note("not every record has a displacement, which these models need: " + join(passed_over, ", "));
   return models;

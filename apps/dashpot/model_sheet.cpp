@@ -14,47 +14,41 @@ namespace {
 const std::vector<std::string> kColumns = {"parameter", "unit",         "default",
                                            "bounds",    "over current", "meaning"};
 
+std::string_view fit_name(Fit fit) {
+  constexpr std::string_view kNames[] = {"free", "fixed", "scale", "drive", "bias"};
+  return kNames[static_cast<std::size_t>(fit)];
+}
+
+/// What follows the form in a table for people.
+std::string words_of(Fit fit) {
+  constexpr std::string_view kWords[] = {"", ", fixed", ", size of the data", " (the coil current)",
+                                         ", force zero"};
+  return std::string(kWords[static_cast<std::size_t>(fit)]);
+}
+
 ParameterLine parameter_line(const ParamInfo& p) {
   return {std::string(p.name),
           std::string(p.unit),
           format_number(p.value),
           format_number(p.lower) + " ... " + format_number(p.upper),
-          std::string(name_of(p.form)) + (p.fixed ? ", fixed" : "") + (p.bias ? ", force zero" : ""),
+          std::string(name_of(p.form)) + words_of(p.fit),
           std::string(p.meaning)};
 }
 
-ModelSheet law_sheet(const Law& law) {
-  ModelSheet sheet{.name = std::string(law.name),
-                   .kind = "law",
-                   .title = std::string(law.title),
-                   .equation = std::string(law.equation),
-                   .source = std::string(law.source),
-                   .remarks = std::string(law.remarks)};
-  if (law.needs_displacement) sheet.inputs.push_back("displacement");
-  sheet.inputs.insert(sheet.inputs.end(), {"velocity", "current"});
+void add_table(ModelSheet& sheet, const Law& law) {
   for (const StateInfo& state : law.states)
     sheet.states.push_back(std::string(state.name) + ", " + std::string(state.unit));
   for (const ParamInfo& p : law.params) {
     sheet.parameters.push_back(parameter_line(p));
-    if (!p.fixed) sheet.numbers += coefficient_count(p.form);
+    if (is_estimated(p.fit)) sheet.numbers += coefficient_count(p.form);
   }
-  return sheet;
 }
 
-ModelSheet network_sheet(const NetworkPreset& preset) {
+std::size_t weights_of(const NetworkPreset& preset) {
   std::vector<std::size_t> layers = {preset.inputs.size()};
   layers.insert(layers.end(), preset.hidden.begin(), preset.hidden.end());
   layers.push_back(1);
-  return {.name = std::string(preset.name),
-          .kind = "network",
-          .title = std::string(preset.title),
-          .equation = std::string(preset.equation),
-          .source = std::string(preset.source),
-          .remarks = std::string(preset.remarks),
-          .inputs = preset.inputs,
-          .states = {},
-          .parameters = {},
-          .numbers = Mlp::parameter_count(layers)};
+  return Mlp::parameter_count(layers);
 }
 
 std::vector<std::string> cells(const ParameterLine& p) {
@@ -70,7 +64,19 @@ std::string facts(const ModelSheet& sheet) {
 }  // namespace
 
 ModelSheet model_sheet(const std::string& name) {
-  return is_law(name) ? law_sheet(find_law(name)) : network_sheet(find_network_preset(name));
+  const ModelInfo info = model_info(name);
+  ModelSheet sheet{.name = name,
+                   .kind = std::string(info.kind),
+                   .title = std::string(info.title),
+                   .equation = std::string(info.equation),
+                   .source = std::string(info.source),
+                   .remarks = std::string(info.remarks),
+                   .inputs = info.inputs};
+  if (is_law(name))
+    add_table(sheet, find_law(name));
+  else
+    sheet.numbers = weights_of(find_network_preset(name));
+  return sheet;
 }
 
 std::string sheet_text(const ModelSheet& sheet, int width) {
@@ -110,8 +116,7 @@ Value sheet_json(const ModelSheet& sheet) {
                                           {"lower", p.lower},
                                           {"upper", p.upper},
                                           {"form", name_of(p.form)},
-                                          {"fixed", p.fixed},
-                                          {"bias", p.bias},
+                                          {"fit", fit_name(p.fit)},
                                           {"meaning", p.meaning}}));
   return Value::object({{"name", sheet.name},
                         {"kind", sheet.kind},

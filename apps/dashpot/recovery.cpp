@@ -41,7 +41,7 @@ std::vector<RecoveredParameter> compare(const LawModel& truth, const FitReport& 
     const std::vector<double>& known = truth.parameters().coefficients[p];
     for (std::size_t k = 0; k < coefficient_count(form); ++k) {
       const FittedParameter* fitted = find(fit, coefficient_name(param.name, form, k));
-      if (!fitted || fitted->fixed || param.bias) continue;
+      if (!fitted || fitted->fixed || param.fit == Fit::Bias) continue;
       rows.push_back({fitted->name, fitted->unit, k < known.size() ? known[k] : 0, fitted->value,
                       kJoint * (fitted->high - fitted->low) / 2, fitted->weak});
     }

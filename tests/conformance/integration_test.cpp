@@ -40,9 +40,9 @@ TEST_CASE("laws with states: order 4 under inputs that are straight lines, 2 und
     // Every parameter grows with the current, which lags: the stages must see it at their own times.
     Dependence d;
     for (const ParamInfo& info : law.params) {
-      d.forms.push_back(info.fixed ? Form::Constant : Form::Linear);
-      d.coefficients.push_back(info.fixed ? std::vector{info.value}
-                                          : std::vector{info.value, 0.5 * info.value});
+      d.forms.push_back(info.fit == Fit::Fixed ? Form::Constant : Form::Linear);
+      d.coefficients.push_back(info.fit == Fit::Fixed ? std::vector{info.value}
+                                                      : std::vector{info.value, 0.5 * info.value});
     }
     const LawModel driven(law, d, "A", 40);
     CHECK(measured_order([&](int n) { return force_after_ramp(driven, n); }, 64) > 3.7);

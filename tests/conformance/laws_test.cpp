@@ -23,7 +23,7 @@ double anywhere(const ParamInfo& info, Random& random) {
 std::vector<double> near_defaults(const Law& law, Random& random) {
   std::vector<double> p;
   for (const ParamInfo& info : law.params) {
-    const double factor = info.fixed || info.bias ? 1 : std::pow(3.0, random.uniform(-1, 1));
+    const double factor = info.fit != Fit::Free ? 1 : std::pow(3.0, random.uniform(-1, 1));
     p.push_back(std::clamp(info.value * factor, info.lower, info.upper));
   }
   return p;
@@ -69,8 +69,8 @@ TEST_CASE("bounds hold the default; one parameter in N is the bias, and adds to 
       CHECK(info.value <= info.upper);
       CHECK(std::isfinite(info.start));
     }
-    CHECK(std::count_if(law.params.begin(), law.params.end(), [](const ParamInfo& p) { return p.bias; }) ==
-          1);
+    CHECK(std::count_if(law.params.begin(), law.params.end(),
+                        [](const ParamInfo& p) { return p.fit == Fit::Bias; }) == 1);
     const LawModel model = LawModel::constant(law, defaults(law));
     std::vector<double> state(model.state_size());
     model.rest(sine(0), state);
@@ -139,7 +139,7 @@ TEST_CASE("at rest nothing moves") {
     const std::vector<double> p = defaults(law);
     for (const double x : {-0.02, 0.0, 0.013}) {
       double z[kMaxStates] = {}, dz[kMaxStates] = {};
-      law.rest(p.data(), x, z);
+      law.rest(p.data(), x, 0, z);
       law.derivative(p.data(), x, 0, z, dz);
       for (const double slope : dz) CHECK(slope == 0);
     }

@@ -146,7 +146,7 @@ TEST_CASE("JSON: what is unknown, missing or of the wrong kind is refused by its
   CHECK(mentions(message("\"f_c\"", "\"fc\""), "needs 'f_c'"));
   CHECK(mentions(message("\"v_s\":", "\"w\":1,\"v_s\":"), "unknown key 'w'"));
   CHECK(mentions(message("\"lag_rate\"", "\"lag\""), "needs 'lag_rate'"));
-  CHECK(mentions(message("constant", "cubic"), "unknown form 'cubic'"));
+  CHECK(mentions(message("constant", "quartic"), "unknown form 'quartic'"));
   CHECK(mentions(message("constant", "linear"), "has 1 numbers; a linear parameter has 2"));
   CHECK(mentions(message("N*s/m", "m"), "'m' does not measure c0"));
   CHECK(mentions(message("[1", "[\"1\""), "not a number"));

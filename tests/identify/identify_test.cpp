@@ -35,7 +35,7 @@ TEST_CASE("known parameters lie in their intervals, give or take the odds") {
     for (std::size_t k = 0; k < truth.law().params.size(); ++k)
       for (std::size_t c = 0; c < truth.parameters().coefficients[k].size(); ++c) {
         const std::string name = coefficient_name(truth.law().params[k].name, truth.parameters().forms[k], c);
-        if (name != fitted.name || fitted.fixed || truth.law().params[k].bias) continue;
+        if (name != fitted.name || fitted.fixed || truth.law().params[k].fit == Fit::Bias) continue;
         ++checked;
         const double slack = fitted.high - fitted.low;  // four standard errors, not two
         outside += std::abs(truth.parameters().coefficients[k][c] - fitted.value) > slack;

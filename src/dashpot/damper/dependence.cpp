@@ -1,6 +1,7 @@
 #include "dashpot/damper/dependence.h"
 
 #include <array>
+#include <cmath>
 #include <utility>
 
 #include "dashpot/base/error.h"
@@ -9,8 +10,11 @@
 namespace dashpot {
 namespace {
 
-constexpr std::array<std::pair<Form, std::string_view>, 3> kForms{
-    {{Form::Constant, "constant"}, {Form::Linear, "linear"}, {Form::Quadratic, "quadratic"}}};
+constexpr std::array<std::pair<Form, std::string_view>, 5> kForms{{{Form::Constant, "constant"},
+                                                                   {Form::Linear, "linear"},
+                                                                   {Form::Quadratic, "quadratic"},
+                                                                   {Form::Cubic, "cubic"},
+                                                                   {Form::Exponential, "exponential"}}};
 
 }  // namespace
 
@@ -25,12 +29,12 @@ Form parse_form(std::string_view text, const std::string& where) {
   throw Error(where, "unknown form '" + std::string(text) + "'", suggest(text, known));
 }
 
-void Dependence::evaluate(double i, double* out) const noexcept {
-  for (std::size_t k = 0; k < coefficients.size(); ++k) {
-    double value = 0;
-    for (std::size_t power = coefficients[k].size(); power-- > 0;) value = value * i + coefficients[k][power];
-    out[k] = value;
-  }
+double Dependence::at(std::size_t k, double i) const noexcept {
+  const std::vector<double>& c = coefficients[k];
+  if (forms[k] == Form::Exponential) return c[1] + (c[0] - c[1]) * std::exp(-c[2] * i);
+  double value = 0;
+  for (std::size_t power = c.size(); power-- > 0;) value = value * i + c[power];
+  return value;
 }
 
 std::string coefficient_name(std::string_view param, Form form, std::size_t index) {
@@ -39,10 +43,11 @@ std::string coefficient_name(std::string_view param, Form form, std::size_t inde
   return name;
 }
 
-std::string coefficient_unit(std::string_view unit, std::size_t index, std::string_view drive_unit) {
-  std::string text(unit);
+std::string coefficient_unit(std::string_view unit, Form form, std::size_t index,
+                             std::string_view drive_unit) {
+  std::string text(unit), drive(drive_unit);
+  if (form == Form::Exponential) return index < 2 ? text : "1/" + drive;
   if (index == 0) return text;
-  std::string drive(drive_unit);
   if (index > 1) drive.append("^").append(std::to_string(index));
   const std::size_t slash = text.find('/');
   if (slash == std::string::npos) return text.append("/").append(drive);

@@ -16,6 +16,17 @@ struct StateInfo {
 /// Room that a model keeps for a law's numbers while it steps, so that stepping allocates nothing.
 constexpr std::size_t kMaxStates = 8, kMaxParams = 24;
 
+/// What a parameter is to a fit.
+enum class Fit {
+  Free,
+  Fixed,  ///< keeps its value unless asked for
+  Scale,  ///< not fitted: takes the size of the data (start times their half force span, half stroke ...)
+  Drive,  ///< the coil current itself, for laws that need it: always p = i
+  Bias    ///< a constant force: replaced by the record offsets during a fit
+};
+
+constexpr bool is_estimated(Fit fit) { return fit == Fit::Free || fit == Fit::Bias; }
+
 /// One row of a law's parameter table. Bounds hold for the parameter at every current in the domain.
 struct ParamInfo {
   std::string_view name, unit;
@@ -23,8 +34,7 @@ struct ParamInfo {
   double lower = 0, upper = 0;
   double start = 0;  ///< where a fit starts, in the data's own half force span, half stroke and top speed
   Form form = Form::Constant;  ///< how it depends on current unless the user says otherwise
-  bool bias = false;           ///< a constant force: replaced by the record offsets during a fit
-  bool fixed = false;          ///< not fitted unless asked for
+  Fit fit = Fit::Free;
   std::string_view meaning;
 };
 
@@ -39,8 +49,8 @@ struct Law {
   std::vector<ParamInfo> params;
   double lag_rate = 0;             ///< 1/s, default rate of the coil's first-order lag; 0: none
   bool needs_displacement = true;  ///< false: neither force nor states depend on x
-  /// Internal state after a long rest at displacement x.
-  void (*rest)(const double* p, double x, double* z) = nullptr;
+  /// Internal state of a damper that starts at x, v without a memory; that of a long rest when v = 0.
+  void (*rest)(const double* p, double x, double v, double* z) = nullptr;
   void (*derivative)(const double* p, double x, double v, const double* z, double* dz) = nullptr;
   double (*force)(const double* p, double x, double v, const double* z) = nullptr;
   /// Bound of the fastest internal rate, 1/s: an explicit integrator keeps rate * step below its limit.
@@ -61,8 +71,7 @@ struct Param {
   double value, lower, upper, start;
   Form form = Form::Constant;
   std::string_view meaning;
-  bool bias = false;
-  bool fixed = false;
+  Fit fit = Fit::Free;
 };
 
 template <class P>
@@ -106,8 +115,8 @@ Law static_law(const LawTable<P>& table) {
           .lag_rate = table.lag_rate,
           .needs_displacement = table.needs_displacement};
   for (const Param<P>& p : table.params)
-    law.params[detail::position_of(p.field)] = {p.name,  p.unit, p.value, p.lower, p.upper,
-                                                p.start, p.form, p.bias,  p.fixed, p.meaning};
+    law.params[detail::position_of(p.field)] = {p.name,  p.unit, p.value, p.lower,  p.upper,
+                                                p.start, p.form, p.fit,   p.meaning};
   law.force = [](const double* p, double x, double v, const double* z) {
     const P own = detail::from_array<P>(p);
     return Force(&own, x, v, z);
@@ -122,9 +131,9 @@ Law state_law(const LawTable<P>& table) {
     const P own = detail::from_array<P>(p);
     Derivative(&own, x, v, z, dz);
   };
-  law.rest = [](const double* p, double x, double* z) {
+  law.rest = [](const double* p, double x, double v, double* z) {
     const P own = detail::from_array<P>(p);
-    Rest(&own, x, z);
+    Rest(&own, x, v, z);
   };
   law.rate = [](const double* p, double v) {
     const P own = detail::from_array<P>(p);

@@ -27,6 +27,11 @@ void require_shape(const Law& law, const Dependence& parameters) {
                   "has " + std::to_string(parameters.coefficients[k].size()) + " coefficients",
                   "a " + std::string(name_of(parameters.forms[k])) + " one has " +
                       std::to_string(coefficient_count(parameters.forms[k])));
+  for (std::size_t k = 0; k < count; ++k)
+    if (law.params[k].fit == Fit::Drive &&
+        (parameters.forms[k] != Form::Linear || parameters.coefficients[k] != std::vector<double>{0, 1}))
+      throw Error(where + ", " + std::string(law.params[k].name), "is not the coil current itself",
+                  "write form linear with coefficients 0, 1");
 }
 
 }  // namespace
@@ -43,6 +48,10 @@ LawModel::LawModel(const Law& law, Dependence parameters, std::string drive_unit
     throw Error("lag_rate", "is " + format_number(lag_rate_), "write a rate in 1/s, 0 for none");
   for (std::size_t k = 0; k < law.params.size(); ++k) {
     follows_current_ |= parameters_.forms[k] != Form::Constant;
+    if (!is_polynomial(parameters_.forms[k])) {
+      exponential_.push_back(k);
+      continue;
+    }
     for (std::size_t power = 0; power < parameters_.coefficients[k].size(); ++power)
       by_power_[power][k] = parameters_.coefficients[k][power];
   }
@@ -51,6 +60,11 @@ LawModel::LawModel(const Law& law, Dependence parameters, std::string drive_unit
 LawModel LawModel::constant(const Law& law, const std::vector<double>& parameters) {
   Dependence dependence{std::vector<Form>(parameters.size(), Form::Constant), {}};
   for (const double value : parameters) dependence.coefficients.push_back({value});
+  for (std::size_t k = 0; k < std::min(law.params.size(), parameters.size()); ++k) {
+    if (law.params[k].fit != Fit::Drive) continue;
+    dependence.forms[k] = Form::Linear;
+    dependence.coefficients[k] = {0, 1};
+  }
   return LawModel(law, std::move(dependence), "A", 0);
 }
 
@@ -59,7 +73,7 @@ bool LawModel::needs_displacement() const noexcept { return law_->needs_displace
 std::size_t LawModel::parameter_count() const noexcept {
   std::size_t count = 0;
   for (std::size_t k = 0; k < law_->params.size(); ++k)
-    if (!law_->params[k].fixed) count += coefficient_count(parameters_.forms[k]);
+    if (is_estimated(law_->params[k].fit)) count += coefficient_count(parameters_.forms[k]);
   return count;
 }
 
@@ -69,7 +83,7 @@ void LawModel::rest(const DamperInput& input, std::span<double> state) const noe
   if (law_->rest) {
     Params p;
     parameters_at(input.current, p.data());
-    law_->rest(p.data(), input.displacement, state.data());
+    law_->rest(p.data(), input.displacement, input.velocity, state.data());
   }
   if (lag_rate_ > 0) state[law_->states.size()] = input.current;
 }
@@ -90,8 +104,8 @@ double LawModel::force(const DamperInput& input, std::span<const double> state) 
 
 std::unique_ptr<DamperModel> LawModel::with_offset(double newton) const {
   Dependence moved = parameters_;
-  const auto bias =
-      std::find_if(law_->params.begin(), law_->params.end(), [](const ParamInfo& p) { return p.bias; });
+  const auto bias = std::find_if(law_->params.begin(), law_->params.end(),
+                                 [](const ParamInfo& p) { return p.fit == Fit::Bias; });
   if (bias == law_->params.end()) throw Error(name(), "the law has no offset parameter");
   moved.coefficients[static_cast<std::size_t>(bias - law_->params.begin())][0] += newton;
   return std::make_unique<LawModel>(*law_, std::move(moved), drive_unit_, lag_rate_);
@@ -102,10 +116,11 @@ void require_bounds(const LawModel& model, double current, const std::string& wh
   model.parameters_at(current, p.data());
   for (std::size_t k = 0; k < model.law().params.size(); ++k) {
     const ParamInfo& info = model.law().params[k];
+    if (info.fit == Fit::Drive) continue;
     double slack = 0, power = 1e-9;  // what rounding may do to the sum of its terms
     for (const double coefficient : model.parameters().coefficients[k]) {
       slack += std::abs(coefficient) * power;
-      power *= std::abs(current);
+      if (is_polynomial(model.parameters().forms[k])) power *= std::abs(current);
     }
     if (p[k] >= info.lower - slack && p[k] <= info.upper + slack) continue;
     throw Error(where,

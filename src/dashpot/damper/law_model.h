@@ -43,7 +43,9 @@ class LawModel final : public DamperModel {
       return;
     }
     for (std::size_t k = 0; k < count; ++k)
-      out[k] = by_power_[0][k] + current * (by_power_[1][k] + current * by_power_[2][k]);
+      out[k] = by_power_[0][k] +
+               current * (by_power_[1][k] + current * (by_power_[2][k] + current * by_power_[3][k]));
+    for (const std::size_t k : exponential_) out[k] = parameters_.at(k, current);
   }
   bool follows_current() const noexcept { return follows_current_; }
 
@@ -58,8 +60,10 @@ class LawModel final : public DamperModel {
   std::string drive_unit_;
   double lag_rate_;
   bool follows_current_ = false;  ///< some parameter depends on the current
-  /// The coefficients by power of the current, padded with zeros: one straight loop evaluates them.
-  std::array<std::array<double, kMaxParams>, 3> by_power_{};
+  /// The polynomials' coefficients by power of the current, padded with zeros: one straight loop evaluates
+  /// them.
+  std::array<std::array<double, kMaxParams>, 4> by_power_{};
+  std::vector<std::size_t> exponential_;  ///< the parameters that no polynomial describes
 };
 
 /// Reads what LawModel::to_json wrote; a parameter may stand in any unit of the right dimension

@@ -57,6 +57,21 @@ std::span<const Law* const> laws() { return kLaws; }
 
 std::span<const NetworkPreset> network_presets() { return presets(); }
 
+bool ModelInfo::needs_displacement() const {
+  return std::find(inputs.begin(), inputs.end(), "displacement") != inputs.end();
+}
+
+ModelInfo model_info(std::string_view name, const std::string& where) {
+  if (const Law* law = law_named(name)) {
+    ModelInfo info{law->name, "law", law->title, law->equation, law->source, law->remarks, {}};
+    if (law->needs_displacement) info.inputs.push_back("displacement");
+    info.inputs.insert(info.inputs.end(), {"velocity", "current"});
+    return info;
+  }
+  const NetworkPreset& p = find_network_preset(name, where);
+  return {p.name, "network", p.title, p.equation, p.source, p.remarks, p.inputs};
+}
+
 std::vector<std::string> model_names() {
   std::vector<std::string> names;
   for (const Law* law : laws()) names.emplace_back(law->name);

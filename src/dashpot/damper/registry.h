@@ -19,9 +19,18 @@ struct NetworkPreset {
 };
 std::span<const NetworkPreset> network_presets();
 
+/// What every registered model says of itself, law or not.
+struct ModelInfo {
+  std::string_view name, kind, title, equation, source, remarks;  ///< kind: "law", "network"
+  std::vector<std::string> inputs;                                ///< "displacement", "velocity", "current"
+  bool needs_displacement() const;
+};
+/// Throws Error "unknown model 'bouc'; did you mean ...; known: ...".
+ModelInfo model_info(std::string_view name, const std::string& where = {});
+
 std::vector<std::string> model_names();  ///< laws, then networks
 
-/// Throws Error "unknown model 'bouc'; did you mean ...; known: ...".
+/// Both throw as model_info does.
 const Law& find_law(std::string_view name, const std::string& where = {});
 const NetworkPreset& find_network_preset(std::string_view name, const std::string& where = {});
 bool is_law(std::string_view name);

@@ -12,11 +12,7 @@ namespace {
 
 void require_usable(const std::string& model, const std::vector<Record>& training) {
   if (training.empty()) throw Error(model, "there is no record to fit it on");
-  const bool needs_displacement = [&] {
-    if (is_law(model)) return find_law(model).needs_displacement;
-    const auto& inputs = find_network_preset(model).inputs;
-    return std::find(inputs.begin(), inputs.end(), "displacement") != inputs.end();
-  }();
+  const bool needs_displacement = model_info(model).needs_displacement();
   for (const Record& record : training)
     if (needs_displacement && !record.find("displacement"))
       throw Error(record.name, "has no displacement, which " + model + " needs",
@@ -38,7 +34,7 @@ void settle_offsets(FitReport& report, const std::vector<Record>& training, cons
   if (!is_law(report.model->name())) return;
   const double spread = n > 1 ? 1.96 * std::sqrt(square / (n - 1) / n) : 0;
   for (const ParamInfo& param : find_law(report.model->name()).params) {
-    if (!param.bias) continue;
+    if (param.fit != Fit::Bias) continue;
     for (FittedParameter& fitted : report.parameters)
       if (fitted.name == param.name)
         fitted = {fitted.name, fitted.unit,   "mean force offset of the records",

@@ -13,6 +13,31 @@ namespace {
 constexpr double kLagStart = 100;                  // 1/s
 constexpr double kLagLower = 1, kLagUpper = 5000;  // 1/s
 
+constexpr double kSlowest = 0.05, kFastest = 50;  // rates of an exponential, per range of the drive
+
+/// What these currents can tell: with two levels a parabola is a line, with one nothing depends on current.
+Form simplest(Form form, const DriveRange& drive) {
+  const std::size_t levels = drive.varies ? 4 : std::clamp<std::size_t>(drive.levels, 1, 4);
+  if (coefficient_count(form) <= levels) return form;
+  return static_cast<Form>(levels - 1);
+}
+
+/// Coefficients, from power 0 up, of the polynomial that is 1 at node `node` of `count` nodes spread evenly
+/// over [first, first + span] and 0 at the others.
+std::vector<double> lagrange(std::size_t node, std::size_t count, double first, double span) {
+  const auto place = [&](std::size_t k) {
+    return count == 1 ? first : first + span * static_cast<double>(k) / static_cast<double>(count - 1);
+  };
+  std::vector<double> c = {1};
+  for (std::size_t other = 0; other < count; ++other) {
+    if (other == node) continue;
+    const double scale = 1 / (place(node) - place(other));
+    c.push_back(0);
+    for (std::size_t k = c.size(); k-- > 0;) c[k] = scale * ((k > 0 ? c[k - 1] : 0) - place(other) * c[k]);
+  }
+  return c;
+}
+
 double half_span(const std::vector<double>& samples) {
   const auto [low, high] = std::minmax_element(samples.begin(), samples.end());
   return (*high - *low) / 2;
@@ -50,23 +75,18 @@ LawUnknowns::LawUnknowns(const Law& law, const DataScale& scale, std::string dri
       drive_unit_(std::move(drive_unit)),
       drive_min_(scale.drive.low),
       drive_max_(scale.drive.high) {
-  // With two levels of current a parabola cannot be told from a line, with one nothing can.
-  const std::size_t levels = scale.drive.varies ? 3 : std::clamp<std::size_t>(scale.drive.levels, 1, 3);
   for (const ParamInfo& param : law.params) {
     Row row;
     row.first = size();
     row.value = param.value;
-    const bool bias_is_nuisance = param.bias && offset == OffsetMode::Record;
+    const bool bias_is_nuisance = param.fit == Fit::Bias && offset == OffsetMode::Record;
     if (bias_is_nuisance) row.value = 0;
-    if (!param.fixed && !bias_is_nuisance) {
-      row.form = std::min(param.form, static_cast<Form>(levels - 1));
-      row.count = coefficient_count(row.form);
+    if (param.fit == Fit::Scale)
+      row.value = std::clamp(scale.of_unit(param.unit) * param.start, param.lower, param.upper);
+    if (is_estimated(param.fit) && !bias_is_nuisance) {
+      row.form = simplest(param.form, scale.drive);
       row.size = scale.of_unit(param.unit) * (param.start != 0 ? std::abs(param.start) : 1);
-      const double start = std::clamp((param.start > 0) - (param.start < 0) + 0.0, param.lower / row.size,
-                                      param.upper / row.size);
-      lower_.insert(lower_.end(), row.count, param.lower / row.size);
-      upper_.insert(upper_.end(), row.count, param.upper / row.size);
-      start_.insert(start_.end(), row.count, start);
+      add_unknowns(row, param);
     }
     rows_.push_back(row);
   }
@@ -76,6 +96,22 @@ LawUnknowns::LawUnknowns(const Law& law, const DataScale& scale, std::string dri
     upper_.push_back(kLagUpper / kLagStart);
     start_.push_back(1);
   }
+}
+
+void LawUnknowns::add_unknowns(Row& row, const ParamInfo& param) {
+  row.count = coefficient_count(row.form);
+  const double lower = param.lower / row.size, upper = param.upper / row.size;
+  const double start = std::clamp((param.start > 0) - (param.start < 0) + 0.0, lower, upper);
+  lower_.insert(lower_.end(), row.count, lower);
+  upper_.insert(upper_.end(), row.count, upper);
+  start_.insert(start_.end(), row.count, start);
+  if (row.form != Form::Exponential) return;
+  // Its ends apart from each other, or the rate would be without effect at the start.
+  *(start_.end() - 3) = std::clamp(0.5 * start, lower, upper);
+  *(start_.end() - 2) = std::clamp(1.5 * start, lower, upper);
+  lower_.back() = kSlowest;
+  upper_.back() = kFastest;
+  start_.back() = 1;
 }
 
 std::vector<double> LawUnknowns::start(Random* random) const {
@@ -88,24 +124,27 @@ std::vector<double> LawUnknowns::start(Random* random) const {
   return unknowns;
 }
 
-/// Row `coefficient` of the matrix that turns values at the nodes into polynomial coefficients.
-std::vector<double> LawUnknowns::weights(Form form, std::size_t coefficient) const {
-  const double a = drive_min_, b = drive_max_, m = (a + b) / 2;
-  if (form == Form::Constant) return {1};
-  if (form == Form::Linear) {
-    const double d = b - a;
-    return coefficient == 0 ? std::vector{b / d, -a / d} : std::vector{-1 / d, 1 / d};
+/// One coefficient of a parameter as a linear combination of its unknowns.
+std::vector<double> LawUnknowns::weights(const Row& row, std::size_t coefficient) const {
+  std::vector<double> w(row.count, 0.0);
+  if (row.form == Form::Exponential) {
+    w[coefficient] = coefficient < 2 ? row.size : 1 / drive_span();
+    return w;
   }
-  // Lagrange's polynomials at a, m, b
-  const double da = (a - m) * (a - b), dm = (m - a) * (m - b), db = (b - a) * (b - m);
-  if (coefficient == 0) return {m * b / da, a * b / dm, a * m / db};
-  if (coefficient == 1) return {-(m + b) / da, -(a + b) / dm, -(a + m) / db};
-  return {1 / da, 1 / dm, 1 / db};
+  for (std::size_t node = 0; node < row.count; ++node)
+    w[node] = row.size * lagrange(node, row.count, drive_min_, drive_span())[coefficient];
+  return w;
 }
 
 LawModel LawUnknowns::model(std::span<const double> unknowns) const {
   Dependence dependence;
-  for (const Row& row : rows_) {
+  for (std::size_t p = 0; p < rows_.size(); ++p) {
+    const Row& row = rows_[p];
+    if (law_->params[p].fit == Fit::Drive) {
+      dependence.forms.push_back(Form::Linear);
+      dependence.coefficients.push_back({0, 1});
+      continue;
+    }
     dependence.forms.push_back(row.form);
     if (row.count == 0) {
       dependence.coefficients.push_back({row.value});
@@ -113,9 +152,9 @@ LawModel LawUnknowns::model(std::span<const double> unknowns) const {
     }
     std::vector<double> coefficients;
     for (std::size_t c = 0; c < row.count; ++c) {
-      const std::vector<double> w = weights(row.form, c);
+      const std::vector<double> w = weights(row, c);
       double sum = 0;
-      for (std::size_t k = 0; k < row.count; ++k) sum += w[k] * row.size * unknowns[row.first + k];
+      for (std::size_t k = 0; k < row.count; ++k) sum += w[k] * unknowns[row.first + k];
       coefficients.push_back(sum);
     }
     dependence.coefficients.push_back(std::move(coefficients));
@@ -134,15 +173,15 @@ std::vector<LawUnknowns::Coefficient> LawUnknowns::coefficients(std::span<const 
   for (std::size_t p = 0; p < rows_.size(); ++p) {
     const Row& row = rows_[p];
     const ParamInfo& param = law_->params[p];
+    if (param.fit == Fit::Drive) continue;
     for (std::size_t c = 0; c < coefficient_count(row.form); ++c) {
       Coefficient coefficient{.name = coefficient_name(param.name, row.form, c),
-                              .unit = coefficient_unit(param.unit, c, drive_unit_),
+                              .unit = coefficient_unit(param.unit, row.form, c, drive_unit_),
                               .meaning = std::string(param.meaning),
                               .value = fitted.parameters().coefficients[p][c],
                               .first = row.first};
       if (row.count > 0) {
-        coefficient.weights = weights(row.form, c);
-        for (double& w : coefficient.weights) w *= row.size;
+        coefficient.weights = weights(row, c);
         for (std::size_t k = 0; k < row.count; ++k) coefficient.at_bound |= at_bound(row.first + k);
       }
       out.push_back(std::move(coefficient));

@@ -21,10 +21,10 @@ struct DataScale {
 };
 DataScale data_scale(const std::vector<Record>& records, std::string_view drive_unit);
 
-/// The unknowns of a law's fit. A parameter that depends on current is described by its values at one,
-/// two or three currents across the data's range, so that the table's bounds are box bounds; each
-/// value is counted in the size expected from the data. The coil's lag rate joins them when the drive
-/// varies within a record.
+/// The unknowns of a law's fit. A parameter that depends on current is described by its values at one to
+/// four currents across the data's range (an exponential one by its ends and its rate), so that the table's
+/// bounds are box bounds; each value is counted in the size expected from the data. The coil's lag rate joins
+/// them when the drive varies within a record.
 class LawUnknowns {
  public:
   LawUnknowns(const Law& law, const DataScale& scale, std::string drive_unit, OffsetMode offset);
@@ -54,7 +54,9 @@ class LawUnknowns {
     double value = 0;
     Form form = Form::Constant;
   };
-  std::vector<double> weights(Form form, std::size_t coefficient) const;
+  void add_unknowns(Row& row, const ParamInfo& param);
+  std::vector<double> weights(const Row& row, std::size_t coefficient) const;
+  double drive_span() const { return drive_max_ > drive_min_ ? drive_max_ - drive_min_ : 1; }
 
   const Law* law_;
   std::string drive_unit_;

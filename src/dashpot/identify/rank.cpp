@@ -14,10 +14,6 @@
 namespace dashpot {
 namespace {
 
-std::string title_of(const std::string& model) {
-  return std::string(is_law(model) ? find_law(model).title : find_network_preset(model).title);
-}
-
 /// Whether a part is set aside for good: then the model of the only fold is the final one.
 bool is_one_division(const LeaveOut& leave_out) {
   return leave_out.by == LeaveOut::By::Fraction || leave_out.by == LeaveOut::By::Roles;
@@ -52,7 +48,7 @@ class RankingRun {
     for (const std::string& model : models) {
       RankedModel ranked;
       ranked.name = model;
-      ranked.title = title_of(model);
+      ranked.title = model_info(model).title;
       ranked.fold_fits.resize(one_division_ ? 0 : folds_.size());
       ranking_.models.push_back(std::move(ranked));
     }

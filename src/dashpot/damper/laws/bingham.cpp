@@ -21,9 +21,10 @@ const Law kBingham = static_law<Bingham, bingham_force>({
         {
             {&Bingham::c0, "c0", "N*s/m", 5000, 0, 1e8, 0.4, Form::Linear, "viscous damping"},
             {&Bingham::f_c, "f_c", "N", 670, 0, 1e6, 0.5, Form::Quadratic, "friction force (yield stress)"},
-            {&Bingham::f0, "f0", "N", -95, -1e6, 1e6, 0, Form::Constant, "offset force (accumulator)", true},
+            {&Bingham::f0, "f0", "N", -95, -1e6, 1e6, 0, Form::Constant, "offset force (accumulator)",
+             Fit::Bias},
             {&Bingham::v_s, "v_s", "m/s", 0, 0, 1, 0, Form::Constant,
-             "speed over which friction sets in; 0: at once", false, true},
+             "speed over which friction sets in; 0: at once", Fit::Fixed},
         },
     .needs_displacement = false,
 });

@@ -41,8 +41,9 @@ static inline double modified_bouc_wen_series_speed(const ModifiedBoucWen* p, do
   return (p->alpha * z[1] + p->c0 * v + p->k0 * (x - z[0])) * ease;
 }
 
-static inline void modified_bouc_wen_rest(const ModifiedBoucWen* p, double x, double* z) {
+static inline void modified_bouc_wen_rest(const ModifiedBoucWen* p, double x, double v, double* z) {
   (void)p;
+  (void)v;
   z[0] = x;
   z[1] = 0;
 }

@@ -25,7 +25,7 @@ const Law kTanhKwok = static_law<TanhKwok, tanh_kwok_force>({
              "steepness of the hysteresis"},
             {&TanhKwok::delta, "delta", "1", 0.88, -10, 10, 0.3, Form::Linear,
              "half width of the hysteresis, in beta v"},
-            {&TanhKwok::f0, "f0", "N", 39, -1e6, 1e6, 0, Form::Constant, "offset force", true},
+            {&TanhKwok::f0, "f0", "N", 39, -1e6, 1e6, 0, Form::Constant, "offset force", Fit::Bias},
         },
 });
 
