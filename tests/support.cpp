@@ -27,8 +27,12 @@ fs::path TemporaryFolder::write(const std::string& name, const std::string& cont
   return path;
 }
 
+std::string project_file(const std::string& path) { return DASHPOT_PROJECT_DIR "/" + path; }
+
+std::string program_path() { return DASHPOT_PROGRAM; }
+
 fs::path shared_data(const std::string& folder) {
-  const fs::path path = fs::path(DASHPOT_SHARED_DATA) / folder;
+  const fs::path path = fs::path(project_file("../shared/data")) / folder;
   if (fs::exists(path)) return path;
   MESSAGE("SKIPPED: the recordings " << path.string() << " are not here");
   return {};

@@ -43,6 +43,11 @@ class TemporaryFolder {
 /// The measured recordings beside the project, or a skip line and an empty path when absent.
 std::filesystem::path shared_data(const std::string& folder);
 
+/// A file or folder of the project itself.
+std::string project_file(const std::string& path);
+/// The program under test.
+std::string program_path();
+
 /// A program's exit code and what it printed (stdout and stderr together).
 struct ProgramResult {
   int exit_code = -1;

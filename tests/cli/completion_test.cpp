@@ -12,7 +12,7 @@ bool is_installed(const std::string& shell) {
 std::string bash_completion(const std::string& words, int count) {
   const TemporaryFolder folder;
   const std::filesystem::path script =
-      folder.write("try.bash", "source <(" DASHPOT_PROGRAM " completion bash)\nCOMP_WORDS=(" + words +
+      folder.write("try.bash", "source <(" + program_path() + " completion bash)\nCOMP_WORDS=(" + words +
                                    ")\nCOMP_CWORD=" + std::to_string(count - 1) +
                                    "\n_dashpot\necho \"${COMPREPLY[@]}\"\n");
   return run_program("bash " + script.string()).output;
@@ -28,7 +28,7 @@ TEST_CASE("the completion scripts are valid in their shells") {
     CHECK(contains(script.output, "identify"));
     if (!is_installed(shell)) continue;
     const ProgramResult parsed =
-        run_program("( " DASHPOT_PROGRAM " completion " + shell + " | " + shell + " -n )");
+        run_program("( " + program_path() + " completion " + shell + " | " + shell + " -n )");
     CAPTURE(parsed.output);
     CHECK(parsed.exit_code == 0);
     CHECK(parsed.output.empty());

@@ -51,7 +51,7 @@ TEST_CASE("help prints the defaults that the program uses") {
 
 TEST_CASE("the documentation page names every command, and the one in docs/ is up to date") {
   const ProgramResult page = run_dashpot("--help-markdown");
-  CHECK(page.output == dashpot::read_file(DASHPOT_PROJECT_DIR "/docs/command-line.md"));
+  CHECK(page.output == dashpot::read_file(project_file("docs/command-line.md")));
   CHECK(page.exit_code == 0);
   for (const char* command : kCommands) CHECK(contains(page.output, std::string("\n## dashpot ") + command));
 }
@@ -99,7 +99,7 @@ TEST_CASE("version") {
 TEST_CASE("no colour where stdout is no terminal") { CHECK(!contains(run_dashpot("").output, "\x1b")); }
 
 TEST_CASE("a full standard output is an error") {
-  const ProgramResult result = run_program("( " DASHPOT_PROGRAM " models > /dev/full )");
+  const ProgramResult result = run_program("( " + program_path() + " models > /dev/full )");
   CHECK(result.exit_code == 1);
   CHECK(contains(result.output, "standard output: cannot be written"));
 }

@@ -71,11 +71,11 @@ TEST_CASE("a folder that may not be read is an error, not an empty folder") {
   const std::string as_nobody = geteuid() == 0 ? "setpriv --reuid=65534 --clear-groups " : "";
   std::filesystem::permissions(folder.path(), std::filesystem::perms(0755));
   std::filesystem::permissions(closed, std::filesystem::perms::none);
-  if (run_program(as_nobody + DASHPOT_PROGRAM " version").exit_code != 0) {
+  if (run_program(as_nobody + program_path() + " version").exit_code != 0) {
     MESSAGE("SKIPPED: no way to run the program as another user");
     return;
   }
-  const ProgramResult result = run_program(as_nobody + DASHPOT_PROGRAM " inspect " + closed.string());
+  const ProgramResult result = run_program(as_nobody + program_path() + " inspect " + closed.string());
   CAPTURE(result.output);
   CHECK(result.exit_code == 1);
   CHECK(contains(result.output, "closed"));

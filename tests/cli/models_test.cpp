@@ -37,6 +37,6 @@ TEST_CASE("models --json holds the tables as they stand in the registry") {
 
 TEST_CASE("models --markdown has a section per model, and the page in docs/ is up to date") {
   const ProgramResult page = run_dashpot("models --markdown");
-  CHECK(page.output == read_file(DASHPOT_PROJECT_DIR "/docs/models.md"));
+  CHECK(page.output == read_file(project_file("docs/models.md")));
   for (const std::string& name : model_names()) CHECK(contains(page.output, "\n## `" + name + "`"));
 }

@@ -9,12 +9,12 @@
 /// The program with these arguments, in a folder of its own, with a fixed width.
 inline ProgramResult run_dashpot(const std::string& arguments,
                                  const std::string& environment = "COLUMNS=100") {
-  return run_program(environment + " " DASHPOT_PROGRAM " " + arguments);
+  return run_program(environment + " " + program_path() + " " + arguments);
 }
 
 /// The same, but only what it prints on stdout.
 inline ProgramResult stdout_of_dashpot(const std::string& arguments) {
-  return run_program("( " DASHPOT_PROGRAM " " + arguments + " 2>/dev/null )");
+  return run_program("( " + program_path() + " " + arguments + " 2>/dev/null )");
 }
 
 inline bool contains(const std::string& text, const std::string& part) {

@@ -16,13 +16,13 @@ std::vector<std::string> tour_commands(const std::string& readme) {
 
 TEST_CASE("the tour of the README runs in an empty folder, command by command") {
   const TemporaryFolder folder;
-  const std::string readme = dashpot::read_file(DASHPOT_PROJECT_DIR "/README.md");
+  const std::string readme = dashpot::read_file(project_file("README.md"));
   const auto commands = tour_commands(readme);
   REQUIRE(commands.size() >= 5);
   for (const std::string& command : commands) {
     REQUIRE(command.starts_with("dashpot "));
     const ProgramResult result =
-        run_program("cd " + folder.path().string() + " && " DASHPOT_PROGRAM " " + command.substr(8));
+        run_program("cd " + folder.path().string() + " && " + program_path() + " " + command.substr(8));
     CAPTURE(command);
     CAPTURE(result.output);
     CHECK(result.exit_code == 0);

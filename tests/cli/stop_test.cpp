@@ -34,9 +34,9 @@ TEST_CASE("an interruption ends identify soon, with 130 and without half-written
   const TemporaryFolder folder;
   const std::string results = (folder.path() / "results").string();
   const auto begin = std::chrono::steady_clock::now();
-  const ProgramResult result = run_program(
-      "timeout --preserve-status -s INT 1 " DASHPOT_PROGRAM " identify " + small_campaign().string() +
-      " --models modified_bouc_wen --starts 100000 --output " + results);
+  const ProgramResult result = run_program("timeout --preserve-status -s INT 1 " + program_path() +
+                                           " identify " + small_campaign().string() +
+                                           " --models modified_bouc_wen --starts 100000 --output " + results);
   const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
   CAPTURE(result.output);
   CHECK(result.exit_code == 130);
@@ -50,7 +50,7 @@ TEST_CASE("a full disk is reported and the old report survives") {
   const fs::path results = folder.path() / "results";
   fs::create_directory(results);
   const ProgramResult result =
-      run_program(on_full_disk(results, DASHPOT_PROGRAM " identify " + small_campaign().string() +
+      run_program(on_full_disk(results, program_path() + " identify " + small_campaign().string() +
                                             " --quiet --models bingham --output " + results.string()));
   CAPTURE(result.output);
   CHECK(result.exit_code == 1);

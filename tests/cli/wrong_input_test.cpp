@@ -364,13 +364,13 @@ TEST_CASE("file names that are no UTF-8 cost nobody the results") {
 TEST_CASE("closed and full streams, a reader that leaves") {
   const TemporaryFolder folder;
   const std::string results = (folder.path() / "out").string();
-  const std::string fit = DASHPOT_PROGRAM " identify " + small_campaign().string() +
+  const std::string fit = program_path() + " identify " + small_campaign().string() +
                           " --quiet --models bingham --output " + results;
   CHECK(run_program("( " + fit + " <&- >&- 2>&- )").exit_code == 1);
   CHECK(read_file(results + "/report.json").starts_with("{"));  // the table did not go into the report
 
   const ProgramResult full =
-      run_program("( " DASHPOT_PROGRAM " inspect " + small_campaign().string() + " >/dev/full )");
+      run_program("( " + program_path() + " inspect " + small_campaign().string() + " >/dev/full )");
   CHECK(full.exit_code == 1);
   CHECK(contains(full.output, "standard output: cannot be written"));
 
@@ -384,7 +384,7 @@ TEST_CASE("closed and full streams, a reader that leaves") {
 TEST_CASE("no HOME, a German locale, a terminal of 20 columns") {
   const TemporaryFolder folder;
   const std::string rest =
-      DASHPOT_PROGRAM " identify " + small_campaign().string() + " --quiet --models bingham --output ";
+      program_path() + " identify " + small_campaign().string() + " --quiet --models bingham --output ";
   const auto report = [&](const std::string& environment, const std::string& name) {
     const ProgramResult result =
         run_program("env " + environment + " " + rest + (folder.path() / name).string());

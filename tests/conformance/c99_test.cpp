@@ -13,7 +13,7 @@ TEST_CASE("every law's header is C99: the text that the C export ships") {
     return;
   }
   std::set<std::string> headers;
-  for (const auto& entry : fs::directory_iterator(DASHPOT_PROJECT_DIR "/src/dashpot/damper/laws")) {
+  for (const auto& entry : fs::directory_iterator(project_file("src/dashpot/damper/laws"))) {
     if (entry.path().extension() != ".h") continue;
     headers.insert(entry.path().stem().string());
     const ProgramResult result =

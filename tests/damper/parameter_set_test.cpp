@@ -43,7 +43,7 @@ TEST_CASE("a wrong name is answered with the near one") {
 }
 
 TEST_CASE("a wrong file is refused with its key") {
-  const std::string good = read_file(DASHPOT_PROJECT_DIR "/data/parameters/spencer1997.json");
+  const std::string good = read_file(project_file("data/parameters/spencer1997.json"));
   const auto message = [&](const std::string& from, const std::string& to) {
     std::string text = good;
     text.replace(text.find(from), from.size(), to);

@@ -70,7 +70,7 @@ TEST_CASE("sysidentpy: every parameter that the data tell to 2 % is found to 2 %
   const auto folder = recordings("sysidentpy-simulated");
   if (folder.empty()) return;
   LoadOptions options;
-  options.dataset_file = DASHPOT_PROJECT_DIR "/data/datasets/sysidentpy-simulated-swapped.yaml";
+  options.dataset_file = project_file("data/datasets/sysidentpy-simulated-swapped.yaml");
   const RankedModel model = ranked("modified_bouc_wen", load_dataset({folder}, options));
   CHECK(model.left_out.pooled.rrse <= 0.02);
 
