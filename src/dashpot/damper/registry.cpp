@@ -8,11 +8,24 @@
 
 namespace dashpot {
 
-extern const Law kBingham, kModifiedBoucWen, kTanhKwok;
+extern const Law kArctan, kBingham, kBiviscous, kChebyshev, kHystereticBiviscous, kLookupMap,
+    kModifiedBoucWen, kPolynomial, kSemiPhenomenological, kSigmoid, kTanhAcceleration, kTanhGuo, kTanhKwok;
 
 namespace {
 
-constexpr std::array kLaws{&kBingham, &kModifiedBoucWen, &kTanhKwok};
+constexpr std::array kLaws{&kArctan,
+                           &kBingham,
+                           &kBiviscous,
+                           &kChebyshev,
+                           &kHystereticBiviscous,
+                           &kLookupMap,
+                           &kModifiedBoucWen,
+                           &kPolynomial,
+                           &kSemiPhenomenological,
+                           &kSigmoid,
+                           &kTanhAcceleration,
+                           &kTanhGuo,
+                           &kTanhKwok};
 
 constexpr std::string_view kOneSensorPaper =
     "Tudon-Martinez et al., the one-sensor paper: static network 8.22 % and 4.38 % (rms / half span)";
