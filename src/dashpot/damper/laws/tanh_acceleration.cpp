@@ -25,7 +25,7 @@ const Law kTanhAcceleration =
                 {&TanhAcceleration::tau, "tau", "s", 7.65641e-3, 0, 1, 0.03, Form::Constant,
                  "delay of the force behind velocity"},
                 {&TanhAcceleration::c, "c", "N*s/m", 6256.33, 0, 1e8, 0.4, Form::Linear, "viscous damping"},
-                {&TanhAcceleration::r, "r", "1/s", 300, 1, 1e4, 300, Form::Constant,
+                {&TanhAcceleration::r, "r", "1/s", 200, 1, 1e4, 200, Form::Constant,
                  "rate of the filter that gives the acceleration", Fit::Fixed},
                 {&TanhAcceleration::f0, "f0", "N", 1.446, -1e6, 1e6, 0, Form::Constant, "offset force",
                  Fit::Bias},
