@@ -8,11 +8,15 @@
 
 namespace dashpot {
 
-extern const Law kBingham, kModifiedBoucWen, kTanhKwok;
+extern const Law kBingham, kBoucWen, kDahl, kExtendedBingham, kLandauSurrogate, kLargeScaleBoucWen,
+    kModifiedBoucWen, kModifiedLugre, kNormalisedBoucWen, kTanhKwok, kViscousDahl;
 
 namespace {
 
-constexpr std::array kLaws{&kBingham, &kModifiedBoucWen, &kTanhKwok};
+constexpr std::array kLaws{&kBingham,         &kBoucWen,         &kDahl,
+                           &kExtendedBingham, &kLandauSurrogate, &kLargeScaleBoucWen,
+                           &kModifiedBoucWen, &kModifiedLugre,   &kNormalisedBoucWen,
+                           &kTanhKwok,        &kViscousDahl};
 
 constexpr std::string_view kOneSensorPaper =
     "Tudon-Martinez et al., the one-sensor paper: static network 8.22 % and 4.38 % (rms / half span)";
