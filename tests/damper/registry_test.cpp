@@ -8,9 +8,10 @@ using namespace dashpot;
 
 TEST_CASE("laws stand in alphabetical order, networks follow") {
   const std::vector<std::string> names = model_names();
-  CHECK(names == std::vector<std::string>{"bingham", "modified_bouc_wen", "tanh_kwok", "mlp_one_sensor",
-                                          "mlp_two_sensors"});
-  CHECK(std::is_sorted(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(laws().size())));
+  const auto networks = names.begin() + static_cast<std::ptrdiff_t>(laws().size());
+  CHECK(std::is_sorted(names.begin(), networks));
+  CHECK(std::vector<std::string>(networks, names.end()) ==
+        std::vector<std::string>{"mlp_one_sensor", "mlp_two_sensors"});
   for (const Law* law : laws()) {
     CHECK(&find_law(law->name) == law);
     CHECK(is_law(law->name));

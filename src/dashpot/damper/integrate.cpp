@@ -60,18 +60,20 @@ bool own_steps(const LawModel& model, const InputPath& path, int count, double h
 
 void integrate(const LawModel& model, const InputPath& path, double dt, double* z) noexcept {
   const Law& law = model.law();
+  const bool varies = model.follows_current() && path.current_varies();
+  if (law.exact_step && !varies && own_steps(model, path, 1, dt, z)) return;
   const double top_speed = path.top_speed(dt);
   Params start, middle, end;
   model.parameters_at(path.current(0), start.data());
   double rate = law.rate(start.data(), top_speed);
-  const bool varies = model.follows_current() && path.current_varies();
   if (varies) {
     model.parameters_at(path.current(dt), end.data());
     rate = std::max(rate, law.rate(end.data(), top_speed));
   }
   const double wanted = std::ceil(rate * dt / kStepLimit);
-  if (wanted > kManySubsteps) {
-    const int count = 1 + static_cast<int>(std::ceil(std::min(wanted, kMaxSubsteps) / kOwnStepRatio));
+  if (wanted > (law.exact_step ? 1 : kManySubsteps)) {
+    const int count =
+        law.exact_step ? 1 : 1 + static_cast<int>(std::ceil(std::min(wanted, kMaxSubsteps) / kOwnStepRatio));
     if (own_steps(model, path, count, dt / count, z)) return;
   }
   const int count = wanted > 1 ? static_cast<int>(std::min(wanted, kMaxSubsteps)) : 1;  // 1 for NaN too

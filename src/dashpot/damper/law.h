@@ -59,6 +59,8 @@ struct Law {
   /// and x[1], v[1] at its end. Returns 0 where it does not apply. Taken where the explicit one would need
   /// many steps.
   int (*step)(const double* p, const double* x, const double* v, double h, double* z) = nullptr;
+  /// One `step` of any length is as good as many while the parameters stay: taken wherever they do.
+  bool exact_step = false;
 
   std::size_t index_of(std::string_view param) const;  ///< throws Error naming the known ones
 };
@@ -147,6 +149,27 @@ Law with_step(Law law) {
   law.step = [](const double* p, const double* x, const double* v, double h, double* z) {
     const P own = detail::from_array<P>(p);
     return Step(&own, x, v, h, z);
+  };
+  return law;
+}
+
+/// For a law whose first state moves with the displacement, however long that takes: Travel brings z over a
+/// displacement s (either sign) in closed form. Between samples v is a straight line, so that a step is one
+/// such travel, or two where v changes its sign. Filter, if any, brings the other states over the step.
+template <class P, auto Travel, auto... Filter>
+Law with_travel(Law law) {
+  law.exact_step = true;
+  law.step = [](const double* p, const double*, const double* v, double h, double* z) {
+    const P own = detail::from_array<P>(p);
+    if (v[0] * v[1] >= 0) {
+      z[0] = Travel(&own, z[0], 0.5 * h * (v[0] + v[1]));
+    } else {
+      const double turn = h * v[0] / (v[0] - v[1]);
+      z[0] = Travel(&own, z[0], 0.5 * turn * v[0]);
+      z[0] = Travel(&own, z[0], 0.5 * (h - turn) * v[1]);
+    }
+    (Filter(&own, v, h, z), ...);
+    return 1;
   };
   return law;
 }

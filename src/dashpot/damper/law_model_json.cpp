@@ -23,7 +23,9 @@ void read_parameter(const Value& value, const ParamInfo& info, Dependence& into)
   reader.finish();
   into.forms.push_back(parse_form(form.as_string(), form.where()));
   into.coefficients.push_back(numbers.as_numbers());
-  for (double& coefficient : into.coefficients.back()) coefficient *= factor;
+  for (std::size_t k = 0; k < into.coefficients.back().size(); ++k)
+    if (is_polynomial(into.forms.back()) || k < 2)  // the third of an exponential is a rate per ampere
+      into.coefficients.back()[k] *= factor;
   if (const std::size_t wanted = coefficient_count(into.forms.back());
       into.coefficients.back().size() != wanted)
     throw Error(numbers.where(), "has " + std::to_string(into.coefficients.back().size()) + " numbers",

@@ -8,24 +8,26 @@
 
 namespace dashpot {
 
-extern const Law kArctan, kBingham, kBiviscous, kChebyshev, kHystereticBiviscous, kLookupMap,
-    kModifiedBoucWen, kPolynomial, kSemiPhenomenological, kSigmoid, kTanhAcceleration, kTanhGuo, kTanhKwok;
+extern const Law kArctan, kBingham, kBiviscous, kBoucWen, kChebyshev, kDahl, kExtendedBingham,
+    kHystereticBiviscous, kLandauSurrogate, kLargeScaleBoucWen, kLookupMap, kModifiedBoucWen, kModifiedLugre,
+    kNormalisedBoucWen, kPolynomial, kSemiPhenomenological, kSigmoid, kTanhAcceleration, kTanhGuo, kTanhKwok,
+    kViscousDahl;
 
 namespace {
 
-constexpr std::array kLaws{&kArctan,
-                           &kBingham,
-                           &kBiviscous,
-                           &kChebyshev,
-                           &kHystereticBiviscous,
-                           &kLookupMap,
-                           &kModifiedBoucWen,
-                           &kPolynomial,
-                           &kSemiPhenomenological,
-                           &kSigmoid,
-                           &kTanhAcceleration,
-                           &kTanhGuo,
-                           &kTanhKwok};
+constexpr std::array kLaws{
+    &kArctan,          &kBingham,
+    &kBiviscous,       &kBoucWen,
+    &kChebyshev,       &kDahl,
+    &kExtendedBingham, &kHystereticBiviscous,
+    &kLandauSurrogate, &kLargeScaleBoucWen,
+    &kLookupMap,       &kModifiedBoucWen,
+    &kModifiedLugre,   &kNormalisedBoucWen,
+    &kPolynomial,      &kSemiPhenomenological,
+    &kSigmoid,         &kTanhAcceleration,
+    &kTanhGuo,         &kTanhKwok,
+    &kViscousDahl,
+};
 
 constexpr std::string_view kOneSensorPaper =
     "Tudon-Martinez et al., the one-sensor paper: static network 8.22 % and 4.38 % (rms / half span)";

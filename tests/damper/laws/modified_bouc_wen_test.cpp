@@ -1,12 +1,11 @@
 #include "dashpot/damper/laws/modified_bouc_wen.h"
 
 #include <algorithm>
-#include <numbers>
 #include <vector>
 
+#include "damper/laws/sine_drive.h"
 #include "dashpot/base/random.h"
 #include "dashpot/damper/parameter_set.h"
-#include "support.h"
 
 using namespace dashpot;
 
@@ -14,49 +13,9 @@ namespace {
 
 constexpr double kStep = 2.5e-6;  // s: the drive is a straight line within it to 1e-9
 
-struct Sine {
-  double amplitude, frequency, voltage;
-  DamperInput at(double t) const {
-    const double w = 2 * std::numbers::pi * frequency;
-    return {amplitude * std::sin(w * t), amplitude * w * std::cos(w * t), voltage};
-  }
-};
-
-/// Calls visit(t, input, force, state) at every step, from the zero state (no voltage in the coil) on.
-template <class Visit>
-void simulate(const LawModel& model, const Sine& sine, double duration, Visit visit) {
-  std::vector<double> state(model.state_size());
-  model.rest({}, state);
-  const auto steps = std::llround(duration / kStep);
-  for (long long k = 0;; ++k) {
-    const double t = static_cast<double>(k) * kStep;
-    const DamperInput input = sine.at(t);
-    visit(t, input, model.force(input, state), state);
-    if (k == steps) return;
-    model.advance(input, sine.at(static_cast<double>(k + 1) * kStep), kStep, state);
-  }
-}
-
-constexpr double kTimes[] = {0.05, 0.1, 0.2, 0.25, 0.4, 0.5};
-
 /// Forces at the times at which MODELS.md prints them.
-std::vector<double> forces(const LawModel& model, const Sine& sine) {
-  std::vector<double> found;
-  simulate(model, sine, 0.5, [&](double t, const DamperInput&, double force, const std::vector<double>&) {
-    for (const double wanted : kTimes)
-      if (std::abs(t - wanted) < kStep / 2) found.push_back(force);
-  });
-  return found;
-}
-
-/// Printed to eight significant digits: half a unit of the last one, and 1e-6 N for the straight-line drive.
-void check_forces(const std::vector<double>& found, const std::vector<double>& printed) {
-  REQUIRE(found.size() == printed.size());
-  for (std::size_t k = 0; k < printed.size(); ++k) {
-    CAPTURE(kTimes[k]);
-    const double last_digit = std::pow(10, std::floor(std::log10(std::abs(printed[k]))) - 7);
-    CHECK_CLOSE(found[k], printed[k], 0, last_digit / 2 + 1e-6);
-  }
+std::vector<Simulated> forces(const LawModel& model, const Sine& sine) {
+  return at_times(model, sine, {0.05, 0.1, 0.2, 0.25, 0.4, 0.5}, kStep);
 }
 
 /// The same set in SI, built without the file.
@@ -88,7 +47,7 @@ TEST_CASE("Spencer's set in cm and in SI give the forces of TC-4.5") {
 
 TEST_CASE("the states of TC-4.5 at 1.5 V") {
   std::vector<double> at_50_ms;
-  simulate(load_parameters("spencer1997"), {0.015, 2.5, 1.5}, 0.05,
+  simulate(load_parameters("spencer1997"), {0.015, 2.5, 1.5}, 0.05, kStep,
            [&](double, const DamperInput&, double, const std::vector<double>& state) { at_50_ms = state; });
   CHECK_CLOSE(at_50_ms[0], 2.0075591e-3, 0, 1e-10);
   CHECK_CLOSE(at_50_ms[1], 6.4389483e-3, 0, 1e-10);
@@ -102,7 +61,7 @@ TEST_CASE("the cycle of TC-4.5: energy and extreme forces") {
   for (const Cycle& printed :
        {Cycle{1.5, 1196.6351, -1339.6203, 68.48754}, {2.25, 1548.0975, -1690.515, 88.743401}}) {
     double highest = -INFINITY, lowest = INFINITY, energy = 0, power_before = NAN;
-    simulate(load_parameters("spencer1997"), {0.015, 2.5, printed.voltage}, 0.8,
+    simulate(load_parameters("spencer1997"), {0.015, 2.5, printed.voltage}, 0.8, kStep,
              [&](double t, const DamperInput& input, double force, const std::vector<double>&) {
                if (t < 0.4 - kStep / 2) return;
                highest = std::max(highest, force);
@@ -158,9 +117,9 @@ TEST_CASE("the exponent: the fast path for n = 2 is the limit of the general one
 TEST_CASE("z has no scale: alpha/s, s A, gamma/s and beta/s give the same force") {
   const Law& law = load_parameters("spencer1997").law();
   std::vector<double> p{118250, 2625, 28742.5, 4690, 500, 0, 3.63e6, 3.63e6, 301, 2, 0};
-  const std::vector<double> before = forces(LawModel::constant(law, p), {0.015, 2.5, 0});
+  const auto before = forces(LawModel::constant(law, p), {0.015, 2.5, 0});
   const double s = 1.0 / 301;
   p[0] /= s, p[6] /= s, p[7] /= s, p[8] *= s;
-  const std::vector<double> after = forces(LawModel::constant(law, p), {0.015, 2.5, 0});
-  for (std::size_t k = 0; k < before.size(); ++k) CHECK_CLOSE(after[k], before[k], 1e-9, 1e-9);
+  const auto after = forces(LawModel::constant(law, p), {0.015, 2.5, 0});
+  for (std::size_t k = 0; k < before.size(); ++k) CHECK_CLOSE(after[k].force, before[k].force, 1e-9, 1e-9);
 }
