@@ -51,6 +51,15 @@ std::size_t weights_of(const NetworkPreset& preset) {
   return Mlp::parameter_count(layers);
 }
 
+std::size_t numbers_of(const FuzzyPreset& preset) {
+  std::size_t rules = 1, sets = 0;
+  for (const std::size_t count : preset.sets) {
+    rules *= count;
+    sets += count > 1 ? count : 0;
+  }
+  return sets * Membership{preset.shape}.parameter_count() + rules * (preset.inputs.size() + 1);
+}
+
 std::vector<std::string> cells(const ParameterLine& p) {
   return {p.name, p.unit, p.value, p.bounds, p.form, p.meaning};
 }
@@ -75,7 +84,8 @@ ModelSheet model_sheet(const std::string& name) {
   if (is_law(name))
     add_table(sheet, find_law(name));
   else
-    sheet.numbers = weights_of(find_network_preset(name));
+    sheet.numbers = info.kind == "network" ? weights_of(find_network_preset(name))
+                                           : numbers_of(find_fuzzy_preset(name));
   return sheet;
 }
 

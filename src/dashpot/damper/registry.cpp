@@ -41,6 +41,29 @@ const std::array<NetworkPreset, 2>& presets() {
   return kPresets;
 }
 
+const std::array<FuzzyPreset, 2>& fuzzy() {
+  static const std::array<FuzzyPreset, 2> kPresets{{
+      {.name = "anfis",
+       .title = "ANFIS",
+       .equation = "",
+       .source = "",
+       .remarks =
+           "",
+       .shape = Membership::Shape::Bell,
+       .inputs = {"velocity", "velocity_change", "current"},
+       .sets = {4, 2, 2}},
+      {.name = "takagi_sugeno",
+       .title = "Takagi-Sugeno",
+       .equation = "",
+       .source = "",
+       .remarks = "",
+       .shape = Membership::Shape::Gaussian,
+       .inputs = {"velocity", "current"},
+       .sets = {4, 2}},
+  }};
+  return kPresets;
+}
+
 const Law* law_named(std::string_view name) {
   const auto found =
       std::find_if(kLaws.begin(), kLaws.end(), [&](const Law* law) { return law->name == name; });
@@ -57,6 +80,8 @@ std::span<const Law* const> laws() { return kLaws; }
 
 std::span<const NetworkPreset> network_presets() { return presets(); }
 
+std::span<const FuzzyPreset> fuzzy_presets() { return fuzzy(); }
+
 bool ModelInfo::needs_displacement() const {
   return std::find(inputs.begin(), inputs.end(), "displacement") != inputs.end();
 }
@@ -68,14 +93,17 @@ ModelInfo model_info(std::string_view name, const std::string& where) {
     info.inputs.insert(info.inputs.end(), {"velocity", "current"});
     return info;
   }
-  const NetworkPreset& p = find_network_preset(name, where);
-  return {p.name, "network", p.title, p.equation, p.source, p.remarks, p.inputs};
+  for (const NetworkPreset& p : network_presets())
+    if (p.name == name) return {p.name, "network", p.title, p.equation, p.source, p.remarks, p.inputs};
+  const FuzzyPreset& p = find_fuzzy_preset(name, where);
+  return {p.name, "fuzzy", p.title, p.equation, p.source, p.remarks, p.inputs};
 }
 
 std::vector<std::string> model_names() {
   std::vector<std::string> names;
   for (const Law* law : laws()) names.emplace_back(law->name);
   for (const NetworkPreset& preset : network_presets()) names.emplace_back(preset.name);
+  for (const FuzzyPreset& preset : fuzzy_presets()) names.emplace_back(preset.name);
   return names;
 }
 
@@ -86,6 +114,12 @@ const Law& find_law(std::string_view name, const std::string& where) {
 
 const NetworkPreset& find_network_preset(std::string_view name, const std::string& where) {
   for (const NetworkPreset& preset : network_presets())
+    if (preset.name == name) return preset;
+  throw_unknown(name, where);
+}
+
+const FuzzyPreset& find_fuzzy_preset(std::string_view name, const std::string& where) {
+  for (const FuzzyPreset& preset : fuzzy_presets())
     if (preset.name == name) return preset;
   throw_unknown(name, where);
 }
