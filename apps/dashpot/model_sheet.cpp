@@ -84,8 +84,8 @@ ModelSheet model_sheet(const std::string& name) {
   if (is_law(name))
     add_table(sheet, find_law(name));
   else
-    sheet.numbers = info.kind == "network" ? weights_of(find_network_preset(name))
-                                           : numbers_of(find_fuzzy_preset(name));
+    sheet.numbers =
+        info.kind == "network" ? weights_of(find_network_preset(name)) : numbers_of(find_fuzzy_preset(name));
   return sheet;
 }
 

@@ -9,7 +9,7 @@
 
 namespace dashpot {
 
-/// A Takagi-Sugeno model: present inputs, and what is kept of the past velocity -> force.
+/// A Takagi-Sugeno model: inputs, two of them after a lag -> force.
 class FuzzyModel final : public DamperModel {
  public:
   /// Throws Error, beginning with `where` (the name when empty), when the parts do not fit together.
@@ -21,7 +21,9 @@ class FuzzyModel final : public DamperModel {
   bool needs_displacement() const noexcept override { return inputs_.has("displacement"); }
   std::size_t parameter_count() const noexcept override { return sugeno_.parameter_count(); }
   std::size_t state_size() const noexcept override { return inputs_.state_size(); }
-  void rest(const DamperInput&, std::span<double> state) const noexcept override { inputs_.rest(state); }
+  void rest(const DamperInput& input, std::span<double> state) const noexcept override {
+    inputs_.rest(input, state);
+  }
   void advance(const DamperInput& from, const DamperInput& to, double dt,
                std::span<double> state) const noexcept override {
     inputs_.advance(from, to, dt, state);

@@ -88,7 +88,8 @@ Value FuzzyModel::to_json() const {
     rules.push_back(Value::array(std::vector<double>(rule.begin(), rule.end())));
   return Value::object({{"name", name_},
                         {"inputs", std::move(inputs)},
-                        {"lag", inputs_.lag()},
+                        {"velocity_lag", inputs_.lags().velocity},
+                        {"coil_lag", inputs_.lags().coil},
                         {"memberships", std::move(memberships)},
                         {"rules", std::move(rules)},
                         {"consequents", Value::array(sugeno_.consequents)},
@@ -102,8 +103,9 @@ std::unique_ptr<FuzzyModel> fuzzy_model_from_json(const Value& value) {
   std::string name = reader.string("name");
   Sugeno sugeno;
   std::vector<std::string> names;
-  for (const Value& item : reader.required("inputs").items()) sugeno.inputs.push_back(read_input(item, names));
-  const double lag = reader.number("lag");
+  for (const Value& item : reader.required("inputs").items())
+    sugeno.inputs.push_back(read_input(item, names));
+  const FuzzyInputs::Lags lags{reader.number("velocity_lag"), reader.number("coil_lag")};
   for (const Value& item : reader.required("memberships").items())
     sugeno.memberships.push_back(read_membership(item));
   for (const Value& item : reader.required("rules").items()) {
@@ -115,7 +117,7 @@ std::unique_ptr<FuzzyModel> fuzzy_model_from_json(const Value& value) {
   sugeno.output_scale = reader.number("output_scale");
   const double offset = reader.number("offset");
   reader.finish();
-  return std::make_unique<FuzzyModel>(std::move(name), FuzzyInputs(std::move(names), lag, value.where()),
+  return std::make_unique<FuzzyModel>(std::move(name), FuzzyInputs(std::move(names), lags, value.where()),
                                       std::move(sugeno), offset, value.where());
 }
 

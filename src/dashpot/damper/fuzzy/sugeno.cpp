@@ -47,7 +47,8 @@ void Sugeno::standardise(const double* raw, double* linear, double* held) const 
 }
 
 void Sugeno::share(const double* held, double* values, double* shares) const noexcept {
-  for (std::size_t m = 0; m < memberships.size(); ++m) values[m] = memberships[m].at(held[memberships[m].input]);
+  for (std::size_t m = 0; m < memberships.size(); ++m)
+    values[m] = memberships[m].at(held[memberships[m].input]);
   double sum = 0;
   for (std::size_t r = 0; r < rules.size(); ++r) {
     shares[r] = 1;

@@ -8,9 +8,9 @@ namespace dashpot {
 /// How far a value belongs to a fuzzy set on one (standardised) input, 0 ... 1.
 struct Membership {
   enum class Shape {
-    Bell,     ///< 1 / (1 + |(x - centre) / width|^(2 slope))
-    Gaussian, ///< exp(-((x - centre) / width)^2 / 2)
-    Sigmoid   ///< 1 / (1 + exp(-slope (x - centre)))
+    Bell,      ///< 1 / (1 + |(x - centre) / width|^(2 slope))
+    Gaussian,  ///< exp(-((x - centre) / width)^2 / 2)
+    Sigmoid    ///< 1 / (1 + exp(-slope (x - centre)))
   };
   Shape shape = Shape::Bell;
   std::size_t input = 0;

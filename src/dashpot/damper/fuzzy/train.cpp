@@ -111,7 +111,8 @@ class ReducedProblem {
     result.cost = squares + options_.premise_decay * (unknowns - start_).squaredNorm();
     result.mean_square = squares - options_.ridge * q.squaredNorm();
     for (std::size_t g = 0; g < groups_.size(); ++g) {
-      const double offset = groups_[g].centring * (gram.group_sums()[g][n] - q.dot(gram.group_sums()[g].head(n)));
+      const double offset =
+          groups_[g].centring * (gram.group_sums()[g][n] - q.dot(gram.group_sums()[g].head(n)));
       result.offsets.push_back(offset);
       result.mean_square -=
           options_.offset_decay * static_cast<double>(groups_[g].size) * weight() * offset * offset;
@@ -205,7 +206,8 @@ class ReducedProblem {
 /// Levenberg-Marquardt over the memberships. Damping as Nielsen (1999) has it.
 class Search {
  public:
-  explicit Search(ReducedProblem& problem) : problem_(problem), x_(problem.start()), at_(problem.project(x_)) {}
+  explicit Search(ReducedProblem& problem)
+      : problem_(problem), x_(problem.start()), at_(problem.project(x_)) {}
 
   const VectorXd& unknowns() const { return x_; }
   const Projection& projection() const { return at_; }
@@ -265,8 +267,8 @@ TrainReport train(Sugeno& model, const TrainingSamples& samples, const FuzzyTrai
     ++report.iterations;
     search.step();
     costs.push_back(search.projection().cost);
-    const bool slow = costs.size() > kWindow && costs[costs.size() - 1 - kWindow] - costs.back() <
-                                                    options.tolerance * costs.back();
+    const bool slow = costs.size() > kWindow &&
+                      costs[costs.size() - 1 - kWindow] - costs.back() < options.tolerance * costs.back();
     report.converged = slow || search.stuck();
   }
   const Projection& found = search.projection();

@@ -8,11 +8,11 @@ namespace dashpot {
 
 /// All prices are per sample, in standardised units: a residual of the size of the data's scale costs 1.
 struct FuzzyTrainOptions {
-  int max_iterations = 60;     ///< 0: the consequents alone, the memberships stay
-  double tolerance = 1e-4;     ///< stop when the cost falls by less than this share over 5 steps
-  double ridge = 1e-4;         ///< on squared consequents: keeps rules that see few samples tame
-  double premise_decay = 1e-4; ///< on squared moves of centres and of logarithms of widths and slopes
-  double offset_decay = 1e-3;  ///< as TrainOptions::offset_decay
+  int max_iterations = 100;     ///< 0: the consequents alone, the memberships stay
+  double tolerance = 1e-4;      ///< stop when the cost falls by less than this share over 5 steps
+  double ridge = 1e-4;          ///< on squared consequents: keeps rules that see few samples tame
+  double premise_decay = 1e-4;  ///< on squared moves of centres and of logarithms of widths and slopes
+  double offset_decay = 1e-3;   ///< as TrainOptions::offset_decay
   std::function<void(int iteration)> on_iteration;  ///< may throw to stop
 };
 
