@@ -6,10 +6,10 @@
 
 using namespace dashpot;
 
-TEST_CASE("laws stand in alphabetical order, networks follow") {
+TEST_CASE("laws stand in alphabetical order, networks and fuzzy models follow") {
   const std::vector<std::string> names = model_names();
   CHECK(names == std::vector<std::string>{"bingham", "modified_bouc_wen", "tanh_kwok", "mlp_one_sensor",
-                                          "mlp_two_sensors"});
+                                          "mlp_two_sensors", "anfis", "takagi_sugeno"});
   CHECK(std::is_sorted(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(laws().size())));
   for (const Law* law : laws()) {
     CHECK(&find_law(law->name) == law);
@@ -25,6 +25,16 @@ TEST_CASE("the one-sensor paper's networks") {
   };
   CHECK(parameters(find_network_preset("mlp_one_sensor")) == 41);
   CHECK(parameters(find_network_preset("mlp_two_sensors")) == 51);
+}
+
+TEST_CASE("fuzzy models say their kind and inputs, and have sets for each") {
+  for (const FuzzyPreset& preset : fuzzy_presets()) {
+    const ModelInfo info = model_info(preset.name);
+    CHECK(info.kind == "fuzzy");
+    CHECK(info.inputs == preset.inputs);
+    CHECK(preset.sets.size() == preset.inputs.size());
+    CHECK_FALSE(info.needs_displacement());
+  }
 }
 
 TEST_CASE("an unknown name is answered with the near one") {

@@ -59,7 +59,7 @@ TEST_CASE("an offset adds up and survives JSON, as do the lags") {
   const std::vector<double> state{0.1, 0.7};
   CHECK_CLOSE(moved->force({0, 0.4, 1}, state), 0.3 + 0.7 + 3.5, 1e-12, 0);
   CHECK(back->force({0, 0.4, 1}, state) == moved->force({0, 0.4, 1}, state));
-  CHECK(back->parameter_count() == 3 + 2 + 2 + 2 * 3);
+  CHECK(back->parameter_count() == 3 + 2 + 2 + 2 * 3 + 2);
 }
 
 TEST_CASE("a fuzzy model that does not fit together is refused") {

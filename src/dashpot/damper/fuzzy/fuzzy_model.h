@@ -19,7 +19,10 @@ class FuzzyModel final : public DamperModel {
   std::string kind() const override { return "fuzzy"; }
   std::string name() const override { return name_; }
   bool needs_displacement() const noexcept override { return inputs_.has("displacement"); }
-  std::size_t parameter_count() const noexcept override { return sugeno_.parameter_count(); }
+  /// The rules' and memberships', and a lag for each state.
+  std::size_t parameter_count() const noexcept override {
+    return sugeno_.parameter_count() + inputs_.state_size();
+  }
   std::size_t state_size() const noexcept override { return inputs_.state_size(); }
   void rest(const DamperInput& input, std::span<double> state) const noexcept override {
     inputs_.rest(input, state);
