@@ -1,6 +1,6 @@
 #include <algorithm>
 #include <array>
-#include <cmath>
+#include <span>
 #include <tuple>
 
 #include "dashpot/base/parallel.h"
@@ -12,7 +12,7 @@
 namespace dashpot {
 namespace {
 
-constexpr std::size_t kSamples = 20000;      // of a fit: more change it by less than records differ
+constexpr std::size_t kSamples = 20000;      // of a fit: hundreds for each number that it finds
 constexpr std::size_t kTrialSamples = 4000;  // of a trial of lags
 constexpr int kTrialIterations = 8;
 constexpr std::array kVelocityLags{0.001, 0.0025, 0.005, 0.01, 0.02, 0.04};
