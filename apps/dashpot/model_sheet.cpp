@@ -1,5 +1,7 @@
 #include "model_sheet.h"
 
+#include <algorithm>
+
 #include <fmt/core.h>
 
 #include "dashpot/base/text.h"
@@ -51,6 +53,19 @@ std::size_t weights_of(const NetworkPreset& preset) {
   return Mlp::parameter_count(layers);
 }
 
+void add_numbers(ModelSheet& sheet, const FuzzyPreset& preset) {
+  std::size_t rules = 1, sets = 0;
+  for (const std::size_t count : preset.sets) {
+    rules *= count;
+    sets += count > 1 ? count : 0;
+  }
+  sheet.numbers = sets * Membership{preset.shape}.parameter_count() + rules * (preset.inputs.size() + 1);
+  const auto change = std::find(preset.inputs.begin(), preset.inputs.end(), "velocity_change");
+  if (change == preset.inputs.end()) return;
+  sheet.states.emplace_back("v_past, m/s");
+  ++sheet.numbers;  // its lag
+}
+
 std::vector<std::string> cells(const ParameterLine& p) {
   return {p.name, p.unit, p.value, p.bounds, p.form, p.meaning};
 }
@@ -74,8 +89,10 @@ ModelSheet model_sheet(const std::string& name) {
                    .inputs = info.inputs};
   if (is_law(name))
     add_table(sheet, find_law(name));
-  else
+  else if (info.kind == "network")
     sheet.numbers = weights_of(find_network_preset(name));
+  else
+    add_numbers(sheet, find_fuzzy_preset(name));
   return sheet;
 }
 

@@ -12,12 +12,12 @@ struct ParameterLine {
   std::string name, unit, value, bounds, form, meaning;
 };
 
-/// A registered model as the documentation shows it, law or network alike.
+/// A registered model as the documentation shows it, whatever its kind.
 struct ModelSheet {
   std::string name, kind, title, equation, source, remarks;
   std::vector<std::string> inputs = {};
   std::vector<std::string> states = {};        ///< "z, m"
-  std::vector<ParameterLine> parameters = {};  ///< a network has weights instead
+  std::vector<ParameterLine> parameters = {};  ///< of a law
   std::size_t numbers = 0;                     ///< fitted, with the usual forms of dependence on current
 };
 

@@ -2,6 +2,7 @@
 #include <new>
 
 #include "conformance/laws.h"
+#include "dashpot/damper/fuzzy/fuzzy_model.h"
 #include "support.h"
 
 using namespace dashpot;
@@ -43,4 +44,24 @@ TEST_CASE("stepping a law allocates nothing") {
     const std::vector<double> control(10);
     CHECK(allocations == before + 1);  // the counter counts
   });
+}
+
+TEST_CASE("stepping a fuzzy model allocates nothing") {
+  using Shape = Membership::Shape;
+  const Sugeno sugeno{.inputs = {{}, {}, {}},
+                      .memberships = {{Shape::Bell, 0}, {Shape::Gaussian, 1}, {Shape::Sigmoid, 2}},
+                      .rules = {{0, 1}, {1, 2}},
+                      .consequents = {1, 2, 3, 4, 5, 6, 7, 8}};
+  const FuzzyModel model(
+      "test", FuzzyInputs({"velocity", "velocity_change", "current"}, {0.01, 0.02}, "test"), sugeno);
+  std::vector<double> state(model.state_size());
+  model.rest(sine(0), state);
+  double sum = 0;
+  const std::size_t before = allocations;
+  for (int k = 0; k < 1000; ++k) {
+    model.advance(sine(k * 1e-3, 1), sine((k + 1) * 1e-3, 0.5), 1e-3, state);
+    sum += model.force(sine((k + 1) * 1e-3, 0.5), state);
+  }
+  CHECK(allocations == before);
+  CHECK(std::isfinite(sum));
 }

@@ -1,6 +1,7 @@
 #include "dashpot/damper/model_file.h"
 
 #include "dashpot/base/file.h"
+#include "dashpot/damper/fuzzy/fuzzy_model.h"
 #include "dashpot/damper/neural/network_model.h"
 #include "dashpot/damper/parameter_set.h"
 #include "support.h"
@@ -67,6 +68,20 @@ TEST_CASE("a network's file comes back as it was, to the last bit") {
   CHECK(format_model(loaded) == format_model(saved));
   for (const double v : {-0.2, 0.0, 0.13})
     CHECK(loaded.model->force({0, v, 0.5}, {}) == saved.model->force({0, v, 0.5}, {}));
+}
+
+TEST_CASE("a fuzzy model's file comes back as it was, to the last bit") {
+  const Sugeno sugeno{.inputs = {{0.1, 0.3, -2, 2}},
+                      .memberships = {{Membership::Shape::Bell, 0, 0.7 / 3, 1.1, 2.3}},
+                      .rules = {{0}},
+                      .consequents = {0.1 + 0.2, 4},
+                      .output_mean = -3,
+                      .output_scale = 812.5};
+  const ModelFile saved =
+      example(std::make_unique<FuzzyModel>("anfis", FuzzyInputs({"velocity"}, {}, "test"), sugeno, 4.5), "A");
+  const ModelFile loaded = parse_model(format_model(saved), "m.json");
+  CHECK(format_model(loaded) == format_model(saved));
+  CHECK(loaded.model->force({0, 0.13, 0.5}, {}) == saved.model->force({0, 0.13, 0.5}, {}));
 }
 
 TEST_CASE("a model file that cannot be used says where and why") {

@@ -6,12 +6,12 @@
 
 using namespace dashpot;
 
-TEST_CASE("laws stand in alphabetical order, networks follow") {
+TEST_CASE("laws stand in alphabetical order, networks and fuzzy models follow") {
   const std::vector<std::string> names = model_names();
-  const auto networks = names.begin() + static_cast<std::ptrdiff_t>(laws().size());
-  CHECK(std::is_sorted(names.begin(), networks));
-  CHECK(std::vector<std::string>(networks, names.end()) ==
-        std::vector<std::string>{"mlp_one_sensor", "mlp_two_sensors"});
+  const auto others = names.begin() + static_cast<std::ptrdiff_t>(laws().size());
+  CHECK(std::is_sorted(names.begin(), others));
+  CHECK(std::vector<std::string>(others, names.end()) ==
+        std::vector<std::string>{"mlp_one_sensor", "mlp_two_sensors", "anfis", "takagi_sugeno"});
   for (const Law* law : laws()) {
     CHECK(&find_law(law->name) == law);
     CHECK(is_law(law->name));
@@ -26,6 +26,16 @@ TEST_CASE("the one-sensor paper's networks") {
   };
   CHECK(parameters(find_network_preset("mlp_one_sensor")) == 41);
   CHECK(parameters(find_network_preset("mlp_two_sensors")) == 51);
+}
+
+TEST_CASE("fuzzy models say their kind and inputs, and have sets for each") {
+  for (const FuzzyPreset& preset : fuzzy_presets()) {
+    const ModelInfo info = model_info(preset.name);
+    CHECK(info.kind == "fuzzy");
+    CHECK(info.inputs == preset.inputs);
+    CHECK(preset.sets.size() == preset.inputs.size());
+    CHECK_FALSE(info.needs_displacement());
+  }
 }
 
 TEST_CASE("an unknown name is answered with the near one") {

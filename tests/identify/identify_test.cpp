@@ -61,10 +61,10 @@ TEST_CASE("the same bits on any number of threads") {
     IdentifyOptions options;
     options.threads = threads;
     options.starts = 2;
-    return rank({"bingham", "tanh_kwok", "mlp_one_sensor"}, data, by_condition, options);
+    return rank({"bingham", "tanh_kwok", "mlp_one_sensor", "anfis"}, data, by_condition, options);
   };
   const Ranking one = run(1), two = run(2);
-  REQUIRE(one.models.size() == 3);
+  REQUIRE(one.models.size() == 4);
   CHECK(one.models[0].name == "tanh_kwok");
   for (std::size_t k = 0; k < one.models.size(); ++k) {
     CHECK(one.models[k].name == two.models[k].name);

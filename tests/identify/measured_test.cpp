@@ -44,6 +44,20 @@ TEST_CASE("utfpr: inner voltages left out") {
   CHECK(ranked("tanh_kwok", load_dataset({folder})).left_out.pooled.r2 >= 0.97);
 }
 
+TEST_CASE("fuzzy models on what was left out") {
+  struct Gate {
+    const char *folder, *model;
+    double esr;  // %, a fifth above what was measured
+  };
+  for (const Gate& gate : {Gate{"utfsm", "takagi_sugeno", 5.2}, Gate{"utfpr", "takagi_sugeno", 4.5},
+                           Gate{"nees-2012-1158", "anfis", 3.3}, Gate{"utfpr", "anfis", 1.5}}) {
+    const auto folder = recordings(gate.folder);
+    if (folder.empty()) return;
+    CAPTURE(gate.folder);
+    CHECK(ranked(gate.model, load_dataset({folder})).left_out.pooled.esr <= gate.esr);
+  }
+}
+
 TEST_CASE("sysidentpy: the simulated damper, trained and tested on the halves that are used publicly") {
   const auto folder = recordings("sysidentpy-simulated");
   if (folder.empty()) return;

@@ -4,6 +4,7 @@
 #include <string_view>
 #include <vector>
 
+#include "dashpot/damper/fuzzy/sugeno.h"
 #include "dashpot/damper/law.h"
 
 namespace dashpot {
@@ -19,20 +20,30 @@ struct NetworkPreset {
 };
 std::span<const NetworkPreset> network_presets();
 
+/// A grid of fuzzy sets that is known by name.
+struct FuzzyPreset {
+  std::string_view name, title, equation, source, remarks;
+  Membership::Shape shape = Membership::Shape::Bell;
+  std::vector<std::string> inputs;  ///< as FuzzyInputs has them
+  std::vector<std::size_t> sets;    ///< fuzzy sets per input; 1: no partition
+};
+std::span<const FuzzyPreset> fuzzy_presets();
+
 /// What every registered model says of itself, law or not.
 struct ModelInfo {
-  std::string_view name, kind, title, equation, source, remarks;  ///< kind: "law", "network"
-  std::vector<std::string> inputs;                                ///< "displacement", "velocity", "current"
+  std::string_view name, kind, title, equation, source, remarks;  ///< kind: "law", "network", "fuzzy"
+  std::vector<std::string> inputs;  ///< "displacement", "velocity", "current", "velocity_change"
   bool needs_displacement() const;
 };
 /// Throws Error "unknown model 'bouc'; did you mean ...; known: ...".
 ModelInfo model_info(std::string_view name, const std::string& where = {});
 
-std::vector<std::string> model_names();  ///< laws, then networks
+std::vector<std::string> model_names();  ///< laws, then networks, then fuzzy models
 
-/// Both throw as model_info does.
+/// All throw as model_info does.
 const Law& find_law(std::string_view name, const std::string& where = {});
 const NetworkPreset& find_network_preset(std::string_view name, const std::string& where = {});
+const FuzzyPreset& find_fuzzy_preset(std::string_view name, const std::string& where = {});
 bool is_law(std::string_view name);
 
 }  // namespace dashpot

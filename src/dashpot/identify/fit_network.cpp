@@ -1,8 +1,10 @@
-#include <cmath>
+#include <algorithm>
+#include <tuple>
 
 #include "dashpot/base/parallel.h"
 #include "dashpot/damper/neural/network_model.h"
 #include "dashpot/identify/fit.h"
+#include "dashpot/identify/training_samples.h"
 
 namespace dashpot {
 namespace {
@@ -10,35 +12,6 @@ namespace {
 double input_of(const DamperInput& input, std::string_view name) {
   if (name == "displacement") return input.displacement;
   return name == "velocity" ? input.velocity : input.current;
-}
-
-TrainingSamples training_samples(const NetworkPreset& preset, const std::vector<Record>& records,
-                                 const std::string& drive_unit, OffsetMode offset) {
-  TrainingSamples samples;
-  for (std::size_t r = 0; r < records.size(); ++r) {
-    const std::vector<DamperInput> inputs = damper_inputs(records[r], drive_unit);
-    const std::vector<double>& force = records[r].channel("force").samples;
-    for (std::size_t k = records[r].warm_up; k < inputs.size(); ++k) {
-      for (const std::string& name : preset.inputs) samples.inputs.push_back(input_of(inputs[k], name));
-      samples.targets.push_back(force[k]);
-      if (offset == OffsetMode::Record) samples.group.push_back(r);
-    }
-  }
-  if (offset == OffsetMode::Record) samples.groups = records.size();
-  return samples;
-}
-
-/// Mean and standard deviation of every `stride`-th value from `first` on; a constant has scale 1.
-std::pair<double, double> mean_and_scale(const std::vector<double>& values, std::size_t first,
-                                         std::size_t stride) {
-  double sum = 0, square = 0;
-  std::size_t n = 0;
-  for (std::size_t k = first; k < values.size(); k += stride, ++n) sum += values[k];
-  const double mean = sum / static_cast<double>(n);
-  for (std::size_t k = first; k < values.size(); k += stride)
-    square += (values[k] - mean) * (values[k] - mean);
-  const double deviation = std::sqrt(square / static_cast<double>(n));
-  return {mean, deviation > 1e-12 * (std::abs(mean) + 1e-300) ? deviation : 1.0};
 }
 
 Mlp standardised(const NetworkPreset& preset, const TrainingSamples& samples) {
@@ -60,7 +33,13 @@ Mlp standardised(const NetworkPreset& preset, const TrainingSamples& samples) {
 
 FitReport fit_network(const NetworkPreset& preset, const std::vector<Record>& training,
                       const std::string& drive_unit, const IdentifyOptions& options) {
-  const TrainingSamples samples = training_samples(preset, training, drive_unit, options.offset);
+  const auto rows = [&](const std::vector<DamperInput>& inputs, const std::vector<double>&) {
+    std::vector<double> values;
+    for (const DamperInput& input : inputs)
+      for (const std::string& name : preset.inputs) values.push_back(input_of(input, name));
+    return values;
+  };
+  const TrainingSamples samples = training_samples(training, drive_unit, options.offset, rows);
   const std::size_t starts = static_cast<std::size_t>(std::max(1, options.starts));
   std::vector<Mlp> networks(starts, standardised(preset, samples));
   std::vector<TrainReport> reports(starts);

@@ -42,14 +42,21 @@ void settle_offsets(FitReport& report, const std::vector<Record>& training, cons
   }
 }
 
+FitReport fit(const std::string& model, const std::vector<Record>& training, const std::string& drive_unit,
+              const IdentifyOptions& options) {
+  const std::string_view kind = model_info(model).kind;
+  if (kind == "law") return fit_law(find_law(model), training, drive_unit, options);
+  if (kind == "network") return fit_network(find_network_preset(model), training, drive_unit, options);
+  return fit_fuzzy(find_fuzzy_preset(model), training, drive_unit, options);
+}
+
 }  // namespace
 
 FitReport identify(const std::string& model, const std::vector<Record>& training,
                    const std::string& drive_unit, const IdentifyOptions& options) {
   require_usable(model, training);
   const auto begin = std::chrono::steady_clock::now();
-  FitReport report = is_law(model) ? fit_law(find_law(model), training, drive_unit, options)
-                                   : fit_network(find_network_preset(model), training, drive_unit, options);
+  FitReport report = fit(model, training, drive_unit, options);
   if (report.status != FitReport::Status::Failed) settle_offsets(report, training, drive_unit, options);
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return report;

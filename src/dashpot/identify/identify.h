@@ -18,7 +18,7 @@ struct IdentifyOptions {
   Monitor monitor;
 };
 
-/// A fitted parameter with its 95 % interval. Networks have none.
+/// A fitted parameter with its 95 % interval. Networks and fuzzy models have none.
 struct FittedParameter {
   std::string name, unit, meaning;
   double value = 0;
@@ -41,7 +41,7 @@ struct FitReport {
   double training_rmse = 0;  ///< N, free run
 };
 
-/// Fits the model of that name (a law or a network preset) to all records together in free run.
+/// Fits the model of that name (a law, a network or a fuzzy preset) to all records together in free run.
 /// Throws Error when the records cannot serve (a channel missing, no motion). Not converging is a status.
 FitReport identify(const std::string& model, const std::vector<Record>& training,
                    const std::string& drive_unit, const IdentifyOptions& options);

@@ -122,9 +122,12 @@ std::string protocol(const LeaveOut& leave_out, std::size_t folds) {
 }
 
 std::optional<std::string> one_step_note(const Ranking& ranking) {
-  // Laws and networks of motion and drive; a kind that feeds force back must print its one-step error.
+  // Laws, networks and fuzzy models of motion and drive; a kind that feeds force back must print its
+  // one-step error.
   const bool none_feeds_back = std::ranges::all_of(ranking.models, [](const RankedModel& m) {
-    return m.fit.model && (m.fit.model->kind() == "law" || m.fit.model->kind() == "network");
+    if (!m.fit.model) return false;
+    const std::string kind = m.fit.model->kind();
+    return kind == "law" || kind == "network" || kind == "fuzzy";
   });
   if (!none_feeds_back || ranking.models.empty()) return std::nullopt;
   return "There is no one-step error to print beside the free run: none of these models feeds force back.";
