@@ -18,12 +18,14 @@ double force_after_ramp(const LawModel& model, int steps) {
   return model.force(at(1), state);
 }
 
+/// Force shortly before the motion turns, where every loop is open: the force then feels the states.
 double force_on_sine(const LawModel& model, int steps) {
+  const double end = 0.24;
   std::vector<double> state(model.state_size());
   model.rest(sine(0), state);
   for (int k = 0; k < steps; ++k)
-    model.advance(sine(0.1 * k / steps), sine(0.1 * (k + 1) / steps), 0.1 / steps, state);
-  return model.force(sine(0.1), state);
+    model.advance(sine(end * k / steps), sine(end * (k + 1) / steps), end / steps, state);
+  return model.force(sine(end), state);
 }
 
 /// Infinite where the coarse run is as good as rounding lets the fine one be: an exact step, or a standstill.

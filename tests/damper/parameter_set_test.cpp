@@ -1,5 +1,8 @@
 #include "dashpot/damper/parameter_set.h"
 
+#include <algorithm>
+#include <set>
+
 #include "dashpot/base/file.h"
 #include "support.h"
 
@@ -25,14 +28,19 @@ TEST_CASE("centimetres are converted: Spencer's set in SI") {
 
 TEST_CASE("every set that comes with Dashpot loads, holds over its range and says whether it was verified") {
   const std::vector<std::string> names = parameter_set_names();
-  CHECK(names == std::vector<std::string>{"kwok2006", "lai_liao2002", "leva_piroddi2002", "spencer1997"});
+  // everything else is marked [M], from memory, in MODELS.md, or does not meet its data
+  const std::set<std::string> verified{"labcontrol_bouc_wen", "lai_liao2002", "leva_piroddi2002",
+                                       "spencer1997"};
+  for (const char* known : {"inove", "kwok2006", "lai_liao2002", "leva_piroddi2002", "lozoya", "spencer1997"})
+    CHECK(std::find(names.begin(), names.end(), known) != names.end());
   for (const std::string& name : names) {
+    CAPTURE(name);
     const ParameterSet set = load_parameter_set(name);
     CHECK(set.name == name);
     CHECK_FALSE(set.source.empty());
     CHECK_FALSE(set.reason.empty());
-    CHECK(set.verified == (name != "kwok2006"));
-    CHECK(set.drive_max > set.drive_min);
+    CHECK(set.verified == (verified.count(name) == 1 || name.rfind("vrths_mr_", 0) == 0));
+    CHECK(set.drive_max >= set.drive_min);
   }
 }
 

@@ -15,8 +15,9 @@ const Law
                             "z' = r (v - z), a = r (v - z), s = a / sqrt(a^2 + a_s^2)",
                 .source = "after Cesmeci, Engin 2010, Int. J. Mech. Sci. 52, 1036-1046, in a form of our "
                           "own; defaults: an example of our own",
-                .remarks = "s is sgn(a) made smooth: midway between the branches at rest. Approaches its "
-                           "yield force slower than tanh does.",
+                .remarks = "s is sgn(a) made smooth: midway between the branches at rest, and with a_s as "
+                           "large as fits find it, a loop that widens with the acceleration as measured ones "
+                           "do. Approaches its yield force slower than tanh does.",
                 .states = {{"v_f", "m/s"}},
                 .params =
                     {

@@ -7,7 +7,7 @@
  * x m, v m/s (extension positive); F N, same sign as v. No internal state: hysteresis shows as far as
  * position tells the branches apart. Outside the data a polynomial explodes, so x' and v' are held at their
  * edge. The terms with i + j odd are those of a damper that pulls as it pushes. Source: S. F. Masri, T. K.
- * Caughey, J. Appl. Mech. 46 (1979) 433-447; for these dampers H. P. Gavin, J. Vib. Acoust. 123 (2001).
+ * Caughey, J. Appl. Mech. 46 (1979) 433-447; used for these dampers by H. P. Gavin (2001).
  * Differs from them: the edge.
  */
 #ifndef DASHPOT_LAW_CHEBYSHEV_H

@@ -16,7 +16,8 @@ const Law kHystereticBiviscous = state_law<HystereticBiviscous, hysteretic_bivis
         "Wereley, Pang, Kamath 1998, J. Intell. Mater. Syst. Struct. 9, 642-649, form recalled; defaults: an "
         "example of our own",
     .remarks =
-        "s is the source's sgn(a) made smooth: midway between the branches at rest. C_pr > C_po and C_pr v0 "
+        "s is the source's sgn(a) made smooth: midway between the branches at rest, and with a_s as large as "
+        "fits find it, a loop that widens with the acceleration as measured ones do. C_pr > C_po and C_pr v0 "
         "< F_y are meant, not needed: the force is finite and continuous without them.",
     .states = {{"v_f", "m/s"}},
     .params =

@@ -15,10 +15,12 @@ const Law kPolynomial =
                 "z' = r (v - z), a = r (v - z), s = a / sqrt(a^2 + a_s^2)",
             .source = "Choi, Lee, Park 2001, J. Sound Vib. 245, 375-383, form recalled; defaults: an example "
                       "of our own at 1 A",
-            .remarks = "s is sgn(a) made smooth: midway between the branches at rest. The source's "
-                       "coefficients are a_k = (m_k + d_k) / v_max^k for rising speed and (m_k - d_k) / "
-                       "v_max^k for falling; f0 is the mean of both a_0. Held beyond v_max. One set of "
-                       "coefficients serves for all speeds, so it is poor where slow and fast motions mix.",
+            .remarks =
+                "s is sgn(a) made smooth: midway between the branches at rest, and with a_s as large as fits "
+                "find it, a loop that widens with the acceleration as measured ones do. The source's "
+                "coefficients are a_k = (m_k + d_k) / v_max^k for rising speed and (m_k - d_k) / v_max^k for "
+                "falling; f0 is the mean of both a_0. Held beyond v_max. One set of coefficients serves for "
+                "all speeds, so it is poor where slow and fast motions mix.",
             .states = {{"v_f", "m/s"}},
             .params =
                 {

@@ -15,8 +15,9 @@ const Law
                             "z' = r (v - z), a = r (v - z), s = a / sqrt(a^2 + a_s^2)",
                 .source = "Ma, Wang, Rakheja, Su 2002, Proc. 41st IEEE Conf. Decision and Control, its "
                           "symmetric core, form recalled; defaults: an example of our own",
-                .remarks = "s is sgn(a) made smooth: midway between the branches at rest. k_v makes damping "
-                           "after yield proportional to the yield force.",
+                .remarks = "s is sgn(a) made smooth: midway between the branches at rest, and with a_s as "
+                           "large as fits find it, a loop that widens with the acceleration as measured ones "
+                           "do. k_v makes damping after yield proportional to the yield force.",
                 .states = {{"v_f", "m/s"}},
                 .params =
                     {
