@@ -86,6 +86,23 @@ TEST_CASE("Lai and Liao's set gives the forces of TC-4.5b") {
                {-2553.6702, 2512.5318, 2512.532, -2553.8267, 2512.5326, 2512.5329});
 }
 
+TEST_CASE("the own step is finite and keeps |z| below z_max, whatever the parameters and n") {
+  const Law& law = load_parameters("spencer1997").law();
+  Random random(9);
+  const auto size = [&](double low, double high) { return std::pow(10, random.uniform(low, high)); };
+  for (int trial = 0; trial < 20000; ++trial) {
+    const double n = trial % 3 ? trial % 3 : random.uniform(1, 20), gamma = size(-2, 12);
+    const double beta = trial % 5 ? size(-6, 12) : 0, A = size(-3, 5);
+    const double p[] = {size(-9, 9), size(-10, 8), size(-1, 9), size(-10, 8), 0, 0, gamma, beta, A, n, 0};
+    const double z_max = std::pow(A / (gamma + beta), 1 / n);
+    const double x[] = {0, 0.01 * random.normal()}, v[] = {random.normal(), random.normal()};
+    double z[] = {0, z_max * random.uniform(-1, 1)};
+    REQUIRE(law.step(p, x, v, size(-5, 1), z) == 1);
+    CHECK(std::isfinite(z[0]));
+    CHECK(std::abs(z[1]) <= z_max * (1 + 1e-9));
+  }
+}
+
 TEST_CASE("the current-driven set with cubic laws: TC-4.5c") {
   struct Case {
     double current, alpha, c0, c1;  // in N, mm, s

@@ -89,7 +89,8 @@ static inline int modified_bouc_wen_step(const ModifiedBoucWen* p, const double*
     slope = p->A * normalised_bouc_wen_slope(sigma, p->n, end);
     next = w - excess / (drag + share * h * slope);
     if (fabs(next - w) <= 1e-7 * high) { /* the next step would move by the square of this */
-      z1 += slope * h * (next - w);
+      z1 = fmin(z1 + slope * h * (next - w), fmax(z0, z_max));
+      z1 = fmax(z1, fmin(z0, z_max)); /* it stays between its start and where it settles */
       w = next;
       break;
     }
