@@ -86,6 +86,75 @@ TEST_CASE("Lai and Liao's set gives the forces of TC-4.5b") {
                {-2553.6702, 2512.5318, 2512.532, -2553.8267, 2512.5326, 2512.5329});
 }
 
+TEST_CASE("the own step is finite and keeps |z| below z_max, whatever the parameters and n") {
+  const Law& law = load_parameters("spencer1997").law();
+  Random random(9);
+  const auto size = [&](double low, double high) { return std::pow(10, random.uniform(low, high)); };
+  for (int trial = 0; trial < 20000; ++trial) {
+    const double n = trial % 3 ? trial % 3 : random.uniform(1, 20), gamma = size(-2, 12);
+    const double beta = trial % 5 ? size(-6, 12) : 0, A = size(-3, 5);
+    const double p[] = {size(-9, 9), size(-10, 8), size(-1, 9), size(-10, 8), 0, 0, gamma, beta, A, n, 0};
+    const double z_max = std::pow(A / (gamma + beta), 1 / n);
+    const double x[] = {0, 0.01 * random.normal()}, v[] = {random.normal(), random.normal()};
+    double z[] = {0, z_max * random.uniform(-1, 1)};
+    REQUIRE(law.step(p, x, v, size(-5, 1), z) == 1);
+    CHECK(std::isfinite(z[0]));
+    CHECK(std::abs(z[1]) <= z_max * (1 + 1e-9));
+  }
+}
+
+TEST_CASE("the current-driven set with cubic laws: TC-4.5c") {
+  struct Case {
+    double current, alpha, c0, c1;  // in N, mm, s
+    std::vector<double> forces;
+  };
+  const LawModel model = load_parameters("braz_cesar_barros2013");
+  for (const Case& printed :
+       {Case{0, 38.24, 0.59, 4.73, {134.11183, 131.22944, -15.68271, -54.436487}},
+        Case{0.25, 185.02453, 3.8185937, 23.586875, {522.45502, 494.85202, -244.64958, -451.11584}},
+        Case{0.5, 367.45125, 7.26125, 44.4725, {978.4295, 924.41721, -516.21887, -916.18975}}}) {
+    CAPTURE(printed.current);
+    std::vector<double> p(model.law().params.size());
+    model.parameters_at(printed.current, p.data());
+    CHECK_CLOSE(p[model.law().index_of("alpha")], 1e3 * printed.alpha, 1e-7, 0);
+    CHECK_CLOSE(p[model.law().index_of("c0")], 1e3 * printed.c0, 1e-7, 0);
+    CHECK_CLOSE(p[model.law().index_of("c1")], 1e3 * printed.c1, 1e-7, 0);
+    check_forces(at_times(model, {0.01, 1, printed.current}, {0.05, 0.1, 0.3, 0.5}, 1e-5), printed.forces);
+  }
+}
+
+TEST_CASE("the 200 kN set with n = 10 and z without a unit: TC-4.6b") {
+  struct Case {
+    double current, alpha, c0, c1;
+    std::vector<double> forces;
+  };
+  const ParameterSet set = load_parameter_set("yang2002");
+  const LawModel settled(set.model.law(), set.model.parameters(), "A", 0);  // the coil at its current
+  for (const Case& printed : {Case{0.5,
+                                   79580,
+                                   946714.38,
+                                   21765847,
+                                   {151704.4, 78714.493, -154574.62, -78981.973, 154299.83, 135253.71}},
+                              Case{2,
+                                   136010,
+                                   1055641,
+                                   41217518,
+                                   {221603.25, 136893.9, -224904.63, -137156.49, 224636.75, 202827.55}}}) {
+    CAPTURE(printed.current);
+    std::vector<double> p(settled.law().params.size());
+    settled.parameters_at(printed.current, p.data());
+    CHECK_CLOSE(p[settled.law().index_of("alpha")], printed.alpha, 0, 0.5);
+    CHECK_CLOSE(p[settled.law().index_of("c0")], printed.c0, 0, 0.5);
+    CHECK_CLOSE(p[settled.law().index_of("c1")], printed.c1, 0, 0.5);
+    check_forces(at_times(settled, {0.0254, 0.5, printed.current}, {0.1, 0.5, 1, 1.5, 2, 2.25}, 2.5e-5),
+                 printed.forces, 1e-3);
+  }
+  std::vector<double> at_zero(settled.law().params.size());
+  settled.parameters_at(0, at_zero.data());
+  CHECK(at_zero[settled.law().index_of("c1")] == -2791630);
+  CHECK(set.drive_min == 0.06);
+}
+
 TEST_CASE("both forms of the force agree: through the elements and through the dashpot c1") {
   Random random(7);
   const ModifiedBoucWen p{118250, 2625, 28742.5, 4690, 500, 0.143, 3.63e6, 3.63e6, 301, 2, 12};

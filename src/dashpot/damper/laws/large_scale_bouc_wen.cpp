@@ -30,7 +30,7 @@ const Law kLargeScaleBoucWen =
                      "damping at low speed"},
                     {&LargeScaleBoucWen::a2, "a2", "s/m", 50, 0, 1e6, 0.5, Form::Constant,
                      "1 / a2 is the speed at which damping has fallen to 1/e"},
-                    {&LargeScaleBoucWen::p, "p", "1", 0.6, 0.1, 4, 0.6, Form::Constant,
+                    {&LargeScaleBoucWen::p, "p", "1", 0.6, 0.3, 4, 0.6, Form::Constant,
                      "how suddenly damping falls"},
                     {&LargeScaleBoucWen::k, "k", "N/m", 8e4, -1e8, 1e8, 0, Form::Linear,
                      "accumulator stiffness"},

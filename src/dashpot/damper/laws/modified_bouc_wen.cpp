@@ -27,7 +27,8 @@ const Law kModifiedBoucWen = with_step<
     .states = {{"y", "m"}, {"z", "m"}},
     .params =
         {
-            {&ModifiedBoucWen::alpha, "alpha", "N/m", 118250, 0, 1e9, 0.25, Form::Linear, "hysteresis gain"},
+            {&ModifiedBoucWen::alpha, "alpha", "N/m", 118250, 0, 1e9, 0.25, Form::Quadratic,
+             "hysteresis gain"},
             {&ModifiedBoucWen::c0, "c0", "N*s/m", 2625, 0, 1e8, 0.3, Form::Linear, "damping at high speed"},
             {&ModifiedBoucWen::c1, "c1", "N*s/m", 28742.5, 0.1, 1e10, 5, Form::Linear,
              "damping in series: the roll-off at low speed"},

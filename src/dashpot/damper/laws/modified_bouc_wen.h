@@ -13,7 +13,7 @@
  */
 #ifndef DASHPOT_LAW_MODIFIED_BOUC_WEN_H
 #define DASHPOT_LAW_MODIFIED_BOUC_WEN_H
-#include <math.h>
+#include "bouc_wen.h"
 
 typedef struct ModifiedBoucWen {
   double alpha; /* N/m, hysteresis gain */
@@ -62,38 +62,14 @@ static inline double modified_bouc_wen_force(const ModifiedBoucWen* p, double x,
   return p->alpha * z[1] + p->c0 * w + p->k0 * (x - z[0]) + p->k1 * (x - p->x0) + p->f0;
 }
 
-/* z after a relative displacement s >= 0 from z: dz/ds = A - (beta + gamma sgn z) z^2, in closed form. */
-static inline double modified_bouc_wen_travel(const ModifiedBoucWen* p, double z, double s) {
-  if (z < 0) { /* up to z = 0 first */
-    const double b = p->beta - p->gamma;
-    const double r = sqrt(p->A * fabs(b));
-    const double k = p->A / r;
-    const double to_zero = r == 0 ? -z / p->A : b > 0 ? atanh(-z / k) / r : atan(-z / k) / r;
-    if (s < to_zero) {
-      if (r == 0) return z + p->A * s;
-      const double t = b > 0 ? tanh(r * s) : tan(r * s);
-      return (z + k * t) / (1 + (b > 0 ? z : -z) * t / k);
-    }
-    s -= to_zero;
-    z = 0;
-  }
-  const double k = sqrt(p->A / (p->beta + p->gamma));
-  const double t = tanh(p->A / k * s);
-  return (z + k * t) / (1 + z * t / k);
-}
-
-/* dz/ds at z, moving towards larger z */
-static inline double modified_bouc_wen_slope(const ModifiedBoucWen* p, double z) {
-  return p->A - (p->beta + (z > 0 ? p->gamma : -p->gamma)) * z * z;
-}
-
-/* States after a step of length h in which x and v go linearly from x[0], v[0] to x[1], v[1]; returns 0, with
- * the states untouched, unless n = 2. Second order, stable and bounded at any length: z travels exactly
- * along its loop, over the distance w h at whose speed w the equation of y' holds in the mean. In the
- * direction of motion that equation is monotone, so Newton's method within a bracket finds w. */
+/* States after a step of length h in which x and v go linearly from x[0], v[0] to x[1], v[1]. Second order,
+ * stable and bounded at any length: z travels exactly along its loop, over the distance w h at whose speed w
+ * the equation of y' holds in the mean. In the direction of motion that equation is monotone, so Newton's
+ * method within a bracket finds w. */
 static inline int modified_bouc_wen_step(const ModifiedBoucWen* p, const double* x, const double* v, double h,
                                          double* z) {
-  if (p->n != 2) return 0;
+  const double z_max = bouc_wen_z_max(p->A, p->gamma, p->beta, p->n);
+  const double sigma = p->gamma / (p->gamma + p->beta);
   const double mean_v = 0.5 * (v[0] + v[1]);
   const double drag = p->c0 + p->c1 + 0.5 * h * p->k0;
   const double push = p->c1 * mean_v - p->k0 * (0.5 * (x[0] + x[1]) - z[0] - 0.5 * h * mean_v);
@@ -101,17 +77,20 @@ static inline int modified_bouc_wen_step(const ModifiedBoucWen* p, const double*
   const double side = push >= p->alpha * z[1] ? 1 : -1;
   const double z0 = side * z[1], share = 0.5 * p->alpha;
   double low = 0, high = (side * push - p->alpha * z0) / drag;
-  double w = high * drag / (drag + share * h * fmax(0, modified_bouc_wen_slope(p, z0)));
+  double w =
+      high * drag / (drag + share * h * p->A * fmax(0, normalised_bouc_wen_slope(sigma, p->n, z0 / z_max)));
   double z1 = z0;
   int k;
   for (k = 0; k < 60; ++k) {
+    const double end = normalised_bouc_wen_rise(sigma, p->n, z0 / z_max, p->A / z_max * w * h);
     double excess, slope, next;
-    z1 = modified_bouc_wen_travel(p, z0, w * h);
+    z1 = z_max * end;
     excess = drag * w + share * (z0 + z1) - side * push;
-    slope = modified_bouc_wen_slope(p, z1);
+    slope = p->A * normalised_bouc_wen_slope(sigma, p->n, end);
     next = w - excess / (drag + share * h * slope);
     if (fabs(next - w) <= 1e-7 * high) { /* the next step would move by the square of this */
-      z1 += slope * h * (next - w);
+      z1 = fmin(z1 + slope * h * (next - w), fmax(z0, z_max));
+      z1 = fmax(z1, fmin(z0, z_max)); /* it stays between its start and where it settles */
       w = next;
       break;
     }
@@ -128,8 +107,7 @@ static inline int modified_bouc_wen_step(const ModifiedBoucWen* p, const double*
 
 /* 1/s: bound of the rate at which z settles and y creeps, at speed v */
 static inline double modified_bouc_wen_rate(const ModifiedBoucWen* p, double v) {
-  const double ratio = p->A / (p->gamma + p->beta);
-  const double z_max = p->n == 2 ? sqrt(ratio) : pow(ratio, 1 / p->n);
+  const double z_max = bouc_wen_z_max(p->A, p->gamma, p->beta, p->n);
   const double drag = p->c0 + p->c1;
   const double w = fabs(v) + p->alpha * z_max / drag;
   return p->n * p->A * w / z_max + (p->alpha * p->A + p->k0) / drag;
