@@ -8,8 +8,10 @@
 
 namespace dashpot {
 
-extern const Law kArctan, kBingham, kBiviscous, kChebyshev, kHystereticBiviscous, kLookupMap,
-    kModifiedBoucWen, kPolynomial, kSemiPhenomenological, kSigmoid, kTanhAcceleration, kTanhGuo, kTanhKwok;
+extern const Law kArctan, kBingham, kBiviscous, kChebyshev, kCompressibleChambers, kElastoplastic,
+    kFieldChain, kHystereticBiviscous, kLookupMap, kModifiedBoucWen, kPlateBingham, kPlateBinghamMixed,
+    kPlateBinghamShear, kPlateHerschelBulkley, kPolynomial, kSemiPhenomenological, kSigmoid,
+    kTanhAcceleration, kTanhGuo, kTanhKwok;
 
 namespace {
 
@@ -17,9 +19,16 @@ constexpr std::array kLaws{&kArctan,
                            &kBingham,
                            &kBiviscous,
                            &kChebyshev,
+                           &kCompressibleChambers,
+                           &kElastoplastic,
+                           &kFieldChain,
                            &kHystereticBiviscous,
                            &kLookupMap,
                            &kModifiedBoucWen,
+                           &kPlateBingham,
+                           &kPlateBinghamMixed,
+                           &kPlateBinghamShear,
+                           &kPlateHerschelBulkley,
                            &kPolynomial,
                            &kSemiPhenomenological,
                            &kSigmoid,
