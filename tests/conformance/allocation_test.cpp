@@ -29,6 +29,7 @@ TEST_CASE("stepping a law allocates nothing") {
     for (const ParamInfo& info : law.params) {
       d.forms.push_back(info.form);
       d.coefficients.emplace_back(coefficient_count(info.form), 0.0).front() = info.value;
+      if (info.fit == Fit::Drive) d.coefficients.back() = {0, 1};
     }
     const LawModel model(law, d, "A", 100);
     std::vector<double> state(model.state_size());

@@ -8,26 +8,42 @@
 
 namespace dashpot {
 
-extern const Law kArctan, kBingham, kBiviscous, kBoucWen, kChebyshev, kDahl, kExtendedBingham,
-    kHystereticBiviscous, kLandauSurrogate, kLargeScaleBoucWen, kLookupMap, kModifiedBoucWen, kModifiedLugre,
-    kNormalisedBoucWen, kPolynomial, kSemiPhenomenological, kSigmoid, kTanhAcceleration, kTanhGuo, kTanhKwok,
-    kViscousDahl;
+extern const Law kArctan, kBingham, kBiviscous, kBoucWen, kChebyshev, kCompressibleChambers, kDahl,
+    kElastoplastic, kExtendedBingham, kFieldChain, kHystereticBiviscous, kLandauSurrogate, kLargeScaleBoucWen,
+    kLookupMap, kModifiedBoucWen, kModifiedLugre, kNormalisedBoucWen, kPlateBingham, kPlateBinghamMixed,
+    kPlateBinghamShear, kPlateHerschelBulkley, kPolynomial, kSemiPhenomenological, kSigmoid,
+    kTanhAcceleration, kTanhGuo, kTanhKwok, kViscousDahl;
 
 namespace {
 
-constexpr std::array kLaws{
-    &kArctan,          &kBingham,
-    &kBiviscous,       &kBoucWen,
-    &kChebyshev,       &kDahl,
-    &kExtendedBingham, &kHystereticBiviscous,
-    &kLandauSurrogate, &kLargeScaleBoucWen,
-    &kLookupMap,       &kModifiedBoucWen,
-    &kModifiedLugre,   &kNormalisedBoucWen,
-    &kPolynomial,      &kSemiPhenomenological,
-    &kSigmoid,         &kTanhAcceleration,
-    &kTanhGuo,         &kTanhKwok,
-    &kViscousDahl,
-};
+constexpr std::array kLaws{&kArctan,
+                           &kBingham,
+                           &kBiviscous,
+                           &kBoucWen,
+                           &kChebyshev,
+                           &kCompressibleChambers,
+                           &kDahl,
+                           &kElastoplastic,
+                           &kExtendedBingham,
+                           &kFieldChain,
+                           &kHystereticBiviscous,
+                           &kLandauSurrogate,
+                           &kLargeScaleBoucWen,
+                           &kLookupMap,
+                           &kModifiedBoucWen,
+                           &kModifiedLugre,
+                           &kNormalisedBoucWen,
+                           &kPlateBingham,
+                           &kPlateBinghamMixed,
+                           &kPlateBinghamShear,
+                           &kPlateHerschelBulkley,
+                           &kPolynomial,
+                           &kSemiPhenomenological,
+                           &kSigmoid,
+                           &kTanhAcceleration,
+                           &kTanhGuo,
+                           &kTanhKwok,
+                           &kViscousDahl};
 
 constexpr std::string_view kOneSensorPaper =
     "Tudon-Martinez et al., the one-sensor paper: static network 8.22 % and 4.38 % (rms / half span)";
