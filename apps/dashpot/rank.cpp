@@ -37,9 +37,10 @@ std::string time_line(const Ranking& ranking, int threads) {
   double fits = 0;
   for (const RankedModel& model : ranking.models) fits += model.seconds;
   const auto cores = static_cast<std::size_t>(threads > 0 ? threads : default_threads());
-  return fmt::format("{} took {} s on {}; their fits take {} s of CPU time.\n",
-                     counted(ranking.models.size(), "model"), number_text(ranking.wall_seconds),
-                     counted(cores, "thread"), number_text(fits));
+  return fmt::format(
+      "{} took {} s on {}; their fits take {} s of CPU time{}.\n", counted(ranking.models.size(), "model"),
+      number_text(ranking.wall_seconds), counted(cores, "thread"), number_text(fits),
+      ranking.kept_fits == 0 ? "" : fmt::format("; {} kept from before", counted(ranking.kept_fits, "fit")));
 }
 
 constexpr std::string_view kLegend =

@@ -65,6 +65,7 @@ struct Ranking {
   LeaveOut leave_out;
   std::vector<std::string> folds;   ///< their names
   std::vector<RankedModel> models;  ///< best first, by left-out ESR with offsets; diverged last
+  std::size_t kept_fits = 0;        ///< found in the store
   double wall_seconds = 0;          ///< from the first fit to the last figure
 };
 

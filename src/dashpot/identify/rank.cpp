@@ -121,6 +121,7 @@ class RankingRun {
     });
     for (RankedModel& ranked : ranking_.models) judge(ranked);
     std::stable_sort(ranking_.models.begin(), ranking_.models.end(), better);
+    ranking_.kept_fits = kept_;
     ranking_.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     return std::move(ranking_);
   }
@@ -148,10 +149,13 @@ class RankingRun {
   }
 
   /// As it was kept, or made now and kept.
-  FitReport fit(const std::string& model, const std::vector<Record>& training) const {
+  FitReport fit(const std::string& model, const std::vector<Record>& training) {
     const FitStore::Request request{model, training, dataset_.drive_unit, options_};
     if (store_)
-      if (std::optional<FitReport> kept = store_->load(request)) return std::move(*kept);
+      if (std::optional<FitReport> kept = store_->load(request)) {
+        ++kept_;
+        return std::move(*kept);
+      }
     FitReport report = identify(model, training, dataset_.drive_unit, options_);
     if (store_) store_->save(request, report);
     return report;
@@ -204,6 +208,7 @@ class RankingRun {
   std::vector<Record> training_;
   Domain domain_;
   double force_span_;
+  std::atomic<std::size_t> kept_ = 0;
   Ranking ranking_;
 };
 

@@ -44,7 +44,7 @@ const std::vector<Figure>& figures() {
        percent_text},
       {"Par.", "parameters", 1, parameters_of, whole},
       {"ns/step", "nanoseconds_per_step", 1, [](const auto& m) { return m.nanoseconds_per_step; },
-       two_digits},
+       three_digits},
       {"Fit s", "fit_cpu_seconds", 1, [](const auto& m) { return m.seconds; }, two_digits}};
   return kFigures;
 }
