@@ -58,7 +58,7 @@ TEST_CASE("rank --markdown prints a part of a page and nothing else on stdout; -
   const TemporaryFolder folder;
   const ProgramResult page = stdout_of_dashpot(rank_of("bingham --markdown", folder.path()));
   CHECK(page.exit_code == 0);
-  CHECK(page.output.starts_with("## small\n"));
+  CHECK(page.output.starts_with("## virtual bench, "));
   CHECK(contains(page.output, "| bingham |"));
   CHECK(!contains(page.output, folder.path().string()));
   const ProgramResult json = stdout_of_dashpot(rank_of("bingham --json", folder.path()));
