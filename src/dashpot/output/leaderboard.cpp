@@ -78,7 +78,8 @@ std::vector<std::vector<std::string>> leaderboard_rows(const Ranking& ranking) {
 
 std::string level_title(const DriveResult& drive, const std::string& unit) {
   const std::string low = format_number(drive.low, 3);
-  return drive.low == drive.high ? low + " " + unit : low + " ... " + format_number(drive.high, 3) + " " + unit;
+  return drive.low == drive.high ? low + " " + unit
+                                 : low + " ... " + format_number(drive.high, 3) + " " + unit;
 }
 
 /// Columns and rows; those of the first judged model say which bands and levels there are.
