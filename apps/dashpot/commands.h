@@ -6,6 +6,7 @@
 namespace dashpot::cli {
 
 Command identify_command();
+Command rank_command();
 Command evaluate_command();
 Command models_command();
 Command inspect_command();

@@ -70,8 +70,7 @@ int run(const Settings& settings, Console& console) {
   const Dataset dataset = load_recordings({.paths = {statement.string()}, .load = {}}, console);
   FitSettings fit = settings.fit;
   const std::string truth = damper.model.name();
-  if (!fit.models.empty() && std::ranges::find(fit.models, truth) == fit.models.end())
-    fit.models.push_back(truth);
+  fit.models.push_back(truth);
   const Ranking ranking = rank(chosen_models(fit, dataset, console), dataset, default_leave_out(dataset),
                                identify_options(fit, console));
   const ReportInput input = report_input(dataset, ranking, console);

@@ -7,16 +7,36 @@
 #include "dashpot/damper/registry.h"
 
 namespace dashpot::cli {
+namespace {
+
+/// What an engineer tries first: few, quick, and good on measured dampers.
+const std::vector<std::string> kUsualModels = {"bingham", "tanh_kwok", "modified_bouc_wen", "mlp_one_sensor",
+                                               "mlp_two_sensors"};
+
+std::vector<std::string> names_and_groups() {
+  std::vector<std::string> words = model_names();
+  words.insert(words.end(), {"usual", "all"});
+  return words;
+}
+
+/// The models that a word on the command line stands for.
+std::vector<std::string> models_of(const std::string& word) {
+  if (word == "all") return model_names();
+  return word == "usual" ? kUsualModels : std::vector{word};
+}
+
+}  // namespace
 
 std::vector<Option> fit_options(FitSettings& settings) {
   return {
       {.names = "--models",
        .target = &settings.models,
-       .help = "the models to fit, separated by commas",
+       .help = "the models to fit, separated by commas; 'usual' stands for " + join(kUsualModels, ", ") +
+               "; 'all' for every model that 'dashpot models' lists",
        .value = "NAMES",
-       .choices = model_names(),
+       .choices = names_and_groups(),
        .noun = "model",
-       .default_text = "all that the data allow"},
+       .default_text = join(settings.models, ",")},
       {.names = "--force-offset",
        .target = &settings.force_offset,
        .help = "the force zero (gas, load cell): a free offset per record, or none beside the model's own",
@@ -42,12 +62,15 @@ std::vector<Option> fit_options(FitSettings& settings) {
 
 std::vector<std::string> chosen_models(const FitSettings& settings, const Dataset& dataset,
                                        Console& console) {
-  if (!settings.models.empty()) return settings.models;
   const bool has_displacement =
       std::ranges::all_of(dataset.records, [](const Record& r) { return r.find("displacement") != nullptr; });
   std::vector<std::string> models, passed_over;
-  for (const std::string& model : model_names())
-    (has_displacement || !model_info(model).needs_displacement() ? models : passed_over).push_back(model);
+  for (const std::string& word : settings.models)
+    for (const std::string& model : models_of(word)) {
+      const bool fits = model == word || has_displacement || !model_info(model).needs_displacement();
+      std::vector<std::string>& list = fits ? models : passed_over;
+      if (std::ranges::find(list, model) == list.end()) list.push_back(model);
+    }
   if (!passed_over.empty())
     console.note("not every record has a displacement, which these models need: " + join(passed_over, ", "));
   return models;

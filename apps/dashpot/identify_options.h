@@ -9,14 +9,15 @@ namespace dashpot::cli {
 
 /// What `identify` and `demo` let the user say about the fits.
 struct FitSettings {
-  std::vector<std::string> models;
+  std::vector<std::string> models = {"usual"};
   std::string force_offset = "record";
   IdentifyOptions options;
 };
 
 std::vector<Option> fit_options(FitSettings& settings);
 
-/// The models asked for, or all that the data allow; a note names those passed over.
+/// The models asked for, those of them that the data allow when a group is asked for; a note names those
+/// passed over.
 std::vector<std::string> chosen_models(const FitSettings& settings, const Dataset& dataset, Console& console);
 
 IdentifyOptions identify_options(const FitSettings& settings, Console& console);

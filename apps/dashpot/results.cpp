@@ -88,16 +88,17 @@ void prepare_results(const ResultSettings& settings) {
                   "give a folder of your own with --output");
 }
 
-void write_results(const ReportInput& input, const ResultSettings& settings, Console& console) {
+void write_results(const ReportInput& input, const ResultSettings& settings, Console& console, Say say) {
   const fs::path folder = settings.folder;
   write_models(input, folder / "models", console);
   if (settings.report) write_reports(input, folder, console);
   if (settings.figures) write_figures(input, folder / "figures");
-  console.print("\n");
+  std::string where = "\n";
   if (settings.report)
-    console.print("Report   " + (folder / "report.html").string() + " (also .json, .md, .csv)\n");
-  console.print("Models   " + (folder / "models").string() + "/\n");
-  if (settings.figures) console.print("Figures  " + (folder / "figures").string() + "/\n");
+    where += "Report   " + (folder / "report.html").string() + " (also .json, .md, .csv)\n";
+  where += "Models   " + (folder / "models").string() + "/\n";
+  if (settings.figures) where += "Figures  " + (folder / "figures").string() + "/\n";
+  say == Say::Result ? console.print(where) : console.talk(where);
 }
 
 int exit_code_of(const Ranking& ranking, Console& console) {

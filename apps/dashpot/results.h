@@ -24,8 +24,12 @@ void print_results(const ReportInput& input, Console& console);
 /// Makes the folder, so that hours of fitting do not end at one that cannot be written.
 void prepare_results(const ResultSettings& settings);
 
+/// Where it stands that files were written: among the results, or beside a page that is the result.
+enum class Say { Result, Aside };
+
 /// Writes model files, report and figures, and prints where they are.
-void write_results(const ReportInput& input, const ResultSettings& settings, Console& console);
+void write_results(const ReportInput& input, const ResultSettings& settings, Console& console,
+                   Say say = Say::Result);
 
 /// kDone, or kNotUsable with the reason printed when no model gave a finite force.
 int exit_code_of(const Ranking& ranking, Console& console);

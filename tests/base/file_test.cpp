@@ -52,3 +52,7 @@ TEST_CASE("SHA-256 of the standard's test message") {
   CHECK(sha256_of_file(folder.write("abc", "abc")) ==
         "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
 }
+
+TEST_CASE("SHA-256 of bytes: the example of FIPS 180-4") {
+  CHECK(sha256("abc") == "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+}

@@ -1,8 +1,10 @@
 #include "dashpot/base/parallel.h"
 
 #include <atomic>
+#include <chrono>
 #include <numeric>
 #include <stdexcept>
+#include <thread>
 #include <vector>
 
 #include "dashpot/base/error.h"
@@ -40,4 +42,26 @@ TEST_CASE("a monitor stops work") {
   CHECK(seen == 0.5);
   stop = true;
   CHECK_THROWS_AS(monitor.check(), Interrupted);
+}
+
+TEST_CASE("CPU time counts the threads that worked for this one, and no waiting") {
+  std::atomic<double> sink = 0;
+  const auto work = [&](std::size_t) {
+    double x = 1;
+    for (int k = 0; k < 3000000; ++k) x = x * 1.0000001 + 1e-9;
+    sink = x;
+  };
+  const auto cost = [&](int threads) {
+    const double begin = cpu_seconds();
+    parallel_for(8, threads, work);
+    return cpu_seconds() - begin;
+  };
+  const double one = cost(1), four = cost(4);
+  CHECK(one > 0);
+  // Threads that share a core or its caches run slower, never four times cheaper.
+  CHECK(four > one / 2);
+  CHECK(four < one * 4);
+  const double begin = cpu_seconds();
+  std::this_thread::sleep_for(std::chrono::milliseconds(30));
+  CHECK(cpu_seconds() - begin < 0.02);
 }

@@ -6,8 +6,8 @@
 
 namespace {
 
-const char* const kCommands[] = {"identify", "evaluate", "inspect",    "models",
-                                 "bench",    "demo",     "completion", "version"};
+const char* const kCommands[] = {"identify", "rank", "evaluate",   "inspect", "models",
+                                 "bench",    "demo", "completion", "version"};
 
 std::size_t longest_line(const std::string& text) {
   std::istringstream lines(text);
@@ -73,6 +73,10 @@ TEST_CASE("a wrong command line exits with 2 and says what would be right") {
       {"identify data --models bimgham", "--models: unknown model 'bimgham'; did you mean 'bingham'?"},
       {"identify data --force-offset some", "--force-offset: unknown value 'some'"},
       {"identify data --leave-out moon", "moon"},
+      {"rank", "DATA is missing"},
+      {"rank data --models bingam", "--models: unknown model 'bingam'; did you mean 'bingham'?"},
+      {"rank data --leave-out moon", "moon"},
+      {"rank data --fresher", "unknown option '--fresher'; did you mean '--fresh'?"},
       {"models bimgham", "unknown model 'bimgham'; did you mean 'bingham'?"},
       {"models bingham tanh_kwok", "one argument too many"},
       {"bench --motions 3", "--motions: '3' is not an amplitude and a frequency; write mm x Hz"},

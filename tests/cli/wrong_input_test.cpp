@@ -86,6 +86,7 @@ std::string cut_mat() {
   return text + std::string("\x00\x01IM\x0e\x00\x00\x00\x00\x10\x00\x00\x06\x00\x00\x00\x08\x00\x00\x00", 20);
 }
 
+const std::string kRank = "rank DIR --models bingham --quiet --output DIR/results";
 const std::string kFit = "identify DIR --models bingham --quiet --output DIR/results";
 
 }  // namespace
@@ -178,6 +179,22 @@ TEST_CASE("recordings that cannot be used") {
        kFit + " --leave-out condition",
        1,
        {"cannot be divided", "fraction=0.3"}},
+      {"rank: constant force",
+       {{"a_1Hz.csv", csv(scaled(2, 0))}, {"b_2Hz.csv", csv(scaled(2, 0))}},
+       kRank,
+       1,
+       {"the force is constant"}},
+      {"rank: one record",
+       {{"a_1Hz.csv", csv()}},
+       kRank + " --leave-out condition",
+       1,
+       {"cannot be divided", "fraction=0.3"}},
+      {"rank: no files", {}, "rank DIR", 1, {"the folder holds no files"}},
+      {"rank: a folder that cannot be made",
+       {{"a_1Hz.csv", csv()}, {"b_2Hz.csv", csv()}, {"results", "old"}},
+       kRank,
+       1,
+       {"results/models: cannot make this folder"}},
   };
   for (const Wrong& wrong : table) check(wrong);
 }

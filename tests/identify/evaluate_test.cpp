@@ -101,3 +101,27 @@ TEST_CASE("the range of a switching drive leaves its spikes out") {
   CHECK(range.low == 1);
   CHECK(range.high == 1);
 }
+
+TEST_CASE("figures by drive: one per constant level; quarters of its range where it varies") {
+  const LawModel zero = LawModel::constant(find_law("bingham"), {0, 0, 0, 0});
+  const auto record_at = [](std::vector<double> drive, std::optional<double> level) {
+    Record record{.name = "r", .source = {}, .condition = {}, .drive_level = level};
+    const std::size_t n = drive.size();
+    for (std::size_t k = 0; k < n; ++k) record.time.push_back(0.01 * static_cast<double>(k));
+    record.channels = {{"velocity", "m/s", std::vector<double>(n, 0.1), {}},
+                       {"force", "N", drive, {}},
+                       {"current", "A", drive, {}}};
+    return record;
+  };
+  const Evaluation levels =
+      evaluate(zero, {record_at({2, 2, 2}, 2), record_at({1, 1, 1}, 1)}, "A", {.offset = OffsetMode::None});
+  REQUIRE(levels.drive.size() == 2);
+  CHECK(levels.drive[0].low == 1);
+  CHECK(levels.drive[0].metrics.rmse == 1);  // the force of these records is their drive, the model's 0
+  CHECK(levels.drive[1].metrics.rmse == 2);
+  const Evaluation varying =
+      evaluate(zero, {record_at({0, 1, 2, 3, 4, 4}, {})}, "A", {.offset = OffsetMode::None});
+  REQUIRE(varying.drive.size() == 4);
+  CHECK(varying.drive[0].metrics.samples == 1);  // [0, 1)
+  CHECK(varying.drive[3].metrics.samples == 3);  // [3, 4], both ends
+}

@@ -11,6 +11,7 @@ int main(int count, char** arguments) {
   ExampleRanking example = example_ranking(count > 2 ? std::stoul(arguments[2]) : 1500);
   example.dataset.records[1].notes = {"<script>alert('a note')</script>"};
   dashpot::write_file(folder / "report.html", dashpot::html_report(example.input()));
+  dashpot::write_file(folder / "crowded.html", dashpot::html_report(crowded_ranking(30).input()));
   dashpot::write_file(folder / "inspect.html",
                       dashpot::inspect_html(example.dataset, "dashpot inspect demo", "2026-11-21"));
 }

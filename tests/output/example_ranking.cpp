@@ -138,6 +138,9 @@ Evaluation evaluation_of(std::vector<RecordResult> records) {
     if (!r.diverged_at && r.metrics.esr > evaluation.worst_esr)
       evaluation.worst_esr = r.metrics.esr, evaluation.worst_record = r.record;
   }
+  evaluation.mean_esr = evaluation.worst_esr / 2;
+  evaluation.mean_energy_error = 3;
+  evaluation.drive = {{0, 0, metrics(sums)}, {0.8, 0.8, metrics(sums)}, {1.6, 1.6, metrics(sums)}};
   evaluation.bands = bands_of(records);
   evaluation.pooled = metrics(sums);
   evaluation.pooled_without_offset = metrics(without_offset);
@@ -185,7 +188,21 @@ ExampleRanking example_ranking(std::size_t samples) {
     model.fold_fits.assign(example.ranking.folds.size(), fit_of(flaw));
     model.seconds = 2.3;
     model.nanoseconds_per_step = 48;
+    model.stress = {.seconds = 5, .finite = true, .largest_share = 1.5};
     example.ranking.models.push_back(std::move(model));
+  }
+  return example;
+}
+
+ExampleRanking crowded_ranking(std::size_t models) {
+  ExampleRanking example = example_ranking(300);
+  auto& all = example.ranking.models;
+  while (all.size() < models) {
+    RankedModel next = all[all.size() - 2];
+    next.name = fmt::format("model_{}", all.size() - 1);
+    next.title = fmt::format("Model number {} of the literature", all.size() - 1);
+    next.left_out.pooled.esr *= 1.1;
+    all.insert(all.end() - 1, std::move(next));
   }
   return example;
 }

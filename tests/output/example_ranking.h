@@ -13,3 +13,6 @@ struct ExampleRanking {
 
 /// `samples` per record.
 ExampleRanking example_ranking(std::size_t samples = 1500);
+
+/// The same with the second model repeated until there are `models` of them, each a little worse.
+ExampleRanking crowded_ranking(std::size_t models);

@@ -127,11 +127,26 @@ async function theme(page) {
   await page.evaluate(() => localStorage.clear());
 }
 
+// Thirty models: all in the table, the best in the bars, any other one when it is chosen.
+async function crowded({page, done}) {
+  assert.equal(await page.locator("#ranking tbody tr").count(), 30);
+  const bars = plot(page, "Error by speed").locator(".legend button");
+  assert.equal(await bars.count(), 5);
+  await page.locator("#ranking tbody tr").nth(20).click();
+  assert.equal(await bars.count(), 6);
+  assert.match(await bars.last().textContent(), /Model number 20/);
+  await page.locator("#ranking thead button", {hasText: /^Bounded$/}).click();
+  assert.match(await page.locator("#ranking tbody tr").first().textContent(), /yes, 1\.5/);
+  await done();
+}
+
 try {
   const report = await open("report.html");
   for (const step of [ranking, choosing, zooming, theme]) await step(report.page);
   await report.done();
   for (const options of [{scheme: "dark"}, {width: 390}]) await (await open("report.html", options)).done();
+
+  await crowded(await open("crowded.html"));
 
   const inspect = await open("inspect.html");
   await inspect.page.selectOption("#record", "1");

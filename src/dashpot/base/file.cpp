@@ -111,6 +111,12 @@ void write_file(const fs::path& path, std::string_view content) {
   file.rename_to_final();
 }
 
+std::string sha256(std::string_view bytes) {
+  std::array<char, SHA256_DIGEST_STRING_LENGTH> text;
+  SHA256Data(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size(), text.data());
+  return text.data();
+}
+
 std::string sha256_of_file(const fs::path& path) {
   require_readable_file(path);
   std::array<char, SHA256_DIGEST_STRING_LENGTH> text;

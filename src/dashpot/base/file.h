@@ -15,7 +15,8 @@ void write_file(const std::filesystem::path& path, std::string_view content);
 /// With all its parents; nothing happens when it is there. Throws Error when it cannot be made.
 void make_folder(const std::filesystem::path& path);
 
-/// SHA-256 of the file's bytes, in hexadecimal.
+/// SHA-256 of bytes and of a file's, in hexadecimal.
+std::string sha256(std::string_view bytes);
 std::string sha256_of_file(const std::filesystem::path& path);
 
 }  // namespace dashpot

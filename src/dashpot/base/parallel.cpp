@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <ctime>
 #include <exception>
 #include <mutex>
 #include <sched.h>
@@ -58,7 +59,16 @@ class Farm {
 // A farm inside a task would start threads on top of threads: inner loops run where they are.
 thread_local bool inside_a_task = false;
 
+/// CPU time of the threads that worked for this one.
+thread_local double seconds_of_others = 0;
+
 }  // namespace
+
+double cpu_seconds() {
+  timespec own{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &own);
+  return static_cast<double>(own.tv_sec) + 1e-9 * static_cast<double>(own.tv_nsec) + seconds_of_others;
+}
 
 void parallel_for(std::size_t count, int threads, const std::function<void(std::size_t)>& task) {
   const auto wanted = inside_a_task ? 1 : static_cast<std::size_t>(threads > 0 ? threads : default_threads());
@@ -73,11 +83,17 @@ void parallel_for(std::size_t count, int threads, const std::function<void(std::
     farm.work();
     inside_a_task = false;
   };
+  std::vector<double> spent(workers);
   {
     std::vector<std::jthread> pool;
-    for (std::size_t k = 1; k < workers; ++k) pool.emplace_back(work);
+    for (std::size_t k = 1; k < workers; ++k)
+      pool.emplace_back([&work, &seconds = spent[k]] {
+        work();
+        seconds = cpu_seconds();
+      });
     work();
   }
+  for (const double seconds : spent) seconds_of_others += seconds;
   farm.rethrow();
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "dashpot/base/error.h"
 #include "dashpot/base/parallel.h"
@@ -116,6 +117,43 @@ std::vector<BandResult> velocity_bands(const std::vector<RecordResult>& records)
   return bands;
 }
 
+/// Errors of the scored samples whose drive lies in [low, high); the upper end belongs to the last range.
+ErrorSums sums_at_drive(const std::vector<RecordResult>& records, double low, double high, bool last) {
+  ErrorSums sums;
+  for (const RecordResult& r : records) {
+    if (r.diverged_at) continue;
+    for (std::size_t k = r.warm_up; k < r.measured.size(); ++k)
+      if (r.drive[k] >= low && (r.drive[k] < high || (last && r.drive[k] <= high)))
+        sums.add(r.measured[k], r.modelled[k]);
+  }
+  return sums;
+}
+
+std::vector<DriveResult> by_quarter_of_drive(const std::vector<RecordResult>& records) {
+  constexpr int kQuarters = 4;
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const RecordResult& r : records)
+    for (const double drive : r.drive) low = std::min(low, drive), high = std::max(high, drive);
+  std::vector<DriveResult> results;
+  for (int q = 0; q < kQuarters; ++q) {
+    const double from = low + (high - low) * q / kQuarters, to = low + (high - low) * (q + 1) / kQuarters;
+    const ErrorSums sums = sums_at_drive(records, from, to, q + 1 == kQuarters);
+    if (sums.n > 0) results.push_back({from, to, metrics(sums)});
+  }
+  return results;
+}
+
+std::vector<DriveResult> by_drive(const std::vector<RecordResult>& records) {
+  std::map<double, ErrorSums> levels;
+  for (const RecordResult& r : records) {
+    if (!r.drive_level) return by_quarter_of_drive(records);
+    if (!r.diverged_at) levels[*r.drive_level].add(r.sums);
+  }
+  std::vector<DriveResult> results;
+  for (const auto& [level, sums] : levels) results.push_back({level, level, metrics(sums)});
+  return results;
+}
+
 /// The figures over all records; those that diverged are counted, never averaged.
 Evaluation summarise(std::vector<RecordResult> records) {
   Evaluation evaluation;
@@ -128,14 +166,20 @@ Evaluation summarise(std::vector<RecordResult> records) {
     }
     sums.add(r.sums);
     without.add(r.sums_without_offset);
+    evaluation.mean_esr += r.metrics.esr;
+    evaluation.mean_energy_error += std::abs(r.energy_error);
     if (r.metrics.esr >= evaluation.worst_esr) {
       evaluation.worst_esr = r.metrics.esr;
       evaluation.worst_record = r.record;
     }
   }
+  const auto judged = static_cast<double>(evaluation.records.size() - evaluation.diverged);
+  evaluation.mean_esr /= judged;
+  evaluation.mean_energy_error /= judged;
   evaluation.pooled = metrics(sums);
   evaluation.pooled_without_offset = metrics(without);
   evaluation.bands = velocity_bands(evaluation.records);
+  evaluation.drive = by_drive(evaluation.records);
   return evaluation;
 }
 

@@ -58,13 +58,22 @@ struct BandResult {
   Metrics metrics;
 };
 
+/// The samples at one level of the drive, or in a quarter of its range where it varies within records.
+struct DriveResult {
+  double low = 0, high = 0;  ///< A or V; equal: a constant level
+  Metrics metrics;
+};
+
 struct Evaluation {
   std::vector<RecordResult> records;
   Metrics pooled;  ///< all samples of all scored records
   Metrics pooled_without_offset;
   double worst_esr = 0;  ///< %, worst record
   std::string worst_record;
-  std::vector<BandResult> bands;  ///< by |v|: pre-yield, low, middle, high
+  double mean_esr = 0;             ///< %, mean over the records
+  double mean_energy_error = 0;    ///< %, mean over the records of its magnitude
+  std::vector<BandResult> bands;   ///< by |v|: pre-yield, low, middle, high
+  std::vector<DriveResult> drive;  ///< by drive, ascending
   std::size_t diverged = 0;
 };
 

@@ -1,10 +1,10 @@
 #include "dashpot/identify/identify.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "dashpot/base/error.h"
+#include "dashpot/base/parallel.h"
 #include "dashpot/identify/fit.h"
 
 namespace dashpot {
@@ -55,10 +55,10 @@ FitReport fit(const std::string& model, const std::vector<Record>& training, con
 FitReport identify(const std::string& model, const std::vector<Record>& training,
                    const std::string& drive_unit, const IdentifyOptions& options) {
   require_usable(model, training);
-  const auto begin = std::chrono::steady_clock::now();
+  const double begin = cpu_seconds();
   FitReport report = fit(model, training, drive_unit, options);
   if (report.status != FitReport::Status::Failed) settle_offsets(report, training, drive_unit, options);
-  report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  report.seconds = cpu_seconds() - begin;
   return report;
 }
 

@@ -6,6 +6,7 @@
 #include "dashpot/base/monitor.h"
 #include "dashpot/damper/model_file.h"
 #include "dashpot/identify/evaluate.h"
+#include "dashpot/identify/stress.h"
 #include "dashpot/record/split.h"
 
 namespace dashpot {
@@ -37,7 +38,7 @@ struct FitReport {
   std::vector<std::pair<std::string, double>> offsets;  ///< N, per training record, beyond the model's bias
   std::vector<std::string> warnings;                    ///< identifiability, bounds, divergence, in words
   int iterations = 0;
-  double seconds = 0;
+  double seconds = 0;        ///< CPU time
   double training_rmse = 0;  ///< N, free run
 };
 
@@ -46,27 +47,33 @@ struct FitReport {
 FitReport identify(const std::string& model, const std::vector<Record>& training,
                    const std::string& drive_unit, const IdentifyOptions& options);
 
+class FitStore;
+
 /// One model, fitted on everything and judged on what was left out.
 struct RankedModel {
   std::string name, title;
   FitReport fit;        ///< on all records: the model that is saved
   Evaluation training;  ///< of `fit` on all its records
   std::vector<FitReport> fold_fits;
-  Evaluation left_out;  ///< the folds' models, each on its left-out records, pooled
-  double seconds = 0;
+  Evaluation left_out;              ///< the folds' models, each on its left-out records, pooled
+  double seconds = 0;               ///< CPU time of all its fits
   double nanoseconds_per_step = 0;  ///< cost of advance + force, measured
+  StressRun stress;                 ///< the final model, beyond its domain
 };
 
 struct Ranking {
   LeaveOut leave_out;
   std::vector<std::string> folds;   ///< their names
   std::vector<RankedModel> models;  ///< best first, by left-out ESR with offsets; diverged last
+  std::size_t kept_fits = 0;        ///< found in the store
+  double wall_seconds = 0;          ///< from the first fit to the last figure
 };
 
 /// Cross-validates each model over the folds of the split and ranks them. Without training roles,
-/// `fit` uses all records; with Roles or Fraction it uses the training part.
+/// `fit` uses all records; with Roles or Fraction it uses the training part. With a store, fits that it
+/// holds are not made again, and new ones are kept as they end.
 Ranking rank(const std::vector<std::string>& models, const Dataset& dataset, const LeaveOut& leave_out,
-             const IdentifyOptions& options);
+             const IdentifyOptions& options, const FitStore* store = nullptr);
 
 /// The model as a file: domain and provenance taken from the records.
 ModelFile to_model_file(const RankedModel& ranked, const Dataset& dataset, const std::string& command);

@@ -3,12 +3,13 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "dashpot/base/error.h"
 #include "dashpot/base/parallel.h"
 #include "dashpot/base/text.h"
+#include "dashpot/damper/law_model.h"
 #include "dashpot/damper/registry.h"
+#include "dashpot/identify/fit_store.h"
 #include "dashpot/identify/identify.h"
 
 namespace dashpot {
@@ -33,16 +34,67 @@ double step_cost(const DamperModel& model, const Record& record, std::string_vie
   return best;
 }
 
+Domain domain_of(const std::vector<Record>& records, std::string_view drive_unit) {
+  const DriveRange drive = drive_range(records, drive_unit);
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  Domain domain{kInfinity, -kInfinity, kInfinity, -kInfinity, drive.low, drive.high};
+  for (const Record& record : records)
+    for (const DamperInput& input : damper_inputs(record, drive_unit)) {
+      domain.displacement_min = std::min(domain.displacement_min, input.displacement);
+      domain.displacement_max = std::max(domain.displacement_max, input.displacement);
+      domain.velocity_min = std::min(domain.velocity_min, input.velocity);
+      domain.velocity_max = std::max(domain.velocity_max, input.velocity);
+    }
+  return domain;
+}
+
+double force_span(const std::vector<Record>& records) {
+  double low = INFINITY, high = -INFINITY;
+  for (const Record& record : records)
+    for (const double force : record.channel("force").samples)
+      low = std::min(low, force), high = std::max(high, force);
+  return high - low;
+}
+
+/// Curves of the records that a model was fitted on are shown nowhere; dozens of models would fill the
+/// memory.
+void drop_curves(Evaluation& evaluation) {
+  for (RecordResult& r : evaluation.records)
+    for (auto curve : {&RecordResult::time, &RecordResult::displacement, &RecordResult::velocity,
+                       &RecordResult::drive, &RecordResult::measured, &RecordResult::modelled})
+      (r.*curve) = {};
+}
+
+/// How long a fit takes beside the others: the unknowns, times what a force costs, times the number of tries.
+double expected_cost(const std::string& model, const Record& record, std::string_view drive_unit) {
+  if (!is_law(model)) {
+    constexpr double kNetwork = 3000;  // a training beside the fit of a law without states, measured
+    return kNetwork;
+  }
+  const Law& law = find_law(model);
+  std::vector<double> values;
+  double unknowns = 0;
+  for (const ParamInfo& param : law.params) {
+    values.push_back(param.value);
+    if (param.fit != Fit::Fixed) unknowns += static_cast<double>(coefficient_count(param.form));
+  }
+  return unknowns * step_cost(LawModel::constant(law, values),
+                              record.slice(0, std::min<std::size_t>(record.size(), 1000)), drive_unit);
+}
+
 /// All fits of one ranking: for each model one per fold, then the final one.
 class RankingRun {
  public:
   RankingRun(const std::vector<std::string>& models, const Dataset& dataset, const LeaveOut& leave_out,
-             const IdentifyOptions& options)
+             const IdentifyOptions& options, const FitStore* store)
       : dataset_(dataset),
         options_(options),
+        store_(store),
         folds_(split(dataset, leave_out)),
         one_division_(is_one_division(leave_out)),
-        training_(one_division_ ? folds_.front().training : dataset.records) {
+        training_(one_division_ ? folds_.front().training : dataset.records),
+        domain_(domain_of(training_, dataset.drive_unit)),
+        force_span_(force_span(training_)) {
     ranking_.leave_out = leave_out;
     for (const Fold& fold : folds_) ranking_.folds.push_back(fold.name);
     for (const std::string& model : models) {
@@ -55,34 +107,58 @@ class RankingRun {
   }
 
   Ranking run() {
-    const std::size_t fits = (one_division_ ? 0 : folds_.size()) + 1;
-    const std::size_t tasks = ranking_.models.size() * fits;
-    std::vector<std::size_t> order(tasks);
-    std::iota(order.begin(), order.end(), 0);
-    // The longest first, so that no core waits for it at the end.
-    const auto cost = [&](std::size_t task) { return expected_cost(ranking_.models[task / fits].name); };
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::size_t a, std::size_t b) { return cost(a) > cost(b); });
+    const auto begin = std::chrono::steady_clock::now();
+    const std::vector<Task> tasks = tasks_by_cost();
     std::atomic<std::size_t> done = 0;
-    parallel_for(tasks, options_.threads, [&](std::size_t k) {
-      RankedModel& ranked = ranking_.models[order[k] / fits];
-      const std::size_t fit = order[k] % fits;
-      const bool final = fit + 1 == fits;
-      const std::string stage = ranked.name + (final ? "" : ", " + folds_[fit].name);
-      options_.monitor.report("fitting " + stage, static_cast<double>(done) / static_cast<double>(tasks));
-      (final ? ranked.fit : ranked.fold_fits[fit]) =
-          identify(ranked.name, final ? training_ : folds_[fit].training, dataset_.drive_unit, options_);
-      options_.monitor.report("fitted " + stage, static_cast<double>(++done) / static_cast<double>(tasks));
+    parallel_for(tasks.size(), options_.threads, [&](std::size_t k) {
+      const Task& task = tasks[k];
+      const std::string stage = task.model->name + (task.fold ? ", " + task.fold->name : "");
+      const auto share = [&] { return static_cast<double>(done) / static_cast<double>(tasks.size()); };
+      options_.monitor.report("fitting " + stage, share());
+      *task.report = fit(task.model->name, task.fold ? task.fold->training : training_);
+      ++done;
+      options_.monitor.report("fitted " + stage, share());
     });
     for (RankedModel& ranked : ranking_.models) judge(ranked);
     std::stable_sort(ranking_.models.begin(), ranking_.models.end(), better);
+    ranking_.kept_fits = kept_;
+    ranking_.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     return std::move(ranking_);
   }
 
  private:
-  static double expected_cost(const std::string& model) {
-    if (!is_law(model)) return 1;
-    return find_law(model).states.empty() ? 0 : 10;
+  struct Task {
+    const RankedModel* model;
+    const Fold* fold;  ///< none: the final fit
+    FitReport* report;
+    double cost;
+  };
+
+  /// The longest first, so that no core waits for it at the end.
+  std::vector<Task> tasks_by_cost() {
+    std::vector<Task> tasks;
+    for (RankedModel& ranked : ranking_.models) {
+      const double cost = expected_cost(ranked.name, training_.front(), dataset_.drive_unit);
+      tasks.push_back({&ranked, nullptr, &ranked.fit, cost});
+      for (std::size_t f = 0; f < ranked.fold_fits.size(); ++f)
+        tasks.push_back({&ranked, &folds_[f], &ranked.fold_fits[f], cost});
+    }
+    std::stable_sort(tasks.begin(), tasks.end(),
+                     [](const Task& a, const Task& b) { return a.cost > b.cost; });
+    return tasks;
+  }
+
+  /// As it was kept, or made now and kept.
+  FitReport fit(const std::string& model, const std::vector<Record>& training) {
+    const FitStore::Request request{model, training, dataset_.drive_unit, options_};
+    if (store_)
+      if (std::optional<FitReport> kept = store_->load(request)) {
+        ++kept_;
+        return std::move(*kept);
+      }
+    FitReport report = identify(model, training, dataset_.drive_unit, options_);
+    if (store_) store_->save(request, report);
+    return report;
   }
 
   const FitReport& fit_of(const RankedModel& ranked, std::size_t fold) const {
@@ -106,6 +182,8 @@ class RankingRun {
     ranked.training = evaluate(
         *ranked.fit.model, training_, dataset_.drive_unit,
         {.offset = options_.offset, .known_offsets = ranked.fit.offsets, .threads = options_.threads});
+    drop_curves(ranked.training);
+    ranked.stress = stress(*ranked.fit.model, domain_, force_span_);
     ranked.nanoseconds_per_step = step_cost(*ranked.fit.model, training_.front(), dataset_.drive_unit);
   }
 
@@ -124,31 +202,21 @@ class RankingRun {
 
   const Dataset& dataset_;
   const IdentifyOptions& options_;
+  const FitStore* store_;
   std::vector<Fold> folds_;
   bool one_division_;
   std::vector<Record> training_;
+  Domain domain_;
+  double force_span_;
+  std::atomic<std::size_t> kept_ = 0;
   Ranking ranking_;
 };
-
-Domain domain_of(const std::vector<Record>& records, std::string_view drive_unit) {
-  const DriveRange drive = drive_range(records, drive_unit);
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  Domain domain{kInfinity, -kInfinity, kInfinity, -kInfinity, drive.low, drive.high};
-  for (const Record& record : records)
-    for (const DamperInput& input : damper_inputs(record, drive_unit)) {
-      domain.displacement_min = std::min(domain.displacement_min, input.displacement);
-      domain.displacement_max = std::max(domain.displacement_max, input.displacement);
-      domain.velocity_min = std::min(domain.velocity_min, input.velocity);
-      domain.velocity_max = std::max(domain.velocity_max, input.velocity);
-    }
-  return domain;
-}
 
 }  // namespace
 
 Ranking rank(const std::vector<std::string>& models, const Dataset& dataset, const LeaveOut& leave_out,
-             const IdentifyOptions& options) {
-  return RankingRun(models, dataset, leave_out, options).run();
+             const IdentifyOptions& options, const FitStore* store) {
+  return RankingRun(models, dataset, leave_out, options, store).run();
 }
 
 ModelFile to_model_file(const RankedModel& ranked, const Dataset& dataset, const std::string& command) {

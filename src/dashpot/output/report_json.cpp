@@ -52,6 +52,15 @@ Value fit_json(const FitReport& fit) {
                         {"warnings", Value::array(fit.warnings)}});
 }
 
+Value stress_json(const StressRun& run) {
+  if (run.seconds == 0) return {};
+  return Value::object({{"seconds", run.seconds},
+                        {"factor", kStressFactor},
+                        {"finite", run.finite},
+                        {"bounded", run.is_bounded()},
+                        {"largest_spans", run.largest_share}});
+}
+
 Value model_json(const RankedModel& model, const std::vector<std::string>& folds) {
   Value fold_fits = Value::array();
   for (std::size_t i = 0; i < model.fold_fits.size(); ++i) {
@@ -66,6 +75,7 @@ Value model_json(const RankedModel& model, const std::vector<std::string>& folds
                         {"parameter_count", fitted ? Value(fitted->parameter_count()) : Value()},
                         {"nanoseconds_per_step", model.nanoseconds_per_step},
                         {"seconds", model.seconds},
+                        {"stress", stress_json(model.stress)},
                         {"fit", fit_json(model.fit)},
                         {"fold_fits", std::move(fold_fits)},
                         {"left_out", evaluation_json(model.left_out)},
@@ -80,12 +90,19 @@ Value evaluation_json(const Evaluation& evaluation) {
   for (const BandResult& band : evaluation.bands)
     bands.push_back(Value::object(
         {{"name", band.name}, {"low", band.low}, {"high", band.high}, {"metrics", to_json(band.metrics)}}));
+  Value drive = Value::array();
+  for (const DriveResult& range : evaluation.drive)
+    drive.push_back(
+        Value::object({{"low", range.low}, {"high", range.high}, {"metrics", to_json(range.metrics)}}));
   return Value::object({{"pooled", to_json(evaluation.pooled)},
                         {"pooled_without_offset", to_json(evaluation.pooled_without_offset)},
                         {"worst_esr_percent", evaluation.worst_esr},
                         {"worst_record", evaluation.worst_record},
+                        {"mean_esr_percent", evaluation.mean_esr},
+                        {"mean_energy_error_percent", evaluation.mean_energy_error},
                         {"diverged", evaluation.diverged},
                         {"bands", std::move(bands)},
+                        {"drive", std::move(drive)},
                         {"records", std::move(records)}});
 }
 
@@ -117,6 +134,7 @@ Value json_report(const ReportInput& input) {
                                     {"folds", Value::array(ranking.folds)},
                                     {"verdict", verdict(ranking)},
                                     {"one_step", one_step ? Value(*one_step) : Value()},
+                                    {"wall_seconds", ranking.wall_seconds},
                                     {"models", std::move(models)}}));
 }
 

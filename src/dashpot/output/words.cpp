@@ -52,6 +52,8 @@ std::string next_best(const RankedModel& best, const RankedModel& next) {
 
 }  // namespace
 
+bool is_judged(const RankedModel& model) { return model.fit.model && model.left_out.pooled.samples > 0; }
+
 bool is_usable(const RankedModel& model) {
   return model.fit.status != FitReport::Status::Failed && model.left_out.diverged == 0 &&
          !model.left_out.records.empty() && std::isfinite(model.left_out.pooled.esr);

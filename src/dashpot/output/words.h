@@ -20,6 +20,9 @@ const std::string& display_name(const RankedModel& model);
 /// Fitted, and finite on every left-out record.
 bool is_usable(const RankedModel& model);
 
+/// There are figures of it: it was fitted and run on left-out records.
+bool is_judged(const RankedModel& model);
+
 /// One or two sentences: which model is best, how good it is on what it has not seen, and what is next.
 std::string verdict(const Ranking& ranking);
 /// How records were left out: a few words, and in full.

@@ -57,26 +57,29 @@ function peak_spec(report, model) {
   })};
 }
 
-// Grouped bars, one group per velocity band, one bar per model.
-function bands_spec(report) {
-  const models = report.models.filter(({left_out}) => left_out.bands.length);
+const kMostBars = 5;
+
+// Grouped bars, one group per velocity band, one bar per model: the best ones, and the chosen one.
+function bands_spec(report, chosen) {
+  const models = report.models.filter((model, i) => model.left_out.bands.length && (i < kMostBars || model === chosen));
   const bands = models[0]?.left_out.bands ?? [], names = bands.map(({name}) => name);
   const ticks = bands.map(({name, low, high}) => `${name.split(",")[0]}\n${short_text(low, 2)}–${short_text(high, 2)}`);
   const width = 0.8 / Math.max(models.length, 1);
   return {x: {label: "Band of speed (m/s)", values: names, ticks, range: [-0.5, names.length - 0.5]}, y: {label: "RMS error (N)", zero: true}, nearest: "point", height: 320,
     series: models.map((model) => ({
-      label: model.title, kind: "bars", bar_width: width, colour: series_colour(report.models.indexOf(model)),
+      label: model.title, kind: "bars", bar_width: width, colour: series_colour(models.indexOf(model)),
       x: names.map((_, i) => i + (models.indexOf(model) - (models.length - 1) / 2) * width),
       y: model.left_out.bands.map(({metrics}) => metrics.rmse_N),
     }))};
 }
 
 function overview_section(report) {
-  const bands = new Plot("Error by speed", "Every bar is the RMS error of the samples in a band of |v|. The first band is the pre-yield region, where laws without hysteresis fail.");
+  const bands = new Plot("Error by speed", "Every bar is the RMS error of the samples in a band of |v|. The first band is the pre-yield region, where laws without hysteresis fail."
+    + (report.models.length > kMostBars ? ` Shown are the ${kMostBars} best models and the chosen one.` : ""));
   const peak = new Plot("Peak force against velocity", "Filled: measured. Rings and dashes: modelled.");
   const heat = element("div", {class: "heat-host"});
-  bands.show(() => bands_spec(report));
   const show = (model) => {
+    bands.show(() => bands_spec(report, model));
     heat.replaceChildren(heat_map(report, model));
     peak.show(() => peak_spec(report, model));
   };

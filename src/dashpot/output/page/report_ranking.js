@@ -38,14 +38,28 @@ function ranking_columns(report) {
     {...percent("Fit %", left_out("fit_percent"), "100 (1 − √ESR)"), ascending: false},
     {title: "R²", value: left_out("r2"), text: (m) => fixed_text(left_out("r2")(m), 3), numeric: true, ascending: false, hint: "1 − ESR"},
     percent("RMS / half-span %", left_out("rms_half_span_percent"), "200 RMSE / (Fmax − Fmin)"),
-    percent("Worst ESR %", (m) => m.left_out.worst_esr_percent, "ESR of the worst left-out record"),
-    {title: "Worst record", value: (m) => m.left_out.worst_record, hint: "Left-out record with the greatest ESR"},
+    percent("Mean ESR %", (m) => m.left_out.mean_esr_percent, "Mean over the left-out records"),
+    percent("Worst ESR %", (m) => m.left_out.worst_esr_percent, "ESR of the worst left-out record; a click on the row shows it"),
+    {title: "Slow RMSE N", value: slow_rmse, text: (m) => number_text(slow_rmse(m)), numeric: true, hint: "RMS error in the band of least speed: the pre-yield region"},
+    percent("Energy error %", (m) => m.left_out.mean_energy_error_percent, "Of the dissipated energy: mean of its magnitude over the records"),
     percent("ESR % without offset", (m) => m.left_out.pooled_without_offset.esr_percent, "The model as it stands in its file"),
     percent("Training ESR %", (m) => m.training.pooled.esr_percent, "The final fit, on the records that it was fitted on"),
-    {title: "Parameters", value: (m) => m.parameter_count, numeric: true, hint: "Free numbers of the model"},
+    {title: "Par.", value: (m) => m.parameter_count, numeric: true, hint: "Free numbers of the model"},
     {title: "ns / step", value: (m) => m.nanoseconds_per_step, text: (m) => number_text(m.nanoseconds_per_step, 2), numeric: true, hint: "Time of one step on this machine"},
-    {title: "Fit time", value: (m) => m.seconds, text: (m) => seconds_text(m.seconds), numeric: true, hint: "All folds and the final fit"},
+    {title: "Fit time", value: (m) => m.seconds, text: (m) => seconds_text(m.seconds), numeric: true, hint: "CPU time of all folds and the final fit"},
+    ...report.models.some(({stress}) => stress) ? [{title: "Bounded", value: (m) => m.stress?.largest_spans, text: bounded_text, numeric: true,
+      hint: "Largest force at twice the stroke and speed of the data, in force spans of the data; more than 10 is called unbounded"}] : [],
   ];
+}
+
+function slow_rmse(model) {
+  return model.left_out.bands[0]?.metrics.rmse_N;
+}
+
+function bounded_text({stress}) {
+  if (!stress) return kMissing;
+  if (!stress.finite) return "diverged";
+  return `${stress.bounded ? "yes" : "no"}, ${number_text(stress.largest_spans, 2)}`;
 }
 
 function model_cell(model) {

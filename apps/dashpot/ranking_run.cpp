@@ -1,0 +1,44 @@
+#include "ranking_run.h"
+
+#include "console.h"
+
+namespace dashpot::cli {
+namespace {
+
+/// What the command line says, before the long work begins; nothing when it says nothing.
+std::optional<LeaveOut> stated_leave_out(const std::string& text) {
+  if (text.empty()) return std::nullopt;
+  try {
+    return parse_leave_out(text);
+  } catch (const Error& error) {
+    throw UsageError("--leave-out", error.what());
+  }
+}
+
+}  // namespace
+
+std::vector<Option> ranking_options(RankingSettings& settings) {
+  std::vector<Option> options = data_options(settings.data);
+  options.push_back(
+      {.names = "--leave-out",
+       .target = &settings.leave_out,
+       .help = "what is left out to judge a model: condition, current, record, roles or fraction; name which "
+               "ones as current=0.5,1 or fraction=0.3",
+       .value = "WHAT",
+       .default_text = "as the dataset file says, else the first of condition, current, record and "
+                       "fraction that the records allow"});
+  append(options, fit_options(settings.fit));
+  append(options, result_options(settings.results));
+  return options;
+}
+
+RankingData ranking_data(const RankingSettings& settings, Console& console) {
+  const std::optional<LeaveOut> stated = stated_leave_out(settings.leave_out);
+  Dataset dataset = load_recordings(settings.data, console);
+  prepare_results(settings.results);
+  const LeaveOut leave_out = stated ? *stated : default_leave_out(dataset);
+  console.talk("judged by leaving out: " + format_leave_out(leave_out) + '\n');
+  return {std::move(dataset), leave_out};
+}
+
+}  // namespace dashpot::cli

@@ -1,0 +1,30 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "command.h"
+#include "data.h"
+#include "identify_options.h"
+#include "results.h"
+
+namespace dashpot::cli {
+
+/// What `identify` and `rank` let the user say.
+struct RankingSettings {
+  DataSettings data;
+  FitSettings fit;
+  ResultSettings results;
+  std::string leave_out;
+};
+
+std::vector<Option> ranking_options(RankingSettings& settings);
+
+struct RankingData {
+  Dataset dataset;
+  LeaveOut leave_out;
+};
+
+/// Reads the recordings, makes the folder of the results and settles what is left out.
+RankingData ranking_data(const RankingSettings& settings, Console& console);
+
+}  // namespace dashpot::cli

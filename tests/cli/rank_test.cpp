@@ -1,0 +1,80 @@
+#include <filesystem>
+
+#include "dashpot/base/file.h"
+#include "dashpot/base/text.h"
+#include "dashpot/base/value.h"
+#include "program.h"
+
+using namespace dashpot;
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string rank_of(const std::string& models, const fs::path& folder) {
+  return "rank " + small_campaign().string() + " --models " + models + " --output " + folder.string();
+}
+
+}  // namespace
+
+TEST_CASE("rank: a table, a breakdown, a report, a CSV file; a second call goes on from kept fits") {
+  const TemporaryFolder folder;
+  const ProgramResult first = stdout_of_dashpot(rank_of("bingham,tanh_kwok", folder.path()));
+  REQUIRE(first.exit_code == 0);
+  for (const char* part : {"tanh_kwok", "Bounded", "pre-yield N", "1 V", "CPU time"})
+    CHECK_MESSAGE(contains(first.output, part), part);
+  CHECK(!contains(first.output, "kept from before"));
+  for (const char* file :
+       {"report.html", "report.json", "report.md", "report.csv", "leaderboard.csv", "models/tanh_kwok.json"})
+    CHECK_MESSAGE(fs::exists(folder.path() / file), file);
+  const Value report = parse_json(read_file(folder.path() / "report.json"), "report.json");
+  const Value& best = report.find("models")->items().front();
+  CHECK(best.find("stress")->find("bounded")->as_bool());
+  CHECK(best.find("left_out")->find("drive")->items().size() == 3);
+
+  const std::string records = read_file(folder.path() / "report.csv");
+  const ProgramResult again = stdout_of_dashpot(rank_of("bingham,tanh_kwok", folder.path()));
+  CHECK(contains(again.output, "8 fits kept from before"));  // three folds and a final fit each
+  CHECK(read_file(folder.path() / "report.csv") == records);
+  const ProgramResult other = stdout_of_dashpot(rank_of("bingham --starts 2", folder.path()));
+  CHECK(!contains(other.output, "kept from before"));
+}
+
+TEST_CASE("rank: an interruption ends it soon, with 130 and no report, and what is finished stays") {
+  const TemporaryFolder folder;
+  REQUIRE(run_dashpot(rank_of("bingham --leave-out fraction=0.3 --starts 1", folder.path())).exit_code == 0);
+  fs::remove(folder.path() / "report.html");
+  const ProgramResult stopped = run_program(
+      "timeout --preserve-status -s INT 1 " + program_path() + " " +
+      rank_of("bingham,modified_bouc_wen --leave-out fraction=0.3 --starts 100000", folder.path()));
+  CHECK(stopped.exit_code == 130);
+  CHECK(contains(stopped.output, "interrupted"));
+  CHECK(!fs::exists(folder.path() / "report.html"));
+  const ProgramResult again =
+      run_dashpot(rank_of("bingham,tanh_kwok --leave-out fraction=0.3 --starts 1", folder.path()));
+  CHECK(contains(again.output, "1 fit kept from before"));
+}
+
+TEST_CASE("rank --markdown prints a part of a page and nothing else on stdout; --json one document") {
+  const TemporaryFolder folder;
+  const ProgramResult page = stdout_of_dashpot(rank_of("bingham --markdown", folder.path()));
+  CHECK(page.exit_code == 0);
+  CHECK(page.output.starts_with("## virtual bench, "));
+  CHECK(contains(page.output, "| bingham |"));
+  CHECK(!contains(page.output, folder.path().string()));
+  const ProgramResult json = stdout_of_dashpot(rank_of("bingham --json", folder.path()));
+  CHECK(parse_json(json.output, "rank --json").find("models")->items().size() == 1);
+}
+
+TEST_CASE("identify fits the usual models unless it is told otherwise; rank fits all") {
+  const std::string help = run_dashpot("identify --help").output;
+  CHECK(contains(help, "(default: usual)"));
+  CHECK(contains(run_dashpot("rank --help").output, "(default: all)"));
+  const TemporaryFolder folder;
+  const ProgramResult result =
+      run_dashpot("identify " + small_campaign().string() +
+                  " --models bingham,usual --starts 1 --leave-out fraction=0.3 --no-report --output " +
+                  folder.path().string());
+  CHECK(result.exit_code == 0);
+  for (const char* model : {"bingham", "tanh_kwok", "modified_bouc_wen", "mlp_one_sensor", "mlp_two_sensors"})
+    CHECK_MESSAGE(fs::exists(folder.path() / "models" / (std::string(model) + ".json")), model);
+}
