@@ -4,8 +4,8 @@
 #include <numbers>
 #include <vector>
 
-#include "dashpot/damper/laws/plate_bingham.h"
 #include "dashpot/damper/law_model.h"
+#include "dashpot/damper/laws/plate_bingham.h"
 #include "dashpot/damper/registry.h"
 #include "support.h"
 
