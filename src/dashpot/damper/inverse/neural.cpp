@@ -78,7 +78,8 @@ TrainingSamples NeuralInverse::record(const DamperModel& bare, const NeuralOptio
     now = next;
     const double force = bare.force(now, z);
     push(std::array{now.displacement, now.velocity, force, now.current}.data(), line);
-    if (k < rows_ || k % spacing_ != 0 || !std::isfinite(force)) continue;
+    if (!std::isfinite(force)) throw Error(name_, bare.name() + " diverges on the training motion");
+    if (k < rows_ || k % spacing_ != 0) continue;
     gather(line, inputs.data());
     samples.inputs.insert(samples.inputs.end(), inputs.begin(), inputs.end());
     samples.targets.push_back(now.current);

@@ -30,7 +30,7 @@ struct NeuralOptions {
 /// A network from motion, wanted force and past currents to the current.
 class NeuralInverse final : public InverseModel {
  public:
-  /// Trains it. Throws Error on taps that cannot be served.
+  /// Trains it. Throws Error on taps that cannot be served, and when the model diverges on the way.
   NeuralInverse(std::string name, const DamperModel& forward, const InverseLimits& limits,
                 const NeuralOptions& options);
 
