@@ -39,7 +39,7 @@ std::vector<std::filesystem::path> write_track_figure(const std::vector<TrackedS
             "in reach of " + schemes.front().name),
       curve(wanted, "1:2", "lines lw 3 lc rgb '#8b949e'", "wanted")};
   std::vector<std::string> currents;
-  for (std::size_t k = 0; k < std::min(schemes.size(), kColours.size()); ++k) {
+  for (std::size_t k = std::min(schemes.size(), kColours.size()); k-- > 0;) {  // the first on top
     const auto& [name, report] = schemes[k];
     const std::string data = figure.data({shown(report.time), shown(report.obtained), shown(report.current)});
     const std::string style = fmt::format("lines lw 1.2 lc rgb '{}'", kColours[k]);
@@ -47,9 +47,10 @@ std::vector<std::filesystem::path> write_track_figure(const std::vector<TrackedS
         curve(data, "1:2", style, fmt::format("{}, {} %", name, percent_text(report.all.rms_span))));
     currents.push_back(curve(data, "1:3", style, {}));
   }
-  figure.command("set multiplot layout 2,1\nset xrange [] noextend\nset lmargin 9\nset rmargin 2");
-  figure.command("set ylabel 'Force (N)'\nplot " + join(forces, ", "));
-  figure.command("set ylabel '" + std::string(drive_unit == "V" ? "Coil voltage (V)" : "Coil current (A)") +
+  figure.command("set multiplot layout 2,1\nset xrange [] noextend\nset lmargin 10\nset rmargin 2");
+  figure.command("set ylabel 'Force (N)' offset 1,0\nplot " + join(forces, ", "));
+  figure.command("unset key\nset bmargin 3.2\nset ylabel '" +
+                 std::string(drive_unit == "V" ? "Coil voltage (V)" : "Coil current (A)") +
                  "'\nset xlabel 'Time (s)'\nplot " + join(currents, ", ") + "\nunset multiplot");
   return figure.write(folder, "track");
 }
