@@ -92,6 +92,6 @@ TEST_CASE("few force evaluations per call") {
     const double per_call = static_cast<double>(count) / static_cast<double>(motion.size());
     CAPTURE(per_call);
     CHECK(per_call < 7);  // a bracket, its refinement, and now and then a search of the whole range
-    MESSAGE(name << ": " << per_call << " force evaluations per call");
+    MESSAGE(std::string(name) << ": " << per_call << " force evaluations per call");
   }
 }

@@ -11,25 +11,7 @@ using namespace dashpot;
 
 namespace {
 
-/// MODELS.md 4.8: F = f_c(i) tanh(a1 v + a2 x) + b1 v + b2 x + f0, written here to stand beside whatever the
-/// registry has.
-struct Sp {
-  double f_c, a1, a2, b1, b2, f0;
-};
-double sp_force(const Sp* p, double x, double v, const double*) {
-  return p->f_c * std::tanh(p->a1 * v + p->a2 * x) + p->b1 * v + p->b2 * x + p->f0;
-}
-const Law& sp() {
-  static const Law law =
-      static_law<Sp, sp_force>({.name = "sp",
-                                .params = {{&Sp::f_c, "f_c", "N"},
-                                           {&Sp::a1, "a1", "s/m"},
-                                           {&Sp::a2, "a2", "1/m"},
-                                           {&Sp::b1, "b1", "N*s/m"},
-                                           {&Sp::b2, "b2", "N/m"},
-                                           {&Sp::f0, "f0", "N", 0, 0, 0, 0, Form::Constant, "", Fit::Bias}}});
-  return law;
-}
+/// MODELS.md 4.8: the values of Lozoya and Tudon.
 LawModel sp_lozoya() {
   return LawModel(
       sp(),
