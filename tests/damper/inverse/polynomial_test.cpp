@@ -14,7 +14,7 @@ namespace {
 /// MODELS.md 4.8: the values of Lozoya and Tudon.
 LawModel sp_lozoya() {
   return LawModel(
-      sp(),
+      find_law("semi_phenomenological"),
       {{Form::Linear, Form::Constant, Form::Constant, Form::Constant, Form::Constant, Form::Constant},
        {{0, 600.95}, {37.85}, {22.15}, {2830.86}, {-7897.21}, {0}}},
       "A", 0);
