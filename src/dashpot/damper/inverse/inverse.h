@@ -20,8 +20,10 @@ struct InverseInput {
 struct InverseLimits {
   double current_min = 0, current_max = 1;  ///< A (or V)
   double sample_time = 1e-3;                ///< s between two commands
-  /// 1/s, the coil's first-order lag. The command then goes beyond the current that is meant, so that the
-  /// coil is there one sample later, as far as the limits allow; 0: it is there at once.
+  /// 1/s, the coil's first-order lag; 0: it is there at once. The command goes beyond the current that is
+  /// meant, so that the coil is there one sample later, as far as the limits allow. It aims at a current, not
+  /// at the force one sample ahead: where the motion turns the force jumps, but the current that gives it
+  /// does not.
   double lag_rate = 0;
 };
 
