@@ -200,42 +200,9 @@ int run(const Settings& settings, Console& console) {
   return kDone;
 }
 
-}  // namespace
-
-Command track_command() {
-  auto settings = std::make_shared<Settings>();
-  Command command{
-      .name = "track",
-      .title = "Follow a wanted force: inverse models side by side",
-      .description =
-          "Puts an inverse (wanted force to current), the coil's driver and a damper in series, moves them, "
-          "and "
-          "compares the wanted with the obtained force. Says how often the wanted force was out of reach of "
-          "any "
-          "current at that instant, and how often the command was at a limit. The first 0.1 s, in which the "
-          "coil starts, are not scored.",
-      .options = {},
-      .example = std::string(kExample),
-      .run = [settings](Console& console) { return run(*settings, console); }};
-  Settings& s = *settings;
-  command.options = {
-      {.names = "MODEL",
-       .target = &s.model,
-       .help = "a model file that 'dashpot identify' wrote",
-       .takes = Takes::File},
-      {.names = "--parameters",
-       .target = &s.parameters,
-       .help = "instead of a file: a damper by the publication of its parameters",
-       .value = "NAME",
-       .choices = parameter_set_names(),
-       .noun = "parameter set"},
-      {.names = "--inverse",
-       .target = &s.inverses,
-       .help = "schemes to compare",
-       .value = "LIST",
-       .choices = inverse_names(),
-       .noun = "inverse",
-       .default_text = "all that apply"},
+/// The motion, and the force that is wanted along it.
+std::vector<Option> task_options(Settings& s) {
+  return {
       {.names = "--wanted",
        .target = &s.wanted,
        .help = "wanted force: random within what the damper can give, or a sine",
@@ -278,34 +245,76 @@ Command track_command() {
        .help = "commands per second; that of the recording where there is one",
        .value = "HZ",
        .minimum = 1},
-      {.names = "--current-max",
-       .target = &s.current_max,
-       .help = "greatest current in A (or voltage in V)",
-       .value = "A",
-       .minimum = 0,
-       .default_text = "that of the damper's data"},
-      {.names = "--rate-limit",
-       .target = &s.rate_limit,
-       .help = "of the driver, A/s; 0: none",
-       .value = "A/S",
-       .minimum = 0},
-      {.names = "--period",
-       .target = &s.period,
-       .help = "of the driver, s between the instants at which it looks at its command; 0: at every one",
-       .value = "S",
-       .minimum = 0},
-      {.names = "--lag-rate",
-       .target = &s.lag_rate,
-       .help = "of the coil, 1/s; 0: none",
-       .value = "1/S",
-       .minimum = 0,
-       .default_text = "the model's own"},
-      {.names = "--seed", .target = &s.seed, .help = "of all that is random", .value = "N", .minimum = 0},
-      {.names = "-o,--output",
-       .target = &s.folder,
-       .help = "also write every scheme's curves (CSV) and a picture (needs gnuplot)",
-       .value = "DIR",
-       .takes = Takes::Folder}};
+      {.names = "--seed", .target = &s.seed, .help = "of all that is random", .value = "N", .minimum = 0}};
+}
+
+std::vector<Option> driver_options(Settings& s) {
+  return {{.names = "--current-max",
+           .target = &s.current_max,
+           .help = "greatest current in A (or voltage in V)",
+           .value = "A",
+           .minimum = 0,
+           .default_text = "that of the damper's data"},
+          {.names = "--rate-limit",
+           .target = &s.rate_limit,
+           .help = "of the driver, A/s; 0: none",
+           .value = "A/S",
+           .minimum = 0},
+          {.names = "--period",
+           .target = &s.period,
+           .help = "of the driver, s between the instants at which it looks at its command; 0: at every one",
+           .value = "S",
+           .minimum = 0},
+          {.names = "--lag-rate",
+           .target = &s.lag_rate,
+           .help = "of the coil, 1/s; 0: none",
+           .value = "1/S",
+           .minimum = 0,
+           .default_text = "the model's own"}};
+}
+
+}  // namespace
+
+Command track_command() {
+  auto settings = std::make_shared<Settings>();
+  Command command{.name = "track",
+                  .title = "Follow a wanted force: inverse models side by side",
+                  .description =
+                      "Puts an inverse (wanted force to current), the coil's driver and a damper in series, "
+                      "moves them, and "
+                      "compares the wanted with the obtained force. Says how often the wanted force was out "
+                      "of reach of any "
+                      "current at that instant, and how often the command was at a limit. The first 0.1 s, "
+                      "in which the coil "
+                      "starts, are not scored.",
+                  .options = {},
+                  .example = std::string(kExample),
+                  .run = [settings](Console& console) { return run(*settings, console); }};
+  Settings& s = *settings;
+  command.options = {{.names = "MODEL",
+                      .target = &s.model,
+                      .help = "a model file that 'dashpot identify' wrote",
+                      .takes = Takes::File},
+                     {.names = "--parameters",
+                      .target = &s.parameters,
+                      .help = "instead of a file: a damper by the publication of its parameters",
+                      .value = "NAME",
+                      .choices = parameter_set_names(),
+                      .noun = "parameter set"},
+                     {.names = "--inverse",
+                      .target = &s.inverses,
+                      .help = "schemes to compare",
+                      .value = "LIST",
+                      .choices = inverse_names(),
+                      .noun = "inverse",
+                      .default_text = "all that apply"}};
+  append(command.options, task_options(s));
+  append(command.options, driver_options(s));
+  command.options.push_back({.names = "-o,--output",
+                             .target = &s.folder,
+                             .help = "also write every scheme's curves (CSV) and a picture (needs gnuplot)",
+                             .value = "DIR",
+                             .takes = Takes::Folder});
   return command;
 }
 
