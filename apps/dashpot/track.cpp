@@ -104,9 +104,17 @@ DriverOptions make_driver(const Settings& settings, const Damper& damper) {
                        .current_max = settings.current_max > 0 ? settings.current_max : damper.drive_max,
                        .period = settings.period};
   if (settings.rate_limit > 0) driver.rate_max = settings.rate_limit;
+  if (!(driver.current_min < driver.current_max))
+    throw Error(damper.name, "its data lie at one current only", "state the greatest with --current-max");
   driver = driver_of(*damper.model, driver);
   if (settings.lag_rate >= 0) driver.lag_rate = settings.lag_rate;
   return driver;
+}
+
+/// Where nothing is in reach, the whole error counts.
+double error_in_reach(const TrackedScheme& tracked) {
+  const TrackReport& r = tracked.report;
+  return r.reachable.samples > 0 ? r.reachable.rmse : r.all.rmse;
 }
 
 /// Every scheme asked for; of all, those that apply. The best comes first.
@@ -127,13 +135,13 @@ std::vector<TrackedScheme> track_all(const Settings& settings, const Damper& dam
       console.note(std::string(scheme.name) + " is left out: " + error.what());
     }
   }
-  std::ranges::stable_sort(tracked, {}, [](const TrackedScheme& t) { return t.report.all.rmse; });
+  std::ranges::stable_sort(tracked, {}, error_in_reach);
   return tracked;
 }
 
 std::string table_of(const std::vector<TrackedScheme>& tracked, int width) {
-  Table table({"inverse", ">RMS error N", ">% of span", ">% where in reach", ">largest % there",
-               ">out of reach % of time", ">at a limit % of time"});
+  Table table({"inverse", ">RMSE N", ">% of span", ">% in reach", ">largest % in reach",
+               ">time out of reach %", ">at a limit %"});
   for (const auto& [name, r] : tracked)
     table.row({name, number_text(r.all.rmse), percent_text(r.all.rms_span),
                percent_text(r.reachable.rms_span), percent_text(100 * r.reachable.max_error / r.span),
