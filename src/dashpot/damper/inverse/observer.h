@@ -14,8 +14,8 @@ struct BareDamper {
 };
 BareDamper without_coil_lag(const DamperModel& model);
 
-/// Follows a damper in free run, and answers what its force would be at another current. Its state begins with
-/// the model's own.
+/// Follows a damper in free run, and answers what its force would be at another current. Its state begins
+/// with the model's own.
 class Observer {
  public:
   /// The model without its coil's lag; where that still needs time to answer to the current (only its states
