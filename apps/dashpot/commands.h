@@ -10,6 +10,7 @@ Command rank_command();
 Command evaluate_command();
 Command models_command();
 Command inspect_command();
+Command track_command();
 Command bench_command();
 Command demo_command();
 Command completion_command();

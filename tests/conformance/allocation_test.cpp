@@ -2,7 +2,9 @@
 #include <new>
 
 #include "conformance/laws.h"
+#include "damper/inverse/inverses.h"
 #include "dashpot/damper/fuzzy/fuzzy_model.h"
+#include "dashpot/damper/inverse/registry.h"
 #include "support.h"
 
 using namespace dashpot;
@@ -65,4 +67,21 @@ TEST_CASE("stepping a fuzzy model allocates nothing") {
   }
   CHECK(allocations == before);
   CHECK(std::isfinite(sum));
+}
+
+TEST_CASE("an inverse's command allocates nothing") {
+  for (const InverseScheme& scheme : inverse_schemes()) {
+    CAPTURE(std::string(scheme.name));
+    const auto inverse = scheme.make(driven(find_law("bingham"), 100), {.lag_rate = 100});
+    std::vector<double> state(inverse->state_size());
+    inverse->rest(sine(0), state);
+    double sum = 0;
+    const std::size_t before = allocations;
+    for (int k = 0; k < 1000; ++k) {
+      const DamperInput now = sine(k * 1e-3);
+      sum += inverse->command({800 * std::sin(0.02 * k), now.displacement, now.velocity, 0.4, 300}, state);
+    }
+    CHECK(allocations == before);
+    CHECK(sum > 0);
+  }
 }

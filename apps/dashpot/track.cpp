@@ -1,0 +1,329 @@
+#include "dashpot/identify/track.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "commands.h"
+#include "console.h"
+#include "dashpot/base/file.h"
+#include "dashpot/base/text.h"
+#include "dashpot/damper/inverse/observer.h"
+#include "dashpot/damper/inverse/registry.h"
+#include "dashpot/damper/model_file.h"
+#include "dashpot/damper/parameter_set.h"
+#include "dashpot/output/track_figure.h"
+#include "dashpot/output/words.h"
+#include "dashpot/record/dataset.h"
+#include "layout.h"
+
+namespace dashpot::cli {
+namespace {
+
+struct Settings {
+  std::string model, parameters, recording, folder;
+  std::vector<std::string> inverses;
+  std::string wanted = "random", motion = "random";
+  double force = 0, band = 2;                             // N, Hz
+  double amplitude = 20, frequency = 3, duration = 10;    // mm, Hz, s
+  double sample_rate = 1000, rate_limit = 0, period = 0;  // Hz, A/s, s
+  double current_max = 0, lag_rate = -1;                  // A, 1/s
+  std::uint64_t seed = 1;
+};
+
+constexpr std::string_view kExample =
+    "# Which way from a wanted force to a voltage follows best?\n"
+    "dashpot track --parameters spencer1997\n"
+    "\n"
+    "# A model of your own, one scheme, with curves as CSV and a picture:\n"
+    "dashpot track results/models/tanh_kwok.json --inverse numeric --output tracking\n"
+    "\n"
+    "# A sine of 800 N, which the damper cannot always give, behind a slow amplifier:\n"
+    "dashpot track --parameters spencer1997 --wanted sine --force 800 --rate-limit 50";
+
+/// The damper to be tracked with, and the range of its current.
+struct Damper {
+  std::string name, drive_unit;
+  std::unique_ptr<DamperModel> model;
+  double drive_min = 0, drive_max = 0;
+};
+
+Damper load_damper(const Settings& settings, Console& console) {
+  if (settings.model.empty() == settings.parameters.empty())
+    throw UsageError("track", "needs one damper", "give a model file, or --parameters NAME");
+  if (!settings.model.empty()) {
+    ModelFile file = load_model(settings.model);
+    return {file.model->name(), file.drive_unit, std::move(file.model),
+            std::max(0.0, file.domain.current_min), file.domain.current_max};
+  }
+  const ParameterSet set = load_parameter_set(settings.parameters);
+  if (!set.verified) console.note("these parameters are an example: " + set.reason);
+  return {set.name, set.model.drive_unit(), set.model.with_offset(0), set.drive_min, set.drive_max};
+}
+
+/// A motion and the force that is wanted along it.
+struct Task {
+  Motion motion;
+  std::vector<double> wanted;
+  std::string description;
+};
+
+Task recorded_task(const std::string& path) {
+  const Dataset dataset = load_dataset({path});
+  const Record& record = dataset.records.front();
+  if (record.sample_time == 0)
+    throw Error(record.name, "is not sampled at equal steps of time", "resample it");
+  return {
+      {record.sample_time, record.channel("displacement").samples, record.channel("velocity").samples, {}},
+      record.channel("force").samples,
+      "measured, " + record.name};
+}
+
+Task make_task(const Settings& settings, const DamperModel& damper, DriverOptions driver) {
+  if (!settings.recording.empty()) return recorded_task(settings.recording);
+  const MotionOptions options{settings.amplitude / 1000, settings.frequency, settings.duration,
+                              1 / settings.sample_rate, settings.seed};
+  Task task;
+  task.motion = settings.motion == "sine" ? sine_motion(options) : random_motion(options);
+  const InverseLimits limits = limits_of(driver, task.motion.sample_time);
+  if (settings.wanted == "random") {
+    task.wanted = admissible_force(damper, task.motion, limits, settings.band, settings.seed + 1);
+    task.description = "random within what the damper can give, 0 to " + format_number(settings.band) + " Hz";
+  } else {
+    const double half = 0.5 * Observer(damper, limits).force_max();
+    const double force = settings.force > 0 ? settings.force : half;
+    task.wanted = sine_force(force, settings.band, task.motion);
+    task.description = "sine of " + format_number(force) + " N at " + format_number(settings.band) + " Hz";
+  }
+  task.description += "; " + task.motion.description;
+  return task;
+}
+
+DriverOptions make_driver(const Settings& settings, const Damper& damper) {
+  DriverOptions driver{.current_min = damper.drive_min,
+                       .current_max = settings.current_max > 0 ? settings.current_max : damper.drive_max,
+                       .period = settings.period};
+  if (settings.rate_limit > 0) driver.rate_max = settings.rate_limit;
+  if (!(driver.current_min < driver.current_max))
+    throw Error(damper.name, "its data lie at one current only", "state the greatest with --current-max");
+  driver = driver_of(*damper.model, driver);
+  if (settings.lag_rate >= 0) driver.lag_rate = settings.lag_rate;
+  return driver;
+}
+
+/// Where nothing is in reach, the whole error counts.
+double error_in_reach(const TrackedScheme& tracked) {
+  const TrackReport& r = tracked.report;
+  return r.reachable.samples > 0 ? r.reachable.rmse : r.all.rmse;
+}
+
+/// Every scheme asked for; of all, those that apply. The best comes first.
+std::vector<TrackedScheme> track_all(const Settings& settings, const Damper& damper, const Driver& driver,
+                                     const Task& task, Console& console) {
+  const InverseLimits limits = limits_of(driver.options(), task.motion.sample_time);
+  std::vector<TrackedScheme> tracked;
+  for (const InverseScheme& scheme : inverse_schemes()) {
+    const bool named = std::ranges::find(settings.inverses, scheme.name) != settings.inverses.end();
+    if (!settings.inverses.empty() && !named) continue;
+    console.check_stop();
+    try {
+      const auto inverse = scheme.make(*damper.model, limits);
+      tracked.push_back(
+          {std::string(scheme.name), track(*damper.model, *inverse, driver, task.motion, task.wanted)});
+    } catch (const Error& error) {
+      if (named) throw;
+      console.note(std::string(scheme.name) + " is left out: " + error.what());
+    }
+  }
+  std::ranges::stable_sort(tracked, {}, error_in_reach);
+  return tracked;
+}
+
+std::string table_of(const std::vector<TrackedScheme>& tracked, int width) {
+  Table table({"inverse", ">RMSE N", ">% of span", ">% in reach", ">largest % in reach",
+               ">time out of reach %", ">at a limit %"});
+  for (const auto& [name, r] : tracked)
+    table.row({name, number_text(r.all.rmse), percent_text(r.all.rms_span),
+               percent_text(r.reachable.rms_span), percent_text(100 * r.reachable.max_error / r.span),
+               percent_text(100 - r.reachable_share), percent_text(r.saturated_share)});
+  return table.text(static_cast<std::size_t>(width));
+}
+
+std::string csv_of(const TrackReport& r, const Motion& motion, const std::string& unit) {
+  const std::string drive = unit == "V" ? "voltage_V" : "current_A";
+  std::string text = "t_s,x_mm,v_m/s,F_wanted_N,F_obtained_N,command_" + drive + ",coil_" + drive +
+                     ",F_least_N,F_greatest_N\n";
+  constexpr int kDigits = 9;
+  for (std::size_t k = 0; k < r.time.size(); ++k) {
+    text += format_number(r.time[k], kDigits);
+    for (const double value : {1000 * motion.displacement[k], motion.velocity[k], r.wanted[k], r.obtained[k],
+                               r.command[k], r.current[k], r.least[k], r.greatest[k]})
+      text += ',' + format_number(value, kDigits);
+    text += '\n';
+  }
+  return text;
+}
+
+void write_curves(const std::vector<TrackedScheme>& tracked, const Task& task, const std::string& unit,
+                  const std::filesystem::path& folder, Console& console) {
+  for (const auto& [name, report] : tracked)
+    write_file(folder / (name + ".csv"), csv_of(report, task.motion, unit));
+  console.print("\nCurves   " + (folder / "*.csv").string() + '\n');
+  console.print("Picture  " + write_track_figure(tracked, unit, folder).front().string() + '\n');
+}
+
+Value json_of(const std::vector<TrackedScheme>& tracked, const Damper& damper, const Task& task) {
+  Value schemes = Value::array();
+  for (const auto& [name, r] : tracked)
+    schemes.push_back(Value::object({{"inverse", name},
+                                     {"all", to_json(r.all)},
+                                     {"reachable", to_json(r.reachable)},
+                                     {"reachable_percent", r.reachable_share},
+                                     {"saturated_percent", r.saturated_share}}));
+  return Value::object({{"damper", damper.name},
+                        {"wanted", task.description},
+                        {"span_N", tracked.front().report.span},
+                        {"schemes", std::move(schemes)}});
+}
+
+int run(const Settings& settings, Console& console) {
+  const Damper damper = load_damper(settings, console);
+  const DriverOptions options = make_driver(settings, damper);
+  const Driver driver(options);
+  const Task task = make_task(settings, *damper.model, options);
+  const std::vector<TrackedScheme> tracked = track_all(settings, damper, driver, task, console);
+  for (const auto& [name, report] : tracked)
+    if (!std::isfinite(report.all.rmse)) {
+      console.error("the damper diverged behind the inverse " + name);
+      return kNotUsable;
+    }
+  console.print('\n' + console.bold(damper.name) + ", " + format_number(options.current_min) + " ... " +
+                format_number(options.current_max) + ' ' + damper.drive_unit + ", coil lag " +
+                (options.lag_rate > 0 ? format_number(1000 / options.lag_rate) + " ms" : "none") +
+                "\nWanted force: " + task.description + ", span " +
+                format_number(tracked.front().report.span) + " N\n\n");
+  console.print(table_of(tracked, console.width()));
+  if (!settings.folder.empty()) write_curves(tracked, task, damper.drive_unit, settings.folder, console);
+  if (console.json) console.print_json(json_of(tracked, damper, task));
+  return kDone;
+}
+
+/// The motion, and the force that is wanted along it.
+std::vector<Option> task_options(Settings& s) {
+  return {
+      {.names = "--wanted",
+       .target = &s.wanted,
+       .help = "wanted force: random within what the damper can give, or a sine",
+       .value = "KIND",
+       .choices = {"random", "sine"}},
+      {.names = "--force",
+       .target = &s.force,
+       .help = "amplitude of the sine, N",
+       .value = "N",
+       .minimum = 0,
+       .default_text = "half of the largest that the damper gives"},
+      {.names = "--band",
+       .target = &s.band,
+       .help = "frequency of the sine, highest of the random force",
+       .value = "HZ",
+       .minimum = 0},
+      {.names = "--motion",
+       .target = &s.motion,
+       .help = "motion of the piston",
+       .value = "KIND",
+       .choices = {"random", "sine"}},
+      {.names = "--amplitude",
+       .target = &s.amplitude,
+       .help = "of the motion, mm; of a random one twice its standard deviation",
+       .value = "MM",
+       .minimum = 0},
+      {.names = "--frequency",
+       .target = &s.frequency,
+       .help = "of the motion; of a random one the highest",
+       .value = "HZ",
+       .minimum = 0},
+      {.names = "--duration", .target = &s.duration, .help = "seconds", .value = "S", .minimum = 0},
+      {.names = "--recording",
+       .target = &s.recording,
+       .help = "take motion and wanted force from the first record of this file or folder",
+       .value = "PATH",
+       .takes = Takes::File},
+      {.names = "--sample-rate",
+       .target = &s.sample_rate,
+       .help = "commands per second; that of the recording where there is one",
+       .value = "HZ",
+       .minimum = 1},
+      {.names = "--seed", .target = &s.seed, .help = "of all that is random", .value = "N", .minimum = 0}};
+}
+
+std::vector<Option> driver_options(Settings& s) {
+  return {{.names = "--current-max",
+           .target = &s.current_max,
+           .help = "greatest current in A (or voltage in V)",
+           .value = "A",
+           .minimum = 0,
+           .default_text = "that of the damper's data"},
+          {.names = "--rate-limit",
+           .target = &s.rate_limit,
+           .help = "of the driver, A/s; 0: none",
+           .value = "A/S",
+           .minimum = 0},
+          {.names = "--period",
+           .target = &s.period,
+           .help = "of the driver, s between the instants at which it looks at its command; 0: at every one",
+           .value = "S",
+           .minimum = 0},
+          {.names = "--lag-rate",
+           .target = &s.lag_rate,
+           .help = "of the coil, 1/s; 0: none",
+           .value = "1/S",
+           .minimum = 0,
+           .default_text = "the model's own"}};
+}
+
+}  // namespace
+
+Command track_command() {
+  auto settings = std::make_shared<Settings>();
+  Command command{.name = "track",
+                  .title = "Follow a wanted force: inverse models side by side",
+                  .description =
+                      "Puts an inverse (wanted force to current), the coil's driver and a damper in series, "
+                      "moves them, and "
+                      "compares the wanted with the obtained force. Says how often the wanted force was out "
+                      "of reach of any "
+                      "current at that instant, and how often the command was at a limit. The first 0.1 s, "
+                      "in which the coil "
+                      "starts, are not scored.",
+                  .options = {},
+                  .example = std::string(kExample),
+                  .run = [settings](Console& console) { return run(*settings, console); }};
+  Settings& s = *settings;
+  command.options = {{.names = "MODEL",
+                      .target = &s.model,
+                      .help = "a model file that 'dashpot identify' wrote",
+                      .takes = Takes::File},
+                     {.names = "--parameters",
+                      .target = &s.parameters,
+                      .help = "instead of a file: a damper by the publication of its parameters",
+                      .value = "NAME",
+                      .choices = parameter_set_names(),
+                      .noun = "parameter set"},
+                     {.names = "--inverse",
+                      .target = &s.inverses,
+                      .help = "schemes to compare",
+                      .value = "LIST",
+                      .choices = inverse_names(),
+                      .noun = "inverse",
+                      .default_text = "all that apply"}};
+  append(command.options, task_options(s));
+  append(command.options, driver_options(s));
+  command.options.push_back({.names = "-o,--output",
+                             .target = &s.folder,
+                             .help = "also write every scheme's curves (CSV) and a picture (needs gnuplot)",
+                             .value = "DIR",
+                             .takes = Takes::Folder});
+  return command;
+}
+
+}  // namespace dashpot::cli

@@ -1,0 +1,42 @@
+#pragma once
+#include <limits>
+#include <span>
+
+namespace dashpot {
+
+/// What lies between a commanded current and the coil: sampling, limits, a limited rate, a first-order lag,
+/// in this order.
+struct DriverOptions {
+  double current_min = 0, current_max = 1;                    ///< A (or V)
+  double rate_max = std::numeric_limits<double>::infinity();  ///< A/s
+  double lag_rate = 0;                                        ///< 1/s; 0: no lag
+  double period = 0;  ///< s between the instants at which it looks at its command; 0: at every command
+};
+
+/// The coil's driver. The state is the caller's; exact for a command that is constant between calls.
+class Driver {
+ public:
+  /// Throws Error on limits, rates or a period that make no sense.
+  explicit Driver(const DriverOptions& options);
+
+  static constexpr std::size_t kStates = 5;
+  /// After a long rest at this current; the next command is a sampling instant.
+  void rest(double current, std::span<double> state) const noexcept;
+  /// Takes a new command. A coil without lag and rate limit answers at once. NaN keeps the last command.
+  void command(double current, std::span<double> state) const noexcept;
+  /// Brings the coil's current dt seconds further.
+  void advance(double dt, std::span<double> state) const noexcept;
+  /// In the coil, A.
+  double current(std::span<const double> state) const noexcept { return state[kCoil]; }
+
+  const DriverOptions& options() const { return options_; }
+
+ private:
+  // kRamp: the rate-limited current before the lag; kWait: s until the next sampling instant
+  enum State { kCoil, kAsked, kHeld, kRamp, kWait };
+  void follow(double dt, std::span<double> state) const noexcept;
+
+  DriverOptions options_;
+};
+
+}  // namespace dashpot

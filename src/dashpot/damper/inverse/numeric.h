@@ -1,0 +1,27 @@
+#pragma once
+#include "dashpot/damper/inverse/observer.h"
+
+namespace dashpot {
+
+/// The least current at which the forward model gives the wanted force, found by search: for any model. A
+/// free run of the model, driven by the coil's current, supplies its states. Where no current gives the
+/// force, the one that comes nearest; where current has no effect, the present one.
+class NumericInverse final : public InverseModel {
+ public:
+  NumericInverse(const DamperModel& forward, const InverseLimits& limits);
+
+  std::string name() const override { return "numeric"; }
+  std::size_t state_size() const noexcept override { return observer_.state_size() + kOwn; }
+  void rest(const DamperInput& input, std::span<double> state) const noexcept override;
+  const Observer& observer() const { return observer_; }
+
+ protected:
+  double wanted_current(const InverseInput& input, std::span<double> state) const noexcept override;
+
+ private:
+  static constexpr std::size_t kOwn = 2;  // the last solution; +1 or -1: its error rose or fell with current
+
+  Observer observer_;
+};
+
+}  // namespace dashpot

@@ -1,0 +1,130 @@
+#include "dashpot/damper/inverse/registry.h"
+
+#include <algorithm>
+#include <array>
+
+#include "dashpot/base/error.h"
+#include "dashpot/base/text.h"
+#include "dashpot/damper/inverse/neural.h"
+#include "dashpot/damper/inverse/numeric.h"
+#include "dashpot/damper/inverse/polynomial.h"
+#include "dashpot/damper/inverse/switching.h"
+
+namespace dashpot {
+namespace {
+
+using Inverse = std::unique_ptr<InverseModel>;
+
+template <SwitchingInverse::Rule rule>
+Inverse make_switching(const DamperModel& forward, const InverseLimits& limits) {
+  const double force_max = Observer(forward, limits).force_max();
+  return std::make_unique<SwitchingInverse>(rule, limits, force_max);
+}
+
+template <class Model>
+Inverse make_model(const DamperModel& forward, const InverseLimits& limits) {
+  return std::make_unique<Model>(forward, limits);
+}
+
+Inverse make_neural(const DamperModel& forward, const InverseLimits& limits) {
+  using enum Tap::Signal;
+  NeuralOptions options;
+  options.taps = {{Displacement, 0}, {Velocity, 0}, {Velocity, 1}, {Force, 0}, {Force, 1}, {Current, 1}};
+  return std::make_unique<NeuralInverse>("neural", forward, limits, options);
+}
+
+Inverse make_neural_displacement(const DamperModel& forward, const InverseLimits& limits) {
+  using enum Tap::Signal;
+  NeuralOptions options;
+  options.taps = {{Displacement, 0}, {Displacement, 1}, {Displacement, 2}, {Force, 0},
+                  {Force, 1},        {Force, 2},        {Current, 1},      {Current, 2}};
+  return std::make_unique<NeuralInverse>("neural_displacement", forward, limits, options);
+}
+
+constexpr std::array kSchemes{
+    InverseScheme{.name = "clipped_optimal",
+                  .title = "Clipped-optimal",
+                  .equation = "i = i_max H((f_c - f) f),  H(0) = 0",
+                  .source = "Dyke, Spencer, Sain, Carlson 1996, Smart Materials and Structures 5, 565-575",
+                  .remarks = "Needs the measured force. Where it is exactly 0, the current stays off.",
+                  .needs_force = true,
+                  .make = make_switching<SwitchingInverse::Rule::ClippedOptimal>},
+    InverseScheme{.name = "heaviside",
+                  .title = "Heaviside step on the wanted dissipation",
+                  .equation = "i = i_max H(f_c v),  H(0) = 0",
+                  .source = "common in semi-active control; no single source",
+                  .remarks = "Neither model nor force sensor: full current whenever the damper can help.",
+                  .needs_force = false,
+                  .make = make_switching<SwitchingInverse::Rule::Heaviside>},
+    InverseScheme{.name = "modified_clipped_optimal",
+                  .title = "Modified clipped-optimal",
+                  .equation = "i = min(i_max, i_max |f_c| / f_max) H((f_c - f) f),  H(0) = 0",
+                  .source = "Yoshida, Dyke 2004, J. Engineering Mechanics 130(4), 386-397",
+                  .remarks = "f_max is the largest force of the forward model on a sine of 20 mm at 1 Hz.",
+                  .needs_force = true,
+                  .make = make_switching<SwitchingInverse::Rule::ModifiedClippedOptimal>},
+    InverseScheme{
+        .name = "neural",
+        .title = "Network from motion, wanted force and past current",
+        .equation = "i(k) = net(x(k), v(k), v(k-1), f_c(k), f_c(k-1), i(k-1)),  6-12-1, tanh",
+        .source = "after Chang, Zhou 2002, J. Structural Engineering 128(2), 231-239",
+        .remarks =
+            "Trained on the forward model: motion of 0 to 3 Hz, +-2 cm, random current. The inputs are "
+            "those of the source as recalled, the size is ours; nothing is pruned. Steps of 5 ms.",
+        .needs_force = false,
+        .make = make_neural},
+    InverseScheme{
+        .name = "neural_displacement",
+        .title = "Network without a velocity sensor",
+        .equation =
+            "i(k) = net(x(k), x(k-1), x(k-2), f_c(k), f_c(k-1), f_c(k-2), i(k-1), i(k-2)),  8-12-1, tanh",
+        .source =
+            "after Metered, Bonello, Oyadiji 2010, Mechanical Systems and Signal Processing 24(3), 676-694",
+        .remarks = "As neural, but the past displacements stand for the velocity.",
+        .needs_force = false,
+        .make = make_neural_displacement},
+    InverseScheme{
+        .name = "numeric",
+        .title = "Search on the forward model",
+        .equation = "least i in [i_min, i_max] with F(x, v, i, z) = f_c;  z from a free run of the model",
+        .source = "Dashpot",
+        .remarks = "For every model. Bracketed and warm-started.",
+        .needs_force = false,
+        .make = make_model<NumericInverse>},
+    InverseScheme{
+        .name = "polynomial",
+        .title = "Closed form where the force is a polynomial of the current",
+        .equation = "least i in [i_min, i_max] with  c0 + c1 i + c2 i^2 + c3 i^3 = f_c,  c(x, v, z)",
+        .source = "Choi, Lee, Park 2001, J. Sound and Vibration 245(2), 375-383, for one law; here for all",
+        .remarks = "For laws that are linear in parameters which are polynomials of the current: Bingham, "
+                   "hyperbolic tangent, semi-phenomenological, polynomial, LuGre.",
+        .needs_force = false,
+        .make = make_model<PolynomialInverse>},
+    InverseScheme{.name = "signum",
+                  .title = "Signum, continuous state",
+                  .equation = "i = sat(G (f_c - f) sgn f),  G = 10 i_max / f_max",
+                  .source = "Sims, Stanway, Johnson, Peel, Bullough 1999, as recalled",
+                  .remarks =
+                      "Needs the measured force; with G without limit it is clipped-optimal. f_max as in "
+                      "modified_clipped_optimal.",
+                  .needs_force = true,
+                  .make = make_switching<SwitchingInverse::Rule::Signum>},
+};
+
+}  // namespace
+
+std::span<const InverseScheme> inverse_schemes() { return kSchemes; }
+
+std::vector<std::string> inverse_names() {
+  std::vector<std::string> names;
+  for (const InverseScheme& scheme : kSchemes) names.emplace_back(scheme.name);
+  return names;
+}
+
+const InverseScheme& find_inverse(std::string_view name, const std::string& where) {
+  const auto found = std::ranges::find(kSchemes, name, &InverseScheme::name);
+  if (found != kSchemes.end()) return *found;
+  throw Error(where, "unknown inverse '" + std::string(name) + "'", suggest(name, inverse_names()));
+}
+
+}  // namespace dashpot

@@ -1,0 +1,141 @@
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <optional>
+
+#include "conformance/laws.h"
+#include "damper/inverse/inverses.h"
+#include "dashpot/base/error.h"
+#include "dashpot/base/random.h"
+#include "dashpot/damper/inverse/numeric.h"
+#include "dashpot/damper/inverse/registry.h"
+#include "dashpot/identify/track.h"
+#include "support.h"
+
+using namespace dashpot;
+
+namespace {
+
+constexpr double kSampleTime = 1e-3;
+
+Motion test_motion() {
+  return random_motion({.frequency = 3, .duration = 3, .sample_time = kSampleTime, .seed = 3});
+}
+
+TrackReport track_numeric(const LawModel& model, const Motion& motion, const std::vector<double>& wanted) {
+  const DriverOptions driver = driver_of(model, {});
+  return track(model, NumericInverse(model, limits_of(driver, kSampleTime)), Driver(driver), motion, wanted);
+}
+
+/// Mostly of ordinary size, now and then huge, tiny or not finite.
+double any_number(double size, Random& random) {
+  switch (random.index(40)) {
+    case 0:
+      return std::numeric_limits<double>::quiet_NaN();
+    case 1:
+      return std::numeric_limits<double>::infinity();
+    case 2:
+      return -1e300;
+    case 3:
+      return 5e-324;
+    case 4:
+      return 0;
+    case 5:
+      return size * std::pow(10.0, random.uniform(-12, 6));
+    default:
+      return size * random.normal();
+  }
+}
+
+/// How many commands are NaN or outside the limits, of random calls in one go.
+std::size_t bad_commands(const InverseModel& inverse, std::size_t calls, Random& random) {
+  std::vector<double> state(inverse.state_size());
+  inverse.rest({}, state);
+  std::size_t bad = 0;
+  for (std::size_t k = 0; k < calls; ++k) {
+    const double current =
+        inverse.command({any_number(1000, random), any_number(0.01, random), any_number(0.1, random),
+                         any_number(1, random), any_number(1000, random)},
+                        state);
+    bad += !(current >= inverse.limits().current_min && current <= inverse.limits().current_max);
+  }
+  return bad;
+}
+
+/// How many calls, when the thorough run is asked for:
+/// DASHPOT_INVERSE_CALLS=10000000 dashpot_tests --test-case='no inverse*'
+std::optional<std::size_t> thorough_calls() {
+  const char* text = std::getenv("DASHPOT_INVERSE_CALLS");
+  return text ? std::optional(std::strtoull(text, nullptr, 10)) : std::nullopt;
+}
+
+}  // namespace
+
+TEST_CASE("the numeric inverse tracks a random admissible force to 1 % of its span, for every law") {
+  const Motion motion = test_motion();
+  for_each_law([&](const Law& law) {
+    for (const double lag_rate : {0.0, 150.0}) {
+      CAPTURE(lag_rate);
+      const LawModel model = driven(law, lag_rate);
+      const InverseLimits limits = limits_of(driver_of(model, {}), kSampleTime);
+      const TrackReport report = track_numeric(model, motion, admissible_force(model, motion, limits, 2, 7));
+      // Least where only the states feel the current: what one horizon can change is less than all.
+      CHECK(report.reachable_share > 60);
+      CHECK(report.reachable.rms_span <= 1);
+      MESSAGE(law.name << ", lag " << lag_rate << " 1/s: " << report.reachable.rms_span << " % rms, "
+                       << 100 * report.reachable.max_error / report.span << " % at most, in reach "
+                       << report.reachable_share << " % of the time");
+    }
+  });
+}
+
+TEST_CASE("a force out of reach saturates the current, and the report says so, for every law") {
+  const Motion motion = test_motion();
+  for_each_law([&](const Law& law) {
+    const LawModel model = driven(law, 0);
+    const Observer observer(model, {});
+    std::vector<double> wanted;
+    for (const double v : motion.velocity) wanted.push_back(std::copysign(100 * observer.force_max(), v));
+    const TrackReport report = track_numeric(model, motion, wanted);
+    CHECK(report.reachable_share == 0);
+    // All but the instants at which more current means less force, or none.
+    if (observer.current_effect() > 0) CHECK(report.saturated_share > 90);
+  });
+}
+
+TEST_CASE("no inverse gives a current that is NaN or beyond its limits, whatever it is asked") {
+  const std::size_t calls = thorough_calls().value_or(100000) / (laws().size() * inverse_schemes().size());
+  std::size_t made = 0;
+  for_each_law([&](const Law& law) {
+    Random random(17);
+    for (const double lag_rate : {0.0, 100.0})
+      for (const InverseScheme& scheme : inverse_schemes()) {
+        CAPTURE(std::string(scheme.name));
+        // What a network was trained on matters little here, and training takes time.
+        if (scheme.name.starts_with("neural") && &law != laws().front() && !thorough_calls()) continue;
+        try {
+          const auto inverse = scheme.make(driven(law, 100), {.current_min = 0.1, .lag_rate = lag_rate});
+          CHECK(inverse->name() == scheme.name);
+          CHECK(bad_commands(*inverse, calls / 2, random) == 0);
+          made += calls / 2;
+        } catch (const Error& error) {
+          CHECK(scheme.name == "polynomial");  // the only one that may not apply
+          CHECK(std::string(error.what()).find("no polynomial of the current") != std::string::npos);
+        }
+      }
+  });
+  MESSAGE(made << " calls");
+}
+
+TEST_CASE("every scheme says what it is, in alphabetical order") {
+  std::string_view before;
+  for (const InverseScheme& scheme : inverse_schemes()) {
+    CHECK(before < scheme.name);
+    before = scheme.name;
+    for (const std::string_view text : {scheme.title, scheme.equation, scheme.source, scheme.remarks})
+      CHECK_FALSE(text.empty());
+  }
+  CHECK(message_of([] {
+          find_inverse("numerical", "--inverse");
+        }).starts_with("--inverse: unknown inverse 'numerical'; did you mean 'numeric'?"));
+}
