@@ -46,8 +46,8 @@ int run(const Settings& settings, Console& console) {
   prepare_results(settings.results);
   const LeaveOut leave_out = stated ? *stated : default_leave_out(dataset);
   console.talk("judged by leaving out: " + format_leave_out(leave_out) + '\n');
-  const Ranking ranking = rank(chosen_models(settings.fit, dataset, console), dataset, leave_out,
-                               identify_options(settings.fit, console));
+  const std::vector<std::string> models = chosen_models(settings.fit, dataset, console);
+  const Ranking ranking = rank(models, dataset, leave_out, identify_options(settings.fit, models, console));
   const ReportInput input = report_input(dataset, ranking, console);
   print_results(input, console);
   write_results(input, settings.results, console);

@@ -92,8 +92,9 @@ LeastSquaresProblem rosenbrock() {
     return true;
   };
   problem.jacobian = [residual = problem.residual](std::span<const double> x, std::span<double> r,
-                                                   std::span<double> j) {
-    j[0] = -20 * x[0], j[1] = 10, j[2] = -1, j[3] = 0;
+                                                   std::span<double* const> columns) {
+    if (columns[0]) columns[0][0] = -20 * x[0], columns[0][1] = -1;
+    if (columns[1]) columns[1][0] = 10, columns[1][1] = 0;
     return residual(x, r);
   };
   return problem;

@@ -21,33 +21,91 @@ LeastSquaresOptions solver_options(const IdentifyOptions& options, int iteration
   return solver;
 }
 
-/// How much of each record the starts are tried on: all of small data, a fifth of large ones.
-double trial_share(const std::vector<Record>& training) {
+/// How much of each record the starts are tried on. A law without a memory needs no samples in a row, one
+/// with a memory gets the first part: all of small data, a fifth of large ones.
+Thinning trial_thinning(const Law& law, const std::vector<Record>& training, bool lags) {
   constexpr double kEnoughSamples = 8000, kLeastShare = 0.2;
   double samples = 0;
   for (const Record& record : training) samples += static_cast<double>(record.size());
-  return std::clamp(kEnoughSamples / samples, kLeastShare, 1.0);
+  if (law.states.empty() && !lags)
+    return {.stride = static_cast<std::size_t>(std::max(1.0, samples / kEnoughSamples))};
+  return {.share = std::clamp(kEnoughSamples / samples, kLeastShare, 1.0)};
 }
 
-/// Tries several starts on the first part of each record and returns the most promising end point.
-std::vector<double> best_start(const LawUnknowns& unknowns, const std::vector<Record>& training,
-                               const std::string& drive_unit, const IdentifyOptions& options) {
+/// The fit of one law: its unknowns, the records and what was asked for.
+struct Task {
+  const Law& law;
+  const std::vector<Record>& training;
+  const std::string& drive_unit;
+  const IdentifyOptions& options;
+  LawUnknowns unknowns;
+
+  LawResiduals residuals(const Thinning& thinning) const {
+    return {unknowns, training, drive_unit, options.offset, thinning};
+  }
+};
+
+/// Tries several starts on a part of the data and returns the most promising end point.
+std::vector<double> best_start(const Task& task) {
   constexpr double kTolerance = 1e-2;
   constexpr int kIterations = 15;
-  const LawResiduals residuals(unknowns, training, drive_unit, options.offset, trial_share(training));
-  const LeastSquaresProblem problem = residuals.problem();
-  Random random(options.seed);
-  std::vector<double> best = unknowns.start();
+  const LawResiduals residuals =
+      task.residuals(trial_thinning(task.law, task.training, task.unknowns.fits_lag()));
+  const LeastSquaresProblem problem = residuals.problem(0, task.options.threads);
+  Random random(task.options.seed);
+  std::vector<double> best = task.unknowns.start();
   double best_cost = INFINITY;
-  for (int k = 0; k < std::max(1, options.starts); ++k) {
-    const LeastSquaresReport tried = solve(problem, unknowns.start(k == 0 ? nullptr : &random),
-                                           solver_options(options, kIterations, kTolerance));
-    if (!tried.x.empty() && std::isfinite(tried.cost) && tried.cost < best_cost) {
+  for (int k = 0; k < std::max(1, task.options.starts); ++k) {
+    const LeastSquaresReport tried = solve(problem, task.unknowns.start(k == 0 ? nullptr : &random),
+                                           solver_options(task.options, kIterations, kTolerance));
+    if (std::isfinite(tried.cost) && tried.cost < best_cost) {
       best_cost = tried.cost;
       best = tried.x;
     }
   }
   return best;
+}
+
+/// What the model leaves over.
+struct Noise {
+  double rms = 0;  ///< N
+  double independent =
+      0;  ///< N, standard deviation of one independent residual: many correlated ones make one
+};
+
+Noise noise_at(const Task& task, const LawResiduals& residuals, std::span<const double> x) {
+  std::vector<double> errors(residuals.size());
+  if (!residuals.evaluate(x, errors)) return {};
+  double squares = 0;
+  for (const double error : errors) squares += error * error;
+  const std::size_t used = std::min(residuals.size() - 1, task.unknowns.size() + task.training.size());
+  const double length = correlation_length(errors, residuals.segments());
+  return {std::sqrt(squares / static_cast<double>(residuals.size())),
+          std::sqrt(length * squares / static_cast<double>(residuals.size() - used))};
+}
+
+struct Solution {
+  LeastSquaresReport solved;
+  Noise noise;
+};
+
+/// Priors are weighed against the residuals' noise, which the fit itself tells: so it is done again until the
+/// noise stays.
+Solution solve_all(const Task& task, const LawResiduals& residuals) {
+  constexpr int kIterations = 100, kRounds = 4;
+  constexpr double kTolerance = 1e-6, kSameNoise = 0.02;
+  Solution end;
+  std::vector<double> x = best_start(task);
+  if (!task.unknowns.priors().empty()) end.noise = noise_at(task, residuals, x);
+  for (int round = 0; round < kRounds; ++round) {
+    const double assumed = end.noise.independent;
+    end.solved = solve(residuals.problem(assumed, task.options.threads), x,
+                       solver_options(task.options, kIterations, kTolerance));
+    end.noise = noise_at(task, residuals, end.solved.x);
+    if (assumed == 0 || std::abs(end.noise.independent - assumed) <= kSameNoise * assumed) break;
+    x = end.solved.x;
+  }
+  return end;
 }
 
 std::vector<FittedParameter> fitted_parameters(const std::vector<LawUnknowns::Coefficient>& coefficients,
@@ -108,33 +166,26 @@ FitReport::Status status_of(const LeastSquaresReport& solved) {
 
 FitReport fit_law(const Law& law, const std::vector<Record>& training, const std::string& drive_unit,
                   const IdentifyOptions& options) {
-  constexpr int kIterations = 100;
-  constexpr double kTolerance = 1e-6;
-  const DataScale scale = data_scale(training, drive_unit);
-  const LawUnknowns unknowns(law, scale, drive_unit, options.offset);
-  const LawResiduals residuals(unknowns, training, drive_unit, options.offset);
-  const LeastSquaresReport solved =
-      solve(residuals.problem(), best_start(unknowns, training, drive_unit, options),
-            solver_options(options, kIterations, kTolerance));
+  const Task task{
+      law, training, drive_unit, options,
+      LawUnknowns(law, data_scale(training, drive_unit), drive_unit, options.offset, options.choices)};
+  const LawResiduals residuals = task.residuals({});
+  const auto [solved, noise] = solve_all(task, residuals);
   FitReport report;
   report.status = status_of(solved);
   report.message = solved.message;
   report.iterations = solved.iterations;
   if (report.status == FitReport::Status::Failed) return report;
 
-  report.model = std::make_shared<LawModel>(unknowns.model(solved.x));
-  report.training_rmse = std::sqrt(2 * solved.cost / static_cast<double>(residuals.size()));
-
-  std::vector<double> errors(residuals.size());
-  residuals.evaluate(solved.x, errors);
-  const double correlation = correlation_length(errors, residuals.segments());
-  const double freedom = static_cast<double>(
-      residuals.size() - std::min(residuals.size() - 1, unknowns.size() + training.size()));
+  report.model = std::make_shared<LawModel>(task.unknowns.model(solved.x));
+  report.training_rmse = noise.rms;
   const Covariance spread =
-      covariance(solved.normal_matrix, unknowns.size(), correlation * 2 * solved.cost / freedom);
-  const auto coefficients = unknowns.coefficients(solved.x);
+      covariance(solved.normal_matrix, task.unknowns.size(), noise.independent * noise.independent);
+  const auto coefficients = task.unknowns.coefficients(solved.x);
   report.parameters = fitted_parameters(coefficients, spread);
-  report.warnings = warnings_of(coefficients, spread);
+  report.warnings = task.unknowns.warnings();
+  for (std::string& warning : warnings_of(coefficients, spread))
+    report.warnings.push_back(std::move(warning));
   return report;
 }
 

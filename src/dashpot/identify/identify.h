@@ -6,12 +6,14 @@
 #include "dashpot/base/monitor.h"
 #include "dashpot/damper/model_file.h"
 #include "dashpot/identify/evaluate.h"
+#include "dashpot/identify/parameter_choice.h"
 #include "dashpot/record/split.h"
 
 namespace dashpot {
 
 struct IdentifyOptions {
   OffsetMode offset = OffsetMode::Record;
+  std::vector<ParameterChoice> choices;  ///< laws only
   int starts = 4;
   std::uint64_t seed = 1;
   int threads = 0;

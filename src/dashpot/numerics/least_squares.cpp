@@ -57,13 +57,9 @@ class WholeProblem final : public ceres::CostFunction {
   }
 
   bool analytic(std::span<const double> x, std::span<double> r, double** columns) const {
-    std::vector<double> rows(r.size() * x.size());
-    if (!problem_.jacobian(x, r, rows) || !all_finite(r) || !all_finite(rows)) return false;
-    for (std::size_t k = 0; k < x.size(); ++k) {
-      if (!columns[k]) continue;
-      for (std::size_t i = 0; i < r.size(); ++i) columns[k][i] = rows[i * x.size() + k];
-    }
-    return true;
+    if (!problem_.jacobian(x, r, {columns, x.size()}) || !all_finite(r)) return false;
+    return std::all_of(columns, columns + x.size(),
+                       [&](const double* c) { return !c || all_finite({c, r.size()}); });
   }
 
   bool differences(std::span<const double> x, std::span<double> r, double** columns) const {
