@@ -11,6 +11,7 @@ Command models_command();
 Command inspect_command();
 Command bench_command();
 Command demo_command();
+Command study_command();
 Command completion_command();
 Command version_command();
 
