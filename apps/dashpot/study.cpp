@@ -147,6 +147,10 @@ Command study_command() {
                    .help = "standard deviation of the force noise, as a share of each record's force span",
                    .value = "SHARE",
                    .minimum = 0},
+                  {.names = "--noisy-motion",
+                   .target = &options.noisy_motion,
+                   .help = "derive the velocity from a noisy displacement, as on a real bench: the "
+                           "intervals know of noise in the force alone"},
                   {.names = "--seed",
                    .target = &options.seed,
                    .help = "seed of all random numbers: the same seed gives the same result",

@@ -1,11 +1,13 @@
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "dashpot/base/text.h"
 #include "dashpot/identify/fit.h"
 #include "dashpot/identify/law_residuals.h"
 #include "dashpot/identify/law_unknowns.h"
 #include "dashpot/identify/uncertainty.h"
+#include "dashpot/numerics/global_search.h"
 
 namespace dashpot {
 namespace {
@@ -45,19 +47,44 @@ struct Task {
   }
 };
 
+/// The best point that a global search finds within some times the expected size of each unknown.
+std::vector<double> searched_start(const Task& task, const LeastSquaresProblem& problem) {
+  constexpr double kWidest = 5;
+  std::vector<double> start = task.unknowns.start(), lower = problem.lower, upper = problem.upper;
+  for (std::size_t k = 0; k < start.size(); ++k) {
+    lower[k] = std::max(lower[k], start[k] > 0 ? std::min(0.0, start[k]) : start[k] - kWidest);
+    upper[k] = std::min(upper[k], start[k] < 0 ? std::max(0.0, start[k]) : start[k] + kWidest);
+  }
+  std::vector<double> residuals(problem.residuals);
+  const auto cost = [&](std::span<const double> x) {
+    task.options.monitor.check();
+    if (!problem.residual(x, residuals)) return static_cast<double>(INFINITY);
+    return std::inner_product(residuals.begin(), residuals.end(), residuals.begin(), 0.0);
+  };
+  return global_search(cost, {lower, upper}, std::move(start), task.options.search, task.options.seed);
+}
+
 /// Tries several starts on a part of the data and returns the most promising end point.
 std::vector<double> best_start(const Task& task) {
-  constexpr double kTolerance = 1e-2;
-  constexpr int kIterations = 15;
+  constexpr double kTolerance = 1e-2, kHopeless = 2;
+  constexpr int kIterations = 15, kHopelessAfter = 5;
   const LawResiduals residuals =
       task.residuals(trial_thinning(task.law, task.training, task.unknowns.fits_lag()));
   const LeastSquaresProblem problem = residuals.problem(0, task.options.threads);
   Random random(task.options.seed);
-  std::vector<double> best = task.unknowns.start();
+  std::vector<std::vector<double>> starts = {task.unknowns.start()};
+  if (task.options.search > 0) starts.push_back(searched_start(task, problem));
+  while (starts.size() < static_cast<std::size_t>(task.options.starts))
+    starts.push_back(task.unknowns.start(&random));
+  std::vector<double> best = starts.front();
   double best_cost = INFINITY;
-  for (int k = 0; k < std::max(1, task.options.starts); ++k) {
-    const LeastSquaresReport tried = solve(problem, task.unknowns.start(k == 0 ? nullptr : &random),
-                                           solver_options(task.options, kIterations, kTolerance));
+  for (const std::vector<double>& start : starts) {
+    LeastSquaresOptions solver = solver_options(task.options, kIterations, kTolerance);
+    if (std::isfinite(best_cost)) {
+      solver.hopeless_after = kHopelessAfter;
+      solver.hopeless_cost = kHopeless * best_cost;
+    }
+    const LeastSquaresReport tried = solve(problem, start, solver);
     if (std::isfinite(tried.cost) && tried.cost < best_cost) {
       best_cost = tried.cost;
       best = tried.x;

@@ -15,6 +15,7 @@ struct IdentifyOptions {
   OffsetMode offset = OffsetMode::Record;
   std::vector<ParameterChoice> choices;  ///< laws only
   int starts = 4;
+  int search = 0;  ///< evaluations of a global search that gives one more start; 0: none
   std::uint64_t seed = 1;
   int threads = 0;
   Monitor monitor;

@@ -130,6 +130,10 @@ BenchOptions recovery_bench(const RecoveryStudyOptions& options, int repetition)
   bench.cycles = 2;
   bench.sample_rate = 400;
   bench.force_noise = options.force_noise;
+  if (!options.noisy_motion) {
+    bench.velocity_sensor = true;
+    bench.displacement_noise = bench.displacement_resolution = 0;
+  }
   bench.seed = options.seed * 1'000'003 + static_cast<std::uint64_t>(repetition);
   return bench;
 }

@@ -15,6 +15,9 @@ struct RecoveryStudyOptions {
   std::vector<std::string> laws;  ///< empty: all
   int repetitions = 100;
   double force_noise = 0.01;  ///< standard deviation, share of each record's force span
+  /// Motion from a noisy displacement sensor, as on a real bench; else exact. The intervals know of noise in
+  /// the force alone.
+  bool noisy_motion = false;
   std::uint64_t seed = 1;
   int threads = 0;
   Monitor monitor;
