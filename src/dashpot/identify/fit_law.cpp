@@ -78,18 +78,20 @@ std::vector<double> best_start(const Task& task) {
     starts.push_back(task.unknowns.start(&random));
   std::vector<double> best = starts.front();
   double best_cost = INFINITY;
-  for (const std::vector<double>& start : starts) {
+  const auto attempt = [&](const std::vector<double>& start) {
     LeastSquaresOptions solver = solver_options(task.options, kIterations, kTolerance);
     if (std::isfinite(best_cost)) {
       solver.hopeless_after = kHopelessAfter;
       solver.hopeless_cost = kHopeless * best_cost;
     }
     const LeastSquaresReport tried = solve(problem, start, solver);
-    if (std::isfinite(tried.cost) && tried.cost < best_cost) {
-      best_cost = tried.cost;
-      best = tried.x;
-    }
-  }
+    if (!std::isfinite(tried.cost) || tried.cost >= best_cost) return;
+    best_cost = tried.cost;
+    best = tried.x;
+  };
+  for (const std::vector<double>& start : starts) attempt(start);
+  // A step too long may have thrown an unknown against a bound where nothing pulls it back.
+  if (const std::vector<double> freed = task.unknowns.off_bounds(best); freed != best) attempt(freed);
   return best;
 }
 

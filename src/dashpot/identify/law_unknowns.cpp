@@ -133,6 +133,20 @@ std::vector<double> LawUnknowns::start(Random* random) const {
   return unknowns;
 }
 
+bool LawUnknowns::at_bound(std::span<const double> unknowns, std::size_t k) const {
+  const double margin = 1e-6 * std::max(1.0, std::abs(unknowns[k]));
+  return unknowns[k] <= lower_[k] + margin || unknowns[k] >= upper_[k] - margin;
+}
+
+std::vector<double> LawUnknowns::off_bounds(std::vector<double> unknowns) const {
+  constexpr double kShort = 0.1;  // of the start, for what has fallen to its lower bound
+  for (std::size_t k = 0; k < unknowns.size(); ++k)
+    if (at_bound(unknowns, k))
+      unknowns[k] =
+          std::clamp(unknowns[k] < start_[k] ? kShort * start_[k] : start_[k], lower_[k], upper_[k]);
+  return unknowns;
+}
+
 /// One coefficient of a parameter as a linear combination of its unknowns.
 std::vector<double> LawUnknowns::weights(const Row& row, std::size_t coefficient) const {
   std::vector<double> w(row.count, 0.0);
@@ -227,10 +241,6 @@ std::vector<LawUnknowns::PriorTerm> LawUnknowns::priors() const {
 }
 
 std::vector<LawUnknowns::Coefficient> LawUnknowns::coefficients(std::span<const double> unknowns) const {
-  const auto at_bound = [&](std::size_t k) {
-    const double margin = 1e-6 * std::max(1.0, std::abs(unknowns[k]));
-    return unknowns[k] <= lower_[k] + margin || unknowns[k] >= upper_[k] - margin;
-  };
   std::vector<Coefficient> out;
   const auto add = [&](const Row& row) {
     if (row.param.fit == Fit::Drive) return;
@@ -243,7 +253,7 @@ std::vector<LawUnknowns::Coefficient> LawUnknowns::coefficients(std::span<const 
                               .first = row.first};
       if (row.count > 0) {
         coefficient.weights = weights(row, c);
-        for (std::size_t k = 0; k < row.count; ++k) coefficient.at_bound |= at_bound(row.first + k);
+        for (std::size_t k = 0; k < row.count; ++k) coefficient.at_bound |= at_bound(unknowns, row.first + k);
       }
       out.push_back(std::move(coefficient));
     }

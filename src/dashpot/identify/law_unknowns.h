@@ -36,6 +36,8 @@ class LawUnknowns {
   const std::vector<double>& upper() const { return upper_; }
   /// Where the fit starts; with `random`, each value is moved by a factor of 1/3 to 3.
   std::vector<double> start(Random* random = nullptr) const;
+  /// The unknowns, with those that stand at a bound back inside.
+  std::vector<double> off_bounds(std::vector<double> unknowns) const;
   LawModel model(std::span<const double> unknowns) const;
   bool fits_lag() const { return lag_.has_value(); }
   /// What was asked for and these data cannot tell, in words.
@@ -86,6 +88,7 @@ class LawUnknowns {
   void add_unknowns(Row& row);
   std::vector<double> weights(const Row& row, std::size_t coefficient) const;
   std::vector<double> values(const Row& row, std::span<const double> unknowns) const;
+  bool at_bound(std::span<const double> unknowns, std::size_t k) const;
   Dependence dependence(std::span<const double> unknowns) const;
   LawModel model_of(Dependence dependence, std::span<const double> unknowns) const;
   double drive_span() const { return drive_max_ > drive_min_ ? drive_max_ - drive_min_ : 1; }

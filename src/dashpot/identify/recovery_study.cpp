@@ -125,10 +125,10 @@ LawModel known_damper(const Law& law) {
 
 BenchOptions recovery_bench(const RecoveryStudyOptions& options, int repetition) {
   BenchOptions bench;
-  bench.motions = {{0.02, 0.5}, {0.012, 2}, {0.003, 4}};
+  bench.motions = {{0.02, 0.5}, {0.012, 2}};
   bench.drive_levels = {0, 0.4, 0.8, 1.2};
   bench.cycles = 2;
-  bench.sample_rate = 400;
+  bench.sample_rate = 250;
   bench.force_noise = options.force_noise;
   if (!options.noisy_motion) {
     bench.velocity_sensor = true;
