@@ -90,8 +90,6 @@ std::vector<double> best_start(const Task& task) {
     best = tried.x;
   };
   for (const std::vector<double>& start : starts) attempt(start);
-  // A step too long may have thrown an unknown against a bound where nothing pulls it back.
-  if (const std::vector<double> freed = task.unknowns.off_bounds(best); freed != best) attempt(freed);
   return best;
 }
 
@@ -118,18 +116,32 @@ struct Solution {
   Noise noise;
 };
 
+/// From x on, on all data. An early step too long may have thrown an unknown against a bound where nothing
+/// pulls it back: those get one more chance from inside.
+LeastSquaresReport solve_twice(const Task& task, const LeastSquaresProblem& problem, std::vector<double> x) {
+  constexpr int kIterations = 100, kHopelessAfter = 5;
+  constexpr double kTolerance = 1e-6, kHopeless = 1.02;
+  LeastSquaresOptions solver = solver_options(task.options, kIterations, kTolerance);
+  LeastSquaresReport first = solve(problem, std::move(x), solver);
+  const std::vector<double> freed = task.unknowns.off_bounds(first.x);
+  if (freed == first.x || !std::isfinite(first.cost)) return first;
+  solver.hopeless_after = kHopelessAfter;
+  solver.hopeless_cost = kHopeless * first.cost;
+  const LeastSquaresReport second = solve(problem, freed, solver);
+  return second.cost < first.cost ? second : first;
+}
+
 /// Priors are weighed against the residuals' noise, which the fit itself tells: so it is done again until the
 /// noise stays.
 Solution solve_all(const Task& task, const LawResiduals& residuals) {
-  constexpr int kIterations = 100, kRounds = 4;
-  constexpr double kTolerance = 1e-6, kSameNoise = 0.02;
+  constexpr int kRounds = 4;
+  constexpr double kSameNoise = 0.02;
   Solution end;
   std::vector<double> x = best_start(task);
   if (!task.unknowns.priors().empty()) end.noise = noise_at(task, residuals, x);
   for (int round = 0; round < kRounds; ++round) {
     const double assumed = end.noise.independent;
-    end.solved = solve(residuals.problem(assumed, task.options.threads), x,
-                       solver_options(task.options, kIterations, kTolerance));
+    end.solved = solve_twice(task, residuals.problem(assumed, task.options.threads), std::move(x));
     end.noise = noise_at(task, residuals, end.solved.x);
     if (assumed == 0 || std::abs(end.noise.independent - assumed) <= kSameNoise * assumed) break;
     x = end.solved.x;
