@@ -119,16 +119,19 @@ struct Solution {
 /// From x on, on all data. An early step too long may have thrown an unknown against a bound where nothing
 /// pulls it back: those get one more chance from inside.
 LeastSquaresReport solve_twice(const Task& task, const LeastSquaresProblem& problem, std::vector<double> x) {
-  constexpr int kIterations = 100, kHopelessAfter = 5;
+  constexpr int kIterations = 100, kSecondIterations = 20, kHopelessAfter = 3;
   constexpr double kTolerance = 1e-6, kHopeless = 1.02;
   LeastSquaresOptions solver = solver_options(task.options, kIterations, kTolerance);
   LeastSquaresReport first = solve(problem, std::move(x), solver);
   const std::vector<double> freed = task.unknowns.off_bounds(first.x);
   if (freed == first.x || !std::isfinite(first.cost)) return first;
+  solver.max_iterations = kSecondIterations;
   solver.hopeless_after = kHopelessAfter;
   solver.hopeless_cost = kHopeless * first.cost;
   const LeastSquaresReport second = solve(problem, freed, solver);
-  return second.cost < first.cost ? second : first;
+  if (second.cost >= first.cost) return first;
+  return second.converged ? second
+                          : solve(problem, second.x, solver_options(task.options, kIterations, kTolerance));
 }
 
 /// Priors are weighed against the residuals' noise, which the fit itself tells: so it is done again until the
