@@ -13,6 +13,7 @@ Command inspect_command();
 Command track_command();
 Command bench_command();
 Command demo_command();
+Command study_command();
 Command completion_command();
 Command version_command();
 

@@ -71,8 +71,9 @@ int run(const Settings& settings, Console& console) {
   FitSettings fit = settings.fit;
   const std::string truth = damper.model.name();
   fit.models.push_back(truth);
-  const Ranking ranking = rank(chosen_models(fit, dataset, console), dataset, default_leave_out(dataset),
-                               identify_options(fit, console));
+  const std::vector<std::string> models = chosen_models(fit, dataset, console);
+  const Ranking ranking =
+      rank(models, dataset, default_leave_out(dataset), identify_options(fit, models, console));
   const ReportInput input = report_input(dataset, ranking, console);
   print_results(input, console);
   const std::vector<RecoveredParameter> parameters = compare(damper.model, find_model(ranking, truth).fit);

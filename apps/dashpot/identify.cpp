@@ -22,8 +22,9 @@ constexpr std::string_view kExample =
 
 int run(const RankingSettings& settings, Console& console) {
   const RankingData data = ranking_data(settings, console);
-  const Ranking ranking = rank(chosen_models(settings.fit, data.dataset, console), data.dataset,
-                               data.leave_out, identify_options(settings.fit, console));
+  const std::vector<std::string> models = chosen_models(settings.fit, data.dataset, console);
+  const Ranking ranking =
+      rank(models, data.dataset, data.leave_out, identify_options(settings.fit, models, console));
   const ReportInput input = report_input(data.dataset, ranking, console);
   print_results(input, console);
   write_results(input, settings.results, console);

@@ -25,6 +25,28 @@ std::vector<std::string> models_of(const std::string& word) {
   return word == "usual" ? kUsualModels : std::vector{word};
 }
 
+std::vector<ParameterChoice> parameter_choices(const FitSettings& settings,
+                                               const std::vector<std::string>& models) {
+  const struct {
+    const char* option;
+    const std::vector<std::string>& texts;
+    ParameterChoice (*parse)(std::string_view, const std::string&);
+  } sources[] = {{"--form", settings.forms, parse_form_choice},
+                 {"--fix", settings.fixed, parse_fixed_choice},
+                 {"--free", settings.freed, parse_free_choice},
+                 {"--bounds", settings.bounds, parse_bounds_choice},
+                 {"--prior", settings.priors, parse_prior_choice}};
+  try {
+    std::vector<ParameterChoice> choices;
+    for (const auto& source : sources)
+      for (const std::string& text : source.texts) choices.push_back(source.parse(text, source.option));
+    require_choices(choices, models);
+    return choices;
+  } catch (const Error& error) {
+    throw UsageError({}, error.what());
+  }
+}
+
 }  // namespace
 
 std::vector<Option> fit_options(FitSettings& settings) {
@@ -42,11 +64,43 @@ std::vector<Option> fit_options(FitSettings& settings) {
        .help = "the force zero (gas, load cell): a free offset per record, or none beside the model's own",
        .value = "MODE",
        .choices = {"record", "none"}},
+      {.names = "--form",
+       .target = &settings.forms,
+       .help = "how parameters depend on current, as alpha=exponential or bouc_wen.alpha=linear: constant, "
+               "linear, quadratic, cubic or exponential",
+       .value = "LIST",
+       .default_text = "as each law's table says"},
+      {.names = "--fix",
+       .target = &settings.fixed,
+       .help = "parameters that keep a value, as n=2 or k1=5N/cm (without a unit: in SI)",
+       .value = "LIST",
+       .default_text = "as each law's table says"},
+      {.names = "--free",
+       .target = &settings.freed,
+       .help = "parameters to be fitted that a law keeps fixed by itself, as n",
+       .value = "LIST",
+       .default_text = "none"},
+      {.names = "--bounds",
+       .target = &settings.bounds,
+       .help = "narrower bounds for parameters at every current, as c0=0:5000",
+       .value = "LIST",
+       .default_text = "as each law's table says"},
+      {.names = "--prior",
+       .target = &settings.priors,
+       .help = "what is known of parameters beforehand at every current, value and standard deviation, as "
+               "k1=500+-100",
+       .value = "LIST",
+       .default_text = "nothing"},
       {.names = "--starts",
        .target = &settings.options.starts,
        .help = "starting points of each fit",
        .value = "N",
        .minimum = 1},
+      {.names = "--search",
+       .target = &settings.options.search,
+       .help = "evaluations of a global search on a part of the data before the local fit; 0: none",
+       .value = "N",
+       .minimum = 0},
       {.names = "--seed",
        .target = &settings.options.seed,
        .help = "seed of all random numbers: the same seed gives the same result",
@@ -76,9 +130,11 @@ std::vector<std::string> chosen_models(const FitSettings& settings, const Datase
   return models;
 }
 
-IdentifyOptions identify_options(const FitSettings& settings, Console& console) {
+IdentifyOptions identify_options(const FitSettings& settings, const std::vector<std::string>& models,
+                                 Console& console) {
   IdentifyOptions options = settings.options;
   options.offset = settings.force_offset == "none" ? OffsetMode::None : OffsetMode::Record;
+  options.choices = parameter_choices(settings, models);
   options.monitor = console.monitor();
   return options;
 }

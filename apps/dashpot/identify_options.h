@@ -11,6 +11,7 @@ namespace dashpot::cli {
 struct FitSettings {
   std::vector<std::string> models = {"usual"};
   std::string force_offset = "record";
+  std::vector<std::string> forms, fixed, freed, bounds, priors;  ///< as "parameter=..."
   IdentifyOptions options;
 };
 
@@ -20,6 +21,8 @@ std::vector<Option> fit_options(FitSettings& settings);
 /// passed over.
 std::vector<std::string> chosen_models(const FitSettings& settings, const Dataset& dataset, Console& console);
 
-IdentifyOptions identify_options(const FitSettings& settings, Console& console);
+/// Throws UsageError where what was chosen for a parameter does not fit `models`.
+IdentifyOptions identify_options(const FitSettings& settings, const std::vector<std::string>& models,
+                                 Console& console);
 
 }  // namespace dashpot::cli

@@ -64,8 +64,10 @@ int run(const Settings& settings, Console& console) {
   const RankingData data = ranking_data(asked, console);
   const fs::path folder = asked.results.folder;
   const FitStore store(folder / "fits", program_id());
-  const Ranking ranking = rank(chosen_models(asked.fit, data.dataset, console), data.dataset, data.leave_out,
-                               identify_options(asked.fit, console), settings.fresh ? nullptr : &store);
+  const std::vector<std::string> models = chosen_models(asked.fit, data.dataset, console);
+  const Ranking ranking =
+      rank(models, data.dataset, data.leave_out, identify_options(asked.fit, models, console),
+           settings.fresh ? nullptr : &store);
   const ReportInput input = report_input(data.dataset, ranking, console);
   if (settings.markdown)
     console.print(markdown_leaderboard(input));

@@ -8,7 +8,6 @@ namespace dashpot {
 namespace {
 
 using Params = std::array<double, kMaxParams>;
-using States = std::array<double, kMaxStates>;
 
 // RK4 is stable up to rate * step = 2.78 on the real axis. Where the cap is reached the run diverges, and is
 // reported so, instead of taking hours.
@@ -18,28 +17,12 @@ constexpr double kMaxSubsteps = 200;
 // the error of both then is that of inputs taken as straight lines between samples.
 constexpr double kManySubsteps = 3, kOwnStepRatio = 6;
 
-/// The law's parameters at the start, the middle and the end of a substep.
-struct StageParams {
-  const double *start, *middle, *end;
-};
-
-/// One classical Runge-Kutta step of length h from time t on.
-void rk4_step(const Law& law, const InputPath& path, const StageParams& p, double t, double h,
-              double* z) noexcept {
-  const std::size_t n = law.states.size();
-  const double x_middle = path.displacement(t + h / 2), v_middle = path.velocity(t + h / 2);
-  States k1, k2, k3, k4, trial;
-  const auto move = [&](const States& slope, double step) {
-    for (std::size_t s = 0; s < n; ++s) trial[s] = z[s] + step * slope[s];
-  };
-  law.derivative(p.start, path.displacement(t), path.velocity(t), z, k1.data());
-  move(k1, h / 2);
-  law.derivative(p.middle, x_middle, v_middle, trial.data(), k2.data());
-  move(k2, h / 2);
-  law.derivative(p.middle, x_middle, v_middle, trial.data(), k3.data());
-  move(k3, h);
-  law.derivative(p.end, path.displacement(t + h), path.velocity(t + h), trial.data(), k4.data());
-  for (std::size_t s = 0; s < n; ++s) z[s] += h / 6 * (k1[s] + 2 * (k2[s] + k3[s]) + k4[s]);
+/// One step of length h from time t on, with the parameters at its start, middle and end.
+void explicit_step(const Law& law, const InputPath& path, const std::array<const double*, 3>& p, double t,
+                   double h, double* z) noexcept {
+  const double x[] = {path.displacement(t), path.displacement(t + h / 2), path.displacement(t + h)};
+  const double v[] = {path.velocity(t), path.velocity(t + h / 2), path.velocity(t + h)};
+  law.runge_kutta(p.data(), x, v, h, law.states.size(), z);
 }
 
 /// The law's own step, `count` times; false where the law has none for these parameters.
@@ -80,12 +63,12 @@ void integrate(const LawModel& model, const InputPath& path, double dt, double* 
   const double h = dt / count;
   for (int k = 0; k < count; ++k) {
     if (!varies) {
-      rk4_step(law, path, {start.data(), start.data(), start.data()}, k * h, h, z);
+      explicit_step(law, path, {start.data(), start.data(), start.data()}, k * h, h, z);
       continue;
     }
     model.parameters_at(path.current((k + 0.5) * h), middle.data());
     model.parameters_at(path.current((k + 1) * h), end.data());
-    rk4_step(law, path, {start.data(), middle.data(), end.data()}, k * h, h, z);
+    explicit_step(law, path, {start.data(), middle.data(), end.data()}, k * h, h, z);
     start = end;
   }
 }

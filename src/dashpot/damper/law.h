@@ -53,6 +53,10 @@ struct Law {
   void (*rest)(const double* p, double x, double v, double* z) = nullptr;
   void (*derivative)(const double* p, double x, double v, const double* z, double* dz) = nullptr;
   double (*force)(const double* p, double x, double v, const double* z) = nullptr;
+  /// One classical Runge-Kutta step of length h of `count` states, with p, x and v at its start, middle and
+  /// end.
+  void (*runge_kutta)(const double* const* p, const double* x, const double* v, double h, std::size_t count,
+                      double* z) = nullptr;
   /// Bound of the fastest internal rate, 1/s: an explicit integrator keeps rate * step below its limit.
   double (*rate)(const double* p, double v) = nullptr;
   /// Optional: one step of the law's own integrator, stable at any length h, with x[0], v[0] at its start
@@ -100,6 +104,26 @@ std::size_t position_of(double P::* field) {
   const auto distance = reinterpret_cast<const char*>(&(own.*field)) - reinterpret_cast<const char*>(&own);
   return static_cast<std::size_t>(distance) / sizeof(double);
 }
+
+/// As Law::runge_kutta; a function of its own for each law, so that the derivative is compiled into it.
+template <class P, auto Derivative>
+void runge_kutta(const double* const* p, const double* x, const double* v, double h, std::size_t count,
+                 double* z) {
+  const P start = from_array<P>(p[0]), middle = from_array<P>(p[1]), end = from_array<P>(p[2]);
+  double k1[kMaxStates] = {}, k2[kMaxStates] = {}, k3[kMaxStates] = {}, k4[kMaxStates] = {},
+         trial[kMaxStates];
+  const auto move = [&](const double* slope, double step) {
+    for (std::size_t s = 0; s < count; ++s) trial[s] = z[s] + step * slope[s];
+  };
+  Derivative(&start, x[0], v[0], z, k1);
+  move(k1, h / 2);
+  Derivative(&middle, x[1], v[1], trial, k2);
+  move(k2, h / 2);
+  Derivative(&middle, x[1], v[1], trial, k3);
+  move(k3, h);
+  Derivative(&end, x[2], v[2], trial, k4);
+  for (std::size_t s = 0; s < count; ++s) z[s] += h / 6 * (k1[s] + 2 * (k2[s] + k3[s]) + k4[s]);
+}
 }  // namespace detail
 
 /// Turns a C law (a struct of doubles and its functions) into a Law. A field that the table leaves out
@@ -137,6 +161,7 @@ Law state_law(const LawTable<P>& table) {
     const P own = detail::from_array<P>(p);
     Rest(&own, x, v, z);
   };
+  law.runge_kutta = detail::runge_kutta<P, Derivative>;
   law.rate = [](const double* p, double v) {
     const P own = detail::from_array<P>(p);
     return Rate(&own, v);

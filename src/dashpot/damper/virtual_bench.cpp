@@ -20,9 +20,9 @@ DamperInput piston(const SineMotion& motion, double drive, double t) {
   return {-motion.amplitude * std::cos(w * t), motion.amplitude * w * std::sin(w * t), drive};
 }
 
-/// True displacement and force at the samples.
+/// True motion and force at the samples.
 struct Truth {
-  std::vector<double> time, displacement, force;
+  std::vector<double> time, displacement, velocity, force;
 };
 
 Truth simulate(const DamperModel& damper, const SineMotion& motion, double drive,
@@ -40,6 +40,7 @@ Truth simulate(const DamperModel& damper, const SineMotion& motion, double drive
     const double t = static_cast<double>(k) * dt;
     truth.time.push_back(t);
     truth.displacement.push_back(now.displacement);
+    truth.velocity.push_back(now.velocity);
     truth.force.push_back(damper.force(now, state));
     for (std::size_t step = 1; step <= inner; ++step) {
       const DamperInput next = piston(motion, drive, t + static_cast<double>(step) * h);
@@ -91,7 +92,9 @@ Record run_test(const DamperModel& damper, const SineMotion& motion, double driv
   record.time = truth.time;
   record.sample_time = dt;
   record.channels.push_back({"displacement", "m", displacement, "simulated sensor"});
-  record.channels.push_back(derived_velocity(displacement, dt));
+  record.channels.push_back(options.velocity_sensor
+                                ? Channel{"velocity", "m/s", truth.velocity, "simulated sensor"}
+                                : derived_velocity(displacement, dt));
   record.channels.push_back({"force", "N", std::move(force), "simulated load cell"});
   record.channels.push_back({drive_unit == "V" ? "voltage" : "current", drive_unit,
                              std::vector<double>(truth.time.size(), drive), "constant, as set"});

@@ -19,9 +19,10 @@ struct BenchOptions {
   std::vector<double> drive_levels = {0, 0.25, 0.5, 0.75, 1};  ///< A or V
   double sample_rate = 500;                                    ///< Hz
   double cycles = 4;                                           ///< recorded per test, at least one second
-  double force_noise = 0.01;              ///< standard deviation, share of the record's force span
-  double displacement_noise = 2e-6;       ///< m, standard deviation
-  double force_resolution = 1.0;          ///< N per count of the load cell's converter
+  double force_noise = 0.01;         ///< standard deviation, share of the record's force span
+  double displacement_noise = 2e-6;  ///< m, standard deviation
+  bool velocity_sensor = false;      ///< the velocity is recorded, exactly; else derived from displacement
+  double force_resolution = 1.0;     ///< N per count of the load cell's converter
   double displacement_resolution = 1e-6;  ///< m per count
   double force_offset = 30;               ///< N, standard deviation of the zero from record to record
   std::uint64_t seed = 1;

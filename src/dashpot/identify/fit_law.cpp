@@ -1,11 +1,13 @@
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "dashpot/base/text.h"
 #include "dashpot/identify/fit.h"
 #include "dashpot/identify/law_residuals.h"
 #include "dashpot/identify/law_unknowns.h"
 #include "dashpot/identify/uncertainty.h"
+#include "dashpot/numerics/global_search.h"
 
 namespace dashpot {
 namespace {
@@ -21,33 +23,143 @@ LeastSquaresOptions solver_options(const IdentifyOptions& options, int iteration
   return solver;
 }
 
-/// How much of each record the starts are tried on: all of small data, a fifth of large ones.
-double trial_share(const std::vector<Record>& training) {
+/// How much of each record the starts are tried on. A law without a memory needs no samples in a row, one
+/// with a memory gets the first part: all of small data, a fifth of large ones.
+Thinning trial_thinning(const Law& law, const std::vector<Record>& training, bool lags) {
   constexpr double kEnoughSamples = 8000, kLeastShare = 0.2;
   double samples = 0;
   for (const Record& record : training) samples += static_cast<double>(record.size());
-  return std::clamp(kEnoughSamples / samples, kLeastShare, 1.0);
+  if (law.states.empty() && !lags)
+    return {.stride = static_cast<std::size_t>(std::max(1.0, samples / kEnoughSamples))};
+  return {.share = std::clamp(kEnoughSamples / samples, kLeastShare, 1.0)};
 }
 
-/// Tries several starts on the first part of each record and returns the most promising end point.
-std::vector<double> best_start(const LawUnknowns& unknowns, const std::vector<Record>& training,
-                               const std::string& drive_unit, const IdentifyOptions& options) {
-  constexpr double kTolerance = 1e-2;
-  constexpr int kIterations = 15;
-  const LawResiduals residuals(unknowns, training, drive_unit, options.offset, trial_share(training));
-  const LeastSquaresProblem problem = residuals.problem();
-  Random random(options.seed);
-  std::vector<double> best = unknowns.start();
-  double best_cost = INFINITY;
-  for (int k = 0; k < std::max(1, options.starts); ++k) {
-    const LeastSquaresReport tried = solve(problem, unknowns.start(k == 0 ? nullptr : &random),
-                                           solver_options(options, kIterations, kTolerance));
-    if (!tried.x.empty() && std::isfinite(tried.cost) && tried.cost < best_cost) {
-      best_cost = tried.cost;
-      best = tried.x;
-    }
+/// The fit of one law: its unknowns, the records and what was asked for.
+struct Task {
+  const Law& law;
+  const std::vector<Record>& training;
+  const std::string& drive_unit;
+  const IdentifyOptions& options;
+  LawUnknowns unknowns;
+
+  LawResiduals residuals(const Thinning& thinning) const {
+    return {unknowns, training, drive_unit, options.offset, thinning};
   }
+};
+
+/// The best point that a global search finds within some times the expected size of each unknown.
+std::vector<double> searched_start(const Task& task, const LeastSquaresProblem& problem) {
+  constexpr double kWidest = 5;
+  std::vector<double> start = task.unknowns.start(), lower = problem.lower, upper = problem.upper;
+  for (std::size_t k = 0; k < start.size(); ++k) {
+    lower[k] = std::max(lower[k], start[k] > 0 ? std::min(0.0, start[k]) : start[k] - kWidest);
+    upper[k] = std::min(upper[k], start[k] < 0 ? std::max(0.0, start[k]) : start[k] + kWidest);
+  }
+  std::vector<double> residuals(problem.residuals);
+  const auto cost = [&](std::span<const double> x) {
+    task.options.monitor.check();
+    if (!problem.residual(x, residuals)) return static_cast<double>(INFINITY);
+    return std::inner_product(residuals.begin(), residuals.end(), residuals.begin(), 0.0);
+  };
+  return global_search(cost, {lower, upper}, std::move(start), task.options.search, task.options.seed);
+}
+
+/// Tries several starts on a part of the data and returns the most promising end point.
+std::vector<double> best_start(const Task& task) {
+  constexpr double kTolerance = 1e-2, kHopeless = 2;
+  constexpr int kIterations = 15, kHopelessAfter = 5;
+  const LawResiduals residuals =
+      task.residuals(trial_thinning(task.law, task.training, task.unknowns.fits_lag()));
+  const LeastSquaresProblem problem = residuals.problem(0, task.options.threads);
+  Random random(task.options.seed);
+  std::vector<std::vector<double>> starts = {task.unknowns.start()};
+  if (task.options.search > 0) starts.push_back(searched_start(task, problem));
+  while (starts.size() < static_cast<std::size_t>(task.options.starts))
+    starts.push_back(task.unknowns.start(&random));
+  std::vector<double> best = starts.front();
+  double best_cost = INFINITY;
+  const auto attempt = [&](const std::vector<double>& start) {
+    LeastSquaresOptions solver = solver_options(task.options, kIterations, kTolerance);
+    if (std::isfinite(best_cost)) {
+      solver.hopeless_after = kHopelessAfter;
+      solver.hopeless_cost = kHopeless * best_cost;
+    }
+    const LeastSquaresReport tried = solve(problem, start, solver);
+    if (!std::isfinite(tried.cost) || tried.cost >= best_cost) return;
+    best_cost = tried.cost;
+    best = tried.x;
+  };
+  for (const std::vector<double>& start : starts) attempt(start);
   return best;
+}
+
+/// What the model leaves over.
+struct Noise {
+  double rms = 0;  ///< N
+  double independent =
+      0;  ///< N, standard deviation of one independent residual: many correlated ones make one
+};
+
+Noise noise_at(const Task& task, const LawResiduals& residuals, std::span<const double> x) {
+  std::vector<double> errors(residuals.size());
+  if (!residuals.evaluate(x, errors)) return {};
+  double squares = 0;
+  for (const double error : errors) squares += error * error;
+  const std::size_t used = std::min(residuals.size() - 1, task.unknowns.size() + task.training.size());
+  const double length = correlation_length(errors, residuals.segments());
+  return {std::sqrt(squares / static_cast<double>(residuals.size())),
+          std::sqrt(length * squares / static_cast<double>(residuals.size() - used))};
+}
+
+struct Solution {
+  LeastSquaresReport solved;
+  Noise noise;
+};
+
+/// The end of a fit, with those unknowns moved off their bounds that nothing holds there: going back would
+/// hardly change the cost, as far as its slope tells.
+std::vector<double> off_slack_bounds(const Task& task, const LeastSquaresReport& end) {
+  constexpr double kSlack = 1e-3;
+  std::vector<double> x = task.unknowns.off_bounds(end.x);
+  for (std::size_t k = 0; k < end.gradient.size(); ++k)
+    if (std::abs(end.gradient[k] * (x[k] - end.x[k])) > kSlack * end.cost) x[k] = end.x[k];
+  return x;
+}
+
+/// From x on, on all data. An early step too long may have thrown an unknown against a bound where nothing
+/// pulls it back: those get one more chance from inside.
+LeastSquaresReport solve_twice(const Task& task, const LeastSquaresProblem& problem, std::vector<double> x) {
+  constexpr int kIterations = 100, kSecondIterations = 20, kHopelessAfter = 3;
+  constexpr double kTolerance = 1e-6, kHopeless = 1.02;
+  LeastSquaresOptions solver = solver_options(task.options, kIterations, kTolerance);
+  LeastSquaresReport first = solve(problem, std::move(x), solver);
+  const std::vector<double> freed = off_slack_bounds(task, first);
+  if (freed == first.x || !std::isfinite(first.cost)) return first;
+  solver.max_iterations = kSecondIterations;
+  solver.hopeless_after = kHopelessAfter;
+  solver.hopeless_cost = kHopeless * first.cost;
+  const LeastSquaresReport second = solve(problem, freed, solver);
+  if (second.cost >= first.cost) return first;
+  return second.converged ? second
+                          : solve(problem, second.x, solver_options(task.options, kIterations, kTolerance));
+}
+
+/// Priors are weighed against the residuals' noise, which the fit itself tells: so it is done again until the
+/// noise stays.
+Solution solve_all(const Task& task, const LawResiduals& residuals) {
+  constexpr int kRounds = 4;
+  constexpr double kSameNoise = 0.02;
+  Solution end;
+  std::vector<double> x = best_start(task);
+  if (!task.unknowns.priors().empty()) end.noise = noise_at(task, residuals, x);
+  for (int round = 0; round < kRounds; ++round) {
+    const double assumed = end.noise.independent;
+    end.solved = solve_twice(task, residuals.problem(assumed, task.options.threads), std::move(x));
+    end.noise = noise_at(task, residuals, end.solved.x);
+    if (assumed == 0 || std::abs(end.noise.independent - assumed) <= kSameNoise * assumed) break;
+    x = end.solved.x;
+  }
+  return end;
 }
 
 std::vector<FittedParameter> fitted_parameters(const std::vector<LawUnknowns::Coefficient>& coefficients,
@@ -108,33 +220,26 @@ FitReport::Status status_of(const LeastSquaresReport& solved) {
 
 FitReport fit_law(const Law& law, const std::vector<Record>& training, const std::string& drive_unit,
                   const IdentifyOptions& options) {
-  constexpr int kIterations = 100;
-  constexpr double kTolerance = 1e-6;
-  const DataScale scale = data_scale(training, drive_unit);
-  const LawUnknowns unknowns(law, scale, drive_unit, options.offset);
-  const LawResiduals residuals(unknowns, training, drive_unit, options.offset);
-  const LeastSquaresReport solved =
-      solve(residuals.problem(), best_start(unknowns, training, drive_unit, options),
-            solver_options(options, kIterations, kTolerance));
+  const Task task{
+      law, training, drive_unit, options,
+      LawUnknowns(law, data_scale(training, drive_unit), drive_unit, options.offset, options.choices)};
+  const LawResiduals residuals = task.residuals({});
+  const auto [solved, noise] = solve_all(task, residuals);
   FitReport report;
   report.status = status_of(solved);
   report.message = solved.message;
   report.iterations = solved.iterations;
   if (report.status == FitReport::Status::Failed) return report;
 
-  report.model = std::make_shared<LawModel>(unknowns.model(solved.x));
-  report.training_rmse = std::sqrt(2 * solved.cost / static_cast<double>(residuals.size()));
-
-  std::vector<double> errors(residuals.size());
-  residuals.evaluate(solved.x, errors);
-  const double correlation = correlation_length(errors, residuals.segments());
-  const double freedom = static_cast<double>(
-      residuals.size() - std::min(residuals.size() - 1, unknowns.size() + training.size()));
+  report.model = std::make_shared<LawModel>(task.unknowns.model(solved.x));
+  report.training_rmse = noise.rms;
   const Covariance spread =
-      covariance(solved.normal_matrix, unknowns.size(), correlation * 2 * solved.cost / freedom);
-  const auto coefficients = unknowns.coefficients(solved.x);
+      covariance(solved.normal_matrix, task.unknowns.size(), noise.independent * noise.independent);
+  const auto coefficients = task.unknowns.coefficients(solved.x);
   report.parameters = fitted_parameters(coefficients, spread);
-  report.warnings = warnings_of(coefficients, spread);
+  report.warnings = task.unknowns.warnings();
+  for (std::string& warning : warnings_of(coefficients, spread))
+    report.warnings.push_back(std::move(warning));
   return report;
 }
 

@@ -98,6 +98,19 @@ std::string fingerprint(const std::vector<Record>& records) {
   return sha256(text);
 }
 
+std::string text_of(const std::vector<ParameterChoice>& choices) {
+  std::string text;
+  for (const auto& [law, parameter, form, fixed, free, bounds, prior] : choices) {
+    text += law + '.' + parameter + (free ? " free" : "");
+    if (form) text.append(" ").append(name_of(*form));
+    if (fixed) text += " = " + format_exact(*fixed);
+    if (bounds) text += " in " + format_exact(bounds->lower) + ':' + format_exact(bounds->upper);
+    if (prior) text += " about " + format_exact(prior->value) + "+-" + format_exact(prior->deviation);
+    text += ';';
+  }
+  return text;
+}
+
 }  // namespace
 
 FitStore::FitStore(std::filesystem::path folder, std::string program)
@@ -106,11 +119,11 @@ FitStore::FitStore(std::filesystem::path folder, std::string program)
 std::string FitStore::key_of(const Request& request) const {
   // All members by name: a new option does not compile here until it enters the key. Threads and monitor do
   // not change a fit.
-  const auto& [offset, starts, seed, threads, monitor] = request.options;
+  const auto& [offset, choices, starts, search, seed, threads, monitor] = request.options;
   (void)threads, (void)monitor;
   return join({program_, request.model, fingerprint(request.training), request.drive_unit,
-               offset == OffsetMode::Record ? "an offset per record" : "no offsets", std::to_string(starts),
-               std::to_string(seed)},
+               offset == OffsetMode::Record ? "an offset per record" : "no offsets", text_of(choices),
+               std::to_string(starts), std::to_string(search), std::to_string(seed)},
               "\n");
 }
 

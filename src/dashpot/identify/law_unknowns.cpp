@@ -5,13 +5,11 @@
 #include <limits>
 
 #include "dashpot/base/error.h"
+#include "dashpot/base/text.h"
 #include "dashpot/base/units.h"
 
 namespace dashpot {
 namespace {
-
-constexpr double kLagStart = 100;                  // 1/s
-constexpr double kLagLower = 1, kLagUpper = 5000;  // 1/s
 
 constexpr double kSlowest = 0.05, kFastest = 50;  // rates of an exponential, per range of the drive
 
@@ -70,38 +68,49 @@ DataScale data_scale(const std::vector<Record>& records, std::string_view drive_
   return scale;
 }
 
-LawUnknowns::LawUnknowns(const Law& law, const DataScale& scale, std::string drive_unit, OffsetMode offset)
+LawUnknowns::LawUnknowns(const Law& law, const DataScale& scale, std::string drive_unit, OffsetMode offset,
+                         const std::vector<ParameterChoice>& choices)
     : law_(&law),
       drive_unit_(std::move(drive_unit)),
       drive_min_(scale.drive.low),
       drive_max_(scale.drive.high) {
-  for (const ParamInfo& param : law.params) {
-    Row row;
-    row.first = size();
-    row.value = param.value;
-    const bool bias_is_nuisance = param.fit == Fit::Bias && offset == OffsetMode::Record;
-    if (bias_is_nuisance) row.value = 0;
-    if (param.fit == Fit::Scale)
-      row.value = std::clamp(scale.of_unit(param.unit) * param.start, param.lower, param.upper);
-    if (is_estimated(param.fit) && !bias_is_nuisance) {
-      row.form = simplest(param.form, scale.drive);
-      row.size = scale.of_unit(param.unit) * (param.start != 0 ? std::abs(param.start) : 1);
-      add_unknowns(row, param);
-    }
-    rows_.push_back(row);
-  }
-  fits_lag_ = scale.drive.varies;
-  if (fits_lag_) {
-    lower_.push_back(kLagLower / kLagStart);
-    upper_.push_back(kLagUpper / kLagStart);
-    start_.push_back(1);
-  }
+  for (const ParamInfo& param : law.params)
+    rows_.push_back(make_row(param, choice_for(choices, law, param), scale, offset));
+  if (scale.drive.varies)
+    lag_ = make_row(kLagParameter, choice_for(choices, law, kLagParameter), scale, offset);
 }
 
-void LawUnknowns::add_unknowns(Row& row, const ParamInfo& param) {
+LawUnknowns::Row LawUnknowns::make_row(const ParamInfo& table, const ParameterChoice& choice,
+                                       const DataScale& scale, OffsetMode offset) {
+  Row row{.param = with_choice(table, choice), .first = size(), .prior = choice.prior};
+  const ParamInfo& param = row.param;
+  const bool bias_is_nuisance = param.fit == Fit::Bias && offset == OffsetMode::Record;
+  row.value = bias_is_nuisance ? 0 : param.value;
+  if (param.fit == Fit::Scale)
+    row.value = std::clamp(scale.of_unit(param.unit) * param.start, param.lower, param.upper);
+  if (!is_estimated(param.fit) || bias_is_nuisance) return row;
+  row.form = simplest(param.form, scale.drive);
+  if (choice.form && row.form != param.form)
+    warnings_.push_back(std::string(param.name) + " is " + std::string(name_of(row.form)) + ", not " +
+                        std::string(name_of(param.form)) + ": these data hold too few currents to tell");
+  // The lag has a rate of its own; all else has the size of the data.
+  const double unit = &table == &kLagParameter ? 1 : scale.of_unit(param.unit);
+  row.size = unit * (param.start != 0 ? std::abs(param.start) : 1);
+  add_unknowns(row);
+  return row;
+}
+
+void LawUnknowns::add_unknowns(Row& row) {
+  const ParamInfo& param = row.param;
   row.count = coefficient_count(row.form);
   const double lower = param.lower / row.size, upper = param.upper / row.size;
-  const double start = std::clamp((param.start > 0) - (param.start < 0) + 0.0, lower, upper);
+  double start = (param.start > 0) - (param.start < 0) + 0.0;
+  // A parameter that the table switches off by its start is without effect there: it starts beside.
+  constexpr double kBeside = 0.1;
+  if (start <= lower || start >= upper)
+    start = upper - lower > 2 * kBeside ? std::clamp(start, lower + kBeside, upper - kBeside)
+                                        : lower + 0.5 * (upper - lower);
+  if (row.prior) start = row.prior->value / row.size;
   lower_.insert(lower_.end(), row.count, lower);
   upper_.insert(upper_.end(), row.count, upper);
   start_.insert(start_.end(), row.count, start);
@@ -124,6 +133,20 @@ std::vector<double> LawUnknowns::start(Random* random) const {
   return unknowns;
 }
 
+bool LawUnknowns::at_bound(std::span<const double> unknowns, std::size_t k) const {
+  const double margin = 1e-6 * std::max(1.0, std::abs(unknowns[k]));
+  return unknowns[k] <= lower_[k] + margin || unknowns[k] >= upper_[k] - margin;
+}
+
+std::vector<double> LawUnknowns::off_bounds(std::vector<double> unknowns) const {
+  constexpr double kShort = 0.1;  // of the start, for what has fallen to its lower bound
+  for (std::size_t k = 0; k < unknowns.size(); ++k)
+    if (at_bound(unknowns, k))
+      unknowns[k] =
+          std::clamp(unknowns[k] < start_[k] ? kShort * start_[k] : start_[k], lower_[k], upper_[k]);
+  return unknowns;
+}
+
 /// One coefficient of a parameter as a linear combination of its unknowns.
 std::vector<double> LawUnknowns::weights(const Row& row, std::size_t coefficient) const {
   std::vector<double> w(row.count, 0.0);
@@ -136,65 +159,107 @@ std::vector<double> LawUnknowns::weights(const Row& row, std::size_t coefficient
   return w;
 }
 
-LawModel LawUnknowns::model(std::span<const double> unknowns) const {
-  Dependence dependence;
-  for (std::size_t p = 0; p < rows_.size(); ++p) {
-    const Row& row = rows_[p];
-    if (law_->params[p].fit == Fit::Drive) {
-      dependence.forms.push_back(Form::Linear);
-      dependence.coefficients.push_back({0, 1});
-      continue;
-    }
-    dependence.forms.push_back(row.form);
-    if (row.count == 0) {
-      dependence.coefficients.push_back({row.value});
-      continue;
-    }
-    std::vector<double> coefficients;
-    for (std::size_t c = 0; c < row.count; ++c) {
-      const std::vector<double> w = weights(row, c);
-      double sum = 0;
-      for (std::size_t k = 0; k < row.count; ++k) sum += w[k] * unknowns[row.first + k];
-      coefficients.push_back(sum);
-    }
-    dependence.coefficients.push_back(std::move(coefficients));
+/// The parameter's coefficients.
+std::vector<double> LawUnknowns::values(const Row& row, std::span<const double> unknowns) const {
+  if (row.count == 0) return {row.value};
+  std::vector<double> coefficients;
+  for (std::size_t c = 0; c < row.count; ++c) {
+    const std::vector<double> w = weights(row, c);
+    double sum = 0;
+    for (std::size_t k = 0; k < row.count; ++k) sum += w[k] * unknowns[row.first + k];
+    coefficients.push_back(sum);
   }
-  const double lag_rate = fits_lag_ ? kLagStart * unknowns.back() : 0;
-  return LawModel(*law_, std::move(dependence), drive_unit_, lag_rate);
+  return coefficients;
+}
+
+Dependence LawUnknowns::dependence(std::span<const double> unknowns) const {
+  Dependence result;
+  for (const Row& row : rows_) {
+    const bool is_drive = row.param.fit == Fit::Drive;
+    result.forms.push_back(is_drive ? Form::Linear : row.form);
+    result.coefficients.push_back(is_drive ? std::vector<double>{0, 1} : values(row, unknowns));
+  }
+  return result;
+}
+
+LawModel LawUnknowns::model_of(Dependence dependence, std::span<const double> unknowns) const {
+  return LawModel(*law_, std::move(dependence), drive_unit_, lag_ ? values(*lag_, unknowns).front() : 0);
+}
+
+LawModel LawUnknowns::model(std::span<const double> unknowns) const {
+  return model_of(dependence(unknowns), unknowns);
+}
+
+std::vector<LawUnknowns::Group> LawUnknowns::groups() const {
+  std::vector<Group> out;
+  for (std::size_t p = 0; p < rows_.size(); ++p)
+    if (rows_[p].count > 0) out.push_back({p, rows_[p].first, rows_[p].count});
+  return out;
+}
+
+double LawUnknowns::step(std::span<const double> unknowns, const Group& group) const {
+  constexpr double kStep = 1e-6;
+  const Row& row = rows_[group.parameter];
+  const std::size_t ends = row.form == Form::Exponential ? 2 : row.count;
+  const std::span<const double> own = unknowns.subspan(group.first, ends);
+  const auto [low, high] = std::minmax_element(own.begin(), own.end());
+  const double length = kStep * std::max({1.0, std::abs(*low), std::abs(*high)});
+  const bool upward = *high + length <= upper_[group.first] || *low - length < lower_[group.first];
+  return row.size * (upward ? length : -length);
+}
+
+LawModel LawUnknowns::moved(std::span<const double> unknowns, const Group& group, double step) const {
+  Dependence result = dependence(unknowns);
+  result.coefficients[group.parameter][0] += step;
+  if (result.forms[group.parameter] == Form::Exponential) result.coefficients[group.parameter][1] += step;
+  return model_of(std::move(result), unknowns);
+}
+
+double LawUnknowns::slope(std::span<const double> unknowns, const Group& group, std::size_t k,
+                          double current) const {
+  const Row& row = rows_[group.parameter];
+  if (row.form == Form::Exponential) {
+    const double decay = std::exp(-unknowns[row.first + 2] / drive_span() * current);
+    if (k < 2) return row.size * (k == 0 ? decay : 1 - decay);
+    return row.size * (unknowns[row.first + 1] - unknowns[row.first]) * current / drive_span() * decay;
+  }
+  double sum = 0;
+  for (std::size_t c = row.count; c-- > 0;) sum = sum * current + weights(row, c)[k];
+  return sum;
+}
+
+std::vector<LawUnknowns::PriorTerm> LawUnknowns::priors() const {
+  std::vector<PriorTerm> terms;
+  const auto add = [&](const Row& row) {
+    if (!row.prior) return;
+    const std::size_t values = row.form == Form::Exponential ? 2 : row.count;
+    for (std::size_t k = 0; k < values; ++k) terms.push_back({row.first + k, row.size, *row.prior});
+  };
+  for (const Row& row : rows_) add(row);
+  if (lag_) add(*lag_);
+  return terms;
 }
 
 std::vector<LawUnknowns::Coefficient> LawUnknowns::coefficients(std::span<const double> unknowns) const {
-  const LawModel fitted = model(unknowns);
-  const auto at_bound = [&](std::size_t k) {
-    const double margin = 1e-6 * std::max(1.0, std::abs(unknowns[k]));
-    return unknowns[k] <= lower_[k] + margin || unknowns[k] >= upper_[k] - margin;
-  };
   std::vector<Coefficient> out;
-  for (std::size_t p = 0; p < rows_.size(); ++p) {
-    const Row& row = rows_[p];
-    const ParamInfo& param = law_->params[p];
-    if (param.fit == Fit::Drive) continue;
+  const auto add = [&](const Row& row) {
+    if (row.param.fit == Fit::Drive) return;
+    const std::vector<double> fitted = values(row, unknowns);
     for (std::size_t c = 0; c < coefficient_count(row.form); ++c) {
-      Coefficient coefficient{.name = coefficient_name(param.name, row.form, c),
-                              .unit = coefficient_unit(param.unit, row.form, c, drive_unit_),
-                              .meaning = std::string(param.meaning),
-                              .value = fitted.parameters().coefficients[p][c],
+      Coefficient coefficient{.name = coefficient_name(row.param.name, row.form, c),
+                              .unit = coefficient_unit(row.param.unit, row.form, c, drive_unit_),
+                              .meaning = std::string(row.param.meaning),
+                              .value = fitted[c],
                               .first = row.first};
       if (row.count > 0) {
         coefficient.weights = weights(row, c);
-        for (std::size_t k = 0; k < row.count; ++k) coefficient.at_bound |= at_bound(row.first + k);
+        for (std::size_t k = 0; k < row.count; ++k) coefficient.at_bound |= at_bound(unknowns, row.first + k);
       }
       out.push_back(std::move(coefficient));
     }
-  }
-  if (fits_lag_)
-    out.push_back({.name = "lag_rate",
-                   .unit = "1/s",
-                   .meaning = "rate of the coil's first-order lag",
-                   .value = fitted.lag_rate(),
-                   .first = size() - 1,
-                   .weights = {kLagStart},
-                   .at_bound = at_bound(size() - 1)});
+  };
+  for (const Row& row : rows_) add(row);
+  if (lag_) add(*lag_);
   return out;
 }
 

@@ -57,13 +57,9 @@ class WholeProblem final : public ceres::CostFunction {
   }
 
   bool analytic(std::span<const double> x, std::span<double> r, double** columns) const {
-    std::vector<double> rows(r.size() * x.size());
-    if (!problem_.jacobian(x, r, rows) || !all_finite(r) || !all_finite(rows)) return false;
-    for (std::size_t k = 0; k < x.size(); ++k) {
-      if (!columns[k]) continue;
-      for (std::size_t i = 0; i < r.size(); ++i) columns[k][i] = rows[i * x.size() + k];
-    }
-    return true;
+    if (!problem_.jacobian(x, r, {columns, x.size()}) || !all_finite(r)) return false;
+    return std::all_of(columns, columns + x.size(),
+                       [&](const double* c) { return !c || all_finite({c, r.size()}); });
   }
 
   bool differences(std::span<const double> x, std::span<double> r, double** columns) const {
@@ -112,6 +108,7 @@ class Listener final : public ceres::IterationCallback {
       : problem_(problem), options_(options), report_(report), failure_(failure) {}
 
   void set_held(const std::vector<bool>& held) { held_ = held; }
+  bool hopeless() const { return hopeless_; }
 
   ceres::CallbackReturnType operator()(const ceres::IterationSummary& summary) override {
     try {
@@ -121,6 +118,9 @@ class Listener final : public ceres::IterationCallback {
       failure_ = std::current_exception();
     }
     if (failure_) return ceres::SOLVER_ABORT;
+    hopeless_ = options_.hopeless_after > 0 && summary.cost > options_.hopeless_cost &&
+                report_.iterations + summary.iteration >= options_.hopeless_after;
+    if (hopeless_) return ceres::SOLVER_ABORT;
     const bool arrived = held_by_bounds(problem_, report_.x) != held_;
     return arrived && summary.iteration > 0 ? ceres::SOLVER_TERMINATE_SUCCESSFULLY : ceres::SOLVER_CONTINUE;
   }
@@ -131,6 +131,7 @@ class Listener final : public ceres::IterationCallback {
   const LeastSquaresReport& report_;
   std::exception_ptr& failure_;
   std::vector<bool> held_;
+  bool hopeless_ = false;
 };
 
 ceres::Solver::Options ceres_options(const LeastSquaresOptions& options, Listener& listener) {
@@ -235,6 +236,11 @@ LeastSquaresReport solve(const LeastSquaresProblem& problem, std::vector<double>
     settings.max_num_iterations = std::max(1, options.max_iterations - report.iterations);
     listener.set_held(held);
     run(problem, held, settings, whole, report);
+    if (listener.hopeless()) {
+      report.cost = std::numeric_limits<double>::infinity();
+      report.message = "given up: the cost stays too high";
+      return report;
+    }
     const std::vector<bool> now = held_by_bounds(problem, report.x);
     const bool arrived = now != held;
     held = now;

@@ -15,9 +15,10 @@ struct LeastSquaresProblem {
   /// Residuals at x. Returns false where they cannot be computed (the step is then rejected), and so
   /// counts a residual that is not finite. Called from several threads at a time.
   std::function<bool(std::span<const double> x, std::span<double> r)> residual;
-  /// Jacobian row by row (residuals x unknowns) at x, together with the residuals; empty: forward
-  /// differences, one column per task on the farm.
-  std::function<bool(std::span<const double> x, std::span<double> r, std::span<double> j)> jacobian;
+  /// The residuals at x and the Jacobian column by column; a column that is not wanted is nullptr. Empty:
+  /// forward differences, one column per task on the farm.
+  std::function<bool(std::span<const double> x, std::span<double> r, std::span<double* const> columns)>
+      jacobian;
 };
 
 struct LeastSquaresOptions {
@@ -25,6 +26,8 @@ struct LeastSquaresOptions {
   double function_tolerance = 1e-8;  ///< stop when the cost falls by less than this share
   double difference_step = 1e-6;     ///< relative to max(|x|, 1)
   int threads = 0;                   ///< results do not depend on it
+  int hopeless_after = 0;            ///< gives up when after so many iterations (0: never) ...
+  double hopeless_cost = 0;          ///< ... the cost is still above this
   std::function<void(int iteration, double cost)> on_iteration;  ///< may throw to stop
 };
 

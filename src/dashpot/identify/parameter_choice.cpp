@@ -1,0 +1,237 @@
+#include "dashpot/identify/parameter_choice.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "dashpot/base/error.h"
+#include "dashpot/base/text.h"
+#include "dashpot/base/units.h"
+#include "dashpot/damper/registry.h"
+
+namespace dashpot {
+namespace {
+
+constexpr std::string_view kUnknownUnit = "a unit that no law has";
+
+/// A parameter as a choice names it, and what is said of it.
+struct Statement {
+  ParameterChoice choice;
+  std::string_view value;
+};
+
+std::string quoted(std::string_view text) { return "'" + std::string(text) + "'"; }
+
+/// The rows that may be meant by `parameter`: those of the law named, else of any law.
+std::vector<const ParamInfo*> rows_named(const ParameterChoice& choice) {
+  std::vector<const ParamInfo*> rows;
+  for (const Law* law : laws()) {
+    if (!choice.law.empty() && choice.law != law->name) continue;
+    for (const ParamInfo& param : law->params)
+      if (param.name == choice.parameter) rows.push_back(&param);
+  }
+  if (choice.parameter == kLagParameter.name) rows.push_back(&kLagParameter);
+  return rows;
+}
+
+std::vector<std::string> known_parameters(const std::string& law) {
+  std::vector<std::string> known;
+  for (const Law* each : laws())
+    if (law.empty() || law == each->name)
+      for (const ParamInfo& param : each->params) known.emplace_back(param.name);
+  known.emplace_back(kLagParameter.name);
+  std::sort(known.begin(), known.end());
+  known.erase(std::unique(known.begin(), known.end()), known.end());
+  return known;
+}
+
+/// Takes "law.parameter" apart; throws where nothing has that name.
+ParameterChoice named(std::string_view text, const std::string& option) {
+  ParameterChoice choice;
+  const std::size_t dot = text.find('.');
+  if (dot != std::string_view::npos) choice.law = find_law(trim(text.substr(0, dot)), option).name;
+  choice.parameter = trim(dot == std::string_view::npos ? text : text.substr(dot + 1));
+  if (rows_named(choice).empty())
+    throw Error(option, "unknown parameter " + quoted(choice.parameter),
+                suggest(choice.parameter, known_parameters(choice.law)));
+  return choice;
+}
+
+Statement parse_statement(std::string_view text, const std::string& option, const std::string& right) {
+  const std::size_t equals = text.find('=');
+  if (equals == std::string_view::npos || trim(text.substr(equals + 1)).empty())
+    throw Error(option, quoted(text) + " does not say what the parameter is to be", right);
+  return {named(text.substr(0, equals), option), trim(text.substr(equals + 1))};
+}
+
+/// The number at the front of "5N/cm" and what stands behind it.
+std::pair<std::optional<double>, std::string_view> leading_number(std::string_view text) {
+  for (std::size_t length = text.size(); length > 0; --length)
+    if (const auto number = parse_number(trim(text.substr(0, length))); number && std::isfinite(*number))
+      return {number, trim(text.substr(length))};
+  return {std::nullopt, text};
+}
+
+/// The unit of the parameter in SI, where all laws meant agree on it.
+std::string_view unit_of(const ParameterChoice& choice) {
+  const auto rows = rows_named(choice);
+  const bool agree =
+      std::ranges::all_of(rows, [&](const ParamInfo* row) { return row->unit == rows.front()->unit; });
+  return agree ? rows.front()->unit : kUnknownUnit;
+}
+
+double parse_quantity(std::string_view text, const ParameterChoice& choice, const std::string& option) {
+  const auto [number, suffix] = leading_number(text);
+  const std::string where = option + ", " + choice.parameter;
+  if (!number) throw Error(where, quoted(text) + " is not a number", "write 500, or 5N/cm with its unit");
+  if (suffix.empty()) return *number;
+  const std::string_view own = unit_of(choice);
+  if (own == kUnknownUnit)
+    throw Error(where, "the laws that have it count it in different units",
+                "name one: law." + choice.parameter);
+  const Unit unit = require_unit(suffix, where);
+  if (unit.dimension != require_unit(own, where).dimension)
+    throw Error(where, quoted(suffix) + " is not a unit of it", "it is counted in " + std::string(own));
+  return unit.factor * *number + unit.offset;
+}
+
+std::string range_text(const ParameterBounds& bounds, std::string_view unit) {
+  return format_number(bounds.lower) + " ... " + format_number(bounds.upper) + " " + std::string(unit);
+}
+
+void require_within(double value, const ParameterBounds& bounds, const ParamInfo& param,
+                    const std::string& what) {
+  if (value >= bounds.lower && value <= bounds.upper) return;
+  throw Error(std::string(param.name), what + " " + format_number(value) + " lies outside its bounds",
+              range_text(bounds, param.unit));
+}
+
+/// Throws where what was chosen for one row of a law's table does not go together.
+void require_consistent(const ParamInfo& param, const ParameterChoice& choice) {
+  const std::string name(param.name);
+  if (param.fit == Fit::Drive)
+    throw Error(name, "is the coil current itself", "nothing is to be chosen for it");
+  if (choice.fixed && (choice.form || choice.free || choice.bounds || choice.prior))
+    throw Error(name, "is fixed, and something else is asked of it too",
+                "a fixed parameter has neither form, bounds nor prior");
+  const ParameterBounds table{param.lower, param.upper};
+  const ParameterBounds bounds = choice.bounds.value_or(table);
+  if (!(bounds.lower < bounds.upper))
+    throw Error(name, "its bounds " + range_text(bounds, param.unit) + " hold nothing",
+                "write lower:upper; --fix fixes it");
+  if (bounds.lower < table.lower || bounds.upper > table.upper)
+    throw Error(name, "its bounds " + range_text(bounds, param.unit) + " reach beyond the law's",
+                range_text(table, param.unit));
+  if (choice.fixed) require_within(*choice.fixed, table, param, "the value");
+  if (choice.prior) require_within(choice.prior->value, bounds, param, "the prior's value");
+}
+
+}  // namespace
+
+const ParamInfo kLagParameter{.name = "lag_rate",
+                              .unit = "1/s",
+                              .value = 100,
+                              .lower = 1,
+                              .upper = 5000,
+                              .start = 100,
+                              .form = Form::Constant,
+                              .fit = Fit::Free,
+                              .meaning = "rate of the coil's first-order lag"};
+
+ParameterChoice parse_form_choice(std::string_view text, const std::string& option) {
+  auto [choice, value] = parse_statement(text, option, "write alpha=exponential");
+  choice.form = parse_form(value, option);
+  if (choice.parameter == kLagParameter.name && *choice.form != Form::Constant)
+    throw Error(option, "the lag rate is one number", "it does not follow the current");
+  return choice;
+}
+
+ParameterChoice parse_fixed_choice(std::string_view text, const std::string& option) {
+  auto [choice, value] = parse_statement(text, option, "write n=2");
+  choice.fixed = parse_quantity(value, choice, option);
+  return choice;
+}
+
+ParameterChoice parse_free_choice(std::string_view text, const std::string& option) {
+  ParameterChoice choice = named(text, option);
+  choice.free = true;
+  return choice;
+}
+
+ParameterChoice parse_bounds_choice(std::string_view text, const std::string& option) {
+  auto [choice, value] = parse_statement(text, option, "write c0=0:5000");
+  const std::size_t colon = value.find(':');
+  if (colon == std::string_view::npos)
+    throw Error(option, quoted(text) + " has one bound", "write lower:upper, as c0=0:5000");
+  choice.bounds = {parse_quantity(trim(value.substr(0, colon)), choice, option),
+                   parse_quantity(trim(value.substr(colon + 1)), choice, option)};
+  return choice;
+}
+
+ParameterChoice parse_prior_choice(std::string_view text, const std::string& option) {
+  constexpr std::string_view kSign = "+-";
+  auto [choice, value] = parse_statement(text, option, "write k1=500+-100");
+  const std::size_t sign = value.find(kSign);
+  if (sign == std::string_view::npos)
+    throw Error(option, quoted(text) + " has no standard deviation", "write k1=500+-100");
+  choice.prior = {parse_quantity(trim(value.substr(0, sign)), choice, option),
+                  parse_quantity(trim(value.substr(sign + kSign.size())), choice, option)};
+  if (!(choice.prior->deviation > 0))
+    throw Error(option, "the standard deviation of " + choice.parameter + " is not above 0",
+                "--fix fixes a parameter");
+  return choice;
+}
+
+void require_choices(const std::vector<ParameterChoice>& choices, const std::vector<std::string>& models) {
+  for (const ParameterChoice& choice : choices) {
+    bool meant = false;
+    for (const std::string& model : models) {
+      if (!is_law(model) || (!choice.law.empty() && choice.law != model)) continue;
+      const Law& law = find_law(model);
+      meant |= choice.parameter == kLagParameter.name;
+      for (const ParamInfo& param : law.params) {
+        if (param.name != choice.parameter) continue;
+        meant = true;
+        require_consistent(param, choice_for(choices, law, param));
+      }
+      if (choice.parameter == kLagParameter.name)
+        require_consistent(kLagParameter, choice_for(choices, law, kLagParameter));
+    }
+    if (!meant)
+      throw Error(choice.parameter, "none of the models to be fitted has this parameter",
+                  "'dashpot models NAME' lists a model's parameters");
+  }
+}
+
+ParameterChoice choice_for(const std::vector<ParameterChoice>& choices, const Law& law,
+                           const ParamInfo& param) {
+  ParameterChoice all{.law = std::string(law.name), .parameter = std::string(param.name)};
+  for (const bool by_law : {false, true})
+    for (const ParameterChoice& choice : choices) {
+      if (choice.parameter != param.name || choice.law.empty() == by_law) continue;
+      if (by_law && choice.law != law.name) continue;
+      if (choice.form) all.form = choice.form;
+      if (choice.fixed) all.fixed = choice.fixed;
+      if (choice.bounds) all.bounds = choice.bounds;
+      if (choice.prior) all.prior = choice.prior;
+      all.free |= choice.free;
+    }
+  return all;
+}
+
+ParamInfo with_choice(ParamInfo param, const ParameterChoice& choice) {
+  if (choice.fixed) {
+    param.value = *choice.fixed;
+    param.fit = Fit::Fixed;
+    return param;
+  }
+  if (choice.bounds) {
+    param.lower = choice.bounds->lower;
+    param.upper = choice.bounds->upper;
+  }
+  if (choice.form) param.form = *choice.form;
+  const bool asked_for = choice.free || choice.form || choice.bounds || choice.prior;
+  if (asked_for && param.fit != Fit::Bias) param.fit = Fit::Free;
+  return param;
+}
+
+}  // namespace dashpot
