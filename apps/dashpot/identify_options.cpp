@@ -30,7 +30,7 @@ std::vector<ParameterChoice> parameter_choices(const FitSettings& settings,
   const struct {
     const char* option;
     const std::vector<std::string>& texts;
-    ParameterChoice (*parse)(std::string_view, const std::string&);
+    ParameterChoice (*parse)(std::string_view, const std::string&, const ModelNames&);
   } sources[] = {{"--form", settings.forms, parse_form_choice},
                  {"--fix", settings.fixed, parse_fixed_choice},
                  {"--free", settings.freed, parse_free_choice},
@@ -39,7 +39,8 @@ std::vector<ParameterChoice> parameter_choices(const FitSettings& settings,
   try {
     std::vector<ParameterChoice> choices;
     for (const auto& source : sources)
-      for (const std::string& text : source.texts) choices.push_back(source.parse(text, source.option));
+      for (const std::string& text : source.texts)
+        choices.push_back(source.parse(text, source.option, models));
     require_choices(choices, models);
     return choices;
   } catch (const Error& error) {

@@ -10,6 +10,8 @@ using namespace dashpot;
 
 namespace {
 
+const ModelNames kModels = {"bingham", "tanh_kwok", "modified_bouc_wen"};
+
 /// Three currents, 0, 0.5 and 1 A, of a Bingham damper with c0 = 2000 + 1000 i and f_c = 300 + 400 i.
 Dataset bingham_campaign(std::vector<double> levels = {0, 0.5, 1}) {
   const LawModel damper(
@@ -47,38 +49,40 @@ std::string refusal(const std::vector<ParameterChoice>& choices) {
 }  // namespace
 
 TEST_CASE("choices are read with their units") {
-  CHECK(*parse_fixed_choice("n=2", "--fix").fixed == 2);
-  CHECK_CLOSE(*parse_fixed_choice("modified_bouc_wen.k1 = 5 N/cm", "--fix").fixed, 500, 1e-12, 0);
-  CHECK(parse_fixed_choice("modified_bouc_wen.k1=5N/cm", "--fix").law == "modified_bouc_wen");
-  CHECK_CLOSE(*parse_fixed_choice("gamma=363cm^-2", "--fix").fixed, 3.63e6, 1e-12, 0);
-  CHECK(parse_form_choice("alpha=exponential", "--form").form == Form::Exponential);
-  const ParameterChoice bounds = parse_bounds_choice("c0=-1e1:5 N*s/mm", "--bounds");
+  CHECK(*parse_fixed_choice("n=2", "--fix", kModels).fixed == 2);
+  CHECK_CLOSE(*parse_fixed_choice("modified_bouc_wen.k1 = 5 N/cm", "--fix", kModels).fixed, 500, 1e-12, 0);
+  CHECK(parse_fixed_choice("modified_bouc_wen.k1=5N/cm", "--fix", kModels).law == "modified_bouc_wen");
+  CHECK_CLOSE(*parse_fixed_choice("gamma=363cm^-2", "--fix", kModels).fixed, 3.63e6, 1e-12, 0);
+  CHECK(parse_form_choice("alpha=exponential", "--form", kModels).form == Form::Exponential);
+  const ParameterChoice bounds = parse_bounds_choice("c0=-1e1:5 N*s/mm", "--bounds", kModels);
   CHECK(bounds.bounds->lower == -10);
   CHECK_CLOSE(bounds.bounds->upper, 5000, 1e-12, 0);
-  const ParameterChoice prior = parse_prior_choice("k1=500+-1N/cm", "--prior");
+  const ParameterChoice prior = parse_prior_choice("k1=500+-1N/cm", "--prior", kModels);
   CHECK(prior.prior->value == 500);
   CHECK_CLOSE(prior.prior->deviation, 100, 1e-12, 0);
-  CHECK(parse_free_choice("n", "--free").free);
+  CHECK(parse_free_choice("n", "--free", kModels).free);
 }
 
 TEST_CASE("choices that cannot be understood say what would be right") {
-  CHECK(message_of([] { parse_fixed_choice("gama=2", "--fix"); }).find("did you mean 'gamma'") !=
+  CHECK(message_of([] { parse_fixed_choice("gama=2", "--fix", kModels); }).find("did you mean 'gamma'") !=
         std::string::npos);
-  CHECK(message_of([] { parse_fixed_choice("binham.c0=2", "--fix"); }).find("did you mean 'bingham'") !=
-        std::string::npos);
-  CHECK(message_of([] { parse_fixed_choice("n", "--fix"); }).find("write n=2") != std::string::npos);
-  CHECK(message_of([] { parse_fixed_choice("k1=soft", "--fix"); }) ==
+  CHECK(message_of([] {
+          parse_fixed_choice("binham.c0=2", "--fix", kModels);
+        }).find("did you mean 'bingham'") != std::string::npos);
+  CHECK(message_of([] { parse_fixed_choice("n", "--fix", kModels); }).find("write n=2") != std::string::npos);
+  CHECK(message_of([] { parse_fixed_choice("k1=soft", "--fix", kModels); }) ==
         "--fix, k1: 'soft' is not a number; write 500, or 5N/cm with its unit");
-  CHECK(message_of([] { parse_fixed_choice("modified_bouc_wen.k1=5mm", "--fix"); }) ==
+  CHECK(message_of([] { parse_fixed_choice("modified_bouc_wen.k1=5mm", "--fix", kModels); }) ==
         "--fix, k1: 'mm' is not a unit of it; it is counted in N/m");
-  CHECK(message_of([] { parse_form_choice("alpha=square", "--form"); }).find("known: constant") !=
+  CHECK(message_of([] { parse_form_choice("alpha=square", "--form", kModels); }).find("known: constant") !=
         std::string::npos);
-  CHECK(message_of([] { parse_form_choice("lag_rate=linear", "--form"); }).find("does not follow") !=
+  CHECK(message_of([] { parse_form_choice("lag_rate=linear", "--form", kModels); }).find("does not follow") !=
         std::string::npos);
-  CHECK(message_of([] { parse_bounds_choice("c0=5", "--bounds"); }).find("one bound") != std::string::npos);
-  CHECK(message_of([] { parse_prior_choice("c0=5", "--prior"); }).find("no standard deviation") !=
+  CHECK(message_of([] { parse_bounds_choice("c0=5", "--bounds", kModels); }).find("one bound") !=
         std::string::npos);
-  CHECK(message_of([] { parse_prior_choice("c0=5+-0", "--prior"); }).find("not above 0") !=
+  CHECK(message_of([] { parse_prior_choice("c0=5", "--prior", kModels); }).find("no standard deviation") !=
+        std::string::npos);
+  CHECK(message_of([] { parse_prior_choice("c0=5+-0", "--prior", kModels); }).find("not above 0") !=
         std::string::npos);
 }
 

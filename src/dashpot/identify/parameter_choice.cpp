@@ -19,13 +19,17 @@ struct Statement {
   std::string_view value;
 };
 
+bool contains(const ModelNames& models, std::string_view name) {
+  return std::find(models.begin(), models.end(), name) != models.end();
+}
+
 std::string quoted(std::string_view text) { return "'" + std::string(text) + "'"; }
 
-/// The rows that may be meant by `parameter`: those of the law named, else of any law.
-std::vector<const ParamInfo*> rows_named(const ParameterChoice& choice) {
+/// The rows that may be meant by `parameter`: those of the law named, else of the laws among `models`.
+std::vector<const ParamInfo*> rows_named(const ParameterChoice& choice, const ModelNames& models) {
   std::vector<const ParamInfo*> rows;
   for (const Law* law : laws()) {
-    if (!choice.law.empty() && choice.law != law->name) continue;
+    if (choice.law.empty() ? !contains(models, law->name) : choice.law != law->name) continue;
     for (const ParamInfo& param : law->params)
       if (param.name == choice.parameter) rows.push_back(&param);
   }
@@ -33,10 +37,10 @@ std::vector<const ParamInfo*> rows_named(const ParameterChoice& choice) {
   return rows;
 }
 
-std::vector<std::string> known_parameters(const std::string& law) {
+std::vector<std::string> known_parameters(const std::string& law, const ModelNames& models) {
   std::vector<std::string> known;
   for (const Law* each : laws())
-    if (law.empty() || law == each->name)
+    if (law.empty() ? contains(models, each->name) : law == each->name)
       for (const ParamInfo& param : each->params) known.emplace_back(param.name);
   known.emplace_back(kLagParameter.name);
   std::sort(known.begin(), known.end());
@@ -45,22 +49,23 @@ std::vector<std::string> known_parameters(const std::string& law) {
 }
 
 /// Takes "law.parameter" apart; throws where nothing has that name.
-ParameterChoice named(std::string_view text, const std::string& option) {
+ParameterChoice named(std::string_view text, const std::string& option, const ModelNames& models) {
   ParameterChoice choice;
   const std::size_t dot = text.find('.');
   if (dot != std::string_view::npos) choice.law = find_law(trim(text.substr(0, dot)), option).name;
   choice.parameter = trim(dot == std::string_view::npos ? text : text.substr(dot + 1));
-  if (rows_named(choice).empty())
-    throw Error(option, "unknown parameter " + quoted(choice.parameter),
-                suggest(choice.parameter, known_parameters(choice.law)));
+  if (rows_named(choice, models).empty())
+    throw Error(option, "no model to be fitted has a parameter " + quoted(choice.parameter),
+                suggest(choice.parameter, known_parameters(choice.law, models)));
   return choice;
 }
 
-Statement parse_statement(std::string_view text, const std::string& option, const std::string& right) {
+Statement parse_statement(std::string_view text, const std::string& option, const ModelNames& models,
+                          const std::string& right) {
   const std::size_t equals = text.find('=');
   if (equals == std::string_view::npos || trim(text.substr(equals + 1)).empty())
     throw Error(option, quoted(text) + " does not say what the parameter is to be", right);
-  return {named(text.substr(0, equals), option), trim(text.substr(equals + 1))};
+  return {named(text.substr(0, equals), option, models), trim(text.substr(equals + 1))};
 }
 
 /// The number at the front of "5N/cm" and what stands behind it.
@@ -72,19 +77,20 @@ std::pair<std::optional<double>, std::string_view> leading_number(std::string_vi
 }
 
 /// The unit of the parameter in SI, where all laws meant agree on it.
-std::string_view unit_of(const ParameterChoice& choice) {
-  const auto rows = rows_named(choice);
+std::string_view unit_of(const ParameterChoice& choice, const ModelNames& models) {
+  const auto rows = rows_named(choice, models);
   const bool agree =
       std::ranges::all_of(rows, [&](const ParamInfo* row) { return row->unit == rows.front()->unit; });
   return agree ? rows.front()->unit : kUnknownUnit;
 }
 
-double parse_quantity(std::string_view text, const ParameterChoice& choice, const std::string& option) {
+double parse_quantity(std::string_view text, const ParameterChoice& choice, const std::string& option,
+                      const ModelNames& models) {
   const auto [number, suffix] = leading_number(text);
   const std::string where = option + ", " + choice.parameter;
   if (!number) throw Error(where, quoted(text) + " is not a number", "write 500, or 5N/cm with its unit");
   if (suffix.empty()) return *number;
-  const std::string_view own = unit_of(choice);
+  const std::string_view own = unit_of(choice, models);
   if (own == kUnknownUnit)
     throw Error(where, "the laws that have it count it in different units",
                 "name one: law." + choice.parameter);
@@ -137,51 +143,56 @@ const ParamInfo kLagParameter{.name = "lag_rate",
                               .fit = Fit::Free,
                               .meaning = "rate of the coil's first-order lag"};
 
-ParameterChoice parse_form_choice(std::string_view text, const std::string& option) {
-  auto [choice, value] = parse_statement(text, option, "write alpha=exponential");
+ParameterChoice parse_form_choice(std::string_view text, const std::string& option,
+                                  const ModelNames& models) {
+  auto [choice, value] = parse_statement(text, option, models, "write alpha=exponential");
   choice.form = parse_form(value, option);
   if (choice.parameter == kLagParameter.name && *choice.form != Form::Constant)
     throw Error(option, "the lag rate is one number", "it does not follow the current");
   return choice;
 }
 
-ParameterChoice parse_fixed_choice(std::string_view text, const std::string& option) {
-  auto [choice, value] = parse_statement(text, option, "write n=2");
-  choice.fixed = parse_quantity(value, choice, option);
+ParameterChoice parse_fixed_choice(std::string_view text, const std::string& option,
+                                   const ModelNames& models) {
+  auto [choice, value] = parse_statement(text, option, models, "write n=2");
+  choice.fixed = parse_quantity(value, choice, option, models);
   return choice;
 }
 
-ParameterChoice parse_free_choice(std::string_view text, const std::string& option) {
-  ParameterChoice choice = named(text, option);
+ParameterChoice parse_free_choice(std::string_view text, const std::string& option,
+                                  const ModelNames& models) {
+  ParameterChoice choice = named(text, option, models);
   choice.free = true;
   return choice;
 }
 
-ParameterChoice parse_bounds_choice(std::string_view text, const std::string& option) {
-  auto [choice, value] = parse_statement(text, option, "write c0=0:5000");
+ParameterChoice parse_bounds_choice(std::string_view text, const std::string& option,
+                                    const ModelNames& models) {
+  auto [choice, value] = parse_statement(text, option, models, "write c0=0:5000");
   const std::size_t colon = value.find(':');
   if (colon == std::string_view::npos)
     throw Error(option, quoted(text) + " has one bound", "write lower:upper, as c0=0:5000");
-  choice.bounds = {parse_quantity(trim(value.substr(0, colon)), choice, option),
-                   parse_quantity(trim(value.substr(colon + 1)), choice, option)};
+  choice.bounds = {parse_quantity(trim(value.substr(0, colon)), choice, option, models),
+                   parse_quantity(trim(value.substr(colon + 1)), choice, option, models)};
   return choice;
 }
 
-ParameterChoice parse_prior_choice(std::string_view text, const std::string& option) {
+ParameterChoice parse_prior_choice(std::string_view text, const std::string& option,
+                                   const ModelNames& models) {
   constexpr std::string_view kSign = "+-";
-  auto [choice, value] = parse_statement(text, option, "write k1=500+-100");
+  auto [choice, value] = parse_statement(text, option, models, "write k1=500+-100");
   const std::size_t sign = value.find(kSign);
   if (sign == std::string_view::npos)
     throw Error(option, quoted(text) + " has no standard deviation", "write k1=500+-100");
-  choice.prior = {parse_quantity(trim(value.substr(0, sign)), choice, option),
-                  parse_quantity(trim(value.substr(sign + kSign.size())), choice, option)};
+  choice.prior = {parse_quantity(trim(value.substr(0, sign)), choice, option, models),
+                  parse_quantity(trim(value.substr(sign + kSign.size())), choice, option, models)};
   if (!(choice.prior->deviation > 0))
     throw Error(option, "the standard deviation of " + choice.parameter + " is not above 0",
                 "--fix fixes a parameter");
   return choice;
 }
 
-void require_choices(const std::vector<ParameterChoice>& choices, const std::vector<std::string>& models) {
+void require_choices(const std::vector<ParameterChoice>& choices, const ModelNames& models) {
   for (const ParameterChoice& choice : choices) {
     bool meant = false;
     for (const std::string& model : models) {

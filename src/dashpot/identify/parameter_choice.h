@@ -32,19 +32,25 @@ struct ParameterChoice {
 /// record.
 extern const ParamInfo kLagParameter;
 
+/// The models that are to be fitted.
+using ModelNames = std::vector<std::string>;
+
 /// "alpha=exponential" or "bouc_wen.alpha=exponential"; `option` stands in messages.
-ParameterChoice parse_form_choice(std::string_view text, const std::string& option);
+ParameterChoice parse_form_choice(std::string_view text, const std::string& option, const ModelNames& models);
 /// "n=2", "k1=5N/cm": in SI, or with a unit behind the number.
-ParameterChoice parse_fixed_choice(std::string_view text, const std::string& option);
+ParameterChoice parse_fixed_choice(std::string_view text, const std::string& option,
+                                   const ModelNames& models);
 /// "n"
-ParameterChoice parse_free_choice(std::string_view text, const std::string& option);
+ParameterChoice parse_free_choice(std::string_view text, const std::string& option, const ModelNames& models);
 /// "c0=0:5000"
-ParameterChoice parse_bounds_choice(std::string_view text, const std::string& option);
+ParameterChoice parse_bounds_choice(std::string_view text, const std::string& option,
+                                    const ModelNames& models);
 /// "k1=500+-100"
-ParameterChoice parse_prior_choice(std::string_view text, const std::string& option);
+ParameterChoice parse_prior_choice(std::string_view text, const std::string& option,
+                                   const ModelNames& models);
 
 /// Throws Error when a choice names no parameter of `models`, contradicts another one or leaves its bounds.
-void require_choices(const std::vector<ParameterChoice>& choices, const std::vector<std::string>& models);
+void require_choices(const std::vector<ParameterChoice>& choices, const ModelNames& models);
 
 /// Everything that was chosen for one parameter of a law; a choice that names the law goes before one that
 /// does not.
