@@ -95,7 +95,8 @@ std::vector<double> best_start(const Task& task) {
 
 /// What the model leaves over.
 struct Noise {
-  double rms = 0;  ///< N
+  double rms = 0;                 ///< N
+  std::vector<double> variances;  ///< N^2, of one independent residual in each record
   double independent =
       0;  ///< N, standard deviation of one independent residual: many correlated ones make one
 };
@@ -108,6 +109,7 @@ Noise noise_at(const Task& task, const LawResiduals& residuals, std::span<const 
   const std::size_t used = std::min(residuals.size() - 1, task.unknowns.size() + task.training.size());
   const double length = correlation_length(errors, residuals.segments());
   return {std::sqrt(squares / static_cast<double>(residuals.size())),
+          independent_variances(errors, residuals.segments(), used),
           std::sqrt(length * squares / static_cast<double>(residuals.size() - used))};
 }
 
@@ -233,8 +235,9 @@ FitReport fit_law(const Law& law, const std::vector<Record>& training, const std
 
   report.model = std::make_shared<LawModel>(task.unknowns.model(solved.x));
   report.training_rmse = noise.rms;
-  const Covariance spread =
-      covariance(solved.normal_matrix, task.unknowns.size(), noise.independent * noise.independent);
+  std::vector<double> variances = noise.variances;
+  if (!task.unknowns.priors().empty()) variances.push_back(noise.independent * noise.independent);
+  const Covariance spread = covariance(solved.part_matrices, variances, task.unknowns.size());
   const auto coefficients = task.unknowns.coefficients(solved.x);
   report.parameters = fitted_parameters(coefficients, spread);
   report.warnings = task.unknowns.warnings();

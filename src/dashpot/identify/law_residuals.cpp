@@ -106,6 +106,9 @@ LeastSquaresProblem LawResiduals::problem(double noise, int threads) const {
       noise > 0 ? unknowns_->priors() : std::vector<LawUnknowns::PriorTerm>{};
   LeastSquaresProblem problem;
   problem.residuals = size_ + priors.size();
+  problem.parts.clear();
+  for (const auto& [first, length] : segments_) problem.parts.push_back(first);
+  if (!priors.empty()) problem.parts.push_back(size_);
   problem.lower = unknowns_->lower();
   problem.upper = unknowns_->upper();
   const auto add_priors = [this, noise, priors](std::span<const double> x, std::span<double> r) {

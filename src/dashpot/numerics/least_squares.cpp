@@ -170,6 +170,18 @@ void run(const LeastSquaresProblem& problem, const std::vector<bool>& held,
   report.iterations += std::max(0, static_cast<int>(summary.iterations.size()) - 1);
 }
 
+/// J'J of the residuals [first, end); the columns of J are m long.
+std::vector<double> normal_matrix(const std::vector<double>& jacobian, std::size_t m, std::size_t first,
+                                  std::size_t end) {
+  const std::size_t n = jacobian.size() / m;
+  std::vector<double> matrix(n * n);
+  for (std::size_t a = 0; a < n; ++a)
+    for (std::size_t b = 0; b <= a; ++b)
+      matrix[a * n + b] = matrix[b * n + a] =
+          std::inner_product(&jacobian[a * m] + first, &jacobian[a * m] + end, &jacobian[b * m] + first, 0.0);
+  return matrix;
+}
+
 /// Cost, J'J and J'r at report.x; rows and columns of fixed unknowns are zero.
 void describe_end(const WholeProblem& whole, const LeastSquaresProblem& problem, LeastSquaresReport& report) {
   const std::size_t n = report.x.size(), m = problem.residuals;
@@ -186,12 +198,14 @@ void describe_end(const WholeProblem& whole, const LeastSquaresProblem& problem,
   if (!has_jacobian) return;
   report.normal_matrix.assign(n * n, 0.0);
   report.gradient.assign(n, 0.0);
-  for (std::size_t a = 0; a < n; ++a) {
-    const double* column = &jacobian[a * m];
-    report.gradient[a] = std::inner_product(column, column + m, r.begin(), 0.0);
-    for (std::size_t b = 0; b <= a; ++b)
-      report.normal_matrix[a * n + b] = report.normal_matrix[b * n + a] =
-          std::inner_product(column, column + m, &jacobian[b * m], 0.0);
+  for (std::size_t a = 0; a < n; ++a)
+    report.gradient[a] = std::inner_product(&jacobian[a * m], &jacobian[a * m] + m, r.begin(), 0.0);
+  report.part_matrices.clear();
+  for (std::size_t p = 0; p < problem.parts.size(); ++p) {
+    const std::size_t end = p + 1 < problem.parts.size() ? problem.parts[p + 1] : m;
+    report.part_matrices.push_back(normal_matrix(jacobian, m, problem.parts[p], end));
+    std::transform(report.normal_matrix.begin(), report.normal_matrix.end(),
+                   report.part_matrices.back().begin(), report.normal_matrix.begin(), std::plus());
   }
 }
 

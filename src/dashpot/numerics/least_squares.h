@@ -11,6 +11,7 @@ namespace dashpot {
 /// min 0.5 |r(x)|^2 within bounds. Levenberg-Marquardt by Ceres.
 struct LeastSquaresProblem {
   std::size_t residuals = 0;
+  std::vector<std::size_t> parts = {0};  ///< first residual of each part; J'J is reported part by part
   std::vector<double> lower, upper;  ///< one per unknown; +-infinity allowed; equal: that unknown is fixed
   /// Residuals at x. Returns false where they cannot be computed (the step is then rejected), and so
   /// counts a residual that is not finite. Called from several threads at a time.
@@ -37,8 +38,9 @@ struct LeastSquaresReport {
   int iterations = 0;
   double cost = 0;  ///< 0.5 |r|^2; infinity when the residuals cannot be computed at the start
   std::vector<double> x;
-  std::vector<double> normal_matrix;  ///< J'J at the end, row by row; empty when there is no J
-  std::vector<double> gradient;       ///< J'r at the end, likewise
+  std::vector<double> normal_matrix;               ///< J'J at the end, row by row; empty when there is no J
+  std::vector<std::vector<double>> part_matrices;  ///< the same of each part of the residuals
+  std::vector<double> gradient;                    ///< J'r at the end, likewise
 };
 
 /// The start is moved into the bounds first. What the callbacks throw comes out.
