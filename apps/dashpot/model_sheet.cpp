@@ -4,9 +4,12 @@
 
 #include <fmt/core.h>
 
+#include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
+#include "dashpot/damper/inverse/polynomial.h"
 #include "dashpot/damper/neural/mlp.h"
 #include "dashpot/damper/registry.h"
+#include "dashpot/identify/recovery_study.h"
 #include "dashpot/output/safe_text.h"
 #include "layout.h"
 
@@ -46,6 +49,16 @@ void add_table(ModelSheet& sheet, const Law& law) {
   }
 }
 
+/// How a wanted force becomes a current: tried on the law with a moderate dependence on current.
+std::string inverse_of(const Law& law) {
+  try {
+    PolynomialInverse(known_damper(law), InverseLimits{});
+    return "closed form";
+  } catch (const Error&) {
+    return "search";
+  }
+}
+
 std::size_t weights_of(const NetworkPreset& preset) {
   std::vector<std::size_t> layers = {preset.inputs.size()};
   layers.insert(layers.end(), preset.hidden.begin(), preset.hidden.end());
@@ -73,7 +86,7 @@ std::vector<std::string> cells(const ParameterLine& p) {
 std::string facts(const ModelSheet& sheet) {
   std::string text = "inputs: " + join(sheet.inputs, ", ") + "; ";
   text += sheet.states.empty() ? "no state" : "states: " + join(sheet.states, "; ");
-  return text + fmt::format("; {} numbers to fit", sheet.numbers);
+  return text + fmt::format("; {} numbers to fit; inverse: {}", sheet.numbers, sheet.inverse);
 }
 
 }  // namespace
@@ -86,7 +99,8 @@ ModelSheet model_sheet(const std::string& name) {
                    .equation = std::string(info.equation),
                    .source = std::string(info.source),
                    .remarks = std::string(info.remarks),
-                   .inputs = info.inputs};
+                   .inputs = info.inputs,
+                   .inverse = is_law(name) ? inverse_of(find_law(name)) : "search"};
   if (is_law(name))
     add_table(sheet, find_law(name));
   else if (info.kind == "network")
@@ -143,6 +157,7 @@ Value sheet_json(const ModelSheet& sheet) {
                         {"states", Value::array(sheet.states)},
                         {"parameters", std::move(parameters)},
                         {"numbers", sheet.numbers},
+                        {"inverse", sheet.inverse},
                         {"source", sheet.source},
                         {"remarks", sheet.remarks}});
 }
