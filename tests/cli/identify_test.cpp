@@ -47,6 +47,33 @@ TEST_CASE("identify prints the ranking on stdout and progress on stderr") {
   CHECK(fs::exists(folder.path() / "models/bingham.json"));
 }
 
+TEST_CASE("identify: what the user knows of parameters shapes the fit and stands in its table") {
+  const TemporaryFolder folder;
+  const ProgramResult out = stdout_of_dashpot(
+      "identify " + small_campaign().string() +
+      " --models bingham --fix c0=50N*s/cm --form f_c=exponential --no-report --output " +
+      folder.path().string());
+  CHECK(out.exit_code == 0);
+  const std::string model = read_file(folder.path() / "models/bingham.json");
+  const Value file = parse_json(model, "bingham.json");
+  ObjectReader reader(file, "a model file");
+  const Value& parameters = *ObjectReader(reader.required("model"), "a model").optional("parameters");
+  ObjectReader rows(parameters, "parameters");
+  ObjectReader c0(rows.required("c0"), "c0"), f_c(rows.required("f_c"), "f_c");
+  CHECK(c0.required("coefficients").as_numbers() == std::vector<double>{5000});
+  CHECK(f_c.string("form") == "exponential");
+}
+
+TEST_CASE("study recovery: a table, and exit code 3 where intervals do not hold what they claim") {
+  const ProgramResult out = stdout_of_dashpot("study recovery --laws bingham --repetitions 40 --seed 2");
+  CHECK(out.exit_code == 0);
+  CHECK(contains(out.output, "| bingham | f_c_a | N | 670 | 40 |"));
+  const ProgramResult noisy =
+      run_dashpot("study recovery --laws bingham --repetitions 5 --noisy-motion --quiet");
+  CHECK(noisy.exit_code == 3);
+  CHECK(contains(noisy.output, "of the intervals hold the truth: bingham"));
+}
+
 TEST_CASE("identify --json: stdout is one JSON document") {
   const TemporaryFolder folder;
   const ProgramResult out = stdout_of_dashpot("identify " + small_campaign().string() +
