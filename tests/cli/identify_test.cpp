@@ -49,10 +49,10 @@ TEST_CASE("identify prints the ranking on stdout and progress on stderr") {
 
 TEST_CASE("identify: what the user knows of parameters shapes the fit and stands in its table") {
   const TemporaryFolder folder;
-  const ProgramResult out = stdout_of_dashpot(
-      "identify " + small_campaign().string() +
-      " --models bingham --fix c0=50N*s/cm --form f_c=exponential --no-report --output " +
-      folder.path().string());
+  const ProgramResult out =
+      stdout_of_dashpot("identify " + small_campaign().string() +
+                        " --models bingham --fix c0=50N*s/cm --form f_c=exponential --no-report --output " +
+                        folder.path().string());
   CHECK(out.exit_code == 0);
   const std::string model = read_file(folder.path() / "models/bingham.json");
   const Value file = parse_json(model, "bingham.json");
