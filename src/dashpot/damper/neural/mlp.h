@@ -4,25 +4,33 @@
 #include <functional>
 #include <vector>
 
+#include "dashpot/damper/neural/kernel.h"
+
 namespace dashpot {
 
-/// A multilayer perceptron: tanh hidden layers, linear output, inputs and output standardised inside.
-/// All weights stand in one flat vector, layer after layer: W row by row (one row per neuron), then b.
+/// A multilayer perceptron, inputs and output standardised inside. All weights stand in one flat vector,
+/// layer after layer: W row by row (one row per neuron), then b.
 struct Mlp {
-  std::vector<std::size_t> layers;  ///< inputs, hidden ..., 1
+  std::vector<std::size_t> layers;      ///< inputs, hidden ..., 1
+  std::vector<Activation> activations;  ///< of each layer behind the inputs; empty: tanh ..., tanh, identity
   std::vector<double> parameters;
   std::vector<double> input_mean, input_scale;  ///< standardised = (raw - mean) / scale
   double output_mean = 0, output_scale = 1;     ///< raw = mean + scale * network
 
   static std::size_t parameter_count(const std::vector<std::size_t>& layers);
-  static constexpr std::size_t kMaxWidth = 128;
+  static constexpr std::size_t kMaxWidth = dashpot::kMaxWidth;
 
-  /// Output at one raw input, in raw units. Allocates nothing. Widths up to kMaxWidth.
+  /// Of layer 1 ... layers.size() - 1.
+  Activation activation(std::size_t layer) const;
+
+  /// Output at one raw input, in raw units. Allocates nothing. Widths up to kMaxWidth. Plain and by the
+  /// standard library; MlpEvaluator does it fast.
   double evaluate(const double* input) const noexcept;
 };
 
-/// Random weights from the seed, in the manner of Nguyen and Widrow (IJCNN 1990): each neuron's slope lies
-/// somewhere in the range of its inputs, and together they cover it.
+/// Random weights from the seed. Hidden tanh and sigmoid layers in the manner of Nguyen and Widrow (IJCNN
+/// 1990): each neuron's slope lies somewhere in the range of its inputs, and together they cover it. Others
+/// so that the variance passes through (He et al., ICCV 2015), biases 0.
 void initialise(Mlp& mlp, std::uint64_t seed);
 
 /// Samples to train on: `inputs` row by row (samples x inputs), raw units.
@@ -43,6 +51,7 @@ struct TrainOptions {
   /// current's effect, it is the current's effect.
   double offset_decay = 1e-3;
   std::uint64_t seed = 1;  ///< of the start, when mlp.parameters is empty
+  int threads = 1;         ///< results do not depend on it
   std::function<void(int iteration, double rmse)> on_iteration;  ///< raw units; may throw to stop
 };
 

@@ -15,8 +15,12 @@ namespace {
 /// refused steps: Nielsen, 1999).
 class LevenbergMarquardt {
  public:
-  LevenbergMarquardt(Mlp& mlp, const SampleBlocks& blocks, double weight_decay)
-      : mlp_(mlp), blocks_(blocks), weight_decay_(weight_decay), scale_(mlp.parameters.size(), 0.0) {
+  LevenbergMarquardt(Mlp& mlp, const SampleBlocks& blocks, const TrainOptions& options)
+      : mlp_(mlp),
+        blocks_(blocks),
+        errors_(mlp, blocks, options.threads),
+        weight_decay_(options.weight_decay),
+        scale_(mlp.parameters.size(), 0.0) {
     linearise();
   }
 
@@ -35,7 +39,7 @@ class LevenbergMarquardt {
       predicted += step[k] * (damping_ * scale_[k] * step[k] + descent_[k]);
       trial[k] = mlp_.parameters[k] + step[k];
     }
-    const double gain = (cost_ - cost_at(squared_error(mlp_.layers, trial, blocks_), trial)) / predicted;
+    const double gain = (cost_ - cost_at(errors_.squared_error(trial), trial)) / predicted;
     if (!(gain > 0)) return reject();
     damping_ *= gain > 0.75 ? 0.1 : gain > 0.25 ? 1 : 2;
     growth_ = 2;
@@ -58,7 +62,7 @@ class LevenbergMarquardt {
 
   void linearise() {
     const std::vector<double>& w = mlp_.parameters;
-    equations_ = normal_equations(mlp_.layers, w, blocks_);
+    equations_ = errors_.normal_equations(w);
     cost_ = cost_at(equations_.squared_error, w);
     const double share = 1 / static_cast<double>(blocks_.samples);
     matrix_ = equations_.matrix;
@@ -74,6 +78,7 @@ class LevenbergMarquardt {
 
   Mlp& mlp_;
   const SampleBlocks& blocks_;
+  BlockErrors errors_;
   double weight_decay_;
   std::vector<double> scale_;
   double damping_ = 1, growth_ = 2;
@@ -106,7 +111,7 @@ TrainReport train(Mlp& mlp, const TrainingSamples& samples, const TrainOptions& 
   constexpr std::size_t kWindow = 5;  // steps over which the cost must still fall
   if (mlp.parameters.empty()) initialise(mlp, options.seed);
   const SampleBlocks blocks = make_blocks(mlp, samples, options.offset_decay);
-  LevenbergMarquardt search(mlp, blocks, options.weight_decay);
+  LevenbergMarquardt search(mlp, blocks, options);
   const auto rmse = [&] { return mlp.output_scale * std::sqrt(mean_square(search.equations(), blocks)); };
 
   TrainReport report;
