@@ -41,6 +41,13 @@ struct TrainingSamples {
   std::size_t groups = 0;
 };
 
+/// When to stop before a network learns the noise: `left_out` has not been met better for `patience`
+/// epochs (or steps of Levenberg-Marquardt or L-BFGS) on end. The best network is what training gives.
+struct Stopping {
+  const TrainingSamples* left_out = nullptr;  ///< null: never
+  int patience = 20;
+};
+
 struct TrainOptions {
   int max_iterations = 400;
   double tolerance = 1e-5;  ///< stop when the cost falls by less than this share over 5 steps
@@ -52,6 +59,10 @@ struct TrainOptions {
   double offset_decay = 1e-3;
   std::uint64_t seed = 1;  ///< of the start, when mlp.parameters is empty
   int threads = 1;         ///< results do not depend on it
+  /// Weight decay found from the data, starting from weight_decay: MacKay's evidence (Neural Computation
+  /// 1992) in the Gauss-Newton approximation of Foresee and Hagan (ICNN 1997), MATLAB's trainbr.
+  bool bayesian = false;
+  Stopping stopping;
   std::function<void(int iteration, double rmse)> on_iteration;  ///< raw units; may throw to stop
 };
 
@@ -60,6 +71,10 @@ struct TrainReport {
   int iterations = 0;
   double rmse = 0;              ///< raw units, offsets removed
   std::vector<double> offsets;  ///< raw units, one per group, mean zero; added to the network's output
+  bool stopped_early = false;
+  double left_out_rmse = 0;         ///< raw units; 0 when nothing was left out
+  double weight_decay = 0;          ///< of the last step of train()
+  double effective_parameters = 0;  ///< how many of them the data determine; with `bayesian`
 };
 
 /// Full-batch Levenberg-Marquardt on the mean squared error, with one free offset per group (a

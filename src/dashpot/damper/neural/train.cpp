@@ -5,6 +5,7 @@
 
 #include "dashpot/damper/neural/mlp.h"
 #include "dashpot/damper/neural/normal_equations.h"
+#include "dashpot/damper/neural/stopping.h"
 #include "dashpot/numerics/symmetric.h"
 
 namespace dashpot {
@@ -20,6 +21,7 @@ class LevenbergMarquardt {
         blocks_(blocks),
         errors_(mlp, blocks, options.threads),
         weight_decay_(options.weight_decay),
+        bayesian_(options.bayesian),
         scale_(mlp.parameters.size(), 0.0) {
     linearise();
   }
@@ -27,6 +29,13 @@ class LevenbergMarquardt {
   double cost() const { return cost_; }
   const NormalEquations& equations() const { return equations_; }
   bool stuck() const { return damping_ > 1e12; }
+  double weight_decay() const { return weight_decay_; }
+  double effective_parameters() const { return effective_parameters_; }
+
+  void move_to(const std::vector<double>& parameters) {
+    mlp_.parameters = parameters;
+    linearise();
+  }
 
   /// Tries one step; true when it lowers the cost and was taken.
   bool step() {
@@ -63,23 +72,45 @@ class LevenbergMarquardt {
   void linearise() {
     const std::vector<double>& w = mlp_.parameters;
     equations_ = errors_.normal_equations(w);
+    assemble();
+    if (bayesian_ && weigh_evidence()) assemble();
+    for (std::size_t k = 0; k < w.size(); ++k) scale_[k] = std::max(scale_[k], matrix_[k * w.size() + k]);
+  }
+
+  /// Cost, its matrix and its descent for the present weight decay.
+  void assemble() {
+    const std::vector<double>& w = mlp_.parameters;
     cost_ = cost_at(equations_.squared_error, w);
     const double share = 1 / static_cast<double>(blocks_.samples);
     matrix_ = equations_.matrix;
     descent_ = equations_.gradient;
     for (double& entry : matrix_) entry *= share;
     for (std::size_t k = 0; k < w.size(); ++k) {
-      double& diagonal = matrix_[k * w.size() + k];
-      diagonal += weight_decay_;
+      matrix_[k * w.size() + k] += weight_decay_;
       descent_[k] = -(descent_[k] * share + weight_decay_ * w[k]);
-      scale_[k] = std::max(scale_[k], diagonal);
     }
+  }
+
+  /// The weight decay under which the data are likeliest: each determined parameter takes its share of the
+  /// squared error, each undetermined one its share of |w|^2.
+  bool weigh_evidence() {
+    const std::vector<double>& w = mlp_.parameters;
+    const std::optional<double> trace = trace_of_inverse(matrix_, w.size());
+    const double squares = std::inner_product(w.begin(), w.end(), w.begin(), 0.0);
+    const auto n = static_cast<double>(blocks_.samples);
+    if (!trace || squares == 0) return false;
+    effective_parameters_ = std::clamp(static_cast<double>(w.size()) - weight_decay_ * *trace, 0.0, 0.9 * n);
+    weight_decay_ =
+        effective_parameters_ * equations_.squared_error / ((n - effective_parameters_) * squares * n);
+    return true;
   }
 
   Mlp& mlp_;
   const SampleBlocks& blocks_;
   BlockErrors errors_;
   double weight_decay_;
+  bool bayesian_;
+  double effective_parameters_ = 0;
   std::vector<double> scale_;
   double damping_ = 1, growth_ = 2;
   NormalEquations equations_;
@@ -112,19 +143,29 @@ TrainReport train(Mlp& mlp, const TrainingSamples& samples, const TrainOptions& 
   if (mlp.parameters.empty()) initialise(mlp, options.seed);
   const SampleBlocks blocks = make_blocks(mlp, samples, options.offset_decay);
   LevenbergMarquardt search(mlp, blocks, options);
+  EarlyStopping stopping(mlp, options.stopping, options.offset_decay);
   const auto rmse = [&] { return mlp.output_scale * std::sqrt(mean_square(search.equations(), blocks)); };
 
   TrainReport report;
   std::vector<double> costs{search.cost()};
-  while (!report.converged && report.iterations < options.max_iterations) {
+  while (!report.converged && !report.stopped_early && report.iterations < options.max_iterations) {
     ++report.iterations;
-    if (search.step()) costs.push_back(search.cost());
-    const bool level = costs.size() > kWindow &&
-                       costs[costs.size() - 1 - kWindow] - costs.back() < options.tolerance * costs.back();
+    if (search.step()) {
+      costs.push_back(search.cost());
+      report.stopped_early = stopping.judge(mlp.parameters);
+    }
+    const bool level = costs.size() > kWindow && std::abs(costs[costs.size() - 1 - kWindow] - costs.back()) <
+                                                     options.tolerance * costs.back();
     report.converged = level || search.stuck();
     if (options.on_iteration) options.on_iteration(report.iterations, rmse());
   }
+  if (stopping.watches() && !stopping.best().empty()) {
+    search.move_to(stopping.best());
+    report.left_out_rmse = stopping.best_rmse();
+  }
   report.rmse = rmse();
+  report.weight_decay = search.weight_decay();
+  report.effective_parameters = search.effective_parameters();
   if (!samples.group.empty()) report.offsets = raw_offsets(mlp, search.equations().offsets);
   return report;
 }
