@@ -15,8 +15,7 @@ class PaddedNetwork {
  public:
   /// `samples`: most that a pass will hold (0: no passes). `level`: one of simd_levels().
   PaddedNetwork(const Mlp& mlp, std::size_t samples, SimdLevel level);
-  PaddedNetwork(const PaddedNetwork&) = delete;
-  PaddedNetwork& operator=(const PaddedNetwork&) = delete;
+  PaddedNetwork(PaddedNetwork&&) = default;  // a copy's pointers would be wrong
 
   std::size_t inputs() const { return layers_.front().inputs; }
   std::size_t outputs() const { return layers_.back().outputs; }

@@ -14,8 +14,7 @@ struct SampleLayers {
   std::vector<SampleLayer<Real>> layers;  ///< point into weights
 
   explicit SampleLayers(const Mlp& mlp);
-  SampleLayers(const SampleLayers&) = delete;
-  SampleLayers& operator=(const SampleLayers&) = delete;
+  SampleLayers(SampleLayers&&) = default;  // a copy's pointers would be wrong
   void set_parameters(std::span<const double> parameters);
 };
 

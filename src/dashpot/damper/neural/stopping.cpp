@@ -1,5 +1,6 @@
 #include "dashpot/damper/neural/stopping.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace dashpot {
@@ -12,7 +13,7 @@ EarlyStopping::EarlyStopping(const Mlp& mlp, const Stopping& stopping, double of
 }
 
 bool EarlyStopping::judge(std::span<const double> parameters) {
-  if (!watches()) return false;
+  if (!errors_) return false;
   const double mean = errors_->squared_error(parameters) / static_cast<double>(blocks_.samples);
   const double rmse = mlp_.output_scale * std::sqrt(std::max(0.0, mean));
   if (best_.empty() || rmse < rmse_) {
@@ -22,6 +23,13 @@ bool EarlyStopping::judge(std::span<const double> parameters) {
     return false;
   }
   return ++since_best_ >= patience_;
+}
+
+bool EarlyStopping::finish(Mlp& mlp, TrainReport& report) const {
+  if (best_.empty()) return false;
+  mlp.parameters = best_;
+  report.left_out_rmse = rmse_;
+  return true;
 }
 
 }  // namespace dashpot

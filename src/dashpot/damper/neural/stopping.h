@@ -15,9 +15,8 @@ class EarlyStopping {
 
   /// Judges parameters; true when it is time to stop.
   bool judge(std::span<const double> parameters);
-  bool watches() const { return errors_.has_value(); }
-  const std::vector<double>& best() const { return best_; }
-  double best_rmse() const { return rmse_; }  ///< raw units
+  /// Puts the best parameters into `mlp` and their error into the report; false when nothing was judged.
+  bool finish(Mlp& mlp, TrainReport& report) const;
 
  private:
   const Mlp& mlp_;

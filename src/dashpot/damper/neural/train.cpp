@@ -32,9 +32,13 @@ class LevenbergMarquardt {
   double weight_decay() const { return weight_decay_; }
   double effective_parameters() const { return effective_parameters_; }
 
-  void move_to(const std::vector<double>& parameters) {
-    mlp_.parameters = parameters;
-    linearise();
+  /// At the network's present parameters.
+  void linearise() {
+    const std::vector<double>& w = mlp_.parameters;
+    equations_ = errors_.normal_equations(w);
+    assemble();
+    if (bayesian_ && weigh_evidence()) assemble();
+    for (std::size_t k = 0; k < w.size(); ++k) scale_[k] = std::max(scale_[k], matrix_[k * w.size() + k]);
   }
 
   /// Tries one step; true when it lowers the cost and was taken.
@@ -67,14 +71,6 @@ class LevenbergMarquardt {
   double cost_at(double error, const std::vector<double>& w) const {
     return error / static_cast<double>(blocks_.samples) +
            weight_decay_ * std::inner_product(w.begin(), w.end(), w.begin(), 0.0);
-  }
-
-  void linearise() {
-    const std::vector<double>& w = mlp_.parameters;
-    equations_ = errors_.normal_equations(w);
-    assemble();
-    if (bayesian_ && weigh_evidence()) assemble();
-    for (std::size_t k = 0; k < w.size(); ++k) scale_[k] = std::max(scale_[k], matrix_[k * w.size() + k]);
   }
 
   /// Cost, its matrix and its descent for the present weight decay.
@@ -159,10 +155,7 @@ TrainReport train(Mlp& mlp, const TrainingSamples& samples, const TrainOptions& 
     report.converged = level || search.stuck();
     if (options.on_iteration) options.on_iteration(report.iterations, rmse());
   }
-  if (stopping.watches() && !stopping.best().empty()) {
-    search.move_to(stopping.best());
-    report.left_out_rmse = stopping.best_rmse();
-  }
+  if (stopping.finish(mlp, report)) search.linearise();
   report.rmse = rmse();
   report.weight_decay = search.weight_decay();
   report.effective_parameters = search.effective_parameters();

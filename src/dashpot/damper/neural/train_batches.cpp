@@ -109,10 +109,7 @@ TrainReport run(Mlp& mlp, const TrainingSamples& samples, const BatchTrainOption
     report.stopped_early = stopping.judge(mlp.parameters);
     if (options.on_epoch) options.on_epoch(report.iterations, mlp.output_scale * std::sqrt(error));
   }
-  if (stopping.watches() && !stopping.best().empty()) {
-    mlp.parameters = stopping.best();
-    report.left_out_rmse = stopping.best_rmse();
-  }
+  stopping.finish(mlp, report);
   return report;
 }
 

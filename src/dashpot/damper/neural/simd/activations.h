@@ -17,17 +17,17 @@ inline Lanes<Real> activated(Lanes<Real> sum) {
     return sum;
 }
 
-/// The derivative of the activation, from its value.
+/// `delta` times the derivative of the activation, which follows from its value.
 template <Activation kKind, class Real>
-inline Lanes<Real> slope(Lanes<Real> value) {
+inline Lanes<Real> through(Lanes<Real> value, Lanes<Real> delta) {
   if constexpr (kKind == Activation::Relu)
-    return value > 0 ? Lanes<Real>{} + 1 : Lanes<Real>{};
+    return value > 0 ? delta : Lanes<Real>{};
   else if constexpr (kKind == Activation::Tanh)
-    return 1 - value * value;
+    return delta - delta * value * value;
   else if constexpr (kKind == Activation::Sigmoid)
-    return value - value * value;
+    return delta * (value - value * value);
   else
-    return Lanes<Real>{} + 1;
+    return delta;
 }
 
 /// Calls run.operator()<kind>().
@@ -55,7 +55,7 @@ template <Activation kKind, class Real>
 void deactivate(Real* deltas, const Real* values, std::size_t count) {
   if constexpr (kKind != Activation::Identity)
     for (std::size_t k = 0; k < count; k += kLanes<Real>)
-      store(deltas + k, load(deltas + k) * slope<kKind, Real>(load(values + k)));
+      store(deltas + k, through<kKind, Real>(load(values + k), load(deltas + k)));
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 #pragma once
+#include "dashpot/damper/neural/kernel.h"
 #include "dashpot/damper/neural/simd/lanes.h"
 
 namespace dashpot {
@@ -17,31 +18,53 @@ struct Rows {
   std::size_t step;
 };
 
-/// Rows x Columns vectors of  to = start + left * right,  the sums in registers.
-template <class Real, std::size_t kRows, std::size_t kColumns>
-void multiply_tile(std::size_t depth, Left<Real> left, Rows<const Real> right, Rows<const Real> start,
-                   Rows<Real> to) {
+/// to = start + left * right, of `depth` products each. `to` may be `start`.
+template <class Real>
+struct Product {
+  std::size_t depth;
+  Left<Real> left;
+  Rows<const Real> right, start;
+  Rows<Real> to;
+};
+
+/// Usual steps of the left factor from row to row, which the compiler should know; 0 stands for any other.
+template <class Real>
+constexpr std::size_t kOneLine = kKernelAlign / sizeof(Real);
+
+/// `tiles` times kRows rows of kColumns vectors of a product from row `first` on, their sums in registers.
+template <class Real, std::size_t kRows, std::size_t kColumns, std::size_t kStep>
+void multiply_tiles(std::size_t tiles, std::size_t first, const Product<Real>& product) {
   constexpr std::size_t kSize = kLanes<Real>;
-  Lanes<Real> sums[kRows][kColumns];
+  const std::size_t row_step = kStep ? kStep : product.left.row_step, depth_step = product.left.depth_step;
+  const std::size_t right_step = product.right.step, depth = product.depth;
+  const Real* left = product.left.at + first * row_step;
+  const Real* start = product.start.at + first * product.start.step;
+  Real* to = product.to.at + first * product.to.step;
+  for (; tiles > 0; --tiles) {
+    Lanes<Real> sums[kRows][kColumns];
 #pragma GCC unroll 16
-  for (std::size_t r = 0; r < kRows; ++r)
+    for (std::size_t r = 0; r < kRows; ++r)
 #pragma GCC unroll 4
-    for (std::size_t c = 0; c < kColumns; ++c) sums[r][c] = load(start.at + r * start.step + c * kSize);
-  for (std::size_t k = 0; k < depth; ++k) {
-    Lanes<Real> lanes[kColumns];
+      for (std::size_t c = 0; c < kColumns; ++c)
+        sums[r][c] = load(start + r * product.start.step + c * kSize);
+    const Real* factors = left;
+    const Real* right = product.right.at;
+    for (std::size_t k = depth; k > 0; --k, factors += depth_step, right += right_step) {
+      Lanes<Real> lanes[kColumns];
 #pragma GCC unroll 4
-    for (std::size_t c = 0; c < kColumns; ++c) lanes[c] = load(right.at + k * right.step + c * kSize);
+      for (std::size_t c = 0; c < kColumns; ++c) lanes[c] = load(right + c * kSize);
 #pragma GCC unroll 16
-    for (std::size_t r = 0; r < kRows; ++r) {
-      const Real factor = left.at[r * left.row_step + k * left.depth_step];
+      for (std::size_t r = 0; r < kRows; ++r)
 #pragma GCC unroll 4
-      for (std::size_t c = 0; c < kColumns; ++c) sums[r][c] += factor * lanes[c];
+        for (std::size_t c = 0; c < kColumns; ++c) sums[r][c] += factors[r * row_step] * lanes[c];
     }
-  }
 #pragma GCC unroll 16
-  for (std::size_t r = 0; r < kRows; ++r)
+    for (std::size_t r = 0; r < kRows; ++r, to += product.to.step)
 #pragma GCC unroll 4
-    for (std::size_t c = 0; c < kColumns; ++c) store(to.at + r * to.step + c * kSize, sums[r][c]);
+      for (std::size_t c = 0; c < kColumns; ++c) store(to + c * kSize, sums[r][c]);
+    left += kRows * row_step;
+    start += kRows * product.start.step;
+  }
 }
 
 /// How many rows of sums, their operands beside them, the registers hold.
@@ -53,45 +76,44 @@ constexpr std::size_t kTileRows = kRegisters == 32 ? (kColumns == 1   ? 12
                                                    : (kColumns == 1 ? 10 : 6);
 constexpr std::size_t kTileColumns = kRegisters == 32 ? 4 : 2;
 
-template <class Real>
-using TileFunction = void (*)(std::size_t, Left<Real>, Rows<const Real>, Rows<const Real>, Rows<Real>);
-
-template <class Real, std::size_t kColumns, std::size_t... Less>
-void multiply_columns(std::size_t rows, std::size_t depth, Left<Real> left, Rows<const Real> right,
-                      Rows<const Real> start, Rows<Real> to, std::index_sequence<Less...>) {
-  static constexpr TileFunction<Real> kTiles[] = {&multiply_tile<Real, Less + 1, kColumns>...};
+/// All rows of kColumns vectors, in tiles whose heights differ by one at most.
+template <class Real, std::size_t kColumns, std::size_t kStep, std::size_t... Less>
+void multiply_columns(std::size_t rows, const Product<Real>& product, std::index_sequence<Less...>) {
+  using Function = void (*)(std::size_t, std::size_t, const Product<Real>&);
+  static constexpr Function kTiles[] = {&multiply_tiles<Real, Less + 1, kColumns, kStep>...};
   const std::size_t tiles = (rows + sizeof...(Less) - 1) / sizeof...(Less);
-  for (std::size_t t = 0; t < tiles; ++t) {  // of sizes that differ by one at most
-    const std::size_t first = t * rows / tiles, last = (t + 1) * rows / tiles;
-    kTiles[last - first - 1](depth, {left.at + first * left.row_step, left.row_step, left.depth_step}, right,
-                             {start.at + first * start.step, start.step}, {to.at + first * to.step, to.step});
-  }
+  const std::size_t height = rows / tiles, higher = rows % tiles;
+  if (higher > 0) kTiles[height](higher, 0, product);
+  kTiles[height - 1](tiles - higher, higher * (height + 1), product);
 }
 
-/// to = start + left * right, of `rows` rows and `columns` whole vectors. `to` may be `start`.
+template <class Real, std::size_t kColumns>
+void multiply_columns(std::size_t rows, const Product<Real>& product) {
+  constexpr auto kHeights = std::make_index_sequence<kTileRows<kColumns>>();
+  if (product.left.row_step == 1) return multiply_columns<Real, kColumns, 1>(rows, product, kHeights);
+  if (product.left.row_step == kOneLine<Real>)
+    return multiply_columns<Real, kColumns, kOneLine<Real>>(rows, product, kHeights);
+  multiply_columns<Real, kColumns, 0>(rows, product, kHeights);
+}
+
+/// A product of `rows` rows and `columns` whole vectors.
 template <class Real>
-void multiply(std::size_t rows, std::size_t columns, std::size_t depth, Left<Real> left,
-              Rows<const Real> right, Rows<const Real> start, Rows<Real> to) {
-  const auto run = [&]<std::size_t kColumns>() {
-    multiply_columns<Real, kColumns>(rows, depth, left, right, start, to,
-                                     std::make_index_sequence<kTileRows<kColumns>>());
-  };
-  const std::size_t once = kTileColumns * kLanes<Real>;
+void multiply(std::size_t rows, std::size_t columns, Product<Real> product) {
   for (; columns > kTileColumns; columns -= kTileColumns) {
-    run.template operator()<kTileColumns>();
-    right.at += once;
-    start.at += once;
-    to.at += once;
+    multiply_columns<Real, kTileColumns>(rows, product);
+    product.right.at += kTileColumns * kLanes<Real>;
+    product.start.at += kTileColumns * kLanes<Real>;
+    product.to.at += kTileColumns * kLanes<Real>;
   }
   switch (columns) {
     case 1:
-      return run.template operator()<1>();
+      return multiply_columns<Real, 1>(rows, product);
     case 2:
-      return run.template operator()<2>();
+      return multiply_columns<Real, 2>(rows, product);
     case 3:
-      return run.template operator()<kTileColumns == 4 ? 3 : 1>();
+      return multiply_columns<Real, kTileColumns == 4 ? 3 : 1>(rows, product);
     default:
-      return run.template operator()<kTileColumns>();
+      return multiply_columns<Real, kTileColumns>(rows, product);
   }
 }
 

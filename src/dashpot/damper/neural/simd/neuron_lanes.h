@@ -33,9 +33,9 @@ void deactivate_rows(const NeuronLayer<Real>& layer, std::size_t rows) {
     Real* at = layer.deltas + r * layer.columns;
     const Real* out = layer.out + r * layer.out_step;
     const Real* end = at + layer.columns - kPad;
-    for (; at < end; at += kSize, out += kSize) store(at, load(at) * slope<kKind, Real>(load(out)));
+    for (; at < end; at += kSize, out += kSize) store(at, through<kKind, Real>(load(out), load(at)));
     for (std::size_t k = 0; k < kPad; k += kSize)
-      store(at + k, load(layer.counts + k) * load(at + k) * slope<kKind, Real>(load(out + k)));
+      store(at + k, load(layer.counts + k) * through<kKind, Real>(load(out + k), load(at + k)));
   }
 }
 
@@ -62,9 +62,12 @@ template <class Real>
 void forward(const NeuronLayer<Real>* layers, std::size_t count, std::size_t rows) noexcept {
   for (std::size_t l = 0; l + 1 < count; ++l) {
     const NeuronLayer<Real>& layer = layers[l];
-    multiply<Real>(rows, vectors<Real>(layer.columns), layer.inputs, {layer.in, layer.in_step, 1},
-                   {layer.weights, layer.columns}, {layer.weights + layer.inputs * layer.columns, 0},
-                   {layer.out, layer.out_step});
+    multiply<Real>(rows, vectors<Real>(layer.columns),
+                   {layer.inputs,
+                    {layer.in, layer.in_step, 1},
+                    {layer.weights, layer.columns},
+                    {layer.weights + layer.inputs * layer.columns, 0},
+                    {layer.out, layer.out_step}});
     with_activation(layer.activation, [&]<Activation kKind>() { activate_rows<Real, kKind>(layer, rows); });
   }
   const NeuronLayer<Real>& last = layers[count - 1];
@@ -82,11 +85,19 @@ void backward_output(const NeuronLayer<Real>& last, std::size_t rows, Rows<Real>
     for (std::size_t n = 0; n < last.outputs; ++n)
       deactivate<kKind>(last.deltas + n * last.out_step, last.out + n * last.out_step, last.out_step);
   });
-  multiply<Real>(last.outputs, vectors<Real>(last.columns), rows, {last.deltas, last.out_step, 1},
-                 {last.in, last.in_step}, zeros<Real>(), {last.gradient, last.columns});
+  multiply<Real>(last.outputs, vectors<Real>(last.columns),
+                 {rows,
+                  {last.deltas, last.out_step, 1},
+                  {last.in, last.in_step},
+                  zeros<Real>(),
+                  {last.gradient, last.columns}});
   if (by_input.at)
-    multiply<Real>(rows, vectors<Real>(by_input.step), last.outputs, {last.deltas, 1, last.out_step},
-                   {last.weights, last.columns}, zeros<Real>(), by_input);
+    multiply<Real>(rows, vectors<Real>(by_input.step),
+                   {last.outputs,
+                    {last.deltas, 1, last.out_step},
+                    {last.weights, last.columns},
+                    zeros<Real>(),
+                    by_input});
 }
 
 template <class Real>
@@ -101,11 +112,13 @@ void backward(const NeuronLayer<Real>* layers, std::size_t count, std::size_t ro
     const NeuronLayer<Real>& layer = layers[l];
     with_activation(layer.activation, [&]<Activation kKind>() { deactivate_rows<Real, kKind>(layer, rows); });
     const Rows<const Real> deltas{layer.deltas, layer.columns};
-    multiply<Real>(layer.inputs + 1, vectors<Real>(layer.columns), rows, {layer.in, 1, layer.in_step}, deltas,
-                   zeros<Real>(), {layer.gradient, layer.columns});
+    multiply<Real>(
+        layer.inputs + 1, vectors<Real>(layer.columns),
+        {rows, {layer.in, 1, layer.in_step}, deltas, zeros<Real>(), {layer.gradient, layer.columns}});
     if (const Rows<Real> to = by_input(l); to.at)
-      multiply<Real>(rows, vectors<Real>(to.step), layer.outputs, {deltas.at, deltas.step, 1},
-                     {layer.transposed, to.step}, zeros<Real>(), to);
+      multiply<Real>(
+          rows, vectors<Real>(to.step),
+          {layer.outputs, {deltas.at, deltas.step, 1}, {layer.transposed, to.step}, zeros<Real>(), to});
   }
 }
 

@@ -12,8 +12,9 @@ constexpr std::size_t kBlockVectors = kBlock / kLanes<Real>;
 /// A layer on a block; behind its outputs goes the row of ones that the next layer's biases meet.
 template <class Real>
 void apply_layer(const SampleLayer<Real>& layer, const Real* in, Real* out) {
-  multiply<Real>(layer.outputs, kBlockVectors<Real>, layer.inputs + 1, {layer.weights, layer.inputs + 1, 1},
-                 {in, kBlock}, zeros<Real>(), {out, kBlock});
+  multiply<Real>(
+      layer.outputs, kBlockVectors<Real>,
+      {layer.inputs + 1, {layer.weights, layer.inputs + 1, 1}, {in, kBlock}, zeros<Real>(), {out, kBlock}});
   const std::size_t size = layer.outputs * kBlock;
   with_activation(layer.activation, [&]<Activation kKind>() { activate<kKind>(out, size); });
   for (std::size_t s = 0; s < kBlock; ++s) out[size + s] = 1;
@@ -69,8 +70,12 @@ void fill_jacobian(const JacobianBlock& block) {
     weight_rows(layer, in, by_sums, weights);
     if (l == 0) break;
     double* const before = weights - layer.inputs * kBlock;
-    multiply<double>(layer.inputs, kBlockVectors<double>, layer.outputs, {layer.weights, 1, layer.inputs + 1},
-                     {by_sums, kBlock}, zeros<double>(), {before, kBlock});
+    multiply<double>(layer.inputs, kBlockVectors<double>,
+                     {layer.outputs,
+                      {layer.weights, 1, layer.inputs + 1},
+                      {by_sums, kBlock},
+                      zeros<double>(),
+                      {before, kBlock}});
     by_sums = before;
     out = in;
   }
@@ -98,11 +103,16 @@ void add_products(const JacobianBlock& block, double* products, double* sums) no
   constexpr std::size_t kWide = 2, kStep = kWide * kLanes<double>;
   for (std::size_t first = 0; first < columns; first += kStep) {
     const std::size_t wide = columns - first < kStep ? 1 : kWide, end = first + wide * kLanes<double>;
-    multiply<double>(end < rows ? end : rows, wide, kBlock, left, {block.transposed + first, columns},
-                     {products + first, columns}, {products + first, columns});
+    multiply<double>(end < rows ? end : rows, wide,
+                     {kBlock,
+                      left,
+                      {block.transposed + first, columns},
+                      {products + first, columns},
+                      {products + first, columns}});
   }
-  multiply<double>(1, columns / kLanes<double>, kBlock, {block.counts, 0, 1}, {block.transposed, columns},
-                   {sums, columns}, {sums, columns});
+  multiply<double>(
+      1, columns / kLanes<double>,
+      {kBlock, {block.counts, 0, 1}, {block.transposed, columns}, {sums, columns}, {sums, columns}});
 }
 
 void add_errors(const JacobianBlock& block, double sums[2]) noexcept {
