@@ -11,31 +11,54 @@ constexpr std::size_t vectors(std::size_t columns) {
   return columns / kLanes<Real>;
 }
 
+/// The lanes of a layer's last line, in registers.
+template <class Real>
+struct LastLine {
+  static constexpr std::size_t kSize = kLanes<Real>, kVectors = kKernelAlign / kLaneBytes;
+  Lanes<Real> counts[kVectors], ones[kVectors];
+
+  explicit LastLine(const NeuronLayer<Real>& layer) {
+    for (std::size_t v = 0; v < kVectors; ++v) {
+      counts[v] = load(layer.counts + v * kSize);
+      ones[v] = load(layer.ones + v * kSize);
+    }
+  }
+};
+
 /// Sums of a hidden layer -> activations in place, 0 behind the last and a 1 where the next layer's biases
 /// look for it.
 template <class Real, Activation kKind>
 void activate_rows(const NeuronLayer<Real>& layer, std::size_t rows) {
-  constexpr std::size_t kSize = kLanes<Real>, kPad = kKernelAlign / sizeof(Real);
-  for (std::size_t r = 0; r < rows; ++r) {
-    Real* at = layer.out + r * layer.out_step;
-    const Real* end = at + layer.columns - kPad;
-    for (; at < end; at += kSize) store(at, activated<kKind, Real>(load(at)));
-    for (std::size_t k = 0; k < kPad; k += kSize)
-      store(at + k, load(layer.counts + k) * activated<kKind, Real>(load(at + k)) + load(layer.ones + k));
+  using Line = LastLine<Real>;
+  const Line line(layer);
+  const std::size_t before = layer.columns - kOneLine<Real>, step = layer.out_step;
+  Real* at = layer.out;
+  for (std::size_t r = 0; r < rows; ++r, at += step) {
+    for (std::size_t k = 0; k < before; k += Line::kSize) store(at + k, activated<kKind, Real>(load(at + k)));
+#pragma GCC unroll 4
+    for (std::size_t v = 0; v < Line::kVectors; ++v) {
+      Real* const to = at + before + v * Line::kSize;
+      store(to, line.counts[v] * activated<kKind, Real>(load(to)) + line.ones[v]);
+    }
   }
 }
 
 /// Derivatives by activations -> by sums, in place; 0 behind the last neuron.
 template <class Real, Activation kKind>
 void deactivate_rows(const NeuronLayer<Real>& layer, std::size_t rows) {
-  constexpr std::size_t kSize = kLanes<Real>, kPad = kKernelAlign / sizeof(Real);
-  for (std::size_t r = 0; r < rows; ++r) {
-    Real* at = layer.deltas + r * layer.columns;
-    const Real* out = layer.out + r * layer.out_step;
-    const Real* end = at + layer.columns - kPad;
-    for (; at < end; at += kSize, out += kSize) store(at, through<kKind, Real>(load(out), load(at)));
-    for (std::size_t k = 0; k < kPad; k += kSize)
-      store(at + k, load(layer.counts + k) * through<kKind, Real>(load(out + k), load(at + k)));
+  using Line = LastLine<Real>;
+  const Line line(layer);
+  const std::size_t before = layer.columns - kOneLine<Real>, step = layer.columns, out_step = layer.out_step;
+  Real* at = layer.deltas;
+  const Real* out = layer.out;
+  for (std::size_t r = 0; r < rows; ++r, at += step, out += out_step) {
+    for (std::size_t k = 0; k < before; k += Line::kSize)
+      store(at + k, through<kKind, Real>(load(out + k), load(at + k)));
+#pragma GCC unroll 4
+    for (std::size_t v = 0; v < Line::kVectors; ++v) {
+      const std::size_t k = before + v * Line::kSize;
+      store(at + k, line.counts[v] * through<kKind, Real>(load(out + k), load(at + k)));
+    }
   }
 }
 
