@@ -7,7 +7,8 @@ namespace dashpot {
 
 template <class Real>
 MlpEvaluator<Real>::MlpEvaluator(const Mlp& mlp, SimdLevel level)
-    : kernel_(kernel<Real>(level)),
+    : one_kernel_(kernel<Real>(std::min(level, SimdLevel::Avx2))),
+      many_kernel_(kernel<Real>(level)),
       single_(mlp, 0, level),
       many_(mlp),
       input_mean_(mlp.input_mean.begin(), mlp.input_mean.end()),
@@ -21,11 +22,12 @@ template <class Real>
 Real MlpEvaluator<Real>::evaluate(const Real* input) const noexcept {
   alignas(kKernelAlign) Real standardised[padded<Real>(kMaxWidth + 1)];
   const std::size_t inputs = input_mean_.size(), step = single_.input_step();
+  for (std::size_t k = 0; k < step; k += padded<Real>(1))
+    std::fill_n(standardised + k, padded<Real>(1), Real{0});
   for (std::size_t k = 0; k < inputs; ++k) standardised[k] = (input[k] - input_mean_[k]) * input_factor_[k];
   standardised[inputs] = 1;
-  std::fill(standardised + inputs + 1, standardised + step, Real{0});
   Real output;
-  kernel_.respond(single_.layers().data(), single_.layers().size(), standardised, &output);
+  one_kernel_.respond(single_.layers().data(), single_.layers().size(), standardised, &output);
   return output_mean_ + output_scale_ * output;
 }
 
@@ -44,7 +46,7 @@ void MlpEvaluator<Real>::evaluate(std::span<const Real> inputs, std::span<Real> 
       std::fill(row + size, row + kBlock, Real{0});
     }
     std::fill_n(room[0] + width * kBlock, kBlock, Real{1});
-    const Real* result = kernel_.evaluate(many_.layers.data(), many_.layers.size(), room[0], room[1]);
+    const Real* result = many_kernel_.evaluate(many_.layers.data(), many_.layers.size(), room[0], room[1]);
     for (std::size_t s = 0; s < size; ++s) outputs[first + s] = output_mean_ + output_scale_ * result[s];
   }
 }

@@ -19,7 +19,9 @@ class MlpEvaluator {
   void evaluate(std::span<const Real> inputs, std::span<Real> outputs) const noexcept;
 
  private:
-  const Kernel<Real>& kernel_;
+  /// Numbers that one layer stores and the next one reads at once: 64-byte stores are slow at that.
+  const Kernel<Real>& one_kernel_;
+  const Kernel<Real>& many_kernel_;
   PaddedNetwork<Real> single_;  ///< neurons as lanes
   SampleLayers<Real> many_;     ///< samples as lanes
   std::vector<Real> input_mean_, input_factor_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <cstring>
 #include <numbers>
 #include <numeric>
 
@@ -35,7 +36,7 @@ class BatchTrainer {
       targets_.push_back(static_cast<Real>((samples.targets[s] - mlp.output_mean) / mlp.output_scale));
     }
     order_.resize(count);
-    std::iota(order_.begin(), order_.end(), std::size_t{0});
+    std::iota(order_.begin(), order_.end(), 0U);
   }
 
   /// Goes over all samples once, in a new order; returns the mean squared error met on the way.
@@ -55,9 +56,11 @@ class BatchTrainer {
 
  private:
   /// The gradient of one batch; returns its sum of squares.
-  double learn(const std::size_t* samples, std::size_t size) {
+  double learn(const std::uint32_t* samples, std::size_t size) {
     const std::size_t step = network_.input_step();
-    for (std::size_t s = 0; s < size; ++s) std::copy_n(&inputs_[samples[s] * step], step, network_.input(s));
+    for (std::size_t s = 0; s < size; ++s)
+      for (std::size_t k = 0; k < step; k += padded<Real>(1))  // by whole cache lines
+        std::memcpy(network_.input(s) + k, &inputs_[samples[s] * step + k], kKernelAlign);
     network_.forward(size);
     const Real* output = network_.output(0);
     Real* slope = network_.output_slope(0);
@@ -92,7 +95,7 @@ class BatchTrainer {
   PaddedNetwork<Real> network_;
   AlignedVector<Real> mean_, square_, inputs_;
   std::vector<Real> targets_;
-  std::vector<std::size_t> order_;
+  std::vector<std::uint32_t> order_;
   Random random_;
   double momentum_power_ = 1, square_power_ = 1;
 };

@@ -78,17 +78,18 @@ constexpr std::size_t kTileColumns = kRegisters == 32 ? 4 : 2;
 
 /// All rows of kColumns vectors, in tiles whose heights differ by one at most.
 template <class Real, std::size_t kColumns, std::size_t kStep, std::size_t... Less>
-void multiply_columns(std::size_t rows, const Product<Real>& product, std::index_sequence<Less...>) {
+inline void multiply_columns(std::size_t rows, const Product<Real>& product, std::index_sequence<Less...>) {
   using Function = void (*)(std::size_t, std::size_t, const Product<Real>&);
   static constexpr Function kTiles[] = {&multiply_tiles<Real, Less + 1, kColumns, kStep>...};
-  const std::size_t tiles = (rows + sizeof...(Less) - 1) / sizeof...(Less);
-  const std::size_t height = rows / tiles, higher = rows % tiles;
+  const auto count = static_cast<std::uint32_t>(rows);  // divided quicker than 64 bits
+  const std::uint32_t tiles = (count + sizeof...(Less) - 1) / sizeof...(Less);
+  const std::uint32_t height = count / tiles, higher = count % tiles;
   if (higher > 0) kTiles[height](higher, 0, product);
   kTiles[height - 1](tiles - higher, higher * (height + 1), product);
 }
 
 template <class Real, std::size_t kColumns>
-void multiply_columns(std::size_t rows, const Product<Real>& product) {
+inline void multiply_columns(std::size_t rows, const Product<Real>& product) {
   constexpr auto kHeights = std::make_index_sequence<kTileRows<kColumns>>();
   if (product.left.row_step == 1) return multiply_columns<Real, kColumns, 1>(rows, product, kHeights);
   if (product.left.row_step == kOneLine<Real>)
@@ -96,15 +97,9 @@ void multiply_columns(std::size_t rows, const Product<Real>& product) {
   multiply_columns<Real, kColumns, 0>(rows, product, kHeights);
 }
 
-/// A product of `rows` rows and `columns` whole vectors.
+/// Up to kTileColumns vectors.
 template <class Real>
-void multiply(std::size_t rows, std::size_t columns, Product<Real> product) {
-  for (; columns > kTileColumns; columns -= kTileColumns) {
-    multiply_columns<Real, kTileColumns>(rows, product);
-    product.right.at += kTileColumns * kLanes<Real>;
-    product.start.at += kTileColumns * kLanes<Real>;
-    product.to.at += kTileColumns * kLanes<Real>;
-  }
+void multiply_few(std::size_t rows, std::size_t columns, const Product<Real>& product) {
   switch (columns) {
     case 1:
       return multiply_columns<Real, 1>(rows, product);
@@ -115,6 +110,20 @@ void multiply(std::size_t rows, std::size_t columns, Product<Real> product) {
     default:
       return multiply_columns<Real, kTileColumns>(rows, product);
   }
+}
+
+/// A product of `rows` rows and `columns` whole vectors.
+template <class Real>
+void multiply(std::size_t rows, std::size_t columns, const Product<Real>& product) {
+  if (columns <= kTileColumns) return multiply_few(rows, columns, product);
+  Product<Real> part = product;
+  for (; columns > kTileColumns; columns -= kTileColumns) {
+    multiply_columns<Real, kTileColumns>(rows, part);
+    part.right.at += kTileColumns * kLanes<Real>;
+    part.start.at += kTileColumns * kLanes<Real>;
+    part.to.at += kTileColumns * kLanes<Real>;
+  }
+  multiply_few(rows, columns, part);
 }
 
 /// A row of zeros to start sums from, for up to 256 columns.

@@ -14,22 +14,18 @@ inline void respond_group(const NeuronLayer<Real>& layer, const Real* in, std::s
   const std::size_t step = layer.columns;
   const Real* weights = layer.weights + first;
   Lanes<Real> sums[kChains][kVectors] = {};
-  std::size_t i = 0;
-  for (; i + kChains <= layer.inputs; i += kChains, weights += kChains * step)
+  // The 1 behind the inputs meets the biases, the zeros behind it whatever stands there.
+  for (std::size_t i = 0; i <= layer.inputs; i += kChains, weights += kChains * step)
 #pragma GCC unroll 4
     for (std::size_t k = 0; k < kChains; ++k)
 #pragma GCC unroll 4
       for (std::size_t v = 0; v < kVectors; ++v)
         sums[k][v] += in[i + k] * load(weights + k * step + v * kSize);
-  for (; i < layer.inputs; ++i, weights += step)
-#pragma GCC unroll 4
-    for (std::size_t v = 0; v < kVectors; ++v) sums[0][v] += in[i] * load(weights + v * kSize);
   const bool end = first + kVectors * kSize == step;
 #pragma GCC unroll 4
   for (std::size_t v = 0; v < kVectors; ++v) {
-    Lanes<Real> total = load(weights + v * kSize) + sums[0][v];  // now the biases
-#pragma GCC unroll 4
-    for (std::size_t k = 1; k < kChains; ++k) total += sums[k][v];
+    Lanes<Real> total = sums[0][v] + sums[1][v];
+    if constexpr (kChains == 4) total += sums[2][v] + sums[3][v];
     total = activated<kKind, Real>(total);
     if (end) total = load(layer.counts + v * kSize) * total + load(layer.ones + v * kSize);
     store(out + first + v * kSize, total);
