@@ -93,7 +93,6 @@ struct JacobianBlock {
   const double *targets, *counts;   ///< kBlock; counts: 1 where a sample counts, else 0
   double* activations;              ///< of all layers one after the other, each with a row of ones behind it
   double* jacobian;                 ///< columns x kBlock: parameters in the order of Mlp, residual, zeros
-  double* transposed;               ///< kBlock x columns
 };
 struct JacobianKernel {
   /// Adds [J r]' [J r] (columns x columns, the upper triangle) and the sums of J and r over the samples.

@@ -26,9 +26,7 @@ class Workspace {
 
   void make_room_for_jacobian() {
     jacobian_.resize(block_.columns * kBlock);
-    transposed_.resize(block_.columns * kBlock);
     block_.jacobian = jacobian_.data();
-    block_.transposed = transposed_.data();
   }
 
   const JacobianBlock& take(const double* rows) {
@@ -40,7 +38,7 @@ class Workspace {
 
  private:
   std::size_t inputs_;
-  AlignedVector<double> activations_, jacobian_, transposed_;
+  AlignedVector<double> activations_, jacobian_;
   JacobianBlock block_{};
 };
 

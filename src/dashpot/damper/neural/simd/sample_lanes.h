@@ -81,38 +81,46 @@ void fill_jacobian(const JacobianBlock& block) {
   }
 }
 
-void transpose_jacobian(const JacobianBlock& block) {
+constexpr std::size_t kTall = 4, kWide = kRegisters == 32 ? 4 : 2;  // rows of the Jacobian in a tile of J'J
+
+/// Scalar products of kTall rows at `a` with kWide rows at `b`, added to `products`.
+void add_tile(const double* a, const double* b, double* products, std::size_t columns) {
   constexpr std::size_t kSize = kLanes<double>;
-  for (std::size_t p = 0; p < block.columns; p += kSize)
-    for (std::size_t s = 0; s < kBlock; s += kSize) {
-      Lanes<double> square[kSize];
-#pragma GCC unroll 8
-      for (std::size_t k = 0; k < kSize; ++k) square[k] = load(block.jacobian + (p + k) * kBlock + s);
-      Shuffle<double>::transpose(square);
-#pragma GCC unroll 8
-      for (std::size_t k = 0; k < kSize; ++k)
-        store(block.transposed + (s + k) * block.columns + p, square[k]);
+  Lanes<double> sums[kTall * kWide] = {};
+  for (std::size_t s = 0; s < kBlock; s += kSize) {
+    Lanes<double> right[kWide];
+#pragma GCC unroll 4
+    for (std::size_t j = 0; j < kWide; ++j) right[j] = load(b + j * kBlock + s);
+#pragma GCC unroll 4
+    for (std::size_t i = 0; i < kTall; ++i) {
+      const Lanes<double> left = load(a + i * kBlock + s);
+#pragma GCC unroll 4
+      for (std::size_t j = 0; j < kWide; ++j) sums[i * kWide + j] += left * right[j];
     }
+  }
+  double totals[kTall * kWide];
+#pragma GCC unroll 8
+  for (std::size_t k = 0; k < kTall * kWide; k += kSize) store(totals + k, Shuffle<double>::sums(sums + k));
+#pragma GCC unroll 4
+  for (std::size_t i = 0; i < kTall; ++i)
+#pragma GCC unroll 4
+    for (std::size_t j = 0; j < kWide; ++j) products[i * columns + j] += totals[i * kWide + j];
 }
 
 void add_products(const JacobianBlock& block, double* products, double* sums) noexcept {
+  constexpr std::size_t kSize = kLanes<double>;
   fill_jacobian(block);
-  transpose_jacobian(block);
   const std::size_t columns = block.columns, rows = block.parameters + 1;
-  const Left<double> left{block.transposed, 1, columns};
-  constexpr std::size_t kWide = 2, kStep = kWide * kLanes<double>;
-  for (std::size_t first = 0; first < columns; first += kStep) {
-    const std::size_t wide = columns - first < kStep ? 1 : kWide, end = first + wide * kLanes<double>;
-    multiply<double>(end < rows ? end : rows, wide,
-                     {kBlock,
-                      left,
-                      {block.transposed + first, columns},
-                      {products + first, columns},
-                      {products + first, columns}});
+  for (std::size_t a = 0; a < rows; a += kTall)
+    for (std::size_t b = a; b < rows; b += kWide)
+      add_tile(block.jacobian + a * kBlock, block.jacobian + b * kBlock, products + a * columns + b, columns);
+  for (std::size_t p = 0; p < rows; p += kSize) {
+    Lanes<double> totals[kSize] = {};
+    for (std::size_t s = 0; s < kBlock; s += kSize)
+#pragma GCC unroll 8
+      for (std::size_t k = 0; k < kSize; ++k) totals[k] += load(block.jacobian + (p + k) * kBlock + s);
+    store(sums + p, load(sums + p) + Shuffle<double>::sums(totals));
   }
-  multiply<double>(
-      1, columns / kLanes<double>,
-      {kBlock, {block.counts, 0, 1}, {block.transposed, columns}, {sums, columns}, {sums, columns}});
 }
 
 void add_errors(const JacobianBlock& block, double sums[2]) noexcept {
