@@ -5,6 +5,7 @@
 #include "damper/inverse/inverses.h"
 #include "dashpot/damper/fuzzy/fuzzy_model.h"
 #include "dashpot/damper/inverse/registry.h"
+#include "dashpot/damper/neural/mlp_evaluator.h"
 #include "support.h"
 
 using namespace dashpot;
@@ -22,7 +23,14 @@ void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
   ++allocations;
   return std::malloc(size ? size : 1);
 }
+void* operator new(std::size_t size, std::align_val_t alignment) {
+  ++allocations;
+  const auto line = static_cast<std::size_t>(alignment);
+  if (void* block = std::aligned_alloc(line, (size / line + 1) * line)) return block;
+  throw std::bad_alloc();
+}
 void operator delete(void* block) noexcept { std::free(block); }
+void operator delete(void* block, std::align_val_t) noexcept { std::free(block); }
 void operator delete(void* block, std::size_t) noexcept { std::free(block); }
 
 TEST_CASE("stepping a law allocates nothing") {
@@ -84,4 +92,26 @@ TEST_CASE("an inverse's command allocates nothing") {
     CHECK(allocations == before);
     CHECK(sum > 0);
   }
+}
+
+TEST_CASE("running a network, and the passes and steps of its training, allocate nothing") {
+  Mlp mlp;
+  mlp.layers = {2, 10, 20, 1};
+  mlp.input_mean = {0, 0};
+  mlp.input_scale = {1, 1};
+  initialise(mlp, 1);
+  const std::vector<float> inputs(400, 0.5F);
+  std::vector<float> outputs(200);
+  const MlpEvaluator<float> evaluator(mlp);
+  PaddedNetwork<float> network(mlp, 20, simd_levels().back());
+  AlignedVector<float> mean(network.size()), square(network.size());
+  const std::size_t before = allocations;
+  evaluator.evaluate(inputs, outputs);
+  CHECK(std::abs(evaluator.evaluate(inputs.data()) - outputs[0]) < 1e-5F);
+  network.forward(20);
+  network.backward(20);
+  network.update({.optimiser = Optimiser::Adam, .rate = 1e-3F, .epsilon = 1e-8F}, mean, square);
+  CHECK(allocations == before);
+  const AlignedVector<float> control(10);
+  CHECK(allocations == before + 1);  // the counter counts these, too
 }

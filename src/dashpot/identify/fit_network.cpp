@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <tuple>
 
-#include "dashpot/base/parallel.h"
+#include "dashpot/damper/neural/ensemble.h"
 #include "dashpot/damper/neural/network_model.h"
 #include "dashpot/identify/fit.h"
 #include "dashpot/identify/training_samples.h"
@@ -41,25 +41,20 @@ FitReport fit_network(const NetworkPreset& preset, const std::vector<Record>& tr
   };
   const TrainingSamples samples = training_samples(training, drive_unit, options.offset, rows);
   const std::size_t starts = static_cast<std::size_t>(std::max(1, options.starts));
-  std::vector<Mlp> networks(starts, standardised(preset, samples));
-  std::vector<TrainReport> reports(starts);
-  parallel_for(starts, options.threads, [&](std::size_t k) {
-    TrainOptions train_options;
-    train_options.on_iteration = [&options](int, double) { options.monitor.check(); };
-    initialise(networks[k], options.seed + k);
-    reports[k] = train(networks[k], samples, train_options);
-  });
-  std::size_t best = 0;
-  for (std::size_t k = 1; k < starts; ++k)
-    if (reports[k].rmse < reports[best].rmse) best = k;
+  TrainOptions train_options;
+  train_options.threads = options.threads;
+  train_options.on_iteration = [&options](int, double) { options.monitor.check(); };
+  std::vector<TrainedMlp> trained =
+      train_from_starts(standardised(preset, samples), starts, options.seed, options.threads,
+                        [&](Mlp& mlp) { return train(mlp, samples, train_options); });
+  TrainedMlp& best = best_of(trained);
 
   FitReport report;
-  report.status = reports[best].converged ? FitReport::Status::Converged : FitReport::Status::IterationLimit;
-  report.message = reports[best].converged ? "converged" : "iteration limit reached";
-  report.iterations = reports[best].iterations;
-  report.training_rmse = reports[best].rmse;
-  report.model =
-      std::make_shared<NetworkModel>(std::string(preset.name), preset.inputs, std::move(networks[best]));
+  report.status = best.report.converged ? FitReport::Status::Converged : FitReport::Status::IterationLimit;
+  report.message = best.report.converged ? "converged" : "iteration limit reached";
+  report.iterations = best.report.iterations;
+  report.training_rmse = best.report.rmse;
+  report.model = std::make_shared<NetworkModel>(std::string(preset.name), preset.inputs, std::move(best.mlp));
   return report;
 }
 

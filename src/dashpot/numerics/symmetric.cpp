@@ -43,4 +43,12 @@ bool solve_positive_definite(std::span<const double> matrix, std::span<const dou
   return true;
 }
 
+std::optional<double> trace_of_inverse(std::span<const double> matrix, std::size_t n) {
+  const Eigen::LLT<Eigen::MatrixXd> factor(as_matrix(matrix, n));
+  if (factor.info() != Eigen::Success) return std::nullopt;
+  // inverse = M' M with M the inverse of the factor: its trace is the sum of the squares of M.
+  const auto size = static_cast<Eigen::Index>(n);
+  return factor.matrixL().solve(Eigen::MatrixXd::Identity(size, size)).squaredNorm();
+}
+
 }  // namespace dashpot

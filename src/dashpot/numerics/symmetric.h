@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -16,5 +17,8 @@ SymmetricInverse invert_symmetric(std::span<const double> matrix, std::size_t n,
 /// read), n the size of `right`. False when the matrix is not positive definite.
 bool solve_positive_definite(std::span<const double> matrix, std::span<const double> right,
                              std::span<double> x);
+
+/// Of a positive definite matrix (as above); nothing when it is not.
+std::optional<double> trace_of_inverse(std::span<const double> matrix, std::size_t n);
 
 }  // namespace dashpot

@@ -6,7 +6,6 @@
 #include "dashpot/base/error.h"
 #include "dashpot/base/random.h"
 #include "dashpot/damper/neural/normal_equations.h"
-#include "dashpot/damper/neural/tanh.h"
 #include "support.h"
 
 using namespace dashpot;
@@ -94,18 +93,6 @@ TEST_CASE("parameters are counted and initialised from the seed") {
   CHECK(plain({2, 10, 1}, 5).parameters != plain({2, 10, 1}, 6).parameters);
 }
 
-TEST_CASE("the branchless tanh is the tanh") {
-  for (double x = 1e-12; x < 30; x *= 1.0007) {
-    const double expected = std::tanh(x);
-    CHECK_CLOSE(branchless_tanh(x), expected, 1e-15, 0);
-    CHECK(branchless_tanh(-x) == -branchless_tanh(x));
-  }
-  CHECK(branchless_tanh(0.0) == 0);
-  CHECK(branchless_tanh(700.0) == 1);
-  CHECK(branchless_tanh(-HUGE_VAL) == -1);
-  CHECK(std::isnan(branchless_tanh(NAN)));
-}
-
 TEST_CASE("error, gradient and normal matrix agree with evaluate() and its differences") {
   for (const std::vector<std::size_t>& layers : {std::vector<std::size_t>{2, 10, 1}, {2, 5, 4, 3, 1}}) {
     TrainingSamples samples = noisy_damper(700);  // not a multiple of the block
@@ -115,9 +102,10 @@ TEST_CASE("error, gradient and normal matrix agree with evaluate() and its diffe
     initialise(mlp, 3);
     const double decay = 1e-3;
     const SampleBlocks blocks = make_blocks(mlp, samples, decay);
-    const NormalEquations equations = normal_equations(layers, mlp.parameters, blocks);
+    const BlockErrors errors(mlp, blocks, 1);
+    const NormalEquations equations = errors.normal_equations(mlp.parameters);
     CHECK_CLOSE(equations.squared_error, plain_error(mlp, samples, decay), 1e-12, 0);
-    CHECK_CLOSE(squared_error(layers, mlp.parameters, blocks), equations.squared_error, 1e-12, 0);
+    CHECK_CLOSE(errors.squared_error(mlp.parameters), equations.squared_error, 1e-12, 0);
 
     // The gradient of r'r / 2 by central differences; the matrix from Jacobian rows made likewise.
     const std::size_t n = mlp.parameters.size(), m = samples.targets.size();

@@ -1,5 +1,7 @@
 #include "dashpot/damper/neural/network_model.h"
 
+#include <array>
+
 #include "support.h"
 
 using namespace dashpot;
@@ -40,6 +42,26 @@ TEST_CASE("an offset adds up and survives JSON") {
   CHECK_CLOSE(moved->force({0, 1, 1}, {}), 0.53232924 + 3.5, 0, 5e-9);
   const auto back = network_model_from_json(parse_json(format_json(moved->to_json()), "m.json"));
   CHECK(back->force({0, 1, 1}, {}) == moved->force({0, 1, 1}, {}));
+}
+
+TEST_CASE("activations survive JSON; a file without them means tanh and a linear output") {
+  Mlp mlp = network({"velocity", "current"}).mlp();
+  CHECK(format_json(NetworkModel("m", {"velocity", "current"}, mlp).to_json()).find("activations") ==
+        std::string::npos);
+  mlp.activations = {Activation::Relu, Activation::Sigmoid};
+  const NetworkModel model("m", {"velocity", "current"}, mlp);
+  const std::string text = format_json(model.to_json(), false);
+  CHECK(text.find(R"("activations":["relu","sigmoid"])") != std::string::npos);
+  const auto back = network_model_from_json(parse_json(text, "m.json"));
+  CHECK(back->force({0, 0.3, -0.5}, {}) == model.force({0, 0.3, -0.5}, {}));
+  CHECK_CLOSE(back->force({0, 0.3, -0.5}, {}), mlp.evaluate(std::array{0.3, -0.5}.data()), 1e-12, 0);
+  const auto refused = [&](const std::string& activations) {
+    std::string other = text;
+    other.replace(other.find(R"(["relu","sigmoid"])"), 18, activations);
+    return message_of([&] { network_model_from_json(parse_json(other, "m.json")); });
+  };
+  CHECK(refused(R"(["relu"])").find("one for each layer behind the inputs") != std::string::npos);
+  CHECK(refused(R"(["relu","sigmoit"])").find("did you mean 'sigmoid'") != std::string::npos);
 }
 
 TEST_CASE("a network that does not fit together is refused") {

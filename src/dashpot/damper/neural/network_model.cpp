@@ -29,6 +29,9 @@ void require_shape(const Mlp& mlp, std::size_t inputs, const std::string& where)
   for (const std::size_t width : layers)
     if (width < 1 || width > Mlp::kMaxWidth)
       fail("a layer has " + std::to_string(width) + " neurons", "1 to " + std::to_string(Mlp::kMaxWidth));
+  if (!mlp.activations.empty() && mlp.activations.size() + 1 != layers.size())
+    fail("has " + std::to_string(mlp.activations.size()) + " activations",
+         "write one for each layer behind the inputs");
   if (const std::size_t wanted = Mlp::parameter_count(layers); mlp.parameters.size() != wanted)
     fail("has " + std::to_string(mlp.parameters.size()) + " weights",
          "these layers need " + std::to_string(wanted));
@@ -57,6 +60,7 @@ NetworkModel::NetworkModel(std::string name, std::vector<std::string> inputs, Ml
     : name_(std::move(name)), inputs_(std::move(inputs)), mlp_(std::move(mlp)), offset_(offset) {
   for (const std::string& input : inputs_) fields_.push_back(field_of(input, name_));
   require_shape(mlp_, inputs_.size(), name_);
+  evaluator_ = std::make_unique<MlpEvaluator<double>>(mlp_);
 }
 
 bool NetworkModel::needs_displacement() const noexcept {
@@ -66,7 +70,7 @@ bool NetworkModel::needs_displacement() const noexcept {
 double NetworkModel::force(const DamperInput& input, std::span<const double>) const noexcept {
   std::array<double, Mlp::kMaxWidth> raw;
   for (std::size_t k = 0; k < fields_.size(); ++k) raw[k] = input.*fields_[k];
-  return mlp_.evaluate(raw.data()) + offset_;
+  return evaluator_->evaluate(raw.data()) + offset_;
 }
 
 std::unique_ptr<DamperModel> NetworkModel::with_offset(double newton) const {
@@ -74,15 +78,22 @@ std::unique_ptr<DamperModel> NetworkModel::with_offset(double newton) const {
 }
 
 Value NetworkModel::to_json() const {
-  return Value::object({{"name", name_},
-                        {"inputs", Value::array(inputs_)},
-                        {"layers", Value::array(std::vector<double>(mlp_.layers.begin(), mlp_.layers.end()))},
-                        {"input_mean", Value::array(mlp_.input_mean)},
-                        {"input_scale", Value::array(mlp_.input_scale)},
-                        {"output_mean", mlp_.output_mean},
-                        {"output_scale", mlp_.output_scale},
-                        {"parameters", Value::array(mlp_.parameters)},
-                        {"offset", offset_}});
+  Value value =
+      Value::object({{"name", name_},
+                     {"inputs", Value::array(inputs_)},
+                     {"layers", Value::array(std::vector<double>(mlp_.layers.begin(), mlp_.layers.end()))}});
+  if (!mlp_.activations.empty()) {
+    Value activations = Value::array();
+    for (const Activation activation : mlp_.activations) activations.push_back(name_of(activation));
+    value.add("activations", activations);
+  }
+  value.add("input_mean", Value::array(mlp_.input_mean));
+  value.add("input_scale", Value::array(mlp_.input_scale));
+  value.add("output_mean", mlp_.output_mean);
+  value.add("output_scale", mlp_.output_scale);
+  value.add("parameters", Value::array(mlp_.parameters));
+  value.add("offset", offset_);
+  return value;
 }
 
 std::unique_ptr<NetworkModel> network_model_from_json(const Value& value) {
@@ -95,6 +106,9 @@ std::unique_ptr<NetworkModel> network_model_from_json(const Value& value) {
   }
   Mlp mlp;
   mlp.layers = read_layers(reader.required("layers"));
+  if (const Value* activations = reader.optional("activations"))
+    for (const Value& item : activations->items())
+      mlp.activations.push_back(activation_named(item.as_string(), item.where()));
   mlp.input_mean = reader.required("input_mean").as_numbers();
   mlp.input_scale = reader.required("input_scale").as_numbers();
   mlp.output_mean = reader.number("output_mean");

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "dashpot/damper/model.h"
-#include "dashpot/damper/neural/mlp.h"
+#include "dashpot/damper/neural/mlp_evaluator.h"
 
 namespace dashpot {
 
@@ -33,6 +33,7 @@ class NetworkModel final : public DamperModel {
   std::vector<std::string> inputs_;
   std::vector<double DamperInput::*> fields_;
   Mlp mlp_;
+  std::unique_ptr<const MlpEvaluator<double>> evaluator_;
   double offset_;
 };
 

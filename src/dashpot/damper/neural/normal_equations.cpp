@@ -1,163 +1,107 @@
 #include "dashpot/damper/neural/normal_equations.h"
 
 #include <algorithm>
-#include <cstring>
+#include <cassert>
 #include <limits>
-#include <numeric>
 
-#include "dashpot/damper/neural/tanh.h"
-
-// The block kernels are compiled once per instruction set and chosen when the program starts. `flatten`
-// draws the helpers in, so that they are compiled for the same set.
-#if defined(__x86_64__)
-#define DASHPOT_KERNEL __attribute__((flatten, target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
-#else
-#define DASHPOT_KERNEL
-#endif
+#include "dashpot/base/parallel.h"
+#include "dashpot/damper/neural/sample_layers.h"
 
 namespace dashpot {
 namespace {
 
-constexpr std::size_t kTile = 3;  // rows of a tile of J'J: 9 sums and 6 operands fit 16 registers
+constexpr std::size_t kStretches = 8;  // of blocks: as many threads can share the work
 
-/// What one block needs besides its samples; allocated once per pass.
-struct Workspace {
-  std::vector<BlockRow> activations;  // of all layers, inputs first
-  std::vector<BlockRow> jacobian;     // a row per parameter, then the residual, then zeros up to a whole tile
-  std::vector<double> gram;           // jacobian * jacobian' of one group, upper triangle of tiles
-  std::size_t parameters = 0;
+/// What one thread needs to go over blocks.
+class Workspace {
+ public:
+  Workspace(const SampleLayers<double>& layers, std::size_t inputs) : inputs_(inputs) {
+    const std::size_t parameters = layers.weights.size();
+    block_ = {layers.layers.data(), layers.layers.size(), parameters, padded<double>(parameters + 1)};
+    std::size_t rows = inputs + 1;
+    for (const SampleLayer<double>& layer : layers.layers) rows += layer.outputs + 1;
+    activations_.resize(rows * kBlock);
+    block_.activations = activations_.data();
+  }
 
-  explicit Workspace(const std::vector<std::size_t>& layers)
-      : activations(std::accumulate(layers.begin(), layers.end(), std::size_t{0})),
-        parameters(Mlp::parameter_count(layers)) {
-    jacobian.resize((parameters + 1 + kTile - 1) / kTile * kTile);
-    gram.resize(jacobian.size() * jacobian.size());
+  void make_room_for_jacobian() {
+    jacobian_.resize(block_.columns * kBlock);
+    block_.jacobian = jacobian_.data();
   }
-  double gram_at(std::size_t a, std::size_t b) const {
-    return gram[std::min(a, b) * jacobian.size() + std::max(a, b)];
+
+  const JacobianBlock& take(const double* rows) {
+    std::copy_n(rows, (inputs_ + 1) * kBlock, block_.activations);
+    block_.targets = rows + (inputs_ + 1) * kBlock;
+    block_.counts = block_.targets + kBlock;
+    return block_;
   }
+
+ private:
+  std::size_t inputs_;
+  AlignedVector<double> activations_, jacobian_;
+  JacobianBlock block_{};
 };
 
-void add_scaled(BlockRow& sum, double factor, const BlockRow& row) {
-  for (std::size_t s = 0; s < BlockRow::kSize; ++s) sum.at[s] += factor * row.at[s];
-}
+/// Sums over a stretch of blocks.
+struct Stretch {
+  std::size_t first = 0, last = 0;  // blocks
+  AlignedVector<double> products;   // columns x columns
+  AlignedVector<double> by_group;   // groups x columns; for the error alone, groups x (sum, sum of squares)
+};
 
-/// Fills the activations, and returns those of the output.
-const BlockRow& forward(const std::vector<std::size_t>& layers, const double* parameters,
-                        std::span<const BlockRow> block, std::vector<BlockRow>& activations) {
-  BlockRow* from = activations.data();
-  std::copy_n(block.begin(), layers.front(), from);
-  for (std::size_t layer = 1; layer < layers.size(); ++layer) {
-    const std::size_t inputs = layers[layer - 1], outputs = layers[layer];
-    BlockRow* to = from + inputs;
-    const double* bias = parameters + inputs * outputs;
-    for (std::size_t n = 0; n < outputs; ++n, parameters += inputs) {
-      to[n].at.fill(bias[n]);
-      for (std::size_t i = 0; i < inputs; ++i) add_scaled(to[n], parameters[i], from[i]);
-      if (layer + 1 < layers.size())
-        for (double& value : to[n].at) value = branchless_tanh(value);
-    }
-    parameters = bias + outputs;
-    from = to;
+std::vector<Stretch> make_stretches(std::size_t blocks) {
+  std::vector<Stretch> stretches(std::min(kStretches, std::max<std::size_t>(1, blocks)));
+  for (std::size_t k = 0; k < stretches.size(); ++k) {
+    stretches[k].first = k * blocks / stretches.size();
+    stretches[k].last = (k + 1) * blocks / stretches.size();
   }
-  return *from;
+  return stretches;
 }
 
-/// Fills the rows of the Jacobian, last layer first. The derivative by a neuron's bias is the derivative
-/// by its input sum, from which those by its weights and by the layer before follow.
-void backward(const std::vector<std::size_t>& layers, const double* parameters, Workspace& work) {
-  std::size_t after = work.parameters;
-  const BlockRow* to = &work.activations.back();
-  for (std::size_t layer = layers.size() - 1; layer > 0; --layer) {
-    const std::size_t inputs = layers[layer - 1], outputs = layers[layer];
-    const std::size_t bias = after - outputs, weights = bias - inputs * outputs;
-    const BlockRow* from = to - inputs;
-    for (std::size_t n = 0; n < outputs; ++n)
-      for (std::size_t i = 0; i < inputs; ++i)
-        for (std::size_t s = 0; s < BlockRow::kSize; ++s)
-          work.jacobian[weights + n * inputs + i].at[s] = work.jacobian[bias + n].at[s] * from[i].at[s];
-    for (std::size_t i = 0; layer > 1 && i < inputs; ++i) {
-      BlockRow& delta = work.jacobian[weights - inputs + i];
-      delta.at.fill(0);
-      for (std::size_t n = 0; n < outputs; ++n)
-        add_scaled(delta, parameters[weights + n * inputs + i], work.jacobian[bias + n]);
-      for (std::size_t s = 0; s < BlockRow::kSize; ++s) delta.at[s] *= 1 - from[i].at[s] * from[i].at[s];
-    }
-    after = weights;
-    to = from;
+/// Calls visit(group, block) for the blocks of a stretch.
+template <class Visit>
+void for_blocks(const SampleBlocks& blocks, const Stretch& stretch, Visit visit) {
+  for (std::size_t g = 0; g < blocks.groups.size(); ++g) {
+    const std::size_t last = std::min(stretch.last, blocks.groups[g].last);
+    for (std::size_t b = std::max(stretch.first, blocks.groups[g].first); b < last; ++b)
+      visit(g, blocks.block(b));
   }
 }
 
-using Lanes = double __attribute__((vector_size(32)));
+/// The stretches' sums by group, added in order.
+AlignedVector<double> sums_by_group(const std::vector<Stretch>& stretches) {
+  AlignedVector<double> total = stretches.front().by_group;
+  for (std::size_t k = 1; k < stretches.size(); ++k)
+    for (std::size_t j = 0; j < total.size(); ++j) total[j] += stretches[k].by_group[j];
+  return total;
+}
 
-void add_tile(const BlockRow* a, const BlockRow* b, double* gram, std::size_t stride) {
-  constexpr std::size_t kLanes = sizeof(Lanes) / sizeof(double);
-  Lanes sum[kTile][kTile] = {};
-  for (std::size_t s = 0; s < BlockRow::kSize; s += kLanes) {
-    Lanes left[kTile], right[kTile];
-    for (std::size_t i = 0; i < kTile; ++i) {
-      std::memcpy(&left[i], &a[i].at[s], sizeof(Lanes));
-      std::memcpy(&right[i], &b[i].at[s], sizeof(Lanes));
+/// [J r]' [J r] of all, less what the free offsets take out of it.
+NormalEquations combine(const std::vector<Stretch>& stretches, const SampleBlocks& blocks, std::size_t n) {
+  const std::size_t columns = padded<double>(n + 1);
+  const AlignedVector<double> by_group = sums_by_group(stretches);
+  std::vector<double> products((n + 1) * (n + 1));
+  for (std::size_t a = 0; a <= n; ++a)
+    for (std::size_t b = a; b <= n; ++b) {
+      double& product = products[a * (n + 1) + b];
+      for (const Stretch& stretch : stretches) product += stretch.products[a * columns + b];
+      for (std::size_t g = 0; g < blocks.groups.size(); ++g) {
+        const double* sums = &by_group[g * columns];
+        product -= blocks.centring(blocks.groups[g]) * sums[a] * sums[b];
+      }
     }
-    for (std::size_t i = 0; i < kTile; ++i)
-      for (std::size_t j = 0; j < kTile; ++j) sum[i][j] += left[i] * right[j];
-  }
-  for (std::size_t i = 0; i < kTile; ++i)
-    for (std::size_t j = 0; j < kTile; ++j)
-      for (std::size_t lane = 0; lane < kLanes; ++lane) gram[i * stride + j] += sum[i][j][lane];
-}
 
-/// Adds one block to the Gram matrix of [J r].
-DASHPOT_KERNEL void add_block(const std::vector<std::size_t>& layers, const double* parameters,
-                              std::span<const BlockRow> block, Workspace& work) {
-  const BlockRow& output = forward(layers, parameters, block, work.activations);
-  const BlockRow& target = block[layers.front()];
-  const BlockRow& counts = block[layers.front() + 1];
-  work.jacobian[work.parameters - 1] = counts;  // the bias of the output: samples that do not count vanish
-  BlockRow& residual = work.jacobian[work.parameters];
-  for (std::size_t s = 0; s < BlockRow::kSize; ++s)
-    residual.at[s] = (output.at[s] - target.at[s]) * counts.at[s];
-  backward(layers, parameters, work);
-  const std::size_t rows = work.jacobian.size();
-  for (std::size_t a = 0; a < rows; a += kTile)
-    for (std::size_t b = a; b < rows; b += kTile)
-      add_tile(&work.jacobian[a], &work.jacobian[b], &work.gram[a * rows + b], rows);
-}
-
-/// Adds one block's sum and sum of squares of the residuals.
-DASHPOT_KERNEL void add_errors(const std::vector<std::size_t>& layers, const double* parameters,
-                               std::span<const BlockRow> block, std::vector<BlockRow>& activations,
-                               std::array<double, 2>& sums) {
-  constexpr std::size_t kLanes = 8;
-  const BlockRow& output = forward(layers, parameters, block, activations);
-  const BlockRow& target = block[layers.front()];
-  const BlockRow& counts = block[layers.front() + 1];
-  double sum[kLanes] = {}, squares[kLanes] = {};
-  for (std::size_t s = 0; s < BlockRow::kSize; s += kLanes)
-    for (std::size_t lane = 0; lane < kLanes; ++lane) {
-      const double r = (output.at[s + lane] - target.at[s + lane]) * counts.at[s + lane];
-      sum[lane] += r;
-      squares[lane] += r * r;
-    }
-  for (std::size_t lane = 0; lane < kLanes; ++lane) {
-    sums[0] += sum[lane];
-    sums[1] += squares[lane];
-  }
-}
-
-/// Adds a group's Gram matrix, less what a free offset takes out of it. The derivative by the bias of the
-/// output is 1, so that its row holds the group's sums.
-void add_group(const Workspace& work, double centring, NormalEquations& equations) {
-  const std::size_t n = work.parameters, ones = n - 1;
-  const auto entry = [&](std::size_t a, std::size_t b) {
-    return work.gram_at(a, b) - centring * work.gram_at(ones, a) * work.gram_at(ones, b);
-  };
+  NormalEquations equations;
+  equations.matrix.resize(n * n);
   for (std::size_t a = 0; a < n; ++a) {
-    for (std::size_t b = 0; b < n; ++b) equations.matrix[a * n + b] += entry(a, b);
-    equations.gradient[a] += entry(a, n);
+    equations.gradient.push_back(products[a * (n + 1) + n]);
+    for (std::size_t b = a; b < n; ++b)
+      equations.matrix[a * n + b] = equations.matrix[b * n + a] = products[a * (n + 1) + b];
   }
-  equations.squared_error += entry(n, n);
-  equations.offsets.push_back(-centring * work.gram_at(ones, n));
+  equations.squared_error = products.back();
+  for (std::size_t g = 0; g < blocks.groups.size(); ++g)
+    equations.offsets.push_back(-blocks.centring(blocks.groups[g]) * by_group[g * columns + n]);
+  return equations;
 }
 
 }  // namespace
@@ -172,49 +116,65 @@ SampleBlocks make_blocks(const Mlp& mlp, const TrainingSamples& samples, double 
   std::vector<std::vector<std::size_t>> members(grouped ? samples.groups : 1);
   for (std::size_t i = 0; i < count; ++i) members[grouped ? samples.group[i] : 0].push_back(i);
 
-  const std::size_t stride = inputs + 2;
+  const std::size_t stride = (inputs + 3) * kBlock;
   for (const std::vector<std::size_t>& group : members) {
-    const std::size_t first = blocks.rows.size() / stride;
-    const std::size_t last = first + (group.size() + BlockRow::kSize - 1) / BlockRow::kSize;
+    const std::size_t first = blocks.blocks();
+    const std::size_t last = first + (group.size() + kBlock - 1) / kBlock;
     blocks.groups.push_back({first, last, static_cast<double>(group.size())});
     blocks.rows.resize(last * stride);
+    for (std::size_t b = first; b < last; ++b)
+      std::fill_n(blocks.rows.begin() + static_cast<std::ptrdiff_t>(b * stride + inputs * kBlock), kBlock,
+                  1.0);
     for (std::size_t m = 0; m < group.size(); ++m) {
-      const std::size_t s = m % BlockRow::kSize, i = group[m];
-      BlockRow* block = &blocks.rows[(first + m / BlockRow::kSize) * stride];
+      const std::size_t i = group[m];
+      double* at = &blocks.rows[(first + m / kBlock) * stride + m % kBlock];
       for (std::size_t k = 0; k < inputs; ++k)
-        block[k].at[s] = (samples.inputs[i * inputs + k] - mlp.input_mean[k]) / mlp.input_scale[k];
-      block[inputs].at[s] = (samples.targets[i] - mlp.output_mean) / mlp.output_scale;
-      block[inputs + 1].at[s] = 1;
+        at[k * kBlock] = (samples.inputs[i * inputs + k] - mlp.input_mean[k]) / mlp.input_scale[k];
+      at[(inputs + 1) * kBlock] = (samples.targets[i] - mlp.output_mean) / mlp.output_scale;
+      at[(inputs + 2) * kBlock] = 1;
     }
   }
   return blocks;
 }
 
-NormalEquations normal_equations(const std::vector<std::size_t>& layers, std::span<const double> parameters,
-                                 const SampleBlocks& blocks) {
-  Workspace work(layers);
-  NormalEquations equations;
-  equations.matrix.assign(parameters.size() * parameters.size(), 0.0);
-  equations.gradient.assign(parameters.size(), 0.0);
-  for (const SampleBlocks::Group& group : blocks.groups) {
-    std::fill(work.gram.begin(), work.gram.end(), 0.0);
-    for (std::size_t b = group.first; b < group.last; ++b)
-      add_block(layers, parameters.data(), blocks.block(b), work);
-    add_group(work, blocks.centring(group), equations);
-  }
-  return equations;
+BlockErrors::BlockErrors(const Mlp& mlp, const SampleBlocks& blocks, int threads, SimdLevel level)
+    : mlp_(mlp), blocks_(blocks), threads_(threads), kernel_(jacobian_kernel(level)) {
+  assert(mlp.layers.back() == 1);
 }
 
-double squared_error(const std::vector<std::size_t>& layers, std::span<const double> parameters,
-                     const SampleBlocks& blocks) {
-  std::vector<BlockRow> activations(std::accumulate(layers.begin(), layers.end(), std::size_t{0}));
+NormalEquations BlockErrors::normal_equations(std::span<const double> parameters) const {
+  SampleLayers<double> layers(mlp_);
+  layers.set_parameters(parameters);
+  const std::size_t columns = padded<double>(parameters.size() + 1);
+  std::vector<Stretch> stretches = make_stretches(blocks_.blocks());
+  parallel_for(stretches.size(), threads_, [&](std::size_t k) {
+    Workspace work(layers, blocks_.inputs);
+    work.make_room_for_jacobian();
+    stretches[k].products.resize(columns * columns);
+    stretches[k].by_group.resize(blocks_.groups.size() * columns);
+    for_blocks(blocks_, stretches[k], [&](std::size_t group, const double* rows) {
+      kernel_.add_products(work.take(rows), stretches[k].products.data(),
+                           &stretches[k].by_group[group * columns]);
+    });
+  });
+  return combine(stretches, blocks_, parameters.size());
+}
+
+double BlockErrors::squared_error(std::span<const double> parameters) const {
+  SampleLayers<double> layers(mlp_);
+  layers.set_parameters(parameters);
+  std::vector<Stretch> stretches = make_stretches(blocks_.blocks());
+  parallel_for(stretches.size(), threads_, [&](std::size_t k) {
+    Workspace work(layers, blocks_.inputs);
+    stretches[k].by_group.resize(2 * blocks_.groups.size());
+    for_blocks(blocks_, stretches[k], [&](std::size_t group, const double* rows) {
+      kernel_.add_errors(work.take(rows), &stretches[k].by_group[2 * group]);
+    });
+  });
+  const AlignedVector<double> sums = sums_by_group(stretches);
   double total = 0;
-  for (const SampleBlocks::Group& group : blocks.groups) {
-    std::array<double, 2> sums{};
-    for (std::size_t b = group.first; b < group.last; ++b)
-      add_errors(layers, parameters.data(), blocks.block(b), activations, sums);
-    total += sums[1] - blocks.centring(group) * sums[0] * sums[0];
-  }
+  for (std::size_t g = 0; g < blocks_.groups.size(); ++g)
+    total += sums[2 * g + 1] - blocks_.centring(blocks_.groups[g]) * sums[2 * g] * sums[2 * g];
   return total;
 }
 

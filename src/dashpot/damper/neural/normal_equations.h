@@ -1,21 +1,15 @@
 #pragma once
-#include <array>
 #include <cstddef>
 #include <span>
 #include <vector>
 
+#include "dashpot/damper/neural/aligned.h"
 #include "dashpot/damper/neural/mlp.h"
 
 namespace dashpot {
 
-/// One quantity at the samples of a block: what the kernel's loops run over.
-struct alignas(64) BlockRow {
-  static constexpr std::size_t kSize = 128;
-  std::array<double, kSize> at{};
-};
-
-/// Standardised samples in blocks, ordered by group; a block belongs to one group and is filled up with
-/// samples that do not count.
+/// Standardised samples in blocks of kBlock, ordered by group; a block belongs to one group and is filled up
+/// with samples that do not count.
 struct SampleBlocks {
   std::size_t inputs = 0, samples = 0;
   /// Price of a group's squared offset per sample, of which a squared residual costs 1. Infinity when the
@@ -26,17 +20,16 @@ struct SampleBlocks {
     double size = 0;                  ///< samples
   };
   std::vector<Group> groups;
-  std::vector<BlockRow> rows;  ///< per block: its inputs, its target, 1 where a sample counts
+  AlignedVector<double> rows;  ///< per block: its inputs, ones, its target, 1 where a sample counts
 
+  std::size_t blocks() const { return groups.empty() ? 0 : groups.back().last; }
+  const double* block(std::size_t index) const { return rows.data() + index * (inputs + 3) * kBlock; }
   /// Share of a group's sums that its offset takes out, per sample.
   double centring(const Group& group) const {
     return group.size > 0 ? 1 / (group.size * (1 + offset_decay)) : 0;
   }
   double offset_price(const Group& group, double offset) const {
     return offset == 0 ? 0 : offset_decay * group.size * offset * offset;
-  }
-  std::span<const BlockRow> block(std::size_t index) const {
-    return std::span(rows).subspan(index * (inputs + 2), inputs + 2);
   }
 };
 SampleBlocks make_blocks(const Mlp& mlp, const TrainingSamples& samples, double offset_decay);
@@ -49,11 +42,22 @@ struct NormalEquations {
   std::vector<double> gradient;  ///< J'r
   std::vector<double> offsets;   ///< one per group; 0 without groups
 };
-NormalEquations normal_equations(const std::vector<std::size_t>& layers, std::span<const double> parameters,
-                                 const SampleBlocks& blocks);
 
-/// Its squared_error alone, at a quarter of the price.
-double squared_error(const std::vector<std::size_t>& layers, std::span<const double> parameters,
-                     const SampleBlocks& blocks);
+/// A network with one output on the blocks. Sums go over fixed stretches of blocks, then over those, so that
+/// they do not depend on the number of threads.
+class BlockErrors {
+ public:
+  BlockErrors(const Mlp& mlp, const SampleBlocks& blocks, int threads,
+              SimdLevel level = simd_levels().back());
+  NormalEquations normal_equations(std::span<const double> parameters) const;
+  /// Its squared_error alone, at a fraction of the price.
+  double squared_error(std::span<const double> parameters) const;
+
+ private:
+  const Mlp& mlp_;
+  const SampleBlocks& blocks_;
+  int threads_;
+  const JacobianKernel& kernel_;
+};
 
 }  // namespace dashpot

@@ -1,0 +1,105 @@
+#pragma once
+#include <cstddef>
+#include <vector>
+
+#include "dashpot/damper/neural/activation.h"
+
+namespace dashpot {
+
+/// Instruction sets for which the kernel is compiled, the widest last.
+enum class SimdLevel { Baseline, Avx2, Avx512 };
+/// Those that this processor runs, the fastest last.
+const std::vector<SimdLevel>& simd_levels();
+
+constexpr std::size_t kMaxWidth = 128;  ///< of a layer
+
+/// Rows in the kernel's buffers are whole multiples of this many bytes, whatever the instruction set.
+constexpr std::size_t kKernelAlign = 64;
+template <class Real>
+constexpr std::size_t padded(std::size_t count) {
+  constexpr std::size_t kLanes = kKernelAlign / sizeof(Real);
+  return (count + kLanes - 1) / kLanes * kLanes;
+}
+
+/// A layer whose neurons are the lanes. A hidden layer's weights stand input by input (a row of neurons
+/// each), then its biases; those of the output layer neuron by neuron, each row ending with its bias, which
+/// meets the 1 that every row of activations has behind its last value.
+template <class Real>
+struct NeuronLayer {
+  std::size_t inputs, outputs;
+  Activation activation;
+  std::size_t in_step;        ///< padded(inputs + 1): from sample to sample
+  std::size_t out_step;       ///< padded(outputs + 1); last layer: samples, from neuron to neuron
+  std::size_t columns;        ///< of weights: padded(outputs); last layer: in_step
+  Real *weights, *gradient;   ///< (inputs + 1) x columns; last layer: outputs x columns
+  Real* transposed;           ///< hidden: weights for the way back, padded(outputs) x padded(inputs)
+  Real *in, *out;             ///< activations; out of a layer is in of the next
+  Real* deltas;               ///< of the loss by the sums: samples x columns; last: as out
+  const Real *counts, *ones;  ///< lanes of the last vector: 1 for a neuron; 1 behind the last one
+};
+
+/// One step of training on flat arrays.
+enum class Optimiser { Sgd, Momentum, RmsProp, Adam, AdamW };
+template <class Real>
+struct UpdateRule {
+  Optimiser optimiser;
+  Real rate;                   ///< with Adam's correction for the start
+  Real epsilon;                ///< likewise
+  Real momentum, mean_square;  ///< shares of the averages that are kept
+  Real l1, l2, decay;          ///< of the loss; of the weights themselves, per step
+};
+
+/// A layer whose samples are the lanes: weights neuron by neuron, each row ending with its bias.
+template <class Real>
+struct SampleLayer {
+  std::size_t inputs, outputs;
+  Activation activation;
+  const Real* weights;  ///< outputs x (inputs + 1)
+};
+/// Samples of a block of it.
+constexpr std::size_t kBlock = 64;
+
+/// The loops over lanes, compiled for one instruction set. None allocates or throws.
+template <class Real>
+struct Kernel {
+  /// Fills the activations of `rows` samples from those of the first layer's `in`.
+  void (*forward)(const NeuronLayer<Real>* layers, std::size_t count, std::size_t rows) noexcept;
+  /// From the last layer's deltas (of the loss by its outputs) to the gradients of all layers. When
+  /// input_gradient is not null, also that by the inputs: samples x padded(inputs).
+  void (*backward)(const NeuronLayer<Real>* layers, std::size_t count, std::size_t rows,
+                   Real* input_gradient) noexcept;
+  /// Brings `transposed` up to date with `weights`.
+  void (*transpose)(const NeuronLayer<Real>* layers, std::size_t count) noexcept;
+  /// `count` is a multiple of the padding.
+  void (*update)(const UpdateRule<Real>& rule, std::size_t count, Real* weights, const Real* gradient,
+                 Real* mean, Real* square) noexcept;
+  /// Outputs at one standardised input; `input` has padded(inputs + 1) values, a 1 behind the last input.
+  /// Reads weights, counts and ones of the layers only.
+  void (*respond)(const NeuronLayer<Real>* layers, std::size_t count, const Real* input,
+                  Real* outputs) noexcept;
+  /// Outputs of kBlock samples, a row of samples each. `from` holds the inputs likewise, and a row of ones;
+  /// it and `to` are room for the widest layer and one more. Returns which of the two holds the outputs.
+  const Real* (*evaluate)(const SampleLayer<Real>* layers, std::size_t count, Real* from, Real* to) noexcept;
+};
+/// Of a level in simd_levels().
+template <class Real>
+const Kernel<Real>& kernel(SimdLevel level);
+
+/// A block of samples of a network with one output, on which its residuals are linearised.
+struct JacobianBlock {
+  const SampleLayer<double>* layers;
+  std::size_t count;
+  std::size_t parameters, columns;  ///< columns = padded(parameters + 1)
+  const double *targets, *counts;   ///< kBlock; counts: 1 where a sample counts, else 0
+  double* activations;              ///< of all layers one after the other, each with a row of ones behind it
+  double* jacobian;                 ///< columns x kBlock: parameters in the order of Mlp, residual, zeros
+};
+struct JacobianKernel {
+  /// Adds [J r]' [J r] (columns x columns, the upper triangle) and the sums of J and r over the samples.
+  void (*add_products)(const JacobianBlock& block, double* products, double* sums) noexcept;
+  /// Adds the sum of the residuals and that of their squares.
+  void (*add_errors)(const JacobianBlock& block, double sums[2]) noexcept;
+};
+const JacobianKernel& jacobian_kernel(SimdLevel level);
+
+}  // namespace dashpot

@@ -1,0 +1,31 @@
+#pragma once
+#include <span>
+#include <vector>
+
+#include "dashpot/damper/neural/padded_network.h"
+#include "dashpot/damper/neural/sample_layers.h"
+
+namespace dashpot {
+
+/// A network ready to run fast, in raw units; Real is float or double. Safe from several threads.
+template <class Real>
+class MlpEvaluator {
+ public:
+  explicit MlpEvaluator(const Mlp& mlp, SimdLevel level = simd_levels().back());
+
+  /// Output at one input, as soon as possible. Allocates nothing.
+  Real evaluate(const Real* input) const noexcept;
+  /// Outputs at many (row by row), as many per second as possible. Allocates nothing.
+  void evaluate(std::span<const Real> inputs, std::span<Real> outputs) const noexcept;
+
+ private:
+  /// Numbers that one layer stores and the next one reads at once: 64-byte stores are slow at that.
+  const Kernel<Real>& one_kernel_;
+  const Kernel<Real>& many_kernel_;
+  PaddedNetwork<Real> single_;  ///< neurons as lanes
+  SampleLayers<Real> many_;     ///< samples as lanes
+  std::vector<Real> input_mean_, input_factor_;
+  Real output_mean_, output_scale_;
+};
+
+}  // namespace dashpot
