@@ -9,6 +9,7 @@
 #include "dashpot/base/text.h"
 #include "dashpot/damper/law_model.h"
 #include "dashpot/damper/registry.h"
+#include "dashpot/identify/conformal.h"
 #include "dashpot/identify/fit_store.h"
 #include "dashpot/identify/identify.h"
 
@@ -65,6 +66,25 @@ void drop_curves(Evaluation& evaluation) {
       (r.*curve) = {};
 }
 
+/// A further division of the only fold's training records, for the interval. Nothing where there are more
+/// folds, which serve each other, or where the records are too short.
+std::optional<Fold> held_back(const std::vector<Fold>& folds, const LeaveOut& leave_out) {
+  if (folds.size() > 1) return std::nullopt;
+  try {
+    return hold_back(folds.front().training, leave_out);
+  } catch (const Error&) {
+    return std::nullopt;
+  }
+}
+
+/// The errors of all folds but one.
+ErrorGroups without(const std::vector<ErrorGroups>& folds, std::size_t left_out) {
+  ErrorGroups groups;
+  for (std::size_t f = 0; f < folds.size(); ++f)
+    if (f != left_out) groups.insert(groups.end(), folds[f].begin(), folds[f].end());
+  return groups;
+}
+
 /// How long a fit takes beside the others: the unknowns, times what a force costs, times the number of tries.
 double expected_cost(const std::string& model, const Record& record, std::string_view drive_unit) {
   if (!is_law(model)) {
@@ -91,6 +111,7 @@ class RankingRun {
         options_(options),
         store_(store),
         folds_(split(dataset, leave_out)),
+        held_back_(held_back(folds_, leave_out)),
         one_division_(is_one_division(leave_out)),
         training_(one_division_ ? folds_.front().training : dataset.records),
         domain_(domain_of(training_, dataset.drive_unit)),
@@ -142,6 +163,7 @@ class RankingRun {
       tasks.push_back({&ranked, nullptr, &ranked.fit, cost});
       for (std::size_t f = 0; f < ranked.fold_fits.size(); ++f)
         tasks.push_back({&ranked, &folds_[f], &ranked.fold_fits[f], cost});
+      if (held_back_) tasks.push_back({&ranked, &*held_back_, &ranked.held_back_fit, cost});
     }
     std::stable_sort(tasks.begin(), tasks.end(),
                      [](const Task& a, const Task& b) { return a.cost > b.cost; });
@@ -165,26 +187,55 @@ class RankingRun {
     return ranked.fold_fits.empty() ? ranked.fit : ranked.fold_fits[fold];
   }
 
+  Evaluation evaluate_fit(const FitReport& fit, const std::vector<Record>& records) const {
+    return evaluate(*fit.model, records, dataset_.drive_unit,
+                    {.offset = options_.offset, .known_offsets = fit.offsets, .threads = options_.threads});
+  }
+
   void judge(RankedModel& ranked) const {
-    ranked.seconds = ranked.fit.seconds;
+    ranked.seconds = ranked.fit.seconds + ranked.held_back_fit.seconds;
     for (const FitReport& fit : ranked.fold_fits) ranked.seconds += fit.seconds;
     std::vector<Evaluation> evaluations;
     for (std::size_t f = 0; f < folds_.size(); ++f) {
       const FitReport& fit = fit_of(ranked, f);
       if (!fit.model) return fail(ranked, folds_[f].name);
-      EvaluateOptions options{
-          .offset = options_.offset, .known_offsets = fit.offsets, .threads = options_.threads};
-      evaluations.push_back(evaluate(*fit.model, folds_[f].left_out, dataset_.drive_unit, options));
+      evaluations.push_back(evaluate_fit(fit, folds_[f].left_out));
       for (RecordResult& record : evaluations.back().records) record.left_out = true;
     }
+    const ErrorGroups errors = add_bands(ranked, evaluations);
     ranked.left_out = pool(evaluations);
     if (!ranked.fit.model) return fail(ranked, "all records");
-    ranked.training = evaluate(
-        *ranked.fit.model, training_, dataset_.drive_unit,
-        {.offset = options_.offset, .known_offsets = ranked.fit.offsets, .threads = options_.threads});
+    ranked.training = evaluate_fit(ranked.fit, training_);
+    ranked.band = conformal_band(error_shape(ranked.training.records), errors);
     drop_curves(ranked.training);
     ranked.stress = stress(*ranked.fit.model, domain_, force_span_);
     ranked.nanoseconds_per_step = step_cost(*ranked.fit.model, training_.front(), dataset_.drive_unit);
+  }
+
+  /// A model's errors on what its fit did not see, as multiples of its shape.
+  ErrorGroups relative_errors_of(const FitReport& fit, const Fold& fold) const {
+    if (!fit.model) return {};
+    const std::optional<ForceBand> shape = error_shape(evaluate_fit(fit, fold.training).records);
+    return shape ? relative_errors(evaluate_fit(fit, fold.left_out).records, *shape) : ErrorGroups();
+  }
+
+  /// Gives each left-out record its interval, built without its fold, and returns the errors that the final
+  /// model's interval comes from.
+  ErrorGroups add_bands(const RankedModel& ranked, std::vector<Evaluation>& left_out) const {
+    ErrorGroups held;
+    if (held_back_) held = relative_errors_of(ranked.held_back_fit, *held_back_);
+    std::vector<std::optional<ForceBand>> shapes;
+    std::vector<ErrorGroups> errors;
+    for (std::size_t f = 0; f < folds_.size(); ++f) {
+      shapes.push_back(error_shape(evaluate_fit(fit_of(ranked, f), folds_[f].training).records));
+      errors.push_back(shapes[f] ? relative_errors(left_out[f].records, *shapes[f]) : ErrorGroups());
+    }
+    const bool alone = folds_.size() == 1;
+    for (std::size_t f = 0; f < folds_.size(); ++f) {
+      const std::optional<ForceBand> band = conformal_band(shapes[f], alone ? held : without(errors, f));
+      for (RecordResult& record : left_out[f].records) record.band = band;
+    }
+    return alone ? held : without(errors, folds_.size());
   }
 
   static void fail(RankedModel& ranked, const std::string& where) {
@@ -204,6 +255,7 @@ class RankingRun {
   const IdentifyOptions& options_;
   const FitStore* store_;
   std::vector<Fold> folds_;
+  std::optional<Fold> held_back_;
   bool one_division_;
   std::vector<Record> training_;
   Domain domain_;

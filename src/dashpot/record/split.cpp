@@ -220,4 +220,18 @@ std::vector<Fold> split(const Dataset& dataset, const LeaveOut& leave_out) {
   return by_condition(dataset, leave_out);
 }
 
+Fold hold_back(const std::vector<Record>& training, const LeaveOut& judged) {
+  Dataset dataset;
+  dataset.name = "the training part";
+  dataset.records = training;
+  if (judged.by == LeaveOut::By::Fraction || training.size() < 3) {
+    LeaveOut ends = judged;
+    ends.by = LeaveOut::By::Fraction;
+    return by_fraction(dataset, ends).front();
+  }
+  const Record* first = dataset.records.data();
+  return fold_by(dataset, "without every third record",
+                 [&](const Record& r) { return (&r - first) % 3 == 1; });
+}
+
 }  // namespace dashpot

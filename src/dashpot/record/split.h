@@ -21,4 +21,9 @@ LeaveOut default_leave_out(const Dataset& dataset);
 /// the ways that would work.
 std::vector<Fold> split(const Dataset& dataset, const LeaveOut& leave_out);
 
+/// Divides a training part once more, without a look at what is judged: every third whole record is held
+/// back where whole records are judged and there are three; else the last `fraction` of each. Throws Error
+/// when the records are too short.
+Fold hold_back(const std::vector<Record>& training, const LeaveOut& judged);
+
 }  // namespace dashpot
