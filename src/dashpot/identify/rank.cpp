@@ -66,23 +66,8 @@ void drop_curves(Evaluation& evaluation) {
       (r.*curve) = {};
 }
 
-/// A further division of the only fold's training records, for the interval. Nothing where there are more
-/// folds, which serve each other, or where the records are too short.
-std::optional<Fold> held_back(const std::vector<Fold>& folds, const LeaveOut& leave_out) {
-  if (folds.size() > 1) return std::nullopt;
-  try {
-    return hold_back(folds.front().training, leave_out);
-  } catch (const Error&) {
-    return std::nullopt;
-  }
-}
-
-/// The errors of all folds but one.
-ErrorGroups without(const std::vector<ErrorGroups>& folds, std::size_t left_out) {
-  ErrorGroups groups;
-  for (std::size_t f = 0; f < folds.size(); ++f)
-    if (f != left_out) groups.insert(groups.end(), folds[f].begin(), folds[f].end());
-  return groups;
+void append(ErrorGroups& groups, const ErrorGroups& more) {
+  groups.insert(groups.end(), more.begin(), more.end());
 }
 
 /// How long a fit takes beside the others: the unknowns, times what a force costs, times the number of tries.
@@ -111,7 +96,7 @@ class RankingRun {
         options_(options),
         store_(store),
         folds_(split(dataset, leave_out)),
-        held_back_(held_back(folds_, leave_out)),
+        held_back_(folds_.size() > 1 ? std::vector<Fold>() : hold_back(folds_.front().training, leave_out)),
         one_division_(is_one_division(leave_out)),
         training_(one_division_ ? folds_.front().training : dataset.records),
         domain_(domain_of(training_, dataset.drive_unit)),
@@ -123,6 +108,7 @@ class RankingRun {
       ranked.name = model;
       ranked.title = model_info(model).title;
       ranked.fold_fits.resize(one_division_ ? 0 : folds_.size());
+      ranked.held_back_fits.resize(held_back_.size());
       ranking_.models.push_back(std::move(ranked));
     }
   }
@@ -163,7 +149,8 @@ class RankingRun {
       tasks.push_back({&ranked, nullptr, &ranked.fit, cost});
       for (std::size_t f = 0; f < ranked.fold_fits.size(); ++f)
         tasks.push_back({&ranked, &folds_[f], &ranked.fold_fits[f], cost});
-      if (held_back_) tasks.push_back({&ranked, &*held_back_, &ranked.held_back_fit, cost});
+      for (std::size_t f = 0; f < held_back_.size(); ++f)
+        tasks.push_back({&ranked, &held_back_[f], &ranked.held_back_fits[f], cost});
     }
     std::stable_sort(tasks.begin(), tasks.end(),
                      [](const Task& a, const Task& b) { return a.cost > b.cost; });
@@ -193,8 +180,9 @@ class RankingRun {
   }
 
   void judge(RankedModel& ranked) const {
-    ranked.seconds = ranked.fit.seconds + ranked.held_back_fit.seconds;
-    for (const FitReport& fit : ranked.fold_fits) ranked.seconds += fit.seconds;
+    ranked.seconds = ranked.fit.seconds;
+    for (const auto* fits : {&ranked.fold_fits, &ranked.held_back_fits})
+      for (const FitReport& fit : *fits) ranked.seconds += fit.seconds;
     std::vector<Evaluation> evaluations;
     for (std::size_t f = 0; f < folds_.size(); ++f) {
       const FitReport& fit = fit_of(ranked, f);
@@ -212,30 +200,38 @@ class RankingRun {
     ranked.nanoseconds_per_step = step_cost(*ranked.fit.model, training_.front(), dataset_.drive_unit);
   }
 
-  /// A model's errors on what its fit did not see, as multiples of its shape.
-  ErrorGroups relative_errors_of(const FitReport& fit, const Fold& fold) const {
-    if (!fit.model) return {};
-    const std::optional<ForceBand> shape = error_shape(evaluate_fit(fit, fold.training).records);
-    return shape ? relative_errors(evaluate_fit(fit, fold.left_out).records, *shape) : ErrorGroups();
+  /// A model on a fold: the shape of its errors on the training part, and those on the rest in its terms.
+  struct FoldErrors {
+    std::optional<ForceBand> shape;
+    ErrorGroups relative;
+  };
+  FoldErrors fold_errors(const FitReport& fit, const Fold& fold, const Evaluation& left_out) const {
+    FoldErrors errors{error_shape(evaluate_fit(fit, fold.training).records), {}};
+    if (errors.shape) errors.relative = relative_errors(left_out.records, *errors.shape);
+    return errors;
   }
 
   /// Gives each left-out record its interval, built without its fold, and returns the errors that the final
   /// model's interval comes from.
   ErrorGroups add_bands(const RankedModel& ranked, std::vector<Evaluation>& left_out) const {
+    std::vector<FoldErrors> folds;
+    for (std::size_t f = 0; f < folds_.size(); ++f)
+      folds.push_back(fold_errors(fit_of(ranked, f), folds_[f], left_out[f]));
     ErrorGroups held;
-    if (held_back_) held = relative_errors_of(ranked.held_back_fit, *held_back_);
-    std::vector<std::optional<ForceBand>> shapes;
-    std::vector<ErrorGroups> errors;
-    for (std::size_t f = 0; f < folds_.size(); ++f) {
-      shapes.push_back(error_shape(evaluate_fit(fit_of(ranked, f), folds_[f].training).records));
-      errors.push_back(shapes[f] ? relative_errors(left_out[f].records, *shapes[f]) : ErrorGroups());
-    }
-    const bool alone = folds_.size() == 1;
-    for (std::size_t f = 0; f < folds_.size(); ++f) {
-      const std::optional<ForceBand> band = conformal_band(shapes[f], alone ? held : without(errors, f));
+    for (std::size_t f = 0; f < held_back_.size(); ++f)
+      if (const FitReport& fit = ranked.held_back_fits[f]; fit.model)
+        append(held, fold_errors(fit, held_back_[f], evaluate_fit(fit, held_back_[f].left_out)).relative);
+    const auto others = [&](std::size_t left) {
+      ErrorGroups groups = held;
+      for (std::size_t f = 0; f < folds.size() && folds.size() > 1; ++f)
+        if (f != left) append(groups, folds[f].relative);
+      return groups;
+    };
+    for (std::size_t f = 0; f < folds.size(); ++f) {
+      const std::optional<ForceBand> band = conformal_band(folds[f].shape, others(f));
       for (RecordResult& record : left_out[f].records) record.band = band;
     }
-    return alone ? held : without(errors, folds_.size());
+    return others(folds.size());
   }
 
   static void fail(RankedModel& ranked, const std::string& where) {
@@ -255,7 +251,7 @@ class RankingRun {
   const IdentifyOptions& options_;
   const FitStore* store_;
   std::vector<Fold> folds_;
-  std::optional<Fold> held_back_;
+  std::vector<Fold> held_back_;  ///< of the only fold's training; where there are more, they serve each other
   bool one_division_;
   std::vector<Record> training_;
   Domain domain_;

@@ -21,9 +21,9 @@ LeaveOut default_leave_out(const Dataset& dataset);
 /// the ways that would work.
 std::vector<Fold> split(const Dataset& dataset, const LeaveOut& leave_out);
 
-/// Divides a training part once more, without a look at what is judged: every third whole record is held
-/// back where whole records are judged and there are three; else the last `fraction` of each. Throws Error
-/// when the records are too short.
-Fold hold_back(const std::vector<Record>& training, const LeaveOut& judged);
+/// Divides a training part once more, in three, without a look at what is judged: every third whole record
+/// where whole records are judged and there are three; else a third of each record, in time. Records must
+/// be long enough: the folds are fewer when one would be empty.
+std::vector<Fold> hold_back(const std::vector<Record>& training, const LeaveOut& judged);
 
 }  // namespace dashpot
