@@ -289,6 +289,7 @@ ModelFile to_model_file(const RankedModel& ranked, const Dataset& dataset, const
     file.provenance.files.push_back({source.path, source.sha256});
   file.quality = Value::object(
       {{"training", to_json(ranked.training.pooled)}, {"left_out", to_json(ranked.left_out.pooled)}});
+  file.interval = ranked.band;
   return file;
 }
 

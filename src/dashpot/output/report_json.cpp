@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "dashpot/identify/conformal.h"
 #include "dashpot/output/safe_text.h"
 #include "dashpot/output/words.h"
 
@@ -14,8 +13,7 @@ Value optional_number(const std::optional<double>& value) { return value ? Value
 
 Value coverage_json(const Coverage& coverage) {
   if (coverage.samples == 0) return {};
-  return Value::object({{"level_percent", 100 * kCoverage},
-                        {"coverage_percent", coverage.percent()},
+  return Value::object({{"coverage_percent", coverage.percent()},
                         {"mean_width_N", coverage.mean_width()},
                         {"mean_width_percent", coverage.mean_width_percent()}});
 }
@@ -110,6 +108,7 @@ Value evaluation_json(const Evaluation& evaluation) {
         Value::object({{"low", range.low}, {"high", range.high}, {"metrics", to_json(range.metrics)}}));
   Value interval = coverage_json(evaluation.coverage);
   if (const RecordResult* worst = evaluation.worst_covered()) {
+    interval.add("level_percent", 100 * worst->band->level);
     interval.add("worst_coverage_percent", worst->coverage.percent());
     interval.add("worst_record", worst->record);
   }
