@@ -238,6 +238,11 @@ std::vector<Fold> split(const Dataset& dataset, const LeaveOut& leave_out) {
 }
 
 std::vector<Fold> hold_back(const std::vector<Record>& training, const LeaveOut& judged) {
+  Dataset dataset;
+  dataset.records = training;
+  if (judged.by == LeaveOut::By::Condition && conditions(dataset).size() > 1)
+    return by_condition(dataset, {});
+  if (judged.by == LeaveOut::By::Current && levels(dataset).size() > 2) return by_current(dataset, {});
   constexpr std::size_t kParts = 3;
   const bool whole = judged.by != LeaveOut::By::Fraction && training.size() >= kParts;
   std::vector<Fold> folds;
