@@ -25,6 +25,10 @@ namespace dashpot {
 // fitted on a part of the records and serve the one fitted on all: cross-conformal, without the jackknife+'s
 // worst-case bound. The band is about the model's force with the record's offset, where that is a free
 // nuisance.
+//
+// Two limits. Records of one condition are alike: where conditions are new, K counts conditions, not records.
+// And a judged fold gives no error to its own band, but the fits of the other folds have seen its records, so
+// that the bound above, exact for one split, is approximate across folds.
 
 constexpr double kCoverage = 0.9;  ///< what an interval claims
 
