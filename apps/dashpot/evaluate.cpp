@@ -7,6 +7,7 @@
 #include "console.h"
 #include "dashpot/base/file.h"
 #include "dashpot/base/text.h"
+#include "dashpot/output/interval_table.h"
 #include "dashpot/output/report_json.h"
 #include "data.h"
 #include "extrapolation.h"
@@ -83,6 +84,7 @@ void write_report(const Settings& settings, const Dataset& dataset, ModelFile fi
   ranked.fit.status = FitReport::Status::Converged;
   ranked.fit.message = "not fitted here: read from " + settings.model;
   ranked.fit.model = std::move(file.model);
+  ranked.band = std::move(file.interval);
   ranked.left_out = evaluation;
   for (RecordResult& r : ranked.left_out.records) r.left_out = true;
   Ranking ranking;
@@ -107,6 +109,7 @@ int run(const Settings& settings, Console& console) {
   const EvaluateOptions options{
       .offset = settings.force_offset == "none" ? OffsetMode::None : OffsetMode::Record,
       .known_offsets = {},
+      .band = file.interval,
       .threads = settings.threads};
   const Evaluation evaluation = evaluate(*file.model, dataset.records, dataset.drive_unit, options);
   console.check_stop();
@@ -115,6 +118,8 @@ int run(const Settings& settings, Console& console) {
                 " in free run, nothing fitted but the force zero of each record\n\n");
   console.print(record_table(evaluation, dataset.drive_unit, console.width()));
   if (evaluation.pooled.samples > 0) console.print('\n' + band_table(evaluation, console.width()));
+  if (const std::string sentence = interval_sentence(evaluation); !sentence.empty())
+    console.print('\n' + paragraph(sentence, static_cast<std::size_t>(console.width())));
   for (const Extrapolation& e : outside) console.warn(describe(e));
   if (console.json) console.print_json(result_json(file, evaluation, outside));
   if (!settings.report.empty()) write_report(settings, dataset, std::move(file), evaluation, console);

@@ -56,7 +56,8 @@ void print_leaderboard(const ReportInput& input, int threads, Console& console) 
   console.print('\n' + leaderboard_table(input.ranking, width) + paragraph(kLegend, columns) + '\n' +
                 console.bold("RMS error by speed, ESR % by drive") + '\n' +
                 breakdown_table(input.ranking, input.dataset.drive_unit, width) + '\n' +
-                paragraph(verdict(input.ranking), columns) + time_line(input.ranking, threads));
+                interval_part(input.ranking, console) + paragraph(verdict(input.ranking), columns) +
+                time_line(input.ranking, threads));
 }
 
 int run(const Settings& settings, Console& console) {

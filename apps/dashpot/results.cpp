@@ -10,6 +10,7 @@
 
 #include "console.h"
 #include "dashpot/base/file.h"
+#include "dashpot/output/interval_table.h"
 #include "dashpot/output/words.h"
 #include "layout.h"
 
@@ -74,8 +75,16 @@ void print_results(const ReportInput& input, Console& console) {
   if (!best.fit.parameters.empty())
     console.print('\n' + console.bold(best.name) + ", fitted on all training records\n" +
                   parameter_table(best.fit));
+  console.print('\n' + interval_part(input.ranking, console));
   for (const RankedModel& ranked : input.ranking.models)
     for (const std::string& warning : ranked.fit.warnings) console.warn(ranked.name + ": " + warning);
+}
+
+std::string interval_part(const Ranking& ranking, const Console& console) {
+  const std::string table = interval_table(ranking, console.width());
+  return table.empty() ? ""
+                       : console.bold("90 % intervals of the force, on records that they were made without") +
+                             '\n' + table + '\n';
 }
 
 void prepare_results(const ResultSettings& settings) {

@@ -21,6 +21,9 @@ std::vector<Option> result_options(ResultSettings& settings);
 /// The ranking, the best model's parameters and what to beware of.
 void print_results(const ReportInput& input, Console& console);
 
+/// The intervals of all models with a title, or nothing.
+std::string interval_part(const Ranking& ranking, const Console& console);
+
 /// Makes the folder, so that hours of fitting do not end at one that cannot be written.
 void prepare_results(const ResultSettings& settings);
 

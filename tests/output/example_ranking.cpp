@@ -88,6 +88,8 @@ RecordResult judge(const Record& record, const Flaw& flaw, Random& random) {
   result.velocity = record.channel("velocity").samples;
   result.drive = record.channel("current").samples;
   result.measured = record.channel("force").samples;
+  constexpr double kHalfWidth = 60;
+  result.band = ForceBand{.records = 9, .speeds = {}, .drives = {0}, .half_width = {kHalfWidth}};
   for (std::size_t k = 0; k < record.size(); ++k) {
     const double modelled =
         flaw.gain * force(result.displacement[k], result.velocity[k], *record.drive_level, flaw.lag) +
@@ -96,10 +98,15 @@ RecordResult judge(const Record& record, const Flaw& flaw, Random& random) {
     if (k < record.warm_up) continue;
     result.sums.add(result.measured[k], modelled);
     result.sums_without_offset.add(result.measured[k], modelled - result.offset);
+    result.coverage.inside += std::abs(result.measured[k] - modelled) <= kHalfWidth;
   }
   result.metrics = metrics(result.sums);
   result.metrics_without_offset = metrics(result.sums_without_offset);
   result.energy_error = 100 * (flaw.gain - 1);
+  result.coverage.samples = result.sums.n;
+  result.coverage.width = 2 * kHalfWidth * static_cast<double>(result.sums.n);
+  result.coverage.force_min = result.sums.force_min;
+  result.coverage.force_max = result.sums.force_max;
   return result;
 }
 
@@ -134,6 +141,7 @@ Evaluation evaluation_of(std::vector<RecordResult> records) {
   for (const RecordResult& r : records) {
     sums.add(r.sums);
     without_offset.add(r.sums_without_offset);
+    evaluation.coverage.add(r.coverage);
     evaluation.diverged += r.diverged_at.has_value();
     if (!r.diverged_at && r.metrics.esr > evaluation.worst_esr)
       evaluation.worst_esr = r.metrics.esr, evaluation.worst_record = r.record;

@@ -49,6 +49,12 @@ TEST_CASE("JSON report: every figure under its name, what is not a number as nul
   CHECK(at(report, "models.0.fold_fits.1.fold").as_string() == "without 10 mm 1 Hz");
   CHECK(at(report, "models.2.left_out.records.11.metrics.esr_percent").is_null());
   CHECK(at(report, "models.2.left_out.records.11.diverged_at").as_number() == 1.5);
+  const Coverage& coverage = example.ranking.models[0].left_out.coverage;
+  CHECK(at(report, "models.0.left_out.interval.coverage_percent").as_number() == coverage.percent());
+  CHECK(at(report, "models.0.left_out.interval.mean_width_N").as_number() == 120);
+  CHECK(at(report, "models.0.left_out.interval.level_percent").as_number() == 90);
+  CHECK(at(report, "models.0.left_out.records.3.band.half_width_N.0").as_number() == 60);
+  CHECK(contains(markdown_report(example.input()), "| Model | Covered % | Worst % |"));
   CHECK(at(report, "dataset.files.0.sha256").as_string() == std::string(64, 'a'));
 }
 

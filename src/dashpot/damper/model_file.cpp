@@ -114,15 +114,17 @@ std::unique_ptr<DamperModel> read_model(const Value& kind, const Value& value, c
 }  // namespace
 
 std::string format_model(const ModelFile& file) {
-  return format_json(Value::object({{"format", kFormat},
-                                    {"version", kVersion},
-                                    {"kind", file.model->kind()},
-                                    {"drive_unit", file.drive_unit},
-                                    {"sample_time", file.sample_time},
-                                    {"domain", to_json(file.domain, file.drive_unit)},
-                                    {"model", file.model->to_json()},
-                                    {"quality", file.quality},
-                                    {"provenance", to_json(file.provenance)}}));
+  Value document = Value::object({{"format", kFormat},
+                                  {"version", kVersion},
+                                  {"kind", file.model->kind()},
+                                  {"drive_unit", file.drive_unit},
+                                  {"sample_time", file.sample_time},
+                                  {"domain", to_json(file.domain, file.drive_unit)},
+                                  {"model", file.model->to_json()},
+                                  {"quality", file.quality},
+                                  {"provenance", to_json(file.provenance)}});
+  if (file.interval) document.add("interval", to_json(*file.interval));
+  return format_json(document);
 }
 
 ModelFile parse_model(std::string_view text, const std::string& source) {
@@ -141,6 +143,7 @@ ModelFile parse_model(std::string_view text, const std::string& source) {
     ObjectReader(*quality, "the quality");  // any keys, but a mapping
     file.quality = *quality;
   }
+  if (const Value* interval = reader.optional("interval")) file.interval = read_force_band(*interval);
   file.provenance = read_provenance(reader.required("provenance"));
   reader.finish();
   return file;

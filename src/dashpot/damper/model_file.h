@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "dashpot/base/value.h"
+#include "dashpot/damper/force_band.h"
 #include "dashpot/damper/model.h"
 
 namespace dashpot {
@@ -31,6 +32,7 @@ struct ModelFile {
   Domain domain;
   Provenance provenance;
   Value quality;  ///< figures on training and left-out data, as the report printed them; may be null
+  std::optional<ForceBand> interval;  ///< around the force, where it could be told from left-out records
 };
 
 /// Throws Error with file and key on anything unknown, missing or out of bounds.

@@ -47,6 +47,20 @@ ErrorSums error_sums(const RecordResult& result, double offset) {
   return sums;
 }
 
+Coverage coverage_of(const RecordResult& r) {
+  Coverage coverage;
+  if (!r.band || r.diverged_at) return coverage;
+  for (std::size_t k = r.warm_up; k < r.measured.size(); ++k) {
+    const double half = r.band->half_width_at({0, r.velocity[k], r.drive[k]});
+    coverage.inside += std::abs(r.measured[k] - r.modelled[k]) <= half;
+    coverage.width += 2 * half;
+  }
+  coverage.samples = r.sums.n;
+  coverage.force_min = r.sums.force_min;
+  coverage.force_max = r.sums.force_max;
+  return coverage;
+}
+
 double energy_error_percent(const RecordResult& r) {
   const std::span time(r.time), velocity(r.velocity), measured(r.measured), modelled(r.modelled);
   const double truth =
@@ -63,6 +77,7 @@ RecordResult evaluate_record(const DamperModel& model, const Record& record, std
   result.condition = record.condition;
   result.drive_level = record.drive_level;
   result.warm_up = record.warm_up;
+  result.band = options.band;
   result.time = record.time;
   result.measured = record.channel("force").samples;
   result.velocity = record.channel("velocity").samples;
@@ -159,11 +174,13 @@ Evaluation summarise(std::vector<RecordResult> records) {
   Evaluation evaluation;
   evaluation.records = std::move(records);
   ErrorSums sums, without;
-  for (const RecordResult& r : evaluation.records) {
+  for (RecordResult& r : evaluation.records) {
     if (r.diverged_at) {
       ++evaluation.diverged;
       continue;
     }
+    r.coverage = coverage_of(r);
+    evaluation.coverage.add(r.coverage);
     sums.add(r.sums);
     without.add(r.sums_without_offset);
     evaluation.mean_esr += r.metrics.esr;
@@ -184,6 +201,28 @@ Evaluation summarise(std::vector<RecordResult> records) {
 }
 
 }  // namespace
+
+double Coverage::percent() const { return 100 * static_cast<double>(inside) / static_cast<double>(samples); }
+
+double Coverage::mean_width() const { return width / static_cast<double>(samples); }
+
+double Coverage::mean_width_percent() const { return 100 * mean_width() / (force_max - force_min); }
+
+void Coverage::add(const Coverage& other) {
+  if (other.samples == 0) return;
+  force_min = samples ? std::min(force_min, other.force_min) : other.force_min;
+  force_max = samples ? std::max(force_max, other.force_max) : other.force_max;
+  samples += other.samples;
+  inside += other.inside;
+  width += other.width;
+}
+
+const RecordResult* Evaluation::worst_covered() const {
+  const RecordResult* worst = nullptr;
+  for (const RecordResult& r : records)
+    if (r.coverage.samples && (!worst || r.coverage.percent() < worst->coverage.percent())) worst = &r;
+  return worst;
+}
 
 std::vector<DamperInput> damper_inputs(const Record& record, std::string_view drive_unit) {
   const std::vector<double>& velocity = record.channel("velocity").samples;

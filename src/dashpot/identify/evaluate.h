@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "dashpot/damper/force_band.h"
 #include "dashpot/damper/model.h"
 #include "dashpot/identify/metrics.h"
 #include "dashpot/record/dataset.h"
@@ -37,6 +38,17 @@ enum class OffsetMode {
   None     ///< the model's own bias must do
 };
 
+/// What a band covers of the scored samples.
+struct Coverage {
+  std::size_t samples = 0, inside = 0;
+  double width = 0;                     ///< N, sum over the samples
+  double force_min = 0, force_max = 0;  ///< N
+  double percent() const;               ///< not a number without samples
+  double mean_width() const;            ///< N
+  double mean_width_percent() const;    ///< of the force span
+  void add(const Coverage& other);
+};
+
 /// A model on one record.
 struct RecordResult {
   std::string record, condition;
@@ -49,6 +61,8 @@ struct RecordResult {
   ErrorSums sums, sums_without_offset;
   double energy_error = 0;  ///< %, of the energy dissipated per record
   std::optional<double> diverged_at;
+  std::optional<ForceBand> band;                                                ///< around the modelled force
+  Coverage coverage;                                                            ///< of that band
   std::vector<double> time, displacement, velocity, drive, measured, modelled;  ///< offset included
 };
 
@@ -70,10 +84,12 @@ struct Evaluation {
   Metrics pooled_without_offset;
   double worst_esr = 0;  ///< %, worst record
   std::string worst_record;
-  double mean_esr = 0;             ///< %, mean over the records
-  double mean_energy_error = 0;    ///< %, mean over the records of its magnitude
-  std::vector<BandResult> bands;   ///< by |v|: pre-yield, low, middle, high
-  std::vector<DriveResult> drive;  ///< by drive, ascending
+  double mean_esr = 0;                        ///< %, mean over the records
+  double mean_energy_error = 0;               ///< %, mean over the records of its magnitude
+  std::vector<BandResult> bands;              ///< by |v|: pre-yield, low, middle, high
+  std::vector<DriveResult> drive;             ///< by drive, ascending
+  Coverage coverage;                          ///< of the records' bands; without samples: none has a band
+  const RecordResult* worst_covered() const;  ///< the record with the least coverage; none without bands
   std::size_t diverged = 0;
 };
 
@@ -82,6 +98,7 @@ struct Evaluation {
 struct EvaluateOptions {
   OffsetMode offset = OffsetMode::Record;
   std::vector<std::pair<std::string, double>> known_offsets;
+  std::optional<ForceBand> band = std::nullopt;  ///< to be judged too
   int threads = 0;
 };
 Evaluation evaluate(const DamperModel& model, const std::vector<Record>& records, std::string_view drive_unit,

@@ -58,7 +58,10 @@ struct RankedModel {
   FitReport fit;        ///< on all records: the model that is saved
   Evaluation training;  ///< of `fit` on all its records
   std::vector<FitReport> fold_fits;
+  std::vector<FitReport>
+      held_back_fits;               ///< where there is one fold: on parts of its training, for the interval
   Evaluation left_out;              ///< the folds' models, each on its left-out records, pooled
+  std::optional<ForceBand> band;    ///< 90 % interval around the force of `fit`: conformal.h
   double seconds = 0;               ///< CPU time of all its fits
   double nanoseconds_per_step = 0;  ///< cost of advance + force, measured
   StressRun stress;                 ///< the final model, beyond its domain
@@ -74,7 +77,8 @@ struct Ranking {
 
 /// Cross-validates each model over the folds of the split and ranks them. Without training roles,
 /// `fit` uses all records; with Roles or Fraction it uses the training part. With a store, fits that it
-/// holds are not made again, and new ones are kept as they end.
+/// holds are not made again, and new ones are kept as they end. The interval of a fold comes from the other
+/// folds' errors; where there is one fold, from further fits, each with a part of its training held back.
 Ranking rank(const std::vector<std::string>& models, const Dataset& dataset, const LeaveOut& leave_out,
              const IdentifyOptions& options, const FitStore* store = nullptr);
 

@@ -9,6 +9,7 @@
 #include "dashpot/base/text.h"
 #include "dashpot/damper/law_model.h"
 #include "dashpot/damper/registry.h"
+#include "dashpot/identify/conformal.h"
 #include "dashpot/identify/fit_store.h"
 #include "dashpot/identify/identify.h"
 
@@ -65,6 +66,10 @@ void drop_curves(Evaluation& evaluation) {
       (r.*curve) = {};
 }
 
+void append(ErrorGroups& groups, const ErrorGroups& more) {
+  groups.insert(groups.end(), more.begin(), more.end());
+}
+
 /// How long a fit takes beside the others: the unknowns, times what a force costs, times the number of tries.
 double expected_cost(const std::string& model, const Record& record, std::string_view drive_unit) {
   if (!is_law(model)) {
@@ -91,6 +96,7 @@ class RankingRun {
         options_(options),
         store_(store),
         folds_(split(dataset, leave_out)),
+        held_back_(folds_.size() > 1 ? std::vector<Fold>() : hold_back(folds_.front().training, leave_out)),
         one_division_(is_one_division(leave_out)),
         training_(one_division_ ? folds_.front().training : dataset.records),
         domain_(domain_of(training_, dataset.drive_unit)),
@@ -102,6 +108,7 @@ class RankingRun {
       ranked.name = model;
       ranked.title = model_info(model).title;
       ranked.fold_fits.resize(one_division_ ? 0 : folds_.size());
+      ranked.held_back_fits.resize(held_back_.size());
       ranking_.models.push_back(std::move(ranked));
     }
   }
@@ -142,6 +149,8 @@ class RankingRun {
       tasks.push_back({&ranked, nullptr, &ranked.fit, cost});
       for (std::size_t f = 0; f < ranked.fold_fits.size(); ++f)
         tasks.push_back({&ranked, &folds_[f], &ranked.fold_fits[f], cost});
+      for (std::size_t f = 0; f < held_back_.size(); ++f)
+        tasks.push_back({&ranked, &held_back_[f], &ranked.held_back_fits[f], cost});
     }
     std::stable_sort(tasks.begin(), tasks.end(),
                      [](const Task& a, const Task& b) { return a.cost > b.cost; });
@@ -165,26 +174,64 @@ class RankingRun {
     return ranked.fold_fits.empty() ? ranked.fit : ranked.fold_fits[fold];
   }
 
+  Evaluation evaluate_fit(const FitReport& fit, const std::vector<Record>& records) const {
+    return evaluate(*fit.model, records, dataset_.drive_unit,
+                    {.offset = options_.offset, .known_offsets = fit.offsets, .threads = options_.threads});
+  }
+
   void judge(RankedModel& ranked) const {
     ranked.seconds = ranked.fit.seconds;
-    for (const FitReport& fit : ranked.fold_fits) ranked.seconds += fit.seconds;
+    for (const auto* fits : {&ranked.fold_fits, &ranked.held_back_fits})
+      for (const FitReport& fit : *fits) ranked.seconds += fit.seconds;
     std::vector<Evaluation> evaluations;
     for (std::size_t f = 0; f < folds_.size(); ++f) {
       const FitReport& fit = fit_of(ranked, f);
       if (!fit.model) return fail(ranked, folds_[f].name);
-      EvaluateOptions options{
-          .offset = options_.offset, .known_offsets = fit.offsets, .threads = options_.threads};
-      evaluations.push_back(evaluate(*fit.model, folds_[f].left_out, dataset_.drive_unit, options));
+      evaluations.push_back(evaluate_fit(fit, folds_[f].left_out));
       for (RecordResult& record : evaluations.back().records) record.left_out = true;
     }
+    const ErrorGroups errors = add_bands(ranked, evaluations);
     ranked.left_out = pool(evaluations);
     if (!ranked.fit.model) return fail(ranked, "all records");
-    ranked.training = evaluate(
-        *ranked.fit.model, training_, dataset_.drive_unit,
-        {.offset = options_.offset, .known_offsets = ranked.fit.offsets, .threads = options_.threads});
+    ranked.training = evaluate_fit(ranked.fit, training_);
+    ranked.band = conformal_band(error_shape(ranked.training.records), errors);
     drop_curves(ranked.training);
     ranked.stress = stress(*ranked.fit.model, domain_, force_span_);
     ranked.nanoseconds_per_step = step_cost(*ranked.fit.model, training_.front(), dataset_.drive_unit);
+  }
+
+  /// A model on a fold: the shape of its errors on the training part, and those on the rest in its terms.
+  struct FoldErrors {
+    std::optional<ForceBand> shape;
+    ErrorGroups relative;
+  };
+  FoldErrors fold_errors(const FitReport& fit, const Fold& fold, const Evaluation& left_out) const {
+    FoldErrors errors{error_shape(evaluate_fit(fit, fold.training).records), {}};
+    if (errors.shape) errors.relative = relative_errors(left_out.records, *errors.shape);
+    return errors;
+  }
+
+  /// Gives each left-out record its interval, built without its fold, and returns the errors that the final
+  /// model's interval comes from.
+  ErrorGroups add_bands(const RankedModel& ranked, std::vector<Evaluation>& left_out) const {
+    std::vector<FoldErrors> folds;
+    for (std::size_t f = 0; f < folds_.size(); ++f)
+      folds.push_back(fold_errors(fit_of(ranked, f), folds_[f], left_out[f]));
+    ErrorGroups held;
+    for (std::size_t f = 0; f < held_back_.size(); ++f)
+      if (const FitReport& fit = ranked.held_back_fits[f]; fit.model)
+        append(held, fold_errors(fit, held_back_[f], evaluate_fit(fit, held_back_[f].left_out)).relative);
+    const auto others = [&](std::size_t left) {
+      ErrorGroups groups = held;
+      for (std::size_t f = 0; f < folds.size() && folds.size() > 1; ++f)
+        if (f != left) append(groups, folds[f].relative);
+      return groups;
+    };
+    for (std::size_t f = 0; f < folds.size(); ++f) {
+      const std::optional<ForceBand> band = conformal_band(folds[f].shape, others(f));
+      for (RecordResult& record : left_out[f].records) record.band = band;
+    }
+    return others(folds.size());
   }
 
   static void fail(RankedModel& ranked, const std::string& where) {
@@ -204,6 +251,7 @@ class RankingRun {
   const IdentifyOptions& options_;
   const FitStore* store_;
   std::vector<Fold> folds_;
+  std::vector<Fold> held_back_;  ///< of the only fold's training; where there are more, they serve each other
   bool one_division_;
   std::vector<Record> training_;
   Domain domain_;
@@ -241,6 +289,7 @@ ModelFile to_model_file(const RankedModel& ranked, const Dataset& dataset, const
     file.provenance.files.push_back({source.path, source.sha256});
   file.quality = Value::object(
       {{"training", to_json(ranked.training.pooled)}, {"left_out", to_json(ranked.left_out.pooled)}});
+  file.interval = ranked.band;
   return file;
 }
 

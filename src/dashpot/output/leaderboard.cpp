@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "dashpot/base/text.h"
+#include "dashpot/output/interval_table.h"
 #include "dashpot/output/safe_text.h"
 #include "dashpot/output/text_table.h"
 #include "dashpot/output/words.h"
@@ -108,19 +109,6 @@ Breakdown breakdown(const Ranking& ranking, const std::string& unit) {
   return result;
 }
 
-std::string markdown_table(const std::vector<TextColumn>& columns,
-                           const std::vector<std::vector<std::string>>& rows) {
-  std::vector<std::string> titles;
-  std::string rule = "|";
-  for (const TextColumn& column : columns) {
-    titles.push_back(column.title);
-    rule += column.numeric ? "---:|" : "---|";
-  }
-  std::string text = markdown_row(titles) + rule + "\n";
-  for (const auto& row : rows) text += markdown_row(row);
-  return text;
-}
-
 }  // namespace
 
 std::string stress_text(const StressRun& run) {
@@ -141,12 +129,13 @@ std::string breakdown_table(const Ranking& ranking, const std::string& drive_uni
 std::string markdown_leaderboard(const ReportInput& input, const std::string& heading) {
   const Ranking& ranking = input.ranking;
   const Breakdown parts = breakdown(ranking, input.dataset.drive_unit);
-  std::string text =
-      heading + " " + markdown_cell(input.dataset.name) + "\n\n" + markdown_cell(verdict(ranking)) +
-      "\n\nLeft out: " + format_leave_out(ranking.leave_out) + ". " +
-      protocol(ranking.leave_out, ranking.folds.size()) + "\n\n" +
-      markdown_table(leaderboard_columns(), leaderboard_rows(ranking)) +
-      "\nRMS error in N by speed, and ESR in % by drive:\n\n" + markdown_table(parts.columns, parts.rows);
+  std::string text = heading + " " + markdown_cell(input.dataset.name) + "\n\n" +
+                     markdown_cell(verdict(ranking)) +
+                     "\n\nLeft out: " + format_leave_out(ranking.leave_out) + ". " +
+                     protocol(ranking.leave_out, ranking.folds.size()) + "\n\n" +
+                     markdown_table(leaderboard_columns(), leaderboard_rows(ranking)) +
+                     "\nRMS error in N by speed, and ESR in % by drive:\n\n" +
+                     markdown_table(parts.columns, parts.rows) + markdown_intervals(ranking);
   if (!input.dataset.citation.empty()) text += "\nData: " + markdown_cell(input.dataset.citation) + "\n";
   return text;
 }

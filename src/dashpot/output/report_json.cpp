@@ -11,6 +11,15 @@ namespace {
 
 Value optional_number(const std::optional<double>& value) { return value ? Value(*value) : Value(); }
 
+Value coverage_json(const Coverage& coverage) {
+  if (coverage.samples == 0) return {};
+  return Value::object({{"coverage_percent", coverage.percent()},
+                        {"mean_width_N", coverage.mean_width()},
+                        {"mean_width_percent", coverage.mean_width_percent()}});
+}
+
+Value band_json(const std::optional<ForceBand>& band) { return band ? to_json(*band) : Value(); }
+
 Value record_json(const RecordResult& record) {
   const std::size_t first = std::min(record.warm_up, record.time.empty() ? 0 : record.time.size() - 1);
   return Value::object({{"record", record.record},
@@ -22,6 +31,8 @@ Value record_json(const RecordResult& record) {
                         {"metrics", to_json(record.metrics)},
                         {"metrics_without_offset", to_json(record.metrics_without_offset)},
                         {"energy_error_percent", record.energy_error},
+                        {"interval", coverage_json(record.coverage)},
+                        {"band", band_json(record.band)},
                         {"diverged_at", optional_number(record.diverged_at)}});
 }
 
@@ -75,6 +86,7 @@ Value model_json(const RankedModel& model, const std::vector<std::string>& folds
                         {"parameter_count", fitted ? Value(fitted->parameter_count()) : Value()},
                         {"nanoseconds_per_step", model.nanoseconds_per_step},
                         {"seconds", model.seconds},
+                        {"interval", band_json(model.band)},
                         {"stress", stress_json(model.stress)},
                         {"fit", fit_json(model.fit)},
                         {"fold_fits", std::move(fold_fits)},
@@ -94,6 +106,12 @@ Value evaluation_json(const Evaluation& evaluation) {
   for (const DriveResult& range : evaluation.drive)
     drive.push_back(
         Value::object({{"low", range.low}, {"high", range.high}, {"metrics", to_json(range.metrics)}}));
+  Value interval = coverage_json(evaluation.coverage);
+  if (const RecordResult* worst = evaluation.worst_covered()) {
+    interval.add("level_percent", 100 * worst->band->level);
+    interval.add("worst_coverage_percent", worst->coverage.percent());
+    interval.add("worst_record", worst->record);
+  }
   return Value::object({{"pooled", to_json(evaluation.pooled)},
                         {"pooled_without_offset", to_json(evaluation.pooled_without_offset)},
                         {"worst_esr_percent", evaluation.worst_esr},
@@ -101,6 +119,7 @@ Value evaluation_json(const Evaluation& evaluation) {
                         {"mean_esr_percent", evaluation.mean_esr},
                         {"mean_energy_error_percent", evaluation.mean_energy_error},
                         {"diverged", evaluation.diverged},
+                        {"interval", std::move(interval)},
                         {"bands", std::move(bands)},
                         {"drive", std::move(drive)},
                         {"records", std::move(records)}});

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "dashpot/base/text.h"
+#include "dashpot/output/interval_table.h"
 #include "dashpot/output/report.h"
 #include "dashpot/output/safe_text.h"
 #include "dashpot/output/text_table.h"
@@ -58,15 +59,9 @@ std::string remark(const FittedParameter& p) {
 }
 
 std::string markdown_ranking(const Ranking& ranking) {
-  std::vector<std::string> titles;
-  std::string rule = "|";
-  for (const TextColumn& column : kRankingColumns) {
-    titles.push_back(column.title);
-    rule += column.numeric ? "---:|" : "---|";
-  }
-  std::string text = markdown_row(titles) + rule + "\n";
-  for (const RankedModel& model : ranking.models) text += markdown_row(ranking_row(model));
-  return text;
+  std::vector<std::vector<std::string>> rows;
+  for (const RankedModel& model : ranking.models) rows.push_back(ranking_row(model));
+  return markdown_table(kRankingColumns, rows);
 }
 
 std::string markdown_model(const RankedModel& model) {
@@ -81,10 +76,13 @@ std::string markdown_model(const RankedModel& model) {
     text += "\n";
   }
   for (const std::string& warning : model.fit.warnings) text += fmt::format("* {}\n", markdown_cell(warning));
-  text += "\n| Left-out record | ESR % | RMSE N | Fit % | Offset N |\n|---|---:|---:|---:|---:|\n";
+  text +=
+      "\n| Left-out record | ESR % | RMSE N | Fit % | Offset N | Covered % "
+      "|\n|---|---:|---:|---:|---:|---:|\n";
   for (const RecordResult& r : model.left_out.records)
     text += markdown_row({r.record + (r.diverged_at ? " (diverged)" : ""), percent_text(r.metrics.esr),
-                          number_text(r.metrics.rmse), percent_text(r.metrics.fit), number_text(r.offset)});
+                          number_text(r.metrics.rmse), percent_text(r.metrics.fit), number_text(r.offset),
+                          percent_text(r.coverage.percent())});
   return text;
 }
 
@@ -137,7 +135,7 @@ std::string markdown_report(const ReportInput& input) {
       "Percent are ESR, free run, left-out records, one offset per record, unless said otherwise. " +
       protocol(ranking.leave_out, ranking.folds.size()) + "\n\n" + markdown_ranking(ranking);
   if (const auto note = one_step_note(ranking)) text += "\n" + *note + "\n";
-  text += "\n## Models\n";
+  text += markdown_intervals(ranking) + "\n## Models\n";
   for (const RankedModel& model : ranking.models) text += markdown_model(model);
   text += "\n## Provenance\n\n    " + valid_utf8(input.command) + "\n\n" +
           fmt::format("Dashpot {}, {}.", input.version, input.date);

@@ -4,6 +4,8 @@
 #include <numeric>
 #include <optional>
 
+#include "dashpot/output/safe_text.h"
+
 namespace dashpot {
 
 namespace {
@@ -82,6 +84,19 @@ std::string text_table(const std::vector<TextColumn>& columns,
   add_line([&](std::size_t k) { return columns[k].title; });
   text += std::string(layout.total(), '-') + "\n";
   for (const auto& row : rows) add_line([&](std::size_t k) { return row[k]; });
+  return text;
+}
+
+std::string markdown_table(const std::vector<TextColumn>& columns,
+                           const std::vector<std::vector<std::string>>& rows) {
+  std::vector<std::string> titles;
+  std::string rule = "|";
+  for (const TextColumn& column : columns) {
+    titles.push_back(column.title);
+    rule += column.numeric ? "---:|" : "---|";
+  }
+  std::string text = markdown_row(titles) + rule + "\n";
+  for (const auto& row : rows) text += markdown_row(row);
   return text;
 }
 

@@ -17,4 +17,8 @@ struct TextColumn {
 std::string text_table(const std::vector<TextColumn>& columns,
                        const std::vector<std::vector<std::string>>& rows, int width);
 
+/// All columns, as Markdown.
+std::string markdown_table(const std::vector<TextColumn>& columns,
+                           const std::vector<std::vector<std::string>>& rows);
+
 }  // namespace dashpot

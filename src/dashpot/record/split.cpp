@@ -152,6 +152,23 @@ std::vector<Fold> by_roles(const Dataset& dataset) {
   return {fold};
 }
 
+/// One of equal stretches of the scored samples is left out, and run from the record's start; what lies
+/// before and after it serves the fit, as two records.
+void hold_back_part(const Record& record, std::size_t part, std::size_t parts, Fold& fold) {
+  const std::size_t scored = record.size() - std::min(record.warm_up, record.size());
+  const std::size_t from = record.warm_up + scored * part / parts;
+  const std::size_t to = record.warm_up + scored * (part + 1) / parts;
+  constexpr std::size_t kLeast = 10;  // samples of a stretch
+  if (to < from + kLeast) return;
+  fold.left_out.push_back(record.slice(0, to));
+  fold.left_out.back().warm_up = from;
+  if (part > 0) fold.training.push_back(record.slice(0, from));
+  if (part + 1 == parts) return;
+  Record after = record.slice(to, record.size());
+  after.warm_up = std::min(record.warm_up, after.size() / 4);
+  fold.training.push_back(std::move(after));
+}
+
 }  // namespace
 
 LeaveOut parse_leave_out(const std::string& text) {
@@ -218,6 +235,29 @@ std::vector<Fold> split(const Dataset& dataset, const LeaveOut& leave_out) {
       break;
   }
   return by_condition(dataset, leave_out);
+}
+
+std::vector<Fold> hold_back(const std::vector<Record>& training, const LeaveOut& judged) {
+  Dataset dataset;
+  dataset.records = training;
+  if (judged.by == LeaveOut::By::Condition && conditions(dataset).size() > 1)
+    return by_condition(dataset, {});
+  if (judged.by == LeaveOut::By::Current && levels(dataset).size() > 2) return by_current(dataset, {});
+  constexpr std::size_t kParts = 3;
+  const bool whole = judged.by != LeaveOut::By::Fraction && training.size() >= kParts;
+  std::vector<Fold> folds;
+  for (std::size_t part = 0; part < kParts; ++part) {
+    Fold fold;
+    fold.name = "without part " + std::to_string(part + 1) + " of " + std::to_string(kParts);
+    for (std::size_t r = 0; r < training.size(); ++r) {
+      if (whole)
+        (r % kParts == part ? fold.left_out : fold.training).push_back(training[r]);
+      else
+        hold_back_part(training[r], part, kParts, fold);
+    }
+    if (!fold.training.empty() && !fold.left_out.empty()) folds.push_back(std::move(fold));
+  }
+  return folds;
 }
 
 }  // namespace dashpot

@@ -19,6 +19,13 @@ function line_path(u, index) {
   return {stroke: path};
 }
 
+// The inside of a closed line.
+function area_path(u, index) {
+  const {stroke} = line_path(u, index);
+  stroke.closePath();
+  return {stroke, fill: stroke};
+}
+
 function points_path(radius) {
   return (u, index) => {
     const [xs, ys] = u.data[index], px = pixel_scale(u, "x"), py = pixel_scale(u, "y");
@@ -57,5 +64,6 @@ function series_options(series) {
     return {...own, paths: points_path(series.radius ?? 3.5), fill: series.hollow ? undefined : series.colour};
   }
   if (series.kind === "bars") return {...own, width: 0, paths: bars_path(series.bar_width), fill: series.colour};
+  if (series.kind === "area") return {...own, width: 0, paths: area_path, fill: series.colour};
   return {...own, paths: line_path};
 }

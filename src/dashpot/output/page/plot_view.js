@@ -90,7 +90,7 @@ function read_values(u, visible, spec) {
 }
 
 function swatch(series) {
-  const style = series.kind === "points" || series.kind === "bars" ? (series.hollow ? "ring" : "dot") : series.dash ? "dash" : "line";
+  const style = ["points", "bars", "area"].includes(series.kind) ? (series.hollow ? "ring" : "dot") : series.dash ? "dash" : "line";
   const node = element("span", {class: `swatch ${style}`, "aria-hidden": "true"});
   node.style.setProperty("--own", series.colour);
   return node;

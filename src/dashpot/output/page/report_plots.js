@@ -39,6 +39,7 @@ function force_spec(own) {
   const outcome = own && (is_number(own.result.diverged_at) ? `diverged at ${short_text(own.result.diverged_at)} s`
     : `fit ${percent_text(own.result.metrics.fit_percent)} %`);
   const series = own ? [
+    ...interval_series(own),
     {label: "measured", x: own.time, y: own.measured, colour: colour("measured"), width: 2.2},
     {label: `modelled, ${outcome}`, short: "modelled", x: own.time, y: own.modelled, colour: colour("modelled"), width: 1.4},
   ] : [];

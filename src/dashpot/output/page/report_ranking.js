@@ -44,6 +44,7 @@ function ranking_columns(report) {
     percent("Energy error %", (m) => m.left_out.mean_energy_error_percent, "Of the dissipated energy: mean of its magnitude over the records"),
     percent("ESR % without offset", (m) => m.left_out.pooled_without_offset.esr_percent, "The model as it stands in its file"),
     percent("Training ESR %", (m) => m.training.pooled.esr_percent, "The final fit, on the records that it was fitted on"),
+    ...interval_columns(report),
     {title: "Par.", value: (m) => m.parameter_count, numeric: true, hint: "Free numbers of the model"},
     {title: "ns / step", value: (m) => m.nanoseconds_per_step, text: (m) => number_text(m.nanoseconds_per_step, 2), numeric: true, hint: "Time of one step on this machine"},
     {title: "Fit time", value: (m) => m.seconds, text: (m) => seconds_text(m.seconds), numeric: true, hint: "CPU time of all folds and the final fit"},

@@ -27,6 +27,7 @@ function offset_table(model) {
     {title: "Offset N", value: (r) => r.offset_N, text: (r) => number_text(r.offset_N), numeric: true, hint: "Added to the model's force: the zero of the load cell, gas"},
     percent("ESR % without offset", (r) => r.metrics_without_offset.esr_percent),
     percent("Energy error %", (r) => r.energy_error_percent),
+    ...rows.some((r) => r.interval) ? [{...percent("Covered %", (r) => r.interval?.coverage_percent), ascending: false}] : [],
     {title: "Diverged at", value: (r) => r.diverged_at, text: (r) => is_number(r.diverged_at) ? `${number_text(r.diverged_at)} s` : kMissing, numeric: true},
   ], rows, {row_class: (r) => is_number(r.diverged_at) ? "diverged" : null});
 }
@@ -52,7 +53,8 @@ const kDefinitions = [
   ["ESR", "100 Σe² / Σ(F − mean F)², the share of the force's power that is left unexplained. R² = 1 − ESR. Fit = 100 (1 − √ESR)."],
   ["RMSE", "√(mean e²), in newtons. RMS / half-span = 200 RMSE / (Fmax − Fmin)."],
   ["Energy error", "difference of the dissipated energy ∫F v dt, as a share of the measured one."],
-  ["95 % interval", "from the curvature of the fit; it knows nothing of what the model cannot express."],
+  ["Covered", "share of the samples inside the model's 90 % interval of the force. Its width follows speed and drive and comes from errors on other records, each made by a fit that had not seen them. On average over many new records of the same kind it covers about 90 %; a single unlike record can be far from that."],
+  ["95 % interval", "of a parameter: from the curvature of the fit; it knows nothing of what the model cannot express."],
 ];
 
 function judged_section(report) {

@@ -1,0 +1,69 @@
+#include "dashpot/damper/force_band.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "dashpot/base/error.h"
+
+namespace dashpot {
+namespace {
+
+constexpr int kVersion = 1;
+
+std::vector<double> read_ascending(const Value& value) {
+  std::vector<double> numbers = value.as_numbers();
+  if (std::ranges::adjacent_find(numbers, std::greater_equal()) != numbers.end())
+    throw Error(value.where(), "is not in order", "write ascending numbers, each once");
+  return numbers;
+}
+
+}  // namespace
+
+double ForceBand::half_width_at(const DamperInput& input) const noexcept {
+  const double speed = std::abs(input.velocity);
+  const auto band = static_cast<std::size_t>(std::ranges::upper_bound(speeds, speed) - speeds.begin());
+  const double* row = &half_width[band * drives.size()];
+  const auto next =
+      static_cast<std::size_t>(std::ranges::upper_bound(drives, input.current) - drives.begin());
+  if (next == 0) return row[0];
+  if (next == drives.size()) return row[next - 1];
+  const double share = (input.current - drives[next - 1]) / (drives[next] - drives[next - 1]);
+  return row[next - 1] + share * (row[next] - row[next - 1]);
+}
+
+ForceBand ForceBand::scaled(double factor) const {
+  ForceBand band = *this;
+  for (double& width : band.half_width) width *= factor;
+  return band;
+}
+
+Value to_json(const ForceBand& band) {
+  return Value::object({{"version", kVersion},
+                        {"level", band.level},
+                        {"records", band.records},
+                        {"speeds", Value::array(band.speeds)},
+                        {"drives", Value::array(band.drives)},
+                        {"half_width_N", Value::array(band.half_width)}});
+}
+
+ForceBand read_force_band(const Value& value) {
+  ObjectReader reader(value, "an interval");
+  if (const Value& version = reader.required("version"); version.as_number() != kVersion)
+    throw Error(version.where(), "is another version of the interval", "write 1");
+  ForceBand band;
+  band.level = reader.number("level");
+  band.records = static_cast<std::size_t>(std::max(0.0, reader.number("records")));
+  band.speeds = read_ascending(reader.required("speeds"));
+  band.drives = read_ascending(reader.required("drives"));
+  const Value& widths = reader.required("half_width_N");
+  band.half_width = widths.as_numbers();
+  reader.finish();
+  if (!(band.level > 0 && band.level < 1)) throw Error(value.where(), "level is not between 0 and 1");
+  if (band.drives.empty() || band.half_width.size() != (band.speeds.size() + 1) * band.drives.size())
+    throw Error(widths.where(), "has not one width per band of speed and knot of drive");
+  if (std::ranges::any_of(band.half_width, [](double width) { return !(width > 0); }))
+    throw Error(widths.where(), "a width is not positive");
+  return band;
+}
+
+}  // namespace dashpot
