@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kStep = 1e-3;  // s
 
-std::vector<MotionPoint> sampled(const Motion& motion) {
+std::vector<MotionPoint> sampled(const PistonMotion& motion) {
   std::vector<MotionPoint> points;
   for (double t = 0; t <= motion.duration; t += kStep) points.push_back(motion.at(t));
   return points;
@@ -26,7 +26,7 @@ std::vector<double> displacement_of(const std::vector<MotionPoint>& points) {
 }
 
 /// Share of the motion's power between low and high Hz.
-double share_within(const Motion& motion, double low, double high) {
+double share_within(const PistonMotion& motion, double low, double high) {
   const PowerSpectrum spectrum = power_spectrum(displacement_of(sampled(motion)), kStep);
   double inside = 0, all = 0;
   for (std::size_t k = 0; k < spectrum.power.size(); ++k) {
@@ -68,7 +68,7 @@ TEST_CASE("every motion starts at rest, stays within amplitude and speed, and it
         // the limit of displacement binds
         Limits{"RP,amplitude=5mm", 0.005, 1.5}, Limits{"FM,amplitude=2mm,modulation=0.5", 0.002, 1.5}}) {
     CAPTURE(std::string(limits.text));
-    const Motion motion = make_motion(limits.text, 3);
+    const PistonMotion motion = make_motion(limits.text, 3);
     CHECK_CLOSE(motion.at(0).velocity, 0, 0, 1e-12);
     double most_x = 0, most_v = 0, worst = 0;
     for (double t = kStep; t < motion.duration - kStep; t += 0.37 * kStep) {
@@ -99,7 +99,7 @@ TEST_CASE("every motion stays within its band") {
 }
 
 TEST_CASE("AM: closed form") {
-  const Motion motion = make_motion("AM,amplitude=10 mm,carrier=3,modulation=0.25,depth=0.5", 1);
+  const PistonMotion motion = make_motion("AM,amplitude=10 mm,carrier=3,modulation=0.25,depth=0.5", 1);
   // at t = 2 the modulation is at its most; at t = 1 halfway
   CHECK_CLOSE(motion.at(2).displacement, -0.01, 1e-12, 0);
   CHECK_CLOSE(motion.at(1).displacement, -0.01 / 1.5, 1e-12, 0);
@@ -107,7 +107,8 @@ TEST_CASE("AM: closed form") {
 }
 
 TEST_CASE("FM: the frequency between zero crossings goes from the least to the greatest and back") {
-  const Motion motion = make_motion("FM,frequency_min=2,frequency_max=10,modulation=0.1,duration=10", 1);
+  const PistonMotion motion =
+      make_motion("FM,frequency_min=2,frequency_max=10,modulation=0.1,duration=10", 1);
   std::vector<double> crossings;
   for (double t = kStep; t < motion.duration; t += kStep) {
     const double before = motion.at(t - kStep).displacement, now = motion.at(t).displacement;
@@ -121,7 +122,8 @@ TEST_CASE("FM: the frequency between zero crossings goes from the least to the g
 }
 
 TEST_CASE("SFS: whole periods at each frequency, as fast as allowed and no faster") {
-  const Motion motion = make_motion("SFS,frequency_min=1,frequency_max=13,step=6,hold=0.5,repeats=2", 1);
+  const PistonMotion motion =
+      make_motion("SFS,frequency_min=1,frequency_max=13,step=6,hold=0.5,repeats=2", 1);
   // 1, 7, 13 Hz: 1, 4 and 7 full periods and one to come and go
   const double pass = 2 / 1.0 + 5 / 7.0 + 8 / 13.0;
   CHECK_CLOSE(motion.duration, 2 * pass, 1e-12, 0);
@@ -133,7 +135,7 @@ TEST_CASE("SFS: whole periods at each frequency, as fast as allowed and no faste
 }
 
 TEST_CASE("TPNVS: constant speeds in equal ratios, up and down") {
-  const Motion motion = make_motion("TPNVS,speed_min=0.1,speed_max=0.4,levels=3,cycles=2", 1);
+  const PistonMotion motion = make_motion("TPNVS,speed_min=0.1,speed_max=0.4,levels=3,cycles=2", 1);
   double begin = 0;
   for (const double speed : {0.1, 0.2, 0.4})
     for (int cycle = 0; cycle < 2; ++cycle)
@@ -152,7 +154,7 @@ TEST_CASE("RP: the power is that of the road through the car") {
   // deflection
   const double gain = 387 * 334.235181 / std::hypot(37300, 2280 * 2 * M_PI * 5);
   // over a narrow band, class D at 20 m/s: G_d n0^2 v / f^2
-  const Motion motion =
+  const PistonMotion motion =
       make_motion("RP,damping=2280,frequency_min=4.75,frequency_max=5.25,duration=300,amplitude=1", 1);
   const double expected = 1.024e-3 * 0.01 * 20 / 25 * gain * gain * 0.5;
   CHECK_CLOSE(variance(displacement_of(sampled(motion))), expected, 0.06, 0);

@@ -85,9 +85,9 @@ Chosen<Sequence> choose(std::span<const Sequence> sequences, const std::string& 
 
 }  // namespace
 
-Motion make_motion(const std::string& text, std::uint64_t seed, const std::string& where) {
+PistonMotion make_motion(const std::string& text, std::uint64_t seed, const std::string& where) {
   const auto chosen = choose(motion_sequences(), text, where);
-  Motion motion = chosen.sequence.make(chosen.values, seed);
+  PistonMotion motion = chosen.sequence.make(chosen.values, seed);
   motion.description = chosen.description();
   return motion;
 }

@@ -13,7 +13,7 @@ struct MotionPoint {
 };
 
 /// A motion for a test bench: displacement and its exact derivative at any time t in 0 ... duration, s.
-struct Motion {
+struct PistonMotion {
   std::string description;  ///< "AM: amplitude 0.025 m, ..."
   double duration = 0;      ///< s
   std::function<MotionPoint(double t)> at;
@@ -42,7 +42,7 @@ struct SequenceInfo {
 /// rest. The same seed gives the same motion.
 struct MotionSequence {
   SequenceInfo info;
-  Motion (*make)(std::span<const double> values, std::uint64_t seed);
+  PistonMotion (*make)(std::span<const double> values, std::uint64_t seed);
 };
 
 /// Where a drive sequence takes place. The range is that of the one-sensor paper unless stated.
@@ -64,7 +64,7 @@ std::span<const DriveSequence> drive_sequences();
 /// From a text like "AM" or "AM,carrier=10,amplitude=4mm": a name in any case, and values for some of its
 /// parameters, in the unit of the table unless one is stated. Throws Error(where, ...) on an unknown name or
 /// parameter and on a value that is out of bounds.
-Motion make_motion(const std::string& text, std::uint64_t seed, const std::string& where = "motion");
+PistonMotion make_motion(const std::string& text, std::uint64_t seed, const std::string& where = "motion");
 DriveSignal make_drive(const std::string& text, const DriveFrame& frame, const std::string& where = "drive");
 
 /// The first `count` bits of the maximum-length sequence of a shift register of `order` bits (3 ... 16, else

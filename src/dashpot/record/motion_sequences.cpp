@@ -20,7 +20,7 @@ struct AmplitudeModulated {
 };
 
 /// The amplitude rises from its least, so that the motion starts at rest.
-Motion amplitude_modulated(std::span<const double> values, std::uint64_t) {
+PistonMotion amplitude_modulated(std::span<const double> values, std::uint64_t) {
   const auto p = sequence_values<AmplitudeModulated>(values);
   const double w = kTurn * p.carrier, slow = kTurn * p.modulation, share = p.depth / (1 + p.depth);
   const double most = std::min(p.amplitude, p.speed_max / (w + slow * share));
@@ -48,7 +48,7 @@ double speed_of_amplitude(double mean, double swing, double slow) {
 }
 
 /// The amplitude bends smoothly from its own to the one that the speed allows, below both.
-Motion frequency_modulated(std::span<const double> values, std::uint64_t) {
+PistonMotion frequency_modulated(std::span<const double> values, std::uint64_t) {
   const auto p = sequence_values<FrequencyModulated>(values);
   require_band(p.frequency_min, p.frequency_max, "FM");
   const double mean = 0.5 * (p.frequency_min + p.frequency_max), swing = p.frequency_max - mean;
@@ -85,7 +85,7 @@ struct Pieces {
 };
 
 template <class Piece>
-Motion as_motion(Pieces<Piece> pieces, double repeats) {
+PistonMotion as_motion(Pieces<Piece> pieces, double repeats) {
   const double duration = repeats * pieces.length;
   return {{}, duration, [all = std::make_shared<const Pieces<Piece>>(std::move(pieces))](double t) {
             return all->at(t);
@@ -111,7 +111,7 @@ struct SteppedFrequency {
   double amplitude, speed_max, frequency_min, frequency_max, step, hold, repeats;
 };
 
-Motion stepped_frequency(std::span<const double> values, std::uint64_t) {
+PistonMotion stepped_frequency(std::span<const double> values, std::uint64_t) {
   const auto p = sequence_values<SteppedFrequency>(values);
   require_band(p.frequency_min, p.frequency_max, "SFS");
   constexpr double kMost = 10000, kRounding = 1e-9;
@@ -148,7 +148,7 @@ struct VariableSlopes {
   double amplitude, speed_min, speed_max, levels, cycles, acceleration, repeats;
 };
 
-Motion variable_slopes(std::span<const double> values, std::uint64_t) {
+PistonMotion variable_slopes(std::span<const double> values, std::uint64_t) {
   const auto p = sequence_values<VariableSlopes>(values);
   if (!(p.speed_min <= p.speed_max)) throw Error("TPNVS", "speed_min is above speed_max");
   const double levels = std::floor(p.levels), distance = 2 * p.amplitude;
@@ -165,7 +165,7 @@ Motion variable_slopes(std::span<const double> values, std::uint64_t) {
   return as_motion(std::move(strokes), std::floor(p.repeats));
 }
 
-Motion road_profile(std::span<const double> values, std::uint64_t seed) {
+PistonMotion road_profile(std::span<const double> values, std::uint64_t seed) {
   return road_deflection(sequence_values<RoadDeflection>(values), seed);
 }
 

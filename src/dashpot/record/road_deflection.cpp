@@ -78,7 +78,7 @@ void scale_into(Knots& knots, double amplitude, double speed_max) {
 
 }  // namespace
 
-Motion road_deflection(const RoadDeflection& road, std::uint64_t seed) {
+PistonMotion road_deflection(const RoadDeflection& road, std::uint64_t seed) {
   constexpr int kSines = 300;
   if (!(road.frequency_min < road.frequency_max))
     throw Error("RP", "frequency_min is not below frequency_max");

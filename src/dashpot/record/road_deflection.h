@@ -18,6 +18,6 @@ struct RoadDeflection {
 /// Suspension deflection of the one-sensor paper's quarter-car, with a linear damper, on a road of ISO 8608:
 /// a sum of sines whose power is that of the deflection, with random frequencies and phases, faded in over a
 /// second. Between knots 64 to the shortest period it is a cubic, so that the velocity is exact for it.
-Motion road_deflection(const RoadDeflection& road, std::uint64_t seed);
+PistonMotion road_deflection(const RoadDeflection& road, std::uint64_t seed);
 
 }  // namespace dashpot
