@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "dashpot/base/error.h"
 #include "dashpot/base/random.h"
@@ -135,33 +134,21 @@ void require_usable(const SineMotion& motion, const BenchOptions& options) {
 
 }  // namespace
 
-PistonMotion sine_piston(const SineMotion& sine, double duration) {
-  return {{}, duration, [=, w = 2 * std::numbers::pi * sine.frequency](double t) -> MotionPoint {
-            return {-sine.amplitude * std::cos(w * t), sine.amplitude * w * std::sin(w * t)};
-          }};
-}
-
-DriveSignal constant_drive(double level) {
-  return {{}, [level](double) { return level; }};
-}
-
-std::vector<BenchTest> sine_matrix(const std::string& drive_unit, const BenchOptions& options) {
+std::vector<BenchTest> bench_sines(const BenchOptions& options) {
   std::vector<BenchTest> tests;
   for (const SineMotion& motion : options.motions) {
     require_usable(motion, options);
-    const std::string condition =
-        format_number(1000 * motion.amplitude) + " mm " + format_number(motion.frequency) + " Hz";
-    const double duration = std::max(options.cycles / motion.frequency, 1.0);
-    for (const double level : options.drive_levels)
-      tests.push_back({condition + ", " + format_number(level) + " " + drive_unit, condition,
-                       sine_piston(motion, duration), constant_drive(level), level});
+    tests.push_back(sine_test(motion, std::max(options.cycles / motion.frequency, 1.0)));
   }
   return tests;
 }
 
 Dataset run_virtual_bench(const DamperModel& damper, const std::string& drive_unit,
                           const BenchOptions& options) {
-  return run_virtual_bench(damper, drive_unit, sine_matrix(drive_unit, options), options);
+  std::vector<BenchTest> tests;
+  for (const BenchTest& sine : bench_sines(options))
+    for (const double level : options.drive_levels) tests.push_back(at_level(sine, level, drive_unit));
+  return run_virtual_bench(damper, drive_unit, tests, options);
 }
 
 Dataset run_virtual_bench(const DamperModel& damper, const std::string& drive_unit,
@@ -176,11 +163,13 @@ Dataset run_virtual_bench(const DamperModel& damper, const std::string& drive_un
     dataset.records.push_back(run_test(damper, test, drive_unit, options, random));
   dataset.notes.push_back("simulated, not measured; the true model is " +
                           format_json(damper.to_json(), false));
-  dataset.notes.push_back("force noise " + format_number(100 * options.force_noise) +
-                          " % of the span, displacement noise " +
-                          format_number(1e6 * options.displacement_noise) + " um, resolution " +
-                          format_number(options.force_resolution) + " N and " +
-                          format_number(1e6 * options.displacement_resolution) + " um");
+  dataset.notes.push_back(
+      "force noise " + format_number(100 * options.force_noise) + " % of the span, displacement noise " +
+      format_number(1e6 * options.displacement_noise) + " um" +
+      (options.velocity_sensor ? ", velocity noise " + format_number(1e3 * options.velocity_noise) + " mm/s"
+                               : "") +
+      ", resolution " + format_number(options.force_resolution) + " N and " +
+      format_number(1e6 * options.displacement_resolution) + " um");
   return dataset;
 }
 

@@ -1,20 +1,14 @@
 #pragma once
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "dashpot/damper/bench_test.h"
 #include "dashpot/damper/model.h"
 #include "dashpot/record/dataset.h"
-#include "dashpot/record/excitation.h"
 
 namespace dashpot {
-
-/// One motion of the bench: a sine of this amplitude (m) and frequency (Hz).
-struct SineMotion {
-  double amplitude, frequency;
-};
 
 /// A test bench that exists only in the computer: a damper with known parameters, driven through a
 /// matrix of sines and constant currents, and sensors as imperfect as real ones.
@@ -33,21 +27,8 @@ struct BenchOptions {
   std::uint64_t seed = 1;
 };
 
-/// One run of the bench: a motion, and what drives the coil meanwhile.
-struct BenchTest {
-  std::string name;       ///< of the record
-  std::string condition;  ///< of the motion
-  PistonMotion motion;
-  DriveSignal drive;
-  std::optional<double> level;  ///< A or V where the drive is constant
-};
-
-/// A sine for this time, from rest at its lower end; a drive that stays.
-PistonMotion sine_piston(const SineMotion& sine, double duration);
-DriveSignal constant_drive(double level);
-
-/// The motions and drive levels of the options, each motion at each level.
-std::vector<BenchTest> sine_matrix(const std::string& drive_unit, const BenchOptions& options);
+/// The motions of the options, without a drive yet. Throws Error on one that cannot be sampled.
+std::vector<BenchTest> bench_sines(const BenchOptions& options);
 
 /// The campaign as a dataset: channels displacement, force and drive, velocity derived as from a real
 /// recording unless there is a sensor. Conditions, drive levels and the true offsets (in the notes) are
