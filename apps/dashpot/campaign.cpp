@@ -56,12 +56,12 @@ struct Column {
 };
 
 std::string csv_of(const Record& record, const Dataset& campaign) {
-  std::vector<Column> columns{
-      {"t_s", record.time, 1},
-      {"x_mm", record.channel("displacement").samples, 1000},
-      {"F_N", record.channel("force").samples},
-      {drive_column(campaign), record.channel(campaign.drive_unit == "V" ? "voltage" : "current").samples,
-       1}};
+  constexpr int kTimeDigits = 12;  // so that equal steps read back as equal
+  const std::string drive = campaign.drive_unit == "V" ? "voltage" : "current";
+  std::vector<Column> columns{{"t_s", record.time, 1, kTimeDigits},
+                              {"x_mm", record.channel("displacement").samples, 1000},
+                              {"F_N", record.channel("force").samples},
+                              {drive_column(campaign), record.channel(drive).samples}};
   const Channel& velocity = record.channel("velocity");
   if (!velocity.origin.starts_with("derived")) columns.push_back({"v_m/s", velocity.samples});
   std::string text;
