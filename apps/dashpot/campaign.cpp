@@ -102,9 +102,16 @@ std::string dataset_yaml(const Dataset& campaign, const ParameterSet& damper, co
   return text;
 }
 
+/// An option that another one would leave without effect.
 void require_consistent(const CampaignSettings& settings) {
-  if (!settings.experiment.empty() && !(settings.motion.empty() && settings.drive.empty()))
+  const bool experiment = !settings.experiment.empty();
+  const bool motions = settings.motions != CampaignSettings().motions;
+  if (experiment && !(settings.motion.empty() && settings.drive.empty()))
     throw UsageError("--experiment", "states motion and drive itself", "leave --motion and --drive out");
+  if (motions && (experiment || !settings.motion.empty()))
+    throw UsageError("--motions", "are not run beside another motion", "leave one of them out");
+  if (!settings.levels.empty() && (experiment || !settings.drive.empty()))
+    throw UsageError("--levels", "are not run beside another drive", "leave one of them out");
 }
 
 /// Of the damper's own, where it has some.

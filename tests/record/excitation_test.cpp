@@ -242,7 +242,8 @@ TEST_CASE("SC: the paper's ten and two levels over the whole duration; a hold be
   const DriveFrame frame{.duration = 20};
   const DriveSignal ten = make_drive("SC", frame), two = make_drive("SC,levels=2", frame);
   for (int k = 0; k < 10; ++k) CHECK_CLOSE(ten.at(2 * k + 1), 2.5 * k / 9, 1e-12, 0);
-  CHECK(ten.at(20) == 2.5);
+  for (double duration = 1; duration < 3; duration += 0.001)  // however it is rounded
+    CHECK(make_drive("SC", {.duration = duration}).at(duration) == 2.5);
   CHECK(two.at(9.9) == 0);
   CHECK(two.at(10) == 2.5);
   const DriveSignal again = make_drive("SC,levels=3,hold=1", frame);
@@ -267,6 +268,7 @@ TEST_CASE("a sequence that cannot be understood is refused with what would be ri
   CHECK(motion("FM,frequency_min=9,frequency_max=3").find("ends below") != std::string::npos);
   CHECK(motion("RP,frequency_min=9,frequency_max=3").find("not below") != std::string::npos);
   CHECK(motion("TPNVS,speed_min=3").find("speed_min is above") != std::string::npos);
+  CHECK(motion("TPNVS,levels=2.5") == "motion: levels is 2.5; a whole number");
   CHECK(motion("SFS,step=0.001").find("a larger step") != std::string::npos);
   const auto drive = [](const std::string& text) { return message_of([&] { make_drive(text, {}); }); };
   CHECK(drive("PRSB").find("did you mean 'PRBS'") != std::string::npos);

@@ -49,8 +49,9 @@ DriveSignal stepped_constants(std::span<const double> values, const DriveFrame& 
   const auto p = sequence_values<SteppedConstants>(values);
   const auto levels = static_cast<std::size_t>(p.levels);
   const double hold = p.hold > 0 ? p.hold : frame.duration / static_cast<double>(levels);
+  const std::size_t count = p.hold > 0 ? count_clocks(frame.duration, hold) : levels;
   Steps steps;
-  for (std::size_t k = 0; k < count_clocks(frame.duration, hold); ++k) {
+  for (std::size_t k = 0; k < count; ++k) {
     const double share = static_cast<double>(k % levels) / static_cast<double>(levels - 1);
     steps.add(static_cast<double>(k) * hold, frame.low + (frame.high - frame.low) * share);
   }
@@ -101,7 +102,7 @@ DriveSignal amplitude_modulated_binary(std::span<const double> values, const Dri
 }
 
 constexpr SequenceParam kClock{"clock", "s", 0.05, 1e-5, 1e4, "time of one bit"};
-constexpr SequenceParam kOrder{"order", "1", 9, 3, 16, "bits of the shift register"};
+constexpr SequenceParam kOrder{"order", "1", 9, 3, 16, "bits of the shift register", true};
 constexpr std::string_view kPaper = "the one-sensor paper, after Lozoya-Santos et al. 2009; times our own";
 
 const std::array kSequences{
@@ -132,7 +133,7 @@ const std::array kSequences{
                    .equation = "low + (high - low) k / (levels - 1), k = 0 ... levels - 1, each for hold",
                    .source = kPaper,
                    .remarks = "The paper's SC (10) and SC (2) are levels = 10 and 2. Begins again at low.",
-                   .params = {{"levels", "1", 10, 2, 1000, "number of constants"},
+                   .params = {{"levels", "1", 10, 2, 1000, "number of constants", true},
                               {"hold", "s", 0, 0, 1e5, "time of each; 0: the duration over levels"}}},
                   stepped_constants},
 };

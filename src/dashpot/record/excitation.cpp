@@ -1,6 +1,7 @@
 #include "dashpot/record/excitation.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
@@ -34,6 +35,8 @@ double parse_value(std::string_view text, const SequenceParam& param, const std:
     throw Error(where,
                 std::string(param.name) + " is " + format_number(value) + " " + std::string(param.unit),
                 "between " + format_number(param.lower) + " and " + format_number(param.upper));
+  if (param.whole && value != std::round(value))
+    throw Error(where, std::string(param.name) + " is " + format_number(value), "a whole number");
   return value;
 }
 

@@ -30,6 +30,7 @@ struct SequenceParam {
   std::string_view name, unit;
   double value, lower, upper;
   std::string_view meaning;
+  bool whole = false;  ///< a count
 };
 
 /// What a sequence says of itself.

@@ -122,7 +122,7 @@ PistonMotion stepped_frequency(std::span<const double> values, std::uint64_t) {
     const double f = p.frequency_min + k * p.step;
     packets.add({std::min(p.amplitude, p.speed_max / (kTurn * f)), f, std::max(1.0, std::ceil(p.hold * f))});
   }
-  return as_motion(std::move(packets), std::floor(p.repeats));
+  return as_motion(std::move(packets), p.repeats);
 }
 
 /// From one end to the other at a constant speed, with a constant acceleration at both ends.
@@ -151,18 +151,18 @@ struct VariableSlopes {
 PistonMotion variable_slopes(std::span<const double> values, std::uint64_t) {
   const auto p = sequence_values<VariableSlopes>(values);
   if (!(p.speed_min <= p.speed_max)) throw Error("TPNVS", "speed_min is above speed_max");
-  const double levels = std::floor(p.levels), distance = 2 * p.amplitude;
+  const double distance = 2 * p.amplitude;
   const double reachable = std::sqrt(p.acceleration * distance);  // the ends would meet
   Pieces<Stroke> strokes;
-  for (double k = 0; k < levels; ++k) {
-    const double wanted = p.speed_min * std::pow(p.speed_max / p.speed_min, k / (levels - 1));
+  for (double k = 0; k < p.levels; ++k) {
+    const double wanted = p.speed_min * std::pow(p.speed_max / p.speed_min, k / (p.levels - 1));
     const double speed = std::min({wanted, p.speed_max, reachable});
     for (double cycle = 1; cycle <= p.cycles; ++cycle) {
       strokes.add({-p.amplitude, distance, speed, p.acceleration, 1});
       strokes.add({p.amplitude, distance, speed, p.acceleration, -1});
     }
   }
-  return as_motion(std::move(strokes), std::floor(p.repeats));
+  return as_motion(std::move(strokes), p.repeats);
 }
 
 PistonMotion road_profile(std::span<const double> values, std::uint64_t seed) {
@@ -174,7 +174,7 @@ constexpr SequenceParam kSpeedMax{"speed_max", "m/s", 1.5, 1e-4, 20, "amplitude 
 constexpr SequenceParam kFrequencyMin{"frequency_min", "Hz", 0.5, 1e-3, 500, "least frequency"};
 constexpr SequenceParam kFrequencyMax{"frequency_max", "Hz", 15, 1e-3, 500, "greatest frequency"};
 constexpr SequenceParam kDuration{"duration", "s", 60, 0.1, 3600, "length of the motion"};
-constexpr SequenceParam kRepeats{"repeats", "1", 1, 1, 1000, "times that it is run through"};
+constexpr SequenceParam kRepeats{"repeats", "1", 1, 1, 1000, "times that it is run through", true};
 constexpr std::string_view kPaper =
     "the one-sensor paper (its ranges), after Lozoya-Santos et al. 2009; all other numbers our own";
 
@@ -196,9 +196,10 @@ const std::array kSequences{
                     .title = "Frequency-modulated sine: a chirp up and down",
                     .equation = "x = -A(f) cos(phi),  phi' = 2 pi f\n"
                                 "f between frequency_min and frequency_max as 1 - cos(2 pi modulation t)\n"
-                                "A(f) = amplitude (1 + (2 pi f amplitude / speed_max)^8)^(-1/8)",
+                                "A(f) = amplitude (1 + (2 pi f amplitude / s)^8)^(-1/8)",
                     .source = kPaper,
-                    .remarks = "Every frequency. Begins at the lowest.",
+                    .remarks = "Every frequency. Begins at the lowest. s is as far below speed_max as the "
+                               "changing amplitude needs.",
                     .params = {kAmplitude,
                                kSpeedMax,
                                kFrequencyMin,
@@ -249,8 +250,8 @@ const std::array kSequences{
                     .params = {kAmplitude,
                                {"speed_min", "m/s", 0.05, 1e-5, 20, "least speed"},
                                {"speed_max", "m/s", 1, 1e-4, 20, "greatest speed"},
-                               {"levels", "1", 8, 2, 1000, "number of speeds"},
-                               {"cycles", "1", 1, 1, 1000, "at each speed"},
+                               {"levels", "1", 8, 2, 1000, "number of speeds", true},
+                               {"cycles", "1", 1, 1, 1000, "at each speed", true},
                                {"acceleration", "m/s^2", 60, 1e-2, 1e5, "at the turns"},
                                kRepeats}},
                    variable_slopes},
