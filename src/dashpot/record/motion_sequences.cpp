@@ -118,7 +118,7 @@ PistonMotion stepped_frequency(std::span<const double> values, std::uint64_t) {
   const double last = std::floor((p.frequency_max - p.frequency_min) / p.step + kRounding);
   if (last >= kMost) throw Error("SFS", format_number(last) + " frequencies", "a larger step");
   Pieces<Packet> packets;
-  for (double k = 0; k <= last; ++k) {
+  for (int k = 0; k <= static_cast<int>(last); ++k) {
     const double f = p.frequency_min + k * p.step;
     packets.add({std::min(p.amplitude, p.speed_max / (kTurn * f)), f, std::max(1.0, std::ceil(p.hold * f))});
   }
@@ -154,10 +154,10 @@ PistonMotion variable_slopes(std::span<const double> values, std::uint64_t) {
   const double distance = 2 * p.amplitude;
   const double reachable = std::sqrt(p.acceleration * distance);  // the ends would meet
   Pieces<Stroke> strokes;
-  for (double k = 0; k < p.levels; ++k) {
+  for (int k = 0; k < static_cast<int>(p.levels); ++k) {
     const double wanted = p.speed_min * std::pow(p.speed_max / p.speed_min, k / (p.levels - 1));
     const double speed = std::min({wanted, p.speed_max, reachable});
-    for (double cycle = 1; cycle <= p.cycles; ++cycle) {
+    for (int cycle = 0; cycle < static_cast<int>(p.cycles); ++cycle) {
       strokes.add({-p.amplitude, distance, speed, p.acceleration, 1});
       strokes.add({p.amplitude, distance, speed, p.acceleration, -1});
     }
