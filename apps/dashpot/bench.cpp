@@ -4,6 +4,7 @@
 #include "commands.h"
 #include "console.h"
 #include "data.h"
+#include "sequence_sheet.h"
 
 namespace dashpot::cli {
 namespace {
@@ -11,6 +12,7 @@ namespace {
 struct Settings {
   CampaignSettings campaign;
   std::string folder = "dashpot-bench";
+  bool list_sequences = false;
 };
 
 constexpr std::string_view kExample =
@@ -19,9 +21,22 @@ constexpr std::string_view kExample =
     "dashpot identify virtual/ --output results\n"
     "\n"
     "# One motion at three voltages:\n"
-    "dashpot bench --motions 10x1 --levels 0,1,2 --output small";
+    "dashpot bench --motions 10x1 --levels 0,1,2 --output small\n"
+    "\n"
+    "# Transients: a chirp under random levels; an experiment of the one-sensor paper:\n"
+    "dashpot bench --damper mr1 --motion FM,duration=20 --drive APRBS --output transient\n"
+    "dashpot bench --damper mr1 --experiment one-sensor-2 --output stepped";
+
+int list_sequences(Console& console) {
+  if (console.json)
+    console.print_json(sequences_json());
+  else
+    console.print(sequences_text(console.width()));
+  return kDone;
+}
 
 int run(const Settings& settings, Console& console) {
+  if (settings.list_sequences) return list_sequences(console);
   const ParameterSet damper = load_parameter_set(settings.campaign.damper);
   const Dataset campaign = run_campaign(settings.campaign, damper);
   console.check_stop();
@@ -48,8 +63,10 @@ Command bench_command() {
       .name = "bench",
       .title = "Record a virtual damper on a virtual test bench",
       .description =
-          "Drives a damper with known parameters through sines and constant currents, measures it with "
-          "imperfect sensors (noise, resolution, zero drift) and writes the recordings as CSV files with a "
+          "Drives a damper with known parameters through sines and constant currents, or through the "
+          "sequences of a system identification (chirps, stepped frequencies, a rough road; random "
+          "currents), measures it with imperfect sensors (noise, resolution, zero drift) and writes the "
+          "recordings as CSV files with a "
           "dataset file beside them: to try Dashpot out, to test a method on a known truth, to plan a "
           "campaign before the real bench is booked.",
       .options = campaign_options(settings->campaign),
@@ -60,6 +77,9 @@ Command bench_command() {
                              .help = "folder for the recordings",
                              .value = "DIR",
                              .takes = Takes::Folder});
+  command.options.push_back({.names = "--sequences",
+                             .target = &settings->list_sequences,
+                             .help = "list sequences, their parameters and the experiments; record nothing"});
   return command;
 }
 

@@ -6,6 +6,7 @@
 
 #include "dashpot/base/file.h"
 #include "dashpot/base/text.h"
+#include "dashpot/damper/bench_experiments.h"
 
 namespace dashpot::cli {
 namespace {
@@ -42,42 +43,113 @@ std::string file_name(const Record& record) {
   std::string name = record.name + ".csv";
   std::erase(name, ',');
   std::ranges::replace(name, ' ', '_');
+  std::ranges::replace(name, '/', '-');
   return name;
 }
 
+/// A column as a real bench would record it.
+struct Column {
+  std::string title;
+  const std::vector<double>& samples;
+  double factor = 1;
+  int digits = 9;  ///< more than any sensor has
+};
+
 std::string csv_of(const Record& record, const Dataset& campaign) {
-  const std::vector<double>& x = record.channel("displacement").samples;
-  const std::vector<double>& force = record.channel("force").samples;
-  const std::vector<double>& drive =
-      record.channel(campaign.drive_unit == "V" ? "voltage" : "current").samples;
-  std::string text = "t_s,x_mm,F_N," + drive_column(campaign) + '\n';
-  constexpr int kDigits = 9;  // more than any sensor has
+  constexpr int kTimeDigits = 12;  // so that equal steps read back as equal
+  const std::string drive = campaign.drive_unit == "V" ? "voltage" : "current";
+  std::vector<Column> columns{{"t_s", record.time, 1, kTimeDigits},
+                              {"x_mm", record.channel("displacement").samples, 1000},
+                              {"F_N", record.channel("force").samples},
+                              {drive_column(campaign), record.channel(drive).samples}};
+  const Channel& velocity = record.channel("velocity");
+  if (!velocity.origin.starts_with("derived")) columns.push_back({"v_m/s", velocity.samples});
+  std::string text;
+  for (const Column& column : columns) text += (text.empty() ? "" : ",") + column.title;
+  text += '\n';
   for (std::size_t k = 0; k < record.size(); ++k)
-    text += format_number(record.time[k], kDigits) + ',' + format_number(1000 * x[k], kDigits) + ',' +
-            format_number(force[k], kDigits) + ',' + format_number(drive[k], kDigits) + '\n';
+    for (const Column& column : columns)
+      text += format_number(column.factor * column.samples[k], column.digits) +
+              (&column == &columns.back() ? '\n' : ',');
   return text;
 }
 
 /// JSON text is YAML too, and quotes what has to be quoted.
 std::string quoted(const std::string& text) { return format_json(Value(text), false); }
 
+/// What a real bench would know of its tests, as YAML; the true offsets stay in comments.
+std::string public_notes(const Dataset& campaign) {
+  std::vector<std::string> notes{"simulated, not measured"};
+  for (const Record& record : campaign.records)
+    for (const std::string& note : record.notes)
+      if (!note.starts_with("true ") && std::ranges::find(notes, note) == notes.end()) notes.push_back(note);
+  if (notes.size() == 1) return notes.front();
+  std::string list;
+  for (const std::string& note : notes) list += "\n  - " + quoted(note);
+  return list;
+}
+
 std::string dataset_yaml(const Dataset& campaign, const ParameterSet& damper, const std::string& command) {
   std::string text = "# Written by " + quoted(command) + "\n# True model (" + damper.source + "):\n#   " +
                      format_json(damper.model.to_json(), false) + "\nname: " + quoted(campaign.name) +
                      "\ncitation: " + quoted(campaign.citation) + "\ndrive: " + campaign.drive_unit +
-                     "\nnotes: simulated, not measured\nfiles:\n";
-  for (const Record& record : campaign.records)
-    text += fmt::format("  - match: {}  # {}\n    name: {}\n    condition: {}\n    level: {}\n",
-                        quoted(file_name(record)), join(record.notes, "; "), quoted(record.name),
-                        quoted(record.condition), format_exact(record.drive_level.value_or(0)));
+                     "\nnotes: " + public_notes(campaign) + "\nfiles:\n";
+  for (const Record& record : campaign.records) {
+    text += fmt::format("  - match: {}  # {}\n    name: {}\n    condition: {}\n", quoted(file_name(record)),
+                        record.notes.front(), quoted(record.name), quoted(record.condition));
+    if (record.drive_level) text += "    level: " + format_exact(*record.drive_level) + '\n';
+  }
   return text;
+}
+
+/// An option that another one would leave without effect.
+void require_consistent(const CampaignSettings& settings) {
+  const bool experiment = !settings.experiment.empty();
+  const bool motions = settings.motions != CampaignSettings().motions;
+  if (experiment && !(settings.motion.empty() && settings.drive.empty()))
+    throw UsageError("--experiment", "states motion and drive itself", "leave --motion and --drive out");
+  if (motions && (experiment || !settings.motion.empty()))
+    throw UsageError("--motions", "are not run beside another motion", "leave one of them out");
+  if (!settings.levels.empty() && (experiment || !settings.drive.empty()))
+    throw UsageError("--levels", "are not run beside another drive", "leave one of them out");
+}
+
+/// Of the damper's own, where it has some.
+std::vector<double> drive_levels(const CampaignSettings& settings, const ParameterSet& damper) {
+  std::vector<double> levels;
+  for (const std::string& level : settings.levels) levels.push_back(parse_level(level));
+  if (!levels.empty()) return levels;
+  return damper.drive_levels.empty() ? levels_over(damper.drive_min, damper.drive_max) : damper.drive_levels;
+}
+
+/// Each motion under each drive.
+std::vector<BenchTest> campaign_tests(const CampaignSettings& settings, const ParameterSet& damper,
+                                      BenchOptions options) {
+  if (!settings.experiment.empty()) return experiment_tests(settings.experiment, damper, options.seed);
+  options.motions.clear();
+  for (const std::string& motion : settings.motions) options.motions.push_back(parse_motion(motion));
+  const std::vector<BenchTest> motions =
+      settings.motion.empty() ? bench_sines(options)
+                              : std::vector{sequence_test(settings.motion, options.seed, "--motion")};
+  const DriveFrame frame{.low = damper.drive_min, .high = damper.drive_max, .seed = options.seed};
+  std::vector<BenchTest> tests;
+  for (const BenchTest& motion : motions) {
+    if (!settings.drive.empty()) {
+      tests.push_back(under_sequence(motion, settings.drive, frame, "--drive"));
+      continue;
+    }
+    for (const double level : drive_levels(settings, damper))
+      tests.push_back(at_level(motion, level, damper.model.drive_unit()));
+  }
+  return tests;
 }
 
 }  // namespace
 
 CampaignSettings::CampaignSettings() {
-  for (const SineMotion& motion : bench.motions)
-    motions.push_back(format_number(1000 * motion.amplitude) + "x" + format_number(motion.frequency));
+  bench.velocity_noise = one_sensor_bench({}).velocity_noise;
+  for (const SineMotion& sine : bench.motions)
+    motions.push_back(format_number(1000 * sine.amplitude) + "x" + format_number(sine.frequency));
 }
 
 std::vector<Option> campaign_options(CampaignSettings& settings) {
@@ -97,13 +169,33 @@ std::vector<Option> campaign_options(CampaignSettings& settings) {
        .target = &settings.levels,
        .help = "currents in A (or voltages in V, as the damper is driven)",
        .value = "LIST",
-       .default_text = "five over the damper's range"},
+       .default_text = "the damper's own, or five over its range"},
+      {.names = "--motion",
+       .target = &settings.motion,
+       .help = "a sequence in place of the sines, with values for its parameters if wanted, as "
+               "AM,carrier=3,amplitude=10mm; --sequences lists them",
+       .value = "NAME,..."},
+      {.names = "--drive",
+       .target = &settings.drive,
+       .help = "a sequence over the damper's range in place of the levels, as PRBS,clock=20ms",
+       .value = "NAME,..."},
+      {.names = "--experiment",
+       .target = &settings.experiment,
+       .help = "an experiment of the one-sensor paper in place of motion and drive, or all five",
+       .value = "NAME",
+       .choices = experiment_names(),
+       .noun = "experiment"},
       {.names = "--cycles", .target = &bench.cycles, .help = "cycles per record", .value = "N", .minimum = 1},
       {.names = "--sample-rate",
-       .target = &bench.sample_rate,
+       .target = &settings.sample_rate,
        .help = "samples per second",
        .value = "HZ",
-       .minimum = 1},
+       .minimum = 1,
+       .default_text = format_number(bench.sample_rate) + "; of an experiment " +
+                       format_number(one_sensor_bench(bench).sample_rate)},
+      {.names = "--velocity-sensor",
+       .target = &bench.velocity_sensor,
+       .help = "record the velocity too, with the noise of a tachometer; an experiment does"},
       {.names = "--noise",
        .target = &bench.force_noise,
        .help = "standard deviation of the force noise, as a share of each record's force span",
@@ -122,13 +214,11 @@ std::vector<Option> campaign_options(CampaignSettings& settings) {
 }
 
 Dataset run_campaign(const CampaignSettings& settings, const ParameterSet& damper) {
-  BenchOptions options = settings.bench;
-  options.motions.clear();
-  for (const std::string& motion : settings.motions) options.motions.push_back(parse_motion(motion));
-  options.drive_levels.clear();
-  for (const std::string& level : settings.levels) options.drive_levels.push_back(parse_level(level));
-  if (options.drive_levels.empty()) options.drive_levels = levels_over(damper.drive_min, damper.drive_max);
-  Dataset campaign = run_virtual_bench(damper.model, damper.model.drive_unit(), options);
+  require_consistent(settings);
+  BenchOptions options = settings.experiment.empty() ? settings.bench : one_sensor_bench(settings.bench);
+  if (settings.sample_rate > 0) options.sample_rate = settings.sample_rate;
+  Dataset campaign = run_virtual_bench(damper.model, damper.model.drive_unit(),
+                                       campaign_tests(settings, damper, options), options);
   campaign.name = "virtual bench, " + damper.name;
   return campaign;
 }

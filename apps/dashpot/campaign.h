@@ -15,13 +15,17 @@ struct CampaignSettings {
 
   std::string damper = "spencer1997";
   std::vector<std::string> motions;  ///< "25x0.25": mm x Hz
-  std::vector<std::string> levels;   ///< A or V; none: five over the damper's range
+  std::vector<std::string> levels;   ///< A or V; none: the damper's, or five over its range
+  std::string motion, drive;         ///< sequences in place of motions and levels
+  std::string experiment;            ///< in place of all of them
+  double sample_rate = 0;            ///< Hz; 0: that of bench, or of the experiment
   BenchOptions bench;
 };
 
 std::vector<Option> campaign_options(CampaignSettings& settings);
 
-/// The recordings of the campaign. Throws UsageError on a motion or level that cannot be read.
+/// The recordings of the campaign. Throws UsageError on a motion or level that cannot be read, Error
+/// on a sequence.
 Dataset run_campaign(const CampaignSettings& settings, const ParameterSet& damper);
 
 /// One CSV file per record, as a real bench would leave them, and dataset.yaml, whose comments tell the

@@ -1,6 +1,7 @@
 #include <fstream>
 
 #include "dashpot/base/file.h"
+#include "dashpot/base/value.h"
 #include "dashpot/record/dataset.h"
 #include "program.h"
 
@@ -41,4 +42,84 @@ TEST_CASE("bench: a motion too fast to be sampled is refused with the limit") {
   const ProgramResult result = run_dashpot("bench --motions 5x90 --levels 1 --output /tmp/never");
   CHECK(result.exit_code == 1);
   CHECK(contains(result.output, "tenth of the sample rate"));
+}
+
+TEST_CASE("bench: a sequence under a sequence reads back with its velocity, and inspect tells what it is") {
+  const TemporaryFolder folder;
+  const std::string to = (folder.path() / "am").string();
+  const ProgramResult made = run_dashpot(
+      "bench --damper mr1 --motion AM,duration=3,carrier=5 --drive PRBS --velocity-sensor --output " + to);
+  REQUIRE_MESSAGE(made.exit_code == 0, made.output);
+  const Record record = load_dataset({to}).records.at(0);
+  CHECK(record.name == "AM duration=3 carrier=5, PRBS");
+  CHECK_FALSE(record.drive_level);
+  CHECK_CLOSE(record.sample_time, 0.002, 1e-9, 0);
+  CHECK(record.channel("velocity").origin.starts_with("column v_m/s"));
+  const std::string text = run_dashpot("inspect " + to).output;
+  CHECK(contains(text, "AM: amplitude 0.025 m, speed_max 1.5 m/s, carrier 5 Hz"));
+  CHECK(contains(text, "PRBS: clock 0.05 s, order 9"));
+  CHECK(contains(text, "0...2.5 A"));
+  CHECK(contains(text, "derived against measured"));
+  CHECK_FALSE(contains(text, "true force offset"));
+}
+
+TEST_CASE("bench: a sequence at the levels, and sines under a sequence") {
+  const TemporaryFolder folder;
+  const auto records = [&](const std::string& arguments) {
+    const ProgramResult made =
+        run_dashpot("bench " + arguments + " --output " + (folder.path() / "to").string());
+    REQUIRE_MESSAGE(made.exit_code == 0, made.output);
+    const Dataset dataset = load_dataset({folder.path() / "to"});
+    std::filesystem::remove_all(folder.path() / "to");
+    return dataset.records;
+  };
+  // the two levels are the damper's own
+  const std::vector<Record> levels = records("--damper mr2 --motion TPNVS");
+  REQUIRE(levels.size() == 2);
+  CHECK(levels[0].drive_level == 0);
+  CHECK(levels[1].drive_level == 2.5);
+  CHECK(levels[0].condition == levels[1].condition);
+  CHECK(records("--motions 5x2,5x3 --drive ICPS").size() == 2);
+}
+
+TEST_CASE("bench: an experiment of the one-sensor paper, at its rate or another") {
+  const TemporaryFolder folder;
+  const auto sample_time = [&](const std::string& name, const std::string& arguments) {
+    const std::string to = (folder.path() / name).string();
+    const ProgramResult made =
+        run_dashpot("bench --damper mr2 --experiment one-sensor-1 --output " + to + arguments);
+    REQUIRE_MESSAGE(made.exit_code == 0, made.output);
+    const Record record = load_dataset({to}).records.at(0);
+    CHECK(record.find("velocity"));
+    CHECK(record.name == "TPNVS repeats=2, SC levels=2");
+    return record.sample_time;
+  };
+  CHECK_CLOSE(sample_time("paper", ""), 1 / 1650.0, 1e-9, 0);
+  CHECK_CLOSE(sample_time("slow", " --sample-rate 200"), 1 / 200.0, 1e-9, 0);
+}
+
+TEST_CASE("bench: the list of sequences, for people and programs") {
+  const std::string text = run_dashpot("bench --sequences").output;
+  for (const char* name : {"\nAM ", "\nFM ", "\nRP ", "\nSFS ", "\nTPNVS ", "\nAPRBS ", "\nICPS ", "\nPRBS ",
+                           "\nSC ", "\none-sensor-5 "})
+    CHECK(contains(text, name));
+  const Value json = parse_json(stdout_of_dashpot("bench --sequences --json").output, "stdout");
+  CHECK(json.find("motions")->items().size() == 5);
+  CHECK(json.find("drives")->items().size() == 4);
+  CHECK(json.find("experiments")->items().size() == 5);
+}
+
+TEST_CASE("bench: sequences that cannot be run are refused") {
+  const auto refused = [](const std::string& arguments, int code, const std::string& what) {
+    const ProgramResult result = run_dashpot("bench " + arguments + " --output /tmp/never");
+    CHECK(result.exit_code == code);
+    CAPTURE(result.output);
+    CHECK(contains(result.output, what));
+  };
+  refused("--motion AN", 1, "--motion: unknown sequence 'AN'; did you mean 'AM'?");
+  refused("--drive PRBS,clock=1mm", 1, "'mm' does not measure clock");
+  refused("--experiment one-sensor-9", 2, "one-sensor-1");
+  refused("--experiment one-sensor-1 --drive SC", 2, "leave --motion and --drive out");
+  refused("--motion AM --motions 5x2", 2, "--motions");
+  refused("--drive SC --levels 1", 2, "--levels");
 }

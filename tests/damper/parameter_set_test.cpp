@@ -87,6 +87,11 @@ TEST_CASE("a wrong file is refused with its key") {
   CHECK(message("\"verified\": true", "\"verified\": 1").find("set.json") != std::string::npos);
   CHECK(message("\"damper\"", "\"dampr\"").find("'damper'") != std::string::npos);
   CHECK(message("[0, 2.25]", "[2.25, 0]").find("is not a range") != std::string::npos);
+  const std::string range = "\"drive_range\": [0, 2.25]";
+  CHECK(message(range, range + ", \"drive_levels\": [0, 2]") == "");
+  for (const char* levels : {"[1]", "[2, 1]", "[1, 1]", "[0, 3]"})
+    CHECK(message(range, range + ", \"drive_levels\": " + levels).find("are not levels") !=
+          std::string::npos);
   // at 9 V the range is far outside the fit, but no bound is broken; at -9 V alpha is negative
   CHECK(message("[0, 2.25]", "[-9, 2.25]").find("alpha is") != std::string::npos);
 }

@@ -18,6 +18,16 @@ fs::path folder() {
   return fs::is_directory(source) ? source : fs::path(DASHPOT_DATA_INSTALL_DIR) / "parameters";
 }
 
+/// Nothing where the driver can give any level.
+std::vector<double> read_drive_levels(const Value* levels, double low, double high) {
+  if (!levels) return {};
+  const std::vector<double> values = levels->as_numbers();
+  if (values.size() < 2 || !std::ranges::is_sorted(values, std::less_equal<>{}) || values.front() < low ||
+      values.back() > high)
+    throw Error(levels->where(), "are not levels", "at least two, rising, within drive_range");
+  return values;
+}
+
 }  // namespace
 
 std::vector<std::string> parameter_set_names() {
@@ -44,7 +54,8 @@ ParameterSet parse_parameter_set(std::string_view text, const std::string& sourc
                    .reason = reader.string("reason"),
                    .drive_min = ends[0],
                    .drive_max = ends[1],
-                   .model = std::move(*law_model_from_json(model))};
+                   .model = std::move(*law_model_from_json(model)),
+                   .drive_levels = read_drive_levels(reader.optional("drive_levels"), ends[0], ends[1])};
   reader.finish();
   for (const double drive : ends) require_bounds(set.model, drive, model.where());
   return set;

@@ -15,6 +15,7 @@ struct ParameterSet {
   std::string reason;                   ///< how it was verified, or why it is not
   double drive_min = 0, drive_max = 0;  ///< A or V, where it holds
   LawModel model;
+  std::vector<double> drive_levels = {};  ///< those that its driver can give; empty: all in that range
 };
 
 /// Names of the sets that come with Dashpot, in alphabetical order.

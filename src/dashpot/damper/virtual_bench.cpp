@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "dashpot/base/error.h"
 #include "dashpot/base/random.h"
@@ -14,25 +13,23 @@ namespace {
 
 constexpr double kInnerStep = 1e-4;  // s, at most: fine enough that the motion between is a straight line
 
-/// The piston starts at rest at its lower end, so that a free run from rest is exact from the first sample.
-DamperInput piston(const SineMotion& motion, double drive, double t) {
-  const double w = 2 * std::numbers::pi * motion.frequency;
-  return {-motion.amplitude * std::cos(w * t), motion.amplitude * w * std::sin(w * t), drive};
+DamperInput piston(const BenchTest& test, double t) {
+  const MotionPoint point = test.motion.at(t);
+  return {point.displacement, point.velocity, test.drive.at(t)};
 }
 
-/// True motion and force at the samples.
+/// True motion, drive and force at the samples.
 struct Truth {
-  std::vector<double> time, displacement, velocity, force;
+  std::vector<double> time, displacement, velocity, force, drive;
 };
 
-Truth simulate(const DamperModel& damper, const SineMotion& motion, double drive,
-               const BenchOptions& options) {
+/// The piston starts at rest, so that a free run from rest is exact from the first sample.
+Truth simulate(const DamperModel& damper, const BenchTest& test, const BenchOptions& options) {
   const double dt = 1 / options.sample_rate;
-  const double duration = std::max(options.cycles / motion.frequency, 1.0);
-  const auto samples = static_cast<std::size_t>(std::llround(duration / dt)) + 1;
+  const auto samples = static_cast<std::size_t>(std::llround(test.motion.duration / dt)) + 1;
   const auto inner = static_cast<std::size_t>(std::ceil(dt / kInnerStep));
   const double h = dt / static_cast<double>(inner);
-  DamperInput now = piston(motion, drive, 0);
+  DamperInput now = piston(test, 0);
   std::vector<double> state(damper.state_size());
   damper.rest(now, state);
   Truth truth;
@@ -41,9 +38,10 @@ Truth simulate(const DamperModel& damper, const SineMotion& motion, double drive
     truth.time.push_back(t);
     truth.displacement.push_back(now.displacement);
     truth.velocity.push_back(now.velocity);
+    truth.drive.push_back(now.current);
     truth.force.push_back(damper.force(now, state));
     for (std::size_t step = 1; step <= inner; ++step) {
-      const DamperInput next = piston(motion, drive, t + static_cast<double>(step) * h);
+      const DamperInput next = piston(test, t + static_cast<double>(step) * h);
       damper.advance(now, next, h, state);
       now = next;
     }
@@ -66,6 +64,12 @@ double span(const std::vector<double>& values) {
   return *high - *low;
 }
 
+/// Without noise no random number is drawn, so that the sensor changes nothing else.
+Channel measured_velocity(std::vector<double> velocity, double noise, Random& random) {
+  if (noise > 0) velocity = measure(std::move(velocity), 0, noise, 0, random);
+  return {"velocity", "m/s", std::move(velocity), "simulated sensor"};
+}
+
 /// The velocity as a reader would derive it from the measured displacement.
 Channel derived_velocity(const std::vector<double>& displacement, double dt) {
   const double cutoff = choose_cutoff_hz(displacement, dt);
@@ -73,78 +77,99 @@ Channel derived_velocity(const std::vector<double>& displacement, double dt) {
           "derived from displacement, " + format_number(cutoff) + " Hz zero-phase"};
 }
 
-Record run_test(const DamperModel& damper, const SineMotion& motion, double drive,
-                const std::string& drive_unit, const BenchOptions& options, Random& random) {
-  const Truth truth = simulate(damper, motion, drive, options);
+Record run_test(const DamperModel& damper, const BenchTest& test, const std::string& drive_unit,
+                const BenchOptions& options, Random& random) {
+  Truth truth = simulate(damper, test, options);
   const double offset = options.force_offset * random.normal();
   const double dt = 1 / options.sample_rate;
   std::vector<double> displacement =
       measure(truth.displacement, 0, options.displacement_noise, options.displacement_resolution, random);
   std::vector<double> force =
       measure(truth.force, offset, options.force_noise * span(truth.force), options.force_resolution, random);
+  Channel velocity = options.velocity_sensor
+                         ? measured_velocity(std::move(truth.velocity), options.velocity_noise, random)
+                         : derived_velocity(displacement, dt);
 
   Record record;
-  record.condition =
-      format_number(1000 * motion.amplitude) + " mm " + format_number(motion.frequency) + " Hz";
-  record.name = record.condition + ", " + format_number(drive) + " " + drive_unit;
+  record.name = test.name;
+  record.condition = test.condition;
   record.source = "virtual bench";
-  record.drive_level = drive;
-  record.time = truth.time;
+  record.drive_level = test.level;
+  record.time = std::move(truth.time);
   record.sample_time = dt;
-  record.channels.push_back({"displacement", "m", displacement, "simulated sensor"});
-  record.channels.push_back(options.velocity_sensor
-                                ? Channel{"velocity", "m/s", truth.velocity, "simulated sensor"}
-                                : derived_velocity(displacement, dt));
+  record.channels.push_back({"displacement", "m", std::move(displacement), "simulated sensor"});
+  record.channels.push_back(std::move(velocity));
   record.channels.push_back({"force", "N", std::move(force), "simulated load cell"});
-  record.channels.push_back({drive_unit == "V" ? "voltage" : "current", drive_unit,
-                             std::vector<double>(truth.time.size(), drive), "constant, as set"});
+  record.channels.push_back({drive_unit == "V" ? "voltage" : "current", drive_unit, std::move(truth.drive),
+                             test.level ? "constant, as set" : "as commanded"});
   record.notes.push_back("true force offset " + format_number(offset, 6) + " N");
+  for (const std::string& description : {test.motion.description, test.drive.description})
+    if (!description.empty()) record.notes.push_back(description);
   return record;
 }
 
-void require_usable(const std::string& drive_unit, const BenchOptions& options) {
+void require_usable(const std::string& drive_unit, std::span<const BenchTest> tests,
+                    const BenchOptions& options) {
   if (drive_unit != "A" && drive_unit != "V")
     throw Error("virtual bench", "drive unit '" + drive_unit + "'", "write A or V");
-  if (options.motions.empty() || options.drive_levels.empty())
-    throw Error("virtual bench", "no motion or no drive level", "give at least one of each");
-  if (!(options.sample_rate > 0 && options.cycles > 0))
-    throw Error("virtual bench", "the sample rate and the cycles must be above 0");
+  if (tests.empty()) throw Error("virtual bench", "no motion or no drive level", "give at least one of each");
+  if (!(options.sample_rate > 0)) throw Error("virtual bench", "the sample rate must be above 0");
   constexpr double kMostSamples = 1e8;
   double samples = 0;
-  for (const SineMotion& motion : options.motions)
-    samples += options.cycles / motion.frequency * options.sample_rate *
-               static_cast<double>(options.drive_levels.size());
+  for (const BenchTest& test : tests) samples += test.motion.duration * options.sample_rate;
   if (samples > kMostSamples)
     throw Error("virtual bench", "the campaign would have " + format_number(samples) + " samples",
-                "at most " + format_number(kMostSamples) + ": fewer cycles or a lower sample rate");
-  for (const SineMotion& motion : options.motions)
-    if (!(motion.amplitude > 0 && motion.frequency > 0 && motion.frequency < options.sample_rate / 10))
-      throw Error("virtual bench",
-                  "a motion of " + format_number(1000 * motion.amplitude) + " mm at " +
-                      format_number(motion.frequency) + " Hz",
-                  "amplitude above 0, frequency above 0 and below a tenth of the sample rate");
+                "at most " + format_number(kMostSamples) + ": shorter tests or a lower sample rate");
+}
+
+void require_usable(const SineMotion& motion, const BenchOptions& options) {
+  if (!(options.sample_rate > 0 && options.cycles > 0))
+    throw Error("virtual bench", "the sample rate and the cycles must be above 0");
+  if (!(motion.amplitude > 0 && motion.frequency > 0 && motion.frequency < options.sample_rate / 10))
+    throw Error("virtual bench",
+                "a motion of " + format_number(1000 * motion.amplitude) + " mm at " +
+                    format_number(motion.frequency) + " Hz",
+                "amplitude above 0, frequency above 0 and below a tenth of the sample rate");
 }
 
 }  // namespace
 
+std::vector<BenchTest> bench_sines(const BenchOptions& options) {
+  std::vector<BenchTest> tests;
+  for (const SineMotion& motion : options.motions) {
+    require_usable(motion, options);
+    tests.push_back(sine_test(motion, std::max(options.cycles / motion.frequency, 1.0)));
+  }
+  return tests;
+}
+
 Dataset run_virtual_bench(const DamperModel& damper, const std::string& drive_unit,
                           const BenchOptions& options) {
-  require_usable(drive_unit, options);
+  std::vector<BenchTest> tests;
+  for (const BenchTest& sine : bench_sines(options))
+    for (const double level : options.drive_levels) tests.push_back(at_level(sine, level, drive_unit));
+  return run_virtual_bench(damper, drive_unit, tests, options);
+}
+
+Dataset run_virtual_bench(const DamperModel& damper, const std::string& drive_unit,
+                          std::span<const BenchTest> tests, const BenchOptions& options) {
+  require_usable(drive_unit, tests, options);
   Random random(options.seed);
   Dataset dataset;
   dataset.name = "virtual bench: " + damper.name();
   dataset.citation = "simulated by Dashpot, seed " + std::to_string(options.seed);
   dataset.drive_unit = drive_unit;
-  for (const SineMotion& motion : options.motions)
-    for (const double drive : options.drive_levels)
-      dataset.records.push_back(run_test(damper, motion, drive, drive_unit, options, random));
+  for (const BenchTest& test : tests)
+    dataset.records.push_back(run_test(damper, test, drive_unit, options, random));
   dataset.notes.push_back("simulated, not measured; the true model is " +
                           format_json(damper.to_json(), false));
-  dataset.notes.push_back("force noise " + format_number(100 * options.force_noise) +
-                          " % of the span, displacement noise " +
-                          format_number(1e6 * options.displacement_noise) + " um, resolution " +
-                          format_number(options.force_resolution) + " N and " +
-                          format_number(1e6 * options.displacement_resolution) + " um");
+  dataset.notes.push_back(
+      "force noise " + format_number(100 * options.force_noise) + " % of the span, displacement noise " +
+      format_number(1e6 * options.displacement_noise) + " um" +
+      (options.velocity_sensor ? ", velocity noise " + format_number(1e3 * options.velocity_noise) + " mm/s"
+                               : "") +
+      ", resolution " + format_number(options.force_resolution) + " N and " +
+      format_number(1e6 * options.displacement_resolution) + " um");
   return dataset;
 }
 
