@@ -7,6 +7,7 @@
 #include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
 #include "dashpot/damper/inverse/polynomial.h"
+#include "dashpot/damper/neural/hysteresis_network.h"
 #include "dashpot/damper/neural/mlp.h"
 #include "dashpot/damper/registry.h"
 #include "dashpot/identify/recovery_study.h"
@@ -79,6 +80,21 @@ void add_numbers(ModelSheet& sheet, const FuzzyPreset& preset) {
   ++sheet.numbers;  // its lag
 }
 
+void add_numbers(ModelSheet& sheet, const StateNetworkPreset& preset) {
+  const std::vector<std::pair<std::string, std::size_t>> states = {
+      {"w, 1", preset.path_states}, {"y, m/s", preset.velocity_lags}, {"u, A", preset.current_lags}};
+  BankNetwork member;
+  member.bank.path_rates.resize(preset.path_states);
+  member.bank.velocity_rates.resize(preset.velocity_lags);
+  member.bank.current_rates.resize(preset.current_lags);
+  member.network.currents = preset.current_lags;
+  member.network.signals.resize(member.bank.signal_count());
+  member.network.initialise(preset.hidden, 0);
+  sheet.numbers = preset.members * member.parameter_count();
+  for (std::size_t k = 0; k < preset.members; ++k)
+    for (const auto& [state, count] : states) sheet.states.insert(sheet.states.end(), count, state);
+}
+
 std::vector<std::string> cells(const ParameterLine& p) {
   return {p.name, p.unit, p.value, p.bounds, p.form, p.meaning};
 }
@@ -105,6 +121,8 @@ ModelSheet model_sheet(const std::string& name) {
     add_table(sheet, find_law(name));
   else if (info.kind == "network")
     sheet.numbers = weights_of(find_network_preset(name));
+  else if (info.kind == "state_network")
+    add_numbers(sheet, find_state_network_preset(name));
   else
     add_numbers(sheet, find_fuzzy_preset(name));
   return sheet;
