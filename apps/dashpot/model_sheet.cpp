@@ -81,8 +81,6 @@ void add_numbers(ModelSheet& sheet, const FuzzyPreset& preset) {
 }
 
 void add_numbers(ModelSheet& sheet, const StateNetworkPreset& preset) {
-  const std::vector<std::pair<std::string, std::size_t>> states = {
-      {"w, 1", preset.path_states}, {"y, m/s", preset.velocity_lags}, {"u, A", preset.current_lags}};
   BankNetwork member;
   member.bank.path_rates.resize(preset.path_states);
   member.bank.velocity_rates.resize(preset.velocity_lags);
@@ -91,17 +89,29 @@ void add_numbers(ModelSheet& sheet, const StateNetworkPreset& preset) {
   member.network.signals.resize(member.bank.signal_count());
   member.network.initialise(preset.hidden, 0);
   sheet.numbers = preset.members * member.parameter_count();
-  for (std::size_t k = 0; k < preset.members; ++k)
-    for (const auto& [state, count] : states) sheet.states.insert(sheet.states.end(), count, state);
+  sheet.states.insert(sheet.states.end(), preset.members * preset.path_states, "w, 1");
+  sheet.states.insert(sheet.states.end(), preset.members * preset.velocity_lags, "y, m/s");
+  sheet.states.insert(sheet.states.end(), preset.members * preset.current_lags, "u, A");
 }
 
 std::vector<std::string> cells(const ParameterLine& p) {
   return {p.name, p.unit, p.value, p.bounds, p.form, p.meaning};
 }
 
+/// "20 x w, 1; u, A": states of one name told together.
+std::string states_text(const std::vector<std::string>& states) {
+  std::vector<std::string> told;
+  for (auto at = states.begin(); at != states.end();) {
+    const auto end = std::find_if(at, states.end(), [&](const std::string& s) { return s != *at; });
+    told.push_back((end - at > 1 ? std::to_string(end - at) + " x " : "") + *at);
+    at = end;
+  }
+  return "states: " + join(told, "; ");
+}
+
 std::string facts(const ModelSheet& sheet) {
   std::string text = "inputs: " + join(sheet.inputs, ", ") + "; ";
-  text += sheet.states.empty() ? "no state" : "states: " + join(sheet.states, "; ");
+  text += sheet.states.empty() ? "no state" : states_text(sheet.states);
   return text + fmt::format("; {} numbers to fit; inverse: {}", sheet.numbers, sheet.inverse);
 }
 
