@@ -7,6 +7,7 @@
 #include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
 #include "dashpot/damper/inverse/polynomial.h"
+#include "dashpot/damper/neural/hysteresis_network.h"
 #include "dashpot/damper/neural/mlp.h"
 #include "dashpot/damper/registry.h"
 #include "dashpot/identify/recovery_study.h"
@@ -79,13 +80,38 @@ void add_numbers(ModelSheet& sheet, const FuzzyPreset& preset) {
   ++sheet.numbers;  // its lag
 }
 
+void add_numbers(ModelSheet& sheet, const StateNetworkPreset& preset) {
+  BankNetwork member;
+  member.bank.path_rates.resize(preset.path_states);
+  member.bank.velocity_rates.resize(preset.velocity_lags);
+  member.bank.current_rates.resize(preset.current_lags);
+  member.network.currents = preset.current_lags;
+  member.network.signals.resize(member.bank.signal_count());
+  member.network.initialise(preset.hidden, 0);
+  sheet.numbers = preset.members * member.parameter_count();
+  sheet.states.insert(sheet.states.end(), preset.members * preset.path_states, "w, 1");
+  sheet.states.insert(sheet.states.end(), preset.members * preset.velocity_lags, "y, m/s");
+  sheet.states.insert(sheet.states.end(), preset.members * preset.current_lags, "u, A");
+}
+
 std::vector<std::string> cells(const ParameterLine& p) {
   return {p.name, p.unit, p.value, p.bounds, p.form, p.meaning};
 }
 
+/// "20 x w, 1; u, A": states of one name told together.
+std::string states_text(const std::vector<std::string>& states) {
+  std::vector<std::string> told;
+  for (auto at = states.begin(); at != states.end();) {
+    const auto end = std::find_if(at, states.end(), [&](const std::string& s) { return s != *at; });
+    told.push_back((end - at > 1 ? std::to_string(end - at) + " x " : "") + *at);
+    at = end;
+  }
+  return "states: " + join(told, "; ");
+}
+
 std::string facts(const ModelSheet& sheet) {
   std::string text = "inputs: " + join(sheet.inputs, ", ") + "; ";
-  text += sheet.states.empty() ? "no state" : "states: " + join(sheet.states, "; ");
+  text += sheet.states.empty() ? "no state" : states_text(sheet.states);
   return text + fmt::format("; {} numbers to fit; inverse: {}", sheet.numbers, sheet.inverse);
 }
 
@@ -105,6 +131,8 @@ ModelSheet model_sheet(const std::string& name) {
     add_table(sheet, find_law(name));
   else if (info.kind == "network")
     sheet.numbers = weights_of(find_network_preset(name));
+  else if (info.kind == "state_network")
+    add_numbers(sheet, find_state_network_preset(name));
   else
     add_numbers(sheet, find_fuzzy_preset(name));
   return sheet;

@@ -5,6 +5,7 @@
 #include "damper/inverse/inverses.h"
 #include "dashpot/damper/fuzzy/fuzzy_model.h"
 #include "dashpot/damper/inverse/registry.h"
+#include "dashpot/damper/neural/hysteresis_network.h"
 #include "dashpot/damper/neural/mlp_evaluator.h"
 #include "support.h"
 
@@ -55,6 +56,25 @@ TEST_CASE("stepping a law allocates nothing") {
     const std::vector<double> control(10);
     CHECK(allocations == before + 1);  // the counter counts
   });
+}
+
+TEST_CASE("stepping a state network allocates nothing") {
+  BankNetwork member;
+  member.bank = {.path_rates = {60, 500}, .velocity_rates = {60}, .current_rates = {50}};
+  member.network.signals.resize(5);
+  member.network.currents = 1;
+  member.network.initialise(3, 1);
+  const HysteresisNetwork model("test", {member, member});
+  std::vector<double> state(model.state_size());
+  model.rest(sine(0), state);
+  double sum = 0;
+  const std::size_t before = allocations;
+  for (int k = 0; k < 1000; ++k) {
+    model.advance(sine(k * 1e-3, 1), sine((k + 1) * 1e-3, 0.5), 1e-3, state);
+    sum += model.force(sine((k + 1) * 1e-3, 0.5), state);
+  }
+  CHECK(allocations == before);
+  CHECK(std::isfinite(sum));
 }
 
 TEST_CASE("stepping a fuzzy model allocates nothing") {

@@ -2,6 +2,7 @@
 
 #include "dashpot/base/file.h"
 #include "dashpot/damper/fuzzy/fuzzy_model.h"
+#include "dashpot/damper/neural/hysteresis_network.h"
 #include "dashpot/damper/neural/network_model.h"
 #include "dashpot/damper/parameter_set.h"
 #include "support.h"
@@ -82,6 +83,21 @@ TEST_CASE("a fuzzy model's file comes back as it was, to the last bit") {
   const ModelFile loaded = parse_model(format_model(saved), "m.json");
   CHECK(format_model(loaded) == format_model(saved));
   CHECK(loaded.model->force({0, 0.13, 0.5}, {}) == saved.model->force({0, 0.13, 0.5}, {}));
+}
+
+TEST_CASE("a state network's file comes back as it was, to the last bit") {
+  const BankNetwork member{.bank = {.path_rates = {100 / 3.0}, .velocity_rates = {}, .current_rates = {50}},
+                           .network = {.signals = {{0, 0.2, -3, 3}, {0, 1, -1, 1}, {1, 1, -1, 1}},
+                                       .currents = 1,
+                                       .neurons = {0.1 + 0.2, 1, -1, 0.5},
+                                       .gates = std::vector<double>(12, 0.7 / 3),
+                                       .output_scale = 812.5}};
+  const ModelFile saved = example(
+      std::make_unique<HysteresisNetwork>("hysteresis_network", std::vector<BankNetwork>{member}, 4.5), "A");
+  const ModelFile loaded = parse_model(format_model(saved), "m.json");
+  CHECK(format_model(loaded) == format_model(saved));
+  const std::vector<double> state{0.3, 0.6};
+  CHECK(loaded.model->force({0, 0.13, 0.5}, state) == saved.model->force({0, 0.13, 0.5}, state));
 }
 
 TEST_CASE("a model file that cannot be used says where and why") {

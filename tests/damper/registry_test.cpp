@@ -6,12 +6,13 @@
 
 using namespace dashpot;
 
-TEST_CASE("laws stand in alphabetical order, networks and fuzzy models follow") {
+TEST_CASE("laws stand in alphabetical order, networks, state networks and fuzzy models follow") {
   const std::vector<std::string> names = model_names();
   const auto others = names.begin() + static_cast<std::ptrdiff_t>(laws().size());
   CHECK(std::is_sorted(names.begin(), others));
   CHECK(std::vector<std::string>(others, names.end()) ==
-        std::vector<std::string>{"mlp_one_sensor", "mlp_two_sensors", "anfis", "takagi_sugeno"});
+        std::vector<std::string>{"mlp_one_sensor", "mlp_two_sensors", "hysteresis_network", "anfis",
+                                 "takagi_sugeno"});
   for (const Law* law : laws()) {
     CHECK(&find_law(law->name) == law);
     CHECK(is_law(law->name));
@@ -26,6 +27,15 @@ TEST_CASE("the one-sensor paper's networks") {
   };
   CHECK(parameters(find_network_preset("mlp_one_sensor")) == 41);
   CHECK(parameters(find_network_preset("mlp_two_sensors")) == 51);
+}
+
+TEST_CASE("state networks say their kind and need one sensor") {
+  for (const StateNetworkPreset& preset : state_network_presets()) {
+    const ModelInfo info = model_info(preset.name);
+    CHECK(info.kind == "state_network");
+    CHECK(info.inputs == std::vector<std::string>{"velocity", "current"});
+    CHECK(&find_state_network_preset(preset.name) == &preset);
+  }
 }
 
 TEST_CASE("fuzzy models say their kind and inputs, and have sets for each") {

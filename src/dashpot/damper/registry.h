@@ -20,6 +20,16 @@ struct NetworkPreset {
 };
 std::span<const NetworkPreset> network_presets();
 
+/// A bank of states and the networks that read it, known by name.
+struct StateNetworkPreset {
+  std::string_view name, title, equation, source, remarks;
+  std::size_t path_states = 0, velocity_lags = 0;
+  std::size_t current_lags = 0;  ///< one where the current is steady within each record
+  std::size_t hidden = 0;        ///< neurons
+  std::size_t members = 1;       ///< whose mean is the model
+};
+std::span<const StateNetworkPreset> state_network_presets();
+
 /// A grid of fuzzy sets that is known by name.
 struct FuzzyPreset {
   std::string_view name, title, equation, source, remarks;
@@ -31,18 +41,19 @@ std::span<const FuzzyPreset> fuzzy_presets();
 
 /// What every registered model says of itself, law or not.
 struct ModelInfo {
-  std::string_view name, kind, title, equation, source, remarks;  ///< kind: "law", "network", "fuzzy"
+  std::string_view name, kind, title, equation, source, remarks;  ///< kind: as DamperModel::kind
   std::vector<std::string> inputs;  ///< "displacement", "velocity", "current", "velocity_change"
   bool needs_displacement() const;
 };
 /// Throws Error "unknown model 'bouc'; did you mean ...; known: ...".
 ModelInfo model_info(std::string_view name, const std::string& where = {});
 
-std::vector<std::string> model_names();  ///< laws, then networks, then fuzzy models
+std::vector<std::string> model_names();  ///< laws, networks, state networks, fuzzy models
 
 /// All throw as model_info does.
 const Law& find_law(std::string_view name, const std::string& where = {});
 const NetworkPreset& find_network_preset(std::string_view name, const std::string& where = {});
+const StateNetworkPreset& find_state_network_preset(std::string_view name, const std::string& where = {});
 const FuzzyPreset& find_fuzzy_preset(std::string_view name, const std::string& where = {});
 bool is_law(std::string_view name);
 

@@ -45,8 +45,9 @@ struct FitReport {
   double training_rmse = 0;  ///< N, free run
 };
 
-/// Fits the model of that name (a law, a network or a fuzzy preset) to all records together in free run.
-/// Throws Error when the records cannot serve (a channel missing, no motion). Not converging is a status.
+/// Fits the model of that name (a law, or a preset of a network or fuzzy model) to all records together in
+/// free run. Throws Error when the records cannot serve (a channel missing, no motion). Not converging is a
+/// status.
 FitReport identify(const std::string& model, const std::vector<Record>& training,
                    const std::string& drive_unit, const IdentifyOptions& options);
 

@@ -6,17 +6,12 @@
 
 #include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
+#include "dashpot/damper/lag.h"
 
 namespace dashpot {
 namespace {
 
 constexpr std::array<std::string_view, 4> kNames{"displacement", "velocity", "velocity_change", "current"};
-
-/// What a first-order lag makes of a signal that goes from `from` to `to` in dt.
-double lagged(double past, double from, double to, double dt, double lag) noexcept {
-  const double behind = lag * (to - from) / dt;  // of a ramp that goes on for ever
-  return to - behind + (past - from + behind) * std::exp(-dt / lag);
-}
 
 }  // namespace
 
@@ -51,8 +46,11 @@ void FuzzyInputs::rest(const DamperInput& input, std::span<double> state) const 
 void FuzzyInputs::advance(const DamperInput& from, const DamperInput& to, double dt,
                           std::span<double> state) const noexcept {
   if (!(dt > 0)) return;
-  if (has_past_) state.front() = lagged(state.front(), from.velocity, to.velocity, dt, lags_.velocity);
-  if (has_coil_) state.back() = lagged(state.back(), from.current, to.current, dt, lags_.coil);
+  if (has_past_) {
+    const LagWeights past(dt / lags_.velocity);
+    state.front() = past.of(state.front(), from.velocity, to.velocity);
+  }
+  if (has_coil_) state.back() = LagWeights(dt / lags_.coil).of(state.back(), from.current, to.current);
 }
 
 void FuzzyInputs::read(const DamperInput& input, std::span<const double> state,

@@ -1,0 +1,97 @@
+#include "dashpot/damper/neural/hysteresis_network.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "dashpot/base/error.h"
+
+namespace dashpot {
+namespace {
+
+bool is_positive(double value) { return value > 0 && std::isfinite(value); }
+
+void require_count(std::size_t count, std::size_t right, const std::string& what, const std::string& where) {
+  if (count != right)
+    throw Error(where, "has " + std::to_string(count) + " " + what,
+                "its states need " + std::to_string(right));
+}
+
+void require_signals(const GatedNetwork& network, const std::string& where) {
+  for (const GatedNetwork::Signal& signal : network.signals) {
+    if (!is_positive(signal.scale)) throw Error(where, "the scale of a signal is not a positive number");
+    if (!(signal.low <= signal.high)) throw Error(where, "the range of a signal does not go upwards");
+  }
+}
+
+void require_sound(const BankNetwork& member, const std::string& where) {
+  const HysteresisBank& bank = member.bank;
+  const GatedNetwork& network = member.network;
+  const std::vector<double> rates = bank.rates();
+  if (!std::all_of(rates.begin(), rates.end(), is_positive))
+    throw Error(where, "a rate is not a positive number");
+  if (const std::size_t lags = bank.current_rates.size(); lags < 1 || lags > GatedNetwork::kMaxCurrents)
+    throw Error(where, "has " + std::to_string(lags) + " current rates",
+                "1 to " + std::to_string(GatedNetwork::kMaxCurrents));
+  if (bank.signal_count() > GatedNetwork::kMaxSignals)
+    throw Error(where, "has " + std::to_string(bank.size()) + " rates",
+                "at most " + std::to_string(GatedNetwork::kMaxSignals - 1));
+  require_count(network.signals.size(), bank.signal_count(), "signals", where);
+  require_signals(network, where);
+  if (network.neurons.size() % network.neuron_stride() != 0)
+    throw Error(where, "has " + std::to_string(network.neurons.size()) + " weights of neurons",
+                "each neuron needs " + std::to_string(network.neuron_stride()));
+  require_count(network.gates.size(), network.term_count() * network.gate_count(), "weights of gates", where);
+  if (!is_positive(network.output_scale)) throw Error(where, "the output scale is not a positive number");
+}
+
+}  // namespace
+
+HysteresisNetwork::HysteresisNetwork(std::string name, std::vector<BankNetwork> members, double offset,
+                                     const std::string& where)
+    : name_(std::move(name)), members_(std::move(members)), offset_(offset) {
+  const std::string& place = where.empty() ? name_ : where;
+  if (members_.empty()) throw Error(place, "has no members", "a bank of states and its network at least");
+  for (const BankNetwork& member : members_) {
+    require_sound(member, place);
+    state_size_ += member.bank.size();
+  }
+}
+
+std::size_t HysteresisNetwork::parameter_count() const noexcept {
+  std::size_t count = 0;
+  for (const BankNetwork& member : members_) count += member.parameter_count();
+  return count;
+}
+
+void HysteresisNetwork::rest(const DamperInput& input, std::span<double> state) const noexcept {
+  for (const BankNetwork& member : members_) {
+    member.bank.rest(input, state.first(member.bank.size()));
+    state = state.subspan(member.bank.size());
+  }
+}
+
+void HysteresisNetwork::advance(const DamperInput& from, const DamperInput& to, double dt,
+                                std::span<double> state) const noexcept {
+  for (const BankNetwork& member : members_) {
+    member.bank.advance(from, to, dt, state.first(member.bank.size()));
+    state = state.subspan(member.bank.size());
+  }
+}
+
+double HysteresisNetwork::force(const DamperInput& input, std::span<const double> state) const noexcept {
+  std::array<double, GatedNetwork::kMaxSignals> signals;
+  double sum = 0;
+  for (const BankNetwork& member : members_) {
+    member.bank.read(input, state.first(member.bank.size()), signals.data());
+    sum += member.network.evaluate(signals.data());
+    state = state.subspan(member.bank.size());
+  }
+  return sum / static_cast<double>(members_.size()) + offset_;
+}
+
+std::unique_ptr<DamperModel> HysteresisNetwork::with_offset(double newton) const {
+  return std::make_unique<HysteresisNetwork>(name_, members_, offset_ + newton);
+}
+
+}  // namespace dashpot
