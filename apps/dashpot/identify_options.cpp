@@ -10,8 +10,8 @@ namespace dashpot::cli {
 namespace {
 
 /// What an engineer tries first: few, quick, and good on measured dampers.
-const std::vector<std::string> kUsualModels = {"bingham", "tanh_kwok", "modified_bouc_wen", "mlp_one_sensor",
-                                               "mlp_two_sensors"};
+const std::vector<std::string> kUsualModels = {
+    "bingham", "tanh_kwok", "arctan", "modified_bouc_wen", "large_scale_bouc_wen", "anfis", "mlp_one_sensor"};
 
 std::vector<std::string> names_and_groups() {
   std::vector<std::string> words = model_names();
