@@ -3,7 +3,9 @@
 #include <filesystem>
 #include <matio.h>
 
+#include "damper/neural/bank_network_example.h"
 #include "dashpot/base/file.h"
+#include "dashpot/damper/fuzzy/fuzzy_model.h"
 #include "dashpot/damper/law_model.h"
 #include "dashpot/damper/model_file.h"
 #include "dashpot/damper/parameter_set.h"
@@ -69,12 +71,29 @@ std::string daq_seed() {
   return text;
 }
 
-std::string model_seed() {
-  const dashpot::ParameterSet set = dashpot::load_parameter_set("spencer1997");
+std::string model_seed(std::unique_ptr<dashpot::DamperModel> model, const std::string& drive_unit) {
   dashpot::ModelFile file;
-  file.model = std::make_unique<dashpot::LawModel>(set.model);
-  file.drive_unit = set.model.drive_unit();
+  file.model = std::move(model);
+  file.drive_unit = drive_unit;
   return dashpot::format_model(file);
+}
+
+void model_seeds(const fs::path& folder) {
+  using namespace dashpot;
+  const LawModel law = load_parameters("spencer1997");
+  write_file(folder / "law", model_seed(std::make_unique<LawModel>(law), law.drive_unit()));
+  const Sugeno sugeno{.inputs = {{}, {}},
+                      .memberships = {{Membership::Shape::Bell, 0}, {Membership::Shape::Gaussian, 1}},
+                      .rules = {{0, 1}},
+                      .consequents = {1, 2, 3}};
+  write_file(folder / "fuzzy",
+             model_seed(std::make_unique<FuzzyModel>(
+                            "anfis", FuzzyInputs({"velocity", "current"}, {0.01, 0.02}, "seed"), sugeno),
+                        "A"));
+  write_file(folder / "state_network",
+             model_seed(std::make_unique<HysteresisNetwork>("hysteresis_network",
+                                                            std::vector{example_bank_network()}),
+                        "A"));
 }
 
 constexpr const char* kFamily =
@@ -113,7 +132,7 @@ int main(int argc, char** argv) {
   write_file(folder / "daq_text/log", daq_seed());
   write_file(folder / "family_json/pair", kFamily);
   write_file(folder / "dataset_yaml/all", kDataset);
-  write_file(folder / "model_json/law", model_seed());
+  model_seeds(folder / "model_json");
   for (const char* unit : {"mm", "N*s/m", "kN", "cm^-2", "degC", "displacement [mm]", "m/s\u00b2"})
     write_file(folder / "units" / std::to_string(std::hash<std::string>{}(unit)), unit);
   for (const char* text : {"current=0.87,1.98", "fraction=0.3", "record=a,b", "roles", "condition"})
