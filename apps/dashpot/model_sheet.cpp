@@ -7,10 +7,10 @@
 #include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
 #include "dashpot/damper/inverse/polynomial.h"
+#include "dashpot/damper/law_model.h"
 #include "dashpot/damper/neural/hysteresis_network.h"
 #include "dashpot/damper/neural/mlp.h"
 #include "dashpot/damper/registry.h"
-#include "dashpot/identify/recovery_study.h"
 #include "dashpot/output/safe_text.h"
 #include "layout.h"
 
@@ -50,10 +50,24 @@ void add_table(ModelSheet& sheet, const Law& law) {
   }
 }
 
-/// How a wanted force becomes a current: tried on the law with a moderate dependence on current.
+/// The law with every parameter that may follow the current doing so, each at a pace of its own.
+LawModel driven_example(const Law& law) {
+  Dependence d;
+  for (const ParamInfo& param : law.params) {
+    const bool follows = param.fit == Fit::Free && param.form != Form::Constant;
+    const double pace = 0.3 + 0.05 * static_cast<double>(d.forms.size());
+    d.forms.push_back(follows || param.fit == Fit::Drive ? Form::Linear : Form::Constant);
+    d.coefficients.push_back(param.fit == Fit::Drive ? std::vector<double>{0, 1}
+                             : follows               ? std::vector<double>{param.value, pace * param.value}
+                                                     : std::vector<double>{param.value});
+  }
+  return LawModel(law, std::move(d), "A", 0);
+}
+
+/// How a wanted force becomes a current.
 std::string inverse_of(const Law& law) {
   try {
-    PolynomialInverse(known_damper(law), InverseLimits{});
+    PolynomialInverse(driven_example(law), InverseLimits{});
     return "closed form";
   } catch (const Error&) {
     return "search";
