@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <atomic>
 #include <csignal>
+#include <ctime>
 #include <fcntl.h>
 #include <iterator>
 #include <new>
@@ -19,10 +20,21 @@ std::atomic<bool> stop_asked = false;
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler writes it");
 std::atomic<int> stop_signal = 0;
 
-/// The first signal asks long work to end in order, the second ends the program.
+/// The first signal asks long work to end in order, a later one ends the program. Those within a moment of
+/// the first are the first: `timeout` and shells send one to the program and one to its group.
 void on_signal(int number) {
-  stop_signal = number;
-  if (stop_asked.exchange(true)) _exit(128 + number);
+  constexpr double kMoment = 0.3;  // s
+  static timespec first;
+  timespec now;
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  if (!stop_asked.exchange(true)) {
+    stop_signal = number;
+    first = now;
+  } else if (static_cast<double>(now.tv_sec - first.tv_sec) +
+                 1e-9 * static_cast<double>(now.tv_nsec - first.tv_nsec) >
+             kMoment) {
+    _exit(128 + number);
+  }
 }
 
 void catch_signals() {

@@ -45,6 +45,16 @@ TEST_CASE("an interruption ends identify soon, with 130 and without half-written
   CHECK(files_in(results) == 0);
 }
 
+TEST_CASE("a signal that comes twice at once, as `timeout` may send it, is one signal") {
+  const TemporaryFolder folder;
+  const ProgramResult result =
+      run_program("( " + program_path() + " identify " + small_campaign().string() +
+                  " --quiet --models modified_bouc_wen --starts 100000 --output " + folder.path().string() +
+                  " & job=$!; sleep 0.5; kill -TERM $job; kill -TERM $job; wait $job )");
+  CHECK(result.exit_code == 143);
+  CHECK(contains(result.output, "interrupted"));
+}
+
 TEST_CASE("a full disk is reported and the old report survives") {
   const TemporaryFolder folder;
   const fs::path results = folder.path() / "results";
