@@ -34,6 +34,23 @@ void operator delete(void* block) noexcept { std::free(block); }
 void operator delete(void* block, std::align_val_t) noexcept { std::free(block); }
 void operator delete(void* block, std::size_t) noexcept { std::free(block); }
 
+namespace {
+
+void check_stepping(const DamperModel& model) {
+  std::vector<double> state(model.state_size());
+  model.rest(sine(0), state);
+  double sum = 0;
+  const std::size_t before = allocations;
+  for (int k = 0; k < 1000; ++k) {
+    model.advance(sine(k * 1e-3, 1), sine((k + 1) * 1e-3, 0.5), 1e-3, state);
+    sum += model.force(sine((k + 1) * 1e-3, 0.5), state);
+  }
+  CHECK(allocations == before);
+  CHECK(std::isfinite(sum));
+}
+
+}  // namespace
+
 TEST_CASE("stepping a law allocates nothing") {
   for_each_law([](const Law& law) {
     Dependence d;
@@ -43,16 +60,8 @@ TEST_CASE("stepping a law allocates nothing") {
       if (info.fit == Fit::Drive) d.coefficients.back() = {0, 1};
     }
     const LawModel model(law, d, "A", 100);
-    std::vector<double> state(model.state_size());
-    model.rest(sine(0), state);
-    double sum = 0;
+    check_stepping(model);
     const std::size_t before = allocations;
-    for (int k = 0; k < 1000; ++k) {
-      model.advance(sine(k * 1e-3, 1), sine((k + 1) * 1e-3, 0.5), 1e-3, state);
-      sum += model.force(sine((k + 1) * 1e-3, 0.5), state);
-    }
-    CHECK(allocations == before);
-    CHECK(std::isfinite(sum));
     const std::vector<double> control(10);
     CHECK(allocations == before + 1);  // the counter counts
   });
@@ -65,16 +74,7 @@ TEST_CASE("stepping a state network allocates nothing") {
   member.network.currents = 1;
   member.network.initialise(3, 1);
   const HysteresisNetwork model("test", {member, member});
-  std::vector<double> state(model.state_size());
-  model.rest(sine(0), state);
-  double sum = 0;
-  const std::size_t before = allocations;
-  for (int k = 0; k < 1000; ++k) {
-    model.advance(sine(k * 1e-3, 1), sine((k + 1) * 1e-3, 0.5), 1e-3, state);
-    sum += model.force(sine((k + 1) * 1e-3, 0.5), state);
-  }
-  CHECK(allocations == before);
-  CHECK(std::isfinite(sum));
+  check_stepping(model);
 }
 
 TEST_CASE("stepping a fuzzy model allocates nothing") {
@@ -85,16 +85,7 @@ TEST_CASE("stepping a fuzzy model allocates nothing") {
                       .consequents = {1, 2, 3, 4, 5, 6, 7, 8}};
   const FuzzyModel model(
       "test", FuzzyInputs({"velocity", "velocity_change", "current"}, {0.01, 0.02}, "test"), sugeno);
-  std::vector<double> state(model.state_size());
-  model.rest(sine(0), state);
-  double sum = 0;
-  const std::size_t before = allocations;
-  for (int k = 0; k < 1000; ++k) {
-    model.advance(sine(k * 1e-3, 1), sine((k + 1) * 1e-3, 0.5), 1e-3, state);
-    sum += model.force(sine((k + 1) * 1e-3, 0.5), state);
-  }
-  CHECK(allocations == before);
-  CHECK(std::isfinite(sum));
+  check_stepping(model);
 }
 
 TEST_CASE("an inverse's command allocates nothing") {

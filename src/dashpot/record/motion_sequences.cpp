@@ -222,7 +222,7 @@ const std::array kSequences{
                     {"roughness", "m^3", 1.024e-3, 1e-7, 1, "G_d at 0.1 cycle/m"},
                     {"vehicle_speed", "m/s", 20, 0.1, 200, "speed of the car"},
                     {"damping", "N*s/m", 1804, 0, 1e5,
-                     "of the car, passive: what the paper\'s road holding needs"},
+                     "of the car, passive: what the paper's road holding needs"},
                     kDuration}},
         road_profile},
     MotionSequence{{.name = "SFS",
