@@ -48,6 +48,25 @@ std::vector<ParameterChoice> parameter_choices(const FitSettings& settings,
   }
 }
 
+NetworkDesign network_design(const FitSettings& settings, const std::vector<std::string>& models) {
+  try {
+    NetworkDesign design;
+    for (const std::string& text : settings.network) parse_network_setting(text, "--network", design);
+    require_design(design, models);
+    return design;
+  } catch (const Error& error) {
+    throw UsageError({}, error.what());
+  }
+}
+
+std::string network_help() {
+  std::vector<std::string> parts;
+  for (const NetworkSetting& setting : network_settings())
+    parts.push_back(std::string(setting.name) + " (" + std::string(setting.meaning) + "; as " +
+                    std::string(setting.value) + ')');
+  return "how networks are built and trained, as hidden=15-15,trainer=adam: " + join(parts, ", ");
+}
+
 }  // namespace
 
 std::vector<Option> fit_options(FitSettings& settings) {
@@ -92,6 +111,11 @@ std::vector<Option> fit_options(FitSettings& settings) {
                "k1=500+-100",
        .value = "LIST",
        .default_text = "nothing"},
+      {.names = "--network",
+       .target = &settings.network,
+       .help = network_help(),
+       .value = "LIST",
+       .default_text = "as each network's preset says"},
       {.names = "--starts",
        .target = &settings.options.starts,
        .help = "starting points of each fit",
@@ -136,6 +160,7 @@ IdentifyOptions identify_options(const FitSettings& settings, const std::vector<
   IdentifyOptions options = settings.options;
   options.offset = settings.force_offset == "none" ? OffsetMode::None : OffsetMode::Record;
   options.choices = parameter_choices(settings, models);
+  options.network = network_design(settings, models);
   options.monitor = console.monitor();
   return options;
 }

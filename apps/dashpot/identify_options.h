@@ -12,6 +12,7 @@ struct FitSettings {
   std::vector<std::string> models = {"usual"};
   std::string force_offset = "record";
   std::vector<std::string> forms, fixed, freed, bounds, priors;  ///< as "parameter=..."
+  std::vector<std::string> network;                              ///< as "setting=..."
   IdentifyOptions options;
 };
 

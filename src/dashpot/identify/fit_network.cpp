@@ -14,11 +14,14 @@ double input_of(const DamperInput& input, std::string_view name) {
   return name == "velocity" ? input.velocity : input.current;
 }
 
-Mlp standardised(const NetworkPreset& preset, const TrainingSamples& samples) {
+Mlp standardised(const NetworkPreset& preset, const NetworkDesign& design, const TrainingSamples& samples) {
+  const std::vector<std::size_t>& hidden = design.hidden.empty() ? preset.hidden : design.hidden;
   Mlp mlp;
   mlp.layers.push_back(preset.inputs.size());
-  mlp.layers.insert(mlp.layers.end(), preset.hidden.begin(), preset.hidden.end());
+  mlp.layers.insert(mlp.layers.end(), hidden.begin(), hidden.end());
   mlp.layers.push_back(1);
+  mlp.activations.assign(hidden.size(), design.activation.value_or(Activation::Tanh));
+  mlp.activations.push_back(Activation::Identity);
   mlp.parameters.resize(Mlp::parameter_count(mlp.layers));
   for (std::size_t k = 0; k < preset.inputs.size(); ++k) {
     const auto [mean, scale] = mean_and_scale(samples.inputs, k, preset.inputs.size());
@@ -45,7 +48,7 @@ FitReport fit_network(const NetworkPreset& preset, const std::vector<Record>& tr
   train_options.threads = options.threads;
   train_options.on_iteration = [&options](int, double) { options.monitor.check(); };
   std::vector<TrainedMlp> trained =
-      train_from_starts(standardised(preset, samples), starts, options.seed, options.threads,
+      train_from_starts(standardised(preset, options.network, samples), starts, options.seed, options.threads,
                         [&](Mlp& mlp) { return train(mlp, samples, train_options); });
   TrainedMlp& best = best_of(trained);
 

@@ -119,11 +119,11 @@ FitStore::FitStore(std::filesystem::path folder, std::string program)
 std::string FitStore::key_of(const Request& request) const {
   // All members by name: a new option does not compile here until it enters the key. Threads and monitor do
   // not change a fit.
-  const auto& [offset, choices, starts, search, seed, threads, monitor] = request.options;
+  const auto& [offset, choices, network, starts, search, seed, threads, monitor] = request.options;
   (void)threads, (void)monitor;
   return join({program_, request.model, fingerprint(request.training), request.drive_unit,
                offset == OffsetMode::Record ? "an offset per record" : "no offsets", text_of(choices),
-               std::to_string(starts), std::to_string(search), std::to_string(seed)},
+               format_design(network), std::to_string(starts), std::to_string(search), std::to_string(seed)},
               "\n");
 }
 

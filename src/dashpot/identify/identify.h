@@ -6,6 +6,7 @@
 #include "dashpot/base/monitor.h"
 #include "dashpot/damper/model_file.h"
 #include "dashpot/identify/evaluate.h"
+#include "dashpot/identify/network_design.h"
 #include "dashpot/identify/parameter_choice.h"
 #include "dashpot/identify/stress.h"
 #include "dashpot/record/split.h"
@@ -15,6 +16,7 @@ namespace dashpot {
 struct IdentifyOptions {
   OffsetMode offset = OffsetMode::Record;
   std::vector<ParameterChoice> choices;  ///< laws only
+  NetworkDesign network;                 ///< networks only
   int starts = 4;
   int search = 0;  ///< evaluations of a global search that gives one more start; 0: none
   std::uint64_t seed = 1;
