@@ -11,6 +11,7 @@ Command evaluate_command();
 Command models_command();
 Command inspect_command();
 Command track_command();
+Command physics_command();
 Command bench_command();
 Command demo_command();
 Command study_command();

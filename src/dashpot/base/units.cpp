@@ -178,6 +178,26 @@ Unit require_unit(std::string_view text, const std::string& where) {
               "write it like mm, m/s, kN, N*s/m, cm^-2, A, V, degC, in, lbf");
 }
 
+double parse_quantity(std::string_view text, std::string_view si_unit, const std::string& where) {
+  const auto finite = [&](std::size_t length) {
+    const auto number = parse_number(trim(text.substr(0, length)));
+    return number && std::isfinite(*number) ? number : std::nullopt;
+  };
+  std::size_t length = text.size();
+  while (length > 0 && !finite(length)) --length;
+  if (length == 0)
+    throw Error(where, "'" + std::string(text) + "' is not a number",
+                "a number in " + std::string(si_unit) + ", or one with its unit");
+  const double number = *finite(length);
+  const std::string_view suffix = trim(text.substr(length));
+  if (suffix.empty()) return number;
+  const Unit unit = require_unit(suffix, where);
+  if (unit.dimension != require_unit(si_unit, where).dimension)
+    throw Error(where, "'" + std::string(suffix) + "' is not a unit of it",
+                "it is counted in " + std::string(si_unit));
+  return unit.factor * number + unit.offset;
+}
+
 std::string with_drive_unit(std::string_view unit, std::string_view drive_unit) {
   std::string out(unit);
   if (drive_unit == "A") return out;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "dashpot/base/data_folder.h"
 #include "dashpot/base/error.h"
 #include "dashpot/base/file.h"
 #include "dashpot/base/text.h"
@@ -11,12 +12,6 @@ namespace fs = std::filesystem;
 
 namespace dashpot {
 namespace {
-
-/// Beside the source when Dashpot runs where it was built, else where it was installed.
-fs::path folder() {
-  const fs::path source = fs::path(DASHPOT_DATA_SOURCE_DIR) / "parameters";
-  return fs::is_directory(source) ? source : fs::path(DASHPOT_DATA_INSTALL_DIR) / "parameters";
-}
 
 /// Nothing where the driver can give any level.
 std::vector<double> read_drive_levels(const Value* levels, double low, double high) {
@@ -30,14 +25,7 @@ std::vector<double> read_drive_levels(const Value* levels, double low, double hi
 
 }  // namespace
 
-std::vector<std::string> parameter_set_names() {
-  std::vector<std::string> names;
-  std::error_code missing;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder(), missing))
-    if (entry.path().extension() == ".json") names.push_back(entry.path().stem().string());
-  std::sort(names.begin(), names.end());
-  return names;
-}
+std::vector<std::string> parameter_set_names() { return data_names("parameters", ".json"); }
 
 ParameterSet parse_parameter_set(std::string_view text, const std::string& source, const std::string& name) {
   const Value document = parse_json(text, source);
@@ -65,7 +53,7 @@ ParameterSet load_parameter_set(const std::string& name) {
   const std::vector<std::string> known = parameter_set_names();
   if (std::find(known.begin(), known.end(), name) == known.end())
     throw Error("", "unknown parameter set '" + name + "'", suggest(name, known));
-  const fs::path path = folder() / (name + ".json");
+  const fs::path path = data_folder("parameters") / (name + ".json");
   return parse_parameter_set(read_file(path), path.string(), name);
 }
 

@@ -1,0 +1,16 @@
+#pragma once
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace dashpot {
+
+/// The folder `kind` of the data that come with Dashpot ("parameters", "dampers"): beside the source when it
+/// runs where it was built, else where it was installed.
+std::filesystem::path data_folder(std::string_view kind);
+
+/// Names without their ending of the files of that kind, in alphabetical order.
+std::vector<std::string> data_names(std::string_view kind, std::string_view extension);
+
+}  // namespace dashpot

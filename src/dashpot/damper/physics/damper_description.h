@@ -1,0 +1,73 @@
+#pragma once
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "dashpot/damper/physics/fluid.h"
+
+namespace dashpot {
+
+/// How the yield stress follows the field.
+enum class YieldLaw {
+  Carlson,  ///< Carlson's empirical law, for any fluid
+  Paper,    ///< the family paper's polynomials, held where they turn over: 122EG and 140CG
+  DataSet   ///< the inputs of the family paper's data: for 122EG its four points, for 140CG as Paper
+};
+/// How the flux density follows the coil's current.
+enum class CircuitLaw {
+  Filled,  ///< fluid in the gap, steel that saturates: solved for the flux
+  Paper    ///< equations 2 to 8 of the family paper: air in the gap, then saturated
+};
+/// How pressure follows flow.
+enum class FlowLaw {
+  Plate,       ///< Bingham fluid between parallel plates, exact
+  MovingWall,  ///< the same where one plate is the piston's land, with its drag
+  Paper        ///< equations 13 to 15 of the family paper, dimensionally right
+};
+
+/// A damper as its drawing, its coil and its fluid say. SI. A field of 0 that says so follows from others.
+struct DamperDescription {
+  std::string name;
+  const Fluid* fluid = nullptr;
+  YieldLaw yield_law = YieldLaw::Carlson;
+  CircuitLaw circuit_law = CircuitLaw::Filled;
+  FlowLaw flow_law = FlowLaw::Plate;
+
+  double bore_diameter, rod_diameter, gap, slot_diameter, slot_share, pole_length, passive_length;
+  double piston_area, gap_area;
+  double viscosity, viscosity_exponent, temperature, yield_stress, carrier;
+  double turns, wire_diameter, turn_length, window_area, resistivity, resistivity_coefficient;
+  double core_length, core_area, pole_area, magnetic_gap, permeability, saturation;
+  double shear_modulus, spring_wire, spring_radius, spring_coils;
+  double friction, stroke;
+
+  DamperDescription();  ///< the defaults of the table
+};
+
+/// One row of the table from which reading, writing, documentation and design take their fields.
+struct DescriptionField {
+  double DamperDescription::* field;
+  std::string_view name, unit;
+  double value, lower, upper;  ///< default and bounds
+  std::string_view meaning;
+};
+std::span<const DescriptionField> description_fields();
+/// Throws Error(where, "unknown field ...").
+const DescriptionField& find_description_field(std::string_view name, const std::string& where);
+
+/// YAML: "gap: 1 mm", "turns: 150", "fluid: 140CG", "flow: plate". Throws Error that names file and line.
+/// What cannot be together (a rod wider than the bore) is refused too.
+DamperDescription parse_description(std::string_view text, const std::string& source);
+DamperDescription load_description(const std::filesystem::path& path);
+/// One that comes with Dashpot, of data/dampers.
+DamperDescription named_description(const std::string& name);
+std::vector<std::string> description_names();
+/// As YAML that reads back as the same.
+std::string format_description(const DamperDescription& description);
+
+/// Throws Error where fields cannot be together; `where` begins the message.
+void require_possible(const DamperDescription& description, const std::string& where);
+
+}  // namespace dashpot

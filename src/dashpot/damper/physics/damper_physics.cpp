@@ -1,0 +1,256 @@
+#include "dashpot/damper/physics/damper_physics.h"
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "dashpot/base/text.h"
+#include "dashpot/damper/physics/coil.h"
+#include "dashpot/damper/physics/magnetic_circuit.h"
+#include "dashpot/damper/physics/plate_flow.h"
+#include "dashpot/damper/physics/spring.h"
+
+namespace dashpot {
+namespace {
+
+using P = DamperPhysics;
+constexpr double kPi = std::numbers::pi;
+
+constexpr std::array kQuantities{
+    PhysicsQuantity{&P::spring_stiffness, "spring", "stiffness", "N/m", "G d^4 / (64 R^3 n)"},
+    PhysicsQuantity{&P::spring_stiffness_as_printed, "spring", "as the family paper prints it", "N/m",
+                    "G d^4 / (32 R^3 n)"},
+    PhysicsQuantity{&P::spring_force, "spring", "force of the spring", "N", "K x"},
+    PhysicsQuantity{&P::pole_area, "magnetic circuit", "pole area", "m^2", "A_pole"},
+    PhysicsQuantity{&P::magnetic_gap, "magnetic circuit", "gap in the magnetic path", "m", "l_g"},
+    PhysicsQuantity{&P::core_reluctance, "magnetic circuit", "reluctance of the core", "A/Wb",
+                    "R_c = l_c / (mu_r mu0 A_t)"},
+    PhysicsQuantity{&P::gap_reluctance, "magnetic circuit", "reluctance of the gap", "A/Wb",
+                    "R_g = l_g / (mu A)"},
+    PhysicsQuantity{&P::flux, "magnetic circuit", "flux", "Wb", "phi"},
+    PhysicsQuantity{&P::core_flux_density, "magnetic circuit", "flux density in the core", "T", "B_c"},
+    PhysicsQuantity{&P::core_saturation, "magnetic circuit", "share of saturation", "1", "B_c / B_sat"},
+    PhysicsQuantity{&P::flux_density, "magnetic circuit", "flux density in the gap", "T", "B_o"},
+    PhysicsQuantity{&P::resistance, "coil", "resistance", "ohm", "rho l / A"},
+    PhysicsQuantity{&P::inductance, "coil", "inductance", "H", "N phi / I"},
+    PhysicsQuantity{&P::time_constant, "coil", "time constant", "s", "L / R"},
+    PhysicsQuantity{&P::voltage, "coil", "voltage", "V", "R I"},
+    PhysicsQuantity{&P::power, "coil", "heat", "W", "R I^2"},
+    PhysicsQuantity{&P::current_density, "coil", "current density in the wire", "A/m^2", "I / A"},
+    PhysicsQuantity{&P::coil_fill, "coil", "share of its room that is copper", "1", "N A / A_window"},
+    PhysicsQuantity{&P::field, "fluid", "field", "A/m", "H(B_o)"},
+    PhysicsQuantity{&P::yield_stress, "fluid", "yield stress", "Pa", "T_y(H)"},
+    PhysicsQuantity{&P::viscosity, "fluid", "viscosity", "Pa*s", "eta"},
+    PhysicsQuantity{&P::piston_area, "hydraulics", "piston area", "m^2", "A_p"},
+    PhysicsQuantity{&P::gap_area, "hydraulics", "gap area", "m^2", "A_g"},
+    PhysicsQuantity{&P::gap_width, "hydraulics", "gap width", "m", "w = A_g / h"},
+    PhysicsQuantity{&P::moving_area, "hydraulics", "area of the moving flow", "m^2", "A_rm = A_p + A_g / 2"},
+    PhysicsQuantity{&P::flow, "hydraulics", "flow", "m^3/s", "Q = A_p |v|"},
+    PhysicsQuantity{&P::newtonian_pressure, "hydraulics", "pressure without yield stress", "Pa",
+                    "12 eta L Q / (w h^3)"},
+    PhysicsQuantity{&P::yield_pressure, "hydraulics", "pressure below which nothing flows", "Pa",
+                    "2 T_y L / h"},
+    PhysicsQuantity{&P::passive_pressure, "hydraulics", "pressure of the gap without field", "Pa",
+                    "12 eta L_0 Q / (w h^3)"},
+    PhysicsQuantity{&P::pressure, "hydraulics", "pressure of the Bingham fluid, fixed walls", "Pa",
+                    "P^3 - (1 + 3T) P^2 + 4 T^3 = 0"},
+    PhysicsQuantity{&P::viscous_force, "force", "viscous force of the family paper, eq. 13 x L A_p", "N",
+                    "12 eta L A_p A_rm v / (A_g h^2)"},
+    PhysicsQuantity{&P::yield_factor, "force", "its factor c", "1", "2.07 + 1 / (1 + 0.4 T)"},
+    PhysicsQuantity{&P::yield_force, "force", "its force of the field, eq. 15", "N", "c T_y A_p L / h"},
+    PhysicsQuantity{&P::plate_force, "force", "exact plate flow", "N", "A_p dp"},
+    PhysicsQuantity{&P::moving_wall_force, "force", "exact, the wall moving against the flow", "N",
+                    "A_p dp + drag"},
+    PhysicsQuantity{&P::force, "force", "force, with friction and spring", "N", "F"},
+    PhysicsQuantity{&P::off_force, "force", "the same without current", "N", "F(0 A)"},
+    PhysicsQuantity{&P::dynamic_range, "force", "dynamic range, spring left out", "1", "F / F(0 A)"}};
+
+double slot_mean_diameter(const DamperDescription& d) {
+  return d.slot_diameter > 0 ? d.slot_diameter + d.gap : d.bore_diameter - d.gap;
+}
+
+void add_shape(const DamperDescription& d, DamperPhysics& p) {
+  const double circumference = d.slot_share * kPi * slot_mean_diameter(d);
+  p.gap_area = d.gap_area > 0 ? d.gap_area : circumference * d.gap;
+  p.gap_width = p.gap_area / d.gap;
+  const double inside = 0.25 * kPi * (d.bore_diameter * d.bore_diameter - d.rod_diameter * d.rod_diameter);
+  p.piston_area = d.piston_area > 0 ? d.piston_area : inside - p.gap_area;
+  p.moving_area = p.piston_area + 0.5 * p.gap_area;
+  p.pole_area = d.pole_area > 0 ? d.pole_area : 0.5 * d.pole_length * circumference;
+  p.magnetic_gap = d.magnetic_gap > 0 ? d.magnetic_gap : 2 * d.gap;
+}
+
+MagneticCircuit circuit_of(const DamperDescription& d, const DamperPhysics& shape) {
+  return {d.turns, d.core_length, shape.magnetic_gap, d.core_area, d.permeability, d.saturation, 1};
+}
+
+double field_of(const DamperDescription& d, double flux_density) {
+  return d.yield_law == YieldLaw::Carlson ? carlson_field(d.fluid->volume_fraction, flux_density)
+                                          : family_field(d.fluid->family, flux_density);
+}
+
+double yield_stress_of(const DamperDescription& d, double field) {
+  if (d.yield_law == YieldLaw::Carlson)
+    return carlson_yield_stress(d.fluid->volume_fraction, d.carrier, field);
+  if (d.yield_law == YieldLaw::DataSet && d.fluid->family == &kFamily122EG)
+    return measured_yield_stress_122eg(field);
+  return family_yield_stress(d.fluid->family, field);
+}
+
+/// Ampere-turns that drive this flux density through steel and fluid. The steel's follows from its
+/// saturation: B = B_sat b / (b + B_sat) with b = mu H.
+double ampere_turns(const DamperDescription& d, const DamperPhysics& shape, double core) {
+  const double steel = core * d.saturation / (d.saturation - core) / (d.permeability * DASHPOT_MU0);
+  return steel * d.core_length + field_of(d, core * d.core_area / shape.pole_area) * shape.magnetic_gap;
+}
+
+/// The core's flux density, by halving: ampere_turns rises with it without bound.
+double filled_core_flux_density(const DamperDescription& d, const DamperPhysics& shape, double current) {
+  const double wanted = d.turns * current;
+  double low = 0, high = d.saturation * (1 - 1e-12);
+  for (int k = 0; k < 100 && high - low > 1e-15 * d.saturation; ++k) {
+    const double middle = 0.5 * (low + high);
+    (ampere_turns(d, shape, middle) < wanted ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+FluidState fluid_state(const DamperDescription& d, const DamperPhysics& shape, double current) {
+  FluidState state;
+  const double magnitude = std::abs(current);
+  if (d.circuit_law == CircuitLaw::Paper) {
+    const MagneticCircuit circuit = circuit_of(d, shape);
+    state.core_flux_density = magnetic_flux(&circuit, magnitude) / d.core_area;
+    state.flux_density = circuit_flux_density(&circuit, magnitude);
+  } else {
+    state.core_flux_density = magnitude > 0 ? filled_core_flux_density(d, shape, magnitude) : 0;
+    state.flux_density = state.core_flux_density * d.core_area / shape.pole_area;
+  }
+  state.field = field_of(d, state.flux_density);
+  state.yield_stress = d.yield_stress > 0 ? d.yield_stress : yield_stress_of(d, state.field);
+  return state;
+}
+
+/// Where there is no current, what a small one sees.
+void add_circuit(const DamperDescription& d, double current, DamperPhysics& p) {
+  const double seen = std::max(std::abs(current), 1e-6);
+  const FluidState state = fluid_state(d, p, seen);
+  const MagneticCircuit circuit = circuit_of(d, p);
+  const double turns_current = d.turns * seen, flux = state.core_flux_density * d.core_area;
+  p.core_reluctance = core_reluctance(&circuit);
+  p.gap_reluctance =
+      d.circuit_law == CircuitLaw::Paper ? gap_reluctance(&circuit) : state.field * p.magnetic_gap / flux;
+  const Coil coil{d.turns, d.wire_diameter, d.turn_length, d.resistivity, d.resistivity_coefficient};
+  p.resistance = coil_resistance(&coil, d.temperature);
+  p.inductance = coil_inductance(&coil, turns_current / flux);
+  p.time_constant = coil_time_constant(p.inductance, p.resistance);
+  p.voltage = p.resistance * std::abs(current);
+  p.power = p.voltage * std::abs(current);
+  p.current_density = std::abs(current) / coil_wire_area(&coil);
+  p.coil_fill = d.window_area > 0 ? d.turns * coil_wire_area(&coil) / d.window_area : 0;
+}
+
+void add_fluid(const DamperDescription& d, double current, DamperPhysics& p) {
+  const FluidState state = fluid_state(d, p, current);
+  p.core_flux_density = state.core_flux_density;
+  p.flux = state.core_flux_density * d.core_area;
+  p.core_saturation = state.core_flux_density / d.saturation;
+  p.flux_density = state.flux_density;
+  p.field = state.field;
+  p.yield_stress = state.yield_stress;
+  const double at_40 = d.viscosity > 0 ? d.viscosity : d.fluid->viscosity;
+  p.viscosity = at_40 * std::exp(-d.viscosity_exponent * (d.temperature - 313.15));
+}
+
+void add_flow(const DamperDescription& d, double velocity, DamperPhysics& p) {
+  const double speed = std::abs(velocity);
+  const PlateGap active{d.pole_length, p.gap_width, d.gap}, passive{d.passive_length, p.gap_width, d.gap};
+  p.flow = p.piston_area * speed;
+  p.newtonian_pressure = plate_newtonian_pressure(&active, p.viscosity, p.flow);
+  p.passive_pressure = plate_newtonian_pressure(&passive, p.viscosity, p.flow);
+  p.yield_pressure = plate_yield_pressure(&active, p.yield_stress);
+  if (speed == 0) return;
+  p.pressure = plate_bingham_pressure(p.newtonian_pressure, p.yield_pressure);
+  p.plate_force = p.piston_area * (p.pressure + p.passive_pressure);
+
+  const double wall = p.gap_area * speed / p.flow;  // w h v / Q
+  const double moving = plate_moving_wall_pressure(p.newtonian_pressure, p.yield_pressure, wall);
+  const double drag = plate_wall_drag(moving, p.newtonian_pressure, p.yield_pressure, wall);
+  const double passive_moving = (1 + 0.5 * wall) * p.passive_pressure;
+  p.moving_wall_force = p.piston_area * (moving + drag + passive_moving +
+                                         plate_wall_drag(passive_moving, p.passive_pressure, 0, wall));
+
+  const double length = d.pole_length + d.passive_length;
+  p.viscous_force =
+      12 * p.viscosity * length * p.piston_area * p.moving_area * speed / (p.gap_area * d.gap * d.gap);
+  const double ratio = p.yield_pressure / (2 * p.newtonian_pressure);  // T
+  p.yield_factor = 2.07 + 1 / (1 + 0.4 * ratio);
+  p.yield_force = p.yield_factor * p.yield_stress * p.piston_area * d.pole_length / d.gap;
+}
+
+double flow_force(const DamperDescription& d, const DamperPhysics& p) {
+  if (d.flow_law == FlowLaw::Paper) return p.viscous_force + p.yield_force;
+  return d.flow_law == FlowLaw::Plate ? p.plate_force : p.moving_wall_force;
+}
+
+}  // namespace
+
+std::span<const PhysicsQuantity> physics_quantities() { return kQuantities; }
+
+FluidState fluid_state(const DamperDescription& description, double current) {
+  DamperPhysics shape;
+  add_shape(description, shape);
+  return fluid_state(description, shape, current);
+}
+
+DamperPhysics evaluate_physics(const DamperDescription& d, const DamperOperation& operation) {
+  DamperPhysics off;
+  add_shape(d, off);
+  if (d.spring_wire > 0) {
+    const HelicalSpring spring{d.shear_modulus, d.spring_wire, d.spring_radius, d.spring_coils};
+    off.spring_stiffness = spring_stiffness(&spring);
+    off.spring_stiffness_as_printed = spring_stiffness_as_printed(&spring);
+    off.spring_force = off.spring_stiffness * operation.displacement;
+  }
+  DamperPhysics p = off;
+  add_circuit(d, operation.current, p);
+  add_fluid(d, operation.current, p);
+  add_flow(d, operation.velocity, p);
+  add_fluid(d, 0, off);
+  add_flow(d, operation.velocity, off);
+  const double side = plate_side(operation.velocity);
+  const double damping = flow_force(d, p) + d.friction, off_damping = flow_force(d, off) + d.friction;
+  p.force = side * damping + p.spring_force;
+  p.off_force = side * off_damping + p.spring_force;
+  p.dynamic_range = off_damping > 0 ? damping / off_damping : std::numeric_limits<double>::infinity();
+  return p;
+}
+
+std::vector<std::string> physics_warnings(const DamperDescription& d, const DamperPhysics& p) {
+  std::vector<std::string> warnings;
+  if (d.yield_law == YieldLaw::Paper) warnings = family_warnings(*d.fluid, p.field);
+  if (!d.fluid->volume_fraction_verified && d.yield_law == YieldLaw::Carlson)
+    warnings.push_back("the volume fraction of " + std::string(d.fluid->name) +
+                       " is recalled, not from its data sheet");
+  if (p.coil_fill > 0.6)
+    warnings.push_back("the coil fills " + format_number(100 * p.coil_fill, 3) +
+                       " % of its room with copper; windings reach about 60 %");
+  if (p.core_saturation > 0.8)
+    warnings.push_back("the core is at " + format_number(100 * p.core_saturation, 3) +
+                       " % of its saturation");
+  if (p.current_density > 10e6)
+    warnings.push_back("the wire carries " + format_number(p.current_density / 1e6, 3) +
+                       " A/mm^2; more than 10 overheats it when it lasts");
+  const double diameter = slot_mean_diameter(d);
+  if (d.gap > 0.05 * diameter)
+    warnings.push_back("the gap is " + format_number(100 * d.gap / diameter, 3) +
+                       " % of its diameter: plates stand for an annulus to the order of its square only");
+  if (d.viscosity_exponent == 0 && std::abs(d.temperature - 313.15) > 1)
+    warnings.push_back(
+        "the viscosity is that at 40 degC: state viscosity_exponent to have it follow the "
+        "temperature");
+  return warnings;
+}
+
+}  // namespace dashpot

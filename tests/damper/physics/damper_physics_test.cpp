@@ -1,0 +1,116 @@
+#include "dashpot/damper/physics/damper_physics.h"
+
+#include <cmath>
+
+#include "dashpot/damper/physics/coil.h"
+#include "dashpot/damper/physics/plate_flow.h"
+#include "dashpot/damper/physics/spring.h"
+#include "support.h"
+
+using namespace dashpot;
+
+namespace {
+
+DamperDescription prototype() { return named_description("family_prototype"); }
+
+std::string refusal(const std::string& yaml) {
+  return message_of([&] { parse_description(yaml, "my.yaml"); });
+}
+
+}  // namespace
+
+TEST_CASE("a helical spring is 64 R^3 n, as printed twice as stiff: TC-3.1") {
+  const HelicalSpring spring{79e9, 1.2e-3, 6e-3, 8};
+  CHECK_CLOSE(spring_stiffness(&spring), 1481.25, 1e-12, 0);
+  CHECK_CLOSE(spring_stiffness_as_printed(&spring), 2962.5, 1e-12, 0);
+}
+
+TEST_CASE("a description runs the paper's chain: the data set's yield stresses within 12 Pa, TC-3.2b") {
+  const double published[] = {2440.53,    20122.8539, 34514.5968, 44913.555,
+                              51685.2669, 55789.03,   58081.95,   59176.47};
+  for (int k = 0; k < 8; ++k)
+    CHECK_CLOSE(fluid_state(prototype(), 0.25 * k).yield_stress, published[k], 0, 12);
+}
+
+TEST_CASE("the paper's hydraulics, dimensionally right: TC-3.3") {
+  DamperDescription damper = prototype();
+  damper.yield_stress = 20122.8539;
+  const DamperPhysics p = evaluate_physics(damper, {.current = 0.25, .velocity = 0.034});
+  CHECK_CLOSE(p.viscous_force, 0.76305403, 1e-8, 0);
+  // TC-3.3 takes c = 2.07 without the term that speed adds.
+  CHECK_CLOSE(p.yield_force * 2.07 / p.yield_factor, 40.0606, 2e-6, 0);
+  CHECK_CLOSE(p.plate_force, 43.309908, 1e-7, 0);  // TC-5.1
+  CHECK_CLOSE(p.newtonian_pressure, 4417.7393, 1.2e-8, 0);
+  damper.yield_stress = 0;
+  damper.fluid = &find_fluid("140CG");
+  // With wall shear and no yield stress 0.82367092 N: the formula with A_rm^2 + A_g^2 / 12.
+  const PlateGap gap{damper.pole_length, p.gap_width, damper.gap};
+  const double wall = p.gap_area / p.piston_area;
+  const double newtonian = plate_newtonian_pressure(&gap, 0.28, p.flow);
+  const double moving = plate_moving_wall_pressure(newtonian, 0, wall);
+  CHECK_CLOSE(p.piston_area * (moving + plate_wall_drag(moving, newtonian, 0, wall)), 0.82367092, 1e-7, 0);
+}
+
+TEST_CASE("a filled circuit balances its ampere-turns") {
+  DamperDescription damper;
+  for (const double current : {0.01, 0.5, 2.0, 20.0}) {
+    const DamperPhysics p = evaluate_physics(damper, {.current = current, .velocity = 0.1});
+    const double b = p.core_flux_density;
+    const double steel =
+        b * damper.saturation / (damper.saturation - b) / (damper.permeability * DASHPOT_MU0);
+    CHECK_CLOSE(steel * damper.core_length + p.field * p.magnetic_gap, damper.turns * current, 1e-9, 0);
+    CHECK_CLOSE(p.flux_density, carlson_flux_density(damper.fluid->volume_fraction, p.field), 1e-8, 0);
+    CHECK(b < damper.saturation);
+    // N phi = L I
+    CHECK_CLOSE(damper.turns * p.flux, p.inductance * current, 1e-9, 0);
+  }
+}
+
+TEST_CASE("a coil's resistance is that of its wire") {
+  // 100 m of copper, 1 mm thick, at 20 degC: 1.72e-8 * 100 / (pi / 4 * 1e-6) = 2.18997 ohm
+  const Coil coil{1000, 1e-3, 0.1, 1.72e-8, 3.93e-3};
+  CHECK_CLOSE(coil_resistance(&coil, 293.15), 2.1899720, 1e-6, 0);
+  CHECK_CLOSE(coil_resistance(&coil, 393.15), 2.1899720 * 1.393, 1e-6, 0);
+}
+
+TEST_CASE("without current the dynamic range is 1, with it more; the force changes side with the speed") {
+  const DamperDescription damper = named_description("passenger_car");
+  CHECK_CLOSE(evaluate_physics(damper, {.velocity = 0.1}).dynamic_range, 1, 1e-12, 0);
+  const DamperPhysics out = evaluate_physics(damper, {.current = 2, .velocity = 0.1});
+  const DamperPhysics in = evaluate_physics(damper, {.current = -2, .velocity = -0.1});
+  CHECK(out.dynamic_range > 2);
+  CHECK_CLOSE(out.force, -in.force, 1e-12, 0);
+  CHECK(evaluate_physics(damper, {.current = 2}).force == 0);
+}
+
+TEST_CASE("a description is read with its units, written and read again") {
+  const DamperDescription damper =
+      parse_description("name: mine\nfluid: 140CG\ngap: 0.8 mm\nbore_diameter: 4cm\nturns: 200\n", "my.yaml");
+  CHECK_CLOSE(damper.gap, 8e-4, 1e-15, 0);
+  CHECK_CLOSE(damper.bore_diameter, 0.04, 1e-15, 0);
+  const DamperDescription again = parse_description(format_description(damper), "again.yaml");
+  for (const DescriptionField& field : description_fields()) CHECK(again.*field.field == damper.*field.field);
+  CHECK(again.fluid == damper.fluid);
+  CHECK(description_names().size() >= 2);
+}
+
+TEST_CASE("what cannot be is refused, with what would be right") {
+  CHECK(refusal("gapp: 1 mm\n").find("did you mean") != std::string::npos);
+  CHECK(refusal("gap: 1 kg\n").find("my.yaml:1") != std::string::npos);
+  CHECK(refusal("gap: wide\n").find("is not a number") != std::string::npos);
+  CHECK(refusal("gap: -1 mm\n").find("gap is -0.001 m") != std::string::npos);
+  CHECK(refusal("rod_diameter: 50 mm\n").find("less than the bore") != std::string::npos);
+  CHECK(refusal("fluid: 132DG\nyield: paper\n").find("no yield stress of 132DG") != std::string::npos);
+  CHECK(refusal("flow: plates\n").find("did you mean 'plate'") != std::string::npos);
+}
+
+TEST_CASE("warnings say what a design should not do") {
+  DamperDescription damper;
+  damper.turns = 5000;
+  const DamperPhysics p = evaluate_physics(damper, {.current = 5, .velocity = 0.1});
+  std::string all;
+  for (const std::string& warning : physics_warnings(damper, p)) all += warning + '\n';
+  CHECK(all.find("of its room with copper") != std::string::npos);
+  CHECK(all.find("saturation") != std::string::npos);
+  CHECK(all.find("A/mm^2") != std::string::npos);
+}
