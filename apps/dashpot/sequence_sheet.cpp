@@ -14,7 +14,7 @@ std::string sheet_text(const SequenceInfo& info, std::size_t width) {
                      paragraph(info.equation, width, kIndent) + paragraph(info.remarks, width, kIndent) +
                      paragraph("source: " + std::string(info.source), width, kIndent);
   Table table({"parameter", ">default", "unit", "meaning"});
-  for (const SequenceParam& param : info.params)
+  for (const ParameterRow& param : info.params)
     table.row({std::string(param.name), format_number(param.value), std::string(param.unit),
                std::string(param.meaning)});
   return text + table.text(width, kIndent);
@@ -22,7 +22,7 @@ std::string sheet_text(const SequenceInfo& info, std::size_t width) {
 
 Value sheet_json(const SequenceInfo& info) {
   Value params = Value::array();
-  for (const SequenceParam& param : info.params)
+  for (const ParameterRow& param : info.params)
     params.push_back(Value::object({{"name", param.name},
                                     {"unit", param.unit},
                                     {"default", param.value},

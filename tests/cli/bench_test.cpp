@@ -117,7 +117,7 @@ TEST_CASE("bench: sequences that cannot be run are refused") {
     CHECK(contains(result.output, what));
   };
   refused("--motion AN", 1, "--motion: unknown sequence 'AN'; did you mean 'AM'?");
-  refused("--drive PRBS,clock=1mm", 1, "'mm' does not measure clock");
+  refused("--drive PRBS,clock=1mm", 1, "clock: 'mm' is not a unit of it");
   refused("--experiment one-sensor-9", 2, "one-sensor-1");
   refused("--experiment one-sensor-1 --drive SC", 2, "leave --motion and --drive out");
   refused("--motion AM --motions 5x2", 2, "--motions");

@@ -5,10 +5,10 @@
 #include <memory>
 
 #include "dashpot/base/error.h"
+#include "dashpot/base/parameter_table.h"
 #include "dashpot/base/random.h"
 #include "dashpot/base/text.h"
 #include "dashpot/record/excitation.h"
-#include "dashpot/record/sequence_values.h"
 
 namespace dashpot {
 namespace {
@@ -46,7 +46,7 @@ struct SteppedConstants {
 };
 
 DriveSignal stepped_constants(std::span<const double> values, const DriveFrame& frame) {
-  const auto p = sequence_values<SteppedConstants>(values);
+  const auto p = values_as<SteppedConstants>(values);
   const auto levels = static_cast<std::size_t>(p.levels);
   const double hold = p.hold > 0 ? p.hold : frame.duration / static_cast<double>(levels);
   const std::size_t count = p.hold > 0 ? count_clocks(frame.duration, hold) : levels;
@@ -82,7 +82,7 @@ struct ShiftRegister {
 };
 
 DriveSignal pseudo_random_binary(std::span<const double> values, const DriveFrame& frame) {
-  const auto p = sequence_values<ShiftRegister>(values);
+  const auto p = values_as<ShiftRegister>(values);
   Random random(frame.seed);
   Steps steps;
   for (const bool bit : p.bits(frame, random))
@@ -91,7 +91,7 @@ DriveSignal pseudo_random_binary(std::span<const double> values, const DriveFram
 }
 
 DriveSignal amplitude_modulated_binary(std::span<const double> values, const DriveFrame& frame) {
-  const auto p = sequence_values<ShiftRegister>(values);
+  const auto p = values_as<ShiftRegister>(values);
   Random random(frame.seed);
   const std::vector<bool> bits = p.bits(frame, random);
   Steps steps;
@@ -101,8 +101,8 @@ DriveSignal amplitude_modulated_binary(std::span<const double> values, const Dri
   return as_signal(std::move(steps));
 }
 
-constexpr SequenceParam kClock{"clock", "s", 0.05, 1e-5, 1e4, "time of one bit"};
-constexpr SequenceParam kOrder{"order", "1", 9, 3, 16, "bits of the shift register", true};
+constexpr ParameterRow kClock{"clock", "s", 0.05, 1e-5, 1e4, "time of one bit"};
+constexpr ParameterRow kOrder{"order", "1", 9, 3, 16, "bits of the shift register", true};
 constexpr std::string_view kPaper = "the one-sensor paper, after Lozoya-Santos et al. 2009; times our own";
 
 const std::array kSequences{

@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "dashpot/base/parameter_table.h"
+
 namespace dashpot {
 
 struct MotionPoint {
@@ -25,18 +27,10 @@ struct DriveSignal {
   std::function<double(double t)> at;
 };
 
-/// One row of a sequence's table. A text may state a value in any unit of the same kind.
-struct SequenceParam {
-  std::string_view name, unit;
-  double value, lower, upper;
-  std::string_view meaning;
-  bool whole = false;  ///< a count
-};
-
 /// What a sequence says of itself.
 struct SequenceInfo {
   std::string_view name, title, equation, source, remarks;
-  std::vector<SequenceParam> params;
+  std::vector<ParameterRow> params;
 };
 
 /// A motion known by name: within its amplitude, its band of frequencies and its limit of speed, and from

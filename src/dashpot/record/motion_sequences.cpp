@@ -5,10 +5,10 @@
 #include <numbers>
 
 #include "dashpot/base/error.h"
+#include "dashpot/base/parameter_table.h"
 #include "dashpot/base/text.h"
 #include "dashpot/record/excitation.h"
 #include "dashpot/record/road_deflection.h"
-#include "dashpot/record/sequence_values.h"
 
 namespace dashpot {
 namespace {
@@ -21,7 +21,7 @@ struct AmplitudeModulated {
 
 /// The amplitude rises from its least, so that the motion starts at rest.
 PistonMotion amplitude_modulated(std::span<const double> values, std::uint64_t) {
-  const auto p = sequence_values<AmplitudeModulated>(values);
+  const auto p = values_as<AmplitudeModulated>(values);
   const double w = kTurn * p.carrier, slow = kTurn * p.modulation, share = p.depth / (1 + p.depth);
   const double most = std::min(p.amplitude, p.speed_max / (w + slow * share));
   return {{}, p.duration, [=](double t) -> MotionPoint {
@@ -49,7 +49,7 @@ double speed_of_amplitude(double mean, double swing, double slow) {
 
 /// The amplitude bends smoothly from its own to the one that the speed allows, below both.
 PistonMotion frequency_modulated(std::span<const double> values, std::uint64_t) {
-  const auto p = sequence_values<FrequencyModulated>(values);
+  const auto p = values_as<FrequencyModulated>(values);
   require_band(p.frequency_min, p.frequency_max, "FM");
   const double mean = 0.5 * (p.frequency_min + p.frequency_max), swing = p.frequency_max - mean;
   const double slow = kTurn * p.modulation;
@@ -112,7 +112,7 @@ struct SteppedFrequency {
 };
 
 PistonMotion stepped_frequency(std::span<const double> values, std::uint64_t) {
-  const auto p = sequence_values<SteppedFrequency>(values);
+  const auto p = values_as<SteppedFrequency>(values);
   require_band(p.frequency_min, p.frequency_max, "SFS");
   constexpr double kMost = 10000, kRounding = 1e-9;
   const double last = std::floor((p.frequency_max - p.frequency_min) / p.step + kRounding);
@@ -149,7 +149,7 @@ struct VariableSlopes {
 };
 
 PistonMotion variable_slopes(std::span<const double> values, std::uint64_t) {
-  const auto p = sequence_values<VariableSlopes>(values);
+  const auto p = values_as<VariableSlopes>(values);
   if (!(p.speed_min <= p.speed_max)) throw Error("TPNVS", "speed_min is above speed_max");
   const double distance = 2 * p.amplitude;
   const double reachable = std::sqrt(p.acceleration * distance);  // the ends would meet
@@ -166,15 +166,15 @@ PistonMotion variable_slopes(std::span<const double> values, std::uint64_t) {
 }
 
 PistonMotion road_profile(std::span<const double> values, std::uint64_t seed) {
-  return road_deflection(sequence_values<RoadDeflection>(values), seed);
+  return road_deflection(values_as<RoadDeflection>(values), seed);
 }
 
-constexpr SequenceParam kAmplitude{"amplitude", "m", 0.025, 1e-6, 1, "greatest displacement"};
-constexpr SequenceParam kSpeedMax{"speed_max", "m/s", 1.5, 1e-4, 20, "amplitude is reduced to stay below"};
-constexpr SequenceParam kFrequencyMin{"frequency_min", "Hz", 0.5, 1e-3, 500, "least frequency"};
-constexpr SequenceParam kFrequencyMax{"frequency_max", "Hz", 15, 1e-3, 500, "greatest frequency"};
-constexpr SequenceParam kDuration{"duration", "s", 60, 0.1, 3600, "length of the motion"};
-constexpr SequenceParam kRepeats{"repeats", "1", 1, 1, 1000, "times that it is run through", true};
+constexpr ParameterRow kAmplitude{"amplitude", "m", 0.025, 1e-6, 1, "greatest displacement"};
+constexpr ParameterRow kSpeedMax{"speed_max", "m/s", 1.5, 1e-4, 20, "amplitude is reduced to stay below"};
+constexpr ParameterRow kFrequencyMin{"frequency_min", "Hz", 0.5, 1e-3, 500, "least frequency"};
+constexpr ParameterRow kFrequencyMax{"frequency_max", "Hz", 15, 1e-3, 500, "greatest frequency"};
+constexpr ParameterRow kDuration{"duration", "s", 60, 0.1, 3600, "length of the motion"};
+constexpr ParameterRow kRepeats{"repeats", "1", 1, 1, 1000, "times that it is run through", true};
 constexpr std::string_view kPaper =
     "the one-sensor paper (its ranges), after Lozoya-Santos et al. 2009; all other numbers our own";
 

@@ -4,8 +4,9 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
+
+#include "dashpot/base/parameter_table.h"
 
 namespace dashpot {
 
@@ -64,20 +65,10 @@ struct Plant {
   std::size_t size() const noexcept { return coordinates.size(); }
 };
 
-/// One row of a plant's parameter table.
-struct PlantParameter {
-  std::string_view name, unit;
-  double value = 0, lower = 0, upper = 0;  ///< default and bounds, SI
-  std::string_view meaning;
-};
-
-/// Values by name, SI.
-using NamedValues = std::vector<std::pair<std::string, double>>;
-
 /// A kind of plant, known by name.
 struct PlantModel {
   std::string_view name, title, equation, source, remarks;
-  std::vector<PlantParameter> parameters;
+  std::vector<ParameterRow> parameters;
   /// values: one per row of the table, within its bounds.
   Plant (*make)(std::span<const double> values) = nullptr;
 };
@@ -87,7 +78,7 @@ std::span<const PlantModel* const> plant_models();
 const PlantModel& find_plant_model(std::string_view name, const std::string& where = {});
 
 /// The plant with these values in place of the table's. Throws Error at an unknown name and at a value
-/// outside its bounds: "sprung_mass is -5 kg; 1 ... 1e+06 kg".
+/// outside its bounds: "sprung_mass is -5 kg; between 1 and 1e+06 kg".
 Plant make_plant(const PlantModel& model, const NamedValues& values, const std::string& where = {});
 
 }  // namespace dashpot

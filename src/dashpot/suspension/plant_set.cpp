@@ -6,29 +6,18 @@
 #include "dashpot/base/error.h"
 #include "dashpot/base/file.h"
 #include "dashpot/base/text.h"
-#include "dashpot/base/units.h"
 #include "dashpot/base/value.h"
 
 namespace dashpot {
 namespace {
 
-const PlantParameter& parameter_named(const PlantModel& model, const std::string& name,
-                                      const std::string& where) {
-  std::vector<std::string> known;
-  for (const PlantParameter& parameter : model.parameters) {
-    if (parameter.name == name) return parameter;
-    known.emplace_back(parameter.name);
-  }
-  throw Error(where, "unknown parameter '" + name + "' of " + std::string(model.name), suggest(name, known));
-}
-
 Plant from_parameters(const PlantModel& model, const Value& parameters, const NamedValues& changes) {
   NamedValues values;
   for (const auto& [name, value] : parameters.members()) {
-    const PlantParameter& parameter = parameter_named(model, name, value.where());
+    const ParameterRow& row = model.parameters[row_named(model.parameters, name, model.name, value.where())];
     values.emplace_back(name, value.kind() == Value::Kind::Number
-                                  ? value.as_number()
-                                  : parse_quantity(value.as_string(), parameter.unit, value.where()));
+                                  ? checked(row, value.as_number(), value.where())
+                                  : parse_value(row, value.as_string(), value.where()));
   }
   values.insert(values.end(), changes.begin(), changes.end());
   return make_plant(model, values, parameters.where());

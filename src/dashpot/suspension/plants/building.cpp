@@ -36,7 +36,7 @@ const PlantModel kBuilding{
     .source = "Dyke, Spencer, Sain and Carlson, Smart Mater. Struct. 5 (1996) 565, for the arrangement",
     .remarks =
         "All storeys alike. The three-storey benchmark with its own matrices is the set dyke_spencer1996.",
-    .parameters = {{"storeys", "1", 3, 1, 50, "whole number"},
+    .parameters = {{"storeys", "1", 3, 1, 50, "from the ground up", true},
                    {"mass", "kg", 98.3, 0.1, 1e9, "of each floor"},
                    {"stiffness", "N/m", 6.84e5, 1, 1e12, "of each storey"},
                    {"damping", "N*s/m", 50, 0, 1e9, "of each storey"}},

@@ -85,7 +85,7 @@ const PlantModel kFullCar{
                    {"rear_distance", "m", 1.7, 0.01, 100, "from the centre of mass to the rear axle"},
                    {"front_track", "m", 1.5, 0.01, 100, "between the front wheels"},
                    {"rear_track", "m", 1.5, 0.01, 100, "between the rear wheels"},
-                   {"tyres_may_lift", "1", 0, 0, 1, "1: tyres only push"}},
+                   {"tyres_may_lift", "1", 0, 0, 1, "1: tyres only push", true}},
     .make = make};
 
 }  // namespace dashpot

@@ -70,7 +70,7 @@ const PlantModel kHalfCar{
                    {"rear_tyre_stiffness", "N/m", 200000, 1, 1e10, ""},
                    {"front_distance", "m", 1.3, 0.01, 100, "from the centre of mass to the front axle"},
                    {"rear_distance", "m", 1.5, 0.01, 100, "from the centre of mass to the rear axle"},
-                   {"tyres_may_lift", "1", 0, 0, 1, "1: tyres only push"}},
+                   {"tyres_may_lift", "1", 0, 0, 1, "1: tyres only push", true}},
     .make = make};
 
 }  // namespace dashpot

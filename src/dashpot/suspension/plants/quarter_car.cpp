@@ -59,7 +59,7 @@ const PlantModel kQuarterCar{
                    {"extension_stop", "m", 0, 0, 10, "travel to the stop; 0: none"},
                    {"compression_stop", "m", 0, 0, 10, "travel to the stop; 0: none"},
                    {"stop_stiffness", "N/m", 1e6, 0, 1e10, "of both stops"},
-                   {"tyres_may_lift", "1", 0, 0, 1, "1: the tyre only pushes"}},
+                   {"tyres_may_lift", "1", 0, 0, 1, "1: the tyre only pushes", true}},
     .make = make};
 
 }  // namespace dashpot
