@@ -1,0 +1,32 @@
+#pragma once
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace dashpot {
+
+/// Height under a tyre and its rate.
+struct FootMotion {
+  double height = 0, velocity = 0;  ///< m, m/s
+};
+
+/// What moves the feet of a plant: the road under each track as it passes, or ground that shakes. Immutable.
+class GroundMotion {
+ public:
+  virtual ~GroundMotion() = default;
+  virtual std::string description() const = 0;  ///< "iso8608: class C, speed 20 m/s, ..."
+  /// s, from when on it only repeats or stays.
+  virtual double duration() const noexcept { return std::numeric_limits<double>::infinity(); }
+  /// Under a tyre on `track` (0 left or only, 1 right), `behind` metres behind the first axle, at t s.
+  virtual FootMotion foot(double t, std::size_t track, double behind) const noexcept = 0;
+  virtual double acceleration(double) const noexcept { return 0; }  ///< m/s^2, of the ground, at t s
+  /// m/s along the road; 0: its height is one of time, and all tyres meet it at once.
+  virtual double speed() const noexcept { return 0; }
+  /// Instants at which a height under a tyre that far behind jumps; foot() gives what is after it.
+  virtual std::vector<double> jumps(double) const { return {}; }
+};
+
+using GroundPointer = std::unique_ptr<const GroundMotion>;
+
+}  // namespace dashpot

@@ -1,0 +1,24 @@
+#pragma once
+#include <cstdint>
+#include <span>
+#include <string>
+
+#include "dashpot/record/excitation.h"
+#include "dashpot/suspension/ground_motion.h"
+
+namespace dashpot {
+
+/// A road or another motion of the ground, known by name.
+struct GroundSequence {
+  SequenceInfo info;
+  GroundPointer (*make)(std::span<const double> values, std::uint64_t seed);
+};
+/// In alphabetical order.
+std::span<const GroundSequence> ground_sequences();
+
+/// From a text like "iso8608,class=C,speed=72km/h" or "step,height=3cm". "class=C" stands for the roughness
+/// of that class. Throws Error(where, ...) on an unknown name or parameter and on a value that is out of
+/// bounds.
+GroundPointer make_ground(const std::string& text, std::uint64_t seed, const std::string& where = "road");
+
+}  // namespace dashpot
