@@ -262,8 +262,10 @@ TEST_CASE("a sequence that cannot be understood is refused with what would be ri
   CHECK(motion("AN") == "motion: unknown sequence 'AN'; did you mean 'AM'? known: AM, FM, RP, SFS, TPNVS");
   CHECK(motion("AM,carier=2").find("did you mean 'carrier'") != std::string::npos);
   CHECK(motion("AM,carrier").find("write NAME=VALUE") != std::string::npos);
-  CHECK(motion("AM,carrier=fast").find("carrier: 'fast' is not a number; a number in Hz") != std::string::npos);
-  CHECK(motion("AM,carrier=2 mm").find("carrier: 'mm' is not a unit of it; it is counted in Hz") != std::string::npos);
+  CHECK(motion("AM,carrier=fast").find("carrier: 'fast' is not a number; a number in Hz") !=
+        std::string::npos);
+  CHECK(motion("AM,carrier=2 mm").find("carrier: 'mm' is not a unit of it; it is counted in Hz") !=
+        std::string::npos);
   CHECK(motion("AM,amplitude=25").find("amplitude is 25 m; between 1e-06 and 1") != std::string::npos);
   CHECK(motion("FM,frequency_min=9,frequency_max=3").find("ends below") != std::string::npos);
   CHECK(motion("RP,frequency_min=9,frequency_max=3").find("not below") != std::string::npos);
