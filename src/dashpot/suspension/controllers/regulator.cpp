@@ -1,0 +1,138 @@
+#include "dashpot/suspension/controllers/regulator.h"
+
+#include <Eigen/Dense>
+
+#include "dashpot/numerics/riccati.h"
+#include "dashpot/suspension/controllers/damping_law.h"
+#include "dashpot/suspension/linear.h"
+
+namespace dashpot {
+namespace {
+
+using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+Matrix matrix_of(const std::vector<double>& values, Eigen::Index n) {
+  return Eigen::Map<const Matrix>(values.data(), n, n);
+}
+Eigen::RowVectorXd row_of(const std::vector<double>& values) {
+  return Eigen::Map<const Eigen::RowVectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+}
+std::vector<double> values_of(const Matrix& matrix) { return {matrix.data(), matrix.data() + matrix.size()}; }
+
+/// An output y = c x + d u that is priced.
+struct Output {
+  Eigen::RowVectorXd c, d;
+  double price;
+};
+
+struct Parameters {
+  double deflection, tyre_deflection, force;
+};
+
+class ClippedRegulator : public Controller {
+ public:
+  ClippedRegulator(std::vector<double> gain, const ControlContext& context)
+      : gain_(std::move(gain)), limits_(context.limits), states_(2 * context.plant.size()) {}
+  void step(std::span<const StrutSignals> struts, std::span<const double> x, std::span<double>,
+            std::span<DamperDemand> demands) const noexcept override {
+    for (std::size_t k = 0; k < struts.size(); ++k) demands[k] = demand(wanted(k, x), struts[k]);
+  }
+
+ protected:
+  /// Where nothing gives the state, nothing is wanted.
+  double wanted(std::size_t strut, std::span<const double> x) const noexcept {
+    double force = 0;
+    for (std::size_t j = 0; j < x.size(); ++j) force += gain_[strut * states_ + j] * x[j];
+    return force;
+  }
+  virtual DamperDemand demand(double force, const StrutSignals& s) const noexcept {
+    return dissipating_force(force, s.deflection_velocity, limits_);
+  }
+
+  std::vector<double> gain_;
+  ControlLimits limits_;
+  std::size_t states_;
+};
+
+/// Full current while the damper's force is to grow towards the wanted one, none otherwise.
+class ClippedOptimal final : public ClippedRegulator {
+  using ClippedRegulator::ClippedRegulator;
+  DamperDemand demand(double force, const StrutSignals& s) const noexcept override {
+    const bool on = (force - s.force) * s.force > 0;
+    return {DamperDemand::Kind::Current, on ? limits_.current_max : limits_.current_min};
+  }
+};
+
+template <class Law>
+ControllerPointer make(std::span<const double> values, const ControlContext& context) {
+  const auto p = values_as<Parameters>(values);
+  return std::make_unique<Law>(regulator_of(context.plant, {p.deflection, p.tyre_deflection, p.force}),
+                               context);
+}
+
+const std::vector<ParameterRow> kPrices{
+    {"deflection", "1/s^4", 1e3, 0, 1e12,
+     "price of a strut's deflection squared, where body acceleration costs 1"},
+    {"tyre_deflection", "1/s^4", 1e4, 0, 1e12, "price of a tyre's deflection squared"},
+    {"force", "1/kg^2", 0, 0, 1e6, "price of a damper's force squared; needed where forces move no body"}};
+
+}  // namespace
+
+std::vector<double> regulator_of(const Plant& plant, const RegulatorPrices& prices) {
+  const LinearPlant linear = linear_plant(plant);
+  const auto n = static_cast<Eigen::Index>(plant.size()), m = static_cast<Eigen::Index>(plant.struts.size());
+  const Matrix inverse = matrix_of(linear.mass, n).inverse();
+  Matrix a = Matrix::Zero(2 * n, 2 * n), b = Matrix::Zero(2 * n, m);
+  a.topRightCorner(n, n).setIdentity();
+  a.bottomLeftCorner(n, n) = -inverse * matrix_of(linear.stiffness, n);
+  a.bottomRightCorner(n, n) = -inverse * matrix_of(linear.damping, n);
+  for (Eigen::Index k = 0; k < m; ++k)
+    b.col(k).tail(n) = inverse * row_of(plant.struts[static_cast<std::size_t>(k)].row).transpose();
+
+  std::vector<Output> outputs;
+  const auto of_heights = [&](const std::vector<double>& row, double price) {
+    Output output{Eigen::RowVectorXd::Zero(2 * n), Eigen::RowVectorXd::Zero(m), price};
+    output.c.head(n) = row_of(row);
+    outputs.push_back(output);
+  };
+  for (const Strut& strut : plant.struts) {
+    outputs.push_back(
+        {row_of(strut.body_row) * a.bottomRows(n), row_of(strut.body_row) * b.bottomRows(n), 1});
+    of_heights(strut.row, prices.deflection);
+  }
+  for (const Tyre& tyre : plant.tyres) of_heights(tyre.row, prices.tyre_deflection);
+
+  Matrix q = Matrix::Zero(2 * n, 2 * n), cross = Matrix::Zero(2 * n, m),
+         r = prices.force * Matrix::Identity(m, m);
+  for (const Output& y : outputs) {
+    q += y.price * y.c.transpose() * y.c;
+    cross += y.price * y.c.transpose() * y.d;
+    r += y.price * y.d.transpose() * y.d;
+  }
+  return regulator_gain({static_cast<std::size_t>(2 * n), plant.struts.size(), values_of(a), values_of(b),
+                         values_of(q), values_of(cross), values_of(r)});
+}
+
+extern const ControlLaw kClippedLqr, kClippedOptimal;
+const ControlLaw kClippedLqr{
+    .name = "clipped_lqr",
+    .title = "Clipped linear-quadratic regulator",
+    .equation = "F = K [q, q'], within c_min d ... c_max d;  K minimises the integral of z''^2 + prices",
+    .source = "textbook; clipping as in semi-active practice",
+    .remarks = "Needs the whole state of the plant.",
+    .parameters = kPrices,
+    .needs_plant_state = true,
+    .make = make<ClippedRegulator>};
+const ControlLaw kClippedOptimal{
+    .name = "clipped_optimal",
+    .title = "Clipped-optimal control",
+    .equation = "i = i_max where (F_wanted - F) F > 0, else i_min;  F_wanted = K [q, q']",
+    .source =
+        "Dyke, Spencer, Sain and Carlson, Smart Mater. Struct. 5 (1996) 565; their regulator is an LQG on "
+        "accelerations",
+    .remarks = "Needs the measured force and the whole state. At a force of 0 it stays off.",
+    .parameters = kPrices,
+    .needs_plant_state = true,
+    .make = make<ClippedOptimal>};
+
+}  // namespace dashpot
