@@ -1,0 +1,124 @@
+#include "dashpot/suspension/forces.h"
+
+#include <cmath>
+
+#include <Eigen/Dense>
+
+namespace dashpot {
+namespace {
+
+using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+RowMajor matrix_of(const std::vector<double>& values, std::size_t n) {
+  const auto size = static_cast<Eigen::Index>(n);
+  return Eigen::Map<const RowMajor>(values.data(), size, size);
+}
+Eigen::VectorXd vector_of(const std::vector<double>& values) {
+  return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+}
+
+}  // namespace
+
+PlantForces::PlantForces(const Plant& plant, const GroundMotion& ground)
+    : plant_(plant),
+      ground_(ground),
+      linear_(linear_plant(plant)),
+      resting_(plant.size() * plant.tyres.size()) {
+  const RowMajor mass = matrix_of(plant.mass, plant.size());
+  const RowMajor inverse = mass.inverse();
+  inverse_mass_.assign(inverse.data(), inverse.data() + inverse.size());
+  if (!plant.ground.empty()) {
+    const Eigen::VectorXd shaken = mass * vector_of(plant.ground);
+    shaken_.assign(shaken.begin(), shaken.end());
+  }
+  const Eigen::PartialPivLU<RowMajor> stiffness(matrix_of(linear_.stiffness, plant.size()));
+  for (std::size_t t = 0; t < plant.tyres.size(); ++t) {
+    const Eigen::VectorXd q = stiffness.solve(plant.tyres[t].stiffness * vector_of(plant.tyres[t].row));
+    for (std::size_t k = 0; k < plant.size(); ++k)
+      resting_[k * plant.tyres.size() + t] = q[static_cast<Eigen::Index>(k)];
+  }
+}
+
+double PlantForces::height(const std::vector<double>& row, const double* q) const noexcept {
+  double sum = 0;
+  for (std::size_t k = 0; k < row.size(); ++k) sum += row[k] * q[k];
+  return sum;
+}
+
+DamperInput PlantForces::strut_motion(std::size_t strut, double t, std::span<const double> x,
+                                      double current) const noexcept {
+  const Strut& s = plant_.struts[strut];
+  DamperInput motion{height(s.row, x.data()), height(s.row, x.data() + plant_.size()), current};
+  if (s.track) {
+    const FootMotion ground = ground_.foot(t, *s.track, 0);
+    motion.displacement -= ground.height;
+    motion.velocity -= ground.velocity;
+  }
+  return motion;
+}
+
+double PlantForces::strut_extra(std::size_t strut, const DamperInput& motion) const noexcept {
+  const Strut& s = plant_.struts[strut];
+  double force = s.friction > 0 ? s.friction * std::tanh(motion.velocity / s.friction_speed) : 0;
+  if (s.extension_stop > 0 && motion.displacement > s.extension_stop)
+    force += s.stop_stiffness * (motion.displacement - s.extension_stop);
+  if (s.compression_stop > 0 && motion.displacement < -s.compression_stop)
+    force += s.stop_stiffness * (motion.displacement + s.compression_stop);
+  return force;
+}
+
+FootMotion PlantForces::foot(std::size_t tyre, double t) const noexcept {
+  return ground_.foot(t, plant_.tyres[tyre].track, plant_.tyres[tyre].behind);
+}
+
+double PlantForces::tyre_load(std::size_t tyre, double t, std::span<const double> x) const noexcept {
+  const Tyre& w = plant_.tyres[tyre];
+  const FootMotion ground = foot(tyre, t);
+  const double load = w.static_load + w.stiffness * (ground.height - height(w.row, x.data())) +
+                      w.damping * (ground.velocity - height(w.row, x.data() + plant_.size()));
+  return plant_.tyres_may_lift ? std::fmax(load, 0) : load;
+}
+
+void PlantForces::add_up(double t, std::span<const double> x, std::span<const double> strut_forces,
+                         std::span<double> g) const noexcept {
+  for (double& value : g) value = 0;
+  for (std::size_t s = 0; s < plant_.struts.size(); ++s)
+    for (std::size_t k = 0; k < g.size(); ++k) g[k] -= plant_.struts[s].row[k] * strut_forces[s];
+  for (std::size_t w = 0; w < plant_.tyres.size(); ++w) {
+    const Tyre& tyre = plant_.tyres[w];
+    const FootMotion ground = foot(w, t);
+    double push = tyre.stiffness * ground.height + tyre.damping * ground.velocity;
+    if (plant_.tyres_may_lift) {
+      const double load = tyre.static_load + push - tyre.stiffness * height(tyre.row, x.data()) -
+                          tyre.damping * height(tyre.row, x.data() + g.size());
+      push -= std::fmin(load, 0);
+    }
+    for (std::size_t k = 0; k < g.size(); ++k) g[k] += tyre.row[k] * push;
+  }
+  if (shaken_.empty()) return;
+  const double a = ground_.acceleration(t);
+  for (std::size_t k = 0; k < g.size(); ++k) g[k] -= shaken_[k] * a;
+}
+
+void PlantForces::acceleration(std::span<const double> x, std::span<const double> g,
+                               std::span<double> out) const noexcept {
+  const std::size_t n = plant_.size();
+  for (double& value : out) value = 0;
+  for (std::size_t j = 0; j < n; ++j) {
+    double force = g[j];
+    for (std::size_t k = 0; k < n; ++k)
+      force -= linear_.stiffness[j * n + k] * x[k] + linear_.damping[j * n + k] * x[n + k];
+    for (std::size_t i = 0; i < n; ++i) out[i] += inverse_mass_[i * n + j] * force;
+  }
+}
+
+void PlantForces::resting_place(double t, std::span<double> q) const noexcept {
+  const std::size_t tyres = plant_.tyres.size();
+  for (double& value : q) value = 0;
+  for (std::size_t w = 0; w < tyres; ++w) {
+    const double z = foot(w, t).height;
+    for (std::size_t k = 0; k < q.size(); ++k) q[k] += resting_[k * tyres + w] * z;
+  }
+}
+
+}  // namespace dashpot

@@ -1,0 +1,46 @@
+#pragma once
+#include <span>
+#include <vector>
+
+#include "dashpot/suspension/ground_motion.h"
+#include "dashpot/suspension/linear.h"
+#include "dashpot/suspension/mounted_damper.h"
+#include "dashpot/suspension/plant.h"
+
+namespace dashpot {
+
+/// A plant on its ground: what its parts feel at one instant. x = [q, q'].
+class PlantForces {
+ public:
+  PlantForces(const Plant& plant, const GroundMotion& ground);
+
+  /// Deflection and velocity of a strut.
+  DamperInput strut_motion(std::size_t strut, double t, std::span<const double> x,
+                           double current) const noexcept;
+  /// Stop and friction of a strut, N.
+  double strut_extra(std::size_t strut, const DamperInput& motion) const noexcept;
+  FootMotion foot(std::size_t tyre, double t) const noexcept;
+  /// N, of the tyre on the road; 0 where contact is lost and tyres may lift.
+  double tyre_load(std::size_t tyre, double t, std::span<const double> x) const noexcept;
+
+  /// g of M q'' + C q' + K q = g: all that is not linear in x, with these damper forces.
+  void add_up(double t, std::span<const double> x, std::span<const double> strut_forces,
+              std::span<double> g) const noexcept;
+  void acceleration(std::span<const double> x, std::span<const double> g,
+                    std::span<double> out) const noexcept;
+  /// Where the plant would rest on the ground as it is, q.
+  void resting_place(double t, std::span<double> q) const noexcept;
+
+  const LinearPlant& linear() const { return linear_; }
+
+ private:
+  double height(const std::vector<double>& row, const double* q) const noexcept;
+
+  const Plant& plant_;
+  const GroundMotion& ground_;
+  LinearPlant linear_;
+  std::vector<double> inverse_mass_, shaken_;  ///< shaken_: M e
+  std::vector<double> resting_;                ///< size x tyres: K^-1 row k
+};
+
+}  // namespace dashpot

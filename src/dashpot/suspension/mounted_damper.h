@@ -1,0 +1,55 @@
+#pragma once
+#include <memory>
+#include <span>
+
+#include "dashpot/damper/driver.h"
+#include "dashpot/damper/inverse/inverse.h"
+#include "dashpot/damper/model.h"
+#include "dashpot/suspension/controller.h"
+
+namespace dashpot {
+
+/// Corrects a wanted force by what the measured one misses.
+struct ForceLoop {
+  double proportional = 0;  ///< 1
+  double integral = 0;      ///< 1/s
+  double derivative = 0;    ///< s
+};
+
+/// A damper in its strut: model, coil driver, and the way from a demand to a current.
+struct MountedDamper {
+  std::shared_ptr<const DamperModel> model;
+  DriverOptions driver;
+  /// Wanted force -> current. Without it damping is mapped in a straight line onto the driver's currents, and
+  /// a force is that damping which gives it at this speed.
+  std::shared_ptr<const InverseModel> inverse;
+  ForceLoop loop;
+  double current = 0;  ///< A, commanded where there is no controller
+};
+
+/// Its moving parts: states of model, driver, inverse and force loop. Copied to try a step.
+class DamperState {
+ public:
+  DamperState(const MountedDamper& damper, const ControlLimits& limits, double deflection);
+
+  /// A new demand at this deflection and velocity: sets the driver's command.
+  void demand(const DamperDemand& demand, const DamperInput& now);
+  /// From one instant to another one dt later.
+  void advance(const DamperInput& from, const DamperInput& to, double dt) noexcept;
+  double force(const DamperInput& input) const noexcept { return damper_->model->force(input, state_); }
+  double current() const noexcept { return driver_.current(driver_state_); }
+  /// The coil's current dt s from now.
+  double current_after(double dt) const noexcept;
+  double command() const noexcept { return command_; }
+
+ private:
+  double wanted_force(const DamperDemand& demand, const DamperInput& now);
+
+  const MountedDamper* damper_;
+  ControlLimits limits_;
+  Driver driver_;
+  std::vector<double> state_, driver_state_, inverse_state_;
+  double command_ = 0, missed_ = 0, missed_sum_ = 0;
+};
+
+}  // namespace dashpot

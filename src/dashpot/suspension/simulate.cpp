@@ -1,0 +1,214 @@
+#include "dashpot/suspension/simulate.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "dashpot/base/error.h"
+#include "dashpot/base/text.h"
+#include "dashpot/suspension/integrator.h"
+#include "dashpot/suspension/trace.h"
+
+namespace dashpot {
+namespace {
+
+void require_fitting(const Setting& setting, const SimulateOptions& options) {
+  const Plant& plant = setting.plant;
+  if (setting.dampers.size() != plant.struts.size())
+    throw Error(plant.name, "has " + std::to_string(plant.struts.size()) + " places for dampers, not " +
+                                std::to_string(setting.dampers.size()));
+  for (const MountedDamper& damper : setting.dampers)
+    if (!damper.model) throw Error(plant.name, "a damper has no model");
+  if (!(options.duration > 0))
+    throw Error("simulation", "a duration of " + format_number(options.duration) + " s", "above 0");
+  if (options.step && !(*options.step > 0)) throw Error("simulation", "its step is not above 0");
+  if (options.step && setting.controller && *options.step > options.limits.sample_time * (1 + 1e-9))
+    throw Error("simulation", "its step is longer than the controller's sample time",
+                "at most " + format_number(options.limits.sample_time) + " s");
+  if (!(options.relative_tolerance > 0 && options.absolute_tolerance > 0))
+    throw Error("simulation", "a tolerance is not above 0");
+}
+
+/// Instants k dt, without the sum of their rounding.
+class Clock {
+ public:
+  explicit Clock(double dt) : dt_(dt) {}
+  double next() const { return dt_ > 0 ? dt_ * static_cast<double>(ticks_) : INFINITY; }
+  /// Whether this is its instant, to a rounding; then it goes on.
+  bool strikes(double t) {
+    if (!(t >= next() - 1e-9 * dt_)) return false;
+    ++ticks_;
+    return true;
+  }
+
+ private:
+  double dt_;
+  std::size_t ticks_ = 0;
+};
+
+class Simulation {
+ public:
+  Simulation(const Setting& setting, const SimulateOptions& options)
+      : setting_(setting),
+        options_(options),
+        output_step_(output_step(setting, options)),
+        forces_(setting.plant, setting.ground),
+        state_(at_rest()),
+        integrator_(
+            forces_,
+            {options.relative_tolerance, options.absolute_tolerance, options.step.value_or(0), !options.step},
+            state_),
+        sensors_(options.sensors, setting.plant.struts.size(), options.limits.sample_time),
+        writer_(setting.plant, forces_, setting.ground,
+                static_cast<std::size_t>(options.duration / output_step_) + 2),
+        signals_(setting.plant.struts.size()),
+        demands_(signals_.size()),
+        acceleration_(setting.plant.size()),
+        controller_state_(setting.controller ? setting.controller->state_size() : 0) {
+    if (setting.controller) setting.controller->reset(controller_state_);
+    for (const Tyre& tyre : setting.plant.tyres)
+      for (const double jump : setting.ground.jumps(tyre.behind)) jumps_.push_back(jump);
+    std::sort(jumps_.begin(), jumps_.end());
+  }
+
+  Trace run() {
+    Clock output(output_step_), samples(setting_.controller ? options_.limits.sample_time : 0);
+    const double end = options_.duration;
+    Trace trace;
+    integrator_.refresh(state_);
+    while (true) {
+      meet_jumps();
+      if (samples.strikes(state_.time)) control();
+      if (output.strikes(state_.time)) write();
+      if (state_.time >= end * (1 - 1e-12)) break;
+      const double next = std::min({output.next(), samples.next(), next_jump(), end});
+      if (!integrator_.advance(state_, next)) {
+        trace.diverged_at = state_.time;
+        break;
+      }
+    }
+    finish(trace);
+    return trace;
+  }
+
+ private:
+  static double output_step(const Setting& setting, const SimulateOptions& options) {
+    require_fitting(setting, options);
+    if (options.output_step > 0) return options.output_step;
+    return setting.controller ? options.limits.sample_time : 1e-3;
+  }
+
+  PlantState at_rest() const {
+    const Plant& plant = setting_.plant;
+    PlantState state{.x = std::vector<double>(2 * plant.size()),
+                     .strut_forces = std::vector<double>(plant.struts.size()),
+                     .g = std::vector<double>(plant.size())};
+    for (const MountedDamper& damper : setting_.dampers)
+      state.dampers.emplace_back(damper, options_.limits, 0.0);
+    return state;
+  }
+
+  double next_jump() const { return jump_ < jumps_.size() ? jumps_[jump_] : INFINITY; }
+  void meet_jumps() {
+    const std::size_t before = jump_;
+    while (next_jump() <= state_.time) ++jump_;
+    if (jump_ != before) integrator_.refresh(state_);
+  }
+
+  void control() {
+    const Plant& plant = setting_.plant;
+    const std::size_t n = plant.size();
+    forces_.acceleration(state_.x, state_.g, acceleration_);
+    for (std::size_t s = 0; s < signals_.size(); ++s) signals_[s] = signals_of(s);
+    sensors_.measure(signals_);
+    std::vector<double>& x = plant_state_;
+    x.clear();
+    if (sensors_.ideal()) {
+      x = state_.x;
+      resting_.resize(n);
+      forces_.resting_place(state_.time, resting_);
+      for (std::size_t k = 0; k < n; ++k) x[k] -= resting_[k];
+    }
+    setting_.controller->step(signals_, x, controller_state_, demands_);
+    for (std::size_t s = 0; s < signals_.size(); ++s)
+      state_.dampers[s].demand(demands_[s], {signals_[s].deflection, signals_[s].deflection_velocity,
+                                             state_.dampers[s].current()});
+    integrator_.refresh(state_);
+  }
+
+  StrutSignals signals_of(std::size_t s) const {
+    const Strut& strut = setting_.plant.struts[s];
+    const std::size_t n = setting_.plant.size();
+    const auto along = [](const std::vector<double>& row, const double* values) {
+      double sum = 0;
+      for (std::size_t k = 0; k < row.size(); ++k) sum += row[k] * values[k];
+      return sum;
+    };
+    const double current = state_.dampers[s].current();
+    const DamperInput motion = forces_.strut_motion(s, state_.time, state_.x, current);
+    return {.body_velocity = along(strut.body_row, state_.x.data() + n),
+            .body_acceleration = along(strut.body_row, acceleration_.data()),
+            .wheel_velocity = along(strut.body_row, state_.x.data() + n) - motion.velocity,
+            .deflection = motion.displacement,
+            .deflection_velocity = motion.velocity,
+            .force = state_.dampers[s].force(motion),
+            .current = current};
+  }
+
+  void write() {
+    options_.monitor.check();
+    writer_.write(state_);
+    bool lost = false;
+    for (std::size_t w = 0; w < setting_.plant.tyres.size(); ++w)
+      lost = lost || forces_.tyre_load(w, state_.time, state_.x) <= 0;
+    for (std::size_t s = 0; s < setting_.plant.struts.size(); ++s) {
+      const Strut& strut = setting_.plant.struts[s];
+      const double x = forces_.strut_motion(s, state_.time, state_.x, 0).displacement;
+      stops_met_ += (strut.extension_stop > 0 && x > strut.extension_stop) ||
+                    (strut.compression_stop > 0 && x < -strut.compression_stop);
+    }
+    lost_ += lost;
+    ++written_;
+  }
+
+  void finish(Trace& trace) {
+    const auto share = [&](std::size_t count) {
+      return format_number(100 * static_cast<double>(count) / static_cast<double>(written_), 3) +
+             " % of the time";
+    };
+    trace.record = writer_.take();
+    trace.steps = integrator_.steps();
+    trace.evaluations = integrator_.evaluations();
+    trace.contact_lost = static_cast<double>(lost_) / static_cast<double>(written_);
+    if (lost_ > 0)
+      trace.warnings.push_back((setting_.plant.tyres_may_lift
+                                    ? "a tyre has no contact in "
+                                    : "a tyre pulls at the road, which none can, in ") +
+                               share(lost_));
+    if (stops_met_ > 0) trace.warnings.push_back("a stop is met in " + share(stops_met_));
+    if (integrator_.missed_tolerance())
+      trace.warnings.push_back("the tolerance could not be met at some instants");
+    if (trace.diverged_at)
+      trace.warnings.push_back("diverged at " + format_number(*trace.diverged_at) + " s");
+  }
+
+  const Setting& setting_;
+  const SimulateOptions& options_;
+  double output_step_;
+  PlantForces forces_;
+  PlantState state_;
+  Integrator integrator_;
+  Sensors sensors_;
+  TraceWriter writer_;
+  std::vector<StrutSignals> signals_;
+  std::vector<DamperDemand> demands_;
+  std::vector<double> acceleration_, controller_state_, plant_state_, resting_, jumps_;
+  std::size_t jump_ = 0, written_ = 0, lost_ = 0, stops_met_ = 0;
+};
+
+}  // namespace
+
+Trace simulate(const Setting& setting, const SimulateOptions& options) {
+  return Simulation(setting, options).run();
+}
+
+}  // namespace dashpot
