@@ -1,0 +1,50 @@
+#include <fmt/format.h>
+
+#include "dashpot/base/error.h"
+#include "dashpot/base/text.h"
+#include "dashpot/output/gnuplot.h"
+#include "dashpot/output/search_report.h"
+
+namespace dashpot {
+namespace {
+
+/// Parameters and ESR of some trials.
+struct Points {
+  std::vector<double> parameters, errors;
+  void add(const Trial& trial) {
+    parameters.push_back(static_cast<double>(trial.parameters));
+    errors.push_back(trial.left_out.esr);
+  }
+};
+
+/// A curve of the plot; nothing without points.
+void add_curve(GnuplotFigure& figure, std::vector<std::string>& curves, const Points& points,
+               const std::string& style) {
+  if (points.parameters.empty()) return;
+  curves.push_back(figure.data({points.parameters, points.errors}) + " using 1:2 with " + style);
+}
+
+}  // namespace
+
+std::vector<std::filesystem::path> write_search_figure(const SearchReport& search,
+                                                       const std::filesystem::path& folder) {
+  if (!search.best()) throw Error("figures", "no trial is usable");
+  Points dropped, finalists, front, smallest;
+  for (const Trial& trial : search.trials) {
+    if (trial.is_usable()) (search.is_finalist(trial) ? finalists : dropped).add(trial);
+    if (trial.on_front) front.add(trial);
+  }
+  smallest.add(*search.smallest());
+  GnuplotFigure figure(12, 8);
+  figure.command("set logscale xy\nset xlabel 'Parameters'\nset ylabel 'Left-out error, ESR (%)'");
+  std::vector<std::string> curves;
+  add_curve(figure, curves, dropped, "points pt 6 ps 0.5 lc rgb '#8b949e' title 'dropped on the way'");
+  add_curve(figure, curves, finalists, "points pt 7 ps 0.5 lc rgb '#0b5cad' title 'trials'");
+  add_curve(figure, curves, front, "lines lw 1 lc rgb '#be481e' title 'front'");
+  add_curve(figure, curves, smallest,
+            "points pt 6 ps 1.4 lw 1.5 lc rgb '#be481e' title 'smallest within one standard error'");
+  figure.command("plot " + join(curves, ", "));
+  return figure.write(folder, "search");
+}
+
+}  // namespace dashpot
