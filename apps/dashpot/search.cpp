@@ -116,6 +116,8 @@ void write_choices(const RankingData& data, const SearchReport& report, const fs
   if (report.smallest() != report.best()) choices.emplace_back("smallest", report.smallest());
   fs::remove(folder / "models" / "smallest.json");  // of a search that went less far
   for (const auto& [name, trial] : choices) {
+    console.talk(fmt::format("fitting the {}, {}, on all training records\n", name,
+                             searched_settings(*trial, report)));
     const Ranking ranking = rank({report.options.model}, data.dataset, data.leave_out,
                                  options_of(trial->design, report.options), &fits);
     ModelFile file = to_model_file(ranking.models.front(), data.dataset, console.command_line());

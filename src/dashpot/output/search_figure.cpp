@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "dashpot/base/error.h"
@@ -17,6 +19,13 @@ struct Points {
   }
 };
 
+/// A logarithmic axis that holds these values with some room.
+std::string log_range(const std::vector<double>& values) {
+  constexpr double kRoom = 1.25;
+  const auto [low, high] = std::ranges::minmax(values);
+  return fmt::format("[{:.4g}:{:.4g}]", low / kRoom, high * kRoom);
+}
+
 /// A curve of the plot; nothing without points.
 void add_curve(GnuplotFigure& figure, std::vector<std::string>& curves, const Points& points,
                const std::string& style) {
@@ -29,14 +38,17 @@ void add_curve(GnuplotFigure& figure, std::vector<std::string>& curves, const Po
 std::vector<std::filesystem::path> write_search_figure(const SearchReport& search,
                                                        const std::filesystem::path& folder) {
   if (!search.best()) throw Error("figures", "no trial is usable");
-  Points dropped, finalists, front, smallest;
+  Points all, dropped, finalists, front, smallest;
   for (const Trial& trial : search.trials) {
+    if (trial.is_usable()) all.add(trial);
     if (trial.is_usable()) (search.is_finalist(trial) ? finalists : dropped).add(trial);
     if (trial.on_front) front.add(trial);
   }
   smallest.add(*search.smallest());
-  GnuplotFigure figure(12, 8);
+  GnuplotFigure figure(13, 9);
   figure.command("set logscale xy\nset xlabel 'Parameters'\nset ylabel 'Left-out error, ESR (%)'");
+  figure.command("set key outside top center horizontal maxrows 2");
+  figure.command("set xrange " + log_range(all.parameters) + "\nset yrange " + log_range(all.errors));
   std::vector<std::string> curves;
   add_curve(figure, curves, dropped, "points pt 6 ps 0.5 lc rgb '#8b949e' title 'dropped on the way'");
   add_curve(figure, curves, finalists, "points pt 7 ps 0.5 lc rgb '#0b5cad' title 'trials'");

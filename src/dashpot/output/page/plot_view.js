@@ -30,7 +30,7 @@ function scaled(view, factor) {
   return {x: scale(view.x), y: scale(view.y)};
 }
 
-// Ticks at whole places with words, for bars by category; at 1, 2 and 5 times powers of ten on a logarithmic axis.
+// Ticks at whole places with words, for bars by category; at round numbers on a logarithmic axis.
 function axis_ticks(axis) {
   if (axis.log) {
     return {splits: (u, index, low, high) => log_places(low, high), values: (_, places) => places.map((place) => short_text(10 ** place))};
@@ -43,7 +43,7 @@ function axis_ticks(axis) {
 
 // Where the ticks of a logarithmic axis stand: as many as have room.
 function log_places(low, high) {
-  const digits = high - low < 2.5 ? [1, 2, 5] : [1], places = [];
+  const digits = high - low < 1 ? [1, 1.5, 2, 3, 4, 5, 7] : high - low < 2.5 ? [1, 2, 5] : [1], places = [];
   for (let power = Math.floor(low); power <= high; power++) {
     places.push(...digits.map((digit) => power + Math.log10(digit)).filter((place) => place >= low && place <= high));
   }

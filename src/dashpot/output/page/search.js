@@ -78,6 +78,13 @@ function trial_note(trial) {
   return [trial.best && "best", trial.smallest && "smallest within one standard error", trial.on_front && "front"].filter(Boolean).join(", ");
 }
 
+const kSearchTerms = [
+  ...kDefinitions.filter(([name]) => ["Free run", "Left out", "Offset", "ESR", "RMSE"].includes(name)),
+  ["Standard error", "of the mean over the divisions' ESR. Within one of the best, a smaller network is taken to be as good (Breiman and others, 1984)."],
+  ["Front", "networks of which none with as few parameters has a smaller error."],
+  ["Dropped", "by halving: judged with a share of the effort, and not among the best third (Jamieson and Talwalkar, 2016)."],
+];
+
 function start_search(data) {
   const parameters = new Plot("Error against parameters", "Every point is a network, judged on records that it has not seen. Both axes are logarithmic.");
   const settings = data.axes.map((axis) => [axis, new Plot(`Error by ${axis.setting}`, axis.meaning)]);
@@ -87,7 +94,7 @@ function start_search(data) {
       element("div", {class: "grid two"}, settings.map(([, plot]) => plot.node))),
     section("trials", "Trials", "Best first; a click on a head sorts.",
       sortable_table("Trials, best first", trial_columns(data), data.trials, {row_class: (trial) => trial.diverged ? "diverged" : null})),
-    judged_section(data), provenance_section(data));
+    judged_section(data, kSearchTerms), provenance_section(data));
   parameters.show(() => parameters_spec(data));
   settings.forEach(([axis, plot]) => plot.show(() => setting_spec(data, axis)));
 }
