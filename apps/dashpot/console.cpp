@@ -50,8 +50,8 @@ Console::Console(std::string command_line, const std::atomic<bool>& stop)
     : command_line_(std::move(command_line)),
       stop_(stop),
       width_(std::clamp(terminal_columns(STDOUT_FILENO), kLeastColumns, kMostColumns)),
-      is_live_(isatty(STDERR_FILENO)),
-      progress_(is_live_ ? terminal_columns(STDERR_FILENO) : 0) {}
+      live_width_(isatty(STDERR_FILENO) ? terminal_columns(STDERR_FILENO) : 0),
+      progress_(live_width_) {}
 
 void Console::print(std::string_view text) {
   progress_.clear();

@@ -1,5 +1,7 @@
 #pragma once
+#include <chrono>
 #include <mutex>
+#include <string>
 #include <vector>
 
 #include "console.h"
@@ -14,12 +16,13 @@ class LiveTable {
   explicit LiveTable(Console& console) : console_(console) {}
   /// Takes a trial that has ended.
   void add(const Trial& trial, const SearchReport& search);
-  /// Shows what came since; from one thread at a time.
+  /// Shows what came since, not too often; from one thread at a time.
   void draw();
-  /// Takes the table off the terminal.
-  void clear();
+  /// Shows the last of it in a log, takes the table off a terminal: the results follow.
+  void finish();
 
  private:
+  void take();
   std::string table() const;
   std::string line(const Trial& trial) const;
 
@@ -30,6 +33,7 @@ class LiveTable {
   std::vector<Trial> fresh_;   ///< not yet drawn
   std::size_t rung_ = 0, ended_ = 0;
   std::size_t drawn_lines_ = 0;
+  std::chrono::steady_clock::time_point drawn_at_;
 };
 
 }  // namespace dashpot::cli

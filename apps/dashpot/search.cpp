@@ -86,8 +86,10 @@ SearchOptions search_options(const Settings& settings, Console& console) {
 SearchReport run_search(const RankingData& data, const SearchOptions& options, const fs::path& file,
                         Console& console) {
   TrialStore store(file, describe_search(data.dataset, data.leave_out, options, program_id()));
+  if (store.size() > 0)
+    console.talk(counted(store.size(), "fit") + " kept from before in " + file.string() + '\n');
   LiveTable live(console);
-  SearchOptions watched = options;
+  SearchOptions watched = options;  // draws the table wherever progress is drawn
   watched.fit.monitor.on_progress = [&, show = options.fit.monitor.on_progress](const Progress& progress) {
     live.draw();
     if (show) show(progress);
@@ -96,12 +98,11 @@ SearchReport run_search(const RankingData& data, const SearchOptions& options, c
     SearchReport report =
         search(data.dataset, data.leave_out, watched, &store,
                [&](const Trial& trial, const SearchReport& so_far) { live.add(trial, so_far); });
-    live.draw();
-    live.clear();
+    live.finish();
     report.options = options;
     return report;
   } catch (const Interrupted&) {
-    live.draw();
+    live.finish();
     console.note(fmt::format("{} kept in {}; the same command goes on from there",
                              counted(store.size(), "finished fit"), file.string()));
     throw;

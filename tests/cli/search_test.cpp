@@ -162,9 +162,8 @@ TEST_CASE("search: on a terminal the best so far stand in a table that redraws i
       "script -qec '" + program_path() + " " +
       search_of("--over hidden=2,3,4 --method grid --starts 1 --output " + folder.path().string()) +
       "' /dev/null < /dev/null");
-  CHECK(contains(result.output, "1 of 3 trials ended, the best so far:"));
-  CHECK(contains(result.output, "3 of 3 trials ended"));
-  CHECK(contains(result.output, "A\x1b[J"));
+  CHECK(contains(result.output, " of 3 trials ended, the best so far:"));
+  CHECK(contains(result.output, "A\x1b[J"));  // some lines up, and away with what is there
 }
 
 TEST_CASE("search: what cannot be searched is told before the recordings are read") {

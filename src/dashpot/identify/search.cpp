@@ -141,6 +141,7 @@ class SearchRun {
       done_ += share_;
       ++report_.results;
       report_.kept += is_kept;
+      trial.kept += is_kept;
       if (--missing_[index] == 0) {
         judge(trial);
         if (on_trial_) on_trial_(trial, report_);

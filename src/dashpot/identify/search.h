@@ -42,6 +42,7 @@ struct Trial {
   NetworkDesign design;
   std::size_t rung = 0;           ///< the last that it took part in
   std::vector<FoldResult> folds;  ///< of that rung
+  std::size_t kept = 0;           ///< of them, found in the store
   // What the folds say together:
   Metrics left_out;           ///< all left-out samples
   double standard_error = 0;  ///< %, of the mean over the folds' ESR; not a number with one fold

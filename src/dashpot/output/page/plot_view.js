@@ -43,7 +43,7 @@ function axis_ticks(axis) {
 
 // Where the ticks of a logarithmic axis stand: as many as have room.
 function log_places(low, high) {
-  const digits = high - low < 1 ? [1, 1.5, 2, 3, 4, 5, 7] : high - low < 2.5 ? [1, 2, 5] : [1], places = [];
+  const digits = high - low < 1 ? [1, 1.5, 2, 3, 4, 5, 6, 8] : high - low < 2.5 ? [1, 2, 5] : [1], places = [];
   for (let power = Math.floor(low); power <= high; power++) {
     places.push(...digits.map((digit) => power + Math.log10(digit)).filter((place) => place >= low && place <= high));
   }
