@@ -82,7 +82,7 @@ SearchOptions search_options(const Settings& settings, Console& console) {
   return options;
 }
 
-/// Runs with a table that lives; an interruption says what is left of it.
+/// Runs with a table that lives.
 SearchReport run_search(const RankingData& data, const SearchOptions& options, const fs::path& file,
                         Console& console) {
   TrialStore store(file, describe_search(data.dataset, data.leave_out, options, program_id()));
@@ -94,19 +94,12 @@ SearchReport run_search(const RankingData& data, const SearchOptions& options, c
     live.draw();
     if (show) show(progress);
   };
-  try {
-    SearchReport report =
-        search(data.dataset, data.leave_out, watched, &store,
-               [&](const Trial& trial, const SearchReport& so_far) { live.add(trial, so_far); });
-    live.finish();
-    report.options = options;
-    return report;
-  } catch (const Interrupted&) {
-    live.finish();
-    console.note(fmt::format("{} kept in {}; the same command goes on from there",
-                             counted(store.size(), "finished fit"), file.string()));
-    throw;
-  }
+  SearchReport report =
+      search(data.dataset, data.leave_out, watched, &store,
+             [&](const Trial& trial, const SearchReport& so_far) { live.add(trial, so_far); });
+  live.finish();
+  report.options = options;  // what is watched ends here
+  return report;
 }
 
 /// The best network and the smallest that is practically as good, ranked as `dashpot rank` does, as files.
@@ -159,12 +152,10 @@ void print_report(const SearchReport& report, Console& console) {
                   report.kept ? fmt::format("; {} kept from before", counted(report.kept, "fit")) : ""));
 }
 
-int run(const Settings& settings, Console& console) {
-  const SearchOptions options = search_options(settings, console);
-  const RankingData data = ranking_data(settings.ranking, console);
-  const fs::path folder = settings.ranking.results.folder, file = folder / "search.sqlite";
-  if (settings.fresh)
-    for (const char* end : {"", "-wal", "-journal"}) fs::remove(file.string() + end);
+int run_in(const fs::path& folder, const RankingData& data, const SearchOptions& options,
+           const Settings& settings, Console& console) {
+  const fs::path file = folder / "search.sqlite";
+  if (settings.fresh) TrialStore::remove(file);
   console.talk("search: " + search_plan(search_rungs(options), options.effort) + '\n');
   const SearchReport report = run_search(data, options, file, console);
   const SearchInput input{data.dataset, report, console.command_line(), DASHPOT_VERSION, date_now()};
@@ -177,6 +168,19 @@ int run(const Settings& settings, Console& console) {
   if (report.best()) return kDone;
   console.error("no trial gave a usable force on the records left out; the table says why");
   return kNotUsable;
+}
+
+int run(const Settings& settings, Console& console) {
+  const SearchOptions options = search_options(settings, console);
+  const RankingData data = ranking_data(settings.ranking, console);
+  const fs::path folder = settings.ranking.results.folder;
+  try {
+    return run_in(folder, data, options, settings, console);
+  } catch (const Interrupted&) {
+    console.note("every finished fit is kept in " + folder.string() +
+                 "; the same command goes on from there");
+    throw;
+  }
 }
 
 std::vector<Option> own_options(Settings& settings) {

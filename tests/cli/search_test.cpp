@@ -138,7 +138,7 @@ TEST_CASE("search: an interruption says what is kept and how to go on") {
       run_program("timeout --preserve-status -s INT 1 " + program_path() + " " + command);
   CAPTURE(result.output);
   CHECK(result.exit_code == 130);
-  CHECK(contains(result.output, "kept in " + (folder.path() / "search.sqlite").string() +
+  CHECK(contains(result.output, "every finished fit is kept in " + folder.path().string() +
                                     "; the same command goes on from there"));
   CHECK(!fs::exists(folder.path() / "search.html"));
   CHECK(!fs::exists(folder.path() / "search.sqlite-wal"));  // closed in order

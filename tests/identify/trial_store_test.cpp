@@ -90,6 +90,7 @@ TEST_CASE("another search, another process and another kind of file are refused 
   {
     const TrialStore first(file, kSearch);
     CHECK(message(file, kSearch).find("is in use by another search") != std::string::npos);
+    CHECK(message_of([&] { TrialStore::remove(file); }).find("is in use") != std::string::npos);
   }
   CHECK(message(file, kSearch).empty());
   NamedTexts other = kSearch;
@@ -118,4 +119,6 @@ TEST_CASE("a file that was cut is reported as damaged, never read as results") {
     for (std::size_t k = 0; k < 200; ++k) store.load({"hidden=5", 1, k});
   });
   CHECK(message.find("is damaged") != std::string::npos);
+  TrialStore::remove(file);
+  CHECK(TrialStore(file, kSearch).size() == 0);
 }

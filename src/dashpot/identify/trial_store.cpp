@@ -153,6 +153,18 @@ TrialStore::TrialStore(const std::filesystem::path& path, const NamedTexts& sear
 
 TrialStore::~TrialStore() = default;
 
+void TrialStore::remove(const std::filesystem::path& path) {
+  if (!std::filesystem::exists(path)) return;
+  try {
+    SQLite::Database database(path.string(), SQLite::OPEN_READWRITE);
+    database.exec(kLock);
+    database.exec("BEGIN EXCLUSIVE; ROLLBACK");
+  } catch (const SQLite::Exception& failure) {
+    if (failure.getErrorCode() == SQLITE_BUSY) throw explained(path.string(), failure);
+  }
+  for (const char* end : {"", "-wal", "-journal"}) std::filesystem::remove(path.string() + end);
+}
+
 std::optional<FoldResult> TrialStore::load(const Key& key) const {
   const std::lock_guard lock(connection_->guard);
   try {

@@ -36,6 +36,9 @@ class TrialStore {
   TrialStore(const std::filesystem::path& path, const NamedTexts& search);
   ~TrialStore();
 
+  /// Throws away what the file holds, damaged or of another search. Throws Error when it is in use.
+  static void remove(const std::filesystem::path& path);
+
   std::optional<FoldResult> load(const Key& key) const;
   /// Throws Error when there is such a result already, or when the disk cannot take it.
   void save(const Key& key, const FoldResult& result);
