@@ -65,8 +65,9 @@ std::vector<SearchAxis> axes_of(const std::vector<std::string>& words) {
 SearchOptions search_options(const Settings& settings, Console& console) {
   SearchOptions options;
   options.model = settings.model;
-  options.fit = identify_options(settings.ranking.fit, {settings.model}, console);
-  options.space.fixed = options.fit.network;
+  FitSettings fit = settings.ranking.fit;
+  fit.network.clear();  // no whole design: what is searched makes it one
+  options.fit = identify_options(fit, {settings.model}, console);
   options.method = settings.method == "grid"     ? SearchMethod::Grid
                    : settings.method == "random" ? SearchMethod::Random
                                                  : SearchMethod::Halving;
@@ -74,6 +75,8 @@ SearchOptions search_options(const Settings& settings, Console& console) {
   options.trials = settings.trials;
   options.steps = settings.steps;
   try {
+    for (const std::string& text : settings.ranking.fit.network)
+      parse_network_setting(text, "--network", options.space.fixed);
     options.space.axes = axes_of(settings.over);
     search_rungs(options);
   } catch (const Error& error) {

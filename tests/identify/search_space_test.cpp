@@ -60,6 +60,22 @@ TEST_CASE("what cannot be searched says why") {
   CHECK(space({{axis("hidden=2")}, {}}, "bingham").find("is no network") != std::string::npos);
 }
 
+TEST_CASE("what a trainer has no use for makes no trials of its own") {
+  const SearchSpace space{{axis("trainer=lm,adam,bayesian"), axis("rate=0.01,0.1")}, {.batch = 20, .l2 = 1}};
+  require_space(space, "mlp_one_sensor");
+  CHECK(texts(grid_designs(space, 1)) ==
+        std::vector<std::string>{"trainer=lm,l2=1", "trainer=adam,rate=0.01,batch=20,l2=1",
+                                 "trainer=adam,rate=0.1,batch=20,l2=1", "trainer=bayesian"});
+  CHECK(random_designs(space, 20, 1).size() == 4);
+  const auto message = [](const SearchSpace& asked) {
+    return message_of([&] { require_space(asked, "mlp_one_sensor"); });
+  };
+  CHECK(
+      message({{axis("rate=0.01,0.1")}, {}}).starts_with("--over: no trainer of this search has a use for"));
+  CHECK(message({{axis("hidden=2,3")}, {.batch = 20}}).starts_with("--network: no trainer"));
+  CHECK(message({{axis("rate=0.01,0.1")}, {.trainer = Trainer::Adam}}).empty());
+}
+
 TEST_CASE("a grid holds every combination; ranges in even ratios with both ends, whole numbers once") {
   CHECK(texts(grid_designs({{axis("hidden=2,3"), axis("l2=1e-6:1e-2")}, {.members = 2}}, 3)) ==
         std::vector<std::string>{"hidden=2,l2=1e-06,members=2", "hidden=2,l2=1e-04,members=2",
@@ -71,7 +87,8 @@ TEST_CASE("a grid holds every combination; ranges in even ratios with both ends,
         std::vector<std::string>{"hidden=1", "hidden=2", "hidden=3"});
   std::string many = "epochs=1";
   for (int k = 2; k <= 400; ++k) many += "," + std::to_string(k);
-  const SearchSpace huge{{axis(many), axis("batch" + many.substr(6))}, {}};  // 160 000
+  const SearchSpace huge{{axis(many), axis("batch" + many.substr(6))},
+                         {.trainer = Trainer::Adam}};  // 160 000
   CHECK(message_of([&] { grid_designs(huge, 1); }).find("over 100000 combinations") != std::string::npos);
 }
 
@@ -88,8 +105,8 @@ TEST_CASE("designs drawn by chance differ, begin alike whatever their number, an
 TEST_CASE("a range is drawn evenly in the logarithm, whole numbers from 0 evenly") {
   // Of a range over four decades, half lies below its middle, 1e-4; of 1 ... 31, half below sqrt(32) = 5.7.
   int low_prices = 0, small = 0, counts[5] = {};
-  const std::vector<NetworkDesign> designs =
-      random_designs({{axis("l2=1e-6:1e-2"), axis("batch=1:31"), axis("delays=0:4")}, {}}, 2000, 3);
+  const std::vector<NetworkDesign> designs = random_designs(
+      {{axis("l2=1e-6:1e-2"), axis("batch=1:31"), axis("delays=0:4")}, {.trainer = Trainer::Adam}}, 2000, 3);
   for (const NetworkDesign& design : designs) {
     low_prices += *design.l2 < 1e-4;
     small += *design.batch < 6;

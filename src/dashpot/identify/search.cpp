@@ -152,7 +152,7 @@ class SearchRun {
 
   FoldResult result_of(const NetworkDesign& design, std::size_t fold) const {
     IdentifyOptions options = options_of(design, report_.options);
-    if (by_epochs() && share_ < 1) {
+    if (by_epochs() && share_ < 1 && design.epochs) {
       const double epochs = share_ * static_cast<double>(*design.epochs);
       options.network.epochs = static_cast<std::size_t>(std::max(1.0, std::round(epochs)));
     }

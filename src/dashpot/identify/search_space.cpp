@@ -16,6 +16,33 @@ namespace {
 constexpr std::size_t kMostDesigns = 100'000;
 constexpr int kDigits = 3;  // of what is drawn: more would only make tables wide
 
+/// A setting's name and its text.
+using Setting = std::pair<std::string, std::string>;
+
+bool descends_on_batches(Trainer trainer) {
+  return trainer != Trainer::LevenbergMarquardt && trainer != Trainer::Bayesian && trainer != Trainer::Lbfgs;
+}
+
+bool has_use(std::string_view setting, Trainer trainer) {
+  for (const std::string_view of_batches : {"rate", "schedule", "batch", "l1"})
+    if (setting == of_batches) return descends_on_batches(trainer);
+  return setting != "l2" || trainer != Trainer::Bayesian;  // which finds it by itself
+}
+
+/// The design with what is fixed and what is given. What its trainer has no use for is left out: it would
+/// only make several trials of one.
+NetworkDesign compose(const NetworkDesign& fixed, std::vector<Setting> given) {
+  for (const NetworkSetting& setting : network_settings())
+    if (const std::string value = setting.format(fixed); !value.empty())
+      given.emplace_back(setting.name, value);
+  NetworkDesign all, used;
+  for (const auto& [name, value] : given) find_network_setting(name, name).parse(value, name, all);
+  const Trainer trainer = all.trainer.value_or(Trainer::LevenbergMarquardt);
+  for (const auto& [name, value] : given)
+    if (has_use(name, trainer)) find_network_setting(name, name).parse(value, name, used);
+  return used;
+}
+
 void set(NetworkDesign& design, const SearchAxis& axis, const std::string& value, const std::string& where) {
   find_network_setting(axis.setting, where).parse(value, where, design);
 }
@@ -28,6 +55,16 @@ bool takes(const SearchAxis& axis, const std::string& value) {
   } catch (const Error&) {
     return false;
   }
+}
+
+/// The trainers that the designs of a space have.
+std::vector<Trainer> trainers_of(const SearchSpace& space) {
+  std::vector<Trainer> trainers;
+  for (const SearchAxis& axis : space.axes)
+    for (const std::string& value : axis.values)
+      if (axis.setting == "trainer") trainers.push_back(*compose({}, {{"trainer", value}}).trainer);
+  if (trainers.empty()) trainers.push_back(space.fixed.trainer.value_or(Trainer::LevenbergMarquardt));
+  return trainers;
 }
 
 /// As the setting's table writes it, so that one value is one text.
@@ -120,32 +157,45 @@ void require_space(const SearchSpace& space, const std::string& model) {
     throw Error(where, model + " is no network: it has no settings to search", "give a network");
   if (space.axes.empty())
     throw Error(where, "there is nothing to search", "name settings and values, as hidden=5,10,20");
+  const auto require = [&](const std::string& setting, const std::string& option) {
+    if (std::ranges::count(known, setting) == 0)
+      throw Error(option, model + " does not follow '" + setting + "'", "it follows " + join(known, ", "));
+    if (std::ranges::none_of(trainers_of(space), [&](Trainer t) { return has_use(setting, t); }))
+      throw Error(option, "no trainer of this search has a use for '" + setting + "'",
+                  "search or fix another trainer too, as trainer=adam");
+  };
+  for (const NetworkSetting& setting : network_settings())
+    if (!setting.format(space.fixed).empty()) require(std::string(setting.name), "--network");
   std::set<std::string> seen;
   for (const SearchAxis& axis : space.axes) {
     if (!seen.insert(axis.setting).second)
       throw Error(where, axis.setting + " comes twice", "give all its values at once");
     if (!find_network_setting(axis.setting, where).format(space.fixed).empty())
       throw Error(where, axis.setting + " is fixed as well", "leave it out of the one or of the other");
-    if (std::ranges::count(known, axis.setting) == 0)
-      throw Error(where, model + " does not follow '" + axis.setting + "'",
-                  "it follows " + join(known, ", "));
+    require(axis.setting, where);
   }
 }
 
 std::vector<NetworkDesign> grid_designs(const SearchSpace& space, std::size_t steps) {
-  std::vector<NetworkDesign> designs{space.fixed};
+  std::vector<std::vector<Setting>> combinations{{}};
   for (const SearchAxis& axis : space.axes) {
     const std::vector<std::string> values = grid_values(axis, steps);
-    if (designs.size() * values.size() > kMostDesigns)
+    if (combinations.size() * values.size() > kMostDesigns)
       throw Error("grid", "has over " + std::to_string(kMostDesigns) + " combinations",
                   "give fewer values, or draw some by chance");
-    std::vector<NetworkDesign> longer;
-    for (const NetworkDesign& design : designs)
+    std::vector<std::vector<Setting>> longer;
+    for (const std::vector<Setting>& combination : combinations)
       for (const std::string& value : values) {
-        longer.push_back(design);
-        set(longer.back(), axis, value, axis.setting);
+        longer.push_back(combination);
+        longer.back().emplace_back(axis.setting, value);
       }
-    designs = std::move(longer);
+    combinations = std::move(longer);
+  }
+  std::vector<NetworkDesign> designs;
+  std::set<std::string> seen;
+  for (const std::vector<Setting>& combination : combinations) {
+    NetworkDesign design = compose(space.fixed, combination);
+    if (seen.insert(format_design(design)).second) designs.push_back(std::move(design));
   }
   return designs;
 }
@@ -156,8 +206,9 @@ std::vector<NetworkDesign> random_designs(const SearchSpace& space, std::size_t 
   std::vector<NetworkDesign> designs;
   std::set<std::string> seen;
   for (std::size_t in_vain = 0; designs.size() < count && in_vain < kTries; ++in_vain) {
-    NetworkDesign design = space.fixed;
-    for (const SearchAxis& axis : space.axes) set(design, axis, drawn_value(axis, random), axis.setting);
+    std::vector<Setting> drawn;
+    for (const SearchAxis& axis : space.axes) drawn.emplace_back(axis.setting, drawn_value(axis, random));
+    NetworkDesign design = compose(space.fixed, std::move(drawn));
     if (!seen.insert(format_design(design)).second) continue;
     designs.push_back(std::move(design));
     in_vain = 0;

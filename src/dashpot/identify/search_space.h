@@ -28,9 +28,12 @@ struct SearchSpace {
   NetworkDesign fixed;
 };
 
-/// Throws Error when there is nothing to search, an axis comes twice or is fixed as well, or `model` does not
-/// follow it.
+/// Throws Error when there is nothing to search, an axis comes twice or is fixed as well, or `model` or every
+/// trainer of the space has no use for a setting.
 void require_space(const SearchSpace& space, const std::string& model);
+
+// A design leaves out what its trainer has no use for: rate, schedule, batch and l1 are for mini-batches, and
+// Bayesian regularisation finds its l2.
 
 /// Every combination, the last axis running fastest; of a range `steps` values: the ends and what lies at
 /// even ratios between them (at even distances where it begins at 0). Throws Error when there are over 10^5.

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -26,6 +27,15 @@ std::string log_range(const std::vector<double>& values) {
   return fmt::format("[{:.4g}:{:.4g}]", low / kRoom, high * kRoom);
 }
 
+/// "(2, 5, 10, 20)": round numbers over the values, for a logarithmic axis has labels at powers of ten only.
+std::string log_tics(const std::vector<double>& values) {
+  const auto [low, high] = std::ranges::minmax(values);
+  std::vector<std::string> tics;
+  for (int power = static_cast<int>(std::floor(std::log10(low))); power <= std::log10(high); ++power)
+    for (const int digit : {1, 2, 5}) tics.push_back(fmt::format("{:.4g}", digit * std::pow(10, power)));
+  return "(" + join(tics, ", ") + ")";
+}
+
 /// A curve of the plot; nothing without points.
 void add_curve(GnuplotFigure& figure, std::vector<std::string>& curves, const Points& points,
                const std::string& style) {
@@ -47,8 +57,9 @@ std::vector<std::filesystem::path> write_search_figure(const SearchReport& searc
   smallest.add(*search.smallest());
   GnuplotFigure figure(13, 9);
   figure.command("set logscale xy\nset xlabel 'Parameters'\nset ylabel 'Left-out error, ESR (%)'");
-  figure.command("set key outside top center horizontal maxrows 2");
+  figure.command("set key outside top center");
   figure.command("set xrange " + log_range(all.parameters) + "\nset yrange " + log_range(all.errors));
+  figure.command("set xtics " + log_tics(all.parameters) + "\nset ytics " + log_tics(all.errors));
   std::vector<std::string> curves;
   add_curve(figure, curves, dropped, "points pt 6 ps 0.5 lc rgb '#8b949e' title 'dropped on the way'");
   add_curve(figure, curves, finalists, "points pt 7 ps 0.5 lc rgb '#0b5cad' title 'trials'");

@@ -21,7 +21,9 @@ Value axis_json(const SearchAxis& axis) {
 Value trial_json(const Trial& trial, const SearchReport& search) {
   Value settings = Value::object();
   for (const SearchAxis& axis : search.options.space.axes)
-    settings.add(axis.setting, find_network_setting(axis.setting, axis.setting).format(trial.design));
+    if (const std::string value = find_network_setting(axis.setting, axis.setting).format(trial.design);
+        !value.empty())
+      settings.add(axis.setting, value);
   Value folds = Value::array();
   for (const FoldResult& fold : trial.folds) folds.push_back(metrics(fold.sums).esr);
   return Value::object({{"design", format_design(trial.design)},

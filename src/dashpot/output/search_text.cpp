@@ -12,6 +12,7 @@
 namespace dashpot {
 namespace {
 
+/// Empty where the trial's trainer has no use for the setting.
 std::string setting_text(const Trial& trial, const std::string& setting) {
   return find_network_setting(setting, setting).format(trial.design);
 }
@@ -44,7 +45,10 @@ std::vector<TextColumn> trial_columns(const SearchReport& of) {
 
 std::vector<std::string> trial_row(const Trial& trial, const SearchReport& of, std::size_t place) {
   std::vector<std::string> row{std::to_string(place)};
-  for (const SearchAxis& axis : of.options.space.axes) row.push_back(setting_text(trial, axis.setting));
+  for (const SearchAxis& axis : of.options.space.axes) {
+    const std::string value = setting_text(trial, axis.setting);
+    row.push_back(value.empty() ? "-" : value);
+  }
   const bool has_model = trial.failure.empty();
   row.insert(row.end(), {has_model ? error_text(trial) : "-", has_model ? percent_text(trial.worst_esr) : "-",
                          has_model ? number_text(trial.left_out.rmse) : "-",
@@ -72,7 +76,8 @@ std::string named(const Trial& trial, const SearchReport& search) {
 std::string searched_settings(const Trial& trial, const SearchReport& search) {
   std::vector<std::string> parts;
   for (const SearchAxis& axis : search.options.space.axes)
-    parts.push_back(axis.setting + '=' + setting_text(trial, axis.setting));
+    if (const std::string value = setting_text(trial, axis.setting); !value.empty())
+      parts.push_back(axis.setting + '=' + value);
   return join(parts, ", ");
 }
 

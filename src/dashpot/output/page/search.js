@@ -44,7 +44,7 @@ function parameters_spec(data) {
 
 // The error of all usable trials by one setting: over its values, or in the logarithm of its range.
 function setting_spec(data, axis) {
-  const usable = data.trials.filter((trial) => trial.usable);
+  const usable = data.trials.filter((trial) => trial.usable && trial.settings[axis.setting] !== undefined);
   const y = {label: "Left-out ESR (%)", log: true};
   const groups = [["dropped on the way", false, colour("muted")], ["trials", true, series_colour(0)]].map(([label, finalist, tint]) =>
     [usable.filter((trial) => trial.finalist === finalist), {label, colour: tint, hollow: !finalist}]).filter(([trials]) => trials.length);
@@ -59,7 +59,7 @@ function trial_columns(data) {
   const halved = data.trials.some((trial) => trial.effort < 1);
   return [
     {title: "Rank", value: (t) => data.trials.indexOf(t) + 1, numeric: true},
-    ...data.axes.map((axis) => ({title: axis.setting, hint: axis.meaning, numeric: true, text: (t) => t.settings[axis.setting],
+    ...data.axes.map((axis) => ({title: axis.setting, hint: axis.meaning, numeric: true, text: (t) => t.settings[axis.setting] ?? kMissing,
       value: (t) => Number.isNaN(Number(t.settings[axis.setting])) ? t.settings[axis.setting] : Number(t.settings[axis.setting])})),
     percent("ESR %", esr_of, "Error power over force power, left-out records, one offset per record"),
     percent("± %", (t) => t.standard_error_percent, "Standard error of the mean over the divisions' ESR"),
