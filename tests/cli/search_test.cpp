@@ -132,10 +132,12 @@ TEST_CASE("search: killed at random moments, it goes on, nothing is lost and the
 
 TEST_CASE("search: an interruption says what is kept and how to go on") {
   const TemporaryFolder folder;
-  const std::string command =
-      search_of("--over hidden=2:40 --over l2=1e-6:1e-2 --trials 5000 --output " + folder.path().string());
-  const ProgramResult result =
-      run_program("timeout --preserve-status -s INT 1 " + program_path() + " " + command);
+  const std::string log = (folder.path() / "log").string();
+  const ProgramResult result = run_program(
+      "( " + program_path() + " " +
+      search_of("--over hidden=2:40 --over l2=1e-6:1e-2 --trials 5000 --output " + folder.path().string()) +
+      " > " + log + " 2>&1 & job=$!; for k in $(seq 600); do grep -q ' 1 of 5000' " + log +
+      " && break; sleep 0.05; done; kill -INT $job; wait $job; code=$?; cat " + log + "; exit $code )");
   CAPTURE(result.output);
   CHECK(result.exit_code == 130);
   CHECK(contains(result.output, "every finished fit is kept in " + folder.path().string() +
