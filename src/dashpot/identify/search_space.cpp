@@ -62,7 +62,8 @@ std::vector<Trainer> trainers_of(const SearchSpace& space) {
   std::vector<Trainer> trainers;
   for (const SearchAxis& axis : space.axes)
     for (const std::string& value : axis.values)
-      if (axis.setting == "trainer") trainers.push_back(*compose({}, {{"trainer", value}}).trainer);
+      if (axis.setting == "trainer")
+        trainers.push_back(compose({}, {{"trainer", value}}).trainer.value_or(Trainer::LevenbergMarquardt));
   if (trainers.empty()) trainers.push_back(space.fixed.trainer.value_or(Trainer::LevenbergMarquardt));
   return trainers;
 }
