@@ -30,9 +30,11 @@ std::string log_range(const std::vector<double>& values) {
 /// "(2, 5, 10, 20)": round numbers over the values, for a logarithmic axis has labels at powers of ten only.
 std::string log_tics(const std::vector<double>& values) {
   const auto [low, high] = std::ranges::minmax(values);
+  const std::vector<double> digits =
+      high < 6 * low ? std::vector<double>{1, 1.5, 2, 3, 4, 5, 6, 7, 8, 9} : std::vector<double>{1, 2, 5};
   std::vector<std::string> tics;
   for (int power = static_cast<int>(std::floor(std::log10(low))); power <= std::log10(high); ++power)
-    for (const int digit : {1, 2, 5}) tics.push_back(fmt::format("{:.4g}", digit * std::pow(10, power)));
+    for (const double digit : digits) tics.push_back(fmt::format("{:.4g}", digit * std::pow(10, power)));
   return "(" + join(tics, ", ") + ")";
 }
 
