@@ -7,6 +7,7 @@ namespace dashpot::cli {
 
 Command identify_command();
 Command rank_command();
+Command search_command();
 Command evaluate_command();
 Command models_command();
 Command inspect_command();

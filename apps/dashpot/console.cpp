@@ -50,7 +50,8 @@ Console::Console(std::string command_line, const std::atomic<bool>& stop)
     : command_line_(std::move(command_line)),
       stop_(stop),
       width_(std::clamp(terminal_columns(STDOUT_FILENO), kLeastColumns, kMostColumns)),
-      progress_(isatty(STDERR_FILENO) ? terminal_columns(STDERR_FILENO) : 0) {}
+      live_width_(isatty(STDERR_FILENO) ? terminal_columns(STDERR_FILENO) : 0),
+      progress_(live_width_) {}
 
 void Console::print(std::string_view text) {
   progress_.clear();
@@ -69,6 +70,14 @@ void Console::talk(std::string_view text) {
   if (quiet) return;
   progress_.clear();
   std::fflush(stdout);
+  put(text, stderr);
+}
+
+void Console::talk_over(std::size_t lines, std::string_view text) {
+  if (quiet) return;
+  progress_.clear();
+  std::fflush(stdout);
+  if (lines > 0) fmt::print(stderr, "\x1b[{}A\x1b[J", lines);
   put(text, stderr);
 }
 

@@ -29,6 +29,10 @@ class Console {
   void print_json(const Value& value);
   /// Talk about the work, on stderr; nothing when quiet.
   void talk(std::string_view text);
+  /// The same in place of the last `lines` lines of it; where live_width() says so only.
+  void talk_over(std::size_t lines, std::string_view text);
+  /// Columns of the terminal that talk goes to and where it can be drawn anew; 0: a log.
+  int live_width() const { return live_width_; }
   /// What the work met on its way, on stderr. Warnings and errors come even when quiet.
   void note(std::string_view text);
   void warn(std::string_view text);
@@ -52,6 +56,7 @@ class Console {
   std::string command_line_;
   const std::atomic<bool>& stop_;
   int width_;
+  int live_width_;
   ProgressLine progress_;
 };
 

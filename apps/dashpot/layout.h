@@ -8,6 +8,9 @@ namespace dashpot::cli {
 /// Columns that UTF-8 text takes on a terminal (one per code point).
 std::size_t columns_of(std::string_view text);
 
+/// The text up to so many columns.
+std::string first_columns(std::string_view text, std::size_t columns);
+
 /// Lines of at most `width` columns, broken at spaces; the text's own line breaks stand.
 std::vector<std::string> wrap(std::string_view text, std::size_t width);
 

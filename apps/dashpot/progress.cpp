@@ -52,8 +52,7 @@ std::string ProgressLine::bar(const Progress& progress) const {
   if (width_ >= kLeastColumns)
     line += " [" + std::string(filled, '=') + std::string(kBarColumns - filled, ' ') + "]";
   line += remaining(fraction) + "  " + progress.stage;
-  const std::size_t room = static_cast<std::size_t>(width_ - 1);
-  return columns_of(line) > room ? line.substr(0, room) : line;
+  return first_columns(line, static_cast<std::size_t>(width_ - 1));
 }
 
 std::string ProgressLine::remaining(double fraction) const {

@@ -37,6 +37,9 @@ void write_results(const ReportInput& input, const ResultSettings& settings, Con
 /// kDone, or kNotUsable with the reason printed when no model gave a finite force.
 int exit_code_of(const Ranking& ranking, Console& console);
 
+/// This very build: a fit that another one made may differ.
+std::string program_id();
+
 /// Now, in UTC: "2026-05-01T12:00:00Z".
 std::string date_now();
 

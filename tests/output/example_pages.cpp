@@ -4,6 +4,7 @@
 #include "dashpot/base/file.h"
 #include "dashpot/output/inspect.h"
 #include "output/example_ranking.h"
+#include "output/example_search.h"
 
 int main(int count, char** arguments) {
   if (count < 2) return 2;
@@ -14,4 +15,8 @@ int main(int count, char** arguments) {
   dashpot::write_file(folder / "crowded.html", dashpot::html_report(crowded_ranking(30).input()));
   dashpot::write_file(folder / "inspect.html",
                       dashpot::inspect_html(example.dataset, "dashpot inspect demo", "2026-11-21"));
+  const dashpot::SearchReport search = example_search();
+  dashpot::write_file(
+      folder / "search.html",
+      dashpot::html_search({example.dataset, search, "dashpot search demo", "0.1.0", "2026-11-21"}));
 }

@@ -140,6 +140,22 @@ async function crowded({page, done}) {
   await done();
 }
 
+// A search: every plot has ink, logarithmic axes read in numbers, the table sorts.
+async function search({page, done}) {
+  assert.match(await page.locator(".verdict").textContent(), /41 parameters.*smallest network within one standard error/);
+  assert.equal(await page.locator("figure.plot").count(), 4);
+  for (const figure of await page.locator("figure.plot").all()) assert.ok(await has_ink(figure), await figure.textContent());
+  const figure = plot(page, "Error against parameters");
+  await figure.scrollIntoViewIfNeeded();
+  const {x, y, width, height} = await figure.locator(".u-over").boundingBox();
+  await page.mouse.move(x + 0.96 * width, y + 0.96 * height);
+  assert.match(await figure.locator(".readout").textContent(), /trials, hidden=10.*Parameters 41.*ESR 2/);
+  assert.match(await page.locator("#trials tbody tr").last().textContent(), /failed: <script>alert/, "text stays text");
+  await page.locator("#trials thead button", {hasText: /^Par\.$/}).click();
+  assert.match(await page.locator("#trials tbody tr").first().textContent(), /smallest within one standard error/);
+  await done();
+}
+
 try {
   const report = await open("report.html");
   for (const step of [ranking, choosing, zooming, theme]) await step(report.page);
@@ -147,6 +163,9 @@ try {
   for (const options of [{scheme: "dark"}, {width: 390}]) await (await open("report.html", options)).done();
 
   await crowded(await open("crowded.html"));
+
+  await search(await open("search.html"));
+  await (await open("search.html", {width: 390})).done();
 
   const inspect = await open("inspect.html");
   await inspect.page.selectOption("#record", "1");

@@ -6,15 +6,12 @@
 #include "dashpot/base/error.h"
 #include "dashpot/base/file.h"
 #include "dashpot/base/text.h"
+#include "dashpot/identify/fit_identity.h"
 
 namespace dashpot {
 namespace {
 
 constexpr std::string_view kFormat = "dashpot fit 1";
-
-std::string_view bytes_of(const std::vector<double>& samples) {
-  return {reinterpret_cast<const char*>(samples.data()), samples.size() * sizeof(double)};
-}
 
 /// JSON has no infinity: an interval without a bound becomes null, and not a number when it is read.
 Value number(double value) { return std::isfinite(value) ? Value(value) : Value(); }
@@ -83,48 +80,15 @@ FitReport read_fit(const Value& value, const std::vector<Record>& training) {
   return fit;
 }
 
-/// Changes with every sample, channel, name and warm-up of the records.
-std::string fingerprint(const std::vector<Record>& records) {
-  std::string text;
-  for (const Record& record : records) {
-    text += record.name + '\n' + record.condition + '\n' + std::to_string(record.warm_up) + '\n' +
-            sha256(bytes_of(record.time));
-    if (record.drive_level) text += format_exact(*record.drive_level);
-    for (const auto& [name, value] : record.conditions) text += '\n' + name + '=' + format_exact(value);
-    for (const Channel& channel : record.channels)
-      text += '\n' + channel.name + ' ' + channel.unit + ' ' + sha256(bytes_of(channel.samples));
-    text += "\n\n";
-  }
-  return sha256(text);
-}
-
-std::string text_of(const std::vector<ParameterChoice>& choices) {
-  std::string text;
-  for (const auto& [law, parameter, form, fixed, free, bounds, prior] : choices) {
-    text += law + '.' + parameter + (free ? " free" : "");
-    if (form) text.append(" ").append(name_of(*form));
-    if (fixed) text += " = " + format_exact(*fixed);
-    if (bounds) text += " in " + format_exact(bounds->lower) + ':' + format_exact(bounds->upper);
-    if (prior) text += " about " + format_exact(prior->value) + "+-" + format_exact(prior->deviation);
-    text += ';';
-  }
-  return text;
-}
-
 }  // namespace
 
 FitStore::FitStore(std::filesystem::path folder, std::string program)
     : folder_(std::move(folder)), program_(std::move(program)) {}
 
 std::string FitStore::key_of(const Request& request) const {
-  // All members by name: a new option does not compile here until it enters the key. Threads and monitor do
-  // not change a fit.
-  const auto& [offset, choices, network, starts, search, seed, threads, monitor] = request.options;
-  (void)threads, (void)monitor;
-  return join({program_, request.model, fingerprint(request.training), request.drive_unit,
-               offset == OffsetMode::Record ? "an offset per record" : "no offsets", text_of(choices),
-               format_design(network), std::to_string(starts), std::to_string(search), std::to_string(seed)},
-              "\n");
+  std::vector<std::string> parts{program_, request.model, fingerprint(request.training), request.drive_unit};
+  for (const auto& [name, value] : describe_options(request.options)) parts.push_back(value);
+  return join(parts, "\n");
 }
 
 std::filesystem::path FitStore::file_of(const Request& request, const std::string& key) const {

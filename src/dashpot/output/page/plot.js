@@ -1,7 +1,7 @@
 // One plot for everything on the page: uPlot in its x-y mode with our axes, zoom, read-out and legend.
 //
-// spec = {x: {label, values?, ticks?, range?}, y: {label, zero?}, series: [{label, x, y, kind, colour, ...}],
-//         shade_until?, height?, nearest?: "x" | "point", empty?}
+// spec = {x: {label, values?, ticks?, range?, log?}, y: {label, zero?, log?}, series: [{label, x, y, kind, colour, ...}],
+//         shade_until?, height?, nearest?: "x" | "point", empty?}; with `log` the data are decimal logarithms.
 
 const kPadding = 0.04;
 const all_plots = [];
@@ -64,8 +64,8 @@ class Plot {
       scales: {x: {time: false, range: () => this.full.x}, y: {range: () => this.full.y}},
       series: [null, ...visible.map(series_options)],
       axes: [
-        {...axis, scale: "x", label: this.spec.x.label, size: 30, space: 56, ...category_ticks(this.spec.x)},
-        {...axis, scale: "y", label: this.spec.y.label, size: 56, values: (_, ticks) => ticks.map(tick_text(ticks))},
+        {...axis, scale: "x", label: this.spec.x.label, size: 30, space: 56, ...axis_ticks(this.spec.x)},
+        {...axis, scale: "y", label: this.spec.y.label, size: 56, ...axis_ticks(this.spec.y)},
       ],
       hooks: {
         setCursor: [(u) => this.read(u)],

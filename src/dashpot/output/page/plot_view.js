@@ -30,12 +30,24 @@ function scaled(view, factor) {
   return {x: scale(view.x), y: scale(view.y)};
 }
 
-// Ticks at whole places with words, for bars by category.
-function category_ticks(axis) {
+// Ticks at whole places with words, for bars by category; at round numbers on a logarithmic axis.
+function axis_ticks(axis) {
+  if (axis.log) {
+    return {splits: (u, index, low, high) => log_places(low, high), values: (_, places) => places.map((place) => short_text(10 ** place))};
+  }
   if (!axis.values) return {values: (_, ticks) => ticks.map(tick_text(ticks))};
   return {
     splits: () => axis.values.map((_, i) => i), values: () => axis.ticks ?? axis.values, size: 46, grid: {show: false}, ticks: {show: false},
   };
+}
+
+// Where the ticks of a logarithmic axis stand: as many as have room.
+function log_places(low, high) {
+  const digits = high - low < 1 ? [1, 1.5, 2, 3, 4, 5, 6, 8] : high - low < 2.5 ? [1, 2, 5] : [1], places = [];
+  for (let power = Math.floor(low); power <= high; power++) {
+    places.push(...digits.map((digit) => power + Math.log10(digit)).filter((place) => place >= low && place <= high));
+  }
+  return places;
 }
 
 // As many decimals as the ticks need: quarters need two.
@@ -69,7 +81,7 @@ function nearest_index(u, series, by_x) {
 // Lines of the read-out: every series at the nearest x, or the one nearest point.
 function read_values(u, visible, spec) {
   const name = (axis) => axis.label.replace(/ [(].*/, ""), unit = (axis) => (axis.label.match(/[(](.*)[)]/) ?? ["", ""])[1];
-  const at = (axis, value) => axis.values ? axis.values[Math.round(value)] ?? "" : `${name(axis)} ${short_text(value, 4)} ${unit(axis)}`;
+  const at = (axis, value) => axis.values ? axis.values[Math.round(value)] ?? "" : `${name(axis)} ${short_text(axis.log ? 10 ** value : value, 4)} ${unit(axis)}`;
   const listed = visible.filter((series) => !series.silent);
   if (!listed.length) return null;
   if (spec.nearest === "x") {

@@ -57,8 +57,8 @@ const kDefinitions = [
   ["95 % interval", "of a parameter: from the curvature of the fit; it knows nothing of what the model cannot express."],
 ];
 
-function judged_section(report) {
-  return section("judged", "How it was judged", report.protocol, facts(kDefinitions),
+function judged_section(report, definitions = kDefinitions) {
+  return section("judged", "How it was judged", report.protocol, facts(definitions),
     report.folds.length ? element("details", {}, element("summary", {}, counted(report.folds.length, "division")), element("ul", {}, report.folds.map((fold) => element("li", {}, fold)))) : null);
 }
 
