@@ -32,22 +32,22 @@ inline Lanes<float> root_reciprocal_estimate(Lanes<float> x) {
 inline Lanes<float> reciprocal_estimate(Lanes<float> x) { return 1 / x; }
 #endif
 
-/// value / (sqrt(square) + epsilon)
-inline Lanes<double> over_root(Lanes<double> value, Lanes<double> square, double epsilon) {
-  return value / (root(square) + epsilon);
+/// a > b ? a : b, so b where one of them is a NaN. The compiler would compare and choose.
+#if defined(__AVX512F__)
+inline Lanes<double> larger(Lanes<double> a, Lanes<double> b) { return _mm512_maskz_max_pd(0xFF, a, b); }
+inline Lanes<float> larger(Lanes<float> a, Lanes<float> b) { return _mm512_maskz_max_ps(0xFFFF, a, b); }
+#elif defined(__AVX2__)
+inline Lanes<double> larger(Lanes<double> a, Lanes<double> b) { return _mm256_max_pd(a, b); }
+inline Lanes<float> larger(Lanes<float> a, Lanes<float> b) { return _mm256_max_ps(a, b); }
+#elif defined(__SSE2__)
+inline Lanes<double> larger(Lanes<double> a, Lanes<double> b) { return _mm_max_pd(a, b); }
+inline Lanes<float> larger(Lanes<float> a, Lanes<float> b) { return _mm_max_ps(a, b); }
+#else
+template <class V>
+inline V larger(V a, V b) {
+  return a > b ? a : b;
 }
-/// The same within a few units in the last place: each estimate is sharpened by a step of Newton's method,
-/// which takes half the time of the processor's square root and division.
-inline Lanes<float> over_root(Lanes<float> value, Lanes<float> square, float epsilon) {
-  const Lanes<float> smallest = Lanes<float>{} + 1e-37F;  // the estimate of 1 / sqrt(0) is infinite
-  const Lanes<float> x = square > smallest ? square : smallest;
-  Lanes<float> reciprocal = root_reciprocal_estimate(x);
-  reciprocal = reciprocal * (1.5F - 0.5F * x * reciprocal * reciprocal);
-  const Lanes<float> divisor = x * reciprocal + epsilon;
-  Lanes<float> inverse = reciprocal_estimate(divisor);
-  inverse = inverse * (2 - divisor * inverse);
-  return value * inverse;
-}
+#endif
 
 }  // namespace
 }  // namespace dashpot
