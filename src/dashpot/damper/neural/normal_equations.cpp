@@ -15,31 +15,29 @@ constexpr std::size_t kStretches = 8;  // of blocks: as many threads can share t
 /// What one thread needs to go over blocks.
 class Workspace {
  public:
-  Workspace(const SampleLayers<double>& layers, std::size_t inputs) : inputs_(inputs) {
+  explicit Workspace(const SampleLayers<double>& layers) {
     const std::size_t parameters = layers.weights.size();
-    block_ = {layers.layers.data(), layers.layers.size(), parameters, padded<double>(parameters + 1)};
-    std::size_t rows = inputs + 1;
-    for (const SampleLayer<double>& layer : layers.layers) rows += layer.outputs + 1;
+    blocks_ = {layers.layers.data(), layers.layers.size(), parameters, padded<double>(parameters + 1)};
+    std::size_t rows = 0;
+    for (const SampleLayer<double>& layer : layers.layers) rows += layer.outputs;
     activations_.resize(rows * kBlock);
-    block_.activations = activations_.data();
+    blocks_.activations = activations_.data();
   }
 
   void make_room_for_jacobian() {
-    jacobian_.resize(block_.columns * kBlock);
-    block_.jacobian = jacobian_.data();
+    jacobian_.resize(kBlocksAtOnce * blocks_.columns * kBlock);
+    blocks_.jacobian = jacobian_.data();
   }
 
-  const JacobianBlock& take(const double* rows) {
-    std::copy_n(rows, (inputs_ + 1) * kBlock, block_.activations);
-    block_.targets = rows + (inputs_ + 1) * kBlock;
-    block_.counts = block_.targets + kBlock;
-    return block_;
+  const JacobianBlocks& take(const double* rows, std::size_t blocks) {
+    blocks_.rows = rows;
+    blocks_.blocks = blocks;
+    return blocks_;
   }
 
  private:
-  std::size_t inputs_;
   AlignedVector<double> activations_, jacobian_;
-  JacobianBlock block_{};
+  JacobianBlocks blocks_{};
 };
 
 /// Sums over a stretch of blocks.
@@ -58,13 +56,13 @@ std::vector<Stretch> make_stretches(std::size_t blocks) {
   return stretches;
 }
 
-/// Calls visit(group, block) for the blocks of a stretch.
+/// Calls visit(group, rows, count) for the blocks of a stretch, up to kBlocksAtOnce of a group each time.
 template <class Visit>
 void for_blocks(const SampleBlocks& blocks, const Stretch& stretch, Visit visit) {
   for (std::size_t g = 0; g < blocks.groups.size(); ++g) {
     const std::size_t last = std::min(stretch.last, blocks.groups[g].last);
-    for (std::size_t b = std::max(stretch.first, blocks.groups[g].first); b < last; ++b)
-      visit(g, blocks.block(b));
+    for (std::size_t b = std::max(stretch.first, blocks.groups[g].first); b < last; b += kBlocksAtOnce)
+      visit(g, blocks.block(b), std::min(kBlocksAtOnce, last - b));
   }
 }
 
@@ -116,22 +114,19 @@ SampleBlocks make_blocks(const Mlp& mlp, const TrainingSamples& samples, double 
   std::vector<std::vector<std::size_t>> members(grouped ? samples.groups : 1);
   for (std::size_t i = 0; i < count; ++i) members[grouped ? samples.group[i] : 0].push_back(i);
 
-  const std::size_t stride = (inputs + 3) * kBlock;
+  const std::size_t stride = (inputs + 2) * kBlock;
   for (const std::vector<std::size_t>& group : members) {
     const std::size_t first = blocks.blocks();
     const std::size_t last = first + (group.size() + kBlock - 1) / kBlock;
     blocks.groups.push_back({first, last, static_cast<double>(group.size())});
     blocks.rows.resize(last * stride);
-    for (std::size_t b = first; b < last; ++b)
-      std::fill_n(blocks.rows.begin() + static_cast<std::ptrdiff_t>(b * stride + inputs * kBlock), kBlock,
-                  1.0);
     for (std::size_t m = 0; m < group.size(); ++m) {
       const std::size_t i = group[m];
       double* at = &blocks.rows[(first + m / kBlock) * stride + m % kBlock];
       for (std::size_t k = 0; k < inputs; ++k)
         at[k * kBlock] = (samples.inputs[i * inputs + k] - mlp.input_mean[k]) / mlp.input_scale[k];
-      at[(inputs + 1) * kBlock] = (samples.targets[i] - mlp.output_mean) / mlp.output_scale;
-      at[(inputs + 2) * kBlock] = 1;
+      at[inputs * kBlock] = (samples.targets[i] - mlp.output_mean) / mlp.output_scale;
+      at[(inputs + 1) * kBlock] = 1;
     }
   }
   return blocks;
@@ -148,13 +143,14 @@ NormalEquations BlockErrors::normal_equations(std::span<const double> parameters
   const std::size_t columns = padded<double>(parameters.size() + 1);
   std::vector<Stretch> stretches = make_stretches(blocks_.blocks());
   parallel_for(stretches.size(), threads_, [&](std::size_t k) {
-    Workspace work(layers, blocks_.inputs);
+    Workspace work(layers);
     work.make_room_for_jacobian();
     stretches[k].products.resize(columns * columns);
     stretches[k].by_group.resize(blocks_.groups.size() * columns);
-    for_blocks(blocks_, stretches[k], [&](std::size_t group, const double* rows) {
-      kernel_.add_products(work.take(rows), stretches[k].products.data(),
-                           &stretches[k].by_group[group * columns]);
+    for_blocks(blocks_, stretches[k], [&](std::size_t group, const double* rows, std::size_t count) {
+      const bool centred = blocks_.centring(blocks_.groups[group]) > 0;
+      kernel_.add_products(work.take(rows, count), stretches[k].products.data(),
+                           centred ? &stretches[k].by_group[group * columns] : nullptr);
     });
   });
   return combine(stretches, blocks_, parameters.size());
@@ -165,10 +161,10 @@ double BlockErrors::squared_error(std::span<const double> parameters) const {
   layers.set_parameters(parameters);
   std::vector<Stretch> stretches = make_stretches(blocks_.blocks());
   parallel_for(stretches.size(), threads_, [&](std::size_t k) {
-    Workspace work(layers, blocks_.inputs);
+    Workspace work(layers);
     stretches[k].by_group.resize(2 * blocks_.groups.size());
-    for_blocks(blocks_, stretches[k], [&](std::size_t group, const double* rows) {
-      kernel_.add_errors(work.take(rows), &stretches[k].by_group[2 * group]);
+    for_blocks(blocks_, stretches[k], [&](std::size_t group, const double* rows, std::size_t count) {
+      kernel_.add_errors(work.take(rows, count), &stretches[k].by_group[2 * group]);
     });
   });
   const AlignedVector<double> sums = sums_by_group(stretches);

@@ -20,10 +20,10 @@ struct SampleBlocks {
     double size = 0;                  ///< samples
   };
   std::vector<Group> groups;
-  AlignedVector<double> rows;  ///< per block: its inputs, ones, its target, 1 where a sample counts
+  AlignedVector<double> rows;  ///< per block: its inputs, its target, 1 where a sample counts
 
   std::size_t blocks() const { return groups.empty() ? 0 : groups.back().last; }
-  const double* block(std::size_t index) const { return rows.data() + index * (inputs + 3) * kBlock; }
+  const double* block(std::size_t index) const { return rows.data() + index * (inputs + 2) * kBlock; }
   /// Share of a group's sums that its offset takes out, per sample.
   double centring(const Group& group) const {
     return group.size > 0 ? 1 / (group.size * (1 + offset_decay)) : 0;

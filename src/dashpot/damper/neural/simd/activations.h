@@ -35,6 +35,9 @@ inline Lanes<Real> tanh_lanes(Lanes<Real> x) {
   return (less * denominator + more * numerator) / (more * denominator + less * numerator);
 }
 
+/// Activations that only bound a sum below: products do it in passing.
+constexpr bool is_bound(Activation kind) { return kind == Activation::Identity || kind == Activation::Relu; }
+
 template <Activation kKind, class Real>
 inline Lanes<Real> activated(Lanes<Real> sum) {
   if constexpr (kKind == Activation::Relu)
