@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <limits>
+#include <memory>
 
 #include "dashpot/base/parallel.h"
 #include "dashpot/damper/neural/sample_layers.h"
@@ -25,8 +26,11 @@ class Workspace {
   }
 
   void make_room_for_jacobian() {
-    jacobian_.resize(kBlocksAtOnce * blocks_.columns * kBlock);
-    blocks_.jacobian = jacobian_.data();
+    const std::size_t size = blocks_.columns * kBlock, used = (blocks_.parameters + 1) * kBlock;
+    jacobian_.reset(CacheLineAllocator<double>().allocate(kBlocksAtOnce * size));
+    blocks_.jacobian = jacobian_.get();
+    for (std::size_t k = 0; k < kBlocksAtOnce; ++k)
+      std::fill_n(&jacobian_[k * size + used], size - used, 0.0);
   }
 
   const JacobianBlocks& take(const double* rows, std::size_t blocks) {
@@ -36,7 +40,11 @@ class Workspace {
   }
 
  private:
-  AlignedVector<double> activations_, jacobian_;
+  struct Free {
+    void operator()(double* at) const { CacheLineAllocator<double>().deallocate(at, 0); }
+  };
+  AlignedVector<double> activations_;
+  std::unique_ptr<double[], Free> jacobian_;  // no vector: to zero all of it each time takes long
   JacobianBlocks blocks_{};
 };
 
