@@ -95,7 +95,9 @@ struct JacobianBlocks {
   std::size_t parameters, columns;  ///< columns = padded(parameters + 1)
   const double* rows;               ///< of a block: its inputs, targets, and 1 where a sample counts, else 0
   std::size_t blocks;               ///< for add_products at most kBlocksAtOnce
-  double* activations;              ///< room for all layers' rows
+  double* activations;              ///< all layers' rows, of one block or of each
+  std::size_t activation_step;      ///< from block to block; 0: only one has room
+  bool passed;                      ///< add_products finds them, as add_errors left them
   double* jacobian;  ///< blocks x columns x kBlock: parameters in the order of Mlp, residual, zeros
 };
 /// Enough for sums over lanes to cost little, few enough for the Jacobian to stay in the second cache.

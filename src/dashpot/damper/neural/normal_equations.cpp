@@ -13,19 +13,33 @@ namespace {
 
 constexpr std::size_t kStretches = 8;  // of blocks: as many threads can share the work
 
+/// More activations than this are quicker computed again than fetched from memory.
+constexpr std::size_t kMostKept = std::size_t{1} << 20;
+
+std::size_t activations_per_block(const SampleLayers<double>& layers) {
+  std::size_t rows = 0;
+  for (const SampleLayer<double>& layer : layers.layers) rows += layer.outputs;
+  return rows * kBlock;
+}
+
 /// What one thread needs to go over blocks.
 class Workspace {
  public:
-  explicit Workspace(const SampleLayers<double>& layers) {
+  /// `kept`: room for the activations of all blocks, or null.
+  Workspace(const SampleLayers<double>& layers, const SampleBlocks& samples, double* kept)
+      : samples_(samples), kept_(kept) {
     const std::size_t parameters = layers.weights.size();
     blocks_ = {layers.layers.data(), layers.layers.size(), parameters, padded<double>(parameters + 1)};
-    std::size_t rows = 0;
-    for (const SampleLayer<double>& layer : layers.layers) rows += layer.outputs;
-    activations_.resize(rows * kBlock);
-    blocks_.activations = activations_.data();
+    if (kept) {
+      blocks_.activation_step = activations_per_block(layers);
+    } else {
+      activations_.resize(activations_per_block(layers));
+      blocks_.activations = activations_.data();
+    }
   }
 
-  void make_room_for_jacobian() {
+  void prepare_jacobian() {
+    blocks_.passed = kept_;
     const std::size_t size = blocks_.columns * kBlock, used = (blocks_.parameters + 1) * kBlock;
     jacobian_.reset(CacheLineAllocator<double>().allocate(kBlocksAtOnce * size));
     blocks_.jacobian = jacobian_.get();
@@ -33,9 +47,10 @@ class Workspace {
       std::fill_n(&jacobian_[k * size + used], size - used, 0.0);
   }
 
-  const JacobianBlocks& take(const double* rows, std::size_t blocks) {
-    blocks_.rows = rows;
+  const JacobianBlocks& take(std::size_t first, std::size_t blocks) {
+    blocks_.rows = samples_.block(first);
     blocks_.blocks = blocks;
+    if (kept_) blocks_.activations = kept_ + first * blocks_.activation_step;
     return blocks_;
   }
 
@@ -43,6 +58,8 @@ class Workspace {
   struct Free {
     void operator()(double* at) const { CacheLineAllocator<double>().deallocate(at, 0); }
   };
+  const SampleBlocks& samples_;
+  double* kept_;
   AlignedVector<double> activations_;
   std::unique_ptr<double[], Free> jacobian_;  // no vector: to zero all of it each time takes long
   JacobianBlocks blocks_{};
@@ -64,13 +81,13 @@ std::vector<Stretch> make_stretches(std::size_t blocks) {
   return stretches;
 }
 
-/// Calls visit(group, rows, count) for the blocks of a stretch, up to kBlocksAtOnce of a group each time.
+/// Calls visit(group, first, count) for the blocks of a stretch, up to kBlocksAtOnce of a group each time.
 template <class Visit>
 void for_blocks(const SampleBlocks& blocks, const Stretch& stretch, Visit visit) {
   for (std::size_t g = 0; g < blocks.groups.size(); ++g) {
     const std::size_t last = std::min(stretch.last, blocks.groups[g].last);
     for (std::size_t b = std::max(stretch.first, blocks.groups[g].first); b < last; b += kBlocksAtOnce)
-      visit(g, blocks.block(b), std::min(kBlocksAtOnce, last - b));
+      visit(g, b, std::min(kBlocksAtOnce, last - b));
   }
 }
 
@@ -145,34 +162,40 @@ BlockErrors::BlockErrors(const Mlp& mlp, const SampleBlocks& blocks, int threads
   assert(mlp.layers.back() == 1);
 }
 
-NormalEquations BlockErrors::normal_equations(std::span<const double> parameters) const {
+NormalEquations BlockErrors::normal_equations(std::span<const double> parameters,
+                                              AlignedVector<double>* activations) const {
   SampleLayers<double> layers(mlp_);
   layers.set_parameters(parameters);
   const std::size_t columns = padded<double>(parameters.size() + 1);
   std::vector<Stretch> stretches = make_stretches(blocks_.blocks());
   parallel_for(stretches.size(), threads_, [&](std::size_t k) {
-    Workspace work(layers);
-    work.make_room_for_jacobian();
+    Workspace work(layers, blocks_, activations && !activations->empty() ? activations->data() : nullptr);
+    work.prepare_jacobian();
     stretches[k].products.resize(columns * columns);
     stretches[k].by_group.resize(blocks_.groups.size() * columns);
-    for_blocks(blocks_, stretches[k], [&](std::size_t group, const double* rows, std::size_t count) {
+    for_blocks(blocks_, stretches[k], [&](std::size_t group, std::size_t first, std::size_t count) {
       const bool centred = blocks_.centring(blocks_.groups[group]) > 0;
-      kernel_.add_products(work.take(rows, count), stretches[k].products.data(),
+      kernel_.add_products(work.take(first, count), stretches[k].products.data(),
                            centred ? &stretches[k].by_group[group * columns] : nullptr);
     });
   });
   return combine(stretches, blocks_, parameters.size());
 }
 
-double BlockErrors::squared_error(std::span<const double> parameters) const {
+double BlockErrors::squared_error(std::span<const double> parameters,
+                                  AlignedVector<double>* activations) const {
   SampleLayers<double> layers(mlp_);
   layers.set_parameters(parameters);
+  if (activations) {
+    const std::size_t size = blocks_.blocks() * activations_per_block(layers);
+    activations->resize(size <= kMostKept ? size : 0);
+  }
   std::vector<Stretch> stretches = make_stretches(blocks_.blocks());
   parallel_for(stretches.size(), threads_, [&](std::size_t k) {
-    Workspace work(layers);
+    Workspace work(layers, blocks_, activations && !activations->empty() ? activations->data() : nullptr);
     stretches[k].by_group.resize(2 * blocks_.groups.size());
-    for_blocks(blocks_, stretches[k], [&](std::size_t group, const double* rows, std::size_t count) {
-      kernel_.add_errors(work.take(rows, count), &stretches[k].by_group[2 * group]);
+    for_blocks(blocks_, stretches[k], [&](std::size_t group, std::size_t first, std::size_t count) {
+      kernel_.add_errors(work.take(first, count), &stretches[k].by_group[2 * group]);
     });
   });
   const AlignedVector<double> sums = sums_by_group(stretches);

@@ -49,9 +49,12 @@ class BlockErrors {
  public:
   BlockErrors(const Mlp& mlp, const SampleBlocks& blocks, int threads,
               SimdLevel level = simd_levels().back());
-  NormalEquations normal_equations(std::span<const double> parameters) const;
-  /// Its squared_error alone, at a fraction of the price.
-  double squared_error(std::span<const double> parameters) const;
+  /// `activations`: what squared_error() left at the same parameters; null: they are computed.
+  NormalEquations normal_equations(std::span<const double> parameters,
+                                   AlignedVector<double>* activations = nullptr) const;
+  /// Its squared_error alone, at a fraction of the price. Leaves its activations, when that pays.
+  double squared_error(std::span<const double> parameters,
+                       AlignedVector<double>* activations = nullptr) const;
 
  private:
   const Mlp& mlp_;

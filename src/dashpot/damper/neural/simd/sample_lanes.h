@@ -73,12 +73,12 @@ inline const double* rows_of(const JacobianBlocks& blocks, std::size_t index) {
   return blocks.rows + index * (blocks.layers[0].inputs + 2) * kBlock;
 }
 
-/// Fills the activations of all layers and returns those of the output.
-const double* forward_block(const JacobianBlocks& blocks, const double* rows) {
-  const double* in = rows;
-  double* out = blocks.activations;
+/// Fills the activations of all layers on block `index` and returns those of the output.
+const double* forward_block(const JacobianBlocks& blocks, std::size_t index) {
+  const double* in = rows_of(blocks, index);
+  double* out = blocks.activations + index * blocks.activation_step;
   for (std::size_t l = 0; l < blocks.count; ++l) {
-    apply_layer(blocks.layers[l], in, out);
+    if (!blocks.passed) apply_layer(blocks.layers[l], in, out);
     in = out;
     out += blocks.layers[l].outputs * kBlock;
   }
@@ -100,9 +100,10 @@ void weight_rows(const SampleLayer<double>& layer, const double* in, const doubl
 }
 
 /// Rows of a block's Jacobian, last layer first, and the residual behind them.
-void fill_jacobian(const JacobianBlocks& blocks, const double* rows, double* jacobian) {
+void fill_jacobian(const JacobianBlocks& blocks, std::size_t index, double* jacobian) {
   constexpr std::size_t kSize = kLanes<double>;
-  const double *out = forward_block(blocks, rows), *targets = rows + blocks.layers[0].inputs * kBlock;
+  const double *rows = rows_of(blocks, index), *out = forward_block(blocks, index),
+               *targets = rows + blocks.layers[0].inputs * kBlock;
   double* const residual = jacobian + blocks.parameters * kBlock;
   double* by_sums = residual - kBlock;
   for (std::size_t s = 0; s < kBlock; s += kSize) {
@@ -171,7 +172,7 @@ void add_sums(const JacobianBlocks& blocks, double* sums) {
 
 void add_products(const JacobianBlocks& blocks, double* products, double* sums) noexcept {
   for (std::size_t k = 0; k < blocks.blocks; ++k)
-    fill_jacobian(blocks, rows_of(blocks, k), blocks.jacobian + k * blocks.columns * kBlock);
+    fill_jacobian(blocks, k, blocks.jacobian + k * blocks.columns * kBlock);
   const std::size_t rows = blocks.parameters + 1;
   for (std::size_t a = 0; a < rows; a += kTall) {
     std::size_t b = a;
@@ -185,7 +186,7 @@ void add_errors(const JacobianBlocks& blocks, double sums[2]) noexcept {
   Lanes<double> sum{}, squares{};
   for (std::size_t k = 0; k < blocks.blocks; ++k) {
     const double* const rows = rows_of(blocks, k);
-    const double *out = forward_block(blocks, rows), *targets = rows + blocks.layers[0].inputs * kBlock;
+    const double *out = forward_block(blocks, k), *targets = rows + blocks.layers[0].inputs * kBlock;
     for (std::size_t s = 0; s < kBlock; s += kLanes<double>) {
       const Lanes<double> residual = residuals(out, targets, s);
       sum += residual;
