@@ -90,7 +90,8 @@ class BatchTrainer {
 
   UpdateRule<Real> rule(double epoch) {
     const double rate = options_.rate * options_.schedule.share(epoch, options_.epochs);
-    double corrected = rate, epsilon = options_.epsilon, decay = 0;
+    double corrected = rate, decay = 0;
+    double epsilon = std::max(options_.epsilon, 1e-30);  // or lanes that no weight has would learn 0 / 0
     if (options_.optimiser == Optimiser::Adam || options_.optimiser == Optimiser::AdamW) {
       momentum_power_ *= options_.momentum;
       square_power_ *= options_.mean_square;

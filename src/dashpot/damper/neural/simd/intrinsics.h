@@ -10,23 +10,23 @@ namespace {
 
 #if defined(__AVX512F__)
 inline Lanes<double> root(Lanes<double> x) { return _mm512_maskz_sqrt_pd(0xFF, x); }
-inline Lanes<float> root_reciprocal_estimate(Lanes<float> x) { return _mm512_maskz_rsqrt14_ps(0xFFFF, x); }
+inline Lanes<float> root(Lanes<float> x) { return _mm512_maskz_sqrt_ps(0xFFFF, x); }
 inline Lanes<float> reciprocal_estimate(Lanes<float> x) { return _mm512_maskz_rcp14_ps(0xFFFF, x); }
 #elif defined(__AVX2__)
 inline Lanes<double> root(Lanes<double> x) { return _mm256_sqrt_pd(x); }
-inline Lanes<float> root_reciprocal_estimate(Lanes<float> x) { return _mm256_rsqrt_ps(x); }
+inline Lanes<float> root(Lanes<float> x) { return _mm256_sqrt_ps(x); }
 inline Lanes<float> reciprocal_estimate(Lanes<float> x) { return _mm256_rcp_ps(x); }
 #elif defined(__SSE2__)
 inline Lanes<double> root(Lanes<double> x) { return _mm_sqrt_pd(x); }
-inline Lanes<float> root_reciprocal_estimate(Lanes<float> x) { return _mm_rsqrt_ps(x); }
+inline Lanes<float> root(Lanes<float> x) { return _mm_sqrt_ps(x); }
 inline Lanes<float> reciprocal_estimate(Lanes<float> x) { return _mm_rcp_ps(x); }
 #else
 inline Lanes<double> root(Lanes<double> x) {
   for (std::size_t k = 0; k < kLanes<double>; ++k) x[k] = __builtin_sqrt(x[k]);
   return x;
 }
-inline Lanes<float> root_reciprocal_estimate(Lanes<float> x) {
-  for (std::size_t k = 0; k < kLanes<float>; ++k) x[k] = 1 / __builtin_sqrtf(x[k]);
+inline Lanes<float> root(Lanes<float> x) {
+  for (std::size_t k = 0; k < kLanes<float>; ++k) x[k] = __builtin_sqrtf(x[k]);
   return x;
 }
 inline Lanes<float> reciprocal_estimate(Lanes<float> x) { return 1 / x; }

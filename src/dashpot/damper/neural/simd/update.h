@@ -9,17 +9,11 @@ namespace {
 inline Lanes<double> over_root(Lanes<double> value, Lanes<double> square, double epsilon) {
   return value / (root(square) + epsilon);
 }
-/// The same within a few units in the last place: each estimate is sharpened by a step of Newton's method,
-/// which takes half the time of the processor's square root and division.
+/// The same within a few units in the last place: the root comes from its own unit of the processor, which is
+/// then too busy to divide; a step of Newton's method sharpens the estimate of the inverse.
 inline Lanes<float> over_root(Lanes<float> value, Lanes<float> square, float epsilon) {
-  const Lanes<float> smallest = Lanes<float>{} + 1e-37F;  // the estimate of 1 / sqrt(0) is infinite
-  const Lanes<float> x = square > smallest ? square : smallest;
-  Lanes<float> reciprocal = root_reciprocal_estimate(x);
-  reciprocal = reciprocal * (1.5F - 0.5F * x * reciprocal * reciprocal);
-  const Lanes<float> divisor = x * reciprocal + epsilon;
-  Lanes<float> inverse = reciprocal_estimate(divisor);
-  inverse = inverse * (2 - divisor * inverse);
-  return value * inverse;
+  const Lanes<float> divisor = root(square) + epsilon, inverse = reciprocal_estimate(divisor);
+  return value * (inverse * (2 - divisor * inverse));
 }
 
 /// kPlain: without a price on the weights.
