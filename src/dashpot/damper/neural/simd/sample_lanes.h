@@ -42,15 +42,15 @@ inline void turn_inputs(const Real* from, std::size_t step, Real* to) {
 }
 template <class Real>
 void take_inputs(const Real* rows, std::size_t inputs, Real* to) {
-  constexpr std::size_t kSize = kLanes<Real>;
-  for (std::size_t i = 0; i < inputs; i += kSize) {
+  constexpr std::size_t kSize = kLanes<Real>, kSome = kSize > 8 ? 8 : kSize;
+  for (std::size_t i = 0; i < inputs; i += kSize, rows += kSize, to += kSize * kBlock) {
     const std::size_t left = inputs - i;
     if (left <= 2)
-      turn_inputs<2>(rows + i, inputs, to + i * kBlock);
-    else if (kSize > 8 && left <= 8)
-      turn_inputs < kSize<8 ? kSize : 8>(rows + i, inputs, to + i * kBlock);
+      turn_inputs<2>(rows, inputs, to);
+    else if (left <= kSome)
+      turn_inputs<kSome>(rows, inputs, to);
     else
-      turn_inputs<kSize>(rows + i, inputs, to + i * kBlock);
+      turn_inputs<kSize>(rows, inputs, to);
   }
 }
 
