@@ -32,10 +32,11 @@ struct NeuronLayer {
   std::size_t out_step;       ///< padded(outputs + 1); last layer: samples, from neuron to neuron
   std::size_t columns;        ///< of weights: padded(outputs); last layer: in_step
   Real *weights, *gradient;   ///< (inputs + 1) x columns; last layer: outputs x columns
-  Real* transposed;           ///< hidden: weights for the way back, padded(outputs) x padded(inputs)
+  Real* transposed;           ///< weights for the way back, no biases: padded(outputs) x padded(inputs)
   Real *in, *out;             ///< activations; out of a layer is in of the next
   Real* deltas;               ///< of the loss by the sums: samples x columns; last: as out
-  const Real *counts, *ones;  ///< lanes of the last vector: 1 for a neuron; 1 behind the last one
+  const Real *counts, *ones;  ///< columns: 1 for a neuron; 1 behind the last one
+  const Real* bounds;         ///< columns: below which no activation lies (with ReLU 0; 1 behind the last)
 };
 
 /// One step of training on flat arrays.
@@ -58,6 +59,8 @@ struct SampleLayer {
 };
 /// Samples of a block of it.
 constexpr std::size_t kBlock = 64;
+/// Rows of kBlock that a layer may fill: the widest, or inputs that come by whole cache lines.
+constexpr std::size_t kRoomRows = kMaxWidth;
 
 /// The loops over lanes, compiled for one instruction set. None allocates or throws.
 template <class Real>
@@ -73,32 +76,39 @@ struct Kernel {
   /// `count` is a multiple of the padding.
   void (*update)(const UpdateRule<Real>& rule, std::size_t count, Real* weights, const Real* gradient,
                  Real* mean, Real* square) noexcept;
-  /// Outputs at one standardised input; `input` has padded(inputs + 1) values, a 1 behind the last input.
-  /// Reads weights, counts and ones of the layers only.
-  void (*respond)(const NeuronLayer<Real>* layers, std::size_t count, const Real* input,
-                  Real* outputs) noexcept;
-  /// Outputs of kBlock samples, a row of samples each. `from` holds the inputs likewise, and a row of ones;
-  /// it and `to` are room for the widest layer and one more. Returns which of the two holds the outputs.
-  const Real* (*evaluate)(const SampleLayer<Real>* layers, std::size_t count, Real* from, Real* to) noexcept;
+  /// The output of a network with one output at one input. Reads weights, counts, ones and bounds only.
+  Real (*respond)(const NeuronLayer<Real>* layers, std::size_t count, const Real* input) noexcept;
+  /// Outputs of kBlock samples, whose inputs stand row by row and are read up to kKernelAlign bytes beyond
+  /// the last. `room` is for twice kRoomRows rows of kBlock. Returns where in it the outputs stand.
+  const Real* (*evaluate)(const SampleLayer<Real>* layers, std::size_t count, const Real* inputs,
+                          Real* room) noexcept;
 };
 /// Of a level in simd_levels().
 template <class Real>
 const Kernel<Real>& kernel(SimdLevel level);
 
-/// A block of samples of a network with one output, on which its residuals are linearised.
-struct JacobianBlock {
+/// Blocks of samples, one behind the other, of a network with one output, on which its residuals are
+/// linearised.
+struct JacobianBlocks {
   const SampleLayer<double>* layers;
   std::size_t count;
   std::size_t parameters, columns;  ///< columns = padded(parameters + 1)
-  const double *targets, *counts;   ///< kBlock; counts: 1 where a sample counts, else 0
-  double* activations;              ///< of all layers one after the other, each with a row of ones behind it
-  double* jacobian;                 ///< columns x kBlock: parameters in the order of Mlp, residual, zeros
+  const double* rows;               ///< of a block: its inputs, targets, and 1 where a sample counts, else 0
+  std::size_t blocks;               ///< for add_products at most kBlocksAtOnce
+  double* activations;              ///< all layers' rows, of one block or of each
+  std::size_t activation_step;      ///< from block to block; 0: only one has room
+  bool passed;                      ///< add_products finds them, as add_errors left them
+  double* jacobian;  ///< blocks x columns x kBlock: parameters in the order of Mlp, residual, zeros
 };
+/// Enough for sums over lanes to cost little, few enough for the Jacobian to stay in the second cache.
+constexpr std::size_t kBlocksAtOnce = 4;
+
 struct JacobianKernel {
-  /// Adds [J r]' [J r] (columns x columns, the upper triangle) and the sums of J and r over the samples.
-  void (*add_products)(const JacobianBlock& block, double* products, double* sums) noexcept;
+  /// Adds [J r]' [J r] (columns x columns, the upper triangle); to `sums`, unless it is null, the sums of J
+  /// and r over the samples.
+  void (*add_products)(const JacobianBlocks& blocks, double* products, double* sums) noexcept;
   /// Adds the sum of the residuals and that of their squares.
-  void (*add_errors)(const JacobianBlock& block, double sums[2]) noexcept;
+  void (*add_errors)(const JacobianBlocks& blocks, double sums[2]) noexcept;
 };
 const JacobianKernel& jacobian_kernel(SimdLevel level);
 

@@ -5,49 +5,59 @@
 
 namespace dashpot {
 
+namespace {
+
+/// The same network on raw inputs: its first layer standardises in passing. That loses no more digits than
+/// an input far from zero has lost when it was rounded.
+Mlp on_raw_inputs(Mlp mlp) {
+  const std::size_t inputs = mlp.layers[0], outputs = mlp.layers[1];
+  double* weight = mlp.parameters.data();
+  double* const biases = weight + inputs * outputs;
+  for (std::size_t n = 0; n < outputs; ++n)
+    for (std::size_t i = 0; i < inputs; ++i, ++weight) {
+      *weight /= mlp.input_scale[i];
+      biases[n] -= *weight * mlp.input_mean[i];
+    }
+  return mlp;
+}
+
+}  // namespace
+
 template <class Real>
 MlpEvaluator<Real>::MlpEvaluator(const Mlp& mlp, SimdLevel level)
     : one_kernel_(kernel<Real>(std::min(level, SimdLevel::Avx2))),
       many_kernel_(kernel<Real>(level)),
-      single_(mlp, 0, level),
-      many_(mlp),
-      input_mean_(mlp.input_mean.begin(), mlp.input_mean.end()),
+      single_(on_raw_inputs(mlp), 0, level),
+      many_(on_raw_inputs(mlp)),
       output_mean_(static_cast<Real>(mlp.output_mean)),
       output_scale_(static_cast<Real>(mlp.output_scale)) {
   assert(mlp.layers.back() == 1 && *std::max_element(mlp.layers.begin(), mlp.layers.end()) <= kMaxWidth);
-  for (const double scale : mlp.input_scale) input_factor_.push_back(static_cast<Real>(1 / scale));
 }
 
 template <class Real>
 Real MlpEvaluator<Real>::evaluate(const Real* input) const noexcept {
-  alignas(kKernelAlign) Real standardised[padded<Real>(kMaxWidth + 1)];
-  const std::size_t inputs = input_mean_.size(), step = single_.input_step();
-  for (std::size_t k = 0; k < step; k += padded<Real>(1))
-    std::fill_n(standardised + k, padded<Real>(1), Real{0});
-  for (std::size_t k = 0; k < inputs; ++k) standardised[k] = (input[k] - input_mean_[k]) * input_factor_[k];
-  standardised[inputs] = 1;
-  Real output;
-  one_kernel_.respond(single_.layers().data(), single_.layers().size(), standardised, &output);
-  return output_mean_ + output_scale_ * output;
+  return output_mean_ +
+         output_scale_ * one_kernel_.respond(single_.layers().data(), single_.layers().size(), input);
 }
 
 template <class Real>
 void MlpEvaluator<Real>::evaluate(std::span<const Real> inputs, std::span<Real> outputs) const noexcept {
-  alignas(kKernelAlign) Real room[2][(kMaxWidth + 1) * kBlock];
-  const std::size_t width = input_mean_.size();
+  constexpr std::size_t kBeyond = kKernelAlign / sizeof(Real);  // what the kernel may read behind a block
+  alignas(kKernelAlign) Real room[2 * kRoomRows * kBlock];
+  alignas(kKernelAlign) Real last[kMaxWidth * kBlock + kBeyond];
+  const std::size_t width = single_.inputs();
   assert(inputs.size() == outputs.size() * width);
   for (std::size_t first = 0; first < outputs.size(); first += kBlock) {
     const std::size_t size = std::min(kBlock, outputs.size() - first);
     const Real* raw = inputs.data() + first * width;
-    for (std::size_t k = 0; k < width; ++k) {
-      Real* row = room[0] + k * kBlock;
-      for (std::size_t s = 0; s < size; ++s)
-        row[s] = (raw[s * width + k] - input_mean_[k]) * input_factor_[k];
-      std::fill(row + size, row + kBlock, Real{0});
+    if (first * width + kBlock * width + kBeyond > inputs.size()) {
+      std::fill_n(std::copy_n(raw, size * width, last), (kBlock - size) * width + kBeyond, Real{0});
+      raw = last;
     }
-    std::fill_n(room[0] + width * kBlock, kBlock, Real{1});
-    const Real* result = many_kernel_.evaluate(many_.layers.data(), many_.layers.size(), room[0], room[1]);
-    for (std::size_t s = 0; s < size; ++s) outputs[first + s] = output_mean_ + output_scale_ * result[s];
+    const Real* result = many_kernel_.evaluate(many_.layers.data(), many_.layers.size(), raw, room);
+    Real* const to = outputs.data() + first;
+    const Real mean = output_mean_, scale = output_scale_;  // which the loop cannot change
+    for (std::size_t s = 0; s < size; ++s) to[s] = mean + scale * result[s];
   }
 }
 

@@ -1,6 +1,5 @@
 #pragma once
 #include <span>
-#include <vector>
 
 #include "dashpot/damper/neural/padded_network.h"
 #include "dashpot/damper/neural/sample_layers.h"
@@ -24,7 +23,6 @@ class MlpEvaluator {
   const Kernel<Real>& many_kernel_;
   PaddedNetwork<Real> single_;  ///< neurons as lanes
   SampleLayers<Real> many_;     ///< samples as lanes
-  std::vector<Real> input_mean_, input_factor_;
   Real output_mean_, output_scale_;
 };
 

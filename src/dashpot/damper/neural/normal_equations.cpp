@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <limits>
+#include <memory>
 
 #include "dashpot/base/parallel.h"
 #include "dashpot/damper/neural/sample_layers.h"
@@ -12,34 +13,56 @@ namespace {
 
 constexpr std::size_t kStretches = 8;  // of blocks: as many threads can share the work
 
+/// More activations than this are quicker computed again than fetched from memory.
+constexpr std::size_t kMostKept = std::size_t{1} << 20;
+
+std::size_t activations_per_block(const SampleLayers<double>& layers) {
+  std::size_t rows = 0;
+  for (const SampleLayer<double>& layer : layers.layers) rows += layer.outputs;
+  return rows * kBlock;
+}
+
 /// What one thread needs to go over blocks.
 class Workspace {
  public:
-  Workspace(const SampleLayers<double>& layers, std::size_t inputs) : inputs_(inputs) {
+  /// `kept`: room for the activations of all blocks, or null.
+  Workspace(const SampleLayers<double>& layers, const SampleBlocks& samples, double* kept)
+      : samples_(samples), kept_(kept) {
     const std::size_t parameters = layers.weights.size();
-    block_ = {layers.layers.data(), layers.layers.size(), parameters, padded<double>(parameters + 1)};
-    std::size_t rows = inputs + 1;
-    for (const SampleLayer<double>& layer : layers.layers) rows += layer.outputs + 1;
-    activations_.resize(rows * kBlock);
-    block_.activations = activations_.data();
+    blocks_ = {layers.layers.data(), layers.layers.size(), parameters, padded<double>(parameters + 1)};
+    if (kept) {
+      blocks_.activation_step = activations_per_block(layers);
+    } else {
+      activations_.resize(activations_per_block(layers));
+      blocks_.activations = activations_.data();
+    }
   }
 
-  void make_room_for_jacobian() {
-    jacobian_.resize(block_.columns * kBlock);
-    block_.jacobian = jacobian_.data();
+  void prepare_jacobian() {
+    blocks_.passed = kept_;
+    const std::size_t size = blocks_.columns * kBlock, used = (blocks_.parameters + 1) * kBlock;
+    jacobian_.reset(CacheLineAllocator<double>().allocate(kBlocksAtOnce * size));
+    blocks_.jacobian = jacobian_.get();
+    for (std::size_t k = 0; k < kBlocksAtOnce; ++k)
+      std::fill_n(&jacobian_[k * size + used], size - used, 0.0);
   }
 
-  const JacobianBlock& take(const double* rows) {
-    std::copy_n(rows, (inputs_ + 1) * kBlock, block_.activations);
-    block_.targets = rows + (inputs_ + 1) * kBlock;
-    block_.counts = block_.targets + kBlock;
-    return block_;
+  const JacobianBlocks& take(std::size_t first, std::size_t blocks) {
+    blocks_.rows = samples_.block(first);
+    blocks_.blocks = blocks;
+    if (kept_) blocks_.activations = kept_ + first * blocks_.activation_step;
+    return blocks_;
   }
 
  private:
-  std::size_t inputs_;
-  AlignedVector<double> activations_, jacobian_;
-  JacobianBlock block_{};
+  struct Free {
+    void operator()(double* at) const { CacheLineAllocator<double>().deallocate(at, 0); }
+  };
+  const SampleBlocks& samples_;
+  double* kept_;
+  AlignedVector<double> activations_;
+  std::unique_ptr<double[], Free> jacobian_;  // no vector: to zero all of it each time takes long
+  JacobianBlocks blocks_{};
 };
 
 /// Sums over a stretch of blocks.
@@ -58,13 +81,13 @@ std::vector<Stretch> make_stretches(std::size_t blocks) {
   return stretches;
 }
 
-/// Calls visit(group, block) for the blocks of a stretch.
+/// Calls visit(group, first, count) for the blocks of a stretch, up to kBlocksAtOnce of a group each time.
 template <class Visit>
 void for_blocks(const SampleBlocks& blocks, const Stretch& stretch, Visit visit) {
   for (std::size_t g = 0; g < blocks.groups.size(); ++g) {
     const std::size_t last = std::min(stretch.last, blocks.groups[g].last);
-    for (std::size_t b = std::max(stretch.first, blocks.groups[g].first); b < last; ++b)
-      visit(g, blocks.block(b));
+    for (std::size_t b = std::max(stretch.first, blocks.groups[g].first); b < last; b += kBlocksAtOnce)
+      visit(g, b, std::min(kBlocksAtOnce, last - b));
   }
 }
 
@@ -116,22 +139,19 @@ SampleBlocks make_blocks(const Mlp& mlp, const TrainingSamples& samples, double 
   std::vector<std::vector<std::size_t>> members(grouped ? samples.groups : 1);
   for (std::size_t i = 0; i < count; ++i) members[grouped ? samples.group[i] : 0].push_back(i);
 
-  const std::size_t stride = (inputs + 3) * kBlock;
+  const std::size_t stride = (inputs + 2) * kBlock;
   for (const std::vector<std::size_t>& group : members) {
     const std::size_t first = blocks.blocks();
     const std::size_t last = first + (group.size() + kBlock - 1) / kBlock;
     blocks.groups.push_back({first, last, static_cast<double>(group.size())});
     blocks.rows.resize(last * stride);
-    for (std::size_t b = first; b < last; ++b)
-      std::fill_n(blocks.rows.begin() + static_cast<std::ptrdiff_t>(b * stride + inputs * kBlock), kBlock,
-                  1.0);
     for (std::size_t m = 0; m < group.size(); ++m) {
       const std::size_t i = group[m];
       double* at = &blocks.rows[(first + m / kBlock) * stride + m % kBlock];
       for (std::size_t k = 0; k < inputs; ++k)
         at[k * kBlock] = (samples.inputs[i * inputs + k] - mlp.input_mean[k]) / mlp.input_scale[k];
-      at[(inputs + 1) * kBlock] = (samples.targets[i] - mlp.output_mean) / mlp.output_scale;
-      at[(inputs + 2) * kBlock] = 1;
+      at[inputs * kBlock] = (samples.targets[i] - mlp.output_mean) / mlp.output_scale;
+      at[(inputs + 1) * kBlock] = 1;
     }
   }
   return blocks;
@@ -142,33 +162,40 @@ BlockErrors::BlockErrors(const Mlp& mlp, const SampleBlocks& blocks, int threads
   assert(mlp.layers.back() == 1);
 }
 
-NormalEquations BlockErrors::normal_equations(std::span<const double> parameters) const {
+NormalEquations BlockErrors::normal_equations(std::span<const double> parameters,
+                                              AlignedVector<double>* activations) const {
   SampleLayers<double> layers(mlp_);
   layers.set_parameters(parameters);
   const std::size_t columns = padded<double>(parameters.size() + 1);
   std::vector<Stretch> stretches = make_stretches(blocks_.blocks());
   parallel_for(stretches.size(), threads_, [&](std::size_t k) {
-    Workspace work(layers, blocks_.inputs);
-    work.make_room_for_jacobian();
+    Workspace work(layers, blocks_, activations && !activations->empty() ? activations->data() : nullptr);
+    work.prepare_jacobian();
     stretches[k].products.resize(columns * columns);
     stretches[k].by_group.resize(blocks_.groups.size() * columns);
-    for_blocks(blocks_, stretches[k], [&](std::size_t group, const double* rows) {
-      kernel_.add_products(work.take(rows), stretches[k].products.data(),
-                           &stretches[k].by_group[group * columns]);
+    for_blocks(blocks_, stretches[k], [&](std::size_t group, std::size_t first, std::size_t count) {
+      const bool centred = blocks_.centring(blocks_.groups[group]) > 0;
+      kernel_.add_products(work.take(first, count), stretches[k].products.data(),
+                           centred ? &stretches[k].by_group[group * columns] : nullptr);
     });
   });
   return combine(stretches, blocks_, parameters.size());
 }
 
-double BlockErrors::squared_error(std::span<const double> parameters) const {
+double BlockErrors::squared_error(std::span<const double> parameters,
+                                  AlignedVector<double>* activations) const {
   SampleLayers<double> layers(mlp_);
   layers.set_parameters(parameters);
+  if (activations) {
+    const std::size_t size = blocks_.blocks() * activations_per_block(layers);
+    activations->resize(size <= kMostKept ? size : 0);
+  }
   std::vector<Stretch> stretches = make_stretches(blocks_.blocks());
   parallel_for(stretches.size(), threads_, [&](std::size_t k) {
-    Workspace work(layers, blocks_.inputs);
+    Workspace work(layers, blocks_, activations && !activations->empty() ? activations->data() : nullptr);
     stretches[k].by_group.resize(2 * blocks_.groups.size());
-    for_blocks(blocks_, stretches[k], [&](std::size_t group, const double* rows) {
-      kernel_.add_errors(work.take(rows), &stretches[k].by_group[2 * group]);
+    for_blocks(blocks_, stretches[k], [&](std::size_t group, std::size_t first, std::size_t count) {
+      kernel_.add_errors(work.take(first, count), &stretches[k].by_group[2 * group]);
     });
   });
   const AlignedVector<double> sums = sums_by_group(stretches);

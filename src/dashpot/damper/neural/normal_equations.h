@@ -20,10 +20,10 @@ struct SampleBlocks {
     double size = 0;                  ///< samples
   };
   std::vector<Group> groups;
-  AlignedVector<double> rows;  ///< per block: its inputs, ones, its target, 1 where a sample counts
+  AlignedVector<double> rows;  ///< per block: its inputs, its target, 1 where a sample counts
 
   std::size_t blocks() const { return groups.empty() ? 0 : groups.back().last; }
-  const double* block(std::size_t index) const { return rows.data() + index * (inputs + 3) * kBlock; }
+  const double* block(std::size_t index) const { return rows.data() + index * (inputs + 2) * kBlock; }
   /// Share of a group's sums that its offset takes out, per sample.
   double centring(const Group& group) const {
     return group.size > 0 ? 1 / (group.size * (1 + offset_decay)) : 0;
@@ -49,9 +49,12 @@ class BlockErrors {
  public:
   BlockErrors(const Mlp& mlp, const SampleBlocks& blocks, int threads,
               SimdLevel level = simd_levels().back());
-  NormalEquations normal_equations(std::span<const double> parameters) const;
-  /// Its squared_error alone, at a fraction of the price.
-  double squared_error(std::span<const double> parameters) const;
+  /// `activations`: what squared_error() left at the same parameters; null: they are computed.
+  NormalEquations normal_equations(std::span<const double> parameters,
+                                   AlignedVector<double>* activations = nullptr) const;
+  /// Its squared_error alone, at a fraction of the price. Leaves its activations, when that pays.
+  double squared_error(std::span<const double> parameters,
+                       AlignedVector<double>* activations = nullptr) const;
 
  private:
   const Mlp& mlp_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <limits>
 
 namespace dashpot {
 namespace {
@@ -34,6 +35,19 @@ NeuronLayer<Real> shape_of(const Mlp& mlp, std::size_t layer, std::size_t sample
   return shape;
 }
 
+/// What the kernel knows of each column: `lanes` has room for three rows of them.
+template <class Real>
+void describe_lanes(NeuronLayer<Real>& layer, Real* lanes) {
+  Real *counts = lanes, *ones = counts + layer.columns, *bounds = ones + layer.columns;
+  std::fill_n(counts, layer.outputs, Real{1});
+  std::fill_n(bounds, layer.columns,
+              layer.activation == Activation::Relu ? Real{0} : -std::numeric_limits<Real>::infinity());
+  if (layer.outputs < layer.columns) ones[layer.outputs] = bounds[layer.outputs] = 1;
+  layer.counts = counts;
+  layer.ones = ones;
+  layer.bounds = bounds;
+}
+
 }  // namespace
 
 template <class Real>
@@ -50,14 +64,11 @@ PaddedNetwork<Real>::PaddedNetwork(const Mlp& mlp, std::size_t samples, SimdLeve
 
 template <class Real>
 void PaddedNetwork<Real>::place_weights() {
-  constexpr std::size_t kPad = padded<Real>(1);
-  Parts<Real> parts;
-  std::size_t widest = 0;
-  std::vector<std::size_t> starts;
+  Parts<Real> parts, lanes;
+  std::vector<std::size_t> starts, lane_starts;
   for (std::size_t l = 0; l < layers_.size(); ++l) {
     const NeuronLayer<Real>& layer = layers_[l];
     const bool last = l + 1 == layers_.size();
-    widest = std::max(widest, layer.columns);
     const std::size_t start = parts.take((last ? layer.outputs : layer.inputs + 1) * layer.columns);
     const std::size_t by_neuron = last ? layer.columns : 1, by_input = last ? 1 : layer.columns;
     for (std::size_t n = 0; n < layer.outputs; ++n)
@@ -65,19 +76,14 @@ void PaddedNetwork<Real>::place_weights() {
     for (std::size_t n = 0; n < layer.outputs; ++n)
       place_.push_back(start + n * by_neuron + layer.inputs * by_input);
     starts.push_back(start);
+    lane_starts.push_back(lanes.take(last ? 0 : 3 * layer.columns));
   }
   size_ = parts.size();
-  weights_.resize(size_ + kPad * widest);  // transposing reads whole squares
-  lanes_.resize(2 * kPad * layers_.size());
+  weights_.resize(size_);
+  lanes_.resize(lanes.size());
   for (std::size_t l = 0; l < layers_.size(); ++l) {
-    NeuronLayer<Real>& layer = layers_[l];
-    layer.weights = weights_.data() + starts[l];
-    Real* counts = lanes_.data() + 2 * kPad * l;
-    const std::size_t used = (layer.outputs - 1) % kPad + 1;
-    std::fill_n(counts, used, Real{1});
-    if (used < kPad) counts[kPad + used] = 1;
-    layer.counts = counts;
-    layer.ones = counts + kPad;
+    layers_[l].weights = weights_.data() + starts[l];
+    if (l + 1 < layers_.size()) describe_lanes(layers_[l], lanes_.data() + lane_starts[l]);
   }
 }
 
@@ -92,7 +98,7 @@ void PaddedNetwork<Real>::place_passes(std::size_t samples) {
   std::vector<Places> places;
   for (const NeuronLayer<Real>& layer : layers_) {
     const bool last = places.size() + 1 == layers_.size();
-    places.push_back({squares.take(last ? 0 : layer.columns * padded<Real>(layer.inputs)),
+    places.push_back({squares.take(padded<Real>(layer.outputs) * padded<Real>(layer.inputs)),
                       parts.take(rows * layer.in_step),
                       parts.take(last ? layer.outputs * layer.out_step : rows * layer.columns)});
   }

@@ -32,10 +32,10 @@ class LevenbergMarquardt {
   double weight_decay() const { return weight_decay_; }
   double effective_parameters() const { return effective_parameters_; }
 
-  /// At the network's present parameters.
-  void linearise() {
+  /// At the network's present parameters; `activations`: of the step that led there.
+  void linearise(AlignedVector<double>* activations = nullptr) {
     const std::vector<double>& w = mlp_.parameters;
-    equations_ = errors_.normal_equations(w);
+    equations_ = errors_.normal_equations(w, activations);
     assemble();
     if (bayesian_ && weigh_evidence()) assemble();
     for (std::size_t k = 0; k < w.size(); ++k) scale_[k] = std::max(scale_[k], matrix_[k * w.size() + k]);
@@ -52,12 +52,12 @@ class LevenbergMarquardt {
       predicted += step[k] * (damping_ * scale_[k] * step[k] + descent_[k]);
       trial[k] = mlp_.parameters[k] + step[k];
     }
-    const double gain = (cost_ - cost_at(errors_.squared_error(trial), trial)) / predicted;
+    const double gain = (cost_ - cost_at(errors_.squared_error(trial, &activations_), trial)) / predicted;
     if (!(gain > 0)) return reject();
     damping_ *= gain > 0.75 ? 0.1 : gain > 0.25 ? 1 : 2;
     growth_ = 2;
     mlp_.parameters = std::move(trial);
-    linearise();
+    linearise(&activations_);
     return true;
   }
 
@@ -107,6 +107,7 @@ class LevenbergMarquardt {
   double weight_decay_;
   bool bayesian_;
   double effective_parameters_ = 0;
+  AlignedVector<double> activations_;  ///< of the last step tried
   std::vector<double> scale_;
   double damping_ = 1, growth_ = 2;
   NormalEquations equations_;

@@ -24,6 +24,7 @@ class BatchTrainer {
         network_(mlp, options.batch, options.level),
         mean_(network_.size()),
         square_(network_.size()),
+        residuals_(options.batch),
         random_(options.seed) {
     const std::size_t count = samples.targets.size(), inputs = network_.inputs(),
                       step = network_.input_step();
@@ -42,11 +43,11 @@ class BatchTrainer {
   /// Goes over all samples once, in a new order; returns the mean squared error met on the way.
   double run_epoch(int epoch) {
     const std::size_t count = order_.size();
-    for (std::size_t k = count; k > 1; --k) std::swap(order_[k - 1], order_[random_.index(k)]);
+    shuffle();
     double squares = 0;
     for (std::size_t first = 0; first < count; first += options_.batch) {
       const std::size_t size = std::min(options_.batch, count - first);
-      squares += learn(&order_[first], size);
+      squares += learn(first, size);
       network_.update(rule(epoch + static_cast<double>(first) / static_cast<double>(count)), mean_, square_);
     }
     return squares / static_cast<double>(count);
@@ -55,29 +56,42 @@ class BatchTrainer {
   void get_parameters(std::vector<double>& parameters) const { network_.get_parameters(parameters); }
 
  private:
+  /// A new order; the halves of each random word make two exchanges.
+  void shuffle() {
+    std::uint64_t word = random_.next();
+    for (std::size_t k = order_.size(); k > 1; --k) {
+      word = k % 2 ? word >> 32 : random_.next();
+      std::swap(order_[k - 1], order_[(word & 0xffffffff) * k >> 32]);
+    }
+  }
+
   /// The gradient of one batch; returns its sum of squares.
-  double learn(const std::uint32_t* samples, std::size_t size) {
+  double learn(std::size_t first, std::size_t size) {
+    const std::uint32_t* const samples = &order_[first];
     const std::size_t step = network_.input_step();
-    for (std::size_t s = 0; s < size; ++s)
+    for (std::size_t s = 0; s < size; ++s) {
       for (std::size_t k = 0; k < step; k += padded<Real>(1))  // by whole cache lines
         std::memcpy(network_.input(s) + k, &inputs_[samples[s] * step + k], kKernelAlign);
+      // Samples lie all over the memory: one of the next batch may come nearer meanwhile.
+      const std::uint32_t next = order_[std::min(first + size + s, order_.size() - 1)];
+      __builtin_prefetch(&inputs_[next * step]);
+      __builtin_prefetch(&targets_[next]);
+    }
     network_.forward(size);
     const Real* output = network_.output(0);
     Real* slope = network_.output_slope(0);
     const Real share = Real{2} / static_cast<Real>(size);
-    Real squares = 0;
-    for (std::size_t s = 0; s < size; ++s) {
-      const Real residual = output[s] - targets_[samples[s]];
-      squares += residual * residual;
-      slope[s] = share * residual;
-    }
+    Real* residual = residuals_.data();
+    for (std::size_t s = 0; s < size; ++s) residual[s] = output[s] - targets_[samples[s]];
+    for (std::size_t s = 0; s < size; ++s) slope[s] = share * residual[s];
     network_.backward(size);
-    return squares;
+    return std::inner_product(residual, residual + size, residual, Real{0});
   }
 
   UpdateRule<Real> rule(double epoch) {
     const double rate = options_.rate * options_.schedule.share(epoch, options_.epochs);
-    double corrected = rate, epsilon = options_.epsilon, decay = 0;
+    double corrected = rate, decay = 0;
+    double epsilon = std::max(options_.epsilon, 1e-30);  // or lanes that no weight has would learn 0 / 0
     if (options_.optimiser == Optimiser::Adam || options_.optimiser == Optimiser::AdamW) {
       momentum_power_ *= options_.momentum;
       square_power_ *= options_.mean_square;
@@ -93,7 +107,7 @@ class BatchTrainer {
 
   const BatchTrainOptions& options_;
   PaddedNetwork<Real> network_;
-  AlignedVector<Real> mean_, square_, inputs_;
+  AlignedVector<Real> mean_, square_, inputs_, residuals_;
   std::vector<Real> targets_;
   std::vector<std::uint32_t> order_;
   Random random_;

@@ -1,14 +1,47 @@
 #pragma once
 #include "dashpot/damper/neural/activation.h"
-#include "dashpot/damper/neural/simd/lanes.h"
+#include "dashpot/damper/neural/simd/intrinsics.h"
 
 namespace dashpot {
 namespace {
 
+/// Hyperbolic tangent within a few units in the last place, odd to the last bit, without branches.
+///   x = k ln 2 / 2 + z,  |z| <= ln 2 / 4,  p = 2^k:  tanh(k ln 2 / 2) = (p - 1) / (p + 1),  and
+///   tanh z = z N(z^2) / D(z^2), so far down Lambert's continued fraction that the rest rounds away.
+/// The addition theorem makes one fraction of the two.
+template <class Real>
+inline Lanes<Real> tanh_lanes(Lanes<Real> x) {
+  using A = Arithmetic<Real>;
+  using V = Lanes<Real>;
+  using I = typename LaneTypes<Real>::Integers;
+  constexpr Real kTwoLog2E = static_cast<Real>(2.88539008177792681472);
+  constexpr Real kRound = A::kRound + A::kBias;  // adding it rounds, and leaves k + kBias in the last bits
+  const V y = -larger(V{} - A::kTanhOne, -larger(V{} - A::kTanhOne, x));  // a NaN passes
+
+  const V shifted = y * kTwoLog2E + kRound;
+  const V k = shifted - kRound;
+  const V p = __builtin_bit_cast(V, __builtin_bit_cast(I, shifted) << A::kMantissa);
+  const V z = (y - k * (A::kLn2High / 2)) - k * (A::kLn2Low / 2);
+  const V square = z * z;
+  V numerator, denominator;
+  if constexpr (sizeof(Real) == sizeof(float)) {
+    numerator = z * (square + 15);
+    denominator = square * 6 + 15;
+  } else {
+    numerator = z * ((square * 21 + 1260) * square + 10395);
+    denominator = ((square + 210) * square + 4725) * square + 10395;
+  }
+  const V less = p - 1, more = p + 1;
+  return (less * denominator + more * numerator) / (more * denominator + less * numerator);
+}
+
+/// Activations that only bound a sum below: products do it in passing.
+constexpr bool is_bound(Activation kind) { return kind == Activation::Identity || kind == Activation::Relu; }
+
 template <Activation kKind, class Real>
 inline Lanes<Real> activated(Lanes<Real> sum) {
   if constexpr (kKind == Activation::Relu)
-    return Lanes<Real>{} > sum ? Lanes<Real>{} : sum;  // a NaN passes
+    return larger(Lanes<Real>{}, sum);  // a NaN passes
   else if constexpr (kKind == Activation::Tanh)
     return tanh_lanes<Real>(sum);
   else if constexpr (kKind == Activation::Sigmoid)

@@ -22,16 +22,16 @@ struct Arithmetic;
 template <>
 struct Arithmetic<float> {
   using Bits = std::int32_t;
-  static constexpr int kMantissa = 23, kBias = 127, kTerms = 7;
+  static constexpr int kMantissa = 23, kBias = 127;
   static constexpr float kRound = 0x1.8p23f, kLn2High = 0x1.62e4p-1f, kLn2Low = 0x1.7f7d1cp-20f;
-  static constexpr float kTanhOne = 20;  // 2x from which on tanh x rounds to 1
+  static constexpr float kTanhOne = 10;  // from here on tanh x rounds to 1
 };
 template <>
 struct Arithmetic<double> {
   using Bits = std::int64_t;
-  static constexpr int kMantissa = 52, kBias = 1023, kTerms = 14;
+  static constexpr int kMantissa = 52, kBias = 1023;
   static constexpr double kRound = 0x1.8p52, kLn2High = 0x1.62e42feep-1, kLn2Low = 0x1.a39ef35793c76p-33;
-  static constexpr double kTanhOne = 40;
+  static constexpr double kTanhOne = 20;
 };
 
 template <class Real>
@@ -54,38 +54,6 @@ inline Lanes<Real> load(const Real* from) {
 template <class Real>
 inline void store(Real* to, Lanes<Real> lanes) {
   __builtin_memcpy(to, &lanes, sizeof lanes);
-}
-
-/// n! of the series of the exponential.
-template <class Real>
-constexpr Real inverse_factorial(int n) {
-  double factorial = 1;
-  for (int k = 2; k <= n; ++k) factorial *= k;
-  return static_cast<Real>(1 / factorial);
-}
-
-/// Hyperbolic tangent within a few units in the last place, without branches.
-///   tanh|x| = e / (e + 2),  e = exp(2|x|) - 1 = 2^k expm1(r) + (2^k - 1),  2|x| = k ln 2 + r, |r| <= ln 2 /
-///   2
-template <class Real>
-inline Lanes<Real> tanh_lanes(Lanes<Real> x) {
-  using A = Arithmetic<Real>;
-  using V = Lanes<Real>;
-  using I = typename LaneTypes<Real>::Integers;
-  constexpr Real kLog2E = static_cast<Real>(1.44269504088896338700);
-  const V twice = x < 0 ? -2 * x : 2 * x;
-  const V y = twice > A::kTanhOne ? V{} + A::kTanhOne : twice;  // a NaN passes
-
-  const V shifted = y * kLog2E + A::kRound;  // adding kRound rounds to an integer
-  const V k = shifted - A::kRound;
-  const V power = __builtin_bit_cast(V, (__builtin_bit_cast(I, shifted) + A::kBias) << A::kMantissa);
-  const V r = (y - k * A::kLn2High) - k * A::kLn2Low;
-  V series = V{} + inverse_factorial<Real>(A::kTerms);
-#pragma GCC unroll 16
-  for (int n = A::kTerms - 1; n >= 2; --n) series = series * r + inverse_factorial<Real>(n);
-  const V e = power * (series * r * r + r) + (power - 1);
-  const V magnitude = e / (e + 2);
-  return x < 0 ? -magnitude : magnitude;
 }
 
 template <class Real>

@@ -1,9 +1,20 @@
 #pragma once
 #include "dashpot/damper/neural/kernel.h"
-#include "dashpot/damper/neural/simd/root.h"
+#include "dashpot/damper/neural/simd/intrinsics.h"
 
 namespace dashpot {
 namespace {
+
+/// value / (sqrt(square) + epsilon)
+inline Lanes<double> over_root(Lanes<double> value, Lanes<double> square, double epsilon) {
+  return value / (root(square) + epsilon);
+}
+/// The same within a few units in the last place: the root comes from its own unit of the processor, which is
+/// then too busy to divide; a step of Newton's method sharpens the estimate of the inverse.
+inline Lanes<float> over_root(Lanes<float> value, Lanes<float> square, float epsilon) {
+  const Lanes<float> divisor = root(square) + epsilon, inverse = reciprocal_estimate(divisor);
+  return value * (inverse * (2 - divisor * inverse));
+}
 
 /// kPlain: without a price on the weights.
 template <Optimiser kKind, bool kPlain, class Real>
