@@ -2,13 +2,15 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
-#include "dashpot/damper/inverse/neural.h"
 #include "dashpot/damper/inverse/numeric.h"
+#include "dashpot/damper/inverse/observer.h"
 #include "dashpot/damper/inverse/polynomial.h"
 #include "dashpot/damper/inverse/switching.h"
+#include "dashpot/damper/inverse/train_inverse.h"
 
 namespace dashpot {
 namespace {
@@ -26,19 +28,26 @@ Inverse make_model(const DamperModel& forward, const InverseLimits& limits) {
   return std::make_unique<Model>(forward, limits);
 }
 
+/// A preset's network, taught on the model in a moment.
+Inverse make_network(std::string_view preset, const DamperModel& forward, const InverseLimits& limits) {
+  InverseTraining training;
+  training.spacing = limits.sample_time * std::max(1.0, std::round(training.spacing / limits.sample_time));
+  training.current_min = limits.current_min;
+  training.current_max = limits.current_max;
+  std::vector<InverseRun> runs[2];
+  for (const std::uint64_t seed : {0, 1})
+    for (const BenchTest& test : teaching_tests({}, limits, seed + 1))
+      runs[seed].push_back(run_on_model(forward, test, limits));
+  TaughtInverse taught = train_inverse(find_inverse_network(preset), runs[0], runs[1], training);
+  return std::make_unique<HistoryNetwork>(std::move(taught.network), limits);
+}
+
 Inverse make_neural(const DamperModel& forward, const InverseLimits& limits) {
-  using enum Tap::Signal;
-  NeuralOptions options;
-  options.taps = {{Displacement, 0}, {Velocity, 0}, {Velocity, 1}, {Force, 0}, {Force, 1}, {Current, 1}};
-  return std::make_unique<NeuralInverse>("neural", forward, limits, options);
+  return make_network("chang_zhou", forward, limits);
 }
 
 Inverse make_neural_displacement(const DamperModel& forward, const InverseLimits& limits) {
-  using enum Tap::Signal;
-  NeuralOptions options;
-  options.taps = {{Displacement, 0}, {Displacement, 1}, {Displacement, 2}, {Force, 0},
-                  {Force, 1},        {Force, 2},        {Current, 1},      {Current, 2}};
-  return std::make_unique<NeuralInverse>("neural_displacement", forward, limits, options);
+  return make_network("metered", forward, limits);
 }
 
 constexpr std::array kSchemes{
