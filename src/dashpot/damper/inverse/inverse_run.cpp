@@ -60,29 +60,39 @@ std::vector<BenchTest> teaching_tests(const MotionRange& range, const InverseLim
                          "APRBS", frame)};
 }
 
-InverseRun run_on_model(const DamperModel& forward, const BenchTest& test, const InverseLimits& limits) {
+InverseRun run_on_model(const DamperModel& forward, const std::string& name,
+                        const std::vector<DamperInput>& inputs, const InverseLimits& limits) {
   const Observer observer(forward, {limits.current_min, limits.current_max, limits.sample_time, 0});
   const double nudge = 0.05 * (limits.current_max - limits.current_min);
-  InverseRun run{.name = test.name, .sample_time = limits.sample_time};
+  InverseRun run{
+      .name = name, .sample_time = limits.sample_time, .inputs = inputs, .force = {}, .weight = {}};
   std::vector<double> state(observer.state_size());
+  observer.rest(inputs.front(), state);
+  for (std::size_t k = 0; k < inputs.size(); ++k) {
+    const auto& [x, v, i] = inputs[k];
+    const InverseInput now{0, x, v, i, 0};
+    if (k > 0) observer.follow(now, state);
+    const double least = std::max(i - nudge, limits.current_min);
+    const double most = std::max(std::min(i + nudge, limits.current_max), least + nudge);
+    const double slope =
+        (observer.force(most, now, state) - observer.force(least, now, state)) / (most - least);
+    run.force.push_back(observer.force(i, now, state));
+    run.weight.push_back(slope * slope);
+    if (!std::isfinite(run.force.back() + run.weight.back()))
+      throw Error(forward.name(), "diverges on the motion '" + name + "'");
+  }
+  return run;
+}
+
+InverseRun run_on_model(const DamperModel& forward, const BenchTest& test, const InverseLimits& limits) {
+  std::vector<DamperInput> inputs;
   const auto samples = static_cast<std::size_t>(test.motion.duration / limits.sample_time);
   for (std::size_t k = 0; k < samples; ++k) {
     const double t = static_cast<double>(k) * limits.sample_time;
     const auto [x, v] = test.motion.at(t);
-    const double i = std::clamp(test.drive.at(t), limits.current_min, limits.current_max);
-    const InverseInput input{0, x, v, i, 0};
-    k == 0 ? observer.rest({x, v, i}, state) : observer.follow(input, state);
-    const double least = std::max(i - nudge, limits.current_min);
-    const double most = std::min(i + nudge, limits.current_max);
-    const double slope =
-        (observer.force(most, input, state) - observer.force(least, input, state)) / (most - least);
-    run.inputs.push_back({x, v, i});
-    run.force.push_back(observer.force(i, input, state));
-    run.weight.push_back(slope * slope);
-    if (!std::isfinite(run.force.back() + run.weight.back()))
-      throw Error(forward.name(), "diverges on the motion '" + test.condition + "'");
+    inputs.push_back({x, v, std::clamp(test.drive.at(t), limits.current_min, limits.current_max)});
   }
-  return run;
+  return run_on_model(forward, test.name, inputs, limits);
 }
 
 }  // namespace dashpot

@@ -29,10 +29,13 @@ struct MotionRange {
 std::vector<BenchTest> teaching_tests(const MotionRange& range, const InverseLimits& limits,
                                       std::uint64_t seed);
 
-/// The model along a test, without its coil's lag. Where only its states feel the current, the force is the
-/// one at the Observer's horizon. A sample weighs (dF/di)^2, so that an error of the current counts as the
-/// error of the force that it makes: next to nothing where the motion turns. Throws Error when the model
-/// diverges.
+/// What the model gives along inputs at equal steps of limits.sample_time, without its coil's lag. Where only
+/// its states feel the current, the force is the one at the Observer's horizon. A sample weighs (dF/di)^2, so
+/// that an error of the current counts as the error of the force that it makes: next to nothing where the
+/// motion turns. Throws Error when the model diverges.
+InverseRun run_on_model(const DamperModel& forward, const std::string& name,
+                        const std::vector<DamperInput>& inputs, const InverseLimits& limits);
+/// The same along a test.
 InverseRun run_on_model(const DamperModel& forward, const BenchTest& test, const InverseLimits& limits);
 
 }  // namespace dashpot
