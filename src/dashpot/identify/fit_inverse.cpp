@@ -226,12 +226,11 @@ std::vector<InverseTrial> inverse_trials(const DamperModel& forward, const Motio
   faster.seed = kSeed + 1;
   sine.amplitude *= 0.8;
   sine.frequency = range.speed() / (2 * std::numbers::pi * range.amplitude);
-  std::vector<InverseTrial> trials;
-  for (Motion motion : {random_motion(noise), random_motion(faster), sine_motion(sine)}) {
-    std::vector<double> wanted =
-        admissible_force(forward, motion, limits, kForceBand, kSeed + 10 + trials.size());
-    trials.push_back({std::move(motion), std::move(wanted)});
-  }
+  std::vector<InverseTrial> trials{{"noise", random_motion(noise), {}},
+                                   {"fast noise", random_motion(faster), {}},
+                                   {"sine", sine_motion(sine), {}}};
+  for (std::size_t k = 0; k < trials.size(); ++k)
+    trials[k].wanted = admissible_force(forward, trials[k].motion, limits, kForceBand, kSeed + 10 + k);
   return trials;
 }
 

@@ -45,6 +45,7 @@ MotionRange motion_range(const Domain& domain);
 
 /// A motion that no network was taught with, and a force that the damper can give along it.
 struct InverseTrial {
+  std::string name;
   Motion motion;
   std::vector<double> wanted;
 };

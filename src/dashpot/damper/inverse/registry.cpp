@@ -29,25 +29,27 @@ Inverse make_model(const DamperModel& forward, const InverseLimits& limits) {
 }
 
 /// A preset's network, taught on the model in a moment.
-Inverse make_network(std::string_view preset, const DamperModel& forward, const InverseLimits& limits) {
+Inverse make_network(std::string_view preset, std::string_view name, const DamperModel& forward,
+                     const InverseLimits& limits) {
   InverseTraining training;
   training.spacing = limits.sample_time * std::max(1.0, std::round(training.spacing / limits.sample_time));
   training.current_min = limits.current_min;
   training.current_max = limits.current_max;
   std::vector<InverseRun> runs[2];
-  for (const std::uint64_t seed : {0, 1})
-    for (const BenchTest& test : teaching_tests({}, limits, seed + 1))
-      runs[seed].push_back(run_on_model(forward, test, limits));
+  for (const std::size_t part : {0, 1})
+    for (const BenchTest& test : teaching_tests({}, limits, training.seed + part))
+      runs[part].push_back(run_on_model(forward, test, limits));
   TaughtInverse taught = train_inverse(find_inverse_network(preset), runs[0], runs[1], training);
+  taught.network.name = name;
   return std::make_unique<HistoryNetwork>(std::move(taught.network), limits);
 }
 
 Inverse make_neural(const DamperModel& forward, const InverseLimits& limits) {
-  return make_network("chang_zhou", forward, limits);
+  return make_network("chang_zhou", "neural", forward, limits);
 }
 
 Inverse make_neural_displacement(const DamperModel& forward, const InverseLimits& limits) {
-  return make_network("metered", forward, limits);
+  return make_network("metered", "neural_displacement", forward, limits);
 }
 
 constexpr std::array kSchemes{
@@ -75,18 +77,17 @@ constexpr std::array kSchemes{
     InverseScheme{
         .name = "neural",
         .title = "Network from motion, wanted force and past current",
-        .equation = "i(k) = net(x(k), v(k), v(k-1), f_c(k), f_c(k-1), i(k-1)),  6-12-1, tanh",
+        .equation = "the network chang_zhou of 'dashpot invert'",
         .source = "after Chang, Zhou 2002, J. Structural Engineering 128(2), 231-239",
         .remarks =
-            "Trained on the forward model: motion of 0 to 3 Hz, +-2 cm, random current. The inputs are "
-            "those of the source as recalled, the size is ours; nothing is pruned. Steps of 5 ms.",
+            "Taught on the forward model when it is made: motions to 3 Hz, +-2 cm, random currents. Steps "
+            "of 5 ms. 'dashpot invert' teaches it over a range of yours and keeps it.",
         .needs_force = false,
         .make = make_neural},
     InverseScheme{
         .name = "neural_displacement",
         .title = "Network without a velocity sensor",
-        .equation =
-            "i(k) = net(x(k), x(k-1), x(k-2), f_c(k), f_c(k-1), f_c(k-2), i(k-1), i(k-2)),  8-12-1, tanh",
+        .equation = "the network metered of 'dashpot invert'",
         .source =
             "after Metered, Bonello, Oyadiji 2010, Mechanical Systems and Signal Processing 24(3), 676-694",
         .remarks = "As neural, but the past displacements stand for the velocity.",
