@@ -140,7 +140,7 @@ std::vector<Candidate> teach_all(const Settings& settings, const Bench& bench, C
 std::string table_of(const std::vector<Candidate>& candidates, const std::vector<TrackReport>& numeric,
                      const Bench& bench, int width) {
   std::vector<std::string> titles{"inverse", ">current rms " + bench.drive_unit};
-  for (const InverseTrial& trial : bench.trials) titles.push_back(">" + trial.motion.description + " %");
+  for (const InverseTrial& trial : bench.trials) titles.push_back(">" + trial.name + " %");
   Table table(titles);
   const auto row = [&](const std::string& name, const std::string& current,
                        const std::vector<TrackReport>& reports) {
@@ -151,6 +151,17 @@ std::string table_of(const std::vector<Candidate>& candidates, const std::vector
   for (const Candidate& c : candidates) row(c.name, number_text(c.fit.left_out_rmse), c.reports);
   if (!numeric.empty()) row("numeric", "-", numeric);
   return table.text(static_cast<std::size_t>(width));
+}
+
+/// What the columns of the table mean.
+std::string heading(const Candidate& best, const Bench& bench) {
+  std::string text = "\nTaught by " + best.fit.teacher +
+                     "\n\nCurrent: rms on what was left out, weighted by its effect on the force\n";
+  if (!bench.trials.empty())
+    text += "Force: rms where it is in reach, % of the wanted span, behind the driver, along\n";
+  for (const InverseTrial& trial : bench.trials)
+    text += "  " + trial.name + ": " + trial.motion.description + '\n';
+  return text + '\n';
 }
 
 Value json_of(const Candidate& candidate, const Bench& bench) {
@@ -195,11 +206,7 @@ int run(const Settings& settings, Console& console) {
   if (bench.damper.model)
     numeric = follow(bench, NumericInverse(*bench.damper.model, limits_of(bench.driver, kSampleTime)));
   const Candidate& best = candidates.front();
-  console.print(
-      "\nTaught by " + best.fit.teacher +
-      "\nCurrent on what was left out, weighted by its effect on the force; force in reach, rms in % "
-      "of the wanted span,\nalong motions that taught nothing\n\n" +
-      table_of(candidates, numeric, bench, console.width()));
+  console.print(heading(best, bench) + table_of(candidates, numeric, bench, console.width()));
   for (const std::string& warning : best.fit.warnings) console.warn(warning);
   if (numeric.empty())
     console.note("no damper was given, so that how the force follows was not measured: give a model, too");

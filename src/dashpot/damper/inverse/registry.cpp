@@ -32,6 +32,9 @@ Inverse make_model(const DamperModel& forward, const InverseLimits& limits) {
 Inverse make_network(std::string_view preset, std::string_view name, const DamperModel& forward,
                      const InverseLimits& limits) {
   InverseTraining training;
+  training.samples = 2000;  // it is waited for
+  training.rounds = 2;
+  training.iterations = 60;
   training.spacing = limits.sample_time * std::max(1.0, std::round(training.spacing / limits.sample_time));
   training.current_min = limits.current_min;
   training.current_max = limits.current_max;
