@@ -99,6 +99,7 @@ class RecordTeacher {
     const DriveRange drive = drive_range(dataset.records, dataset.drive_unit);
     options_.training.current_min = drive.low;
     options_.training.current_max = drive.high;
+    options_.training.threads = 1;  // the folds are spread over them
   }
 
   /// Early stopping looks at a part of the training records.
