@@ -33,6 +33,7 @@ Integer integer_in(const std::string& text, const Option& option) {
 }
 
 void check_choice(const std::string& word, const Option& option) {
+  if (option.takes == Takes::File && is_path(word)) return;
   if (option.choices.empty() || std::ranges::find(option.choices, word) != option.choices.end()) return;
   throw UsageError(option.is_positional() ? "" : option.long_name(),
                    "unknown " + option.noun + " '" + word + "'", suggest(word, option.choices));

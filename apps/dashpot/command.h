@@ -34,7 +34,7 @@ struct Option {
   Target target;
   std::string help;
   std::string value = {};                 ///< what help calls the value: "HZ"
-  std::vector<std::string> choices = {};  ///< the words allowed; empty: any
+  std::vector<std::string> choices = {};  ///< the words allowed, and paths where it takes files; empty: any
   std::string noun = "value";             ///< what a message calls a word: "unknown model 'x'"
   Takes takes = Takes::Word;
   std::optional<double> minimum = {};  ///< least number allowed
@@ -46,6 +46,9 @@ struct Option {
   bool is_list() const { return std::holds_alternative<std::vector<std::string>*>(target); }
   std::string long_name() const;  ///< "--quiet", or the name of an argument by position
 };
+
+/// Whether a word that may name a choice or a file names a file: names have neither dot nor slash.
+inline bool is_path(const std::string& word) { return word.find_first_of("./") != std::string::npos; }
 
 void append(std::vector<Option>& options, const std::vector<Option>& more);
 

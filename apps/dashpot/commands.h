@@ -12,6 +12,7 @@ Command evaluate_command();
 Command models_command();
 Command inspect_command();
 Command track_command();
+Command invert_command();
 Command physics_command();
 Command bench_command();
 Command demo_command();

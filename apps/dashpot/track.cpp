@@ -6,12 +6,12 @@
 
 #include "commands.h"
 #include "console.h"
+#include "damper_choice.h"
 #include "dashpot/base/file.h"
 #include "dashpot/base/text.h"
+#include "dashpot/damper/inverse/inverse_file.h"
 #include "dashpot/damper/inverse/observer.h"
 #include "dashpot/damper/inverse/registry.h"
-#include "dashpot/damper/model_file.h"
-#include "dashpot/damper/parameter_set.h"
 #include "dashpot/output/track_figure.h"
 #include "dashpot/output/words.h"
 #include "dashpot/record/dataset.h"
@@ -21,13 +21,13 @@ namespace dashpot::cli {
 namespace {
 
 struct Settings {
-  std::string model, parameters, recording, folder;
+  DamperChoice damper;
+  std::string recording, folder;
   std::vector<std::string> inverses;
   std::string wanted = "random", motion = "random";
   double force = 0, band = 2;                             // N, Hz
   double amplitude = 20, frequency = 3, duration = 10;    // mm, Hz, s
   double sample_rate = 1000, rate_limit = 0, period = 0;  // Hz, A/s, s
-  double current_max = 0, lag_rate = -1;                  // A, 1/s
   std::uint64_t seed = 1;
 };
 
@@ -38,28 +38,11 @@ constexpr std::string_view kExample =
     "# A model of your own, one scheme, with curves as CSV and a picture:\n"
     "dashpot track results/models/tanh_kwok.json --inverse numeric --output tracking\n"
     "\n"
+    "# A network of your own beside the search on the model:\n"
+    "dashpot track --parameters spencer1997 --inverse inverse.json,numeric\n"
+    "\n"
     "# A sine of 800 N, which the damper cannot always give, behind a slow amplifier:\n"
     "dashpot track --parameters spencer1997 --wanted sine --force 800 --rate-limit 50";
-
-/// The damper to be tracked with, and the range of its current.
-struct Damper {
-  std::string name, drive_unit;
-  std::unique_ptr<DamperModel> model;
-  double drive_min = 0, drive_max = 0;
-};
-
-Damper load_damper(const Settings& settings, Console& console) {
-  if (settings.model.empty() == settings.parameters.empty())
-    throw UsageError("track", "needs one damper", "give a model file, or --parameters NAME");
-  if (!settings.model.empty()) {
-    ModelFile file = load_model(settings.model);
-    return {file.model->name(), file.drive_unit, std::move(file.model),
-            std::max(0.0, file.domain.current_min), file.domain.current_max};
-  }
-  const ParameterSet set = load_parameter_set(settings.parameters);
-  if (!set.verified) console.note("these parameters are an example: " + set.reason);
-  return {set.name, set.model.drive_unit(), set.model.with_offset(0), set.drive_min, set.drive_max};
-}
 
 /// A motion and the force that is wanted along it.
 struct Task {
@@ -100,15 +83,9 @@ Task make_task(const Settings& settings, const DamperModel& damper, DriverOption
 }
 
 DriverOptions make_driver(const Settings& settings, const Damper& damper) {
-  DriverOptions driver{.current_min = damper.drive_min,
-                       .current_max = settings.current_max > 0 ? settings.current_max : damper.drive_max,
-                       .period = settings.period};
+  DriverOptions driver{.period = settings.period};
   if (settings.rate_limit > 0) driver.rate_max = settings.rate_limit;
-  if (!(driver.current_min < driver.current_max))
-    throw Error(damper.name, "its data lie at one current only", "state the greatest with --current-max");
-  driver = driver_of(*damper.model, driver);
-  if (settings.lag_rate >= 0) driver.lag_rate = settings.lag_rate;
-  return driver;
+  return driver_of(damper, settings.damper, driver);
 }
 
 /// Where nothing is in reach, the whole error counts.
@@ -117,22 +94,31 @@ double error_in_reach(const TrackedScheme& tracked) {
   return r.reachable.samples > 0 ? r.reachable.rmse : r.all.rmse;
 }
 
-/// Every scheme asked for; of all, those that apply. The best comes first.
+/// A scheme made for the damper, or an inverse of its own from a file.
+std::unique_ptr<InverseModel> make_inverse(const std::string& word, const Damper& damper,
+                                           const InverseLimits& limits) {
+  if (!is_path(word)) return find_inverse(word).make(*damper.model, limits);
+  InverseFile file = load_inverse(word);
+  if (file.drive_unit != damper.drive_unit)
+    throw Error(word, "gives " + file.drive_unit + ", but the damper takes " + damper.drive_unit);
+  return std::make_unique<HistoryNetwork>(std::move(file.network), limits);
+}
+
+/// What was asked for; if nothing, all schemes that apply. The best comes first.
 std::vector<TrackedScheme> track_all(const Settings& settings, const Damper& damper, const Driver& driver,
                                      const Task& task, Console& console) {
   const InverseLimits limits = limits_of(driver.options(), task.motion.sample_time);
+  const bool asked = !settings.inverses.empty();
   std::vector<TrackedScheme> tracked;
-  for (const InverseScheme& scheme : inverse_schemes()) {
-    const bool named = std::ranges::find(settings.inverses, scheme.name) != settings.inverses.end();
-    if (!settings.inverses.empty() && !named) continue;
+  for (const std::string& word : asked ? settings.inverses : inverse_names()) {
     console.check_stop();
     try {
-      const auto inverse = scheme.make(*damper.model, limits);
-      tracked.push_back(
-          {std::string(scheme.name), track(*damper.model, *inverse, driver, task.motion, task.wanted)});
+      const auto inverse = make_inverse(word, damper, limits);
+      const std::string name = is_path(word) ? std::filesystem::path(word).stem().string() : word;
+      tracked.push_back({name, track(*damper.model, *inverse, driver, task.motion, task.wanted)});
     } catch (const Error& error) {
-      if (named) throw;
-      console.note(std::string(scheme.name) + " is left out: " + error.what());
+      if (asked) throw;
+      console.note(word + " is left out: " + error.what());
     }
   }
   std::ranges::stable_sort(tracked, {}, error_in_reach);
@@ -187,7 +173,7 @@ Value json_of(const std::vector<TrackedScheme>& tracked, const Damper& damper, c
 }
 
 int run(const Settings& settings, Console& console) {
-  const Damper damper = load_damper(settings, console);
+  const Damper damper = load_damper(settings.damper, "track", console);
   const DriverOptions options = make_driver(settings, damper);
   const Driver driver(options);
   const Task task = make_task(settings, *damper.model, options);
@@ -257,13 +243,7 @@ std::vector<Option> task_options(Settings& s) {
 }
 
 std::vector<Option> driver_options(Settings& s) {
-  return {{.names = "--current-max",
-           .target = &s.current_max,
-           .help = "greatest current in A (or voltage in V)",
-           .value = "A",
-           .minimum = 0,
-           .default_text = "that of the damper's data"},
-          {.names = "--rate-limit",
+  return {{.names = "--rate-limit",
            .target = &s.rate_limit,
            .help = "of the driver, A/s; 0: none",
            .value = "A/S",
@@ -272,13 +252,7 @@ std::vector<Option> driver_options(Settings& s) {
            .target = &s.period,
            .help = "of the driver, s between the instants at which it looks at its command; 0: at every one",
            .value = "S",
-           .minimum = 0},
-          {.names = "--lag-rate",
-           .target = &s.lag_rate,
-           .help = "of the coil, 1/s; 0: none",
-           .value = "1/S",
-           .minimum = 0,
-           .default_text = "the model's own"}};
+           .minimum = 0}};
 }
 
 }  // namespace
@@ -299,24 +273,17 @@ Command track_command() {
                   .example = std::string(kExample),
                   .run = [settings](Console& console) { return run(*settings, console); }};
   Settings& s = *settings;
-  command.options = {{.names = "MODEL",
-                      .target = &s.model,
-                      .help = "a model file that 'dashpot identify' wrote",
-                      .takes = Takes::File},
-                     {.names = "--parameters",
-                      .target = &s.parameters,
-                      .help = "instead of a file: a damper by the publication of its parameters",
-                      .value = "NAME",
-                      .choices = parameter_set_names(),
-                      .noun = "parameter set"},
-                     {.names = "--inverse",
-                      .target = &s.inverses,
-                      .help = "schemes to compare",
-                      .value = "LIST",
-                      .choices = inverse_names(),
-                      .noun = "inverse",
-                      .default_text = "all that apply"}};
+  command.options = damper_options(s.damper);
+  command.options.push_back({.names = "--inverse",
+                             .target = &s.inverses,
+                             .help = "schemes to compare, and files of inverses that 'dashpot invert' wrote",
+                             .value = "LIST",
+                             .choices = inverse_names(),
+                             .noun = "inverse",
+                             .takes = Takes::File,
+                             .default_text = "all that apply"});
   append(command.options, task_options(s));
+  append(command.options, coil_options(s.damper));
   append(command.options, driver_options(s));
   command.options.push_back({.names = "-o,--output",
                              .target = &s.folder,

@@ -3,9 +3,11 @@
 #include <filesystem>
 #include <matio.h>
 
+#include "damper/inverse/example_network.h"
 #include "damper/neural/bank_network_example.h"
 #include "dashpot/base/file.h"
 #include "dashpot/damper/fuzzy/fuzzy_model.h"
+#include "dashpot/damper/inverse/inverse_file.h"
 #include "dashpot/damper/law_model.h"
 #include "dashpot/damper/model_file.h"
 #include "dashpot/damper/parameter_set.h"
@@ -133,6 +135,12 @@ int main(int argc, char** argv) {
   write_file(folder / "family_json/pair", kFamily);
   write_file(folder / "dataset_yaml/all", kDataset);
   model_seeds(folder / "model_json");
+  for (const dashpot::InverseNetworkPreset& preset : dashpot::inverse_network_presets())
+    write_file(folder / "inverse_json" / preset.name,
+               dashpot::format_inverse({.network = example_network(preset),
+                                        .domain = {.current_max = 1},
+                                        .provenance = {},
+                                        .quality = {}}));
   for (const char* unit : {"mm", "N*s/m", "kN", "cm^-2", "degC", "displacement [mm]", "m/s\u00b2"})
     write_file(folder / "units" / std::to_string(std::hash<std::string>{}(unit)), unit);
   for (const char* text : {"current=0.87,1.98", "fraction=0.3", "record=a,b", "roles", "condition"})

@@ -3,6 +3,7 @@
 #include "dashpot/base/error.h"
 #include "dashpot/base/file.h"
 #include "dashpot/base/text.h"
+#include "dashpot/damper/file_parts.h"
 #include "dashpot/damper/fuzzy/fuzzy_model.h"
 #include "dashpot/damper/law_model.h"
 #include "dashpot/damper/neural/hysteresis_network.h"
@@ -11,88 +12,7 @@
 namespace dashpot {
 namespace {
 
-constexpr std::string_view kFormat = "dashpot-model";
-constexpr int kVersion = 1;
-
-/// One axis of the domain: its key, its unit and where its ends are kept.
-struct Axis {
-  std::string_view key;
-  std::string unit;
-  double Domain::* min;
-  double Domain::* max;
-};
-
-std::vector<Axis> axes(const std::string& drive_unit) {
-  return {{"displacement", "m", &Domain::displacement_min, &Domain::displacement_max},
-          {"velocity", "m/s", &Domain::velocity_min, &Domain::velocity_max},
-          {"drive", drive_unit, &Domain::current_min, &Domain::current_max}};
-}
-
-Value to_json(const Domain& domain, const std::string& drive_unit) {
-  Value out = Value::object();
-  for (const Axis& axis : axes(drive_unit))
-    out.add(std::string(axis.key),
-            Value::object({{"min", domain.*axis.min}, {"max", domain.*axis.max}, {"unit", axis.unit}}));
-  return out;
-}
-
-Domain read_domain(const Value& value, const std::string& drive_unit) {
-  Domain domain;
-  ObjectReader reader(value, "the domain");
-  for (const Axis& axis : axes(drive_unit)) {
-    const Value& range = reader.required(axis.key);
-    ObjectReader ends(range, "the domain of " + std::string(axis.key));
-    domain.*axis.min = ends.number("min");
-    domain.*axis.max = ends.number("max");
-    const std::string unit = ends.string("unit");
-    ends.finish();
-    if (unit != axis.unit) throw Error(range.where(), "unit is '" + unit + "'", "write " + axis.unit);
-    if (domain.*axis.min > domain.*axis.max) throw Error(range.where(), "min is above max");
-  }
-  reader.finish();
-  return domain;
-}
-
-Value to_json(const Provenance& from) {
-  std::vector<Value> files;
-  for (const Provenance::File& file : from.files)
-    files.push_back(Value::object({{"path", file.path}, {"sha256", file.sha256}}));
-  return Value::object({{"created", from.created},
-                        {"command", from.command},
-                        {"dataset", from.dataset},
-                        {"citation", from.citation},
-                        {"files", Value::array(std::move(files))},
-                        {"training_records", Value::array(from.training_records)}});
-}
-
-Provenance read_provenance(const Value& value) {
-  Provenance from;
-  ObjectReader reader(value, "the provenance");
-  from.created = reader.string("created");
-  from.command = reader.string("command");
-  from.dataset = reader.string("dataset");
-  from.citation = reader.string("citation");
-  for (const Value& item : reader.required("files").items()) {
-    ObjectReader file(item, "a provenance file");
-    from.files.push_back({file.string("path"), file.string("sha256")});
-    file.finish();
-  }
-  for (const Value& item : reader.required("training_records").items())
-    from.training_records.push_back(item.as_string());
-  reader.finish();
-  return from;
-}
-
-void require_format(ObjectReader& reader) {
-  const Value& format = reader.required("format");
-  if (format.as_string() != kFormat)
-    throw Error(format.where(), "is '" + format.as_string() + "', not a model file",
-                "write " + std::string(kFormat));
-  const Value& version = reader.required("version");
-  if (version.as_number() != kVersion)
-    throw Error(version.where(), "version " + format_number(version.as_number()) + " is not known here",
-                "this Dashpot reads version " + std::to_string(kVersion));
-}
+constexpr FileFormat kFormat{"dashpot-model", "a model file", 1};
 
 std::unique_ptr<DamperModel> read_law(const Value& value, const ModelFile& file) {
   auto model = law_model_from_json(value);
@@ -116,8 +36,8 @@ std::unique_ptr<DamperModel> read_model(const Value& kind, const Value& value, c
 }  // namespace
 
 std::string format_model(const ModelFile& file) {
-  Value document = Value::object({{"format", kFormat},
-                                  {"version", kVersion},
+  Value document = Value::object({{"format", kFormat.name},
+                                  {"version", kFormat.version},
                                   {"kind", file.model->kind()},
                                   {"drive_unit", file.drive_unit},
                                   {"sample_time", file.sample_time},
@@ -132,7 +52,7 @@ std::string format_model(const ModelFile& file) {
 ModelFile parse_model(std::string_view text, const std::string& source) {
   const Value document = parse_json(text, source);
   ObjectReader reader(document, "a model file");
-  require_format(reader);
+  require_format(reader, kFormat);
   ModelFile file;
   const Value& kind = reader.required("kind");
   file.drive_unit = reader.string("drive_unit");

@@ -255,6 +255,19 @@ DriveRange drive_range(const std::vector<Record>& records, std::string_view driv
   return range;
 }
 
+Domain domain_of(const std::vector<Record>& records, std::string_view drive_unit) {
+  const DriveRange drive = drive_range(records, drive_unit);
+  Domain domain{INFINITY, -INFINITY, INFINITY, -INFINITY, drive.low, drive.high};
+  for (const Record& record : records)
+    for (const DamperInput& input : damper_inputs(record, drive_unit)) {
+      domain.displacement_min = std::min(domain.displacement_min, input.displacement);
+      domain.displacement_max = std::max(domain.displacement_max, input.displacement);
+      domain.velocity_min = std::min(domain.velocity_min, input.velocity);
+      domain.velocity_max = std::max(domain.velocity_max, input.velocity);
+    }
+  return domain;
+}
+
 FreeRun free_run(const DamperModel& model, const std::vector<DamperInput>& inputs,
                  const std::vector<double>& time) {
   FreeRun run;

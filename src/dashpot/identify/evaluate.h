@@ -23,6 +23,9 @@ struct DriveRange {
 };
 DriveRange drive_range(const std::vector<Record>& records, std::string_view drive_unit);
 
+/// Where motion and drive of these records lie.
+Domain domain_of(const std::vector<Record>& records, std::string_view drive_unit);
+
 /// Force over a record in free run: the model sees motion and current only. From rest at the first
 /// sample. `diverged_at`: time of the first force that is not finite; what follows is NaN.
 struct FreeRun {

@@ -85,6 +85,9 @@ struct Ranking {
 Ranking rank(const std::vector<std::string>& models, const Dataset& dataset, const LeaveOut& leave_out,
              const IdentifyOptions& options, const FitStore* store = nullptr);
 
+/// What was made from these records of the dataset, by this command.
+Provenance provenance_of(const Dataset& dataset, std::vector<std::string> records,
+                         const std::string& command);
 /// The model as a file: domain and provenance taken from the records.
 ModelFile to_model_file(const RankedModel& ranked, const Dataset& dataset, const std::string& command);
 

@@ -35,20 +35,6 @@ double step_cost(const DamperModel& model, const Record& record, std::string_vie
   return best;
 }
 
-Domain domain_of(const std::vector<Record>& records, std::string_view drive_unit) {
-  const DriveRange drive = drive_range(records, drive_unit);
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  Domain domain{kInfinity, -kInfinity, kInfinity, -kInfinity, drive.low, drive.high};
-  for (const Record& record : records)
-    for (const DamperInput& input : damper_inputs(record, drive_unit)) {
-      domain.displacement_min = std::min(domain.displacement_min, input.displacement);
-      domain.displacement_max = std::max(domain.displacement_max, input.displacement);
-      domain.velocity_min = std::min(domain.velocity_min, input.velocity);
-      domain.velocity_max = std::max(domain.velocity_max, input.velocity);
-    }
-  return domain;
-}
-
 double force_span(const std::vector<Record>& records) {
   double low = INFINITY, high = -INFINITY;
   for (const Record& record : records)
@@ -267,14 +253,26 @@ Ranking rank(const std::vector<std::string>& models, const Dataset& dataset, con
   return RankingRun(models, dataset, leave_out, options, store).run();
 }
 
+Provenance provenance_of(const Dataset& dataset, std::vector<std::string> records,
+                         const std::string& command) {
+  Provenance from;
+  from.command = command;
+  from.dataset = dataset.name;
+  from.citation = dataset.citation;
+  for (const SourceFile& source : dataset.files) from.files.push_back({source.path, source.sha256});
+  from.training_records = std::move(records);
+  return from;
+}
+
 ModelFile to_model_file(const RankedModel& ranked, const Dataset& dataset, const std::string& command) {
   if (!ranked.fit.model) throw Error(ranked.name, "has no fitted model to save");
   ModelFile file;
   file.model = ranked.fit.model->with_offset(0);
   file.drive_unit = dataset.drive_unit;
   std::vector<Record> used;
+  std::vector<std::string> names;
   for (const RecordResult& r : ranked.training.records) {
-    file.provenance.training_records.push_back(r.record);
+    names.push_back(r.record);
     for (const Record& record : dataset.records)
       if (record.name == r.record) used.push_back(record);
   }
@@ -282,11 +280,7 @@ ModelFile to_model_file(const RankedModel& ranked, const Dataset& dataset, const
   file.sample_time = used.front().sample_time;
   for (const Record& record : used)
     if (record.sample_time != file.sample_time) file.sample_time = 0;
-  file.provenance.command = command;
-  file.provenance.dataset = dataset.name;
-  file.provenance.citation = dataset.citation;
-  for (const SourceFile& source : dataset.files)
-    file.provenance.files.push_back({source.path, source.sha256});
+  file.provenance = provenance_of(dataset, std::move(names), command);
   file.quality = Value::object(
       {{"training", to_json(ranked.training.pooled)}, {"left_out", to_json(ranked.left_out.pooled)}});
   file.interval = ranked.band;

@@ -1,0 +1,65 @@
+#include "damper_choice.h"
+
+#include <algorithm>
+
+#include "console.h"
+#include "dashpot/damper/model_file.h"
+#include "dashpot/damper/parameter_set.h"
+#include "dashpot/identify/track.h"
+
+namespace dashpot::cli {
+
+std::vector<Option> damper_options(DamperChoice& choice) {
+  return {{.names = "MODEL",
+           .target = &choice.model,
+           .help = "a model file that 'dashpot identify' wrote",
+           .takes = Takes::File},
+          {.names = "--parameters",
+           .target = &choice.parameters,
+           .help = "instead of a file: a damper by the publication of its parameters",
+           .value = "NAME",
+           .choices = parameter_set_names(),
+           .noun = "parameter set"}};
+}
+
+std::vector<Option> coil_options(DamperChoice& choice) {
+  return {{.names = "--current-max",
+           .target = &choice.current_max,
+           .help = "greatest current in A (or voltage in V)",
+           .value = "A",
+           .minimum = 0,
+           .default_text = "that of the damper's data"},
+          {.names = "--lag-rate",
+           .target = &choice.lag_rate,
+           .help = "of the coil, 1/s; 0: none",
+           .value = "1/S",
+           .minimum = 0,
+           .default_text = "the model's own"}};
+}
+
+Damper load_damper(const DamperChoice& choice, const std::string& command, Console& console) {
+  if (choice.model.empty() == choice.parameters.empty())
+    throw UsageError(command, "needs one damper", "give a model file, or --parameters NAME");
+  if (!choice.model.empty()) {
+    ModelFile file = load_model(choice.model);
+    return {file.model->name(),      file.drive_unit,
+            std::move(file.model),   std::max(0.0, file.domain.current_min),
+            file.domain.current_max, file.domain};
+  }
+  const ParameterSet set = load_parameter_set(choice.parameters);
+  if (!set.verified) console.note("these parameters are an example: " + set.reason);
+  return {set.name,      set.model.drive_unit(), set.model.with_offset(0),
+          set.drive_min, set.drive_max,          std::nullopt};
+}
+
+DriverOptions driver_of(const Damper& damper, const DamperChoice& choice, DriverOptions options) {
+  options.current_min = damper.drive_min;
+  options.current_max = choice.current_max > 0 ? choice.current_max : damper.drive_max;
+  if (!(options.current_min < options.current_max))
+    throw Error(damper.name, "its data lie at one current only", "state the greatest with --current-max");
+  options = driver_of(*damper.model, options);
+  if (choice.lag_rate >= 0) options.lag_rate = choice.lag_rate;
+  return options;
+}
+
+}  // namespace dashpot::cli

@@ -1,0 +1,38 @@
+#pragma once
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "command.h"
+#include "dashpot/damper/driver.h"
+#include "dashpot/damper/model.h"
+
+namespace dashpot::cli {
+
+/// The damper that a command works with, as a model file or by the publication of its parameters.
+struct DamperChoice {
+  std::string model, parameters;
+  double current_max = 0, lag_rate = -1;  ///< A, 1/s: 0 and below 0: the damper's own
+  bool is_made() const { return !model.empty() || !parameters.empty(); }
+};
+
+/// MODEL and --parameters; --current-max and --lag-rate.
+std::vector<Option> damper_options(DamperChoice& choice);
+std::vector<Option> coil_options(DamperChoice& choice);
+
+/// A damper and the range of its current.
+struct Damper {
+  std::string name, drive_unit;
+  std::unique_ptr<DamperModel> model;
+  double drive_min = 0, drive_max = 0;
+  std::optional<Domain> domain;  ///< of a model file
+};
+
+/// Throws UsageError where not exactly one damper was chosen.
+Damper load_damper(const DamperChoice& choice, const std::string& command, Console& console);
+
+/// The driver in front of it. Throws Error where there is no range of currents.
+DriverOptions driver_of(const Damper& damper, const DamperChoice& choice, DriverOptions options = {});
+
+}  // namespace dashpot::cli
