@@ -119,3 +119,20 @@ TEST_CASE("a training part is held back as the judged part was left out, else in
   CHECK(stretches[2].training.size() == 1);
   CHECK(hold_back({training.front()}, parse_leave_out("fraction=0.3")).empty());  // too short
 }
+
+TEST_CASE("trials hold back each condition and each inner level, else the ends") {
+  const std::vector<Record> training = small_dataset().records;
+  const auto folds = trial_folds(training);
+  REQUIRE(folds.size() == 3);  // slow, fast, 0.5
+  for (const Fold& fold : folds) CHECK(fold.training.size() + fold.left_out.size() == training.size());
+  CHECK(folds[1].left_out.front().condition == "fast");
+  CHECK(folds[2].left_out.size() == 2);
+  CHECK(*folds[2].left_out[1].drive_level == 0.5);
+  Record one = training.front();
+  one.warm_up = 5;
+  const auto ends = trial_folds({one});
+  REQUIRE(ends.size() == 1);  // 30 % of 5 scored samples, rounded down
+  CHECK(ends[0].training[0].size() == 9);
+  CHECK(ends[0].left_out[0].size() == 10);
+  CHECK(ends[0].left_out[0].warm_up == 9);
+}

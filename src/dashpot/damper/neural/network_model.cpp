@@ -54,13 +54,49 @@ std::vector<std::size_t> read_layers(const Value& value) {
   return layers;
 }
 
+void add_network(const Mlp& mlp, Value& value) {
+  value.add("layers", Value::array(std::vector<double>(mlp.layers.begin(), mlp.layers.end())));
+  if (!mlp.activations.empty()) {
+    Value activations = Value::array();
+    for (const Activation activation : mlp.activations) activations.push_back(name_of(activation));
+    value.add("activations", activations);
+  }
+  value.add("input_mean", Value::array(mlp.input_mean));
+  value.add("input_scale", Value::array(mlp.input_scale));
+  value.add("output_mean", mlp.output_mean);
+  value.add("output_scale", mlp.output_scale);
+  value.add("parameters", Value::array(mlp.parameters));
+}
+
+Mlp read_network(ObjectReader& reader) {
+  Mlp mlp;
+  mlp.layers = read_layers(reader.required("layers"));
+  if (const Value* activations = reader.optional("activations"))
+    for (const Value& item : activations->items())
+      mlp.activations.push_back(activation_named(item.as_string(), item.where()));
+  mlp.input_mean = reader.required("input_mean").as_numbers();
+  mlp.input_scale = reader.required("input_scale").as_numbers();
+  mlp.output_mean = reader.number("output_mean");
+  mlp.output_scale = reader.number("output_scale");
+  mlp.parameters = reader.required("parameters").as_numbers();
+  return mlp;
+}
+
 }  // namespace
 
-NetworkModel::NetworkModel(std::string name, std::vector<std::string> inputs, Mlp mlp, double offset)
-    : name_(std::move(name)), inputs_(std::move(inputs)), mlp_(std::move(mlp)), offset_(offset) {
+NetworkModel::NetworkModel(std::string name, std::vector<std::string> inputs, std::vector<Mlp> members,
+                           double offset)
+    : name_(std::move(name)), inputs_(std::move(inputs)), members_(std::move(members)), offset_(offset) {
   for (const std::string& input : inputs_) fields_.push_back(field_of(input, name_));
-  require_shape(mlp_, inputs_.size(), name_);
-  evaluator_ = std::make_unique<MlpEvaluator<double>>(mlp_);
+  if (members_.empty()) throw Error(name_, "has no members", "a network at least");
+  for (const Mlp& member : members_) require_shape(member, inputs_.size(), name_);
+  ensemble_ = std::make_unique<MlpEnsemble>(members_);
+}
+
+std::size_t NetworkModel::parameter_count() const noexcept {
+  std::size_t count = 0;
+  for (const Mlp& member : members_) count += member.parameters.size();
+  return count;
 }
 
 bool NetworkModel::needs_displacement() const noexcept {
@@ -70,28 +106,27 @@ bool NetworkModel::needs_displacement() const noexcept {
 double NetworkModel::force(const DamperInput& input, std::span<const double>) const noexcept {
   std::array<double, Mlp::kMaxWidth> raw;
   for (std::size_t k = 0; k < fields_.size(); ++k) raw[k] = input.*fields_[k];
-  return evaluator_->evaluate(raw.data()) + offset_;
+  return ensemble_->evaluate(raw.data()).mean + offset_;
 }
 
 std::unique_ptr<DamperModel> NetworkModel::with_offset(double newton) const {
-  return std::make_unique<NetworkModel>(name_, inputs_, mlp_, offset_ + newton);
+  return std::make_unique<NetworkModel>(name_, inputs_, members_, offset_ + newton);
 }
 
+/// One network stands in the model itself, several in a list.
 Value NetworkModel::to_json() const {
-  Value value =
-      Value::object({{"name", name_},
-                     {"inputs", Value::array(inputs_)},
-                     {"layers", Value::array(std::vector<double>(mlp_.layers.begin(), mlp_.layers.end()))}});
-  if (!mlp_.activations.empty()) {
-    Value activations = Value::array();
-    for (const Activation activation : mlp_.activations) activations.push_back(name_of(activation));
-    value.add("activations", activations);
+  Value value = Value::object({{"name", name_}, {"inputs", Value::array(inputs_)}});
+  if (members_.size() == 1) {
+    add_network(members_.front(), value);
+  } else {
+    Value members = Value::array();
+    for (const Mlp& member : members_) {
+      Value one = Value::object({});
+      add_network(member, one);
+      members.push_back(std::move(one));
+    }
+    value.add("members", std::move(members));
   }
-  value.add("input_mean", Value::array(mlp_.input_mean));
-  value.add("input_scale", Value::array(mlp_.input_scale));
-  value.add("output_mean", mlp_.output_mean);
-  value.add("output_scale", mlp_.output_scale);
-  value.add("parameters", Value::array(mlp_.parameters));
   value.add("offset", offset_);
   return value;
 }
@@ -104,20 +139,22 @@ std::unique_ptr<NetworkModel> network_model_from_json(const Value& value) {
     field_of(item.as_string(), item.where());
     inputs.push_back(item.as_string());
   }
-  Mlp mlp;
-  mlp.layers = read_layers(reader.required("layers"));
-  if (const Value* activations = reader.optional("activations"))
-    for (const Value& item : activations->items())
-      mlp.activations.push_back(activation_named(item.as_string(), item.where()));
-  mlp.input_mean = reader.required("input_mean").as_numbers();
-  mlp.input_scale = reader.required("input_scale").as_numbers();
-  mlp.output_mean = reader.number("output_mean");
-  mlp.output_scale = reader.number("output_scale");
-  mlp.parameters = reader.required("parameters").as_numbers();
+  std::vector<Mlp> networks;
+  if (const Value* members = reader.optional("members")) {
+    for (const Value& item : members->items()) {
+      ObjectReader member(item, "a member");
+      networks.push_back(read_network(member));
+      member.finish();
+      require_shape(networks.back(), inputs.size(), item.where());
+    }
+    if (networks.empty()) throw Error(members->where(), "has no members", "a network at least");
+  } else {
+    networks.push_back(read_network(reader));
+    require_shape(networks.back(), inputs.size(), value.where());
+  }
   const double offset = reader.number("offset");
   reader.finish();
-  require_shape(mlp, inputs.size(), value.where());
-  return std::make_unique<NetworkModel>(std::move(name), std::move(inputs), std::move(mlp), offset);
+  return std::make_unique<NetworkModel>(std::move(name), std::move(inputs), std::move(networks), offset);
 }
 
 }  // namespace dashpot
