@@ -92,28 +92,52 @@ ErrorGroups relative_errors(const std::vector<RecordResult>& left_out, const For
   return groups;
 }
 
-std::optional<double> conformal_factor(const ErrorGroups& groups, double level) {
+std::optional<double> conformal_factor(const std::vector<ErrorGroups>& parts, double level) {
   struct Weighted {
     double error, weight;
   };
   std::vector<Weighted> errors;
-  for (const std::vector<double>& group : groups)
-    for (const double error : group)
-      errors.push_back({error, 1 / static_cast<double>((group.size() + 1) * groups.size())});
+  double counted = 0;
+  for (const ErrorGroups& groups : parts) {
+    counted += groups.empty() ? 0 : 1;
+    for (const std::vector<double>& group : groups)
+      for (const double error : group)
+        errors.push_back({error, 1 / static_cast<double>((group.size() + 1) * groups.size())});
+  }
   std::ranges::sort(errors, {}, &Weighted::error);
   constexpr double kRounding = 1e-9;  // of sums of weights
   double reached = 0;
   for (const Weighted& e : errors)
-    if ((reached += e.weight) >= level - kRounding) return e.error;
+    if ((reached += e.weight) >= counted * (level - kRounding)) return e.error;
   return std::nullopt;
 }
 
-std::optional<ForceBand> conformal_band(const std::optional<ForceBand>& shape, const ErrorGroups& groups) {
-  const std::optional<double> factor = conformal_factor(groups);
-  if (!shape || !factor) return std::nullopt;
-  ForceBand band = shape->scaled(*factor);
+std::optional<double> widening(const std::vector<ErrorGroups>& parts, double level) {
+  if (parts.size() == 1) {
+    if (parts.front().size() < 2) return 1;
+    std::vector<ErrorGroups> records;
+    for (const std::vector<double>& record : parts.front()) records.push_back({record});
+    return widening(records, level);
+  }
+  std::vector<ErrorGroups> beside_others = parts;
+  for (std::size_t part = 0; part < parts.size(); ++part) {
+    std::vector<ErrorGroups> others = parts;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(part));
+    const std::optional<double> factor = conformal_factor(others, level);
+    if (!factor) return std::nullopt;
+    for (std::vector<double>& group : beside_others[part])
+      for (double& error : group) error /= *factor;
+  }
+  return conformal_factor(beside_others, level);
+}
+
+std::optional<ForceBand> conformal_band(const std::optional<ForceBand>& shape,
+                                        const std::vector<ErrorGroups>& parts) {
+  const std::optional<double> factor = conformal_factor(parts), wider = widening(parts);
+  if (!shape || !factor || !wider) return std::nullopt;
+  ForceBand band = shape->scaled(*factor * *wider);
   band.level = kCoverage;
-  band.records = groups.size();
+  for (const ErrorGroups& groups : parts) band.records += groups.size();
   return band;
 }
 
