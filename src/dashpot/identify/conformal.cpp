@@ -15,7 +15,7 @@ template <class Visit>
 void for_each_scored(const RecordResult& r, const Visit& visit) {
   if (r.diverged_at) return;
   for (std::size_t k = r.warm_up; k < r.measured.size(); ++k)
-    visit(DamperInput{0, r.velocity[k], r.drive[k]}, std::abs(r.measured[k] - r.modelled[k]));
+    visit(DamperInput{0, r.velocity[k], r.drive[k]}, std::abs(r.measured[k] - r.modelled[k]), k);
 }
 
 std::vector<double> drive_knots(const std::vector<RecordResult>& records) {
@@ -51,11 +51,14 @@ struct Mean {
 std::optional<ForceBand> error_shape(const std::vector<RecordResult>& training) {
   double fastest = 0, largest_force = 0;
   for (const RecordResult& r : training)
-    for_each_scored(
-        r, [&](const DamperInput& input, double) { fastest = std::max(fastest, std::abs(input.velocity)); });
+    for_each_scored(r, [&](const DamperInput& input, double, std::size_t) {
+      fastest = std::max(fastest, std::abs(input.velocity));
+    });
   for (const RecordResult& r : training)
     for (const double force : r.measured) largest_force = std::max(largest_force, std::abs(force));
   ForceBand shape;
+  shape.spread =
+      std::ranges::any_of(training, [](const RecordResult& r) { return !r.spread.empty(); }) ? 1 : 0;
   for (const double share : kSpeedShares)
     if (fastest > 0) shape.speeds.push_back(share * fastest);
   shape.drives = drive_knots(training);
@@ -64,7 +67,7 @@ std::optional<ForceBand> error_shape(const std::vector<RecordResult>& training) 
   Mean all;
   std::vector<Mean> bands(shape.speeds.size() + 1), cells(bands.size() * columns);
   for (const RecordResult& r : training)
-    for_each_scored(r, [&](const DamperInput& input, double error) {
+    for_each_scored(r, [&](const DamperInput& input, double error, std::size_t) {
       const auto band = static_cast<std::size_t>(
           std::ranges::upper_bound(shape.speeds, std::abs(input.velocity)) - shape.speeds.begin());
       all.add(error);
@@ -84,8 +87,8 @@ ErrorGroups relative_errors(const std::vector<RecordResult>& left_out, const For
   ErrorGroups groups;
   for (const RecordResult& r : left_out) {
     std::vector<double> group;
-    for_each_scored(r, [&](const DamperInput& input, double error) {
-      group.push_back(error / shape.half_width_at(input));
+    for_each_scored(r, [&](const DamperInput& input, double error, std::size_t k) {
+      group.push_back(error / shape.half_width_at(input, r.spread_at(k)));
     });
     if (!group.empty()) groups.push_back(std::move(group));
   }

@@ -14,20 +14,21 @@ namespace dashpot {
 //
 // The mean |error| on the records of the fit, by speed and drive, gives the shape of the band; the errors on
 // left-out records, as multiples of that shape, give its factor. A shape learnt on the fit's own records
-// knows every level of the drive, whereas what was left out may hold one level only.
+// knows every level of the drive, whereas what was left out may hold one level only. The members of an
+// ensemble agree where they have learnt the same and disagree where they have not been: their spread is added
+// to the shape, in quadrature, with the same factor.
 //
 // What holds. Samples of a record are correlated, and records that were left out together (a condition, a
 // level of the drive) share what makes them unlike the rest: at best such parts are exchangeable. Each part
-// therefore counts as one, and within it each record, whatever its length. A part is a few percent or some
-// ten percent harder than others, which a quantile over all of them does not foresee for the next one: the
-// factor is widened by as much as bands from all parts but one must be to cover, on average, the one that
-// they were made without. In simulation, with errors of parts spread by a factor of up to 2 (log-normal,
-// 0.7), that covers 90 to 92 % of a new part from 3 parts on, where the plain quantile covers 84 to 90 %. A
-// single new record can be far from that; hence the measured coverage in every report, with the worst record.
-// Nothing is promised outside the domain: a part at the edge of what was recorded is harder than those
-// within, which no other part foretells. Factors come from models fitted on a part of the records and serve
-// the one fitted on all. The band is about the model's force with the record's offset, where that is a free
-// nuisance.
+// therefore counts as one, and within it each record, whatever its length. Parts differ in how hard they
+// are, which a quantile over all of them does not foresee for the next one: the factor is widened by as much
+// as bands from all parts but one must be to cover, on average, the one that they were made without. In
+// simulation, with errors of parts spread by a factor of up to 2 (log-normal, 0.7), that covers 90 to 92 % of
+// a new part from 3 parts on, where the plain quantile covers 87 to 90 %. A single new record can be far from
+// that; hence the measured coverage in every report, with the worst record. Nothing is promised outside the
+// domain: a part at the edge of what was recorded is harder than those within, which no other part foretells.
+// Factors come from models fitted on a part of the records and serve the one fitted on all. The band is about
+// the model's force with the record's offset, where that is a free nuisance.
 //
 // A judged fold gives no error to its own band, but the fits of the other folds have seen its records, so
 // that this is exact for one split and approximate across folds.

@@ -61,8 +61,9 @@ double force_span(const std::vector<Record>& records) {
 /// memory.
 void drop_curves(Evaluation& evaluation) {
   for (RecordResult& r : evaluation.records)
-    for (auto curve : {&RecordResult::time, &RecordResult::displacement, &RecordResult::velocity,
-                       &RecordResult::drive, &RecordResult::measured, &RecordResult::modelled})
+    for (auto curve :
+         {&RecordResult::time, &RecordResult::displacement, &RecordResult::velocity, &RecordResult::drive,
+          &RecordResult::measured, &RecordResult::modelled, &RecordResult::spread})
       (r.*curve) = {};
 }
 

@@ -257,17 +257,19 @@ std::vector<Fold> hold_back(const std::vector<Record>& training, const LeaveOut&
   if (judged.by == LeaveOut::By::Condition && conditions(dataset).size() > 1)
     return by_condition(dataset, {});
   if (judged.by == LeaveOut::By::Current && levels(dataset).size() > 2) return by_current(dataset, {});
-  constexpr std::size_t kParts = 3;
-  const bool whole = judged.by != LeaveOut::By::Fraction && training.size() >= kParts;
+  // With few parts, fits on what is left know much less than the one that they stand for.
+  constexpr std::size_t kParts = 6, kLeastRecords = 3;
+  const bool whole = judged.by != LeaveOut::By::Fraction && training.size() >= kLeastRecords;
+  const std::size_t parts = whole ? std::min(kParts, training.size()) : kParts;
   std::vector<Fold> folds;
-  for (std::size_t part = 0; part < kParts; ++part) {
+  for (std::size_t part = 0; part < parts; ++part) {
     Fold fold;
-    fold.name = "without part " + std::to_string(part + 1) + " of " + std::to_string(kParts);
+    fold.name = "without part " + std::to_string(part + 1) + " of " + std::to_string(parts);
     for (std::size_t r = 0; r < training.size(); ++r) {
       if (whole)
-        (r % kParts == part ? fold.left_out : fold.training).push_back(training[r]);
+        (r % parts == part ? fold.left_out : fold.training).push_back(training[r]);
       else
-        hold_back_part(training[r], part, kParts, fold);
+        hold_back_part(training[r], part, parts, fold);
     }
     if (!fold.training.empty() && !fold.left_out.empty()) folds.push_back(std::move(fold));
   }

@@ -73,6 +73,10 @@ TEST_CASE("several networks answer with their mean, and survive JSON to the last
   CHECK(model.parameter_count() == 82);
   const double x[] = {0.3, -0.5};
   CHECK_CLOSE(model.force({0, x[0], x[1]}, {}), (one.evaluate(x) + other.evaluate(x)) / 2 + 0.25, 1e-12, 0);
+  CHECK(model.is_ensemble());
+  CHECK_CLOSE(model.spread({0, x[0], x[1]}, {}),
+              std::abs(one.evaluate(x) - other.evaluate(x)) / std::sqrt(2.0), 1e-9, 0);
+  CHECK(!NetworkModel("m", {"velocity", "current"}, {one}).is_ensemble());
   const std::string text = format_json(model.to_json());
   const auto back = network_model_from_json(parse_json(text, "m.json"));
   CHECK(format_json(back->to_json()) == text);

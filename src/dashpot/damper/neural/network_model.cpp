@@ -103,10 +103,18 @@ bool NetworkModel::needs_displacement() const noexcept {
   return std::find(inputs_.begin(), inputs_.end(), "displacement") != inputs_.end();
 }
 
-double NetworkModel::force(const DamperInput& input, std::span<const double>) const noexcept {
+MlpEnsemble::Answer NetworkModel::answer(const DamperInput& input) const noexcept {
   std::array<double, Mlp::kMaxWidth> raw;
   for (std::size_t k = 0; k < fields_.size(); ++k) raw[k] = input.*fields_[k];
-  return ensemble_->evaluate(raw.data()).mean + offset_;
+  return ensemble_->evaluate(raw.data());
+}
+
+double NetworkModel::force(const DamperInput& input, std::span<const double>) const noexcept {
+  return answer(input).mean + offset_;
+}
+
+double NetworkModel::spread(const DamperInput& input, std::span<const double>) const noexcept {
+  return answer(input).spread;
 }
 
 std::unique_ptr<DamperModel> NetworkModel::with_offset(double newton) const {

@@ -23,6 +23,8 @@ class NetworkModel final : public DamperModel {
   void rest(const DamperInput&, std::span<double>) const noexcept override {}
   void advance(const DamperInput&, const DamperInput&, double, std::span<double>) const noexcept override {}
   double force(const DamperInput& input, std::span<const double> state) const noexcept override;
+  bool is_ensemble() const noexcept override { return members_.size() > 1; }
+  double spread(const DamperInput& input, std::span<const double> state) const noexcept override;
   std::unique_ptr<DamperModel> with_offset(double newton) const override;
   Value to_json() const override;
 
@@ -30,6 +32,8 @@ class NetworkModel final : public DamperModel {
   const std::vector<std::string>& inputs() const { return inputs_; }
 
  private:
+  MlpEnsemble::Answer answer(const DamperInput& input) const noexcept;
+
   std::string name_;
   std::vector<std::string> inputs_;
   std::vector<double DamperInput::*> fields_;
