@@ -11,6 +11,7 @@
 #include "dashpot/damper/neural/hysteresis_network.h"
 #include "dashpot/damper/neural/mlp.h"
 #include "dashpot/damper/registry.h"
+#include "dashpot/identify/network_design.h"
 #include "dashpot/output/safe_text.h"
 #include "layout.h"
 
@@ -126,7 +127,9 @@ std::string states_text(const std::vector<std::string>& states) {
 std::string facts(const ModelSheet& sheet) {
   std::string text = "inputs: " + join(sheet.inputs, ", ") + "; ";
   text += sheet.states.empty() ? "no state" : states_text(sheet.states);
-  return text + fmt::format("; {} numbers to fit; inverse: {}", sheet.numbers, sheet.inverse);
+  text += fmt::format("; {} numbers to fit; inverse: {}", sheet.numbers, sheet.inverse);
+  if (sheet.settings.empty()) return text;
+  return text + "; follows --network " + join({sheet.settings.begin(), sheet.settings.end()}, ", ");
 }
 
 }  // namespace
@@ -140,7 +143,8 @@ ModelSheet model_sheet(const std::string& name) {
                    .source = std::string(info.source),
                    .remarks = std::string(info.remarks),
                    .inputs = info.inputs,
-                   .inverse = is_law(name) ? inverse_of(find_law(name)) : "search"};
+                   .inverse = is_law(name) ? inverse_of(find_law(name)) : "search",
+                   .settings = network_settings_of(name)};
   if (is_law(name))
     add_table(sheet, find_law(name));
   else if (info.kind == "network")
@@ -191,17 +195,19 @@ Value sheet_json(const ModelSheet& sheet) {
                                           {"form", name_of(p.form)},
                                           {"fit", fit_name(p.fit)},
                                           {"meaning", p.meaning}}));
-  return Value::object({{"name", sheet.name},
-                        {"kind", sheet.kind},
-                        {"title", sheet.title},
-                        {"equation", sheet.equation},
-                        {"inputs", Value::array(sheet.inputs)},
-                        {"states", Value::array(sheet.states)},
-                        {"parameters", std::move(parameters)},
-                        {"numbers", sheet.numbers},
-                        {"inverse", sheet.inverse},
-                        {"source", sheet.source},
-                        {"remarks", sheet.remarks}});
+  return Value::object(
+      {{"name", sheet.name},
+       {"kind", sheet.kind},
+       {"title", sheet.title},
+       {"equation", sheet.equation},
+       {"inputs", Value::array(sheet.inputs)},
+       {"states", Value::array(sheet.states)},
+       {"parameters", std::move(parameters)},
+       {"numbers", sheet.numbers},
+       {"inverse", sheet.inverse},
+       {"network", Value::array(std::vector<std::string>(sheet.settings.begin(), sheet.settings.end()))},
+       {"source", sheet.source},
+       {"remarks", sheet.remarks}});
 }
 
 }  // namespace dashpot::cli

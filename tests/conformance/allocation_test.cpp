@@ -7,6 +7,7 @@
 #include "dashpot/damper/inverse/registry.h"
 #include "dashpot/damper/neural/hysteresis_network.h"
 #include "dashpot/damper/neural/mlp_evaluator.h"
+#include "dashpot/damper/neural/network_model.h"
 #include "support.h"
 
 using namespace dashpot;
@@ -43,7 +44,7 @@ void check_stepping(const DamperModel& model) {
   const std::size_t before = allocations;
   for (int k = 0; k < 1000; ++k) {
     model.advance(sine(k * 1e-3, 1), sine((k + 1) * 1e-3, 0.5), 1e-3, state);
-    sum += model.force(sine((k + 1) * 1e-3, 0.5), state);
+    sum += model.force(sine((k + 1) * 1e-3, 0.5), state) + model.spread(sine((k + 1) * 1e-3, 0.5), state);
   }
   CHECK(allocations == before);
   CHECK(std::isfinite(sum));
@@ -75,6 +76,15 @@ TEST_CASE("stepping a state network allocates nothing") {
   member.network.initialise(3, 1);
   const HysteresisNetwork model("test", {member, member});
   check_stepping(model);
+}
+
+TEST_CASE("stepping static networks allocates nothing") {
+  Mlp mlp;
+  mlp.layers = {2, 10, 1};
+  mlp.input_mean = {0, 0};
+  mlp.input_scale = {1, 1};
+  initialise(mlp, 1);
+  check_stepping(NetworkModel("test", {"velocity", "current"}, {mlp, mlp}));
 }
 
 TEST_CASE("stepping a fuzzy model allocates nothing") {

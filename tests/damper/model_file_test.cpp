@@ -61,10 +61,10 @@ TEST_CASE("a law's file comes back as it was, to the last bit") {
 }
 
 TEST_CASE("a network's file comes back as it was, to the last bit") {
-  const ModelFile saved =
-      example(std::make_unique<NetworkModel>(
-                  "mlp_one_sensor", std::vector<std::string>{"velocity", "current"}, small_network(), 4.5),
-              "A");
+  const ModelFile saved = example(
+      std::make_unique<NetworkModel>("mlp_one_sensor", std::vector<std::string>{"velocity", "current"},
+                                     std::vector{small_network()}, 4.5),
+      "A");
   const ModelFile loaded = parse_model(format_model(saved), "m.json");
   CHECK(format_model(loaded) == format_model(saved));
   for (const double v : {-0.2, 0.0, 0.13})

@@ -10,6 +10,7 @@
 #include "dashpot/damper/inverse/inverse_file.h"
 #include "dashpot/damper/law_model.h"
 #include "dashpot/damper/model_file.h"
+#include "dashpot/damper/neural/network_model.h"
 #include "dashpot/damper/parameter_set.h"
 
 // Writes small valid inputs of every fuzz target into folders below the one given: where fuzzing starts.
@@ -92,6 +93,15 @@ void model_seeds(const fs::path& folder) {
              model_seed(std::make_unique<FuzzyModel>(
                             "anfis", FuzzyInputs({"velocity", "current"}, {0.01, 0.02}, "seed"), sugeno),
                         "A"));
+  Mlp mlp;
+  mlp.layers = {2, 1, 1};
+  mlp.parameters = {0.1, 0.2, 0.3, 0.4, 0.5};
+  mlp.input_mean = mlp.input_scale = {1, 1};
+  const std::vector<std::string> inputs = {"velocity", "current"};
+  for (const std::size_t members : {1, 2})
+    write_file(
+        folder / ("network_" + std::to_string(members)),
+        model_seed(std::make_unique<NetworkModel>("mlp_one_sensor", inputs, std::vector(members, mlp)), "A"));
   write_file(folder / "state_network",
              model_seed(std::make_unique<HysteresisNetwork>("hysteresis_network",
                                                             std::vector{example_bank_network()}),

@@ -42,6 +42,13 @@ class DamperModel {
   /// Force at this instant, N, positive when it resists extension.
   virtual double force(const DamperInput& input, std::span<const double> state) const noexcept = 0;
 
+  /// Whether this is the mean of several models, which tell by their spread where they have learnt little.
+  virtual bool is_ensemble() const noexcept { return false; }
+  /// Standard deviation of their forces at this instant, N; 0 for a single model.
+  virtual double spread(const DamperInput& /*input*/, std::span<const double> /*state*/) const noexcept {
+    return 0;
+  }
+
   /// The same model giving force + offset.
   virtual std::unique_ptr<DamperModel> with_offset(double newton) const = 0;
   /// The kind's own part of a model file.

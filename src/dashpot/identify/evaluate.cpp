@@ -51,7 +51,7 @@ Coverage coverage_of(const RecordResult& r) {
   Coverage coverage;
   if (!r.band || r.diverged_at) return coverage;
   for (std::size_t k = r.warm_up; k < r.measured.size(); ++k) {
-    const double half = r.band->half_width_at({0, r.velocity[k], r.drive[k]});
+    const double half = r.band->half_width_at({0, r.velocity[k], r.drive[k]}, r.spread_at(k));
     coverage.inside += std::abs(r.measured[k] - r.modelled[k]) <= half;
     coverage.width += 2 * half;
   }
@@ -86,6 +86,7 @@ RecordResult evaluate_record(const DamperModel& model, const Record& record, std
 
   FreeRun run = free_run(model, damper_inputs(record, drive_unit), record.time);
   result.modelled = std::move(run.force);
+  result.spread = std::move(run.spread);
   result.diverged_at = run.diverged_at;
   if (result.diverged_at) return result;
 
@@ -272,11 +273,14 @@ FreeRun free_run(const DamperModel& model, const std::vector<DamperInput>& input
                  const std::vector<double>& time) {
   FreeRun run;
   run.force.resize(inputs.size(), kNaN);
+  const bool is_ensemble = model.is_ensemble();
+  if (is_ensemble) run.spread.resize(inputs.size(), kNaN);
   std::vector<double> state(model.state_size());
   if (!inputs.empty()) model.rest(inputs.front(), state);
   for (std::size_t k = 0; k < inputs.size(); ++k) {
     if (k > 0) model.advance(inputs[k - 1], inputs[k], time[k] - time[k - 1], state);
     run.force[k] = model.force(inputs[k], state);
+    if (is_ensemble) run.spread[k] = model.spread(inputs[k], state);
     if (!std::isfinite(run.force[k])) {
       run.diverged_at = time[k];
       run.force[k] = kNaN;

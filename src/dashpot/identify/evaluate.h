@@ -30,6 +30,7 @@ Domain domain_of(const std::vector<Record>& records, std::string_view drive_unit
 /// sample. `diverged_at`: time of the first force that is not finite; what follows is NaN.
 struct FreeRun {
   std::vector<double> force;          ///< N, one per sample
+  std::vector<double> spread;         ///< N, of an ensemble's members; empty for a single model
   std::optional<double> diverged_at;  ///< s
 };
 FreeRun free_run(const DamperModel& model, const std::vector<DamperInput>& inputs,
@@ -67,6 +68,8 @@ struct RecordResult {
   std::optional<ForceBand> band;                                                ///< around the modelled force
   Coverage coverage;                                                            ///< of that band
   std::vector<double> time, displacement, velocity, drive, measured, modelled;  ///< offset included
+  std::vector<double> spread;                                                   ///< as FreeRun
+  double spread_at(std::size_t sample) const { return spread.empty() ? 0 : spread[sample]; }
 };
 
 struct BandResult {

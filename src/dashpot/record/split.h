@@ -22,8 +22,14 @@ LeaveOut default_leave_out(const Dataset& dataset);
 std::vector<Fold> split(const Dataset& dataset, const LeaveOut& leave_out);
 
 /// Divides a training part once more, without a look at what is judged: by condition or current where that is
-/// how the judged part was left out and several remain; else in three, of whole records where whole records
-/// are judged and there are three, or of each record's time. Folds that would be empty are left away.
+/// how the judged part was left out and several remain; else in six, of whole records where whole records
+/// are judged and there are three at least, or of each record's time. Folds that would be empty are left
+/// away.
 std::vector<Fold> hold_back(const std::vector<Record>& training, const LeaveOut& judged);
+
+/// Divisions of a training part on which a fit tries what it must choose by itself. Conditions are dealt in
+/// turn to four at most, and each inner level of the drive is held back; of records that have neither, the
+/// last 30 %. One at least.
+std::vector<Fold> trial_folds(const std::vector<Record>& training);
 
 }  // namespace dashpot

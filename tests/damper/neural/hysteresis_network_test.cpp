@@ -35,6 +35,11 @@ TEST_CASE("the force is the members' mean and the offset") {
   const std::span<const double> all(state);
   CHECK_CLOSE(both.force(input, state),
               (first.force(input, all.first(4)) + second.force(input, all.last(4))) / 2 + 4.5, 1e-14, 0);
+  CHECK(both.is_ensemble());
+  CHECK_CLOSE(both.spread(input, state),
+              std::abs(first.force(input, all.first(4)) - second.force(input, all.last(4))) / std::sqrt(2.0),
+              1e-12, 0);
+  CHECK(first.spread(input, all.first(4)) == 0);
   CHECK(both.state_size() == 8);
   CHECK(both.parameter_count() == 2 * (4 + 3 * 6 + 8 * 3));
   CHECK_FALSE(both.needs_displacement());

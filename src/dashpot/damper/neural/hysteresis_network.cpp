@@ -90,6 +90,19 @@ double HysteresisNetwork::force(const DamperInput& input, std::span<const double
   return sum / static_cast<double>(members_.size()) + offset_;
 }
 
+double HysteresisNetwork::spread(const DamperInput& input, std::span<const double> state) const noexcept {
+  const double mean = force(input, state) - offset_;
+  std::array<double, GatedNetwork::kMaxSignals> signals;
+  double squares = 0;
+  for (const BankNetwork& member : members_) {
+    member.bank.read(input, state.first(member.bank.size()), signals.data());
+    const double apart = member.network.evaluate(signals.data()) - mean;
+    squares += apart * apart;
+    state = state.subspan(member.bank.size());
+  }
+  return is_ensemble() ? std::sqrt(squares / static_cast<double>(members_.size() - 1)) : 0;
+}
+
 std::unique_ptr<DamperModel> HysteresisNetwork::with_offset(double newton) const {
   return std::make_unique<HysteresisNetwork>(name_, members_, offset_ + newton);
 }
