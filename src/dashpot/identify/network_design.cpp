@@ -179,7 +179,7 @@ std::vector<std::string_view> network_settings_of(const std::string& model) {
   const std::string_view kind = model_info(model).kind;
   if (kind == "network")
     return {"hidden", "activation", "trainer", "rate", "batch", "epochs", "l1", "l2", "patience", "members"};
-  if (kind == "state_network") return {"hidden", "epochs", "l2", "members"};
+  if (kind == "state_network" || kind == "state_space") return {"hidden", "epochs", "l2", "members"};
   return {};
 }
 
