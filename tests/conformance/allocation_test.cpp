@@ -3,6 +3,7 @@
 
 #include "conformance/laws.h"
 #include "damper/inverse/inverses.h"
+#include "damper/neural/state_space_example.h"
 #include "dashpot/damper/fuzzy/fuzzy_model.h"
 #include "dashpot/damper/inverse/registry.h"
 #include "dashpot/damper/neural/hysteresis_network.h"
@@ -75,6 +76,10 @@ TEST_CASE("stepping a state network allocates nothing") {
   member.network.initialise(3, 1);
   const HysteresisNetwork model("test", {member, member});
   check_stepping(model);
+}
+
+TEST_CASE("stepping a state space allocates nothing") {
+  check_stepping(StateSpaceModel("test", {example_state_space(1), example_state_space(2)}));
 }
 
 TEST_CASE("stepping a fuzzy model allocates nothing") {

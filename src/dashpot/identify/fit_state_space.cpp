@@ -17,6 +17,7 @@ constexpr std::size_t kWindow = 400;      // samples of a window
 constexpr std::size_t kWindowStride = 2;  // of its samples, scored
 constexpr std::size_t kWindowSteps = 12000, kTrialSteps = 5000;
 constexpr int kWindowIterations = 25, kTrialIterations = 12, kFinishIterations = 30;
+constexpr int kTrialFinish = 10;     // a short trial prefers small weights, so a lone one is made in full
 constexpr double kTolerance = 1e-3;  // stopping early, too, keeps weights small
 constexpr std::array kDecays{1e-3, 1e-4, 1e-5};
 constexpr double kMostStep = 0.005;  // s, of the model
@@ -38,7 +39,7 @@ double longest_sample_time(const Records& records) {
   for (const BankRecord* record : records)
     longest = std::max(
         longest, (record->time.back() - record->time.front()) / static_cast<double>(record->time.size() - 1));
-  return longest;
+  return longest > 0 ? longest : kMostStep;
 }
 
 StateSpaceCell starting_cell(const StateSpacePreset& preset, const Records& records,
@@ -106,7 +107,7 @@ class StateSpaceFit {
     std::vector<Member> members(preset_.members);
     parallel_for(members.size(), options_.threads, [&](std::size_t k) {
       members[k].network = from_windows(all_, {decay_, kWindowIterations, kWindowSteps, k});
-      members[k].report = train(members[k].network, all_, finish());
+      members[k].report = train(members[k].network, all_, finish(decay_, kFinishIterations));
     });
     return members;
   }
@@ -120,8 +121,12 @@ class StateSpaceFit {
   };
 
   double best_decay(const Trials& trials) const {
-    return trials.best_price(kDecays, options_.threads, [this](const Trial& trial, double decay) {
-      const StateSpaceNetwork found = from_windows(trial.training, {decay, kTrialIterations, kTrialSteps});
+    const bool lone = trials.all().size() == 1;
+    return trials.best_price(kDecays, options_.threads, [this, lone](const Trial& trial, double decay) {
+      StateSpaceNetwork found =
+          from_windows(trial.training, lone ? Effort{decay, kWindowIterations, kWindowSteps}
+                                            : Effort{decay, kTrialIterations, kTrialSteps});
+      if (lone) train(found, trial.training, finish(decay, kTrialFinish));
       double squares = 0;
       for (const BankRecord* record : trial.held_back)
         squares += squares_left(found, *record, options_.offset == OffsetMode::Record);
@@ -129,19 +134,18 @@ class StateSpaceFit {
     });
   }
 
-  StateSpaceTrainOptions finish() const {
-    return {.max_iterations = static_cast<int>(options_.network.epochs.value_or(kFinishIterations)),
+  StateSpaceTrainOptions finish(double decay, int iterations) const {
+    return {.max_iterations = static_cast<int>(options_.network.epochs.value_or(iterations)),
             .tolerance = kTolerance,
-            .weight_decay = decay_,
+            .weight_decay = decay,
             .offsets = options_.offset == OffsetMode::Record,
             .stride = (scored_samples(all_) + kSamples - 1) / kSamples,
             .on_iteration = [this] { options_.monitor.check(); }};
   }
 
   StateSpaceNetwork from_windows(const Records& records, Effort effort) const {
-    StateSpaceTrainOptions options = finish();
+    StateSpaceTrainOptions options = finish(effort.decay, effort.iterations);
     options.max_iterations = effort.iterations;
-    options.weight_decay = effort.decay;
     options.stride = kWindowStride;
     options.window = kWindow;
     options.most_steps = effort.steps;

@@ -60,6 +60,8 @@ void Trials::cut(const std::vector<BankRecord>& records) {
     const std::size_t at = record.inputs.size() - static_cast<std::size_t>(kHeldBackEnd * scored);
     BankRecord& early = cuts_.emplace_back(record);
     early.inputs.resize(at);
+    early.time.resize(at);
+    early.force.resize(at);
     BankRecord& late = cuts_.emplace_back(record);
     late.first = std::min(at, record.inputs.size() - 1);
     trials_.back().training.push_back(&early);

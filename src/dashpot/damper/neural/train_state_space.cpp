@@ -11,6 +11,9 @@
 namespace dashpot {
 namespace {
 
+constexpr std::size_t kMoments = 4;      // that the encoder sees
+constexpr double kMomentSpacing = 0.01;  // s
+
 using Records = std::vector<const BankRecord*>;
 
 /// A part of a record that is run freely.
@@ -22,6 +25,12 @@ struct Window {
 };
 
 Window whole(const BankRecord& record) { return {&record, 0, record.inputs.size(), record.first, {}, {}}; }
+
+std::vector<Window> wholes(const Records& records) {
+  std::vector<Window> all;
+  for (const BankRecord* record : records) all.push_back(whole(*record));
+  return all;
+}
 
 /// Puts the states where the encoder says, and their derivatives by its weights beside those by the cell's
 /// parameters.
@@ -61,33 +70,31 @@ void run_cell(const StateSpaceCell& cell, const double* encoder, const Window& w
   }
 }
 
-/// Cuts records into windows that have a past, with what the encoder sees there.
+/// Cuts records into windows that have a past, with what the encoder sees there; records too short for that
+/// stay whole.
 class Windows {
  public:
   Windows(const StateSpaceNetwork& model, const StateSpaceTrainOptions& options)
       : model_(model), options_(options) {}
 
   std::vector<Window> of(const Records& records) const {
+    if (options_.window == 0) return wholes(records);
     std::vector<Window> all;
-    if (options_.window == 0) {
-      for (const BankRecord* record : records) all.push_back(whole(*record));
-      return all;
-    }
     std::size_t steps = 0;
     for (const BankRecord* record : records) steps += record->inputs.size() - record->first;
     const std::size_t every = (steps + options_.most_steps - 1) / options_.most_steps;
     for (const BankRecord* record : records) add(*record, every, all);
-    return all;
+    return all.empty() ? wholes(records) : all;
   }
 
  private:
   void add(const BankRecord& record, std::size_t every, std::vector<Window>& all) const {
     const StateSpaceCell& cell = model_.cell;
     const std::size_t samples = record.inputs.size();
+    if (samples < 2) return;
     const double dt = (record.time.back() - record.time.front()) / static_cast<double>(samples - 1);
-    const auto spacing =
-        std::max<std::size_t>(1, static_cast<std::size_t>(StateEncoder::kSpacing / dt + 0.5));
-    const std::size_t past = (StateEncoder::kMoments - 1) * spacing;
+    const auto spacing = std::max<std::size_t>(1, static_cast<std::size_t>(kMomentSpacing / dt + 0.5));
+    const std::size_t past = (kMoments - 1) * spacing;
     const double mean =
         std::accumulate(record.force.begin(), record.force.end(), 0.0) / static_cast<double>(samples);
     std::vector<double> state(cell.size());
@@ -100,7 +107,7 @@ class Windows {
       Window window{&record, k,   std::min(k + options_.window, samples),
                     k,       {1}, {state.begin() + static_cast<std::ptrdiff_t>(cell.motions()), state.end()}};
       window.features.insert(window.features.end(), window.currents.begin(), window.currents.end());
-      for (std::size_t j = 0; j < StateEncoder::kMoments; ++j) {
+      for (std::size_t j = 0; j < kMoments; ++j) {
         window.features.push_back(record.inputs[k - j * spacing].velocity / cell.velocity_scale);
         window.features.push_back((record.force[k - j * spacing] - mean) / model_.network.output_scale);
       }
@@ -199,16 +206,18 @@ void find_ranges(StateSpaceNetwork& model, const Records& records) {
 }
 
 FreeRunSearchResult run_search(StateSpaceNetwork model, const Records& records,
-                               const StateSpaceTrainOptions& options, int max_iterations) {
+                               const StateSpaceTrainOptions& options, int max_iterations,
+                               const std::vector<double>& unknowns) {
   open_ranges(model);
   const std::vector<Window> windows = Windows(model, options).of(records);
   const std::size_t encoder_weights = model.cell.motions() * windows.front().features.size();
   FreeRunProblem problem;
-  problem.start = unknowns_of(model, encoder_weights);
+  problem.anchors = unknowns_of(model, encoder_weights);
+  problem.start = unknowns.empty() ? problem.anchors : unknowns;
   problem.prices.assign(problem.start.size(), options.weight_decay);
   std::fill_n(problem.prices.begin(), model.cell.size(), options.rate_decay);
-  problem.anchors.assign(problem.start.size(), 0.0);
-  std::copy_n(problem.start.begin(), model.cell.size(), problem.anchors.begin());
+  std::fill(problem.anchors.begin() + static_cast<std::ptrdiff_t>(model.cell.size()), problem.anchors.end(),
+            0.0);  // weights from 0, rates from their start
   problem.linearise = [&](const std::vector<double>& x, RowSink& sink) {
     set_unknowns(model, x);
     linearise(model, x.data() + model.cell.parameter_count(), encoder_weights, windows, options.stride, sink);
@@ -224,7 +233,7 @@ FreeRunSearchResult run_search(StateSpaceNetwork model, const Records& records,
 
 BankTrainReport train(StateSpaceNetwork& model, const Records& records,
                       const StateSpaceTrainOptions& options) {
-  const FreeRunSearchResult found = run_search(model, records, options, options.max_iterations);
+  const FreeRunSearchResult found = run_search(model, records, options, options.max_iterations, {});
   set_unknowns(model, found.unknowns);
   for (const double offset : found.offsets)
     model.network.gates.front() += offset / static_cast<double>(found.offsets.size());
@@ -234,8 +243,8 @@ BankTrainReport train(StateSpaceNetwork& model, const Records& records,
 }
 
 BankCost state_space_cost(const StateSpaceNetwork& model, const Records& records,
-                          const StateSpaceTrainOptions& options) {
-  const FreeRunSearchResult at = run_search(model, records, options, 0);
+                          const StateSpaceTrainOptions& options, const std::vector<double>& unknowns) {
+  const FreeRunSearchResult at = run_search(model, records, options, 0, unknowns);
   return {at.cost, at.half_gradient};
 }
 

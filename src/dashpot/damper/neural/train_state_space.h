@@ -7,16 +7,6 @@
 
 namespace dashpot {
 
-/// Gives the states that a window of a record starts from: tanh (paths) or a straight line (lags) of the
-/// velocity, the currents, and the force and velocity of a few past moments. Needed to learn from windows
-/// only: a damper is at rest when a simulation begins.
-struct StateEncoder {
-  std::vector<double> weights;  ///< a row per motion state
-
-  static constexpr std::size_t kMoments = 4;
-  static constexpr double kSpacing = 0.01;  ///< s between them
-};
-
 /// Prices as in BankTrainOptions.
 struct StateSpaceTrainOptions {
   int max_iterations = 100;
@@ -26,20 +16,24 @@ struct StateSpaceTrainOptions {
   double offset_decay = 1e-3;
   bool offsets = true;
   std::size_t stride = 1;
-  /// Samples of a window, each run freely from where the encoder puts it; 0: whole records, from rest.
+  /// Samples of a window; 0: whole records. A window starts where an encoder puts the states, which is learnt
+  /// along and then dropped: tanh (paths) or a straight line (lags) of the currents and of velocity and force
+  /// at a few past moments.
   std::size_t window = 0;
   std::size_t most_steps = 12000;  ///< of all windows: every k-th is taken
   std::function<void()> on_iteration;
 };
 
-/// Levenberg-Marquardt over cell and network together, in free run over whole records from rest; derivatives
-/// of the states are brought along, so that the Jacobian is exact.
+/// Levenberg-Marquardt over cell and network together, in free run over windows or, from rest, over whole
+/// records; derivatives of the states are brought along, so that the Jacobian is exact. Offsets of records as
+/// for a bank of states. The same bits for the same input.
 BankTrainReport train(StateSpaceNetwork& model, const std::vector<const BankRecord*>& records,
                       const StateSpaceTrainOptions& options);
 
-/// Cost of train() at the model, and half its gradient by the cell's parameters, neurons and gates.
+/// Cost of train(), and half its gradient by the unknowns: the cell's parameters, the encoder's weights,
+/// neurons and gates. At the start of train() when `unknowns` is empty.
 BankCost state_space_cost(const StateSpaceNetwork& model, const std::vector<const BankRecord*>& records,
-                          const StateSpaceTrainOptions& options);
+                          const StateSpaceTrainOptions& options, const std::vector<double>& unknowns = {});
 
 /// What a model leaves of a record's scored samples, N^2, their mean taken out first when `offset`.
 double squares_left(const StateSpaceNetwork& model, const BankRecord& record, bool offset);
