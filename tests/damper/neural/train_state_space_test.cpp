@@ -97,7 +97,7 @@ TEST_CASE("windows, then whole records: a state space foretells motions it has n
   none.network.gates.assign(none.network.gates.size(), 0.0);
   const auto left = [&](const StateSpaceNetwork& model) { return squares_left(model, records[1], true); };
   CHECK(std::sqrt(left(found) / left(none)) < 0.2);  // it has seen two motions of 1.6 s
-  CHECK(found.cell.velocity_high < 2);  // 0.35 m/s by its scale: held to what was seen
+  CHECK(found.cell.velocity_high < 2);               // 0.35 m/s by its scale: held to what was seen
 }
 
 TEST_CASE("records too short for a window serve whole") {
