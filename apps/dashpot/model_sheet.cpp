@@ -10,6 +10,7 @@
 #include "dashpot/damper/law_model.h"
 #include "dashpot/damper/neural/hysteresis_network.h"
 #include "dashpot/damper/neural/mlp.h"
+#include "dashpot/damper/neural/state_space_model.h"
 #include "dashpot/damper/registry.h"
 #include "dashpot/identify/network_design.h"
 #include "dashpot/output/safe_text.h"
@@ -109,6 +110,21 @@ void add_numbers(ModelSheet& sheet, const StateNetworkPreset& preset) {
   sheet.states.insert(sheet.states.end(), preset.members * preset.current_lags, "u, A");
 }
 
+void add_numbers(ModelSheet& sheet, const StateSpacePreset& preset) {
+  StateSpaceNetwork member;
+  member.cell.path_rates.resize(preset.path_states);
+  member.cell.lag_rates.resize(preset.lags);
+  member.cell.current_rates.resize(preset.current_lags);
+  member.cell.initialise(preset.hidden, 0);
+  member.network.currents = preset.current_lags;
+  member.network.signals.resize(member.cell.signal_count());
+  member.network.initialise(preset.output_hidden, 0);
+  sheet.numbers = preset.members * member.parameter_count();
+  sheet.states.insert(sheet.states.end(), preset.members * preset.path_states, "x, 1");
+  sheet.states.insert(sheet.states.end(), preset.members * preset.lags, "y, 1");
+  sheet.states.insert(sheet.states.end(), preset.members * preset.current_lags, "u, 1");
+}
+
 std::vector<std::string> cells(const ParameterLine& p) {
   return {p.name, p.unit, p.value, p.bounds, p.form, p.meaning};
 }
@@ -151,6 +167,8 @@ ModelSheet model_sheet(const std::string& name) {
     sheet.numbers = weights_of(find_network_preset(name));
   else if (info.kind == "state_network")
     add_numbers(sheet, find_state_network_preset(name));
+  else if (info.kind == "state_space")
+    add_numbers(sheet, find_state_space_preset(name));
   else
     add_numbers(sheet, find_fuzzy_preset(name));
   return sheet;

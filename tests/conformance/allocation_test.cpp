@@ -3,6 +3,7 @@
 
 #include "conformance/laws.h"
 #include "damper/inverse/inverses.h"
+#include "damper/neural/state_space_example.h"
 #include "dashpot/damper/fuzzy/fuzzy_model.h"
 #include "dashpot/damper/inverse/registry.h"
 #include "dashpot/damper/neural/hysteresis_network.h"
@@ -85,6 +86,10 @@ TEST_CASE("stepping static networks allocates nothing") {
   mlp.input_scale = {1, 1};
   initialise(mlp, 1);
   check_stepping(NetworkModel("test", {"velocity", "current"}, {mlp, mlp}));
+}
+
+TEST_CASE("stepping a state space allocates nothing") {
+  check_stepping(StateSpaceModel("test", {example_state_space(1), example_state_space(2)}));
 }
 
 TEST_CASE("stepping a fuzzy model allocates nothing") {

@@ -1,5 +1,6 @@
 #include "dashpot/damper/model_file.h"
 
+#include "damper/neural/state_space_example.h"
 #include "dashpot/base/file.h"
 #include "dashpot/damper/fuzzy/fuzzy_model.h"
 #include "dashpot/damper/neural/hysteresis_network.h"
@@ -97,6 +98,15 @@ TEST_CASE("a state network's file comes back as it was, to the last bit") {
   const ModelFile loaded = parse_model(format_model(saved), "m.json");
   CHECK(format_model(loaded) == format_model(saved));
   const std::vector<double> state{0.3, 0.6};
+  CHECK(loaded.model->force({0, 0.13, 0.5}, state) == saved.model->force({0, 0.13, 0.5}, state));
+}
+
+TEST_CASE("a state space's file comes back as it was, to the last bit") {
+  const ModelFile saved = example(
+      std::make_unique<StateSpaceModel>("neural_state_space", std::vector{example_state_space()}, 4.5), "A");
+  const ModelFile loaded = parse_model(format_model(saved), "m.json");
+  CHECK(format_model(loaded) == format_model(saved));
+  const std::vector<double> state{0.3, 0.6, -0.2, 0.1};
   CHECK(loaded.model->force({0, 0.13, 0.5}, state) == saved.model->force({0, 0.13, 0.5}, state));
 }
 

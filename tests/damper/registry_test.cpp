@@ -11,8 +11,8 @@ TEST_CASE("laws stand in alphabetical order, networks, state networks and fuzzy 
   const auto others = names.begin() + static_cast<std::ptrdiff_t>(laws().size());
   CHECK(std::is_sorted(names.begin(), others));
   CHECK(std::vector<std::string>(others, names.end()) ==
-        std::vector<std::string>{"mlp_one_sensor", "mlp_two_sensors", "hysteresis_network", "anfis",
-                                 "takagi_sugeno"});
+        std::vector<std::string>{"mlp_one_sensor", "mlp_two_sensors", "hysteresis_network",
+                                 "neural_state_space", "anfis", "takagi_sugeno"});
   for (const Law* law : laws()) {
     CHECK(&find_law(law->name) == law);
     CHECK(is_law(law->name));
@@ -35,6 +35,15 @@ TEST_CASE("state networks say their kind and need one sensor") {
     CHECK(info.kind == "state_network");
     CHECK(info.inputs == std::vector<std::string>{"velocity", "current"});
     CHECK(&find_state_network_preset(preset.name) == &preset);
+  }
+}
+
+TEST_CASE("state spaces say their kind and need one sensor") {
+  for (const StateSpacePreset& preset : state_space_presets()) {
+    const ModelInfo info = model_info(preset.name);
+    CHECK(info.kind == "state_space");
+    CHECK(info.inputs == std::vector<std::string>{"velocity", "current"});
+    CHECK(&find_state_space_preset(preset.name) == &preset);
   }
 }
 

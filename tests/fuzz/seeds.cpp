@@ -5,6 +5,7 @@
 
 #include "damper/inverse/example_network.h"
 #include "damper/neural/bank_network_example.h"
+#include "damper/neural/state_space_example.h"
 #include "dashpot/base/file.h"
 #include "dashpot/damper/fuzzy/fuzzy_model.h"
 #include "dashpot/damper/inverse/inverse_file.h"
@@ -106,6 +107,9 @@ void model_seeds(const fs::path& folder) {
              model_seed(std::make_unique<HysteresisNetwork>("hysteresis_network",
                                                             std::vector{example_bank_network()}),
                         "A"));
+  write_file(folder / "state_space", model_seed(std::make_unique<StateSpaceModel>(
+                                                    "neural_state_space", std::vector{example_state_space()}),
+                                                "A"));
 }
 
 constexpr const char* kFamily =

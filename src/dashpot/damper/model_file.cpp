@@ -8,6 +8,7 @@
 #include "dashpot/damper/law_model.h"
 #include "dashpot/damper/neural/hysteresis_network.h"
 #include "dashpot/damper/neural/network_model.h"
+#include "dashpot/damper/neural/state_space_model.h"
 
 namespace dashpot {
 namespace {
@@ -28,9 +29,10 @@ std::unique_ptr<DamperModel> read_model(const Value& kind, const Value& value, c
   if (kind.as_string() == "law") return read_law(value, file);
   if (kind.as_string() == "network") return network_model_from_json(value);
   if (kind.as_string() == "state_network") return hysteresis_network_from_json(value);
+  if (kind.as_string() == "state_space") return state_space_model_from_json(value);
   if (kind.as_string() == "fuzzy") return fuzzy_model_from_json(value);
   throw Error(kind.where(), "unknown kind '" + kind.as_string() + "'",
-              suggest(kind.as_string(), {"law", "network", "state_network", "fuzzy"}));
+              suggest(kind.as_string(), {"law", "network", "state_network", "state_space", "fuzzy"}));
 }
 
 }  // namespace

@@ -30,6 +30,17 @@ struct StateNetworkPreset {
 };
 std::span<const StateNetworkPreset> state_network_presets();
 
+/// States that act back on themselves and the network that reads them, known by name.
+struct StateSpacePreset {
+  std::string_view name, title, equation, source, remarks;
+  std::size_t path_states = 0, lags = 0;
+  std::size_t current_lags = 0;   ///< one where the current is steady within each record
+  std::size_t hidden = 0;         ///< neurons of the cell
+  std::size_t output_hidden = 0;  ///< neurons of the network that reads the states
+  std::size_t members = 1;        ///< whose mean is the model
+};
+std::span<const StateSpacePreset> state_space_presets();
+
 /// A grid of fuzzy sets that is known by name.
 struct FuzzyPreset {
   std::string_view name, title, equation, source, remarks;
@@ -48,12 +59,13 @@ struct ModelInfo {
 /// Throws Error "unknown model 'bouc'; did you mean ...; known: ...".
 ModelInfo model_info(std::string_view name, const std::string& where = {});
 
-std::vector<std::string> model_names();  ///< laws, networks, state networks, fuzzy models
+std::vector<std::string> model_names();  ///< laws, networks, state networks, state spaces, fuzzy models
 
 /// All throw as model_info does.
 const Law& find_law(std::string_view name, const std::string& where = {});
 const NetworkPreset& find_network_preset(std::string_view name, const std::string& where = {});
 const StateNetworkPreset& find_state_network_preset(std::string_view name, const std::string& where = {});
+const StateSpacePreset& find_state_space_preset(std::string_view name, const std::string& where = {});
 const FuzzyPreset& find_fuzzy_preset(std::string_view name, const std::string& where = {});
 bool is_law(std::string_view name);
 

@@ -6,7 +6,7 @@
 #include "dashpot/damper/registry.h"
 #include "dashpot/identify/identify.h"
 
-// The four ways of fitting behind identify().
+// The five ways of fitting behind identify().
 namespace dashpot {
 
 FitReport fit_law(const Law& law, const std::vector<Record>& training, const std::string& drive_unit,
@@ -15,6 +15,8 @@ FitReport fit_network(const NetworkPreset& preset, const std::vector<Record>& tr
                       const std::string& drive_unit, const IdentifyOptions& options);
 FitReport fit_state_network(const StateNetworkPreset& preset, const std::vector<Record>& training,
                             const std::string& drive_unit, const IdentifyOptions& options);
+FitReport fit_state_space(const StateSpacePreset& preset, const std::vector<Record>& training,
+                          const std::string& drive_unit, const IdentifyOptions& options);
 FitReport fit_fuzzy(const FuzzyPreset& preset, const std::vector<Record>& training,
                     const std::string& drive_unit, const IdentifyOptions& options);
 

@@ -195,7 +195,7 @@ std::vector<std::string_view> network_settings_of(const std::string& model) {
   if (kind == "network")
     return {"hidden", "activation", "trainer", "rate",     "schedule", "batch",
             "epochs", "l1",         "l2",      "patience", "members"};
-  if (kind == "state_network") return {"hidden", "epochs", "l2", "members"};
+  if (kind == "state_network" || kind == "state_space") return {"hidden", "epochs", "l2", "members"};
   return {};
 }
 

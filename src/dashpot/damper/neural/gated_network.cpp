@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "dashpot/base/error.h"
 #include "dashpot/base/random.h"
 #include "dashpot/damper/neural/tanh.h"
 
@@ -14,7 +15,28 @@ namespace {
 constexpr std::size_t kMaxGates =
     1 + GatedNetwork::kMaxCurrents + GatedNetwork::kMaxCurrents * (GatedNetwork::kMaxCurrents + 1) / 2;
 
+bool is_positive(double value) { return value > 0 && std::isfinite(value); }
+
+void require_count(std::size_t count, std::size_t right, const std::string& what, const std::string& where) {
+  if (count != right)
+    throw Error(where, "has " + std::to_string(count) + " " + what,
+                "its states need " + std::to_string(right));
+}
+
 }  // namespace
+
+void GatedNetwork::require_sound(std::size_t signal_count, const std::string& where) const {
+  require_count(signals.size(), signal_count, "signals", where);
+  for (const Signal& signal : signals) {
+    if (!is_positive(signal.scale)) throw Error(where, "the scale of a signal is not a positive number");
+    if (!(signal.low <= signal.high)) throw Error(where, "the range of a signal does not go upwards");
+  }
+  if (neurons.size() % neuron_stride() != 0)
+    throw Error(where, "has " + std::to_string(neurons.size()) + " weights of neurons",
+                "each neuron needs " + std::to_string(neuron_stride()));
+  require_count(gates.size(), term_count() * gate_count(), "weights of gates", where);
+  if (!is_positive(output_scale)) throw Error(where, "the output scale is not a positive number");
+}
 
 void GatedNetwork::fill_gates(const double* u, double* c) const noexcept {
   *c++ = 1;

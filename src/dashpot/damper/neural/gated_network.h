@@ -1,6 +1,7 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace dashpot {
@@ -31,6 +32,9 @@ struct GatedNetwork {
   std::size_t gate_count() const noexcept { return 1 + currents + currents * (currents + 1) / 2; }  ///< of c
   std::size_t term_count() const noexcept { return 1 + motions() + hidden(); }
   std::size_t parameter_count() const noexcept { return neurons.size() + term_count() * gate_count(); }
+
+  /// Throws Error(where, ...) when the parts do not fit together or to that many signals.
+  void require_sound(std::size_t signal_count, const std::string& where) const;
 
   /// Output at raw signals, in raw units. Allocates nothing.
   double evaluate(const double* raw) const noexcept;
