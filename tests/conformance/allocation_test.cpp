@@ -3,6 +3,7 @@
 
 #include "conformance/laws.h"
 #include "damper/inverse/inverses.h"
+#include "damper/neural/narx_example.h"
 #include "dashpot/damper/fuzzy/fuzzy_model.h"
 #include "dashpot/damper/inverse/registry.h"
 #include "dashpot/damper/neural/hysteresis_network.h"
@@ -75,6 +76,12 @@ TEST_CASE("stepping a state network allocates nothing") {
   member.network.initialise(3, 1);
   const HysteresisNetwork model("test", {member, member});
   check_stepping(model);
+}
+
+TEST_CASE("stepping a network with fed-back forces allocates nothing") {
+  const Regressors regressors = example_regressors();
+  const Mlp mlp = example_narx_network(regressors);
+  check_stepping(NarxModel("test", regressors, {mlp, mlp}));
 }
 
 TEST_CASE("stepping a fuzzy model allocates nothing") {

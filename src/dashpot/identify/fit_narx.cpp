@@ -16,6 +16,8 @@ namespace {
 
 constexpr std::size_t kMostRows = 6000;  // of regressors; of finer records some of the grids that lie in them
 
+constexpr int kFirstIterations = 40;  // series-parallel, where free run follows
+
 /// What preset and design make together.
 struct NarxPlan {
   NarxPlan(const NetworkPreset& preset, const NetworkDesign& design)
@@ -168,22 +170,25 @@ class NarxFit {
     std::vector<TrainedMlp> trained = train_from_starts(start, starts, options_.seed, options_.threads,
                                                         [&](Mlp& mlp) { return series_parallel(mlp); });
     keep_best(trained);
-    if (plan_.feedback == 0 || plan_.training == FeedbackTraining::SeriesParallel) return trained;
+    if (!will_run_free()) return trained;
     parallel_for(trained.size(), options_.threads, [&](std::size_t k) { free_run(trained[k]); });
     keep_best(trained);
     return trained;
   }
 
  private:
+  bool will_run_free() const { return plan_.feedback > 0 && plan_.training == FeedbackTraining::FreeRun; }
+
   std::function<void()> check() const {
     return [this] { options_.monitor.check(); };
   }
 
   TrainReport series_parallel(Mlp& mlp) const {
     TrainingSamples rows = data_.samples.rows;
-    if (plan_.feedback > 0 || options_.offset == OffsetMode::None) rows.group.clear();
+    if (plan_.feedback > 0) rows.group.clear();  // the offsets are out
     TrainOptions how{.weight_decay = options_.network.l2.value_or(plan_.feedback > 0 ? 1e-6 : 3e-4)};
     how.on_iteration = [this](int, double) { options_.monitor.check(); };
+    if (will_run_free()) how.max_iterations = kFirstIterations;
     if (options_.network.epochs) how.max_iterations = static_cast<int>(*options_.network.epochs);
     TrainReport report = train(mlp, rows, how);
     report.rmse = free_run_rmse(mlp, data_.samples, free_run_options());
@@ -205,7 +210,6 @@ class NarxFit {
   /// Over whole stretches.
   NarxTrainOptions free_run_options() const {
     NarxTrainOptions how{.weight_decay = options_.network.l2.value_or(1e-5), .on_iteration = check()};
-    if (options_.offset == OffsetMode::None) how.offset_decay = 1e9;
     if (options_.network.epochs) how.max_iterations = static_cast<int>(*options_.network.epochs);
     return how;
   }
@@ -227,7 +231,9 @@ FitReport fit_narx(const NetworkPreset& preset, const std::vector<Record>& train
                    const std::string& drive_unit, const IdentifyOptions& options) {
   const NarxPlan plan(preset, options.network);
   NarxData data(plan, training, drive_unit);
-  if (plan.feedback > 0 && options.offset == OffsetMode::Record)
+  if (options.offset == OffsetMode::None)
+    data.samples.rows.group.clear();
+  else if (plan.feedback > 0)
     data.remove(record_offsets(plan, data, options));
   FitReport report;
   std::vector<Mlp> members;

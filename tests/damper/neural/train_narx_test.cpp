@@ -70,24 +70,34 @@ TEST_CASE("gradients, carried forward and sent back through time, are those of t
     }
 }
 
+// Least squares with the noise among the regressors finds too small a gain for the fed-back force: errors in
+// variables. In free run it is not among them.
 TEST_CASE("where the force is noisy, training in free run beats training on the measured force") {
-  const Regressors regressors = example_regressors();
-  const Mlp truth = example_narx_network(regressors);
-  constexpr double kNoise = 100;
-  const NarxSamples samples = measured(regressors, truth, 3, kNoise);
-  NarxSamples clean = measured(regressors, truth, 3, 0);
-  TrainingSamples rows = samples.rows;
+  const Regressors regressors = Regressors::of({"velocity", "current"}, 0, 1, 5e-3);
+  Mlp truth = example_narx_network(regressors);
+  truth.layers = {3, 1};
+  truth.parameters = {0.15, 0.02, 0.9, 0};
+  constexpr double kNoise = 300;
+  const NarxSamples noisy = measured(regressors, truth, 3, kNoise), clean = measured(regressors, truth, 3, 0);
+  TrainingSamples rows = noisy.rows;
   rows.group.clear();
-  Mlp start = example_narx_network(regressors, 3);
-  train(start, rows, {.max_iterations = 60, .weight_decay = 1e-6});
-  const NarxTrainOptions options{.weight_decay = 1e-6};
+  Mlp start = truth;
+  start.parameters = {0, 0, 0, 0};
+  TrainOptions first;
+  first.weight_decay = 1e-6;
+  train(start, rows, first);
+  CHECK(start.parameters[2] < 0.85);
+  NarxTrainOptions options;
+  options.weight_decay = 1e-6;
   Mlp forward = start, again = start, backward = start;
-  const TrainReport report = train_free_run(forward, samples, options);
-  train_free_run(again, samples, options);
-  train_through_time(backward, samples, {.max_iterations = 200, .weight_decay = 1e-6, .window = 50});
+  CHECK(train_free_run(forward, noisy, options).rmse < 1.1 * kNoise);
+  train_free_run(again, noisy, options);
   CHECK(forward.parameters == again.parameters);
-  CHECK(report.rmse < 1.1 * kNoise);
+  CHECK_CLOSE(forward.parameters[2], 0.9, 0.03, 0);
   const double one_step = free_run_rmse(start, clean, options);
   CHECK(free_run_rmse(forward, clean, options) < 0.5 * one_step);
-  CHECK(free_run_rmse(backward, clean, options) < 0.7 * one_step);
+  options.window = 100;
+  options.max_iterations = 200;
+  train_through_time(backward, noisy, options);
+  CHECK(free_run_rmse(backward, clean, options) < 0.5 * one_step);
 }
