@@ -67,6 +67,29 @@ TEST_CASE("a network's design says what it reads and what comes back") {
   CHECK(evaluate(*through_time.model, training, "A").pooled.esr < 10);
 }
 
+TEST_CASE("a step of the network is a millisecond, or a sample where that is longer, unless stated") {
+  const std::vector<Record> training = campaign({{0.01, 1}}, 3000).records;
+  const auto step = [&](const std::string& settings) {
+    return narx(identify("narx_one_sensor", training, "A", with("hidden=2,epochs=2" + settings)))
+        .feedback_step();
+  };
+  CHECK_CLOSE(step(""), 1e-3, 1e-12, 0);
+  CHECK_CLOSE(step(",spacing=1"), 1.0 / 3000, 1e-12, 0);
+}
+
+TEST_CASE("a model that can diverge says so, a bounded one does not") {
+  const std::vector<Record> training = campaign({{0.01, 1}}).records;
+  const auto warnings = [&](const std::string& settings) {
+    return identify("narx_one_sensor", training, "A", with("hidden=3,epochs=3,activation=relu" + settings))
+        .warnings.size();
+  };
+  CHECK(warnings("") == 1);
+  CHECK(warnings(",output=bounded") == 0);
+  CHECK(message_of([&] {
+          identify("narx_one_sensor", training, "A", with("trainer=adam"));
+        }).find("lm or lbfgs") != std::string::npos);
+}
+
 TEST_CASE("a static preset with delays reads past inputs and feeds nothing back") {
   const std::vector<Record> training = campaign({{0.01, 1}, {0.005, 3}}).records;
   const FitReport fit = identify("mlp_one_sensor", training, "A", with("hidden=5,delays=2"));

@@ -19,7 +19,6 @@ struct NetworkPreset {
   std::vector<std::size_t> hidden;  ///< neurons per hidden layer
   std::size_t delays = 0;           ///< past values of each input
   std::size_t feedback = 0;         ///< past forces fed back
-  std::size_t spacing = 1;          ///< samples of the training records from one past value to the next
 
   std::string_view kind() const { return feedback > 0 ? "narx" : "network"; }
 };

@@ -15,8 +15,10 @@ namespace dashpot {
 namespace {
 
 constexpr std::size_t kMostRows = 6000;  // of regressors; of finer records some of the grids that lie in them
-
-constexpr int kFirstIterations = 40;  // series-parallel, where free run follows
+constexpr int kFirstIterations = 40;     // series-parallel, where free run follows
+// s: a step of the network is as many samples as fit in, unless the design states them. At shorter steps the
+// fed-back force all but repeats itself, and whole records take so many more of them.
+constexpr double kUsualStep = 1e-3;
 
 /// What preset and design make together.
 struct NarxPlan {
@@ -27,20 +29,27 @@ struct NarxPlan {
         activation(design.activation.value_or(Activation::Tanh)),
         delays(design.delays.value_or(preset.delays)),
         feedback(design.feedback.value_or(preset.feedback)),
-        spacing(design.spacing.value_or(preset.spacing)),
+        spacing(design.spacing),
         members(design.members.value_or(1)),
         training(design.training.value_or(FeedbackTraining::FreeRun)),
         window(design.window.value_or(0)),
-        bounded(design.output.value_or(OutputRange::Linear) == OutputRange::Bounded) {}
+        bounded(design.output.value_or(OutputRange::Linear) == OutputRange::Bounded) {
+    const Trainer trainer = design.trainer.value_or(Trainer::LevenbergMarquardt);
+    if (trainer != Trainer::LevenbergMarquardt && trainer != Trainer::Lbfgs)
+      throw Error("--network trainer", "a network that reads its past cannot be trained so", "lm or lbfgs");
+    through_time = trainer == Trainer::Lbfgs;
+  }
 
   std::string name;
   std::vector<std::string> inputs;
   std::vector<std::size_t> hidden;
   Activation activation;
-  std::size_t delays, feedback, spacing, members;
+  std::size_t delays, feedback;
+  std::optional<std::size_t> spacing;
+  std::size_t members;
   FeedbackTraining training;
   std::size_t window;
-  bool bounded;
+  bool bounded, through_time = false;
 };
 
 /// The training records on the network's own grid.
@@ -52,8 +61,9 @@ class NarxData {
       step = std::max(step, step_of(record));
       seconds += record.time.back() - record.time.front();
     }
-    regressors = Regressors::of(plan.inputs, plan.delays, plan.feedback,
-                                static_cast<double>(std::max<std::size_t>(1, plan.spacing)) * step);
+    const double samples_per_step = plan.spacing ? static_cast<double>(*plan.spacing)
+                                                 : std::max(1.0, std::floor(kUsualStep / step * (1 + 1e-9)));
+    regressors = Regressors::of(plan.inputs, plan.delays, plan.feedback, samples_per_step * step);
     const auto most = static_cast<std::size_t>(
         std::max(1.0, static_cast<double>(kMostRows) * regressors.sample_time / seconds));
     samples.feedback = regressors.feedback;
@@ -166,9 +176,11 @@ class NarxFit {
   std::vector<TrainedMlp> members() const {
     const std::size_t starts =
         std::max(static_cast<std::size_t>(std::max(1, options_.starts)), plan_.members);
-    const Mlp start = standardised(plan_, data_.samples.rows, plan_.feedback);
-    std::vector<TrainedMlp> trained = train_from_starts(start, starts, options_.seed, options_.threads,
-                                                        [&](Mlp& mlp) { return series_parallel(mlp); });
+    std::vector<TrainedMlp> trained(starts, {standardised(plan_, data_.samples.rows, plan_.feedback), {}});
+    parallel_for(starts, options_.threads, [&](std::size_t k) {
+      initialise(trained[k].mlp, options_.seed + k);
+      trained[k].report = series_parallel(trained[k].mlp);
+    });
     keep_best(trained);
     if (!will_run_free()) return trained;
     parallel_for(trained.size(), options_.threads, [&](std::size_t k) { free_run(trained[k]); });
@@ -197,12 +209,11 @@ class NarxFit {
 
   void free_run(TrainedMlp& member) const {
     NarxTrainOptions how = free_run_options();
-    const bool through_time = options_.network.trainer == Trainer::Lbfgs;
     for (const std::size_t window : {std::size_t{10}, std::size_t{100}, plan_.window}) {
       if (plan_.window > 0 && window > plan_.window) continue;
       how.window = window;
-      member.report = through_time ? train_through_time(member.mlp, data_.samples, how)
-                                   : train_free_run(member.mlp, data_.samples, how);
+      member.report = plan_.through_time ? train_through_time(member.mlp, data_.samples, how)
+                                         : train_free_run(member.mlp, data_.samples, how);
     }
     member.report.rmse = free_run_rmse(member.mlp, data_.samples, free_run_options());
   }
@@ -246,7 +257,13 @@ FitReport fit_narx(const NetworkPreset& preset, const std::vector<Record>& train
   }
   report.status = converged ? FitReport::Status::Converged : FitReport::Status::IterationLimit;
   report.message = converged ? "converged" : "iteration limit reached";
-  report.model = std::make_shared<NarxModel>(plan.name, data.regressors, std::move(members));
+  const auto model = std::make_shared<NarxModel>(plan.name, data.regressors, std::move(members));
+  if (model->can_diverge())
+    report.warnings.push_back(
+        "nothing bounds its force in free run: beyond its training data it can diverge, which is then "
+        "reported "
+        "with its time; --network output=bounded rules it out");
+  report.model = model;
   return report;
 }
 

@@ -159,6 +159,21 @@ TEST_CASE("a network with a bounded output stays within it") {
   CHECK_FALSE(model.has_diverged(state));
 }
 
+TEST_CASE("whether a model can diverge follows from its weights") {
+  const Regressors regressors = example_regressors();
+  Mlp mlp = example_narx_network(regressors);
+  const auto can_diverge = [&] { return NarxModel("test", regressors, {mlp}).can_diverge(); };
+  CHECK(unstable().can_diverge());
+  CHECK_FALSE(can_diverge());  // five neurons, weights of some 0.4
+  mlp.parameters.back() = -9.9;
+  CHECK(can_diverge());
+  mlp.activations = {Activation::Tanh, Activation::Tanh};
+  CHECK_FALSE(can_diverge());
+  mlp = example_narx_network(regressors);
+  mlp.activations = {Activation::Relu, Activation::Identity};
+  CHECK(can_diverge());
+}
+
 TEST_CASE("a measured force in place of its own is what the next one comes from") {
   const NarxModel model = unstable();
   const auto moved = model.with_offset(30);

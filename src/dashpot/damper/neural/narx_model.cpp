@@ -144,6 +144,24 @@ double NarxModel::force(const DamperInput& input, std::span<const double> state)
   return sum / static_cast<double>(members_.size()) + offset_;
 }
 
+bool NarxModel::can_diverge() const {
+  if (regressors_.feedback.empty()) return false;
+  return std::any_of(members_.begin(), members_.end(), [](const Mlp& mlp) {
+    const std::size_t last = mlp.layers.size() - 1, neurons = mlp.layers[last - 1];
+    const auto is_bounded = [&](std::size_t layer) {
+      const Activation kind = mlp.activation(layer);
+      return kind == Activation::Tanh || kind == Activation::Sigmoid;
+    };
+    if (is_bounded(last)) return false;
+    if (last == 1 || !is_bounded(last - 1)) return true;
+    double most = 0;  // neurons at 1 or -1, each as its weight wants it
+    for (auto weight = mlp.parameters.end() - static_cast<std::ptrdiff_t>(neurons + 1);
+         weight != mlp.parameters.end(); ++weight)
+      most += std::abs(*weight);
+    return most > kRange;
+  });
+}
+
 void NarxModel::observe(double force, std::span<double> state) const noexcept {
   if (state[kPending] != 0) return;
   for (std::size_t m = 0; m < members_.size(); ++m) state[force_place(m)] = force - offset_;

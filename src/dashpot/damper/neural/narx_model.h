@@ -36,6 +36,8 @@ class NarxModel final : public DamperModel {
   double feedback_step() const noexcept override {
     return regressors_.feedback.empty() ? 0 : regressors_.sample_time;
   }
+  /// Whether the weights leave it possible: no bounded layer holds every force within the range.
+  bool can_diverge() const;
   void observe(double force, std::span<double> state) const noexcept override;
   std::unique_ptr<DamperModel> with_offset(double newton) const override;
   Value to_json() const override;
