@@ -32,7 +32,7 @@ const NarxModel& narx(const FitReport& fit) { return dynamic_cast<const NarxMode
 
 TEST_CASE("a NARX network learns a damper in free run, with the same bits on any number of threads") {
   const std::vector<Record> training = campaign({{0.01, 1}, {0.005, 3}}).records;
-  IdentifyOptions options = with("hidden=6,epochs=20");
+  IdentifyOptions options = with("hidden=6,epochs=20,l2=1e-5");
   const FitReport one = identify("narx_one_sensor", training, "A", options);
   options.threads = 3;
   const FitReport three = identify("narx_one_sensor", training, "A", options);
@@ -55,22 +55,39 @@ TEST_CASE("a network's design says what it reads and what comes back") {
                                       "training=series_parallel,output=bounded,epochs=5"));
   const NarxModel& model = narx(fit);
   CHECK(model.name() == "narx_two_sensors");
-  CHECK(model.regressors().count() == 3 * 2 + 3);
+  CHECK(model.regressors().count() == 2 + 2 + 1 + 3);  // the current is steady
   CHECK(model.feedback_step() == 0.02);
   CHECK(model.members().size() == 2);
-  CHECK(model.members().front().layers == std::vector<std::size_t>{9, 3, 2, 1});
+  CHECK(model.members().front().layers == std::vector<std::size_t>{8, 3, 2, 1});
   CHECK(model.members().front().activations ==
         std::vector{Activation::Relu, Activation::Relu, Activation::Tanh});
   CHECK(model.needs_displacement());
   const FitReport through_time =
-      identify("narx_one_sensor", training, "A", with("hidden=3,trainer=lbfgs,window=20,epochs=20"));
+      identify("narx_one_sensor", training, "A", with("hidden=3,trainer=lbfgs,window=20,epochs=20,l2=1e-5"));
   CHECK(evaluate(*through_time.model, training, "A").pooled.esr < 10);
+}
+
+TEST_CASE(
+    "the price of weights is found on parts of the training records, the same on any number of threads") {
+  const std::vector<Record> training = campaign({{0.01, 1}, {0.005, 3}}).records;
+  IdentifyOptions options = with("hidden=3,epochs=5");
+  const FitReport one = identify("narx_one_sensor", training, "A", options);
+  options.threads = 3;
+  CHECK(format_json(identify("narx_one_sensor", training, "A", options).model->to_json()) ==
+        format_json(one.model->to_json()));
+  std::size_t tried = 0;
+  for (const char* price : {"1e-2", "1e-3", "1e-4", "1e-5"}) {
+    const std::string settings = std::string("hidden=3,epochs=5,l2=") + price;
+    tried += format_json(identify("narx_one_sensor", training, "A", with(settings)).model->to_json()) ==
+             format_json(one.model->to_json());
+  }
+  CHECK(tried == 1);
 }
 
 TEST_CASE("a step of the network is a millisecond, or a sample where that is longer, unless stated") {
   const std::vector<Record> training = campaign({{0.01, 1}}, 3000).records;
   const auto step = [&](const std::string& settings) {
-    return narx(identify("narx_one_sensor", training, "A", with("hidden=2,epochs=2" + settings)))
+    return narx(identify("narx_one_sensor", training, "A", with("hidden=2,epochs=2,l2=1e-5" + settings)))
         .feedback_step();
   };
   CHECK_CLOSE(step(""), 1e-3, 1e-12, 0);
@@ -92,8 +109,8 @@ TEST_CASE("a model that can diverge says so, a bounded one does not") {
 
 TEST_CASE("a static preset with delays reads past inputs and feeds nothing back") {
   const std::vector<Record> training = campaign({{0.01, 1}, {0.005, 3}}).records;
-  const FitReport fit = identify("mlp_one_sensor", training, "A", with("hidden=5,delays=2"));
-  CHECK(narx(fit).regressors().count() == 6);
+  const FitReport fit = identify("mlp_one_sensor", training, "A", with("hidden=5,l2=1e-4,delays=2"));
+  CHECK(narx(fit).regressors().count() == 3 + 1);
   CHECK(fit.model->name() == "mlp_one_sensor");
   const Evaluation seen = evaluate(*fit.model, training, "A");
   CHECK_FALSE(seen.one_step);
@@ -104,7 +121,7 @@ TEST_CASE("a static preset with delays reads past inputs and feeds nothing back"
 TEST_CASE("records of several rates are brought to the step of the slowest") {
   std::vector<Record> training = campaign({{0.01, 1}}, 100).records;
   for (const Record& record : campaign({{0.01, 1.5}}, 250).records) training.push_back(record);
-  const FitReport fit = identify("narx_one_sensor", training, "A", with("hidden=4,epochs=15"));
+  const FitReport fit = identify("narx_one_sensor", training, "A", with("hidden=4,epochs=15,l2=1e-5"));
   CHECK(fit.model->feedback_step() == 0.01);
   const Evaluation seen = evaluate(*fit.model, training, "A");
   CHECK(seen.pooled.esr < 3);

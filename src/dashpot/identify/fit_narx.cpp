@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <tuple>
 
@@ -9,13 +10,16 @@
 #include "dashpot/damper/neural/train_narx.h"
 #include "dashpot/identify/fit.h"
 #include "dashpot/identify/training_samples.h"
+#include "dashpot/record/split.h"
 #include "dashpot/record/time_base.h"
 
 namespace dashpot {
 namespace {
 
 constexpr std::size_t kMostRows = 6000;  // of regressors; of finer records some of the grids that lie in them
-constexpr int kFirstIterations = 40;     // series-parallel, where free run follows
+constexpr std::array kDecays{1e-2, 1e-3, 1e-4, 1e-5};
+constexpr std::size_t kMostTrials = 4, kTrialRows = 2000;  // of decays
+constexpr int kFirstIterations = 40;                       // series-parallel, where free run follows
 // s: a step of the network is as many samples as fit in, unless the design states them. At shorter steps the
 // fed-back force all but repeats itself, and whole records take so many more of them.
 constexpr double kUsualStep = 1e-3;
@@ -52,31 +56,46 @@ struct NarxPlan {
   bool bounded, through_time = false;
 };
 
-/// The training records on the network's own grid.
+double step_of(const Record& record) {
+  if (record.sample_time > 0) return record.sample_time;
+  return (record.time.back() - record.time.front()) / static_cast<double>(record.size() - 1);
+}
+
+/// A drive that is steady in each record has no past to tell.
+Regressors regressors_of(const NarxPlan& plan, const std::vector<Record>& training,
+                         const std::string& drive_unit) {
+  double step = 0;
+  for (const Record& record : training) step = std::max(step, step_of(record));
+  const double samples_per_step = plan.spacing ? static_cast<double>(*plan.spacing)
+                                               : std::max(1.0, std::floor(kUsualStep / step * (1 + 1e-9)));
+  Regressors regressors = Regressors::of(plan.inputs, plan.delays, plan.feedback, samples_per_step * step);
+  if (!drive_range(training, drive_unit).varies)
+    for (Regressors::Input& input : regressors.inputs)
+      if (input.name == "current") input.lags = {0};
+  return regressors;
+}
+
+/// Records on the network's own grid.
 class NarxData {
  public:
-  NarxData(const NarxPlan& plan, const std::vector<Record>& training, const std::string& drive_unit) {
-    double step = 0, seconds = 0;
-    for (const Record& record : training) {
-      step = std::max(step, step_of(record));
-      seconds += record.time.back() - record.time.front();
-    }
-    const double samples_per_step = plan.spacing ? static_cast<double>(*plan.spacing)
-                                                 : std::max(1.0, std::floor(kUsualStep / step * (1 + 1e-9)));
-    regressors = Regressors::of(plan.inputs, plan.delays, plan.feedback, samples_per_step * step);
-    const auto most = static_cast<std::size_t>(
-        std::max(1.0, static_cast<double>(kMostRows) * regressors.sample_time / seconds));
+  /// Of finer records, some of the grids that lie in them: every so many-th sample, from several first ones
+  /// on, so that there are about `most` rows.
+  NarxData(Regressors of, const std::vector<Record>& records, const std::string& drive_unit, std::size_t most)
+      : regressors(std::move(of)) {
+    double seconds = 0;
+    for (const Record& record : records) seconds += record.time.back() - record.time.front();
+    const auto most_grids =
+        static_cast<std::size_t>(std::max(1.0, static_cast<double>(most) * regressors.sample_time / seconds));
     samples.feedback = regressors.feedback;
-    samples.rows.groups = training.size();
-    for (std::size_t r = 0; r < training.size(); ++r) {
-      // Of a finer record, each grid that lies in it: every so many-th sample, from several first ones on.
+    samples.rows.groups = records.size();
+    for (std::size_t r = 0; r < records.size(); ++r) {
       const auto grids =
-          static_cast<std::size_t>(std::max(1.0, std::round(regressors.sample_time / step_of(training[r]))));
-      const std::size_t taken = std::min(grids, most);
-      for (std::size_t k = 0; k < taken; ++k) add(training[r], r, k * grids / taken, drive_unit);
+          static_cast<std::size_t>(std::max(1.0, std::round(regressors.sample_time / step_of(records[r]))));
+      const std::size_t taken = std::min(grids, most_grids);
+      for (std::size_t k = 0; k < taken; ++k) add(records[r], r, k * grids / taken, drive_unit);
     }
     if (samples.rows.targets.empty())
-      throw Error(training.front().name, "no record is longer than the network's past",
+      throw Error(records.front().name, "no record is longer than the network's past",
                   "fewer delays, or a smaller spacing");
   }
 
@@ -95,11 +114,6 @@ class NarxData {
   NarxSamples samples;
 
  private:
-  static double step_of(const Record& record) {
-    if (record.sample_time > 0) return record.sample_time;
-    return (record.time.back() - record.time.front()) / static_cast<double>(record.size() - 1);
-  }
-
   void add(const Record& record, std::size_t group, std::size_t first, const std::string& drive_unit) {
     const double step = regressors.sample_time;
     if (record.time.back() - record.time[first] < step * static_cast<double>(regressors.depth() + 2)) return;
@@ -166,18 +180,25 @@ std::vector<double> record_offsets(const NarxPlan& plan, const NarxData& data,
       .offsets;
 }
 
+/// How much a training may cost.
+struct Effort {
+  double decay;  ///< price of squared weights
+  std::size_t starts = 1, members = 1;
+  int first_iterations = 15, iterations = 15;
+  std::size_t residuals = 1000;
+};
+
 /// What the stages of a training share.
 class NarxFit {
  public:
-  NarxFit(const NarxPlan& plan, const NarxData& data, const IdentifyOptions& options)
-      : plan_(plan), data_(data), options_(options) {}
+  NarxFit(const NarxPlan& plan, const NarxData& data, const IdentifyOptions& options, const Effort& effort)
+      : plan_(plan), data_(data), options_(options), effort_(effort) {}
 
   /// Networks with the least free-run error on the training records, the best first.
   std::vector<TrainedMlp> members() const {
-    const std::size_t starts =
-        std::max(static_cast<std::size_t>(std::max(1, options_.starts)), plan_.members);
-    std::vector<TrainedMlp> trained(starts, {standardised(plan_, data_.samples.rows, plan_.feedback), {}});
-    parallel_for(starts, options_.threads, [&](std::size_t k) {
+    std::vector<TrainedMlp> trained(effort_.starts,
+                                    {standardised(plan_, data_.samples.rows, plan_.feedback), {}});
+    parallel_for(trained.size(), options_.threads, [&](std::size_t k) {
       initialise(trained[k].mlp, options_.seed + k);
       trained[k].report = series_parallel(trained[k].mlp);
     });
@@ -188,20 +209,20 @@ class NarxFit {
     return trained;
   }
 
+  /// What a network leaves of other records in free run, N^2, their offsets taken out.
+  double squares_left(const Mlp& mlp, const NarxSamples& samples) const {
+    const double rmse = free_run_rmse(mlp, samples, free_run_options());
+    return rmse * rmse * static_cast<double>(samples.rows.targets.size());
+  }
+
  private:
   bool will_run_free() const { return plan_.feedback > 0 && plan_.training == FeedbackTraining::FreeRun; }
-
-  std::function<void()> check() const {
-    return [this] { options_.monitor.check(); };
-  }
 
   TrainReport series_parallel(Mlp& mlp) const {
     TrainingSamples rows = data_.samples.rows;
     if (plan_.feedback > 0) rows.group.clear();  // the offsets are out
-    TrainOptions how{.weight_decay = options_.network.l2.value_or(plan_.feedback > 0 ? 1e-6 : 3e-4)};
+    TrainOptions how{.max_iterations = effort_.first_iterations, .weight_decay = effort_.decay};
     how.on_iteration = [this](int, double) { options_.monitor.check(); };
-    if (will_run_free()) how.max_iterations = kFirstIterations;
-    if (options_.network.epochs) how.max_iterations = static_cast<int>(*options_.network.epochs);
     TrainReport report = train(mlp, rows, how);
     report.rmse = free_run_rmse(mlp, data_.samples, free_run_options());
     return report;
@@ -220,36 +241,85 @@ class NarxFit {
 
   /// Over whole stretches.
   NarxTrainOptions free_run_options() const {
-    NarxTrainOptions how{.weight_decay = options_.network.l2.value_or(1e-5), .on_iteration = check()};
-    if (options_.network.epochs) how.max_iterations = static_cast<int>(*options_.network.epochs);
+    NarxTrainOptions how{.max_iterations = effort_.iterations, .weight_decay = effort_.decay};
+    how.most_residuals = effort_.residuals;
+    how.on_iteration = [this] { options_.monitor.check(); };
     return how;
   }
 
   void keep_best(std::vector<TrainedMlp>& trained) const {
     std::stable_sort(trained.begin(), trained.end(),
                      [](const TrainedMlp& a, const TrainedMlp& b) { return a.report.rmse < b.report.rmse; });
-    trained.resize(std::min(trained.size(), plan_.members));
+    trained.resize(std::min(trained.size(), effort_.members));
   }
 
   const NarxPlan& plan_;
   const NarxData& data_;
   const IdentifyOptions& options_;
+  Effort effort_;
 };
+
+/// Without what the force zeros of its records differ by.
+NarxData training_data(const NarxPlan& plan, const Regressors& regressors, const std::vector<Record>& records,
+                       const std::string& drive_unit, const IdentifyOptions& options, std::size_t most) {
+  NarxData data(regressors, records, drive_unit, most);
+  if (options.offset == OffsetMode::None)
+    data.samples.rows.group.clear();
+  else if (plan.feedback > 0)
+    data.remove(record_offsets(plan, data, options));
+  return data;
+}
+
+/// The price of weights with which short trainings foretell best what was held back from them.
+double best_decay(const NarxPlan& plan, const Regressors& regressors, const std::vector<Record>& training,
+                  const std::string& drive_unit, const IdentifyOptions& options) {
+  if (options.network.l2) return *options.network.l2;
+  const std::vector<Fold> folds = trial_folds(training);
+  const std::size_t trials = std::min(folds.size(), kMostTrials);
+  std::vector<double> squares(trials * kDecays.size());
+  parallel_for(squares.size(), options.threads, [&](std::size_t k) {
+    const Fold& fold = folds[k / kDecays.size() * folds.size() / trials];
+    const NarxData seen = training_data(plan, regressors, fold.training, drive_unit, options, kTrialRows);
+    const NarxData unseen(regressors, fold.left_out, drive_unit, kTrialRows);
+    Effort effort{.decay = kDecays[k % kDecays.size()]};
+    if (options.network.epochs)
+      effort.first_iterations = effort.iterations =
+          std::min(effort.iterations, static_cast<int>(*options.network.epochs));
+    const NarxFit fit(plan, seen, options, effort);
+    squares[k] = fit.squares_left(fit.members().front().mlp, unseen.samples);
+  });
+  std::array<double, kDecays.size()> sums{};
+  for (std::size_t k = 0; k < squares.size(); ++k) sums[k % kDecays.size()] += squares[k];
+  return kDecays[static_cast<std::size_t>(std::min_element(sums.begin(), sums.end()) - sums.begin())];
+}
+
+Effort full_effort(const NarxPlan& plan, const IdentifyOptions& options, double decay) {
+  Effort effort{.decay = decay,
+                .starts = std::max(static_cast<std::size_t>(std::max(1, options.starts)), plan.members),
+                .members = plan.members,
+                .first_iterations = kFirstIterations,
+                .iterations = NarxTrainOptions().max_iterations,
+                .residuals = NarxTrainOptions().most_residuals};
+  const bool runs_free = plan.feedback > 0 && plan.training == FeedbackTraining::FreeRun;
+  if (!runs_free) effort.first_iterations = TrainOptions().max_iterations;
+  if (options.network.epochs)
+    effort.first_iterations = effort.iterations = static_cast<int>(*options.network.epochs);
+  return effort;
+}
 
 }  // namespace
 
 FitReport fit_narx(const NetworkPreset& preset, const std::vector<Record>& training,
                    const std::string& drive_unit, const IdentifyOptions& options) {
   const NarxPlan plan(preset, options.network);
-  NarxData data(plan, training, drive_unit);
-  if (options.offset == OffsetMode::None)
-    data.samples.rows.group.clear();
-  else if (plan.feedback > 0)
-    data.remove(record_offsets(plan, data, options));
+  const Regressors regressors = regressors_of(plan, training, drive_unit);
+  const NarxData data = training_data(plan, regressors, training, drive_unit, options, kMostRows);
+  const Effort effort =
+      full_effort(plan, options, best_decay(plan, regressors, training, drive_unit, options));
   FitReport report;
   std::vector<Mlp> members;
   bool converged = true;
-  for (TrainedMlp& member : NarxFit(plan, data, options).members()) {
+  for (TrainedMlp& member : NarxFit(plan, data, options, effort).members()) {
     members.push_back(std::move(member.mlp));
     converged = converged && member.report.converged;
     report.iterations = std::max(report.iterations, member.report.iterations);
@@ -257,12 +327,11 @@ FitReport fit_narx(const NetworkPreset& preset, const std::vector<Record>& train
   }
   report.status = converged ? FitReport::Status::Converged : FitReport::Status::IterationLimit;
   report.message = converged ? "converged" : "iteration limit reached";
-  const auto model = std::make_shared<NarxModel>(plan.name, data.regressors, std::move(members));
+  const auto model = std::make_shared<NarxModel>(plan.name, regressors, std::move(members));
   if (model->can_diverge())
     report.warnings.push_back(
         "nothing bounds its force in free run: beyond its training data it can diverge, which is then "
-        "reported "
-        "with its time; --network output=bounded rules it out");
+        "reported with its time; --network output=bounded rules it out");
   report.model = model;
   return report;
 }

@@ -169,6 +169,20 @@ void hold_back_part(const Record& record, std::size_t part, std::size_t parts, F
   fold.training.push_back(std::move(after));
 }
 
+/// Run from the start and scored at the end.
+Fold without_ends(const std::vector<Record>& training, double share) {
+  Fold fold;
+  fold.name = "without the ends";
+  for (const Record& record : training) {
+    const auto scored = static_cast<double>(record.size() - std::min(record.warm_up, record.size()));
+    const std::size_t at = record.size() - static_cast<std::size_t>(share * scored);
+    fold.training.push_back(record.slice(0, at));
+    fold.left_out.push_back(record);
+    fold.left_out.back().warm_up = std::min(at, record.size() - 1);
+  }
+  return fold;
+}
+
 }  // namespace
 
 LeaveOut parse_leave_out(const std::string& text) {
@@ -257,6 +271,32 @@ std::vector<Fold> hold_back(const std::vector<Record>& training, const LeaveOut&
     }
     if (!fold.training.empty() && !fold.left_out.empty()) folds.push_back(std::move(fold));
   }
+  return folds;
+}
+
+std::vector<Fold> trial_folds(const std::vector<Record>& training) {
+  constexpr std::size_t kHands = 4;
+  Dataset dataset;
+  dataset.records = training;
+  std::vector<Fold> folds;
+  const auto hold_back = [&](const std::string& what, const auto& chosen) {
+    Fold fold;
+    fold.name = "without " + what;
+    for (const Record& record : training) (chosen(record) ? fold.left_out : fold.training).push_back(record);
+    if (!fold.training.empty()) folds.push_back(std::move(fold));
+  };
+  const std::vector<std::string> all = conditions(dataset);
+  const std::size_t hands = std::min(all.size(), kHands);
+  for (std::size_t hand = 0; hands > 1 && hand < hands; ++hand)
+    hold_back("conditions of hand " + std::to_string(hand + 1), [&](const Record& record) {
+      const auto condition = std::find(all.begin(), all.end(), record.condition) - all.begin();
+      return static_cast<std::size_t>(condition) % hands == hand;
+    });
+  const std::vector<double> steps = levels(dataset);
+  for (std::size_t k = 1; k + 1 < steps.size(); ++k)
+    hold_back("an inner level", [&](const Record& record) { return record.drive_level == steps[k]; });
+  constexpr double kEnd = 0.3;
+  if (folds.empty()) folds.push_back(without_ends(training, kEnd));
   return folds;
 }
 

@@ -26,4 +26,9 @@ std::vector<Fold> split(const Dataset& dataset, const LeaveOut& leave_out);
 /// are judged and there are three, or of each record's time. Folds that would be empty are left away.
 std::vector<Fold> hold_back(const std::vector<Record>& training, const LeaveOut& judged);
 
+/// Divisions of a training part on which a fit tries what it must choose by itself. Conditions are dealt in
+/// turn to four at most, and each inner level of the drive is held back; of records that have neither, the
+/// last 30 %. One at least.
+std::vector<Fold> trial_folds(const std::vector<Record>& training);
+
 }  // namespace dashpot
