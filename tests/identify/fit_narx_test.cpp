@@ -16,7 +16,9 @@ Dataset campaign(std::vector<SineMotion> motions, double sample_rate = 100) {
   options.sample_rate = sample_rate;
   options.cycles = 1;
   options.force_noise = 0;
-  return run_virtual_bench(load_parameters("kwok2006"), "A", options);
+  Dataset dataset = run_virtual_bench(load_parameters("kwok2006"), "A", options);
+  for (Record& record : dataset.records) record.warm_up = 20;  // they begin in motion, models at rest
+  return dataset;
 }
 
 IdentifyOptions with(const std::string& settings) {
@@ -40,9 +42,7 @@ TEST_CASE("a NARX network learns a damper in free run, with the same bits on any
   CHECK(one.offsets.size() == training.size());
   const Evaluation seen = evaluate(*one.model, training, "A");
   CHECK(seen.pooled.esr < 1);
-  // Training starts from measured forces, an evaluation from rest, which these records do not.
-  CHECK(one.training_rmse < seen.pooled.rmse);
-  CHECK(one.training_rmse > 0.2 * seen.pooled.rmse);
+  CHECK_CLOSE(one.training_rmse, seen.pooled.rmse, 0.5, 0);
   REQUIRE(seen.one_step);
   CHECK(seen.one_step->esr < 1);
   CHECK(evaluate(*one.model, campaign({{0.007, 2}}).records, "A").pooled.esr < 3);
@@ -62,9 +62,11 @@ TEST_CASE("a network's design says what it reads and what comes back") {
   CHECK(model.members().front().activations ==
         std::vector{Activation::Relu, Activation::Relu, Activation::Tanh});
   CHECK(model.needs_displacement());
-  const FitReport through_time =
-      identify("narx_one_sensor", training, "A", with("hidden=3,trainer=lbfgs,window=20,epochs=20,l2=1e-5"));
-  CHECK(evaluate(*through_time.model, training, "A").pooled.esr < 10);
+  const auto error = [&](const char* settings) {
+    return identify("narx_one_sensor", training, "A", with(settings)).training_rmse;
+  };
+  CHECK(error("hidden=4,l2=1e-5,trainer=lbfgs,window=60,epochs=150") <
+        error("hidden=4,l2=1e-5,training=series_parallel"));
 }
 
 TEST_CASE(

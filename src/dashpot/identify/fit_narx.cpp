@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 #include <tuple>
+#include <utility>
 
 #include "dashpot/base/error.h"
 #include "dashpot/base/parallel.h"
@@ -79,7 +80,7 @@ Regressors regressors_of(const NarxPlan& plan, const std::vector<Record>& traini
 class NarxData {
  public:
   /// Of finer records, some of the grids that lie in them: every so many-th sample, from several first ones
-  /// on, so that there are about `most` rows.
+  /// on, and of long ones some parts, so that there are about `most` rows.
   NarxData(Regressors of, const std::vector<Record>& records, const std::string& drive_unit, std::size_t most)
       : regressors(std::move(of)) {
     double seconds = 0;
@@ -97,6 +98,7 @@ class NarxData {
     if (samples.rows.targets.empty())
       throw Error(records.front().name, "no record is longer than the network's past",
                   "fewer delays, or a smaller spacing");
+    if (samples.rows.targets.size() > most) thin((samples.rows.targets.size() + most - 1) / most);
   }
 
   /// Takes what the records' force zeros differ by out of the forces, the fed-back ones too.
@@ -114,6 +116,31 @@ class NarxData {
   NarxSamples samples;
 
  private:
+  /// Keeps the first part of each stretch and every so many-th one behind it: they begin with measured
+  /// forces.
+  void thin(std::size_t every) {
+    constexpr std::size_t kPart = 200;
+    const NarxSamples all = std::exchange(samples, {});
+    const std::size_t width = regressors.count(), count = all.rows.targets.size();
+    samples.feedback = all.feedback;
+    samples.rows.groups = all.rows.groups;
+    for (std::size_t k = 0; k < all.stretches.size(); ++k) {
+      const std::size_t end = k + 1 < all.stretches.size() ? all.stretches[k + 1] : count;
+      for (std::size_t at = all.stretches[k]; at < end; at += every * kPart) {
+        const std::size_t last = std::min(at + kPart, end);
+        samples.stretches.push_back(samples.rows.targets.size());
+        const auto copy = [&](auto& to, const auto& from, std::size_t size) {
+          const auto begin = from.begin();
+          to.insert(to.end(), begin + static_cast<std::ptrdiff_t>(at * size),
+                    begin + static_cast<std::ptrdiff_t>(last * size));
+        };
+        copy(samples.rows.inputs, all.rows.inputs, width);
+        copy(samples.rows.targets, all.rows.targets, 1);
+        copy(samples.rows.group, all.rows.group, 1);
+      }
+    }
+  }
+
   void add(const Record& record, std::size_t group, std::size_t first, const std::string& drive_unit) {
     const double step = regressors.sample_time;
     if (record.time.back() - record.time[first] < step * static_cast<double>(regressors.depth() + 2)) return;
@@ -230,19 +257,24 @@ class NarxFit {
 
   void free_run(TrainedMlp& member) const {
     NarxTrainOptions how = free_run_options();
+    const std::size_t washout = how.washout;
     for (const std::size_t window : {std::size_t{10}, std::size_t{100}, plan_.window}) {
       if (plan_.window > 0 && window > plan_.window) continue;
       how.window = window;
+      const std::size_t spared = window == 0 ? washout : std::min(washout, window / 2);
+      how.washout = window == plan_.window ? spared : 0;
       member.report = plan_.through_time ? train_through_time(member.mlp, data_.samples, how)
                                          : train_free_run(member.mlp, data_.samples, how);
     }
     member.report.rmse = free_run_rmse(member.mlp, data_.samples, free_run_options());
   }
 
-  /// Over whole stretches.
+  /// Over whole stretches, from the mean force on: a model at work does not know the force it begins with.
   NarxTrainOptions free_run_options() const {
+    constexpr std::size_t kWashout = 20;
     NarxTrainOptions how{.max_iterations = effort_.iterations, .weight_decay = effort_.decay};
     how.most_residuals = effort_.residuals;
+    how.washout = kWashout;
     how.on_iteration = [this] { options_.monitor.check(); };
     return how;
   }
@@ -278,7 +310,8 @@ double best_decay(const NarxPlan& plan, const Regressors& regressors, const std:
   const std::size_t trials = std::min(folds.size(), kMostTrials);
   std::vector<double> squares(trials * kDecays.size());
   parallel_for(squares.size(), options.threads, [&](std::size_t k) {
-    const Fold& fold = folds[k / kDecays.size() * folds.size() / trials];
+    // Spread over all: conditions come first, levels of the drive last.
+    const Fold& fold = folds[(2 * (k / kDecays.size()) + 1) * folds.size() / (2 * trials)];
     const NarxData seen = training_data(plan, regressors, fold.training, drive_unit, options, kTrialRows);
     const NarxData unseen(regressors, fold.left_out, drive_unit, kTrialRows);
     Effort effort{.decay = kDecays[k % kDecays.size()]};

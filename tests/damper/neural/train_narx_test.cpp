@@ -44,11 +44,14 @@ TEST_CASE("gradients, carried forward and sent back through time, are those of t
   const NarxSamples samples = measured(regressors, example_narx_network(regressors), 3, 5);
   Mlp mlp = example_narx_network(regressors, 7);
   for (const Activation output : {Activation::Identity, Activation::Tanh})
-    for (const std::size_t window : {0U, 7U}) {
+    for (const std::size_t window : {0U, 7U, 9U}) {
       CAPTURE(window);
       mlp.activations = {Activation::Tanh, output};
-      const NarxTrainOptions options{
-          .weight_decay = 0.01, .offset_decay = 0.3, .window = window, .most_residuals = 450};
+      const NarxTrainOptions options{.weight_decay = 0.01,
+                                     .offset_decay = 0.3,
+                                     .window = window,
+                                     .washout = window == 9 ? 3U : 0U,
+                                     .most_residuals = 450};
       const NarxCost forward = narx_cost_forward(mlp, samples, options),
                      backward = narx_cost_backward(mlp, samples, options);
       CHECK_CLOSE(forward.cost, backward.cost, 1e-14, 0);

@@ -34,11 +34,20 @@ class FreeRunCost {
     cut_windows();
     const std::size_t groups = samples.rows.group.empty() ? 0 : samples.rows.groups;
     group_sizes_.assign(groups, 0);
-    for (std::size_t row = 0; row < targets_.size(); row += stride_)
-      if (groups > 0) ++group_sizes_[samples.rows.group[row]];
+    scored_.assign(residuals(), false);
+    for (const Window& window : windows_)
+      for (std::size_t row = window.first + options.washout; row < window.last; ++row) {
+        if (row % stride_ != 0) continue;
+        scored_[row / stride_] = true;
+        if (groups > 0) ++group_sizes_[samples.rows.group[row]];
+      }
   }
 
+  /// Rows at which there is a residual, 0 where it is not scored.
   std::size_t residuals() const { return (targets_.size() + stride_ - 1) / stride_; }
+  std::size_t scored() const {
+    return static_cast<std::size_t>(std::count(scored_.begin(), scored_.end(), true));
+  }
 
   /// Residuals, and when `columns` is given their derivatives, one column per weight. False where they are
   /// no numbers.
@@ -53,11 +62,11 @@ class FreeRunCost {
         if (columns) carry(row, window.first, own[row], count, slopes);
         if (row % stride_ != 0) continue;
         const std::size_t at = row / stride_;
-        residuals[at] = own[row] - targets_[row];
+        residuals[at] = scored_[at] ? own[row] - targets_[row] : 0;
         if (!columns) continue;
         const double* slope = &slopes[row % depth * count];
         for (std::size_t k = 0; k < count; ++k)
-          if (columns[k]) columns[k][at] = slope[k];
+          if (columns[k]) columns[k][at] = scored_[at] ? slope[k] : 0;
       }
     return true;
   }
@@ -93,7 +102,8 @@ class FreeRunCost {
     for (std::size_t at = 0; at < count; ++at) sums[group(at)] += residuals[at];
     const double share = 1 - std::sqrt(options_.offset_decay / (1 + options_.offset_decay));
     for (std::size_t at = 0; at < count; ++at)
-      residuals[at] -= share * sums[group(at)] / static_cast<double>(group_sizes_[group(at)]);
+      if (scored_[at])
+        residuals[at] -= share * sums[group(at)] / static_cast<double>(group_sizes_[group(at)]);
   }
 
  private:
@@ -125,6 +135,7 @@ class FreeRunCost {
   double run(std::size_t row, std::size_t first, const std::vector<double>& own) {
     double* input = network_.input(0);
     std::copy_n(&rows_[row * width_], width_, input);
+    if (options_.washout > 0) std::fill_n(input + fed_back_, samples_.feedback.size(), 0.0);
     for_each_own(row, first, [&](std::size_t k, std::size_t past) { input[fed_back_ + k] = own[past]; });
     network_.forward(1);
     const double force = *network_.output(0);
@@ -154,7 +165,8 @@ class FreeRunCost {
   std::vector<double> rows_, targets_;
   AlignedVector<double> by_inputs_;
   std::vector<Window> windows_;
-  std::vector<std::size_t> group_sizes_;
+  std::vector<std::size_t> group_sizes_;  // scored residuals
+  std::vector<bool> scored_;
 };
 
 /// The residuals of the whole cost: centred ones, then the weights at their price; their squares' sum is it.
@@ -162,7 +174,7 @@ class Problem {
  public:
   Problem(const Mlp& mlp, const NarxSamples& samples, const NarxTrainOptions& options)
       : cost_(mlp, samples, options),
-        share_(1 / std::sqrt(static_cast<double>(cost_.residuals()))),
+        share_(1 / std::sqrt(static_cast<double>(std::max<std::size_t>(1, cost_.scored())))),
         price_(std::sqrt(options.weight_decay)) {}
 
   std::size_t residuals(std::size_t weights) const { return cost_.residuals() + weights; }
