@@ -74,14 +74,14 @@ const std::array<NetworkPreset, 4>& presets() {
            "F(t) = w2 . tanh(W1 [v(t), v(t-T), v(t-2T), i(t), i(t-T), i(t-2T), F(t-T), F(t-2T)] + b1) + b2",
        .source = kOneSensorPaper,
        .remarks =
-           "101 parameters. "
-           "Learnt on the measured force fed back, then in free run over windows of 10 and 100 steps and "
-           "over whole "
-           "records, by Levenberg-Marquardt with exact derivatives. T: as many samples as fit into 1 ms, one "
-           "at "
-           "least, of the record with the longest sample time; others are brought to it. Judged in free run; "
-           "it "
-           "stands still, and is reported, where its force leaves ten standard deviations of its training.",
+           "101 parameters. Learnt on the measured force fed back, then in free run over windows of 10 "
+           "and 100 steps and over whole records, which begin without a measured force, by "
+           "Levenberg-Marquardt with exact derivatives; the price of weights is the one with which short "
+           "trials foretell best what was held back from them. T: as many samples as fit into 1 ms, one "
+           "at least, of the record with the longest sample time; others are brought to it. A drive that "
+           "is steady within each record is read at present only. The model stands still, and is "
+           "reported as diverged, where its force is ten standard deviations from the mean of its "
+           "training; --network output=bounded rules that out.",
        .inputs = {"velocity", "current"},
        .hidden = {10},
        .delays = 2,
@@ -91,14 +91,7 @@ const std::array<NetworkPreset, 4>& presets() {
        .equation = "F(t) = w2 . tanh(W1 [x(t), v(t), i(t), F(t-T)] + b1) + b2",
        .source = kOneSensorPaper,
        .remarks =
-           "61 parameters, the recurrent network of the source. "
-           "Learnt on the measured force fed back, then in free run over windows of 10 and 100 steps and "
-           "over whole "
-           "records, by Levenberg-Marquardt with exact derivatives. T: as many samples as fit into 1 ms, one "
-           "at "
-           "least, of the record with the longest sample time; others are brought to it. Judged in free run; "
-           "it "
-           "stands still, and is reported, where its force leaves ten standard deviations of its training.",
+           "61 parameters, the recurrent network of the source; learnt and judged as narx_one_sensor is.",
        .inputs = {"displacement", "velocity", "current"},
        .hidden = {10},
        .feedback = 1},
