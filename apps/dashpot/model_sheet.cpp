@@ -76,11 +76,16 @@ std::string inverse_of(const Law& law) {
   }
 }
 
-std::size_t weights_of(const NetworkPreset& preset) {
-  std::vector<std::size_t> layers = {preset.inputs.size()};
+void add_numbers(ModelSheet& sheet, const NetworkPreset& preset) {
+  std::vector<std::size_t> layers = {preset.inputs.size() * (preset.delays + 1) + preset.feedback};
   layers.insert(layers.end(), preset.hidden.begin(), preset.hidden.end());
   layers.push_back(1);
-  return Mlp::parameter_count(layers);
+  sheet.numbers = Mlp::parameter_count(layers);
+  if (preset.feedback == 0) return;
+  for (const std::string& input : preset.inputs)
+    sheet.states.insert(sheet.states.end(), preset.delays + 1, "past " + input);
+  sheet.states.insert(sheet.states.end(), preset.feedback + 1, "past force, N");
+  sheet.states.insert(sheet.states.end(), {"time in the step, s", "diverged, 1"});
 }
 
 void add_numbers(ModelSheet& sheet, const FuzzyPreset& preset) {
@@ -163,8 +168,8 @@ ModelSheet model_sheet(const std::string& name) {
                    .settings = network_settings_of(name)};
   if (is_law(name))
     add_table(sheet, find_law(name));
-  else if (info.kind == "network")
-    sheet.numbers = weights_of(find_network_preset(name));
+  else if (info.kind == "network" || info.kind == "narx")
+    add_numbers(sheet, find_network_preset(name));
   else if (info.kind == "state_network")
     add_numbers(sheet, find_state_network_preset(name));
   else if (info.kind == "state_space")

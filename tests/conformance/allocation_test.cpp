@@ -3,6 +3,7 @@
 
 #include "conformance/laws.h"
 #include "damper/inverse/inverses.h"
+#include "damper/neural/narx_example.h"
 #include "damper/neural/state_space_example.h"
 #include "dashpot/damper/fuzzy/fuzzy_model.h"
 #include "dashpot/damper/inverse/registry.h"
@@ -90,6 +91,12 @@ TEST_CASE("stepping static networks allocates nothing") {
 
 TEST_CASE("stepping a state space allocates nothing") {
   check_stepping(StateSpaceModel("test", {example_state_space(1), example_state_space(2)}));
+}
+
+TEST_CASE("stepping a network with fed-back forces allocates nothing") {
+  const Regressors regressors = example_regressors();
+  const Mlp mlp = example_narx_network(regressors);
+  check_stepping(NarxModel("test", regressors, {mlp, mlp}));
 }
 
 TEST_CASE("stepping a fuzzy model allocates nothing") {

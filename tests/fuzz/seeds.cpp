@@ -5,6 +5,7 @@
 
 #include "damper/inverse/example_network.h"
 #include "damper/neural/bank_network_example.h"
+#include "damper/neural/narx_example.h"
 #include "damper/neural/state_space_example.h"
 #include "dashpot/base/file.h"
 #include "dashpot/damper/fuzzy/fuzzy_model.h"
@@ -93,6 +94,11 @@ void model_seeds(const fs::path& folder) {
   write_file(folder / "fuzzy",
              model_seed(std::make_unique<FuzzyModel>(
                             "anfis", FuzzyInputs({"velocity", "current"}, {0.01, 0.02}, "seed"), sugeno),
+                        "A"));
+  const Regressors regressors = example_regressors();
+  write_file(folder / "narx",
+             model_seed(std::make_unique<NarxModel>("narx_one_sensor", regressors,
+                                                    std::vector{example_narx_network(regressors)}),
                         "A"));
   Mlp mlp;
   mlp.layers = {2, 1, 1};

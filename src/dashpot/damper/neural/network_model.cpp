@@ -9,9 +9,7 @@
 #include "dashpot/damper/neural/mlp_json.h"
 
 namespace dashpot {
-namespace {
-
-double DamperInput::* field_of(std::string_view input, const std::string& where) {
+double DamperInput::* input_field(std::string_view input, const std::string& where) {
   if (input == "displacement") return &DamperInput::displacement;
   if (input == "velocity") return &DamperInput::velocity;
   if (input == "current") return &DamperInput::current;
@@ -24,7 +22,7 @@ double DamperInput::* field_of(std::string_view input, const std::string& where)
 NetworkModel::NetworkModel(std::string name, std::vector<std::string> inputs, std::vector<Mlp> members,
                            double offset)
     : name_(std::move(name)), inputs_(std::move(inputs)), members_(std::move(members)), offset_(offset) {
-  for (const std::string& input : inputs_) fields_.push_back(field_of(input, name_));
+  for (const std::string& input : inputs_) fields_.push_back(input_field(input, name_));
   if (members_.empty()) throw Error(name_, "has no members", "a network at least");
   for (const Mlp& member : members_) require_shape(member, inputs_.size(), name_);
   ensemble_ = std::make_unique<MlpEnsemble>(members_);
@@ -81,7 +79,7 @@ std::unique_ptr<NetworkModel> network_model_from_json(const Value& value) {
   std::string name = reader.string("name");
   std::vector<std::string> inputs;
   for (const Value& item : reader.required("inputs").items()) {
-    field_of(item.as_string(), item.where());
+    input_field(item.as_string(), item.where());
     inputs.push_back(item.as_string());
   }
   std::vector<Mlp> networks;
