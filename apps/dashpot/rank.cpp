@@ -30,9 +30,6 @@ constexpr std::string_view kExample =
     "# Interrupted? The same command goes on where it stopped. Two laws only, for a page:\n"
     "dashpot rank recordings/ --models bingham,tanh_kwok --output ranking --markdown";
 
-/// This very build: a fit that another one made may differ.
-std::string program_id() { return DASHPOT_VERSION " " + sha256_of_file("/proc/self/exe"); }
-
 std::string time_line(const Ranking& ranking, int threads) {
   double fits = 0;
   for (const RankedModel& model : ranking.models) fits += model.seconds;
