@@ -1,0 +1,47 @@
+// The models of the one-sensor study: the paper's networks, those that it compares itself with, and the
+// network that answers it.
+#include "dashpot/identify/one_sensor_study.h"
+
+namespace dashpot {
+namespace {
+
+NetworkDesign feedback_design(FeedbackTraining training) {
+  NetworkDesign design;
+  design.training = training;
+  return design;
+}
+
+/// The paper's table 5: as many delayed samples of the velocity as of the current, no force fed back.
+NetworkDesign regressors_design(std::size_t delays) {
+  NetworkDesign design;
+  design.delays = delays;
+  design.feedback = 0;
+  return design;
+}
+
+}  // namespace
+
+std::vector<StudiedModel> one_sensor_models() {
+  constexpr auto kFree = FeedbackTraining::FreeRun, kSeries = FeedbackTraining::SeriesParallel;
+  std::vector<StudiedModel> models{
+      {kStatic, "static network, v and i", "mlp_one_sensor", {}},
+      {"two-sensors", "static network, x, v and i", "mlp_two_sensors", {}},
+      {"recurrent", "recurrent network, x, v, i and F(t-1), trained in free run", "narx_two_sensors",
+       feedback_design(kFree)},
+      {"recurrent-series", "recurrent network, x, v, i and F(t-1), trained series-parallel",
+       "narx_two_sensors", feedback_design(kSeries), true},
+      {"recurrent-one", "recurrent network, v, i and F(t-1), trained in free run", "narx_one_sensor",
+       feedback_design(kFree), true},
+      {kHysteresis, "hysteresis network, v and i", "hysteresis_network", {}},
+      {"bingham", "Bingham", "bingham", {}},
+      {"semi-phenomenological", "semi-phenomenological", "semi_phenomenological", {}},
+      {"modified-bouc-wen", "phenomenological (modified Bouc-Wen)", "modified_bouc_wen", {}},
+  };
+  for (std::size_t delays = 1; delays <= 3; ++delays)
+    models.push_back({"regressors-" + std::to_string(delays),
+                      "static network, v and i with " + std::to_string(delays) + " delayed samples of each",
+                      "narx_one_sensor", regressors_design(delays), true});
+  return models;
+}
+
+}  // namespace dashpot

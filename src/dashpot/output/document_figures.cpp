@@ -1,0 +1,86 @@
+// Figures of a document for print.
+#include <algorithm>
+#include <array>
+
+#include <fmt/format.h>
+
+#include "dashpot/base/text.h"
+#include "dashpot/output/document.h"
+#include "dashpot/output/gnuplot.h"
+
+namespace dashpot {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kPanelWidth = 8, kWholeWidth = 16, kPanelHeight = 6;  // cm
+
+/// The page's palette on white (page.css).
+std::string colour_code(const std::string& name) {
+  constexpr std::array<std::pair<std::string_view, const char*>, 8> kPalette{{{"measured", "#8b949e"},
+                                                                              {"modelled", "#0b5cad"},
+                                                                              {"series-1", "#0072b2"},
+                                                                              {"series-2", "#e69f00"},
+                                                                              {"series-3", "#009e73"},
+                                                                              {"series-4", "#cc79a7"},
+                                                                              {"series-5", "#d55e00"},
+                                                                              {"series-6", "#7a828c"}}};
+  for (const auto& [known, code] : kPalette)
+    if (known == name) return code;
+  return "#1c2127";
+}
+
+std::string style_of(const FigureSeries& series) {
+  const std::string colour = "lc rgb '" + colour_code(series.colour) + "'";
+  if (series.mark == FigureSeries::Mark::Dots)
+    return fmt::format("points pt 7 ps {} {}", 0.1 * series.width, colour);
+  return fmt::format("lines lw {}{} {}", series.width,
+                     series.mark == FigureSeries::Mark::Dashes ? " dt (8,5)" : "", colour);
+}
+
+/// Columns in brackets: numbers that are missing then break the line.
+std::string curve(GnuplotFigure& figure, const FigureSeries& series, bool is_listed) {
+  return figure.data({series.x, series.y}) + " using ($1):($2) with " + style_of(series) +
+         (is_listed ? " title " + gnuplot_quoted(series.label) : " notitle");
+}
+
+void draw(GnuplotFigure& figure, const FigurePanel& panel) {
+  figure.command("set title " + gnuplot_quoted(panel.title) + " noenhanced");
+  figure.command("set xlabel " + gnuplot_quoted(panel.x_label) + " noenhanced\nset ylabel " +
+                 gnuplot_quoted(panel.y_label) + " offset 1,0 noenhanced");
+  std::vector<std::string> tics;
+  for (std::size_t k = 0; k < panel.places.size(); ++k)
+    tics.push_back(fmt::format("{} {}", gnuplot_quoted(panel.places[k]), k));
+  figure.command(tics.empty() ? "set xtics auto norotate\nset autoscale x"
+                              : fmt::format("set xtics ({}) norotate\nset xrange [-0.6:{}]", join(tics, ", "),
+                                            static_cast<double>(tics.size()) - 0.4));
+  std::vector<std::string> curves, labels;
+  for (const FigureSeries& series : panel.series) {
+    if (series.x.empty()) continue;
+    const bool is_listed =
+        !series.label.empty() && std::find(labels.begin(), labels.end(), series.label) == labels.end();
+    if (is_listed) labels.push_back(series.label);
+    curves.push_back(curve(figure, series, is_listed));
+  }
+  if (!curves.empty()) figure.command("plot " + join(curves, ", "));
+}
+
+}  // namespace
+
+std::vector<fs::path> write_document_figures(const Document& document, const fs::path& folder) {
+  std::vector<fs::path> paths;
+  for (const DocumentSection& section : document.sections)
+    for (const DocumentFigure& figure : section.figures) {
+      const std::size_t rows = (figure.panels.size() + figure.columns - 1) / figure.columns;
+      GnuplotFigure drawing(
+          figure.columns == 1 ? kWholeWidth : kPanelWidth * static_cast<double>(figure.columns),
+          kPanelHeight * static_cast<double>(rows));
+      drawing.command(fmt::format("set multiplot layout {},{}", rows, figure.columns));
+      for (const FigurePanel& panel : figure.panels) draw(drawing, panel);
+      drawing.command("unset multiplot");
+      for (fs::path& path : drawing.write(folder, figure.name)) paths.push_back(std::move(path));
+    }
+  return paths;
+}
+
+}  // namespace dashpot
