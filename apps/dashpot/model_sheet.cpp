@@ -75,7 +75,7 @@ std::string inverse_of(const Law& law) {
 }
 
 std::size_t weights_of(const NetworkPreset& preset) {
-  std::vector<std::size_t> layers = {preset.inputs.size()};
+  std::vector<std::size_t> layers = {preset.inputs.size() * (preset.delays + 1) + preset.feedback};
   layers.insert(layers.end(), preset.hidden.begin(), preset.hidden.end());
   layers.push_back(1);
   return Mlp::parameter_count(layers);
@@ -143,7 +143,7 @@ ModelSheet model_sheet(const std::string& name) {
                    .inverse = is_law(name) ? inverse_of(find_law(name)) : "search"};
   if (is_law(name))
     add_table(sheet, find_law(name));
-  else if (info.kind == "network")
+  else if (info.kind == "network" || info.kind == "narx")
     sheet.numbers = weights_of(find_network_preset(name));
   else if (info.kind == "state_network")
     add_numbers(sheet, find_state_network_preset(name));

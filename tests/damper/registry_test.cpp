@@ -11,8 +11,8 @@ TEST_CASE("laws stand in alphabetical order, networks, state networks and fuzzy 
   const auto others = names.begin() + static_cast<std::ptrdiff_t>(laws().size());
   CHECK(std::is_sorted(names.begin(), others));
   CHECK(std::vector<std::string>(others, names.end()) ==
-        std::vector<std::string>{"mlp_one_sensor", "mlp_two_sensors", "hysteresis_network", "anfis",
-                                 "takagi_sugeno"});
+        std::vector<std::string>{"mlp_one_sensor", "mlp_two_sensors", "narx_one_sensor", "narx_two_sensors",
+                                 "hysteresis_network", "anfis", "takagi_sugeno"});
   for (const Law* law : laws()) {
     CHECK(&find_law(law->name) == law);
     CHECK(is_law(law->name));
@@ -21,12 +21,13 @@ TEST_CASE("laws stand in alphabetical order, networks, state networks and fuzzy 
 }
 
 TEST_CASE("the one-sensor paper's networks") {
-  // 41 and 51 parameters: MODELS.md 12
+  // 41, 51 and, recurrent, 61 parameters: MODELS.md 12
   const auto parameters = [](const NetworkPreset& p) {
-    return p.hidden[0] * (p.inputs.size() + 1) + p.hidden[0] + 1;
+    return p.hidden[0] * (p.inputs.size() * (p.delays + 1) + p.feedback + 1) + p.hidden[0] + 1;
   };
   CHECK(parameters(find_network_preset("mlp_one_sensor")) == 41);
   CHECK(parameters(find_network_preset("mlp_two_sensors")) == 51);
+  CHECK(parameters(find_network_preset("narx_two_sensors")) == 61);
 }
 
 TEST_CASE("state networks say their kind and need one sensor") {

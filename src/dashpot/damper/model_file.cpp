@@ -6,6 +6,7 @@
 #include "dashpot/damper/fuzzy/fuzzy_model.h"
 #include "dashpot/damper/law_model.h"
 #include "dashpot/damper/neural/hysteresis_network.h"
+#include "dashpot/damper/neural/narx_model.h"
 #include "dashpot/damper/neural/network_model.h"
 
 namespace dashpot {
@@ -107,10 +108,11 @@ std::unique_ptr<DamperModel> read_law(const Value& value, const ModelFile& file)
 std::unique_ptr<DamperModel> read_model(const Value& kind, const Value& value, const ModelFile& file) {
   if (kind.as_string() == "law") return read_law(value, file);
   if (kind.as_string() == "network") return network_model_from_json(value);
+  if (kind.as_string() == "narx") return narx_model_from_json(value);
   if (kind.as_string() == "state_network") return hysteresis_network_from_json(value);
   if (kind.as_string() == "fuzzy") return fuzzy_model_from_json(value);
   throw Error(kind.where(), "unknown kind '" + kind.as_string() + "'",
-              suggest(kind.as_string(), {"law", "network", "state_network", "fuzzy"}));
+              suggest(kind.as_string(), {"law", "network", "narx", "state_network", "fuzzy"}));
 }
 
 }  // namespace

@@ -48,8 +48,8 @@ constexpr std::array kLaws{&kArctan,
 constexpr std::string_view kOneSensorPaper =
     "Tudon-Martinez et al., the one-sensor paper: static network 8.22 % and 4.38 % (rms / half span)";
 
-const std::array<NetworkPreset, 2>& presets() {
-  static const std::array<NetworkPreset, 2> kPresets{{
+const std::array<NetworkPreset, 4>& presets() {
+  static const std::array<NetworkPreset, 4> kPresets{{
       {.name = "mlp_one_sensor",
        .title = "Static network, one sensor",
        .equation = "F = w2 . tanh(W1 [v, i] + b1) + b2",
@@ -68,6 +68,30 @@ const std::array<NetworkPreset, 2>& presets() {
            "trained on.",
        .inputs = {"displacement", "velocity", "current"},
        .hidden = {10}},
+      {.name = "narx_one_sensor",
+       .title = "Recurrent network (NARX), one sensor",
+       .equation =
+           "F(t) = w2 . tanh(W1 [v(t), v(t-T), v(t-2T), i(t), i(t-T), i(t-2T), F(t-T), F(t-2T)] + b1) + b2",
+       .source = kOneSensorPaper,
+       .remarks =
+           "Learnt series-parallel, then in free run by Levenberg-Marquardt with exact derivatives over "
+           "windows "
+           "of 10 and 100 steps and whole records. T is the longest sample time of the training records.",
+       .inputs = {"velocity", "current"},
+       .hidden = {10},
+       .delays = 2,
+       .feedback = 2},
+      {.name = "narx_two_sensors",
+       .title = "Recurrent network (NARX), two sensors",
+       .equation = "F(t) = w2 . tanh(W1 [x(t), v(t), i(t), F(t-T)] + b1) + b2",
+       .source = kOneSensorPaper,
+       .remarks =
+           "Learnt series-parallel, then in free run by Levenberg-Marquardt with exact derivatives over "
+           "windows "
+           "of 10 and 100 steps and whole records. T is the longest sample time of the training records.",
+       .inputs = {"displacement", "velocity", "current"},
+       .hidden = {10},
+       .feedback = 1},
   }};
   return kPresets;
 }
@@ -157,7 +181,7 @@ ModelInfo model_info(std::string_view name, const std::string& where) {
     return info;
   }
   for (const NetworkPreset& p : network_presets())
-    if (p.name == name) return {p.name, "network", p.title, p.equation, p.source, p.remarks, p.inputs};
+    if (p.name == name) return {p.name, p.kind(), p.title, p.equation, p.source, p.remarks, p.inputs};
   for (const StateNetworkPreset& p : state_network_presets())
     if (p.name == name)
       return {p.name, "state_network", p.title, p.equation, p.source, p.remarks, {"velocity", "current"}};

@@ -17,6 +17,11 @@ struct NetworkPreset {
   std::string_view name, title, equation, source, remarks;
   std::vector<std::string> inputs;  ///< "displacement", "velocity", "current"
   std::vector<std::size_t> hidden;  ///< neurons per hidden layer
+  std::size_t delays = 0;           ///< past values of each input
+  std::size_t feedback = 0;         ///< past forces fed back
+  std::size_t spacing = 1;          ///< samples of the training records from one past value to the next
+
+  std::string_view kind() const { return feedback > 0 ? "narx" : "network"; }
 };
 std::span<const NetworkPreset> network_presets();
 

@@ -264,7 +264,7 @@ FreeRun free_run(const DamperModel& model, const std::vector<DamperInput>& input
   for (std::size_t k = 0; k < inputs.size(); ++k) {
     if (k > 0) model.advance(inputs[k - 1], inputs[k], time[k] - time[k - 1], state);
     run.force[k] = model.force(inputs[k], state);
-    if (!std::isfinite(run.force[k])) {
+    if (!std::isfinite(run.force[k]) || model.has_diverged(state)) {
       run.diverged_at = time[k];
       run.force[k] = kNaN;
       break;

@@ -24,7 +24,7 @@ struct DriveRange {
 DriveRange drive_range(const std::vector<Record>& records, std::string_view drive_unit);
 
 /// Force over a record in free run: the model sees motion and current only. From rest at the first
-/// sample. `diverged_at`: time of the first force that is not finite; what follows is NaN.
+/// sample. `diverged_at`: time of the first force that is not finite or out of the model's range; what follows is NaN.
 struct FreeRun {
   std::vector<double> force;          ///< N, one per sample
   std::optional<double> diverged_at;  ///< s

@@ -6,13 +6,16 @@
 #include "dashpot/damper/registry.h"
 #include "dashpot/identify/identify.h"
 
-// The four ways of fitting behind identify().
+// The ways of fitting behind identify().
 namespace dashpot {
 
 FitReport fit_law(const Law& law, const std::vector<Record>& training, const std::string& drive_unit,
                   const IdentifyOptions& options);
 FitReport fit_network(const NetworkPreset& preset, const std::vector<Record>& training,
                       const std::string& drive_unit, const IdentifyOptions& options);
+/// Regressor networks: with delayed inputs, or fed-back forces.
+FitReport fit_narx(const NetworkPreset& preset, const std::vector<Record>& training,
+                   const std::string& drive_unit, const IdentifyOptions& options);
 FitReport fit_state_network(const StateNetworkPreset& preset, const std::vector<Record>& training,
                             const std::string& drive_unit, const IdentifyOptions& options);
 FitReport fit_fuzzy(const FuzzyPreset& preset, const std::vector<Record>& training,

@@ -33,6 +33,9 @@ constexpr std::array kTrainers{Word{"lm", Trainer::LevenbergMarquardt},
 constexpr std::array kFeedbackTrainings{Word{"series_parallel", FeedbackTraining::SeriesParallel},
                                         Word{"free_run", FeedbackTraining::FreeRun}};
 
+constexpr std::array kOutputRanges{Word{"linear", OutputRange::Linear},
+                                   Word{"bounded", OutputRange::Bounded}};
+
 template <class Choice, std::size_t N>
 Choice parse_word(std::string_view text, const std::string& where, const std::array<Word<Choice>, N>& words) {
   std::vector<std::string> known;
@@ -142,9 +145,15 @@ constexpr std::array kSettings{
     count_setting<&NetworkDesign::members, 1>("members", "networks whose mean is the model", "5"),
     count_setting<&NetworkDesign::delays, 0>("delays", "past samples of each input", "2"),
     count_setting<&NetworkDesign::feedback, 0>("feedback", "past outputs fed back", "2"),
+    count_setting<&NetworkDesign::spacing, 1>("spacing", "samples from one past value to the next", "5"),
     word_setting<&NetworkDesign::training, kFeedbackTrainings>(
         "training", "what is fed back while it learns: the measured force, or its own output",
-        "series_parallel or free_run")};
+        "series_parallel or free_run"),
+    count_setting<&NetworkDesign::window, 0>(
+        "window", "steps in free run from a measured force on while it learns; 0: whole records", "100"),
+    word_setting<&NetworkDesign::output, kOutputRanges>(
+        "output", "whether the force of a network with fed-back outputs is held near that of its training",
+        "linear or bounded")};
 
 }  // namespace
 
@@ -178,7 +187,11 @@ std::string format_design(const NetworkDesign& design) {
 std::vector<std::string_view> network_settings_of(const std::string& model) {
   const std::string_view kind = model_info(model).kind;
   if (kind == "network")
-    return {"hidden", "activation", "trainer", "rate", "batch", "epochs", "l1", "l2", "patience", "members"};
+    return {"hidden", "activation", "trainer",  "rate",    "batch",  "epochs",
+            "l1",     "l2",         "patience", "members", "delays", "spacing"};
+  if (kind == "narx")
+    return {"hidden", "activation", "trainer", "epochs",   "l2",     "members",
+            "delays", "feedback",   "spacing", "training", "window", "output"};
   if (kind == "state_network") return {"hidden", "epochs", "l2", "members"};
   return {};
 }

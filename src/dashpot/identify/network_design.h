@@ -17,6 +17,9 @@ enum class Trainer { LevenbergMarquardt, Bayesian, Lbfgs, Sgd, Momentum, RmsProp
 /// use.
 enum class FeedbackTraining { SeriesParallel, FreeRun };
 
+/// Whether a network's force is held within a range around that of its training records.
+enum class OutputRange { Linear, Bounded };
+
 /// How networks are built and trained where that differs from what their preset says; what is empty stays as
 /// it is there.
 struct NetworkDesign {
@@ -31,7 +34,10 @@ struct NetworkDesign {
   std::optional<std::size_t> members;   ///< networks whose mean is the model
   std::optional<std::size_t> delays;    ///< past samples of each input
   std::optional<std::size_t> feedback;  ///< past outputs fed back
+  std::optional<std::size_t> spacing;   ///< samples from one past value to the next
   std::optional<FeedbackTraining> training;
+  std::optional<std::size_t> window;  ///< steps in free run from a measured force on; 0: whole records
+  std::optional<OutputRange> output;
 
   bool operator==(const NetworkDesign&) const = default;
 };

@@ -6,11 +6,10 @@
 
 #include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
+#include "dashpot/damper/neural/mlp_json.h"
 
 namespace dashpot {
-namespace {
-
-double DamperInput::* field_of(std::string_view input, const std::string& where) {
+double DamperInput::* input_field(std::string_view input, const std::string& where) {
   if (input == "displacement") return &DamperInput::displacement;
   if (input == "velocity") return &DamperInput::velocity;
   if (input == "current") return &DamperInput::current;
@@ -18,47 +17,9 @@ double DamperInput::* field_of(std::string_view input, const std::string& where)
               suggest(input, {"displacement", "velocity", "current"}));
 }
 
-void require_shape(const Mlp& mlp, std::size_t inputs, const std::string& where) {
-  const auto fail = [&](const std::string& what, const std::string& right) {
-    throw Error(where, what, right);
-  };
-  const auto& layers = mlp.layers;
-  if (layers.size() < 2 || layers.front() != inputs || layers.back() != 1)
-    fail("the layers do not go from " + std::to_string(inputs) + " inputs to one force",
-         "write [inputs, neurons, ..., 1]");
-  for (const std::size_t width : layers)
-    if (width < 1 || width > Mlp::kMaxWidth)
-      fail("a layer has " + std::to_string(width) + " neurons", "1 to " + std::to_string(Mlp::kMaxWidth));
-  if (!mlp.activations.empty() && mlp.activations.size() + 1 != layers.size())
-    fail("has " + std::to_string(mlp.activations.size()) + " activations",
-         "write one for each layer behind the inputs");
-  if (const std::size_t wanted = Mlp::parameter_count(layers); mlp.parameters.size() != wanted)
-    fail("has " + std::to_string(mlp.parameters.size()) + " weights",
-         "these layers need " + std::to_string(wanted));
-  if (mlp.input_mean.size() != inputs || mlp.input_scale.size() != inputs)
-    fail("the input means and scales are not one per input", "");
-  const auto positive = [](double scale) { return scale > 0 && std::isfinite(scale); };
-  if (!std::all_of(mlp.input_scale.begin(), mlp.input_scale.end(), positive) || !positive(mlp.output_scale))
-    fail("a scale is not a positive number", "");
-}
-
-std::vector<std::size_t> read_layers(const Value& value) {
-  std::vector<std::size_t> layers;
-  for (const Value& item : value.items()) {
-    const double width = item.as_number();
-    if (!(width >= 1 && width <= Mlp::kMaxWidth && width == std::floor(width)))
-      throw Error(item.where(), "a layer of " + format_number(width) + " neurons",
-                  "write a whole number, 1 to " + std::to_string(Mlp::kMaxWidth));
-    layers.push_back(static_cast<std::size_t>(width));
-  }
-  return layers;
-}
-
-}  // namespace
-
 NetworkModel::NetworkModel(std::string name, std::vector<std::string> inputs, Mlp mlp, double offset)
     : name_(std::move(name)), inputs_(std::move(inputs)), mlp_(std::move(mlp)), offset_(offset) {
-  for (const std::string& input : inputs_) fields_.push_back(field_of(input, name_));
+  for (const std::string& input : inputs_) fields_.push_back(input_field(input, name_));
   require_shape(mlp_, inputs_.size(), name_);
   evaluator_ = std::make_unique<MlpEvaluator<double>>(mlp_);
 }
@@ -78,20 +39,8 @@ std::unique_ptr<DamperModel> NetworkModel::with_offset(double newton) const {
 }
 
 Value NetworkModel::to_json() const {
-  Value value =
-      Value::object({{"name", name_},
-                     {"inputs", Value::array(inputs_)},
-                     {"layers", Value::array(std::vector<double>(mlp_.layers.begin(), mlp_.layers.end()))}});
-  if (!mlp_.activations.empty()) {
-    Value activations = Value::array();
-    for (const Activation activation : mlp_.activations) activations.push_back(name_of(activation));
-    value.add("activations", activations);
-  }
-  value.add("input_mean", Value::array(mlp_.input_mean));
-  value.add("input_scale", Value::array(mlp_.input_scale));
-  value.add("output_mean", mlp_.output_mean);
-  value.add("output_scale", mlp_.output_scale);
-  value.add("parameters", Value::array(mlp_.parameters));
+  Value value = Value::object({{"name", name_}, {"inputs", Value::array(inputs_)}});
+  add_mlp(value, mlp_);
   value.add("offset", offset_);
   return value;
 }
@@ -101,19 +50,10 @@ std::unique_ptr<NetworkModel> network_model_from_json(const Value& value) {
   std::string name = reader.string("name");
   std::vector<std::string> inputs;
   for (const Value& item : reader.required("inputs").items()) {
-    field_of(item.as_string(), item.where());
+    input_field(item.as_string(), item.where());
     inputs.push_back(item.as_string());
   }
-  Mlp mlp;
-  mlp.layers = read_layers(reader.required("layers"));
-  if (const Value* activations = reader.optional("activations"))
-    for (const Value& item : activations->items())
-      mlp.activations.push_back(activation_named(item.as_string(), item.where()));
-  mlp.input_mean = reader.required("input_mean").as_numbers();
-  mlp.input_scale = reader.required("input_scale").as_numbers();
-  mlp.output_mean = reader.number("output_mean");
-  mlp.output_scale = reader.number("output_scale");
-  mlp.parameters = reader.required("parameters").as_numbers();
+  Mlp mlp = read_mlp(reader);
   const double offset = reader.number("offset");
   reader.finish();
   require_shape(mlp, inputs.size(), value.where());

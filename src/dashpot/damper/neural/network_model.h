@@ -1,12 +1,16 @@
 #pragma once
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "dashpot/damper/model.h"
 #include "dashpot/damper/neural/mlp_evaluator.h"
 
 namespace dashpot {
+
+/// "displacement", "velocity" or "current". Throws Error(where, ...) at another.
+double DamperInput::* input_field(std::string_view input, const std::string& where);
 
 /// A static network: present inputs -> force. No state.
 class NetworkModel final : public DamperModel {
