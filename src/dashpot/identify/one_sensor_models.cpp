@@ -11,10 +11,12 @@ NetworkDesign feedback_design(FeedbackTraining training) {
   return design;
 }
 
-/// The paper's table 5: as many delayed samples of the velocity as of the current, no force fed back.
-NetworkDesign regressors_design(std::size_t delays) {
+/// The paper's table 5: as many delayed samples of the velocity as of the current, so many samples apart, no
+/// force fed back.
+NetworkDesign regressors_design(std::size_t delays, std::size_t spacing) {
   NetworkDesign design;
   design.delays = delays;
+  design.spacing = spacing;
   design.feedback = 0;
   return design;
 }
@@ -37,10 +39,15 @@ std::vector<StudiedModel> one_sensor_models() {
       {"semi-phenomenological", "semi-phenomenological", "semi_phenomenological", {}},
       {"modified-bouc-wen", "phenomenological (modified Bouc-Wen)", "modified_bouc_wen", {}},
   };
-  for (std::size_t delays = 1; delays <= 3; ++delays)
-    models.push_back({"regressors-" + std::to_string(delays),
-                      "static network, v and i with " + std::to_string(delays) + " delayed samples of each",
-                      "narx_one_sensor", regressors_design(delays), true});
+  constexpr std::size_t kApart = 10;
+  for (std::size_t delays = 1; delays <= 3; ++delays) {
+    const std::string key = "regressors-" + std::to_string(delays), title = "static network, v and i with " +
+                                                                            std::to_string(delays) +
+                                                                            " delayed samples of each";
+    models.push_back({key, title, "narx_one_sensor", regressors_design(delays, 1), true});
+    models.push_back({key + "-apart", title + ", " + std::to_string(kApart) + " samples apart",
+                      "narx_one_sensor", regressors_design(delays, kApart), true});
+  }
   return models;
 }
 

@@ -12,59 +12,16 @@
 #include "dashpot/damper/registry.h"
 #include "dashpot/identify/fit_store.h"
 #include "dashpot/identify/identify.h"
+#include "dashpot/identify/one_sensor_fit.h"
 
 namespace dashpot {
 namespace {
-
-constexpr std::size_t kEnoughSamples = 12000;  // of a fit; far more samples tell 61 weights nothing new
-constexpr double kLeastRate = 270;  // Hz, for models that integrate: 18 samples in a period at 15 Hz
-
-std::size_t sample_count(const std::vector<Record>& records) {
-  std::size_t samples = 0;
-  for (const Record& record : records) samples += record.size();
-  return samples;
-}
-
-Record every_kth(const Record& record, std::size_t k) {
-  const auto thinned = [k](const std::vector<double>& samples) {
-    std::vector<double> kept;
-    for (std::size_t i = 0; i < samples.size(); i += k) kept.push_back(samples[i]);
-    return kept;
-  };
-  Record result = record.slice(0, 0);
-  result.time = thinned(record.time);
-  for (std::size_t c = 0; c < record.channels.size(); ++c)
-    result.channels[c].samples = thinned(record.channels[c].samples);
-  result.sample_time = record.sample_time * static_cast<double>(k);
-  result.warm_up = record.warm_up / k;
-  return result;
-}
-
-/// Samples of a long recording that a fit can do without: of a model without a memory any, of one with states
-/// those beyond a rate that shows the motion; a model of delayed samples needs the rate as it is.
-std::size_t stride_of(const std::vector<Record>& records, std::string_view kind) {
-  const std::size_t wanted = sample_count(records) / kEnoughSamples;
-  if (wanted < 2 || kind == "narx") return 1;
-  if (kind == "network") return wanted;
-  double rate = 0;
-  for (const Record& record : records)
-    if (record.sample_time > 0) rate = std::max(rate, 1 / record.sample_time);
-  return std::clamp<std::size_t>(static_cast<std::size_t>(rate / kLeastRate), 1, wanted);
-}
-
-std::vector<Record> training_records(const std::vector<Record>& records, std::string_view kind) {
-  const std::size_t stride = stride_of(records, kind);
-  if (stride == 1) return records;
-  std::vector<Record> thinned;
-  for (const Record& record : records) thinned.push_back(every_kth(record, stride));
-  return thinned;
-}
 
 /// What a fit costs beside others, measured on the paper's experiments: the longest go first.
 double expected_cost(const StudiedModel& model) {
   const std::string_view kind = model_info(model.model).kind;
   if (kind == "state_network") return 40;
-  if (kind == "narx") return 20;
+  if (kind == "narx") return model.design.feedback == 0 ? 8 : 30;
   if (kind == "network")
     return 1 + 0.2 * static_cast<double>(model.design.hidden.empty() ? 10 : model.design.hidden[0]);
   return find_law(model.model).states.empty() ? 1 : 10;
@@ -78,24 +35,6 @@ struct Task {
   std::optional<StudiedResult>* result;
   bool keeps_forces;
 };
-
-void add_one_step(StudiedResult& result, const Evaluation& judged) { (void)result, (void)judged; }
-
-StudiedResult judge(const FitReport& fit, const Task& task) {
-  StudiedResult result;
-  result.parameters = fit.model->parameter_count();
-  result.seconds = fit.seconds;
-  Evaluation judged = evaluate(*fit.model, task.fold->left_out, task.damper->drive_unit,
-                               {.offset = OffsetMode::Record, .known_offsets = fit.offsets, .threads = 1});
-  for (RecordResult& record : judged.records) {
-    if (record.diverged_at && !result.diverged_at) result.diverged_at = record.diverged_at;
-    result.sums.add(record.sums);
-    if (task.keeps_forces) result.forces.push_back(std::move(record.modelled));
-  }
-  result.metrics = judged.pooled;
-  add_one_step(result, judged);
-  return result;
-}
 
 class StudyRun {
  public:
@@ -123,7 +62,10 @@ class StudyRun {
       const std::string stage = task.damper->name + ", " + task.fold->name + ": " + task.model.title;
       options_.monitor.check();
       const FitReport report = fit(task);
-      if (report.model) *task.result = judge(report, task);
+      if (report.model) {
+        *task.result = judge(report, *task.fold, task.damper->drive_unit);
+        if (!task.keeps_forces) (*task.result)->forces.clear();
+      }
       const std::lock_guard lock(guard);
       done += expected_cost(task.model);
       study_.seconds += report.seconds;
@@ -187,20 +129,17 @@ class StudyRun {
   /// As it was kept, or made now and kept.
   FitReport fit(const Task& task) {
     IdentifyOptions options;
-    options.network = task.model.design;
     options.seed = options_.seed;
-    options.starts = 2;
     options.threads = 1;
     options.monitor.stop = options_.monitor.stop;
-    const std::vector<Record> training =
-        training_records(task.fold->training, model_info(task.model.model).kind);
-    const FitStore::Request request{task.model.model, training, task.damper->drive_unit, options};
+    const StudiedFit work = studied_fit(task.model, task.fold->training, options);
+    const FitStore::Request request{task.model.model, work.training, task.damper->drive_unit, work.options};
     if (options_.store)
       if (std::optional<FitReport> kept = options_.store->load(request)) {
         ++kept_;
         return std::move(*kept);
       }
-    FitReport report = identify(task.model.model, training, task.damper->drive_unit, options);
+    FitReport report = identify(task.model.model, work.training, task.damper->drive_unit, work.options);
     if (options_.store) options_.store->save(request, report);
     return report;
   }

@@ -1,0 +1,26 @@
+#pragma once
+#include <vector>
+
+#include "dashpot/identify/identify.h"
+#include "dashpot/identify/one_sensor_study.h"
+
+// One fit of the one-sensor study, and how it is judged.
+namespace dashpot {
+
+/// What identify() gets: long recordings are thinned to what the kind of model needs.
+struct StudiedFit {
+  std::vector<Record> training;
+  IdentifyOptions options;
+};
+StudiedFit studied_fit(const StudiedModel& model, const std::vector<Record>& training,
+                       IdentifyOptions options);
+
+/// The fit's model on the left-out records, at their full rate.
+StudiedResult judge(const FitReport& fit, const Fold& fold, const std::string& drive_unit);
+
+/// Errors of a model that is fed the measured force in place of its own, from the warm-up on. `offset`, N, is
+/// the record's.
+ErrorSums one_step_errors(const DamperModel& model, const Record& record, std::string_view drive_unit,
+                          double offset);
+
+}  // namespace dashpot
