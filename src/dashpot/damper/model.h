@@ -47,8 +47,8 @@ class DamperModel {
   virtual bool has_diverged(std::span<const double>) const noexcept { return false; }
   /// s between the forces that are fed back; 0: none is.
   virtual double feedback_step() const noexcept { return 0; }
-  /// Puts a measured force (N, without the model's offset) in the place of the one just fed back: so the next
-  /// one is told one step ahead, not in free run.
+  /// Puts a measured force, N, in the place of the one that the model has just fed back: so the next one is
+  /// told one step ahead, not in free run.
   virtual void observe(double, std::span<double>) const noexcept {}
 
   /// The same model giving force + offset.

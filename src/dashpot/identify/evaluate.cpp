@@ -8,6 +8,7 @@
 #include "dashpot/base/error.h"
 #include "dashpot/base/parallel.h"
 #include "dashpot/base/text.h"
+#include "dashpot/identify/one_step.h"
 
 namespace dashpot {
 namespace {
@@ -96,6 +97,7 @@ RecordResult evaluate_record(const DamperModel& model, const Record& record, std
   }
   result.sums = error_sums(result, result.offset);
   result.sums_without_offset = error_sums(result, 0);
+  result.one_step = one_step_errors(model, record, drive_unit, result.offset);
   result.metrics = metrics(result.sums);
   result.metrics_without_offset = metrics(result.sums_without_offset);
   for (double& force : result.modelled) force += result.offset;
@@ -173,7 +175,7 @@ std::vector<DriveResult> by_drive(const std::vector<RecordResult>& records) {
 Evaluation summarise(std::vector<RecordResult> records) {
   Evaluation evaluation;
   evaluation.records = std::move(records);
-  ErrorSums sums, without;
+  ErrorSums sums, without, one_step;
   for (RecordResult& r : evaluation.records) {
     if (r.diverged_at) {
       ++evaluation.diverged;
@@ -183,6 +185,7 @@ Evaluation summarise(std::vector<RecordResult> records) {
     evaluation.coverage.add(r.coverage);
     sums.add(r.sums);
     without.add(r.sums_without_offset);
+    one_step.add(r.one_step);
     evaluation.mean_esr += r.metrics.esr;
     evaluation.mean_energy_error += std::abs(r.energy_error);
     if (r.metrics.esr >= evaluation.worst_esr) {
@@ -195,6 +198,7 @@ Evaluation summarise(std::vector<RecordResult> records) {
   evaluation.mean_energy_error /= judged;
   evaluation.pooled = metrics(sums);
   evaluation.pooled_without_offset = metrics(without);
+  if (one_step.n > 0) evaluation.one_step = metrics(one_step);
   evaluation.bands = velocity_bands(evaluation.records);
   evaluation.drive = by_drive(evaluation.records);
   return evaluation;

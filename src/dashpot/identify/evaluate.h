@@ -59,6 +59,7 @@ struct RecordResult {
   Metrics metrics;                 ///< with the offset
   Metrics metrics_without_offset;  ///< the model as it stands in its file
   ErrorSums sums, sums_without_offset;
+  ErrorSums one_step;        ///< with measured forces fed back; without samples: the model feeds none back
   double energy_error = 0;  ///< %, of the energy dissipated per record
   std::optional<double> diverged_at;
   std::optional<ForceBand> band;                                                ///< around the modelled force
@@ -82,6 +83,7 @@ struct Evaluation {
   std::vector<RecordResult> records;
   Metrics pooled;  ///< all samples of all scored records
   Metrics pooled_without_offset;
+  std::optional<Metrics> one_step;  ///< of a model that feeds its force back, measured ones fed back: no judge
   double worst_esr = 0;  ///< %, worst record
   std::string worst_record;
   double mean_esr = 0;                        ///< %, mean over the records

@@ -3,6 +3,7 @@
 #include <tuple>
 
 #include "dashpot/base/error.h"
+#include "dashpot/base/parallel.h"
 #include "dashpot/damper/neural/ensemble.h"
 #include "dashpot/damper/neural/narx_model.h"
 #include "dashpot/damper/neural/train_narx.h"
@@ -13,8 +14,7 @@
 namespace dashpot {
 namespace {
 
-constexpr std::size_t kMostRows =
-    20000;  // of regressors; of finer records some of the grids that lie in them
+constexpr std::size_t kMostRows = 6000;  // of regressors; of finer records some of the grids that lie in them
 
 /// What preset and design make together.
 struct NarxPlan {
@@ -28,6 +28,7 @@ struct NarxPlan {
         spacing(design.spacing.value_or(preset.spacing)),
         members(design.members.value_or(1)),
         training(design.training.value_or(FeedbackTraining::FreeRun)),
+        window(design.window.value_or(0)),
         bounded(design.output.value_or(OutputRange::Linear) == OutputRange::Bounded) {}
 
   std::string name;
@@ -36,6 +37,7 @@ struct NarxPlan {
   Activation activation;
   std::size_t delays, feedback, spacing, members;
   FeedbackTraining training;
+  std::size_t window;
   bool bounded;
 };
 
@@ -152,29 +154,72 @@ std::vector<double> record_offsets(const NarxPlan& plan, const NarxData& data,
       .offsets;
 }
 
-/// One training from its start: series-parallel, then over longer and longer windows in free run.
-TrainReport train_one(Mlp& mlp, const NarxPlan& plan, const NarxData& data, const IdentifyOptions& options) {
-  const NetworkDesign& design = options.network;
-  const auto check = [&] { options.monitor.check(); };
-  TrainingSamples rows = data.samples.rows;
-  if (plan.feedback > 0 || options.offset == OffsetMode::None) rows.group.clear();
-  TrainOptions first{.weight_decay = design.l2.value_or(plan.feedback > 0 ? 1e-6 : 3e-4)};
-  first.on_iteration = [&](int, double) { check(); };
-  if (design.epochs) first.max_iterations = static_cast<int>(*design.epochs);
-  TrainReport report = train(mlp, rows, first);
-  NarxTrainOptions then{.weight_decay = design.l2.value_or(1e-5), .on_iteration = check};
-  if (options.offset == OffsetMode::None) then.offset_decay = 1e9;
-  if (design.epochs) then.max_iterations = static_cast<int>(*design.epochs);
-  if (plan.feedback > 0 && plan.training == FeedbackTraining::FreeRun)
-    for (const std::size_t window : {10, 100, 0}) {
-      then.window = window;
-      report = design.trainer == Trainer::Lbfgs ? train_through_time(mlp, data.samples, then)
-                                                : train_free_run(mlp, data.samples, then);
+/// What the stages of a training share.
+class NarxFit {
+ public:
+  NarxFit(const NarxPlan& plan, const NarxData& data, const IdentifyOptions& options)
+      : plan_(plan), data_(data), options_(options) {}
+
+  /// Networks with the least free-run error on the training records, the best first.
+  std::vector<TrainedMlp> members() const {
+    const std::size_t starts =
+        std::max(static_cast<std::size_t>(std::max(1, options_.starts)), plan_.members);
+    const Mlp start = standardised(plan_, data_.samples.rows, plan_.feedback);
+    std::vector<TrainedMlp> trained = train_from_starts(start, starts, options_.seed, options_.threads,
+                                                        [&](Mlp& mlp) { return series_parallel(mlp); });
+    keep_best(trained);
+    if (plan_.feedback == 0 || plan_.training == FeedbackTraining::SeriesParallel) return trained;
+    parallel_for(trained.size(), options_.threads, [&](std::size_t k) { free_run(trained[k]); });
+    keep_best(trained);
+    return trained;
+  }
+
+ private:
+  std::function<void()> check() const {
+    return [this] { options_.monitor.check(); };
+  }
+
+  TrainReport series_parallel(Mlp& mlp) const {
+    TrainingSamples rows = data_.samples.rows;
+    if (plan_.feedback > 0 || options_.offset == OffsetMode::None) rows.group.clear();
+    TrainOptions how{.weight_decay = options_.network.l2.value_or(plan_.feedback > 0 ? 1e-6 : 3e-4)};
+    how.on_iteration = [this](int, double) { options_.monitor.check(); };
+    if (options_.network.epochs) how.max_iterations = static_cast<int>(*options_.network.epochs);
+    TrainReport report = train(mlp, rows, how);
+    report.rmse = free_run_rmse(mlp, data_.samples, free_run_options());
+    return report;
+  }
+
+  void free_run(TrainedMlp& member) const {
+    NarxTrainOptions how = free_run_options();
+    const bool through_time = options_.network.trainer == Trainer::Lbfgs;
+    for (const std::size_t window : {std::size_t{10}, std::size_t{100}, plan_.window}) {
+      if (plan_.window > 0 && window > plan_.window) continue;
+      how.window = window;
+      member.report = through_time ? train_through_time(member.mlp, data_.samples, how)
+                                   : train_free_run(member.mlp, data_.samples, how);
     }
-  then.window = 0;
-  report.rmse = free_run_rmse(mlp, data.samples, then);
-  return report;
-}
+    member.report.rmse = free_run_rmse(member.mlp, data_.samples, free_run_options());
+  }
+
+  /// Over whole stretches.
+  NarxTrainOptions free_run_options() const {
+    NarxTrainOptions how{.weight_decay = options_.network.l2.value_or(1e-5), .on_iteration = check()};
+    if (options_.offset == OffsetMode::None) how.offset_decay = 1e9;
+    if (options_.network.epochs) how.max_iterations = static_cast<int>(*options_.network.epochs);
+    return how;
+  }
+
+  void keep_best(std::vector<TrainedMlp>& trained) const {
+    std::stable_sort(trained.begin(), trained.end(),
+                     [](const TrainedMlp& a, const TrainedMlp& b) { return a.report.rmse < b.report.rmse; });
+    trained.resize(std::min(trained.size(), plan_.members));
+  }
+
+  const NarxPlan& plan_;
+  const NarxData& data_;
+  const IdentifyOptions& options_;
+};
 
 }  // namespace
 
@@ -184,21 +229,17 @@ FitReport fit_narx(const NetworkPreset& preset, const std::vector<Record>& train
   NarxData data(plan, training, drive_unit);
   if (plan.feedback > 0 && options.offset == OffsetMode::Record)
     data.remove(record_offsets(plan, data, options));
-  const std::size_t starts =
-      std::max<std::size_t>(static_cast<std::size_t>(std::max(1, options.starts)), plan.members);
-  std::vector<TrainedMlp> trained =
-      train_from_starts(standardised(plan, data.samples.rows, plan.feedback), starts, options.seed,
-                        options.threads, [&](Mlp& mlp) { return train_one(mlp, plan, data, options); });
-  std::stable_sort(trained.begin(), trained.end(),
-                   [](const TrainedMlp& a, const TrainedMlp& b) { return a.report.rmse < b.report.rmse; });
   FitReport report;
   std::vector<Mlp> members;
-  for (std::size_t k = 0; k < plan.members; ++k) members.push_back(trained[k].mlp);
-  report.status =
-      trained.front().report.converged ? FitReport::Status::Converged : FitReport::Status::IterationLimit;
-  report.message = trained.front().report.converged ? "converged" : "iteration limit reached";
-  report.iterations = trained.front().report.iterations;
-  report.training_rmse = trained.front().report.rmse;
+  bool converged = true;
+  for (TrainedMlp& member : NarxFit(plan, data, options).members()) {
+    members.push_back(std::move(member.mlp));
+    converged = converged && member.report.converged;
+    report.iterations = std::max(report.iterations, member.report.iterations);
+    report.training_rmse += member.report.rmse / static_cast<double>(plan.members);
+  }
+  report.status = converged ? FitReport::Status::Converged : FitReport::Status::IterationLimit;
+  report.message = converged ? "converged" : "iteration limit reached";
   report.model = std::make_shared<NarxModel>(plan.name, data.regressors, std::move(members));
   return report;
 }

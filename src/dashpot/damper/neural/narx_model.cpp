@@ -146,7 +146,7 @@ double NarxModel::force(const DamperInput& input, std::span<const double> state)
 
 void NarxModel::observe(double force, std::span<double> state) const noexcept {
   if (state[kPending] != 0) return;
-  for (std::size_t m = 0; m < members_.size(); ++m) state[force_place(m)] = force;
+  for (std::size_t m = 0; m < members_.size(); ++m) state[force_place(m)] = force - offset_;
 }
 
 std::unique_ptr<DamperModel> NarxModel::with_offset(double newton) const {

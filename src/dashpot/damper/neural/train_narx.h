@@ -15,14 +15,14 @@ struct NarxSamples {
 };
 
 struct NarxTrainOptions {
-  int max_iterations = 60;
+  int max_iterations = 40;
   double tolerance = 1e-4;     ///< stop when the cost falls by less than this share
   double weight_decay = 1e-4;  ///< on squared weights; a residual of the size of the output's scale costs 1
   double offset_decay = 1e-3;  ///< as TrainOptions
   /// Rows over which the network runs on its own forces, from measured ones on: derivatives reach no further
   /// back. 0: whole stretches.
   std::size_t window = 0;
-  std::size_t most_residuals = 4000;   ///< every so many-th row is scored, so that they are no more
+  std::size_t most_residuals = 2500;   ///< every so many-th row is scored, so that they are no more
   std::function<void()> on_iteration;  ///< may throw to stop
 };
 
