@@ -50,13 +50,6 @@ std::size_t stride_of(const std::vector<Record>& records, std::size_t wanted, st
   return std::clamp<std::size_t>(static_cast<std::size_t>(rate / kLeastRate), 1, wanted);
 }
 
-/// What the model adds to the force that it feeds back, N: observe() speaks of that force.
-double offset_of(const DamperModel& model) {
-  const Value json = model.to_json();
-  const Value* offset = json.find("offset");
-  return offset ? offset->as_number() : 0;
-}
-
 }  // namespace
 
 StudiedFit studied_fit(const StudiedModel& model, const std::vector<Record>& training,
@@ -77,33 +70,16 @@ StudiedFit studied_fit(const StudiedModel& model, const std::vector<Record>& tra
   return {std::move(thinned), options};
 }
 
-ErrorSums one_step_errors(const DamperModel& model, const Record& record, std::string_view drive_unit,
-                          double offset) {
-  const std::vector<DamperInput> inputs = damper_inputs(record, drive_unit);
-  const std::vector<double>& measured = record.channel("force").samples;
-  const double own = offset_of(model);
-  std::vector<double> state(model.state_size());
-  model.rest(inputs.front(), state);
-  ErrorSums sums;
-  for (std::size_t k = 0; k < inputs.size(); ++k) {
-    if (k > 0) model.advance(inputs[k - 1], inputs[k], record.time[k] - record.time[k - 1], state);
-    if (k >= record.warm_up) sums.add(measured[k], model.force(inputs[k], state) + offset);
-    model.observe(measured[k] - offset - own, state);
-  }
-  return sums;
-}
-
 StudiedResult judge(const FitReport& fit, const Fold& fold, const std::string& drive_unit) {
   StudiedResult result;
   result.parameters = fit.model->parameter_count();
   result.seconds = fit.seconds;
   Evaluation judged = evaluate(*fit.model, fold.left_out, drive_unit,
                                {.offset = OffsetMode::Record, .known_offsets = fit.offsets, .threads = 1});
-  for (std::size_t r = 0; r < judged.records.size(); ++r) {
-    RecordResult& record = judged.records[r];
-    if (fit.model->feedback_step() > 0) {
+  for (RecordResult& record : judged.records) {
+    if (record.one_step.n > 0) {
       if (!result.one_step) result.one_step.emplace();
-      result.one_step->add(one_step_errors(*fit.model, fold.left_out[r], drive_unit, record.offset));
+      result.one_step->add(record.one_step);
     }
     if (record.diverged_at && !result.diverged_at) result.diverged_at = record.diverged_at;
     result.sums.add(record.sums);

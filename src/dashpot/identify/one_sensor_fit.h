@@ -18,9 +18,4 @@ StudiedFit studied_fit(const StudiedModel& model, const std::vector<Record>& tra
 /// The fit's model on the left-out records, at their full rate.
 StudiedResult judge(const FitReport& fit, const Fold& fold, const std::string& drive_unit);
 
-/// Errors of a model that is fed the measured force in place of its own, from the warm-up on. `offset`, N, is
-/// the record's.
-ErrorSums one_step_errors(const DamperModel& model, const Record& record, std::string_view drive_unit,
-                          double offset);
-
 }  // namespace dashpot
