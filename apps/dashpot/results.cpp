@@ -73,7 +73,7 @@ ReportInput report_input(const Dataset& dataset, const Ranking& ranking, const C
 void print_results(const ReportInput& input, Console& console) {
   console.print('\n' + ranking_table(input.ranking, console.width()) + '\n' +
                 paragraph(verdict(input.ranking), static_cast<std::size_t>(console.width())));
-  if (std::ranges::any_of(input.ranking.models, [](const RankedModel& m) { return m.left_out.one_step; }))
+  if (std::ranges::any_of(input.ranking.models, [](const RankedModel& m) { return m.left_out.one_step.has_value(); }))
     console.print('\n' + paragraph(*one_step_note(input.ranking), static_cast<std::size_t>(console.width())));
   const RankedModel& best = input.ranking.models.front();
   if (!best.fit.parameters.empty())
