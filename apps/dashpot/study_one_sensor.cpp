@@ -36,10 +36,17 @@ constexpr std::string_view kExample =
 
 std::vector<StudiedDamper> studied_dampers(const Settings& settings, Console& console) {
   if (settings.data.paths.empty()) return virtual_dampers(settings.options.seed);
+  const std::optional<LeaveOut> stated = stated_leave_out(settings.leave_out);
   const Dataset dataset = load_recordings(settings.data, console);
-  const LeaveOut leave_out = stated_leave_out(settings.leave_out).value_or(default_leave_out(dataset));
+  const LeaveOut leave_out = stated ? *stated : default_leave_out(dataset);
   console.talk("judged by leaving out: " + format_leave_out(leave_out) + '\n');
   return {measured_damper(dataset, leave_out)};
+}
+
+std::vector<std::string> row_names() {
+  std::vector<std::string> names;
+  for (const StudiedModel& model : one_sensor_models()) names.push_back(model.key);
+  return names;
 }
 
 void write_study(const Document& document, const Settings& settings, Console& console) {
@@ -105,6 +112,13 @@ Command one_sensor_study() {
           {.names = "--figures",
            .target = &settings->figures,
            .help = "also draw the figures as SVG and PDF (needs gnuplot)"},
+          {.names = "--models",
+           .target = &settings->options.keys,
+           .help = "rows to fit, separated by commas",
+           .value = "LIST",
+           .choices = row_names(),
+           .noun = "row",
+           .default_text = "all"},
           {.names = "--neurons",
            .target = &settings->most_neurons,
            .help = "the largest network of the size choice",
