@@ -9,6 +9,8 @@ namespace {
 
 constexpr std::size_t kEnoughSamples = 12000;  // of a fit; far more samples tell 61 weights nothing new
 constexpr double kLeastRate = 270;  // Hz, for models that integrate: 18 samples in a period at 15 Hz
+constexpr std::size_t kParts = 20;  // of a record with states
+constexpr double kRunIn = 0.3;      // s
 constexpr std::size_t kStretches = 60,
                       kStretch = 300;  // parts of a record for delayed samples, and their length
 
@@ -40,6 +42,25 @@ std::vector<Record> stretches_of(const Record& record) {
   return parts;
 }
 
+/// The record in parts that belong by turns to two conditions, each run in by what comes before it: trials
+/// that hold back one of the two know all its currents from the other, also where the current rises slowly.
+std::vector<Record> parts_by_turns(const Record& record) {
+  const std::size_t run_in = static_cast<std::size_t>(kRunIn * static_cast<double>(record.size()) /
+                                                      (record.time.back() - record.time.front()));
+  std::vector<Record> parts;
+  for (std::size_t k = 0; k < kParts; ++k) {
+    const std::size_t scored = record.warm_up + k * (record.size() - record.warm_up) / kParts,
+                      end = record.warm_up + (k + 1) * (record.size() - record.warm_up) / kParts,
+                      first = scored - std::min(scored, std::max(run_in, record.warm_up));
+    parts.push_back(record.slice(first, end));
+    parts.back().name += ", part " + std::to_string(k + 1);
+    parts.back().condition = k % 2 ? "every second part" : "the parts between";
+    parts.back().drive_level.reset();
+    parts.back().warm_up = scored - first;
+  }
+  return parts;
+}
+
 /// Of samples that a fit can do without: of a model without a memory any, of one with states those beyond a
 /// rate that shows the motion.
 std::size_t stride_of(const std::vector<Record>& records, std::size_t wanted, std::string_view kind) {
@@ -50,23 +71,26 @@ std::size_t stride_of(const std::vector<Record>& records, std::size_t wanted, st
   return std::clamp<std::size_t>(static_cast<std::size_t>(rate / kLeastRate), 1, wanted);
 }
 
+bool is_long(const std::vector<Record>& training) {
+  return training.size() == 1 && training.front().size() > 2 * kStretches * kStretch;
+}
+
 }  // namespace
 
 StudiedFit studied_fit(const StudiedModel& model, const std::vector<Record>& training,
                        IdentifyOptions options) {
   const std::string_view kind = model_info(model.model).kind;
   options.network = model.design;
-  options.starts = kind == "narx" ? 1 : 2;
+  options.starts = kind == "network" ? 2 : 1;
+  // One record has one zero, whatever it is cut into.
+  if (is_long(training) && (kind == "narx" || kind == "state_network")) options.offset = OffsetMode::None;
+  if (kind == "narx") return {is_long(training) ? stretches_of(training.front()) : training, options};
   std::size_t samples = 0;
   for (const Record& record : training) samples += record.size();
-  if (kind == "narx") {
-    if (training.size() > 1 || samples < 2 * kStretches * kStretch) return {training, options};
-    options.offset = OffsetMode::None;  // one record has one zero, whatever it is cut into
-    return {stretches_of(training.front()), options};
-  }
   const std::size_t stride = stride_of(training, samples / kEnoughSamples, kind);
   std::vector<Record> thinned;
   for (const Record& record : training) thinned.push_back(stride == 1 ? record : every_kth(record, stride));
+  if (kind == "state_network" && is_long(training)) thinned = parts_by_turns(thinned.front());
   return {std::move(thinned), options};
 }
 
