@@ -95,7 +95,7 @@ TEST_CASE("the one-sensor paper's table 2: sequences by experiment and damper") 
     CHECK(second[k].motion.description.starts_with(motions[k]));
     CHECK(first[k].drive.description.starts_with(continuous[k]));
     CHECK(second[k].drive.description.starts_with(switched[k]));
-    for (double t = 0; t < second[k].motion.duration; t += 0.01) {
+    for (double t = 0; t < second[k].motion.duration; t += 0.037) {
       const double current = second[k].drive.at(t);
       CHECK((current == 0 || current == 2.5));
     }
@@ -168,7 +168,7 @@ TEST_CASE("the second recording of an experiment: other sequences over the same 
     for (std::size_t k = 0; k < first.size(); ++k) {
       CAPTURE(first[k].name);
       double fastest = 0, again = 0, difference = 0;
-      for (double t = 0; t < std::min(first[k].motion.duration, second[k].motion.duration); t += 0.01) {
+      for (double t = 0; t < std::min(first[k].motion.duration, second[k].motion.duration); t += 0.037) {
         const double v = first[k].motion.at(t).velocity, w = second[k].motion.at(t).velocity;
         fastest = std::max(fastest, std::abs(v));
         again = std::max(again, std::abs(w));

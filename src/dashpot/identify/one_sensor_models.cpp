@@ -5,8 +5,11 @@
 namespace dashpot {
 namespace {
 
+/// The paper's table 3: the force one sample ago beside the present inputs.
 NetworkDesign feedback_design(FeedbackTraining training) {
   NetworkDesign design;
+  design.delays = 0;
+  design.feedback = 1;
   design.training = training;
   return design;
 }

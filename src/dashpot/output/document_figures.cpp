@@ -1,6 +1,8 @@
 // Figures of a document for print.
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <span>
 
 #include <fmt/format.h>
 
@@ -38,10 +40,24 @@ std::string style_of(const FigureSeries& series) {
                      series.mark == FigureSeries::Mark::Dashes ? " dt (8,5)" : "", colour);
 }
 
-/// Columns in brackets: numbers that are missing then break the line.
-std::string curve(GnuplotFigure& figure, const FigureSeries& series, bool is_listed) {
-  return figure.data({series.x, series.y}) + " using ($1):($2) with " + style_of(series) +
-         (is_listed ? " title " + gnuplot_quoted(series.label) : " notitle");
+/// The unbroken pieces of a curve, each a plot of its own: gnuplot would draw a line across what is missing.
+void add_curves(GnuplotFigure& figure, const FigureSeries& series, bool is_listed,
+                std::vector<std::string>& curves) {
+  const auto is_there = [&](std::size_t i) {
+    return std::isfinite(series.x[i]) && std::isfinite(series.y[i]);
+  };
+  for (std::size_t first = 0; first < series.x.size();) {
+    std::size_t last = first;
+    while (last < series.x.size() && is_there(last)) ++last;
+    if (last > first) {
+      const std::string title = is_listed ? " title " + gnuplot_quoted(series.label) : " notitle";
+      curves.push_back(figure.data({std::span(series.x).subspan(first, last - first),
+                                    std::span(series.y).subspan(first, last - first)}) +
+                       " using 1:2 with " + style_of(series) + title);
+      is_listed = false;
+    }
+    first = last + 1;
+  }
 }
 
 void draw(GnuplotFigure& figure, const FigurePanel& panel) {
@@ -60,7 +76,7 @@ void draw(GnuplotFigure& figure, const FigurePanel& panel) {
     const bool is_listed =
         !series.label.empty() && std::find(labels.begin(), labels.end(), series.label) == labels.end();
     if (is_listed) labels.push_back(series.label);
-    curves.push_back(curve(figure, series, is_listed));
+    add_curves(figure, series, is_listed, curves);
   }
   if (!curves.empty()) figure.command("plot " + join(curves, ", "));
 }

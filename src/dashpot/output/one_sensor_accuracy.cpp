@@ -48,7 +48,7 @@ std::vector<double> percents(const OneSensorView& view, std::size_t damper, cons
 std::vector<std::string> paper_row(const std::string& name, std::size_t damper) {
   std::vector<std::string> row{name, "the paper: static, 1 sensor, its own damper"};
   const auto& experiments = paper::kExperiments[damper];
-  for (const double percent : experiments) row.push_back(number_text(percent));
+  for (const double percent : experiments) row.push_back(number_text(percent, 4));
   const double average = mean({experiments.begin(), experiments.end()});
   row.push_back(number_text(average));
   row.push_back(number_text(average / 2));

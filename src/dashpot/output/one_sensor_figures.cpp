@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -14,6 +16,7 @@ namespace dashpot {
 namespace {
 
 constexpr std::size_t kPoints = 1500;  // of a curve: print shows no more
+constexpr std::size_t kDots = 700;     // of a cloud
 constexpr std::size_t kMostShown = 6;  // sequences, of which other data may hold dozens
 
 struct Window {
@@ -41,22 +44,38 @@ std::string damper_title(const StudiedDamper& damper) {
   return damper.name + (damper.is_virtual ? ", virtual damper" : "");
 }
 
-/// One panel for each experiment: a channel of its first training record.
-std::vector<FigurePanel> sequence_panels(const StudiedDamper& damper, const std::string& channel,
-                                         double seconds, const std::string& label, double factor) {
-  std::vector<FigurePanel> panels;
-  for (const Fold& fold : damper.experiments) {
-    const Record& record = fold.training.front();
-    const Channel* samples = record.find(channel);
-    if (!samples || panels.size() == kMostShown) continue;
-    const Window window = window_of(record, 0, seconds);
-    panels.push_back({damper.name + ", " + fold.name + ": " + record.condition,
-                      "Time (s)",
-                      label,
-                      {{"", "modelled", taken(record.time, window), taken(samples->samples, window, factor),
-                        FigureSeries::Mark::Line, 1}}});
-  }
-  return panels;
+/// A channel of what models learn from in one experiment, from its beginning.
+std::optional<FigurePanel> sequence_panel(const StudiedDamper& damper, std::size_t experiment,
+                                          const Channel& label, double seconds, double factor) {
+  const Fold& fold = damper.experiments[experiment];
+  const Record& record = fold.training.front();
+  const Channel* samples = record.find(label.name);
+  if (!samples) return std::nullopt;
+  const Window window = window_of(record, 0, seconds);
+  return FigurePanel{damper.name + ", " + fold.name + ": " + record.condition,
+                     "Time (s)",
+                     label.unit,
+                     {{"", "modelled", taken(record.time, window), taken(samples->samples, window, factor),
+                       FigureSeries::Mark::Line, 1}}};
+}
+
+/// As long as a signal with fewer than a hundred changes, or its beginning: more is a black patch.
+double legible_seconds(const Record& record, const std::string& channel) {
+  constexpr double kBeginning = 4;
+  constexpr std::size_t kLegible = 100;
+  const Channel* samples = record.find(channel);
+  std::size_t changes = 0;
+  for (std::size_t i = 1; samples && i < samples->samples.size(); ++i)
+    changes += samples->samples[i] != samples->samples[i - 1];
+  return changes > kLegible ? kBeginning : INFINITY;
+}
+
+/// The paper shows each kind of current once: stepped constants and transients of either damper.
+std::vector<std::size_t> shown_currents(const StudiedDamper& damper) {
+  if (damper.is_virtual) return {0, 2};
+  std::vector<std::size_t> all(std::min(damper.experiments.size(), kMostShown));
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  return all;
 }
 
 /// A model's forces on one left-out record.
@@ -100,7 +119,7 @@ FigurePanel velocity_panel(const OneSensorView& view, std::size_t damper, std::s
   for (const Record& record : fold.left_out) samples += record.size();
   for (std::size_t r = 0; r < fold.left_out.size(); ++r) {
     const Record& record = fold.left_out[r];
-    const Window window{record.warm_up, record.size(), samples / (2 * kPoints) + 1};
+    const Window window{record.warm_up, record.size(), samples / kDots + 1};
     const auto* forces = forces_of(view, damper, experiment, key, r);
     for (const auto& [series, values] :
          {std::pair(&measured, &record.channel("force").samples), std::pair(&modelled, forces)}) {
@@ -158,11 +177,7 @@ DocumentSection excitation_section(const OneSensorView& view) {
   DocumentSection section{"excitation", "Table 2, figures 3 and 4: the experiments", {}};
   constexpr double kSeconds = 16;
   DocumentFigure motion{"figure-3", "Figure 3: displacement sequences", "The first seconds of each.", {}, 2},
-      drive{"figure-4",
-            "Figure 4: current sequences",
-            "Whole sequences; each stands at the level that it has.",
-            {},
-            2};
+      drive{"figure-4", "Figure 4: current sequences", "From their beginning.", {}, 2};
   DocumentTable table{"Table 2: recordings",
                       {{"Damper"},
                        {"Experiment"},
@@ -172,12 +187,16 @@ DocumentSection excitation_section(const OneSensorView& view) {
                       {}};
   for (const DamperStudy& one : view.study.dampers) {
     const StudiedDamper& damper = one.damper;
-    if (motion.panels.empty())
-      motion.panels = sequence_panels(damper, "displacement", kSeconds, "Displacement (mm)", 1000);
-    const std::string channel = damper.drive_unit == "V" ? "voltage" : "current";
-    for (FigurePanel& panel :
-         sequence_panels(damper, channel, 1e9, damper.drive_unit == "V" ? "Voltage (V)" : "Current (A)", 1))
-      drive.panels.push_back(std::move(panel));
+    const bool is_voltage = damper.drive_unit == "V";
+    const Channel moved{"displacement", "Displacement (mm)", {}, {}},
+        driven{is_voltage ? "voltage" : "current", is_voltage ? "Voltage (V)" : "Current (A)", {}, {}};
+    if (&one == &view.study.dampers.front())
+      for (std::size_t e = 0; e < std::min(damper.experiments.size(), kMostShown); ++e)
+        if (auto panel = sequence_panel(damper, e, moved, kSeconds, 1000)) motion.panels.push_back(*panel);
+    for (const std::size_t e : shown_currents(damper)) {
+      const double seconds = legible_seconds(damper.experiments[e].training.front(), driven.name);
+      if (auto panel = sequence_panel(damper, e, driven, seconds, 1)) drive.panels.push_back(*panel);
+    }
     for (const Fold& fold : damper.experiments) {
       const auto said = [](const std::vector<Record>& records) {
         return records.size() == 1 ? records.front().name : counted(records.size(), "record");

@@ -103,20 +103,20 @@ DocumentSection sensors_section(const OneSensorView& view) {
   }
   const double gain = 100 * (1 - *two / *one), stated = 100 * (1 - paper::kTwoSensors / paper::kOneSensor);
   constexpr double kAlike = 15;  // points
-  section.paragraphs.push_back(fmt::format("{}: a second sensor takes {} % off the error; in the paper {} %.",
-                                           gain <= 0 ? "Does not agree"
-                                           : std::abs(gain - stated) <= kAlike
-                                               ? "Agrees"
-                                               : "Agrees in direction, not in size",
-                                           number_text(gain, 2), number_text(stated)));
+  section.paragraphs.push_back(
+      fmt::format("{}: with a second sensor the error {}; in the paper it falls by {} %.",
+                  gain <= 0                           ? "Does not agree"
+                  : std::abs(gain - stated) <= kAlike ? "Agrees"
+                                                      : "Agrees in direction, not in size",
+                  change_text(*one, *two), number_text(stated)));
   if (view.is_virtual())
     section.remarks.push_back(
         "Why: this virtual damper has no stiffness, and its hysteresis follows the acceleration. "
         "Displacement stands in for acceleration at any one frequency, but the factor changes with the "
         "frequency, and the experiment has many.");
   if (bank)
-    section.remarks.push_back(fmt::format("The hysteresis network takes {} % off with no second sensor.",
-                                          number_text(100 * (1 - *bank / *one), 2)));
+    section.remarks.push_back(
+        fmt::format("With the hysteresis network, and no second sensor, it {}.", change_text(*one, *bank)));
   return section;
 }
 
@@ -185,8 +185,9 @@ DocumentSection size_section(const OneSensorView& view) {
       "By minimal dimensions, the smallest network within 2 % of the least error has {}; the paper's choice "
       "is {}. {}",
       counted(enough, "neuron"), paper::kNeurons,
-      enough <= static_cast<std::size_t>(paper::kNeurons) ? "Ten suffice here too."
-                                                          : "Ten do not suffice by this criterion."));
+      sizes.size() < static_cast<std::size_t>(paper::kNeurons) ? "Larger ones were not tried."
+      : enough <= static_cast<std::size_t>(paper::kNeurons)    ? "Ten suffice here too."
+                                                               : "Ten do not suffice by this criterion."));
   section.paragraphs.push_back(
       "Figure 5, the architecture: velocity and current, standardised; ten tanh neurons; one linear neuron, "
       "the force. (2,10,1): 41 numbers.");
