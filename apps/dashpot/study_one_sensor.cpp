@@ -7,6 +7,7 @@
 #include "dashpot/base/file.h"
 #include "dashpot/identify/fit_store.h"
 #include "dashpot/output/one_sensor_document.h"
+#include "dashpot/output/safe_text.h"
 #include "dashpot/output/words.h"
 #include "document_text.h"
 #include "ranking_run.h"
@@ -54,15 +55,14 @@ void write_study(const Document& document, const Settings& settings, Console& co
   write_file(folder / "report.html", html_document(document));
   if (settings.figures) write_document_figures(document, folder / "figures");
   write_file(folder / "report.md", markdown_document(document, settings.figures ? "figures" : ""));
-  std::string where = "\nReport   " + (folder / "report.html").string() + " (also .md)\n";
+  std::string where = "\nReport   " + (folder / "report.html").string() + " (also .json, .md)\n";
   if (settings.figures) where += "Figures  " + (folder / "figures").string() + "/\n";
   console.print(where);
 }
 
 int run(const Settings& settings, Console& console) {
-  ResultSettings results;
-  results.folder = settings.folder;
-  prepare_results(results);
+  if (settings.folder.empty()) throw UsageError("--output", "the name of the folder is empty");
+  make_folder(settings.folder);
   OneSensorOptions options = settings.options;
   options.most_neurons = static_cast<std::size_t>(settings.most_neurons);
   options.monitor = console.monitor();
@@ -74,9 +74,11 @@ int run(const Settings& settings, Console& console) {
   document.version = DASHPOT_VERSION;
   document.date = date_now();
   print_document(document, console);
+  const Value data = presentable(one_sensor_json(study));
+  write_file(fs::path(settings.folder) / "report.json", format_json(data));
   write_study(document, settings, console);
   if (study.kept_fits > 0) console.note(counted(study.kept_fits, "fit") + " kept from before");
-  if (console.json) console.print_json(one_sensor_json(study));
+  if (console.json) console.print_json(data);
   return kDone;
 }
 
