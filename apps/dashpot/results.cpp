@@ -62,6 +62,8 @@ std::string date_now() {
   return text;
 }
 
+std::string program_id() { return DASHPOT_VERSION " " + sha256_of_file("/proc/self/exe"); }
+
 ReportInput report_input(const Dataset& dataset, const Ranking& ranking, const Console& console) {
   return {.dataset = dataset,
           .ranking = ranking,
