@@ -51,8 +51,6 @@ std::vector<Option> result_options(ResultSettings& settings) {
           {.names = "--no-report", .target = &settings.report, .help = "write the model files only"}};
 }
 
-std::string program_id() { return DASHPOT_VERSION " " + sha256_of_file("/proc/self/exe"); }
-
 std::string date_now() {
   const std::time_t now = std::time(nullptr);
   std::tm utc{};

@@ -94,7 +94,7 @@ class StateSpaceFit {
     for (const BankRecord& record : records_) all_.push_back(&record);
     start_.cell = starting_cell(preset_, all_, drive_range(training, drive_unit));
     start_.network = standardised(start_.cell, all_);
-    decay_ = options.network.l2 ? *options.network.l2 : best_decay(Trials(training, records_));
+    decay_ = options.network.l2 ? *options.network.l2 : best_decay(Trials(training, drive_unit));
   }
 
   struct Member {

@@ -9,6 +9,7 @@
 #include "dashpot/damper/neural/mlp_json.h"
 
 namespace dashpot {
+
 double DamperInput::* input_field(std::string_view input, const std::string& where) {
   if (input == "displacement") return &DamperInput::displacement;
   if (input == "velocity") return &DamperInput::velocity;
@@ -16,8 +17,6 @@ double DamperInput::* input_field(std::string_view input, const std::string& whe
   throw Error(where, "unknown network input '" + std::string(input) + "'",
               suggest(input, {"displacement", "velocity", "current"}));
 }
-
-}  // namespace
 
 NetworkModel::NetworkModel(std::string name, std::vector<std::string> inputs, std::vector<Mlp> members,
                            double offset)
