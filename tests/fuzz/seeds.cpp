@@ -3,9 +3,11 @@
 #include <filesystem>
 #include <matio.h>
 
+#include "damper/hybrid_model_example.h"
 #include "damper/neural/bank_network_example.h"
 #include "dashpot/base/file.h"
 #include "dashpot/damper/fuzzy/fuzzy_model.h"
+#include "dashpot/damper/hybrid_model.h"
 #include "dashpot/damper/law_model.h"
 #include "dashpot/damper/model_file.h"
 #include "dashpot/damper/parameter_set.h"
@@ -94,6 +96,7 @@ void model_seeds(const fs::path& folder) {
              model_seed(std::make_unique<HysteresisNetwork>("hysteresis_network",
                                                             std::vector{example_bank_network()}),
                         "A"));
+  write_file(folder / "hybrid", model_seed(std::make_unique<HybridModel>(example_hybrid()), law.drive_unit()));
 }
 
 constexpr const char* kFamily =

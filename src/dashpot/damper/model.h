@@ -27,7 +27,7 @@ class DamperModel {
  public:
   virtual ~DamperModel() = default;
 
-  virtual std::string kind() const = 0;  ///< "law", "network", "state_network" or "fuzzy"
+  virtual std::string kind() const = 0;  ///< "law", "network", "state_network", "fuzzy" or "hybrid"
   virtual std::string name() const = 0;  ///< as the registry knows it: "bingham"
   virtual bool needs_displacement() const noexcept = 0;
   virtual std::size_t parameter_count() const noexcept = 0;

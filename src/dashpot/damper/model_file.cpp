@@ -4,6 +4,7 @@
 #include "dashpot/base/file.h"
 #include "dashpot/base/text.h"
 #include "dashpot/damper/fuzzy/fuzzy_model.h"
+#include "dashpot/damper/hybrid_model.h"
 #include "dashpot/damper/law_model.h"
 #include "dashpot/damper/neural/hysteresis_network.h"
 #include "dashpot/damper/neural/network_model.h"
@@ -94,13 +95,22 @@ void require_format(ObjectReader& reader) {
                 "this Dashpot reads version " + std::to_string(kVersion));
 }
 
+void require_law(const LawModel& law, const ModelFile& file, const std::string& where) {
+  if (law.drive_unit() != file.drive_unit)
+    throw Error(where, "drive_unit is " + law.drive_unit() + ", but " + file.drive_unit + " for the file");
+  require_bounds(law, file.domain.current_min, where);
+  require_bounds(law, file.domain.current_max, where);
+}
+
 std::unique_ptr<DamperModel> read_law(const Value& value, const ModelFile& file) {
   auto model = law_model_from_json(value);
-  if (model->drive_unit() != file.drive_unit)
-    throw Error(value.where(),
-                "drive_unit is " + model->drive_unit() + ", but " + file.drive_unit + " for the file");
-  require_bounds(*model, file.domain.current_min, value.where());
-  require_bounds(*model, file.domain.current_max, value.where());
+  require_law(*model, file, value.where());
+  return model;
+}
+
+std::unique_ptr<DamperModel> read_hybrid(const Value& value, const ModelFile& file) {
+  auto model = hybrid_model_from_json(value);
+  require_law(model->law(), file, value.where());
   return model;
 }
 
@@ -109,8 +119,9 @@ std::unique_ptr<DamperModel> read_model(const Value& kind, const Value& value, c
   if (kind.as_string() == "network") return network_model_from_json(value);
   if (kind.as_string() == "state_network") return hysteresis_network_from_json(value);
   if (kind.as_string() == "fuzzy") return fuzzy_model_from_json(value);
+  if (kind.as_string() == "hybrid") return read_hybrid(value, file);
   throw Error(kind.where(), "unknown kind '" + kind.as_string() + "'",
-              suggest(kind.as_string(), {"law", "network", "state_network", "fuzzy"}));
+              suggest(kind.as_string(), {"law", "network", "state_network", "fuzzy", "hybrid"}));
 }
 
 }  // namespace

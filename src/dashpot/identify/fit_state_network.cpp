@@ -2,11 +2,12 @@
 #include <array>
 #include <cmath>
 #include <numeric>
-#include <set>
 
 #include "dashpot/base/parallel.h"
 #include "dashpot/damper/neural/train_bank.h"
 #include "dashpot/identify/fit.h"
+#include "dashpot/identify/starting_bank.h"
+#include "dashpot/identify/trials.h"
 
 namespace dashpot {
 namespace {
@@ -15,39 +16,8 @@ constexpr std::size_t kSamples = 8000;                  // of a fit, every k-th;
 constexpr std::size_t kTrialSamples = 2500;             // of a trial of a decay
 constexpr int kIterations = 60, kTrialIterations = 25;  // stopping early, too, keeps weights small
 constexpr std::array kDecays{1e-3, 1e-4, 1e-5};
-constexpr std::size_t kConditionTrials = 4;  // conditions are dealt to so many trials
-constexpr double kHeldBackEnd = 0.3;         // of records that have neither conditions nor levels
 
 using Records = std::vector<const BankRecord*>;
-
-/// A part of the training records that a trial does without and is judged on.
-struct Trial {
-  Records training, held_back;
-};
-
-std::vector<double> spaced(double low, double high, std::size_t count) {
-  std::vector<double> rates(count, std::sqrt(low * high));
-  for (std::size_t k = 0; count > 1 && k < count; ++k)
-    rates[k] = low * std::pow(high / low, static_cast<double>(k) / static_cast<double>(count - 1));
-  return rates;
-}
-
-/// Mean way between two turns, m. A turn is a change of direction at a tenth of the record's top speed at
-/// least, so that noise at rest is none.
-double mean_way(const BankRecord& record) {
-  double top = 0, way = 0;
-  for (const DamperInput& input : record.inputs) top = std::max(top, std::abs(input.velocity));
-  int turns = 0, direction = 0;
-  for (std::size_t k = 1; k < record.inputs.size(); ++k) {
-    const double v = record.inputs[k].velocity;
-    way += std::abs(v) * (record.time[k] - record.time[k - 1]);
-    const int now = v > 0 ? 1 : -1;
-    if (std::abs(v) <= 0.1 * top || now == direction) continue;
-    direction = now;
-    ++turns;
-  }
-  return way / std::max(1, turns);
-}
 
 /// Mean square of each of the bank's signals over all records.
 std::vector<double> mean_squares(const HysteresisBank& bank, const Records& records) {
@@ -81,23 +51,6 @@ double force_deviation(const Records& records) {
   return deviation > 0 ? deviation : 1;
 }
 
-HysteresisBank starting_bank(const StateNetworkPreset& preset, const Records& records, bool drive_varies) {
-  constexpr double kSlowest = 2, kFastest = 30;  // Dahl rates times the longest and the shortest way
-  constexpr double kLags[] = {30, 300}, kCurrentLags[] = {20, 200}, kSteady = 100;  // 1/s
-  double shortest = INFINITY, longest = 0;
-  for (const BankRecord* record : records) {
-    const double way = mean_way(*record);
-    shortest = std::min(shortest, way);
-    longest = std::max(longest, way);
-  }
-  HysteresisBank bank;
-  bank.path_rates = spaced(kSlowest / longest, kFastest / shortest, preset.path_states);
-  bank.velocity_rates = spaced(kLags[0], kLags[1], preset.velocity_lags);
-  bank.current_rates =
-      drive_varies ? spaced(kCurrentLags[0], kCurrentLags[1], preset.current_lags) : std::vector{kSteady};
-  return bank;
-}
-
 GatedNetwork standardised(const HysteresisBank& bank, const Records& records, const DriveRange& drive) {
   const std::vector<double> squares = mean_squares(bank, records);
   GatedNetwork network;
@@ -112,58 +65,11 @@ GatedNetwork standardised(const HysteresisBank& bank, const Records& records, co
   return network;
 }
 
-/// Parts that are held back: conditions, dealt out in turn, and each inner level of the drive; records that
-/// have neither are cut, and their ends are held back.
-class Trials {
- public:
-  Trials(const std::vector<Record>& training, const std::vector<BankRecord>& records) {
-    std::vector<std::string> conditions;
-    std::set<double> levels;
-    std::vector<std::size_t> condition_of;
-    for (const Record& record : training) {
-      const auto at = std::find(conditions.begin(), conditions.end(), record.condition);
-      condition_of.push_back(static_cast<std::size_t>(at - conditions.begin()));
-      if (at == conditions.end()) conditions.push_back(record.condition);
-      if (record.drive_level) levels.insert(*record.drive_level);
-    }
-    const std::size_t hands = std::min(conditions.size(), kConditionTrials);
-    for (std::size_t hand = 0; hands > 1 && hand < hands; ++hand)
-      hold_back(records, [&](std::size_t r) { return condition_of[r] % hands == hand; });
-    for (const double level : levels)
-      if (level != *levels.begin() && level != *levels.rbegin())
-        hold_back(records, [&](std::size_t r) { return training[r].drive_level == level; });
-    if (trials_.empty()) cut(records);
-  }
-
-  const std::vector<Trial>& all() const { return trials_; }
-
- private:
-  template <class Chosen>
-  void hold_back(const std::vector<BankRecord>& records, Chosen chosen) {
-    Trial trial;
-    for (std::size_t r = 0; r < records.size(); ++r)
-      (chosen(r) ? trial.held_back : trial.training).push_back(&records[r]);
-    if (!trial.training.empty()) trials_.push_back(std::move(trial));
-  }
-
-  void cut(const std::vector<BankRecord>& records) {
-    cuts_.reserve(2 * records.size());
-    trials_.emplace_back();
-    for (const BankRecord& record : records) {
-      const auto scored = static_cast<double>(record.inputs.size() - record.first);
-      const std::size_t at = record.inputs.size() - static_cast<std::size_t>(kHeldBackEnd * scored);
-      BankRecord& early = cuts_.emplace_back(record);
-      early.inputs.resize(at);
-      BankRecord& late = cuts_.emplace_back(record);
-      late.first = std::min(at, record.inputs.size() - 1);
-      trials_.back().training.push_back(&early);
-      trials_.back().held_back.push_back(&late);
-    }
-  }
-
-  std::vector<Trial> trials_;
-  std::vector<BankRecord> cuts_;
-};
+Records pointers(const std::vector<BankRecord>& records) {
+  Records all;
+  for (const BankRecord& record : records) all.push_back(&record);
+  return all;
+}
 
 /// One preset on one set of records.
 class BankFit {
@@ -174,12 +80,11 @@ class BankFit {
     for (const Record& record : training)
       records_.push_back(
           {damper_inputs(record, drive_unit), record.time, record.channel("force").samples, record.warm_up});
-    for (const BankRecord& record : records_) all_.push_back(&record);
+    all_ = pointers(records_);
     const DriveRange drive = drive_range(training, drive_unit);
-    start_.bank = starting_bank(preset, all_, drive.varies);
+    start_.bank = starting_bank({preset.path_states, preset.velocity_lags, preset.current_lags}, all_, drive.varies);
     start_.network = standardised(start_.bank, all_, drive);
-    const Trials trials(training, records_);
-    decay_ = best_decay(trials.all());
+    decay_ = best_decay(trials_of(training));
   }
 
   struct Member {
@@ -202,13 +107,24 @@ class BankFit {
     parallel_for(squares.size(), options_.threads, [&](std::size_t k) {
       const Trial& trial = trials[k / kDecays.size()];
       const Effort effort{kDecays[k % kDecays.size()], kTrialIterations};
-      const BankNetwork found = fit(trial.training, kTrialSamples, effort).network;
-      for (const BankRecord* record : trial.held_back)
-        squares[k] += squares_left(found, *record, options_.offset == OffsetMode::Record);
+      const std::vector<BankRecord> training = scored(trial.training);
+      const BankNetwork found = fit(pointers(training), kTrialSamples, effort).network;
+      for (const BankRecord& record : scored(trial.held_back))
+        squares[k] += squares_left(found, record, options_.offset == OffsetMode::Record);
     });
     std::array<double, kDecays.size()> sums{};
     for (std::size_t k = 0; k < squares.size(); ++k) sums[k % kDecays.size()] += squares[k];
     return kDecays[static_cast<std::size_t>(std::min_element(sums.begin(), sums.end()) - sums.begin())];
+  }
+
+  std::vector<BankRecord> scored(const ScoredParts& parts) const {
+    std::vector<BankRecord> records;
+    for (const ScoredPart& part : parts) {
+      records.push_back(records_[part.record]);
+      records.back().first = part.first;
+      records.back().inputs.resize(part.last);
+    }
+    return records;
   }
 
   struct Effort {

@@ -129,7 +129,8 @@ std::optional<std::string> one_step_note(const Ranking& ranking) {
   const bool none_feeds_back = std::ranges::all_of(ranking.models, [](const RankedModel& m) {
     if (!m.fit.model) return false;
     const std::string kind = m.fit.model->kind();
-    return kind == "law" || kind == "network" || kind == "state_network" || kind == "fuzzy";
+    return kind == "law" || kind == "network" || kind == "state_network" || kind == "fuzzy" ||
+           kind == "hybrid";
   });
   if (!none_feeds_back || ranking.models.empty()) return std::nullopt;
   return "There is no one-step error to print beside the free run: none of these models feeds force back.";

@@ -1,7 +1,10 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
+
+#include "dashpot/base/value.h"
 
 namespace dashpot {
 
@@ -34,14 +37,25 @@ struct GatedNetwork {
 
   /// Output at raw signals, in raw units. Allocates nothing.
   double evaluate(const double* raw) const noexcept;
-  /// Standardised output at standardised signals, none held, and its derivatives: by `neurons`, then
+  /// The same with the motions among t held, too.
+  double evaluate_held(const double* raw) const noexcept;
+  /// Standardised output at standardised signals, none held.
+  double output(const double* standardised) const noexcept { return sum(standardised, standardised); }
+  /// The same and its derivatives: by `neurons`, then
   /// `gates`, and by the signals.
   double differentiate(const double* standardised, double* by_parameters, double* by_signals) const noexcept;
 
   /// Neurons from the seed, gates 0. The signals must be set.
   void initialise(std::size_t hidden, std::uint64_t seed);
+  /// Throws Error, beginning with `where`, when its parts do not fit together.
+  void require_sound(const std::string& where) const;
+
+  /// Adds its own keys to a model's part of a file, and reads them from there.
+  void add_to(Value& object) const;
+  static GatedNetwork read(ObjectReader& reader, std::size_t currents);
 
  private:
+  double sum(const double* linear, const double* held) const noexcept;
   void fill_gates(const double* currents, double* c) const noexcept;
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dashpot/base/error.h"
 #include "dashpot/damper/lag.h"
 
 namespace dashpot {
@@ -47,6 +48,11 @@ void lag(double from, double to, double turn, double& state, double* slope) noex
 }
 
 }  // namespace
+
+void HysteresisBank::require_sound(const std::string& where) const {
+  for (const double rate : rates())
+    if (!(rate > 0 && std::isfinite(rate))) throw Error(where, "a rate is not a positive number");
+}
 
 std::vector<double> HysteresisBank::rates() const {
   std::vector<double> all = path_rates;
