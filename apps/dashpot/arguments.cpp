@@ -38,7 +38,8 @@ void check_choice(const std::string& word, const Option& option) {
   };
   if (option.choices.empty() || is_among(option.choices) || is_among(option.more_choices)) return;
   throw UsageError(option.is_positional() ? "" : option.long_name(),
-                   "unknown " + option.noun + " '" + word + "'", suggest(word, option.choices, option.more_choices));
+                   "unknown " + option.noun + " '" + word + "'",
+                   suggest(word, option.choices, option.more_choices));
 }
 
 /// Writes the words given for one option to its variable.

@@ -33,10 +33,10 @@ struct Option {
   std::string names;  ///< "-q,--quiet", "--starts", or "DATA" for an argument by position
   Target target;
   std::string help;
-  std::string value = {};                 ///< what help calls the value: "HZ"
-  std::vector<std::string> choices = {};  ///< the words allowed; empty: any
+  std::string value = {};                      ///< what help calls the value: "HZ"
+  std::vector<std::string> choices = {};       ///< the words allowed; empty: any
   std::vector<std::string> more_choices = {};  ///< allowed too, and not listed in the help
-  std::string noun = "value";             ///< what a message calls a word: "unknown model 'x'"
+  std::string noun = "value";                  ///< what a message calls a word: "unknown model 'x'"
   Takes takes = Takes::Word;
   std::optional<double> minimum = {};  ///< least number allowed
   std::string default_text = {};       ///< in words, where the variable's value does not say it

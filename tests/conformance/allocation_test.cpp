@@ -4,8 +4,8 @@
 #include "conformance/laws.h"
 #include "damper/inverse/inverses.h"
 #include "dashpot/damper/fuzzy/fuzzy_model.h"
-#include "dashpot/damper/inverse/registry.h"
 #include "dashpot/damper/hybrid_model.h"
+#include "dashpot/damper/inverse/registry.h"
 #include "dashpot/damper/neural/hysteresis_network.h"
 #include "dashpot/damper/neural/mlp_evaluator.h"
 #include "support.h"
@@ -80,16 +80,16 @@ TEST_CASE("stepping a state network allocates nothing") {
 
 TEST_CASE("stepping a hybrid allocates nothing") {
   for_each_law([](const Law& law) {
-    const std::size_t motions = HybridSignals::motions(law);
-    GatedNetwork network;
-    network.signals.resize(motions + 1);
-    network.currents = 1;
-    network.initialise(3, 1);
     std::vector<double> values;
     for (const ParamInfo& param : law.params) values.push_back(param.value);
-    check_stepping(HybridModel(LawModel::constant(law, values),
-                               {std::vector<double>(motions), std::vector<double>(motions * (motions + 1) / 2)},
-                               network));
+    const HybridSource source{LawModel::constant(law, values), {{60, 500}, {60}, {50}}};
+    const std::size_t motions = source.motions();
+    GatedNetwork network;
+    network.signals.resize(motions + 2);
+    network.currents = 2;
+    network.initialise(3, 1);
+    check_stepping(HybridModel(
+        source, {std::vector<double>(motions), std::vector<double>(motions * (motions + 1) / 2)}, network));
   });
 }
 

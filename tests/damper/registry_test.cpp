@@ -6,7 +6,8 @@
 
 using namespace dashpot;
 
-TEST_CASE("laws stand in alphabetical order, networks, state networks, fuzzy models and usual hybrids follow") {
+TEST_CASE(
+    "laws stand in alphabetical order, networks, state networks, fuzzy models and usual hybrids follow") {
   const std::vector<std::string> names = model_names();
   const auto others = names.begin() + static_cast<std::ptrdiff_t>(laws().size());
   CHECK(std::is_sorted(names.begin(), others));

@@ -96,7 +96,8 @@ void model_seeds(const fs::path& folder) {
              model_seed(std::make_unique<HysteresisNetwork>("hysteresis_network",
                                                             std::vector{example_bank_network()}),
                         "A"));
-  write_file(folder / "hybrid", model_seed(std::make_unique<HybridModel>(example_hybrid()), law.drive_unit()));
+  write_file(folder / "hybrid",
+             model_seed(std::make_unique<HybridModel>(example_hybrid()), law.drive_unit()));
 }
 
 constexpr const char* kFamily =

@@ -7,22 +7,23 @@ using namespace dashpot;
 
 namespace {
 
-HybridRecord sine(double drive_swing) {
-  HybridRecord record;
+BankRecord sine(double drive_swing) {
+  BankRecord record;
   for (int k = 0; k < 200; ++k) {
     const double t = 0.005 * k;
     record.time.push_back(t);
-    record.inputs.push_back({0.02 * std::sin(9 * t), 0.18 * std::cos(9 * t), 1 + drive_swing * std::sin(5 * t)});
+    record.inputs.push_back(
+        {0.02 * std::sin(9 * t), 0.18 * std::cos(9 * t), 1 + drive_swing * std::sin(5 * t)});
     record.force.push_back(1500 * std::tanh(30 * record.inputs.back().velocity));
   }
   return record;
 }
 
-GatedNetwork network_of(std::size_t motions) {
+GatedNetwork network_of(const SignalRows& rows) {
   GatedNetwork network;
-  network.signals.resize(motions + 1, {.scale = 2});
-  for (std::size_t k = 0; k < motions; ++k) network.signals[k].scale = 1;
-  network.currents = 1;
+  network.signals.resize(rows.motions());
+  network.signals.resize(rows.width, {.scale = 2});
+  network.currents = rows.currents;
   network.initialise(2, 3);
   for (double& gate : network.gates) gate = 0.1;
   network.output_scale = 100;
@@ -32,17 +33,18 @@ GatedNetwork network_of(std::size_t motions) {
 }  // namespace
 
 TEST_CASE("the joint Jacobian is that of the residuals, by the law's unknowns and by the weights") {
-  const std::vector<HybridRecord> records = {sine(0.5), sine(0.7)};
+  const std::vector<BankRecord> records = {sine(0.5), sine(0.7)};
   const Law& law = find_law("modified_bouc_wen");
   DataScale scale{.force = 1500, .stroke = 0.02, .speed = 0.18};
   scale.drive = {.low = 0.3, .high = 1.7, .varies = true, .levels = 0};
   const LawUnknowns unknowns(law, scale, "A", OffsetMode::Record);
-  const HybridResiduals residuals(unknowns, records, {{0, 20, 200}, {1, 50, 150}}, OffsetMode::Record, 3);
+  const HybridData data{unknowns, {{200}, {60}, {40}}, records, OffsetMode::Record};
+  const HybridResiduals residuals(data, {{0, 20, 200}, {1, 50, 150}}, 3);
   CHECK(residuals.size() == 60 + 34);
 
-  const std::size_t motions = HybridSignals::motions(law);
-  const SignalMixing mixing = mixing_of(residuals.signals(unknowns.start()));
-  HybridResiduals::Network network{mixing, network_of(motions), 4};
+  const SignalRows rows = residuals.signals(unknowns.start());
+  const SignalMixing mixing = mixing_of(rows);
+  const HybridResiduals::Network network{mixing, network_of(rows), 4};
   const LeastSquaresProblem problem = residuals.problem(network, 0, 1);
   std::vector<double> x = unknowns.start();
   x.insert(x.end(), network.start.neurons.begin(), network.start.neurons.end());
@@ -73,7 +75,7 @@ TEST_CASE("the joint Jacobian is that of the residuals, by the law's unknowns an
 }
 
 TEST_CASE("mixed signals have mean 0, deviation 1 and nothing in common; what tells nothing new is silent") {
-  SignalRows rows{4, {}};
+  SignalRows rows{4, 1, 2, {}};
   for (int k = 0; k < 100; ++k) {
     const double a = std::sin(0.3 * k), b = std::cos(0.7 * k);
     rows.values.insert(rows.values.end(), {5 + a, 3 * a + 0.01 * b, 2 * a - 7, 1.5});

@@ -2,6 +2,7 @@
 // files. Fits take minutes under the sanitizers, so they run in the release build only.
 #include <cmath>
 
+#include "dashpot/base/file.h"
 #include "dashpot/damper/parameter_set.h"
 #include "dashpot/identify/identify.h"
 #include "support.h"
@@ -118,7 +119,7 @@ TEST_CASE("sysidentpy: the stated parameters meet the second half of the data an
   // With column v as the velocity, which the dataset file leaves out for what is found here.
   TemporaryFolder own;
   std::string file = read_file(project_file("data/datasets/sysidentpy-simulated.yaml"));
-  file.replace(file.find("      force:"), 0, "      velocity: {column: v, unit: cm/s}\n");
+  file.insert(file.find("      force:"), "      velocity: {column: v, unit: cm/s}\n");
   LoadOptions options;
   options.dataset_file = own.write("with-v.yaml", file);
   Record record = load_dataset({folder}, options).records.back();  // rows 0...3599

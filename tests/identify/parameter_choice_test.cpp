@@ -115,11 +115,13 @@ TEST_CASE("the law inside a hybrid is chosen for by the hybrid's name or by none
   const ModelNames models = {"bingham+network"};
   CHECK(parse_fixed_choice("bingham+network.c0=5", "--fix", models).law == "bingham+network");
   CHECK(*parse_fixed_choice("c0=5N*s/cm", "--fix", models).fixed == 500);
-  CHECK(message_of([&] { parse_fixed_choice("binham+network.c0=5", "--fix", models); })
-            .find("did you mean 'bingham+network'") != std::string::npos);
+  CHECK(message_of([&] {
+          parse_fixed_choice("binham+network.c0=5", "--fix", models);
+        }).find("did you mean 'bingham+network'") != std::string::npos);
   require_choices({{.law = "bingham+network", .parameter = "c0", .fixed = 5}}, models);
-  CHECK(message_of([&] { require_choices({{.law = "bingham", .parameter = "c0", .fixed = 5}}, models); })
-            .find("none of the models") != std::string::npos);
+  CHECK(message_of([&] {
+          require_choices({{.law = "bingham", .parameter = "c0", .fixed = 5}}, models);
+        }).find("none of the models") != std::string::npos);
 }
 
 TEST_CASE("a fixed parameter keeps its value, a freed one is found, bounds hold") {

@@ -10,8 +10,8 @@
 
 namespace dashpot {
 
-/// A law and a bank of states beside it, for what the law does not remember: what a network reads, raw, at one
-/// instant.
+/// A law and a bank of states beside it, for what the law does not remember: what a network reads, raw, at
+/// one instant.
 ///   motions: v, x where the law needs it, the law's states, its force; w and v - y of the bank
 ///   currents: that in the coil, u of the bank
 struct HybridSource {

@@ -24,7 +24,8 @@ std::unique_ptr<HybridModel> hybrid_model_from_json(const Value& value) {
   GatedNetwork network = GatedNetwork::read(reader, 1 + bank.current_rates.size());
   const double offset = reader.number("offset");
   reader.finish();
-  return std::make_unique<HybridModel>(HybridSource{*law, std::move(bank)}, std::move(mixing), std::move(network), offset, value.where());
+  return std::make_unique<HybridModel>(HybridSource{*law, std::move(bank)}, std::move(mixing),
+                                       std::move(network), offset, value.where());
 }
 
 }  // namespace dashpot

@@ -131,24 +131,32 @@ const Law* law_named(std::string_view name) {
   return found == kLaws.end() ? nullptr : *found;
 }
 
-/// What measured dampers gain most by: docs/decisions/009.
+/// The best on measured dampers among the laws that hybrids were tried with: docs/decisions/009.
 constexpr std::array<std::string_view, 2> kUsualHybrids{"large_scale_bouc_wen", "modified_bouc_wen"};
 
 HybridPreset hybrid_of(const Law& law) {
-  return {.name = hybrid_name(law.name),
-          .title = std::string(law.title) + " with a network",
-          .equation = std::string(law.equation) + "\nand to F is added  sum_j (sum_k G_jk c_k(i)) t_j,\n"
-                      "t = [1, s, tanh(W [s, i] + b)],  c = [1, i, i^2],  s: v" +
-                      (law.needs_displacement ? ", x" : "") +
-                      (law.states.empty() ? "" : ", the states") + " and F of the law",
-          .source = std::string(law.source) + "; the network on top is Dashpot's own",
-          .remarks = std::string(law.remarks),
-          .law = &law,
-          .hidden = 6,
-          .path_states = 3,
-          .velocity_lags = 1,
-          .current_lags = 1,
-          .usual = std::find(kUsualHybrids.begin(), kUsualHybrids.end(), law.name) != kUsualHybrids.end()};
+  return {
+      .name = hybrid_name(law.name),
+      .title = std::string(law.title) + " with a network",
+      .equation = std::string(law.equation) +
+                  "\nand to F is added  sum_j (sum_k G_jk c_k(i)) t_j,\n"
+                  "t = [1, s, tanh(W [s, i] + b)],  c = [1, i_m, i_m i_n],  s: v" +
+                  (law.needs_displacement ? ", x" : "") + (law.states.empty() ? "" : ", the states") +
+                  " and F of the law, mixed",
+      .source = std::string(law.source) + "; the network on top is Dashpot's own",
+      .remarks = (law.remarks.empty() ? "" : std::string(law.remarks) + " ") +
+                 "The numbers of the law and the weights of the network are found together, in free run, by "
+                 "Levenberg-Marquardt from the law's own fit; so the law's numbers are no properties of the "
+                 "damper here and have no intervals. The network reads what the law knows; where the drive "
+                 "varies within the records, a bank of Dahl states and lags, too. The price of weights is "
+                 "the one with which trials foretell best what was held back from them. Nothing feeds "
+                 "back, and beyond the training data the network's part stays as at their edge.",
+      .law = &law,
+      .hidden = 6,
+      .path_states = 3,
+      .velocity_lags = 1,
+      .current_lags = 1,
+      .usual = std::find(kUsualHybrids.begin(), kUsualHybrids.end(), law.name) != kUsualHybrids.end()};
 }
 
 [[noreturn]] void throw_unknown(std::string_view name, const std::string& where) {

@@ -1,8 +1,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <limits>
 #include <numeric>
 
@@ -14,8 +12,6 @@
 
 namespace dashpot {
 namespace {
-
-static double env(const char* n, double d) { const char* s = getenv(n); return s ? atof(s) : d; }
 
 constexpr std::size_t kSamples = 8000;       // of a fit, every k-th; the states see all
 constexpr std::size_t kTrialSamples = 2500;  // of a trial of a price
@@ -36,9 +32,9 @@ HybridData data_of(const LawSolution& law, const HybridPreset& preset, const std
     data.records.push_back(
         {damper_inputs(record, drive_unit), record.time, record.channel("force").samples, record.warm_up});
   for (const BankRecord& record : data.records) records.push_back(&record);
-  const bool varies = drive_range(training, drive_unit).varies;
-  data.bank = starting_bank({(size_t)env("HP",preset.path_states), (size_t)env("HVL",preset.velocity_lags), (size_t)env("HCL",preset.current_lags)}, records, varies);
-  if (!varies) data.bank.current_rates.clear();  // they would all tell the one level
+  // Where the drive stays, a campaign is a few motions that repeat, and a bank would tell these apart.
+  if (drive_range(training, drive_unit).varies)
+    data.bank = starting_bank({preset.path_states, preset.velocity_lags, preset.current_lags}, records, true);
   return data;
 }
 
@@ -59,10 +55,8 @@ class HybridFit {
     network_.signals.resize(rows.motions());
     network_.signals.resize(rows.width, {.mean = drive.low + half, .scale = half > 0 ? half : 1});
     network_.output_scale = law_.noise.rms;
-    network_.initialise((size_t)env("HH", preset.hidden), options_.seed);
-    double t=cpu_seconds();
-    price_ = getenv("HPRICE")?env("HPRICE",0):best_price(trials_of(training));
-    if(getenv("HV"))fprintf(stderr,"trials %.2f price %g n %zu\n",cpu_seconds()-t,price_,data_.unknowns.size()+network_.parameter_count());
+    network_.initialise(preset.hidden, options_.seed);
+    price_ = best_price(trials_of(training));
   }
 
   /// The law's unknowns, from where its own fit left them, and the weights, together.
@@ -134,7 +128,6 @@ class HybridFit {
     });
     std::array<double, kPrices.size()> sums{};
     for (std::size_t k = 0; k < errors.size(); ++k) sums[k % kPrices.size()] += errors[k];
-    if(getenv("HV"))for (std::size_t k = 0; k < errors.size(); ++k)fprintf(stderr,"%.1f%s",sqrt(errors[k]),k%kPrices.size()==kPrices.size()-1?" | ":" ");
     return kPrices[static_cast<std::size_t>(std::min_element(sums.begin(), sums.end()) - sums.begin())];
   }
 
@@ -185,7 +178,6 @@ FitReport fit_hybrid(const HybridPreset& preset, const std::vector<Record>& trai
   if (report.status == FitReport::Status::Failed) return report;
 
   const HybridFit fit(preset, training, drive_unit, options, law);
-  double t=cpu_seconds();
   const LeastSquaresReport solved = fit.solve_jointly();
   report.status = status_of(solved);
   report.message = solved.message;
@@ -194,7 +186,6 @@ FitReport fit_hybrid(const HybridPreset& preset, const std::vector<Record>& trai
   const std::span<const double> x(solved.x);
   report.model = std::make_shared<HybridModel>(fit.model(x));
   report.training_rmse = fit.training_rmse(x);
-  if(getenv("HV"))fprintf(stderr,"final %.2f law rms %.2f hybrid %.2f iter %d %s\n",cpu_seconds()-t,law.noise.rms,report.training_rmse,solved.iterations,solved.message.c_str());
   report.parameters = parameters_of(law.unknowns, x.first(law.unknowns.size()));
   report.warnings = law.unknowns.warnings();
   report.warnings.insert(report.warnings.begin(),

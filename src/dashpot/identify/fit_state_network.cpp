@@ -82,7 +82,8 @@ class BankFit {
           {damper_inputs(record, drive_unit), record.time, record.channel("force").samples, record.warm_up});
     all_ = pointers(records_);
     const DriveRange drive = drive_range(training, drive_unit);
-    start_.bank = starting_bank({preset.path_states, preset.velocity_lags, preset.current_lags}, all_, drive.varies);
+    start_.bank =
+        starting_bank({preset.path_states, preset.velocity_lags, preset.current_lags}, all_, drive.varies);
     start_.network = standardised(start_.bank, all_, drive);
     decay_ = best_decay(trials_of(training));
   }

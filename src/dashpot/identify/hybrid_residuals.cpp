@@ -63,7 +63,8 @@ SignalMixing mixing_of(const SignalRows& rows) {
     if (left > kNothing * kNothing * variance) {
       const double pivot = root[a * n + a] = std::sqrt(left);
       for (std::size_t b = 0; b < a; ++b)
-        for (std::size_t j = b; j < a; ++j) inverse[a * n + b] -= root[a * n + j] * inverse[j * n + b] / pivot;
+        for (std::size_t j = b; j < a; ++j)
+          inverse[a * n + b] -= root[a * n + j] * inverse[j * n + b] / pivot;
       inverse[a * n + a] = 1 / pivot;
     } else {
       std::fill_n(&root[a * n], a, 0.0);
@@ -107,8 +108,9 @@ void HybridResiduals::take_means_out(std::span<double> values) const {
   if (data_.offset == OffsetMode::None) return;
   for (const ScoredPart& part : parts_) {
     const std::size_t n = scored(part, stride_);
-    const double mean = std::accumulate(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(n), 0.0) /
-                        static_cast<double>(n);
+    const double mean =
+        std::accumulate(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(n), 0.0) /
+        static_cast<double>(n);
     for (double& value : values.first(n)) value -= mean;
     values = values.subspan(n);
   }

@@ -51,8 +51,8 @@ class HybridResiduals {
   /// Nothing when a record diverges.
   SignalRows signals(std::span<const double> law_unknowns) const;
 
-  /// The network's own scales and the price of its squared weights, N^2 per unit of their squares; noise as in
-  /// LawResiduals::problem.
+  /// The network's own scales and the price of its squared weights, N^2 per unit of their squares; noise as
+  /// in LawResiduals::problem.
   struct Network {
     const SignalMixing& mixing;
     GatedNetwork start;  ///< its ranges of signals do not hold here

@@ -73,7 +73,9 @@ class LawUnknowns {
     Prior prior;
 
     /// Beside residuals whose standard deviation is `noise`.
-    double residual(double x, double noise) const { return noise * (size * x - prior.value) / prior.deviation; }
+    double residual(double x, double noise) const {
+      return noise * (size * x - prior.value) / prior.deviation;
+    }
     double slope(double noise) const { return noise * size / prior.deviation; }
   };
   std::vector<PriorTerm> priors() const;

@@ -82,8 +82,9 @@ double expected_cost(const std::string& model, const Record& record, std::string
     values.push_back(param.value);
     if (param.fit != Fit::Fixed) unknowns += static_cast<double>(coefficient_count(param.form));
   }
-  const double of_law = unknowns * step_cost(LawModel::constant(law, values),
-                                             record.slice(0, std::min<std::size_t>(record.size(), 1000)), drive_unit);
+  const double of_law =
+      unknowns * step_cost(LawModel::constant(law, values),
+                           record.slice(0, std::min<std::size_t>(record.size(), 1000)), drive_unit);
   return is_law(model) ? of_law : of_law + kNetwork;
 }
 

@@ -20,7 +20,8 @@ void hold_back(std::vector<Trial>& trials, const std::vector<Record>& training, 
 Trial cut(const std::vector<Record>& training) {
   Trial trial;
   for (const ScoredPart& part : all_parts(training)) {
-    const auto held_back = static_cast<std::size_t>(kHeldBackEnd * static_cast<double>(part.last - part.first));
+    const auto held_back =
+        static_cast<std::size_t>(kHeldBackEnd * static_cast<double>(part.last - part.first));
     const std::size_t at = part.last - held_back;
     trial.training.push_back({part.record, part.first, at});
     trial.held_back.push_back({part.record, std::min(at, part.last - 1), part.last});

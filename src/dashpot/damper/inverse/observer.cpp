@@ -28,7 +28,8 @@ BareDamper without_coil_lag(const DamperModel& model) {
   if (!law || law->lag_rate() == 0) return {model.with_offset(0), 0};
   LawModel bare(law->law(), law->parameters(), law->drive_unit(), 0);
   if (!hybrid) return {std::make_unique<LawModel>(std::move(bare)), law->lag_rate()};
-  return {std::make_unique<HybridModel>(HybridSource{std::move(bare), hybrid->source().bank}, hybrid->mixing(), hybrid->network(), hybrid->offset()),
+  return {std::make_unique<HybridModel>(HybridSource{std::move(bare), hybrid->source().bank},
+                                        hybrid->mixing(), hybrid->network(), hybrid->offset()),
           law->lag_rate()};
 }
 
