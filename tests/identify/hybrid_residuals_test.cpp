@@ -45,12 +45,12 @@ TEST_CASE("the joint Jacobian is that of the residuals, by the law's unknowns an
   const SignalRows rows = residuals.signals(unknowns.start());
   const SignalMixing mixing = mixing_of(rows);
   const HybridResiduals::Network network{mixing, network_of(rows), 4};
-  const LeastSquaresProblem problem = residuals.problem(network, 0, 1);
+  const LeastSquaresProblem problem = residuals.problem(network, unknowns.start(), 0, 1);
   std::vector<double> x = unknowns.start();
   x.insert(x.end(), network.start.neurons.begin(), network.start.neurons.end());
   x.insert(x.end(), network.start.gates.begin(), network.start.gates.end());
   REQUIRE(problem.lower.size() == x.size());
-  REQUIRE(problem.residuals == residuals.size() + network.start.parameter_count());
+  REQUIRE(problem.residuals == residuals.size() + x.size());
 
   std::vector<double> here(problem.residuals), up(here), down(here), jacobian(here.size() * x.size());
   std::vector<double*> columns;

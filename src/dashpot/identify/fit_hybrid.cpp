@@ -17,7 +17,7 @@ constexpr std::size_t kSamples = 8000;       // of a fit, every k-th; the states
 constexpr std::size_t kTrialSamples = 2500;  // of a trial of a price
 constexpr int kIterations = 60, kTrialIterations = 30;
 constexpr double kTolerance = 1e-4;
-constexpr std::array kPrices{1e-2, 1e-3, 1e-4};  // of squared weights, in the law's mean squared error
+constexpr std::array kPrices{1e-1, 1e-2, 1e-3, 1e-4};  // in the mean square of what the law leaves
 
 double mean_square(std::span<const double> errors) {
   return std::inner_product(errors.begin(), errors.end(), errors.begin(), 0.0) /
@@ -65,8 +65,9 @@ class HybridFit {
     std::vector<double> start = law_.solved.x;
     const std::vector<double> weights = starting_weights();
     start.insert(start.end(), weights.begin(), weights.end());
-    return solve(residuals.problem(priced(price_, residuals), law_.noise.independent, options_.threads),
-                 std::move(start), solver(kIterations));
+    return solve(
+        residuals.problem(priced(price_, residuals), law_.solved.x, law_.noise.independent, options_.threads),
+        std::move(start), solver(kIterations));
   }
 
   HybridModel model(std::span<const double> x) const {

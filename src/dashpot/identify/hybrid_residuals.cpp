@@ -174,6 +174,21 @@ void HybridResiduals::linearise(const Network& start, const SignalRows& rows,
     if (column) take_means_out({column, size_});
 }
 
+namespace {
+
+/// Weights are priced by their way from the start: priced by their size, the neurons would go to 0 in the
+/// first step, in which the silent gates do not hold them yet, and come back slowly.
+void add_prices(const HybridResiduals::Network& network, std::span<const double> weights,
+                std::span<double> r) {
+  const double price = std::sqrt(network.price);
+  const std::vector<double>&neurons = network.start.neurons, &gates = network.start.gates;
+  for (std::size_t w = 0; w < neurons.size(); ++w) r[w] = price * (weights[w] - neurons[w]);
+  for (std::size_t w = 0; w < gates.size(); ++w)
+    r[neurons.size() + w] = price * (weights[neurons.size() + w] - gates[w]);
+}
+
+}  // namespace
+
 LeastSquaresProblem HybridResiduals::problem(const Network& network, const SignalRows& rows) const {
   const std::size_t weights = network.start.parameter_count();
   const double price = std::sqrt(network.price);
@@ -182,13 +197,13 @@ LeastSquaresProblem HybridResiduals::problem(const Network& network, const Signa
   problem.lower.assign(weights, -INFINITY);
   problem.upper.assign(weights, INFINITY);
   problem.residual = [=, &rows, this](std::span<const double> x, std::span<double> r) {
-    std::transform(x.begin(), x.end(), &r[size_], [=](double w) { return price * w; });
+    add_prices(network, x, r.subspan(size_));
     evaluate(network, rows, x, r);
     return true;
   };
   problem.jacobian = [=, &rows, this](std::span<const double> x, std::span<double> r,
                                       std::span<double* const> columns) {
-    std::transform(x.begin(), x.end(), &r[size_], [=](double w) { return price * w; });
+    add_prices(network, x, r.subspan(size_));
     for (std::size_t w = 0; w < weights; ++w) {
       std::fill_n(columns[w] + size_, weights, 0.0);
       columns[w][size_ + w] = price;
@@ -199,24 +214,27 @@ LeastSquaresProblem HybridResiduals::problem(const Network& network, const Signa
   return problem;
 }
 
-LeastSquaresProblem HybridResiduals::problem(const Network& network, double noise, int threads) const {
-  const std::size_t own = unknowns_.size(), weights = network.start.parameter_count();
+LeastSquaresProblem HybridResiduals::problem(const Network& network, std::span<const double> law_start,
+                                             double noise, int threads) const {
+  const std::size_t own = unknowns_.size(), weights = network.start.parameter_count(), all = own + weights;
   const std::vector<LawUnknowns::PriorTerm> priors =
       noise > 0 ? unknowns_.priors() : std::vector<LawUnknowns::PriorTerm>{};
   const double price = std::sqrt(network.price);
   LeastSquaresProblem problem;
-  problem.residuals = size_ + weights + priors.size();
+  problem.residuals = size_ + all + priors.size();
   problem.lower = unknowns_.lower();
   problem.upper = unknowns_.upper();
-  problem.lower.resize(own + weights, -INFINITY);
-  problem.upper.resize(own + weights, INFINITY);
-  const auto add_prices = [=, this](std::span<const double> x, std::span<double> r) {
-    for (std::size_t w = 0; w < weights; ++w) r[size_ + w] = price * x[own + w];
+  problem.lower.resize(all, -INFINITY);
+  problem.upper.resize(all, INFINITY);
+  const std::vector<double> start(law_start.begin(), law_start.end());
+  const auto add_known = [=, this](std::span<const double> x, std::span<double> r) {
+    for (std::size_t u = 0; u < own; ++u) r[size_ + u] = price * (x[u] - start[u]);
+    add_prices(network, x.subspan(own), r.subspan(size_ + own, weights));
     for (std::size_t k = 0; k < priors.size(); ++k)
-      r[size_ + weights + k] = priors[k].residual(x[priors[k].unknown], noise);
+      r[size_ + all + k] = priors[k].residual(x[priors[k].unknown], noise);
   };
   problem.residual = [=, this](std::span<const double> x, std::span<double> r) {
-    add_prices(x, r);
+    add_known(x, r);
     const SignalRows rows = signals(x.first(own));
     if (rows.values.empty()) return false;
     evaluate(network, rows, x.subspan(own), r);
@@ -224,14 +242,14 @@ LeastSquaresProblem HybridResiduals::problem(const Network& network, double nois
   };
   problem.jacobian = [=, this](std::span<const double> x, std::span<double> r,
                                std::span<double* const> columns) {
-    add_prices(x, r);
-    for (double* const column : columns)
-      if (column) std::fill(column + size_, column + r.size(), 0.0);
-    for (std::size_t w = 0; w < weights; ++w)
-      if (columns[own + w]) columns[own + w][size_ + w] = price;
+    add_known(x, r);
+    for (std::size_t k = 0; k < all; ++k) {
+      if (!columns[k]) continue;
+      std::fill(columns[k] + size_, columns[k] + r.size(), 0.0);
+      columns[k][size_ + k] = price;
+    }
     for (std::size_t k = 0; k < priors.size(); ++k)
-      if (double* const column = columns[priors[k].unknown])
-        column[size_ + weights + k] = priors[k].slope(noise);
+      if (double* const column = columns[priors[k].unknown]) column[size_ + all + k] = priors[k].slope(noise);
     const SignalRows rows = signals(x.first(own));
     if (rows.values.empty()) return false;
     std::vector<SignalRows> by_unknowns(own);

@@ -18,7 +18,7 @@ struct SignalRows {
   std::vector<double> values;
   std::size_t motions() const { return width - currents; }
   const double* row(std::size_t k) const { return values.data() + k * width; }
-  std::size_t size() const { return values.size() / width; }
+  std::size_t size() const { return values.empty() ? 0 : values.size() / width; }
 };
 
 /// Each signal less what those before it tell, scaled to deviation 1; silent where next to nothing is left.
@@ -51,14 +51,16 @@ class HybridResiduals {
   /// Nothing when a record diverges.
   SignalRows signals(std::span<const double> law_unknowns) const;
 
-  /// The network's own scales and the price of its squared weights, N^2 per unit of their squares; noise as
-  /// in LawResiduals::problem.
+  /// The network at its start, its scales, and the price of all unknowns' squared ways from their start, N^2
+  /// per unit of their squares.
   struct Network {
     const SignalMixing& mixing;
     GatedNetwork start;  ///< its ranges of signals do not hold here
     double price = 0;
   };
-  LeastSquaresProblem problem(const Network& network, double noise, int threads) const;
+  /// From the law's unknowns `law_start`, which lie at the size of 1; noise as in LawResiduals::problem.
+  LeastSquaresProblem problem(const Network& network, std::span<const double> law_start, double noise,
+                              int threads) const;
   /// The same over the weights alone, with the law's signals as they are.
   LeastSquaresProblem problem(const Network& network, const SignalRows& rows) const;
 
