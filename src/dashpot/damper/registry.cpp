@@ -152,10 +152,10 @@ HybridPreset hybrid_of(const Law& law) {
                  "the one with which trials foretell best what was held back from them. Nothing feeds "
                  "back, and beyond the training data the network's part stays as at their edge.",
       .law = &law,
-      .hidden = 6,
-      .path_states = 3,
-      .velocity_lags = 1,
-      .current_lags = 1,
+      .hidden = 8,
+      .path_states = 5,
+      .velocity_lags = 2,
+      .current_lags = 2,
       .usual = std::find(kUsualHybrids.begin(), kUsualHybrids.end(), law.name) != kUsualHybrids.end()};
 }
 

@@ -17,7 +17,7 @@ constexpr std::size_t kSamples = 8000;       // of a fit, every k-th; the states
 constexpr std::size_t kTrialSamples = 2500;  // of a trial of a price
 constexpr int kIterations = 60, kTrialIterations = 30;
 constexpr double kTolerance = 1e-4;
-constexpr std::array kPrices{1e-1, 1e-2, 1e-3, 1e-4};  // in the mean square of what the law leaves
+constexpr std::array kPrices{1.0, 1e-1, 1e-2, 1e-3, 1e-4};  // in the mean square of what the law leaves
 
 double mean_square(std::span<const double> errors) {
   return std::inner_product(errors.begin(), errors.end(), errors.begin(), 0.0) /
@@ -114,8 +114,9 @@ class HybridFit {
     return mean_square(errors);
   }
 
-  /// The price of weights with which trials foretell best what was held back from them. The law stays where
-  /// its fit on all left it: what the price is about is the network.
+  /// The price with which trials foretell best what was held back from them, beside the law alone: so a trial
+  /// counts as much as another, however small its forces. The law stays where its fit on all left it: what
+  /// the price is about is the network.
   double best_price(const std::vector<Trial>& trials) const {
     std::vector<double> errors(kPrices.size() * trials.size());
     parallel_for(errors.size(), options_.threads, [&](std::size_t k) {
@@ -125,7 +126,9 @@ class HybridFit {
       const LeastSquaresProblem problem = seen.problem(priced(kPrices[k % kPrices.size()], seen), rows);
       const std::vector<double> weights = solve(problem, starting_weights(), solver(kTrialIterations)).x;
       const HybridResiduals unseen = residuals(trial.held_back, kTrialSamples);
-      errors[k] = squared_error(unseen, unseen.signals(law_.solved.x), weights);
+      const SignalRows held_back = unseen.signals(law_.solved.x);
+      errors[k] =
+          squared_error(unseen, held_back, weights) / squared_error(unseen, held_back, starting_weights());
     });
     std::array<double, kPrices.size()> sums{};
     for (std::size_t k = 0; k < errors.size(); ++k) sums[k % kPrices.size()] += errors[k];
