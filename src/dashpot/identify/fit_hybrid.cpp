@@ -19,6 +19,8 @@ constexpr int kIterations = 60, kTrialIterations = 30;
 constexpr double kTolerance = 1e-4;
 constexpr std::array kPrices{1.0, 1e-1, 1e-2, 1e-3, 1e-4};  // in the mean square of what the law leaves
 
+constexpr std::size_t kFewestLevels = 4;  // that tell more than a line, one of them left out
+
 double mean_square(std::span<const double> errors) {
   return std::inner_product(errors.begin(), errors.end(), errors.begin(), 0.0) /
          static_cast<double>(errors.size());
@@ -56,6 +58,7 @@ class HybridFit {
     network_.signals.resize(rows.width, {.mean = drive.low + half, .scale = half > 0 ? half : 1});
     network_.output_scale = law_.noise.rms;
     network_.initialise(preset.hidden, options_.seed);
+    if (!drive.varies && drive.levels < kFewestLevels) fix_current();
     price_ = best_price(trials_of(training));
   }
 
@@ -84,6 +87,19 @@ class HybridFit {
   }
 
  private:
+  /// Few levels of the drive leave open what lies between them: the network follows it, then, through the
+  /// law's force and states alone.
+  void fix_current() {
+    fixed_.assign(network_.parameter_count(), false);
+    const std::size_t stride = network_.neuron_stride(), count = network_.gate_count();
+    for (std::size_t w = network_.motions(); w < network_.neurons.size(); w += stride) {
+      fixed_[w] = true;
+      network_.neurons[w] = 0;
+    }
+    for (std::size_t g = 0; g < network_.gates.size(); ++g)
+      fixed_[network_.neurons.size() + g] = g % count != 0;
+  }
+
   HybridResiduals residuals(const ScoredParts& parts, std::size_t most_samples) const {
     std::size_t samples = 0;
     for (const ScoredPart& part : parts) samples += part.last - part.first;
@@ -98,7 +114,7 @@ class HybridFit {
 
   HybridResiduals::Network priced(double price, const HybridResiduals& residuals) const {
     const double scale = network_.output_scale;
-    return {mixing_, network_, price * static_cast<double>(residuals.size()) * scale * scale};
+    return {mixing_, network_, price * static_cast<double>(residuals.size()) * scale * scale, fixed_};
   }
 
   LeastSquaresOptions solver(int iterations) const {
@@ -114,9 +130,8 @@ class HybridFit {
     return mean_square(errors);
   }
 
-  /// The price with which trials foretell best what was held back from them, beside the law alone: so a trial
-  /// counts as much as another, however small its forces. The law stays where its fit on all left it: what
-  /// the price is about is the network.
+  /// The price with which trials foretell best what was held back from them. The law stays where its fit on
+  /// all left it: what the price is about is the network.
   double best_price(const std::vector<Trial>& trials) const {
     std::vector<double> errors(kPrices.size() * trials.size());
     parallel_for(errors.size(), options_.threads, [&](std::size_t k) {
@@ -126,9 +141,7 @@ class HybridFit {
       const LeastSquaresProblem problem = seen.problem(priced(kPrices[k % kPrices.size()], seen), rows);
       const std::vector<double> weights = solve(problem, starting_weights(), solver(kTrialIterations)).x;
       const HybridResiduals unseen = residuals(trial.held_back, kTrialSamples);
-      const SignalRows held_back = unseen.signals(law_.solved.x);
-      errors[k] =
-          squared_error(unseen, held_back, weights) / squared_error(unseen, held_back, starting_weights());
+      errors[k] = squared_error(unseen, unseen.signals(law_.solved.x), weights);
     });
     std::array<double, kPrices.size()> sums{};
     for (std::size_t k = 0; k < errors.size(); ++k) sums[k % kPrices.size()] += errors[k];
@@ -155,6 +168,7 @@ class HybridFit {
   ScoredParts all_;
   SignalMixing mixing_;
   GatedNetwork network_;  ///< at its start
+  std::vector<bool> fixed_;
   double price_ = 0;
 };
 

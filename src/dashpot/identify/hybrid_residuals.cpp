@@ -187,6 +187,19 @@ void add_prices(const HybridResiduals::Network& network, std::span<const double>
     r[neurons.size() + w] = price * (weights[neurons.size() + w] - gates[w]);
 }
 
+/// Adds the weights' bounds to the law's.
+void add_bounds(const HybridResiduals::Network& network, LeastSquaresProblem& problem) {
+  const std::size_t own = problem.lower.size();
+  problem.lower.resize(own + network.start.parameter_count(), -INFINITY);
+  problem.upper.resize(own + network.start.parameter_count(), INFINITY);
+  for (std::size_t w = 0; w < network.fixed.size(); ++w) {
+    if (!network.fixed[w]) continue;
+    const std::vector<double>&neurons = network.start.neurons, &gates = network.start.gates;
+    problem.lower[own + w] = problem.upper[own + w] =
+        w < neurons.size() ? neurons[w] : gates[w - neurons.size()];
+  }
+}
+
 }  // namespace
 
 LeastSquaresProblem HybridResiduals::problem(const Network& network, const SignalRows& rows) const {
@@ -194,8 +207,7 @@ LeastSquaresProblem HybridResiduals::problem(const Network& network, const Signa
   const double price = std::sqrt(network.price);
   LeastSquaresProblem problem;
   problem.residuals = size_ + weights;
-  problem.lower.assign(weights, -INFINITY);
-  problem.upper.assign(weights, INFINITY);
+  add_bounds(network, problem);
   problem.residual = [=, &rows, this](std::span<const double> x, std::span<double> r) {
     add_prices(network, x, r.subspan(size_));
     evaluate(network, rows, x, r);
@@ -205,6 +217,7 @@ LeastSquaresProblem HybridResiduals::problem(const Network& network, const Signa
                                       std::span<double* const> columns) {
     add_prices(network, x, r.subspan(size_));
     for (std::size_t w = 0; w < weights; ++w) {
+      if (!columns[w]) continue;
       std::fill_n(columns[w] + size_, weights, 0.0);
       columns[w][size_ + w] = price;
     }
@@ -224,8 +237,7 @@ LeastSquaresProblem HybridResiduals::problem(const Network& network, std::span<c
   problem.residuals = size_ + all + priors.size();
   problem.lower = unknowns_.lower();
   problem.upper = unknowns_.upper();
-  problem.lower.resize(all, -INFINITY);
-  problem.upper.resize(all, INFINITY);
+  add_bounds(network, problem);
   const std::vector<double> start(law_start.begin(), law_start.end());
   const auto add_known = [=, this](std::span<const double> x, std::span<double> r) {
     for (std::size_t u = 0; u < own; ++u) r[size_ + u] = price * (x[u] - start[u]);

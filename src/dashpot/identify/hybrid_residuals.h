@@ -57,6 +57,7 @@ class HybridResiduals {
     const SignalMixing& mixing;
     GatedNetwork start;  ///< its ranges of signals do not hold here
     double price = 0;
+    std::vector<bool> fixed;  ///< per weight: stays at its start; empty: none
   };
   /// From the law's unknowns `law_start`, which lie at the size of 1; noise as in LawResiduals::problem.
   LeastSquaresProblem problem(const Network& network, std::span<const double> law_start, double noise,
