@@ -14,8 +14,8 @@ namespace {
 Dataset campaign(std::vector<SineMotion> motions) {
   BenchOptions options;
   options.motions = std::move(motions);
-  options.drive_levels = {0, 0.5, 1};
-  options.sample_rate = 200;
+  options.drive_levels = {0, 0.3, 0.7, 1};
+  options.sample_rate = 60;
   options.cycles = 1;
   options.force_noise = 0;
   return run_virtual_bench(load_parameters("kwok2006"), "A", options);

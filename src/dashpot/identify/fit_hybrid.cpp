@@ -17,7 +17,7 @@ constexpr std::size_t kSamples = 8000;       // of a fit, every k-th; the states
 constexpr std::size_t kTrialSamples = 2500;  // of a trial of a price
 constexpr int kIterations = 60, kTrialIterations = 30;
 constexpr double kTolerance = 1e-4;
-constexpr std::array kPrices{1.0, 1e-1, 1e-2, 1e-3, 1e-4};  // in the mean square of what the law leaves
+constexpr std::array kPrices{1e-1, 1e-2, 1e-3, 1e-4};  // in the mean square of what the law leaves
 
 constexpr std::size_t kFewestLevels = 4;  // that tell more than a line, one of them left out
 
@@ -141,7 +141,9 @@ class HybridFit {
       const LeastSquaresProblem problem = seen.problem(priced(kPrices[k % kPrices.size()], seen), rows);
       const std::vector<double> weights = solve(problem, starting_weights(), solver(kTrialIterations)).x;
       const HybridResiduals unseen = residuals(trial.held_back, kTrialSamples);
-      errors[k] = squared_error(unseen, unseen.signals(law_.solved.x), weights);
+      const SignalRows held_back = unseen.signals(law_.solved.x);
+      errors[k] =
+          squared_error(unseen, held_back, weights) / squared_error(unseen, held_back, starting_weights());
     });
     std::array<double, kPrices.size()> sums{};
     for (std::size_t k = 0; k < errors.size(); ++k) sums[k % kPrices.size()] += errors[k];
