@@ -35,7 +35,8 @@ struct Option {
   std::string help;
   std::string value = {};                 ///< what help calls the value: "HZ"
   std::vector<std::string> choices = {};  ///< the words allowed, and paths where it takes files; empty: any
-  std::string noun = "value";             ///< what a message calls a word: "unknown model 'x'"
+  std::vector<std::string> more_choices = {};  ///< allowed too, and not listed in the help
+  std::string noun = "value";                  ///< what a message calls a word: "unknown model 'x'"
   Takes takes = Takes::Word;
   std::optional<double> minimum = {};  ///< least number allowed
   std::string default_text = {};       ///< in words, where the variable's value does not say it

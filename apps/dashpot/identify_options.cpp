@@ -77,6 +77,7 @@ std::vector<Option> fit_options(FitSettings& settings) {
                "; 'all' for every model that 'dashpot models' lists",
        .value = "NAMES",
        .choices = names_and_groups(),
+       .more_choices = more_model_names(),
        .noun = "model",
        .default_text = join(settings.models, ",")},
       {.names = "--force-offset",

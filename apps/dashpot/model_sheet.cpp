@@ -6,6 +6,7 @@
 
 #include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
+#include "dashpot/damper/hybrid_model.h"
 #include "dashpot/damper/inverse/polynomial.h"
 #include "dashpot/damper/law_model.h"
 #include "dashpot/damper/neural/hysteresis_network.h"
@@ -101,6 +102,19 @@ void add_numbers(ModelSheet& sheet, const FuzzyPreset& preset) {
   ++sheet.numbers;  // its lag
 }
 
+void add_numbers(ModelSheet& sheet, const HybridPreset& preset) {
+  add_table(sheet, *preset.law);
+  GatedNetwork network;
+  network.currents = 1 + preset.current_lags;
+  network.signals.resize(2 + preset.law->needs_displacement + preset.law->states.size() + preset.path_states +
+                         preset.velocity_lags + network.currents);
+  network.initialise(preset.hidden, 0);
+  sheet.numbers += network.parameter_count();
+  sheet.states.insert(sheet.states.end(), preset.path_states, "w, 1");
+  sheet.states.insert(sheet.states.end(), preset.velocity_lags, "y, m/s");
+  sheet.states.insert(sheet.states.end(), preset.current_lags, "u, A");
+}
+
 void add_numbers(ModelSheet& sheet, const StateNetworkPreset& preset) {
   BankNetwork member;
   member.bank.path_rates.resize(preset.path_states);
@@ -174,6 +188,8 @@ ModelSheet model_sheet(const std::string& name) {
     add_numbers(sheet, find_state_network_preset(name));
   else if (info.kind == "state_space")
     add_numbers(sheet, find_state_space_preset(name));
+  else if (info.kind == "hybrid")
+    add_numbers(sheet, find_hybrid_preset(name));
   else
     add_numbers(sheet, find_fuzzy_preset(name));
   return sheet;
@@ -208,8 +224,8 @@ std::string sheet_markdown(const ModelSheet& sheet) {
 
 Value sheet_json(const ModelSheet& sheet) {
   Value parameters = Value::array();
-  if (sheet.kind == "law")
-    for (const ParamInfo& p : find_law(sheet.name).params)
+  if (const Law* law = law_inside(sheet.name))
+    for (const ParamInfo& p : law->params)
       parameters.push_back(Value::object({{"name", p.name},
                                           {"unit", p.unit},
                                           {"default", p.value},

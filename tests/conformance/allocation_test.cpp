@@ -6,6 +6,7 @@
 #include "damper/neural/narx_example.h"
 #include "damper/neural/state_space_example.h"
 #include "dashpot/damper/fuzzy/fuzzy_model.h"
+#include "dashpot/damper/hybrid_model.h"
 #include "dashpot/damper/inverse/registry.h"
 #include "dashpot/damper/neural/hysteresis_network.h"
 #include "dashpot/damper/neural/mlp_evaluator.h"
@@ -98,6 +99,21 @@ TEST_CASE("stepping a network with fed-back forces allocates nothing") {
   const Regressors regressors = example_regressors();
   const Mlp mlp = example_narx_network(regressors);
   check_stepping(NarxModel("test", regressors, {mlp, mlp}));
+}
+
+TEST_CASE("stepping a hybrid allocates nothing") {
+  for_each_law([](const Law& law) {
+    std::vector<double> values;
+    for (const ParamInfo& param : law.params) values.push_back(param.value);
+    const HybridSource source{LawModel::constant(law, values), {{60, 500}, {60}, {50}}};
+    const std::size_t motions = source.motions();
+    GatedNetwork network;
+    network.signals.resize(motions + 2);
+    network.currents = 2;
+    network.initialise(3, 1);
+    check_stepping(HybridModel(
+        source, {std::vector<double>(motions), std::vector<double>(motions * (motions + 1) / 2)}, network));
+  });
 }
 
 TEST_CASE("stepping a fuzzy model allocates nothing") {

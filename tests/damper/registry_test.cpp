@@ -6,13 +6,15 @@
 
 using namespace dashpot;
 
-TEST_CASE("laws stand in alphabetical order, networks, state networks and fuzzy models follow") {
+TEST_CASE(
+    "laws stand in alphabetical order, networks, state networks, fuzzy models and usual hybrids follow") {
   const std::vector<std::string> names = model_names();
   const auto others = names.begin() + static_cast<std::ptrdiff_t>(laws().size());
   CHECK(std::is_sorted(names.begin(), others));
   CHECK(std::vector<std::string>(others, names.end()) ==
         std::vector<std::string>{"mlp_one_sensor", "mlp_two_sensors", "narx_one_sensor", "narx_two_sensors",
-                                 "hysteresis_network", "neural_state_space", "anfis", "takagi_sugeno"});
+                                 "hysteresis_network", "neural_state_space", "anfis", "takagi_sugeno",
+                                 "large_scale_bouc_wen+network", "modified_bouc_wen+network"});
   for (const Law* law : laws()) {
     CHECK(&find_law(law->name) == law);
     CHECK(is_law(law->name));
@@ -46,6 +48,25 @@ TEST_CASE("state spaces say their kind and need one sensor") {
     CHECK(info.inputs == std::vector<std::string>{"velocity", "current"});
     CHECK(&find_state_space_preset(preset.name) == &preset);
   }
+}
+
+TEST_CASE("every law has a hybrid, which needs the law's sensors") {
+  REQUIRE(hybrid_presets().size() == laws().size());
+  std::size_t named = 0;
+  for (const HybridPreset& preset : hybrid_presets()) {
+    const ModelInfo info = model_info(preset.name), of_law = model_info(preset.law->name);
+    CHECK(info.kind == "hybrid");
+    CHECK(info.inputs == of_law.inputs);
+    CHECK(preset.name == hybrid_name(preset.law->name));
+    CHECK(law_inside(preset.name) == preset.law);
+    CHECK_FALSE(is_law(preset.name));
+    named += preset.usual;
+  }
+  CHECK(more_model_names().size() == laws().size() - named);
+  CHECK(law_inside("bingham") == &find_law("bingham"));
+  CHECK(law_inside("anfis") == nullptr);
+  CHECK(message_of([] { model_info("arctan+netwrk"); }).find("did you mean 'arctan+network'") !=
+        std::string::npos);
 }
 
 TEST_CASE("fuzzy models say their kind and inputs, and have sets for each") {

@@ -3,12 +3,14 @@
 #include <filesystem>
 #include <matio.h>
 
+#include "damper/hybrid_model_example.h"
 #include "damper/inverse/example_network.h"
 #include "damper/neural/bank_network_example.h"
 #include "damper/neural/narx_example.h"
 #include "damper/neural/state_space_example.h"
 #include "dashpot/base/file.h"
 #include "dashpot/damper/fuzzy/fuzzy_model.h"
+#include "dashpot/damper/hybrid_model.h"
 #include "dashpot/damper/inverse/inverse_file.h"
 #include "dashpot/damper/law_model.h"
 #include "dashpot/damper/model_file.h"
@@ -116,6 +118,8 @@ void model_seeds(const fs::path& folder) {
   write_file(folder / "state_space", model_seed(std::make_unique<StateSpaceModel>(
                                                     "neural_state_space", std::vector{example_state_space()}),
                                                 "A"));
+  write_file(folder / "hybrid",
+             model_seed(std::make_unique<HybridModel>(example_hybrid()), law.drive_unit()));
 }
 
 constexpr const char* kFamily =

@@ -54,6 +54,17 @@ struct FuzzyPreset {
 };
 std::span<const FuzzyPreset> fuzzy_presets();
 
+/// A law with a network on top that learns with it. Every law has one.
+struct HybridPreset {
+  std::string name, title, equation, source, remarks;  ///< of the law and of the network part
+  const Law* law = nullptr;
+  std::size_t hidden = 0;                                            ///< neurons
+  std::size_t path_states = 0, velocity_lags = 0, current_lags = 0;  ///< of the bank beside the law
+  bool usual = false;                                                ///< among model_names()
+};
+std::span<const HybridPreset> hybrid_presets();
+std::string hybrid_name(std::string_view law);  ///< "bingham" -> "bingham+network"
+
 /// What every registered model says of itself, law or not.
 struct ModelInfo {
   std::string_view name, kind, title, equation, source, remarks;  ///< kind: as DamperModel::kind
@@ -63,7 +74,10 @@ struct ModelInfo {
 /// Throws Error "unknown model 'bouc'; did you mean ...; known: ...".
 ModelInfo model_info(std::string_view name, const std::string& where = {});
 
-std::vector<std::string> model_names();  ///< laws, networks, state networks, state spaces, fuzzy models
+/// Laws, networks, state networks, state spaces, fuzzy models and the usual hybrids.
+std::vector<std::string> model_names();
+/// Hybrids that are known beside model_names().
+std::vector<std::string> more_model_names();
 
 /// All throw as model_info does.
 const Law& find_law(std::string_view name, const std::string& where = {});
@@ -71,6 +85,9 @@ const NetworkPreset& find_network_preset(std::string_view name, const std::strin
 const StateNetworkPreset& find_state_network_preset(std::string_view name, const std::string& where = {});
 const StateSpacePreset& find_state_space_preset(std::string_view name, const std::string& where = {});
 const FuzzyPreset& find_fuzzy_preset(std::string_view name, const std::string& where = {});
+const HybridPreset& find_hybrid_preset(std::string_view name, const std::string& where = {});
 bool is_law(std::string_view name);
+/// The law itself, or the one inside a hybrid; nullptr where there is none.
+const Law* law_inside(std::string_view name);
 
 }  // namespace dashpot

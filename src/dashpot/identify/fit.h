@@ -22,5 +22,7 @@ FitReport fit_state_space(const StateSpacePreset& preset, const std::vector<Reco
                           const std::string& drive_unit, const IdentifyOptions& options);
 FitReport fit_fuzzy(const FuzzyPreset& preset, const std::vector<Record>& training,
                     const std::string& drive_unit, const IdentifyOptions& options);
+FitReport fit_hybrid(const HybridPreset& preset, const std::vector<Record>& training,
+                     const std::string& drive_unit, const IdentifyOptions& options);
 
 }  // namespace dashpot

@@ -7,6 +7,7 @@
 #include "dashpot/damper/neural/train_bank.h"
 #include "dashpot/identify/bank_records.h"
 #include "dashpot/identify/fit.h"
+#include "dashpot/identify/starting_bank.h"
 #include "dashpot/identify/trials.h"
 
 namespace dashpot {
@@ -35,18 +36,6 @@ std::vector<double> mean_squares(const HysteresisBank& bank, const Records& reco
   }
   for (double& square : squares) square /= samples;
   return squares;
-}
-
-HysteresisBank starting_bank(const StateNetworkPreset& preset, const Records& records, bool drive_varies) {
-  constexpr double kSlowest = 2, kFastest = 30;  // Dahl rates times the longest and the shortest way
-  constexpr double kLags[] = {30, 300}, kCurrentLags[] = {20, 200}, kSteady = 100;  // 1/s
-  const WayRange way = way_range(records);
-  HysteresisBank bank;
-  bank.path_rates = spaced_rates(kSlowest / way.longest, kFastest / way.shortest, preset.path_states);
-  bank.velocity_rates = spaced_rates(kLags[0], kLags[1], preset.velocity_lags);
-  bank.current_rates = drive_varies ? spaced_rates(kCurrentLags[0], kCurrentLags[1], preset.current_lags)
-                                    : std::vector{kSteady};
-  return bank;
 }
 
 GatedNetwork standardised(const HysteresisBank& bank, const Records& records, const DriveRange& drive) {
@@ -82,7 +71,8 @@ class BankFit {
         records_(bank_records(training, drive_unit)) {
     for (const BankRecord& record : records_) all_.push_back(&record);
     const DriveRange drive = drive_range(training, drive_unit);
-    start_.bank = starting_bank(preset, all_, drive.varies);
+    start_.bank =
+        starting_bank({preset.path_states, preset.velocity_lags, preset.current_lags}, all_, drive.varies);
     start_.network = standardised(start_.bank, all_, drive);
     decay_ = options.network.l2 ? *options.network.l2 : best_decay(Trials(training, drive_unit));
   }

@@ -55,19 +55,20 @@ void drop_curves(Evaluation& evaluation) {
 
 /// How long a fit takes beside the others: the unknowns, times what a force costs, times the number of tries.
 double expected_cost(const std::string& model, const Record& record, std::string_view drive_unit) {
-  if (!is_law(model)) {
-    constexpr double kNetwork = 3000;  // a training beside the fit of a law without states, measured
-    return kNetwork;
-  }
-  const Law& law = find_law(model);
+  constexpr double kNetwork = 3000;  // a training beside the fit of a law without states, measured
+  const Law* inside = law_inside(model);
+  if (!inside) return kNetwork;
+  const Law& law = *inside;
   std::vector<double> values;
   double unknowns = 0;
   for (const ParamInfo& param : law.params) {
     values.push_back(param.value);
     if (param.fit != Fit::Fixed) unknowns += static_cast<double>(coefficient_count(param.form));
   }
-  return unknowns * step_cost(LawModel::constant(law, values),
-                              record.slice(0, std::min<std::size_t>(record.size(), 1000)), drive_unit);
+  const double of_law =
+      unknowns * step_cost(LawModel::constant(law, values),
+                           record.slice(0, std::min<std::size_t>(record.size(), 1000)), drive_unit);
+  return is_law(model) ? of_law : of_law + kNetwork;
 }
 
 /// All fits of one ranking: for each model one per fold, then the final one.

@@ -170,17 +170,15 @@ void hold_back_part(const Record& record, std::size_t part, std::size_t parts, F
 }
 
 /// Run from the start and scored at the end.
-Fold without_ends(const std::vector<Record>& training, double share) {
-  Fold fold;
-  fold.name = "without the ends";
-  for (const Record& record : training) {
-    const auto scored = static_cast<double>(record.size() - std::min(record.warm_up, record.size()));
-    const std::size_t at = record.size() - static_cast<std::size_t>(share * scored);
-    fold.training.push_back(record.slice(0, at));
-    fold.left_out.push_back(record);
-    fold.left_out.back().warm_up = std::min(at, record.size() - 1);
+TrialParts without_ends(const ScoredParts& parts, double share) {
+  TrialParts trial;
+  for (const ScoredPart& part : parts) {
+    const auto held_back = static_cast<std::size_t>(share * static_cast<double>(part.last - part.first));
+    const std::size_t at = part.last - held_back;
+    trial.training.push_back({part.record, part.first, at});
+    trial.held_back.push_back({part.record, std::min(at, part.last - 1), part.last});
   }
-  return fold;
+  return trial;
 }
 
 }  // namespace
@@ -276,29 +274,52 @@ std::vector<Fold> hold_back(const std::vector<Record>& training, const LeaveOut&
   return folds;
 }
 
-std::vector<Fold> trial_folds(const std::vector<Record>& training) {
+ScoredParts all_parts(const std::vector<Record>& records) {
+  ScoredParts parts;
+  for (std::size_t r = 0; r < records.size(); ++r)
+    parts.push_back({r, records[r].warm_up, records[r].size()});
+  return parts;
+}
+
+std::vector<TrialParts> trial_parts(const std::vector<Record>& training) {
   constexpr std::size_t kHands = 4;
+  constexpr double kEnd = 0.3;
   Dataset dataset;
   dataset.records = training;
-  std::vector<Fold> folds;
-  const auto hold_back = [&](const std::string& what, const auto& chosen) {
-    Fold fold;
-    fold.name = "without " + what;
-    for (const Record& record : training) (chosen(record) ? fold.left_out : fold.training).push_back(record);
-    if (!fold.training.empty()) folds.push_back(std::move(fold));
+  const ScoredParts parts = all_parts(training);
+  std::vector<TrialParts> trials;
+  const auto hold_back = [&](const auto& chosen) {
+    TrialParts trial;
+    for (const ScoredPart& part : parts)
+      (chosen(training[part.record]) ? trial.held_back : trial.training).push_back(part);
+    if (!trial.training.empty()) trials.push_back(std::move(trial));
   };
   const std::vector<std::string> all = conditions(dataset);
   const std::size_t hands = std::min(all.size(), kHands);
   for (std::size_t hand = 0; hands > 1 && hand < hands; ++hand)
-    hold_back("conditions of hand " + std::to_string(hand + 1), [&](const Record& record) {
+    hold_back([&](const Record& record) {
       const auto condition = std::find(all.begin(), all.end(), record.condition) - all.begin();
       return static_cast<std::size_t>(condition) % hands == hand;
     });
   const std::vector<double> steps = levels(dataset);
   for (std::size_t k = 1; k + 1 < steps.size(); ++k)
-    hold_back("an inner level", [&](const Record& record) { return record.drive_level == steps[k]; });
-  constexpr double kEnd = 0.3;
-  if (folds.empty()) folds.push_back(without_ends(training, kEnd));
+    hold_back([&](const Record& record) { return record.drive_level == steps[k]; });
+  if (trials.empty()) trials.push_back(without_ends(parts, kEnd));
+  return trials;
+}
+
+std::vector<Fold> trial_folds(const std::vector<Record>& training) {
+  const auto records_of = [&](const ScoredParts& parts) {
+    std::vector<Record> records;
+    for (const ScoredPart& part : parts) {
+      records.push_back(training[part.record].slice(0, part.last));
+      records.back().warm_up = part.first;
+    }
+    return records;
+  };
+  std::vector<Fold> folds;
+  for (const TrialParts& trial : trial_parts(training))
+    folds.push_back({"a trial", records_of(trial.training), records_of(trial.held_back)});
   return folds;
 }
 

@@ -47,11 +47,23 @@ void GatedNetwork::fill_gates(const double* u, double* c) const noexcept {
 
 double GatedNetwork::evaluate(const double* raw) const noexcept {
   std::array<double, kMaxSignals> linear, held;
-  std::array<double, kMaxGates> c;
   for (std::size_t k = 0; k < signals.size(); ++k) {
     linear[k] = (raw[k] - signals[k].mean) / signals[k].scale;
     held[k] = std::clamp(linear[k], signals[k].low, signals[k].high);
   }
+  return output_scale * sum(linear.data(), held.data());
+}
+
+double GatedNetwork::evaluate_held(const double* raw) const noexcept {
+  std::array<double, kMaxSignals> held;
+  for (std::size_t k = 0; k < signals.size(); ++k)
+    held[k] = std::clamp((raw[k] - signals[k].mean) / signals[k].scale, signals[k].low, signals[k].high);
+  return output_scale * sum(held.data(), held.data());
+}
+
+/// linear: the motions as they stand among the terms; held: what gates and neurons see.
+double GatedNetwork::sum(const double* linear, const double* held) const noexcept {
+  std::array<double, kMaxGates> c;
   fill_gates(&held[motions()], c.data());
   const std::size_t count = gate_count();
   const double* gate = gates.data();
@@ -63,8 +75,8 @@ double GatedNetwork::evaluate(const double* raw) const noexcept {
   add(1);
   for (std::size_t k = 0; k < motions(); ++k) add(linear[k]);
   for (const double *w = neurons.data(), *end = w + neurons.size(); w != end; w += neuron_stride())
-    add(branchless_tanh(std::inner_product(w, w + signals.size(), held.begin(), w[signals.size()])));
-  return output_scale * sum;
+    add(branchless_tanh(std::inner_product(w, w + signals.size(), held, w[signals.size()])));
+  return sum;
 }
 
 double GatedNetwork::differentiate(const double* z, double* by_parameters,

@@ -38,7 +38,11 @@ struct GatedNetwork {
 
   /// Output at raw signals, in raw units. Allocates nothing.
   double evaluate(const double* raw) const noexcept;
-  /// Standardised output at standardised signals, none held, and its derivatives: by `neurons`, then
+  /// The same with the motions among t held, too.
+  double evaluate_held(const double* raw) const noexcept;
+  /// Standardised output at standardised signals, none held.
+  double output(const double* standardised) const noexcept { return sum(standardised, standardised); }
+  /// The same and its derivatives: by `neurons`, then
   /// `gates`, and by the signals.
   double differentiate(const double* standardised, double* by_parameters, double* by_signals) const noexcept;
 
@@ -46,6 +50,7 @@ struct GatedNetwork {
   void initialise(std::size_t hidden, std::uint64_t seed);
 
  private:
+  double sum(const double* linear, const double* held) const noexcept;
   void fill_gates(const double* currents, double* c) const noexcept;
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dashpot/base/error.h"
 #include "dashpot/damper/lag.h"
 
 namespace dashpot {
@@ -37,6 +38,11 @@ void slide(const Ways& ways, double rate, double& state, double* slope) noexcept
 }
 
 }  // namespace
+
+void HysteresisBank::require_sound(const std::string& where) const {
+  for (const double rate : rates())
+    if (!(rate > 0 && std::isfinite(rate))) throw Error(where, "a rate is not a positive number");
+}
 
 std::vector<double> HysteresisBank::rates() const {
   std::vector<double> all = path_rates;

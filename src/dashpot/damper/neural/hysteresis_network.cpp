@@ -1,21 +1,15 @@
 #include "dashpot/damper/neural/hysteresis_network.h"
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "dashpot/base/error.h"
 
 namespace dashpot {
 namespace {
 
-bool is_positive(double value) { return value > 0 && std::isfinite(value); }
-
 void require_sound(const BankNetwork& member, const std::string& where) {
   const HysteresisBank& bank = member.bank;
-  const std::vector<double> rates = bank.rates();
-  if (!std::all_of(rates.begin(), rates.end(), is_positive))
-    throw Error(where, "a rate is not a positive number");
+  bank.require_sound(where);
   if (const std::size_t lags = bank.current_rates.size(); lags < 1 || lags > GatedNetwork::kMaxCurrents)
     throw Error(where, "has " + std::to_string(lags) + " current rates",
                 "1 to " + std::to_string(GatedNetwork::kMaxCurrents));
