@@ -1,6 +1,7 @@
 #include "dashpot/damper/neural/hysteresis_network.h"
 
 #include <array>
+#include <cmath>
 
 #include "dashpot/base/error.h"
 
