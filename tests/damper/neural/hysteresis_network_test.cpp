@@ -94,7 +94,7 @@ TEST_CASE("a state network that does not fit together is refused") {
   CHECK(mentions(message("\"scale\":0.2", "\"scale\":0"), "the scale of a signal is not a positive number"));
   CHECK(mentions(message("\"low\":-3", "\"low\":4"), "the range of a signal does not go upwards"));
   CHECK(mentions(message("\"neurons\":[", "\"neurons\":[0,"), "each neuron needs 6"));
-  CHECK(mentions(message("\"gates\":[", "\"gates\":[0,"), "has 25 weights of gates; its terms need 24"));
+  CHECK(mentions(message("\"gates\":[", "\"gates\":[0,"), "has 25 weights of gates; its states need 24"));
   CHECK(mentions(message("1000", "-1"), "the output scale is not a positive number"));
   CHECK(mentions(message("\"neurons\"", "\"neuron\""), "needs 'neurons'"));
   CHECK(mentions(message("\"offset\"", "\"off\""), "needs 'offset'"));
