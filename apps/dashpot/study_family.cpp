@@ -99,8 +99,8 @@ Command family_study() {
            .help = "also draw the figures as SVG and PDF (needs gnuplot)"},
           {.names = "--seeds",
            .target = &settings->seeds,
-           .help = "trainings of each network, from other first weights; large networks and grids have three "
-                   "at most",
+           .help = "trainings of each network, from other first weights; half of them where something is "
+                   "left out, three at most of large networks and in grids",
            .value = "N",
            .minimum = 1},
           {.names = "--effort",

@@ -19,3 +19,23 @@ TEST_CASE("study one-sensor on recordings: tables, a page, Markdown and JSON; ag
   CHECK(parse_json(again.output, "stdout").find("format")->as_string() == "dashpot one-sensor study 1");
   CHECK(contains(run_dashpot(command).output, "kept from before"));
 }
+
+TEST_CASE(
+    "study family: tables, a page, Markdown and JSON; again from kept trainings; other data is refused") {
+  const TemporaryFolder folder;
+  const std::string output = " --output " + (folder.path() / "out").string();
+  CHECK(contains(run_dashpot("study family " + small_campaign().string() + output).output,
+                 "has no condition 'piston_area'"));
+  CHECK(run_dashpot("study family").exit_code == 2);
+  const std::filesystem::path data = shared_data("family-dnn");
+  if (data.empty()) return;
+  const std::string command = "study family " + data.string() + " --seeds 1 --effort 0.002" + output;
+  const ProgramResult first = run_dashpot(command);
+  CHECK(first.exit_code == 0);
+  for (const char* part : {"13333", "0.5115", "Figure 9", "Each geometry", "report.html"})
+    CHECK(contains(first.output, part));
+  CHECK(contains(read_file(folder.path() / "out/report.md"), "the same number"));
+  const ProgramResult again = stdout_of_dashpot(command + " --json");
+  CHECK(parse_json(again.output, "stdout").find("format")->as_string() == "dashpot family study 1");
+  CHECK(contains(run_dashpot(command).output, "trainings kept from before"));
+}

@@ -11,6 +11,9 @@ using Architecture = std::vector<std::size_t>;
 constexpr std::size_t kFewSeeds = 3;
 constexpr std::size_t kLargeNetwork = 5000;  // parameters; one training of it takes seconds
 
+/// Where several divisions stand for as many trainings of each seed, half the seeds serve.
+std::size_t seeds_left_out(std::size_t seeds) { return (seeds + 1) / 2; }
+
 std::size_t seeds_for(const Architecture& hidden, std::size_t seeds) {
   Architecture layers{kFamilyInputs.size()};
   layers.insert(layers.end(), hidden.begin(), hidden.end());
@@ -31,9 +34,10 @@ void add_architectures(std::vector<FamilyExperiment>& all, std::size_t seeds) {
 }
 
 void add_training(std::vector<FamilyExperiment>& all, std::size_t seeds) {
-  for (const double l2 : kStudiedPenalties)
-    for (const FamilyProtocol protocol : {FamilyProtocol::AllSamples, FamilyProtocol::Geometries})
-      all.push_back({protocol, penalised_rule(l2), seeds});
+  for (const double l2 : kStudiedPenalties) {
+    all.push_back({FamilyProtocol::AllSamples, penalised_rule(l2), seeds});
+    all.push_back({FamilyProtocol::Geometries, penalised_rule(l2), seeds_left_out(seeds)});
+  }
   for (const double rate : kStudiedRates)
     for (const std::size_t batch : kStudiedBatches)
       for (const bool is_own : {true, false})
@@ -44,12 +48,14 @@ void add_training(std::vector<FamilyExperiment>& all, std::size_t seeds) {
 void add_left_out(std::vector<FamilyExperiment>& all, std::size_t seeds) {
   for (const Architecture& hidden : judged_architectures())
     for (const FamilyProtocol protocol : {FamilyProtocol::Geometries, FamilyProtocol::Fluids})
-      all.push_back({protocol, own_rule(hidden), seeds});
+      all.push_back({protocol, own_rule(hidden), seeds_left_out(seeds)});
   for (const FamilyRule& rule : {printed_rule(chosen_architecture()), authors_rule(chosen_architecture()),
-                                 own_rule(chosen_architecture())})
-    for (const FamilyProtocol protocol : {FamilyProtocol::AllSamples, FamilyProtocol::RandomSamples,
-                                          FamilyProtocol::Geometries, FamilyProtocol::Fluids})
+                                 own_rule(chosen_architecture())}) {
+    for (const FamilyProtocol protocol : {FamilyProtocol::AllSamples, FamilyProtocol::RandomSamples})
       all.push_back({protocol, rule, seeds});
+    for (const FamilyProtocol protocol : {FamilyProtocol::Geometries, FamilyProtocol::Fluids})
+      all.push_back({protocol, rule, seeds_left_out(seeds)});
+  }
 }
 
 }  // namespace

@@ -41,8 +41,8 @@ std::vector<std::size_t> chosen_architecture();  ///< the paper's: h3x15
 FamilyRule penalised_rule(double l2);
 FamilyRule grid_rule(bool is_own, double rate, std::size_t batch);
 
-/// All that the tables and figures ask for. `seeds`: of the experiments that count; large networks and the
-/// grids have three at most.
+/// All that the tables and figures ask for. `seeds`: of the experiments on all samples; half of them where
+/// something is left out, three at most of large networks and in grids.
 std::vector<FamilyExperiment> family_experiments(std::size_t seeds);
 
 /// What came of an experiment.

@@ -12,12 +12,12 @@ namespace {
 
 using Architectures = std::vector<std::vector<std::size_t>>;
 
-std::string optional_text(std::optional<double> value) { return value ? number_text(*value, 4) : "-"; }
+std::string optional_text(std::optional<double> value) { return value ? number_text(*value, 5) : "-"; }
 
 /// Every seed of each outcome as a dot above its place.
 FigureSeries seed_dots(const std::vector<const FamilyOutcome*>& outcomes, const std::string& label,
                        const std::string& colour, double shift) {
-  FigureSeries dots{label, colour, {}, {}, FigureSeries::Mark::Dots, 2.4};
+  FigureSeries dots{label, colour, {}, {}, FigureSeries::Mark::Dots, 3.5};
   for (std::size_t place = 0; place < outcomes.size(); ++place) {
     if (!outcomes[place]) continue;
     for (const ErrorSums& sums : outcomes[place]->by_seed) {
@@ -30,7 +30,7 @@ FigureSeries seed_dots(const std::vector<const FamilyOutcome*>& outcomes, const 
 
 template <class Bars>
 FigureSeries paper_dots(const Architectures& architectures, const Bars& bars) {
-  FigureSeries dots{"the paper's chart", "series-5", {}, {}, FigureSeries::Mark::Dots, 5};
+  FigureSeries dots{"the paper's chart", "series-5", {}, {}, FigureSeries::Mark::Dots, 6};
   for (std::size_t place = 0; place < architectures.size(); ++place)
     if (const auto error = paper_error(bars, architecture_name(architectures[place]))) {
       dots.x.push_back(static_cast<double>(place));
@@ -40,7 +40,7 @@ FigureSeries paper_dots(const Architectures& architectures, const Bars& bars) {
 }
 
 FigureSeries published_dots(const Architectures& architectures) {
-  FigureSeries dots{"published weights", "series-3", {}, {}, FigureSeries::Mark::Dots, 5};
+  FigureSeries dots{"published weights", "series-3", {}, {}, FigureSeries::Mark::Dots, 6};
   for (std::size_t place = 0; place < architectures.size(); ++place)
     if (const auto* network = published_network(architecture_name(architectures[place]))) {
       dots.x.push_back(static_cast<double>(place));
