@@ -25,12 +25,14 @@ void add_architectures(std::vector<FamilyExperiment>& all, std::size_t seeds) {
   for (const Architecture& hidden : family_architectures())
     for (const FamilyRule& rule : {own_rule(hidden), authors_rule(hidden)})
       all.push_back({FamilyProtocol::AllSamples, rule, seeds_for(hidden, seeds)});
-  for (const Architecture& hidden : single_architectures())
-    for (const FamilyProtocol protocol : {FamilyProtocol::FixedDamper, FamilyProtocol::EachDamper})
-      for (const FamilyRule& rule : {own_single_rule(hidden), authors_rule(hidden)})
-        all.push_back({protocol, rule, protocol == FamilyProtocol::FixedDamper ? seeds : kFewSeeds});
+  for (const Architecture& hidden : single_architectures()) {
+    for (const FamilyRule& rule : {own_single_rule(hidden), authors_rule(hidden)})
+      all.push_back({FamilyProtocol::FixedDamper, rule, seeds});
+    all.push_back({FamilyProtocol::EachDamper, own_single_rule(hidden), std::min(seeds, kFewSeeds)});
+  }
   for (const Architecture& hidden : history_architectures())
-    all.push_back({FamilyProtocol::AllSamples, printed_rule(hidden), seeds});
+    all.push_back({FamilyProtocol::AllSamples, printed_rule(hidden),
+                   hidden == chosen_architecture() ? seeds : std::min(seeds, kFewSeeds)});
 }
 
 void add_training(std::vector<FamilyExperiment>& all, std::size_t seeds) {

@@ -42,6 +42,7 @@ class StudyRun {
  public:
   StudyRun(FamilySamples family, const FamilyStudyOptions& options) : options_(options) {
     study_.family = std::move(family);
+    study_.effort = options.effort;
   }
 
   FamilyStudy run(const std::vector<FamilyExperiment>& experiments) {

@@ -34,7 +34,7 @@ const std::vector<std::vector<std::size_t>>& single_architectures();   ///< of f
 const std::vector<std::vector<std::size_t>>& family_architectures();   ///< of figure 9
 const std::vector<std::vector<std::size_t>>& history_architectures();  ///< of figure 12
 const std::vector<std::vector<std::size_t>>& judged_architectures();   ///< on what was left out
-inline constexpr std::array kStudiedPenalties{0.0, 1e-5, 1e-4, 1e-3, 1e-2};
+inline constexpr std::array kStudiedPenalties{0.0, 1e-4, 1e-3, 1e-2, 3e-2, 1e-1};
 inline constexpr std::array kStudiedRates{1e-4, 3e-4, 1e-3, 3e-3, 1e-2, 3e-2};
 inline constexpr std::array<std::size_t, 4> kStudiedBatches{20, 50, 100, 200};
 std::vector<std::size_t> chosen_architecture();  ///< the paper's: h3x15
@@ -75,6 +75,7 @@ struct FamilyStudy {
   std::vector<FamilyOutcome> outcomes;
   std::size_t kept = 0;  ///< trainings found in the store
   double seconds = 0;    ///< CPU time of all trainings, those kept from before too
+  double effort = 1;     ///< share of each rule's epochs that was trained
 
   /// Nothing when there was no such experiment.
   const FamilyOutcome* outcome(FamilyProtocol protocol, const FamilyRule& rule) const;

@@ -11,6 +11,7 @@ namespace dashpot {
 namespace {
 
 std::string ranged(const Spread& spread, int count) {
+  if (spread.low == spread.high) return decimals(spread.median, count);
   return fmt::format("{} ({} ... {})", decimals(spread.median, count), decimals(spread.low, count),
                      decimals(spread.high, count));
 }
