@@ -185,7 +185,8 @@ DocumentSection comparison_section(const FamilyStudy& study) {
             ". Dots: measured. Lines: h3x15, which learnt from them. Dashes: h3x15 that has "
             "not seen this " +
             (comparison.unseen == FamilyProtocol::Fluids ? "fluid." : "geometry."),
-        {{"", "Displacement (mm)", "Force (N)", {}}, {"", "Velocity (mm/s)", "Force (N)", {}}},
+        {{"Force against displacement", "Displacement (mm)", "Force (N)", {}},
+         {"Force against velocity", "Velocity (mm/s)", "Force (N)", {}}},
         2};
     for (std::size_t k = 0; k < comparison.shown.size(); ++k) {
       const Shown& shown = comparison.shown[k];

@@ -18,7 +18,7 @@ std::string optional_text(std::optional<double> value) { return value ? number_t
 /// Every seed of each outcome as a dot above its place.
 FigureSeries seed_dots(const std::vector<const FamilyOutcome*>& outcomes, const std::string& label,
                        const std::string& colour, double shift) {
-  FigureSeries dots{label, colour, {}, {}, FigureSeries::Mark::Dots, 3.5};
+  FigureSeries dots{label, colour, {}, {}, FigureSeries::Mark::Dots, 3};
   for (std::size_t place = 0; place < outcomes.size(); ++place) {
     if (!outcomes[place]) continue;
     for (const ErrorSums& sums : outcomes[place]->by_seed) {
@@ -31,7 +31,7 @@ FigureSeries seed_dots(const std::vector<const FamilyOutcome*>& outcomes, const 
 
 template <class Bars>
 FigureSeries paper_dots(const Architectures& architectures, const Bars& bars) {
-  FigureSeries dots{"the paper's chart", "series-5", {}, {}, FigureSeries::Mark::Dots, 6};
+  FigureSeries dots{"the paper's chart", "series-5", {}, {}, FigureSeries::Mark::Dots, 4.5};
   for (std::size_t place = 0; place < architectures.size(); ++place)
     if (const auto error = paper_error(bars, architecture_name(architectures[place]))) {
       dots.x.push_back(static_cast<double>(place));
@@ -41,7 +41,7 @@ FigureSeries paper_dots(const Architectures& architectures, const Bars& bars) {
 }
 
 FigureSeries published_dots(const Architectures& architectures) {
-  FigureSeries dots{"published weights", "series-3", {}, {}, FigureSeries::Mark::Dots, 6};
+  FigureSeries dots{"published weights", "series-3", {}, {}, FigureSeries::Mark::Dots, 4.5};
   for (std::size_t place = 0; place < architectures.size(); ++place)
     if (const auto* network = published_network(architecture_name(architectures[place]))) {
       dots.x.push_back(static_cast<double>(place));
@@ -257,8 +257,8 @@ DocumentSection penalty_section(const FamilyStudy& study) {
   section.figures.push_back({"figure-11",
                              "Figure 11: L2 and the error; L2 and the weights",
                              "Medians of all seeds.",
-                             {{"", "L2", "MAE (N)", {std::move(learnt), std::move(unseen)}, places},
-                              {"", "L2", "RMS weight", {std::move(weights)}, places}},
+                             {{"Error", "L2", "MAE (N)", {std::move(learnt), std::move(unseen)}, places},
+                              {"Weights", "L2", "RMS weight", {std::move(weights)}, places}},
                              2});
   return section;
 }
