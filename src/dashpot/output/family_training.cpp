@@ -154,8 +154,8 @@ DocumentSection single_damper_section(const FamilyStudy& study) {
   section.figures.push_back(
       {"figure-8",
        "Figure 8: mean absolute error, one damper",
-       "Small dots: seeds, on the samples learnt from.",
-       {{"",
+       "Small dots: seeds.",
+       {{"On the samples learnt from",
          "",
          "MAE (N)",
          {seed_dots(authors, "authors' rule", "series-2", -0.12), seed_dots(fixed, "ours", "modelled", 0.12),
@@ -197,8 +197,8 @@ DocumentSection architecture_section(const FamilyStudy& study) {
   section.figures.push_back(
       {"figure-9",
        "Figure 9: mean absolute error, the family",
-       "Small dots: seeds, on the samples learnt from.",
-       {{"",
+       "Small dots: seeds.",
+       {{"On the samples learnt from",
          "",
          "MAE (N)",
          {seed_dots(authors, "authors' rule", "series-2", -0.12), seed_dots(own, "ours", "modelled", 0.12),
