@@ -6,5 +6,6 @@ namespace dashpot::cli {
 
 Command recovery_study();
 Command one_sensor_study();
+Command family_study();
 
 }  // namespace dashpot::cli

@@ -14,10 +14,13 @@ Command study_command() {
                       "# The tables and figures of the one-sensor paper, on virtual dampers:\n"
                       "dashpot study one-sensor\n"
                       "\n"
+                      "# Those of the family paper, on its published recordings:\n"
+                      "dashpot study family recordings/family-dnn\n"
+                      "\n"
                       "# Do intervals hold the truth?\n"
                       "dashpot study recovery --laws tanh_kwok --repetitions 20",
                   .run = {}};
-  command.subcommands = {one_sensor_study(), recovery_study()};
+  command.subcommands = {family_study(), one_sensor_study(), recovery_study()};
   return command;
 }
 

@@ -1,8 +1,47 @@
+#include <tuple>
+
+#include "../identify/family_example.h"
 #include "dashpot/base/file.h"
 #include "dashpot/base/value.h"
 #include "program.h"
 
 using namespace dashpot;
+
+namespace {
+
+/// A family of dampers as the family paper's authors publish theirs: a file of records, and one of inputs.
+std::filesystem::path write_family(const TemporaryFolder& folder) {
+  Value records = Value::object(), inputs = Value::object();
+  const Dataset family = small_family();
+  for (std::size_t r = 0; r < family.records.size(); r += 2) {
+    Value levels = Value::array(), yield = Value::array();
+    for (const Record* record : {&family.records[r], &family.records[r + 1]}) {
+      Value level = Value::object({{"time", Value::array(record->time)}});
+      for (const auto& [key, name, per_si] :
+           {std::tuple("displace", "displacement", 1e3), std::tuple("velocity", "velocity", 1e3),
+            std::tuple("force", "force", 1.0)}) {
+        std::vector<double> samples = record->channel(name).samples;
+        for (double& sample : samples) sample *= per_si;
+        level.add(key, Value::array(samples));
+      }
+      levels.push_back(std::move(level));
+      yield.push_back(record->conditions.back().second);
+    }
+    const auto& c = family.records[r].conditions;
+    const std::string damper = "damper" + std::to_string(r);
+    records.add(damper, std::move(levels));
+    inputs.add(damper, Value::object({{"viscocidad", c[0].second},
+                                      {"Ap", c[1].second},
+                                      {"Ag", c[2].second},
+                                      {"h", c[3].second},
+                                      {"L", c[4].second},
+                                      {"Ty", std::move(yield)}}));
+  }
+  folder.write("inp_family.json", format_json(inputs));
+  return folder.write("family.json", format_json(records));
+}
+
+}  // namespace
 
 TEST_CASE("study one-sensor on recordings: tables, a page, Markdown and JSON; again from kept fits") {
   const TemporaryFolder folder;
@@ -18,4 +57,23 @@ TEST_CASE("study one-sensor on recordings: tables, a page, Markdown and JSON; ag
   const ProgramResult again = stdout_of_dashpot(command + " --json");
   CHECK(parse_json(again.output, "stdout").find("format")->as_string() == "dashpot one-sensor study 1");
   CHECK(contains(run_dashpot(command).output, "kept from before"));
+}
+
+TEST_CASE(
+    "study family: tables, a page, Markdown and JSON; again from kept trainings; other data is refused") {
+  const TemporaryFolder folder;
+  const std::string output = " --output " + (folder.path() / "out").string();
+  CHECK(contains(run_dashpot("study family " + small_campaign().string() + output).output,
+                 "has no condition 'piston_area'"));
+  const std::string command =
+      "study family " + write_family(folder).string() + " --seeds 1 --effort 0.002" + output;
+  const ProgramResult first = run_dashpot(command);
+  CAPTURE(first.output);
+  CHECK(first.exit_code == 0);
+  for (const char* part : {"384 samples", "0.5115", "Figure 9", "Each geometry", "report.html"})
+    CHECK(contains(first.output, part));
+  CHECK(contains(read_file(folder.path() / "out/report.md"), "# The family paper, repeated"));
+  const ProgramResult again = run_dashpot(command + " --json 2>&1");
+  CHECK(contains(again.output, "dashpot family study 1"));
+  CHECK(contains(again.output, "trainings kept from before"));
 }
