@@ -15,13 +15,20 @@ const std::vector<std::string> kUsualModels = {
 
 std::vector<std::string> names_and_groups() {
   std::vector<std::string> words = model_names();
-  words.insert(words.end(), {"usual", "all"});
+  words.insert(words.end(), {"usual", "all", "family"});
   return words;
 }
 
 /// The models that a word on the command line stands for.
 std::vector<std::string> models_of(const std::string& word) {
-  if (word == "all") return model_names();
+  // Models of a family need what recordings of one damper do not have: each word stands for one of both.
+  if (word == "all" || word == "family") {
+    std::vector<std::string> names = model_names();
+    std::erase_if(names, [&](const std::string& name) {
+      return (model_info(name).kind == "family") != (word == "family");
+    });
+    return names;
+  }
   return word == "usual" ? kUsualModels : std::vector{word};
 }
 

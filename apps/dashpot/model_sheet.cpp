@@ -6,6 +6,7 @@
 
 #include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
+#include "dashpot/damper/family/family_force.h"
 #include "dashpot/damper/inverse/polynomial.h"
 #include "dashpot/damper/law_model.h"
 #include "dashpot/damper/neural/hysteresis_network.h"
@@ -108,6 +109,23 @@ void add_numbers(ModelSheet& sheet, const StateNetworkPreset& preset) {
   sheet.states.insert(sheet.states.end(), preset.members * preset.current_lags, "u, A");
 }
 
+void add_numbers(ModelSheet& sheet, const FamilyPreset& preset) {
+  if (!preset.inputs.empty()) {
+    std::vector<std::size_t> layers = {preset.inputs.size()};
+    layers.insert(layers.end(), preset.hidden.begin(), preset.hidden.end());
+    layers.push_back(1);
+    sheet.numbers = Mlp::parameter_count(layers);
+    return;
+  }
+  FamilyGates gates;
+  gates.bank.path_rates.resize(preset.path_states);
+  gates.bank.velocity_rates.resize(preset.velocity_lags);
+  gates.soft_speeds.resize(FamilyGates::kSoftSpeeds);
+  sheet.numbers = gates.term_count() * FamilyGates::kGates;
+  sheet.states.insert(sheet.states.end(), preset.path_states, "w, 1");
+  sheet.states.insert(sheet.states.end(), preset.velocity_lags, "y, m/s");
+}
+
 std::vector<std::string> cells(const ParameterLine& p) {
   return {p.name, p.unit, p.value, p.bounds, p.form, p.meaning};
 }
@@ -147,6 +165,8 @@ ModelSheet model_sheet(const std::string& name) {
     sheet.numbers = weights_of(find_network_preset(name));
   else if (info.kind == "state_network")
     add_numbers(sheet, find_state_network_preset(name));
+  else if (info.kind == "family")
+    add_numbers(sheet, find_family_preset(name));
   else
     add_numbers(sheet, find_fuzzy_preset(name));
   return sheet;

@@ -4,6 +4,7 @@
 #include "dashpot/base/file.h"
 #include "dashpot/base/text.h"
 #include "dashpot/damper/file_parts.h"
+#include "dashpot/damper/family/family_model.h"
 #include "dashpot/damper/fuzzy/fuzzy_model.h"
 #include "dashpot/damper/law_model.h"
 #include "dashpot/damper/neural/hysteresis_network.h"
@@ -29,8 +30,9 @@ std::unique_ptr<DamperModel> read_model(const Value& kind, const Value& value, c
   if (kind.as_string() == "network") return network_model_from_json(value);
   if (kind.as_string() == "state_network") return hysteresis_network_from_json(value);
   if (kind.as_string() == "fuzzy") return fuzzy_model_from_json(value);
+  if (kind.as_string() == "family") return family_model_from_json(value);
   throw Error(kind.where(), "unknown kind '" + kind.as_string() + "'",
-              suggest(kind.as_string(), {"law", "network", "state_network", "fuzzy"}));
+              suggest(kind.as_string(), {"law", "network", "state_network", "fuzzy", "family"}));
 }
 
 }  // namespace

@@ -161,8 +161,12 @@ ModelInfo model_info(std::string_view name, const std::string& where) {
   for (const StateNetworkPreset& p : state_network_presets())
     if (p.name == name)
       return {p.name, "state_network", p.title, p.equation, p.source, p.remarks, {"velocity", "current"}};
-  const FuzzyPreset& p = find_fuzzy_preset(name, where);
-  return {p.name, "fuzzy", p.title, p.equation, p.source, p.remarks, p.inputs};
+  for (const FuzzyPreset& p : fuzzy_presets())
+    if (p.name == name) return {p.name, "fuzzy", p.title, p.equation, p.source, p.remarks, p.inputs};
+  const FamilyPreset& p = find_family_preset(name, where);
+  const std::vector<std::string> inputs =
+      p.inputs.empty() ? std::vector<std::string>{"velocity", "current"} : p.inputs;
+  return {p.name, "family", p.title, p.equation, p.source, p.remarks, inputs};
 }
 
 std::vector<std::string> model_names() {
@@ -171,6 +175,7 @@ std::vector<std::string> model_names() {
   for (const NetworkPreset& preset : network_presets()) names.emplace_back(preset.name);
   for (const StateNetworkPreset& preset : state_network_presets()) names.emplace_back(preset.name);
   for (const FuzzyPreset& preset : fuzzy_presets()) names.emplace_back(preset.name);
+  for (const FamilyPreset& preset : family_presets()) names.emplace_back(preset.name);
   return names;
 }
 
@@ -193,6 +198,12 @@ const StateNetworkPreset& find_state_network_preset(std::string_view name, const
 
 const FuzzyPreset& find_fuzzy_preset(std::string_view name, const std::string& where) {
   for (const FuzzyPreset& preset : fuzzy_presets())
+    if (preset.name == name) return preset;
+  throw_unknown(name, where);
+}
+
+const FamilyPreset& find_family_preset(std::string_view name, const std::string& where) {
+  for (const FamilyPreset& preset : family_presets())
     if (preset.name == name) return preset;
   throw_unknown(name, where);
 }

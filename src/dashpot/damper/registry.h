@@ -4,6 +4,7 @@
 #include <string_view>
 #include <vector>
 
+#include "dashpot/damper/family/family_baseline.h"
 #include "dashpot/damper/fuzzy/sugeno.h"
 #include "dashpot/damper/law.h"
 
@@ -39,6 +40,16 @@ struct FuzzyPreset {
 };
 std::span<const FuzzyPreset> fuzzy_presets();
 
+/// A model of a family of dampers, known by name: static networks of its inputs, or gates where it has none.
+struct FamilyPreset {
+  std::string_view name, title, equation, source, remarks;
+  std::vector<std::string> inputs;  ///< as family_input_named() has them
+  FamilyTarget target = FamilyTarget::Total;
+  std::vector<std::size_t> hidden;  ///< rectified linear units per hidden layer
+  std::size_t path_states = 0, velocity_lags = 0;
+};
+std::span<const FamilyPreset> family_presets();
+
 /// What every registered model says of itself, law or not.
 struct ModelInfo {
   std::string_view name, kind, title, equation, source, remarks;  ///< kind: as DamperModel::kind
@@ -48,13 +59,14 @@ struct ModelInfo {
 /// Throws Error "unknown model 'bouc'; did you mean ...; known: ...".
 ModelInfo model_info(std::string_view name, const std::string& where = {});
 
-std::vector<std::string> model_names();  ///< laws, networks, state networks, fuzzy models
+std::vector<std::string> model_names();  ///< laws, networks, state networks, fuzzy models, families
 
 /// All throw as model_info does.
 const Law& find_law(std::string_view name, const std::string& where = {});
 const NetworkPreset& find_network_preset(std::string_view name, const std::string& where = {});
 const StateNetworkPreset& find_state_network_preset(std::string_view name, const std::string& where = {});
 const FuzzyPreset& find_fuzzy_preset(std::string_view name, const std::string& where = {});
+const FamilyPreset& find_family_preset(std::string_view name, const std::string& where = {});
 bool is_law(std::string_view name);
 
 }  // namespace dashpot

@@ -84,7 +84,10 @@ RecordResult evaluate_record(const DamperModel& model, const Record& record, std
   result.drive = drive_samples(record, drive_unit);
   if (const Channel* displacement = record.find("displacement")) result.displacement = displacement->samples;
 
-  FreeRun run = free_run(model, damper_inputs(record, drive_unit), record.time);
+  const std::shared_ptr<const DamperModel> specialised = model.specialised(record.conditions);
+  const DamperModel& damper = specialised ? *specialised : model;
+  result.extrapolations = damper.extrapolations();
+  FreeRun run = free_run(damper, damper_inputs(record, drive_unit), record.time);
   result.modelled = std::move(run.force);
   result.diverged_at = run.diverged_at;
   if (result.diverged_at) return result;

@@ -62,6 +62,7 @@ struct RecordResult {
   Metrics metrics;                 ///< with the offset
   Metrics metrics_without_offset;  ///< the model as it stands in its file
   ErrorSums sums, sums_without_offset;
+  std::vector<std::string> extrapolations;  ///< as DamperModel has them, of the model on this record
   double energy_error = 0;  ///< %, of the energy dissipated per record
   std::optional<double> diverged_at;
   std::optional<ForceBand> band;                                                ///< around the modelled force

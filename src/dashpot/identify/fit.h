@@ -6,7 +6,7 @@
 #include "dashpot/damper/registry.h"
 #include "dashpot/identify/identify.h"
 
-// The four ways of fitting behind identify().
+// The five ways of fitting behind identify().
 namespace dashpot {
 
 FitReport fit_law(const Law& law, const std::vector<Record>& training, const std::string& drive_unit,
@@ -17,5 +17,8 @@ FitReport fit_state_network(const StateNetworkPreset& preset, const std::vector<
                             const std::string& drive_unit, const IdentifyOptions& options);
 FitReport fit_fuzzy(const FuzzyPreset& preset, const std::vector<Record>& training,
                     const std::string& drive_unit, const IdentifyOptions& options);
+/// Needs the conditions of a whole family member on each record. Throws Error where one is missing.
+FitReport fit_family(const FamilyPreset& preset, const std::vector<Record>& training,
+                     const std::string& drive_unit, const IdentifyOptions& options);
 
 }  // namespace dashpot

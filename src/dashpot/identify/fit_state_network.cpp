@@ -7,6 +7,7 @@
 #include "dashpot/base/parallel.h"
 #include "dashpot/damper/neural/train_bank.h"
 #include "dashpot/identify/fit.h"
+#include "dashpot/identify/stroke.h"
 
 namespace dashpot {
 namespace {
@@ -24,30 +25,6 @@ using Records = std::vector<const BankRecord*>;
 struct Trial {
   Records training, held_back;
 };
-
-std::vector<double> spaced(double low, double high, std::size_t count) {
-  std::vector<double> rates(count, std::sqrt(low * high));
-  for (std::size_t k = 0; count > 1 && k < count; ++k)
-    rates[k] = low * std::pow(high / low, static_cast<double>(k) / static_cast<double>(count - 1));
-  return rates;
-}
-
-/// Mean way between two turns, m. A turn is a change of direction at a tenth of the record's top speed at
-/// least, so that noise at rest is none.
-double mean_way(const BankRecord& record) {
-  double top = 0, way = 0;
-  for (const DamperInput& input : record.inputs) top = std::max(top, std::abs(input.velocity));
-  int turns = 0, direction = 0;
-  for (std::size_t k = 1; k < record.inputs.size(); ++k) {
-    const double v = record.inputs[k].velocity;
-    way += std::abs(v) * (record.time[k] - record.time[k - 1]);
-    const int now = v > 0 ? 1 : -1;
-    if (std::abs(v) <= 0.1 * top || now == direction) continue;
-    direction = now;
-    ++turns;
-  }
-  return way / std::max(1, turns);
-}
 
 /// Mean square of each of the bank's signals over all records.
 std::vector<double> mean_squares(const HysteresisBank& bank, const Records& records) {
@@ -86,7 +63,7 @@ HysteresisBank starting_bank(const StateNetworkPreset& preset, const Records& re
   constexpr double kLags[] = {30, 300}, kCurrentLags[] = {20, 200}, kSteady = 100;  // 1/s
   double shortest = INFINITY, longest = 0;
   for (const BankRecord* record : records) {
-    const double way = mean_way(*record);
+    const double way = mean_stroke(record->inputs, record->time).way;
     shortest = std::min(shortest, way);
     longest = std::max(longest, way);
   }

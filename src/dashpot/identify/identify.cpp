@@ -49,6 +49,7 @@ FitReport fit(const std::string& model, const std::vector<Record>& training, con
   if (kind == "network") return fit_network(find_network_preset(model), training, drive_unit, options);
   if (kind == "state_network")
     return fit_state_network(find_state_network_preset(model), training, drive_unit, options);
+  if (kind == "family") return fit_family(find_family_preset(model), training, drive_unit, options);
   return fit_fuzzy(find_fuzzy_preset(model), training, drive_unit, options);
 }
 

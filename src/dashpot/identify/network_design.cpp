@@ -179,6 +179,8 @@ std::vector<std::string_view> network_settings_of(const std::string& model) {
   const std::string_view kind = model_info(model).kind;
   if (kind == "network")
     return {"hidden", "activation", "trainer", "rate", "batch", "epochs", "l1", "l2", "patience", "members"};
+  if (kind == "family" && !find_family_preset(model).inputs.empty())
+    return {"hidden", "activation", "rate", "batch", "epochs", "l2", "members"};
   if (kind == "state_network") return {"hidden", "epochs", "l2", "members"};
   return {};
 }

@@ -88,6 +88,8 @@ std::string protocol_title(const LeaveOut& leave_out) {
       return "one record left out";
     case LeaveOut::By::Fraction:
       return "the end of every record left out";
+    case LeaveOut::By::Each:
+      return "each " + join(leave_out.values, " and ") + " left out";
     case LeaveOut::By::Roles:
       break;
   }
@@ -111,6 +113,8 @@ std::string protocol(const LeaveOut& leave_out, std::size_t folds) {
                   : "." + in_turn);
     case LeaveOut::By::Record:
       return "One record is left out" + chosen + "." + in_turn;
+    case LeaveOut::By::Each:
+      return "All records that agree in " + join(leave_out.values, " and ") + " are left out." + in_turn;
     case LeaveOut::By::Fraction:
       return fmt::format(
           "The last {} % of every record is left out: the model is fitted on what comes before, runs on, and "
@@ -129,7 +133,8 @@ std::optional<std::string> one_step_note(const Ranking& ranking) {
   const bool none_feeds_back = std::ranges::all_of(ranking.models, [](const RankedModel& m) {
     if (!m.fit.model) return false;
     const std::string kind = m.fit.model->kind();
-    return kind == "law" || kind == "network" || kind == "state_network" || kind == "fuzzy";
+    return kind == "law" || kind == "network" || kind == "state_network" || kind == "fuzzy" ||
+           kind == "family";
   });
   if (!none_feeds_back || ranking.models.empty()) return std::nullopt;
   return "There is no one-step error to print beside the free run: none of these models feeds force back.";

@@ -1,0 +1,20 @@
+#pragma once
+#include <cstddef>
+#include <vector>
+
+#include "dashpot/damper/model.h"
+
+namespace dashpot {
+
+/// Between two turns of a motion, on the mean. A turn is a change of direction at a tenth of the top speed at
+/// least, so that noise at rest is none.
+struct Stroke {
+  double way = 0;       ///< m
+  double duration = 0;  ///< s
+};
+Stroke mean_stroke(const std::vector<DamperInput>& inputs, const std::vector<double>& time);
+
+/// Rates from low to high, each the same multiple of the one before; the geometric mean when there is one.
+std::vector<double> spaced(double low, double high, std::size_t count);
+
+}  // namespace dashpot
