@@ -81,7 +81,8 @@ std::vector<Option> fit_options(FitSettings& settings) {
       {.names = "--models",
        .target = &settings.models,
        .help = "the models to fit, separated by commas; 'usual' stands for " + join(kUsualModels, ", ") +
-               "; 'all' for every model that 'dashpot models' lists",
+               "; 'all' for every model of one damper that 'dashpot models' lists, 'family' for those of a "
+               "family of dampers",
        .value = "NAMES",
        .choices = names_and_groups(),
        .noun = "model",

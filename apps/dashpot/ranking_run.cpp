@@ -22,8 +22,9 @@ std::vector<Option> ranking_options(RankingSettings& settings) {
   options.push_back(
       {.names = "--leave-out",
        .target = &settings.leave_out,
-       .help = "what is left out to judge a model: condition, current, record, roles or fraction; name which "
-               "ones as current=0.5,1 or fraction=0.3",
+       .help = "what is left out to judge a model: condition, current, record, roles, fraction or "
+               "each; name which ones as current=0.5,1 or fraction=0.3, or of which conditions as "
+               "each=gap,pole_length",
        .value = "WHAT",
        .default_text = "as the dataset file says, else the first of condition, current, record and "
                        "fraction that the records allow"});

@@ -2,6 +2,7 @@
 #include <new>
 
 #include "conformance/laws.h"
+#include "damper/family/example_family.h"
 #include "damper/inverse/inverses.h"
 #include "dashpot/damper/fuzzy/fuzzy_model.h"
 #include "dashpot/damper/inverse/registry.h"
@@ -75,6 +76,11 @@ TEST_CASE("stepping a state network allocates nothing") {
   member.network.initialise(3, 1);
   const HysteresisNetwork model("test", {member, member});
   check_stepping(model);
+}
+
+TEST_CASE("stepping a member of a family allocates nothing") {
+  check_stepping(example_family(FamilyTarget::Residual));
+  check_stepping(example_family_network());
 }
 
 TEST_CASE("stepping a fuzzy model allocates nothing") {

@@ -2,17 +2,19 @@
 
 #include <algorithm>
 
+#include "dashpot/damper/family/family_force.h"
 #include "support.h"
 
 using namespace dashpot;
 
-TEST_CASE("laws stand in alphabetical order, networks, state networks and fuzzy models follow") {
+TEST_CASE("laws stand in alphabetical order, networks, state networks, fuzzy models and families follow") {
   const std::vector<std::string> names = model_names();
   const auto others = names.begin() + static_cast<std::ptrdiff_t>(laws().size());
   CHECK(std::is_sorted(names.begin(), others));
   CHECK(std::vector<std::string>(others, names.end()) ==
         std::vector<std::string>{"mlp_one_sensor", "mlp_two_sensors", "hysteresis_network", "anfis",
-                                 "takagi_sugeno"});
+                                 "takagi_sugeno", "family_gated", "family_h3x15", "family_h3x15_residual",
+                                 "family_h3x15_total"});
   for (const Law* law : laws()) {
     CHECK(&find_law(law->name) == law);
     CHECK(is_law(law->name));
@@ -46,6 +48,17 @@ TEST_CASE("fuzzy models say their kind and inputs, and have sets for each") {
     CHECK(preset.sets.size() == preset.inputs.size());
     CHECK_FALSE(info.needs_displacement());
   }
+}
+
+TEST_CASE("families say their kind and inputs; the paper's network has its eight") {
+  for (const FamilyPreset& preset : family_presets()) {
+    const ModelInfo info = model_info(preset.name);
+    CHECK(info.kind == "family");
+    CHECK(info.needs_displacement() == !preset.inputs.empty());
+    CHECK(&find_family_preset(preset.name) == &preset);
+    for (const std::string& input : preset.inputs) CHECK(family_input_named(input, "") != nullptr);
+  }
+  CHECK(find_family_preset("family_h3x15").inputs.size() == 8);
 }
 
 TEST_CASE("an unknown name is answered with the near one") {
