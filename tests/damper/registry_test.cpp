@@ -56,7 +56,7 @@ TEST_CASE("families say their kind and inputs; the paper's network has its eight
     CHECK(info.kind == "family");
     CHECK(info.needs_displacement() == !preset.inputs.empty());
     CHECK(&find_family_preset(preset.name) == &preset);
-    for (const std::string& input : preset.inputs) CHECK(family_input_named(input, "") != nullptr);
+    for (const std::string& input : preset.inputs) CHECK_NOTHROW(family_input_named(input, ""));
   }
   CHECK(find_family_preset("family_h3x15").inputs.size() == 8);
 }

@@ -22,7 +22,9 @@ constexpr std::array<double, FamilyGates::kSoftSpeeds> kSoftShares{0.1, 0.3};  /
 constexpr double kHalfCurrent = 0.65077;
 constexpr std::array kPrices{0.003, 0.01, 0.03};        // per sample, terms and gates standardised
 constexpr std::array kGeometryPrices{3.0, 10.0, 30.0};  // times these for gates with geometry in them
-constexpr double kBasePrice = 1e-4;                     // of every weight
+constexpr std::size_t kLateStarts = 6;
+constexpr double kLateShare = 1;     // of what runs from rest amid the motion count, beside 1
+constexpr double kBasePrice = 1e-4;  // of every weight
 
 /// Sums over one record's samples: F'F, t'F and t't, terms standardised.
 struct RecordSums {
@@ -71,8 +73,9 @@ FamilyGates starting_gates(const FamilyPreset& preset, const std::vector<FamilyR
   return gates;
 }
 
-/// Adds what a free run from rest at `start` leaves in the samples from the first scored one on.
-void add_run(const FamilyGates& gates, const FamilyRecord& record, std::size_t start, RecordSums& sums) {
+/// Adds the scored samples of a free run from rest at `start`, each counting so much.
+void add_run(const FamilyGates& gates, const FamilyRecord& record, std::size_t start, double weight,
+             RecordSums& sums) {
   const std::size_t terms = gates.term_count();
   std::vector<double> state(gates.bank.size()), t(terms);
   gates.bank.rest(record.inputs[start], state);
@@ -82,12 +85,24 @@ void add_run(const FamilyGates& gates, const FamilyRecord& record, std::size_t s
     if (k < record.first) continue;
     gates.read_terms(record.inputs[k], state, t.data());
     for (std::size_t i = 0; i < terms; ++i) {
-      sums.across[i] += t[i] * record.force[k];
-      for (std::size_t j = 0; j <= i; ++j) sums.square[i * terms + j] += t[i] * t[j];
+      sums.across[i] += weight * t[i] * record.force[k];
+      for (std::size_t j = 0; j <= i; ++j) sums.square[i * terms + j] += weight * t[i] * t[j];
     }
-    sums.energy += record.force[k] * record.force[k];
-    ++sums.samples;
+    sums.energy += weight * record.force[k] * record.force[k];
+    sums.samples += weight;
   }
+}
+
+/// A run from the record's start, and some from rest amid the motion, over two strokes from the first scored
+/// sample on: what moved before is not always known.
+void add_runs(const FamilyGates& gates, const FamilyRecord& record, RecordSums& sums) {
+  add_run(gates, record, 0, 1, sums);
+  const double until = record.time[record.first] + 2 * mean_stroke(record.inputs, record.time).duration;
+  const auto end =
+      static_cast<std::size_t>(std::ranges::lower_bound(record.time, until) - record.time.begin());
+  for (std::size_t k = 0; k < kLateStarts; ++k)
+    add_run(gates, record, record.first + (end - record.first) * k / kLateStarts, kLateShare / kLateStarts,
+            sums);
 }
 
 /// The records' sums, and the ridge over them.
@@ -97,8 +112,7 @@ class GateSums {
     for (const FamilyRecord& record : records) {
       RecordSums sums{FamilyGates::gates(gates.quantities(record.member, record.inputs.front().current)),
                       std::vector<double>(terms_), std::vector<double>(terms_ * terms_)};
-      add_run(gates, record, 0, sums);
-      if (record.first > 0) add_run(gates, record, record.first, sums);
+      add_runs(gates, record, sums);
       sums_.push_back(std::move(sums));
     }
     standardise(gates);

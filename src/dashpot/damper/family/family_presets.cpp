@@ -34,7 +34,7 @@ std::array<FamilyPreset, 4> make_presets() {
                     "one for the rest, are those with which designs that were left out of the training "
                     "are foretold best; what is left over there is the spread of builds, kept in the "
                     "model. The field enters by the current and the fluid's viscosity, not by the "
-                    "yield stress. Fitted also to what follows from rest at the first scored sample, "
+                    "yield stress. Fitted also to runs from rest amid the motion, "
                     "since what moved before is not always known.",
                 .path_states = 5,
                 .velocity_lags = 5};
