@@ -27,7 +27,7 @@ std::vector<FamilyRecord> family_records(const std::vector<Record>& training, co
   return records;
 }
 
-/// Of the fluid of the first record: what its records say of the yield stress at their currents.
+/// What the records of a fluid say of the yield stress at their currents.
 YieldCurve yield_of(const std::vector<FamilyRecord>& records, double viscosity) {
   std::vector<std::pair<double, double>> points;
   for (const FamilyRecord& record : records)
