@@ -33,10 +33,14 @@ Integer integer_in(const std::string& text, const Option& option) {
 }
 
 void check_choice(const std::string& word, const Option& option) {
+  const auto is_among = [&](const std::vector<std::string>& words) {
+    return std::ranges::find(words, word) != words.end();
+  };
   if (option.takes == Takes::File && is_path(word)) return;
-  if (option.choices.empty() || std::ranges::find(option.choices, word) != option.choices.end()) return;
+  if (option.choices.empty() || is_among(option.choices) || is_among(option.more_choices)) return;
   throw UsageError(option.is_positional() ? "" : option.long_name(),
-                   "unknown " + option.noun + " '" + word + "'", suggest(word, option.choices));
+                   "unknown " + option.noun + " '" + word + "'",
+                   suggest(word, option.choices, option.more_choices));
 }
 
 /// Writes the words given for one option to its variable.

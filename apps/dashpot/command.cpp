@@ -1,11 +1,26 @@
 #include "command.h"
 
+#include "dashpot/base/text.h"
+
 namespace dashpot::cli {
 
 std::string Option::long_name() const { return names.substr(names.find(',') + 1); }
 
 void append(std::vector<Option>& options, const std::vector<Option>& more) {
   options.insert(options.end(), more.begin(), more.end());
+}
+
+std::string Command::last_word() const { return name.substr(name.rfind(' ') + 1); }
+
+const Command& find_command(const std::vector<Command>& commands, const std::string& word) {
+  std::vector<std::string> names;
+  for (const Command& command : commands) {
+    if (command.last_word() == word) return command;
+    names.push_back(command.last_word());
+  }
+  throw UsageError(
+      "", std::string("unknown ") + (word.starts_with('-') ? "option" : "command") + " '" + word + "'",
+      suggest(word, names));
 }
 
 }  // namespace dashpot::cli

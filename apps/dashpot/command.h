@@ -35,7 +35,8 @@ struct Option {
   std::string help;
   std::string value = {};                 ///< what help calls the value: "HZ"
   std::vector<std::string> choices = {};  ///< the words allowed, and paths where it takes files; empty: any
-  std::string noun = "value";             ///< what a message calls a word: "unknown model 'x'"
+  std::vector<std::string> more_choices = {};  ///< allowed too, and not listed in the help
+  std::string noun = "value";                  ///< what a message calls a word: "unknown model 'x'"
   Takes takes = Takes::Word;
   std::optional<double> minimum = {};  ///< least number allowed
   std::string default_text = {};       ///< in words, where the variable's value does not say it
@@ -52,14 +53,20 @@ inline bool is_path(const std::string& word) { return word.find_first_of("./") !
 
 void append(std::vector<Option>& options, const std::vector<Option>& more);
 
-/// One thing that the program does.
+/// One thing that the program does, or a group of such things.
 struct Command {
-  std::string name;
+  std::string name;         ///< the words that call it: "rank", "study recovery"
   std::string title;        ///< one line, for the overview
   std::string description;  ///< what it does, for its own help
   std::vector<Option> options;
   std::string example;  ///< worked, with comments: what to type and what comes of it
   std::function<int(Console&)> run;
+  std::vector<Command> subcommands = {};  ///< of a group, which has neither options nor `run`
+
+  std::string last_word() const;
 };
+
+/// The command whose name ends with this word. Throws UsageError that names the known ones.
+const Command& find_command(const std::vector<Command>& commands, const std::string& word);
 
 }  // namespace dashpot::cli

@@ -15,8 +15,8 @@ std::vector<Option> options_of(const Command& command, const std::vector<Option>
 }
 
 std::string command_names(const std::vector<Command>& commands) {
-  std::vector<std::string> names = {"help"};
-  for (const Command& command : commands) names.push_back(command.name);
+  std::vector<std::string> names;
+  for (const Command& command : commands) names.push_back(command.last_word());
   return join(names, " ");
 }
 
@@ -30,8 +30,17 @@ std::string bash_values(const Option& option) {
   return ":";
 }
 
-/// One branch of the outer case: a command's values by the word before, its options, its arguments.
+/// One branch of a case: a command's values by the word before, its options, its arguments; of a group, the
+/// case of its subcommands.
 std::string bash_command(const Command& command, const std::vector<Option>& common) {
+  if (!command.subcommands.empty()) {
+    std::string cases;
+    for (const Command& one : command.subcommands) cases += bash_command(one, common);
+    return fmt::format(
+        "    {})\n    if [ \"$COMP_CWORD\" -eq 2 ]; then _dashpot_words '--help {}'; return; fi\n"
+        "    case ${{COMP_WORDS[2]}} in\n{}    esac;;\n",
+        command.last_word(), command_names(command.subcommands), cases);
+  }
   std::string values, arguments = ":", names = "--help";
   for (const Option& option : options_of(command, common)) {
     if (option.is_positional()) {
@@ -46,7 +55,7 @@ std::string bash_command(const Command& command, const std::vector<Option>& comm
   return fmt::format(
       "    {})\n      case $previous in\n{}      esac\n"
       "      case $word in\n        -*) _dashpot_words '{}';;\n        *) {};;\n      esac;;\n",
-      command.name, values, names, arguments);
+      command.last_word(), values, names, arguments);
 }
 
 std::string bash_script(const std::vector<Command>& commands, const std::vector<Option>& common) {
@@ -62,7 +71,7 @@ std::string bash_script(const std::vector<Command>& commands, const std::vector<
          "  local word=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD-1]}\n"
          "  COMPREPLY=()\n"
          "  if [ \"$COMP_CWORD\" -eq 1 ] || [ \"${COMP_WORDS[1]}\" = help ]; then\n"
-         "    _dashpot_words '" +
+         "    _dashpot_words 'help " +
          command_names(commands) +
          "'\n    return\n  fi\n"
          "  case ${COMP_WORDS[1]} in\n" +
@@ -100,14 +109,28 @@ std::string zsh_specification(const Option& option) {
   return join(specifications, " ");
 }
 
+/// One branch of a case; `$words` and CURRENT count from the command's own name.
+std::string zsh_command(const Command& command, const std::vector<Option>& common) {
+  std::string text = "    " + command.last_word() + ")\n";
+  if (command.subcommands.empty()) {
+    text += "      _arguments '--help[explain the command]'";
+    for (const Option& option : options_of(command, common))
+      text += " \\\n        " + zsh_specification(option);
+    return text + ";;\n";
+  }
+  std::string cases;
+  for (const Command& one : command.subcommands) cases += zsh_command(one, common);
+  return text + "      if (( CURRENT == 2 )); then\n        compadd " + command_names(command.subcommands) +
+         "\n        return\n      fi\n      command=$words[2]\n      shift words\n      (( CURRENT-- ))\n"
+         "      case $command in\n" +
+         cases + "      esac;;\n";
+}
+
 std::string zsh_script(const std::vector<Command>& commands, const std::vector<Option>& common) {
   std::string names, cases;
   for (const Command& command : commands) {
     names += "    " + shell_quoted(command.name + ":" + zsh_text(command.title)) + "\n";
-    cases += "    " + command.name + ")\n      _arguments '--help[explain the command]'";
-    for (const Option& option : options_of(command, common))
-      cases += " \\\n        " + zsh_specification(option);
-    cases += ";;\n";
+    cases += zsh_command(command, common);
   }
   return "#compdef dashpot\n"
          "_dashpot() {\n"
@@ -140,14 +163,29 @@ std::string fish_option(const std::string& condition, const Option& option) {
   return line + " -d " + shell_quoted(option.help) + '\n';
 }
 
+/// What a command offers where `condition` holds.
+std::string fish_command(const Command& command, const std::string& condition,
+                         const std::vector<Option>& common) {
+  std::string text =
+      "complete -c dashpot -n " + shell_quoted(condition) + " -l help -d 'explain the command'\n";
+  for (const Command& one : command.subcommands) {
+    const std::string names = command_names(command.subcommands);
+    text += "complete -c dashpot -n " +
+            shell_quoted(condition + "; and not __fish_seen_subcommand_from " + names) + " -a " +
+            one.last_word() + " -d " + shell_quoted(one.title) + '\n' +
+            fish_command(one, condition + "; and __fish_seen_subcommand_from " + one.last_word(), common);
+  }
+  if (command.subcommands.empty())
+    for (const Option& option : options_of(command, common)) text += fish_option(condition, option);
+  return text;
+}
+
 std::string fish_script(const std::vector<Command>& commands, const std::vector<Option>& common) {
   std::string text = "complete -c dashpot -f\n";
   for (const Command& command : commands) {
     text += "complete -c dashpot -n __fish_use_subcommand -a " + command.name + " -d " +
             shell_quoted(command.title) + '\n';
-    const std::string condition = "__fish_seen_subcommand_from " + command.name;
-    text += "complete -c dashpot -n " + shell_quoted(condition) + " -l help -d 'explain the command'\n";
-    for (const Option& option : options_of(command, common)) text += fish_option(condition, option);
+    text += fish_command(command, "__fish_seen_subcommand_from " + command.name, common);
   }
   return text;
 }

@@ -78,6 +78,13 @@ std::vector<std::string> outside_family(const Evaluation& evaluation) {
   return told;
 }
 
+/// Of models that feed their force back.
+std::string one_step_line(const Evaluation& evaluation) {
+  if (!evaluation.one_step) return {};
+  return "one step ahead, with the measured force fed back (flatters; no measure of the model): RMSE " +
+         format_number(evaluation.one_step->rmse) + " N, ESR " + percent(evaluation.one_step->esr) + " %\n";
+}
+
 Value result_json(const ModelFile& file, const Evaluation& evaluation,
                   const std::vector<Extrapolation>& outside) {
   Value value = evaluation_json(evaluation);
@@ -131,7 +138,7 @@ int run(const Settings& settings, Console& console) {
   const std::vector<Extrapolation> outside = extrapolations(file, dataset);
   console.print('\n' + console.bold(file.model->name()) +
                 " in free run, nothing fitted but the force zero of each record\n\n");
-  console.print(record_table(evaluation, dataset.drive_unit, console.width()));
+  console.print(record_table(evaluation, dataset.drive_unit, console.width()) + one_step_line(evaluation));
   if (evaluation.pooled.samples > 0) console.print('\n' + band_table(evaluation, console.width()));
   if (const std::string sentence = interval_sentence(evaluation); !sentence.empty())
     console.print('\n' + paragraph(sentence, static_cast<std::size_t>(console.width())));

@@ -1,5 +1,8 @@
 #include "help.h"
 
+#include <algorithm>
+#include <cctype>
+
 #include <fmt/core.h>
 
 #include "console.h"
@@ -26,13 +29,29 @@ std::string default_of(const Option& option) {
   return option.default_text.empty() ? std::visit(DefaultText{}, option.target) : option.default_text;
 }
 
+/// "STUDY": what usage calls the subcommand of a group.
+std::string group_word(const Command& command) {
+  std::string word = command.name;
+  std::ranges::transform(word, word.begin(), [](unsigned char c) { return std::toupper(c); });
+  return word;
+}
+
 std::string usage(const Command& command) {
   std::string line = "dashpot " + command.name;
   for (const Option& option : command.options)
     if (option.is_positional())
       line += option.required ? fmt::format(" {}", option_label(option))
                               : fmt::format(" [{}]", option_label(option));
+  if (!command.subcommands.empty()) line += " " + group_word(command);
   return line + " [options]";
+}
+
+std::string subcommand_list(const Command& command, const Console& console) {
+  if (command.subcommands.empty()) return {};
+  std::string text = "\n" + console.bold("Which") + "\n";
+  for (const Command& one : command.subcommands)
+    text += fmt::format("  {:<{}}{}\n", one.last_word(), kLabelColumns - 2, one.title);
+  return text;
 }
 
 std::string option_block(const Option& option, std::size_t width) {
@@ -68,6 +87,13 @@ std::string markdown_options(const std::vector<Option>& options) {
   for (const Option& option : options)
     text += "| `" + option_label(option) + "` | " + markdown_cell(option_text(option)) + " |\n";
   return text;
+}
+
+std::string markdown_command(const Command& command, const std::string& mark) {
+  std::string text = "\n" + mark + "dashpot " + command.name + "\n\n    " + usage(command) + "\n\n" +
+                     command.description + "\n\n";
+  if (!command.options.empty()) text += markdown_options(command.options) + '\n';
+  return text + "```sh\n" + command.example + "\n```\n";
 }
 
 }  // namespace
@@ -108,7 +134,7 @@ std::string overview(const std::vector<Command>& commands, const Console& consol
 std::string command_help(const Command& command, const std::vector<Option>& common, const Console& console) {
   const auto width = static_cast<std::size_t>(console.width());
   return console.bold("Usage") + "\n  " + usage(command) + "\n\n" + paragraph(command.description, width) +
-         section("Arguments", command.options, true, console) +
+         subcommand_list(command, console) + section("Arguments", command.options, true, console) +
          section("Options", command.options, false, console) +
          section("Common options", common, false, console) + '\n' + console.bold("Example") + '\n' +
          indented(command.example);
@@ -121,10 +147,8 @@ std::string help_markdown(const std::vector<Command>& commands, const std::vecto
       "Exit codes: 0 done; 1 unusable input; 2 the command line cannot be understood; 3 it ran, but the "
       "result is not usable; 130 interrupted.\n";
   for (const Command& command : commands) {
-    text +=
-        "\n## dashpot " + command.name + "\n\n    " + usage(command) + "\n\n" + command.description + "\n\n";
-    if (!command.options.empty()) text += markdown_options(command.options) + '\n';
-    text += "```sh\n" + command.example + "\n```\n";
+    text += markdown_command(command, "## ");
+    for (const Command& one : command.subcommands) text += markdown_command(one, "### ");
   }
   return text + "\n## Options of every command\n\n" + markdown_options(common);
 }

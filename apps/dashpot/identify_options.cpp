@@ -85,6 +85,7 @@ std::vector<Option> fit_options(FitSettings& settings) {
                "family of dampers",
        .value = "NAMES",
        .choices = names_and_groups(),
+       .more_choices = more_model_names(),
        .noun = "model",
        .default_text = join(settings.models, ",")},
       {.names = "--force-offset",

@@ -52,28 +52,34 @@ void hold_standard_streams() {
     if (fcntl(descriptor, F_GETFD) < 0) open("/dev/null", descriptor == STDIN_FILENO ? O_WRONLY : O_RDONLY);
 }
 
-Command find_command(const std::string& name) {
-  std::vector<std::string> names;
-  for (Command& command : all_commands()) {
-    if (command.name == name) return std::move(command);
-    names.push_back(command.name);
+/// The command that the first words name; what is left are its arguments.
+Command named_command(std::vector<std::string>& words) {
+  Command command;
+  command.subcommands = all_commands();
+  while (!command.subcommands.empty() && !words.empty() &&
+         (command.name.empty() || !words.front().starts_with('-'))) {
+    command = Command(find_command(command.subcommands, words.front()));
+    words.erase(words.begin());
   }
-  throw UsageError(
-      "", std::string("unknown ") + (name.starts_with('-') ? "option" : "command") + " '" + name + "'",
-      suggest(name, names));
+  return command;
 }
 
-int run_command(const std::string& name, const std::vector<std::string>& arguments, Console& console) {
-  const Command command = find_command(name);
+int run_command(std::vector<std::string> words, Console& console) {
+  const Command command = named_command(words);
   const std::vector<Option> common = common_options(console);
   std::vector<Option> options = command.options;
   append(options, common);
   // Help prints the defaults, so it is written before anything is parsed into them.
   const std::string help = command_help(command, common, console);
-  if (!parse_arguments(name, options, arguments)) {
+  if (!parse_arguments(command.name, options, words)) {
     console.json = false;
     console.print(help);
     return kDone;
+  }
+  if (!command.run) {
+    std::vector<std::string> known;
+    for (const Command& one : command.subcommands) known.push_back(one.last_word());
+    throw UsageError(command.name, "it is not said which", "known: " + join(known, ", "));
   }
   return command.run(console);
 }
@@ -83,15 +89,18 @@ int run(const std::vector<std::string>& words, Console& console) {
     console.print(overview(all_commands(), console));
     return kDone;
   }
-  const std::vector<std::string> rest(words.begin() + 1, words.end());
-  if (words.front() == "help")
-    return rest.empty() ? run({}, console) : run_command(rest.front(), {"--help"}, console);
+  if (words.front() == "help") {
+    std::vector<std::string> named(words.begin() + 1, words.end());
+    if (named.empty()) return run({}, console);
+    named.emplace_back("--help");
+    return run_command(named, console);
+  }
   if (words.front() == "--help-markdown") {
     console.print(help_markdown(all_commands(), common_options(console)));
     return kDone;
   }
-  if (words.front() == "--version") return run_command("version", rest, console);
-  return run_command(words.front(), rest, console);
+  if (words.front() == "--version") return run_command({"version"}, console);
+  return run_command(words, console);
 }
 
 /// The command line that explains what went wrong on this one.

@@ -7,11 +7,14 @@
 #include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
 #include "dashpot/damper/family/family_force.h"
+#include "dashpot/damper/hybrid_model.h"
 #include "dashpot/damper/inverse/polynomial.h"
 #include "dashpot/damper/law_model.h"
 #include "dashpot/damper/neural/hysteresis_network.h"
 #include "dashpot/damper/neural/mlp.h"
+#include "dashpot/damper/neural/state_space_model.h"
 #include "dashpot/damper/registry.h"
+#include "dashpot/identify/network_design.h"
 #include "dashpot/output/safe_text.h"
 #include "layout.h"
 
@@ -75,11 +78,16 @@ std::string inverse_of(const Law& law) {
   }
 }
 
-std::size_t weights_of(const NetworkPreset& preset) {
-  std::vector<std::size_t> layers = {preset.inputs.size()};
+void add_numbers(ModelSheet& sheet, const NetworkPreset& preset) {
+  std::vector<std::size_t> layers = {preset.inputs.size() * (preset.delays + 1) + preset.feedback};
   layers.insert(layers.end(), preset.hidden.begin(), preset.hidden.end());
   layers.push_back(1);
-  return Mlp::parameter_count(layers);
+  sheet.numbers = Mlp::parameter_count(layers);
+  if (preset.feedback == 0) return;
+  for (const std::string& input : preset.inputs)
+    sheet.states.insert(sheet.states.end(), preset.delays + 1, "past " + input);
+  sheet.states.insert(sheet.states.end(), preset.feedback + 1, "past force, N");
+  sheet.states.insert(sheet.states.end(), {"time in the step, s", "diverged, 1"});
 }
 
 void add_numbers(ModelSheet& sheet, const FuzzyPreset& preset) {
@@ -93,6 +101,19 @@ void add_numbers(ModelSheet& sheet, const FuzzyPreset& preset) {
   if (change == preset.inputs.end()) return;
   sheet.states.emplace_back("v_past, m/s");
   ++sheet.numbers;  // its lag
+}
+
+void add_numbers(ModelSheet& sheet, const HybridPreset& preset) {
+  add_table(sheet, *preset.law);
+  GatedNetwork network;
+  network.currents = 1 + preset.current_lags;
+  network.signals.resize(2 + preset.law->needs_displacement + preset.law->states.size() + preset.path_states +
+                         preset.velocity_lags + network.currents);
+  network.initialise(preset.hidden, 0);
+  sheet.numbers += network.parameter_count();
+  sheet.states.insert(sheet.states.end(), preset.path_states, "w, 1");
+  sheet.states.insert(sheet.states.end(), preset.velocity_lags, "y, m/s");
+  sheet.states.insert(sheet.states.end(), preset.current_lags, "u, A");
 }
 
 void add_numbers(ModelSheet& sheet, const StateNetworkPreset& preset) {
@@ -126,6 +147,21 @@ void add_numbers(ModelSheet& sheet, const FamilyPreset& preset) {
   sheet.states.insert(sheet.states.end(), preset.velocity_lags, "y, m/s");
 }
 
+void add_numbers(ModelSheet& sheet, const StateSpacePreset& preset) {
+  StateSpaceNetwork member;
+  member.cell.path_rates.resize(preset.path_states);
+  member.cell.lag_rates.resize(preset.lags);
+  member.cell.current_rates.resize(preset.current_lags);
+  member.cell.initialise(preset.hidden, 0);
+  member.network.currents = preset.current_lags;
+  member.network.signals.resize(member.cell.signal_count());
+  member.network.initialise(preset.output_hidden, 0);
+  sheet.numbers = preset.members * member.parameter_count();
+  sheet.states.insert(sheet.states.end(), preset.members * preset.path_states, "x, 1");
+  sheet.states.insert(sheet.states.end(), preset.members * preset.lags, "y, 1");
+  sheet.states.insert(sheet.states.end(), preset.members * preset.current_lags, "u, 1");
+}
+
 std::vector<std::string> cells(const ParameterLine& p) {
   return {p.name, p.unit, p.value, p.bounds, p.form, p.meaning};
 }
@@ -144,7 +180,9 @@ std::string states_text(const std::vector<std::string>& states) {
 std::string facts(const ModelSheet& sheet) {
   std::string text = "inputs: " + join(sheet.inputs, ", ") + "; ";
   text += sheet.states.empty() ? "no state" : states_text(sheet.states);
-  return text + fmt::format("; {} numbers to fit; inverse: {}", sheet.numbers, sheet.inverse);
+  text += fmt::format("; {} numbers to fit; inverse: {}", sheet.numbers, sheet.inverse);
+  if (sheet.settings.empty()) return text;
+  return text + "; follows --network " + join({sheet.settings.begin(), sheet.settings.end()}, ", ");
 }
 
 }  // namespace
@@ -158,13 +196,18 @@ ModelSheet model_sheet(const std::string& name) {
                    .source = std::string(info.source),
                    .remarks = std::string(info.remarks),
                    .inputs = info.inputs,
-                   .inverse = is_law(name) ? inverse_of(find_law(name)) : "search"};
+                   .inverse = is_law(name) ? inverse_of(find_law(name)) : "search",
+                   .settings = network_settings_of(name)};
   if (is_law(name))
     add_table(sheet, find_law(name));
-  else if (info.kind == "network")
-    sheet.numbers = weights_of(find_network_preset(name));
+  else if (info.kind == "network" || info.kind == "narx")
+    add_numbers(sheet, find_network_preset(name));
   else if (info.kind == "state_network")
     add_numbers(sheet, find_state_network_preset(name));
+  else if (info.kind == "state_space")
+    add_numbers(sheet, find_state_space_preset(name));
+  else if (info.kind == "hybrid")
+    add_numbers(sheet, find_hybrid_preset(name));
   else if (info.kind == "family")
     add_numbers(sheet, find_family_preset(name));
   else
@@ -201,8 +244,8 @@ std::string sheet_markdown(const ModelSheet& sheet) {
 
 Value sheet_json(const ModelSheet& sheet) {
   Value parameters = Value::array();
-  if (sheet.kind == "law")
-    for (const ParamInfo& p : find_law(sheet.name).params)
+  if (const Law* law = law_inside(sheet.name))
+    for (const ParamInfo& p : law->params)
       parameters.push_back(Value::object({{"name", p.name},
                                           {"unit", p.unit},
                                           {"default", p.value},
@@ -211,17 +254,19 @@ Value sheet_json(const ModelSheet& sheet) {
                                           {"form", name_of(p.form)},
                                           {"fit", fit_name(p.fit)},
                                           {"meaning", p.meaning}}));
-  return Value::object({{"name", sheet.name},
-                        {"kind", sheet.kind},
-                        {"title", sheet.title},
-                        {"equation", sheet.equation},
-                        {"inputs", Value::array(sheet.inputs)},
-                        {"states", Value::array(sheet.states)},
-                        {"parameters", std::move(parameters)},
-                        {"numbers", sheet.numbers},
-                        {"inverse", sheet.inverse},
-                        {"source", sheet.source},
-                        {"remarks", sheet.remarks}});
+  return Value::object(
+      {{"name", sheet.name},
+       {"kind", sheet.kind},
+       {"title", sheet.title},
+       {"equation", sheet.equation},
+       {"inputs", Value::array(sheet.inputs)},
+       {"states", Value::array(sheet.states)},
+       {"parameters", std::move(parameters)},
+       {"numbers", sheet.numbers},
+       {"inverse", sheet.inverse},
+       {"network", Value::array(std::vector<std::string>(sheet.settings.begin(), sheet.settings.end()))},
+       {"source", sheet.source},
+       {"remarks", sheet.remarks}});
 }
 
 }  // namespace dashpot::cli

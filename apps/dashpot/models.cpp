@@ -73,6 +73,7 @@ Command models_command() {
                        .target = &settings->name,
                        .help = "the model to show",
                        .choices = model_names(),
+                       .more_choices = more_model_names(),
                        .noun = "model"},
                       {.names = "--markdown",
                        .target = &settings->markdown,

@@ -3,9 +3,20 @@
 #include "console.h"
 
 namespace dashpot::cli {
-namespace {
 
-/// What the command line says, before the long work begins; nothing when it says nothing.
+Option leave_out_option(std::string& text) {
+  return {.names = "--leave-out",
+          .target = &text,
+          .help =
+              "what is left out to judge a model: condition, current, record, roles, fraction or each; name "
+              "which "
+              "ones as current=0.5,1 or fraction=0.3",
+          .value = "WHAT",
+          .default_text =
+              "as the dataset file says, else the first of condition, current, record and "
+              "fraction that the records allow"};
+}
+
 std::optional<LeaveOut> stated_leave_out(const std::string& text) {
   if (text.empty()) return std::nullopt;
   try {
@@ -15,19 +26,9 @@ std::optional<LeaveOut> stated_leave_out(const std::string& text) {
   }
 }
 
-}  // namespace
-
 std::vector<Option> ranking_options(RankingSettings& settings) {
   std::vector<Option> options = data_options(settings.data);
-  options.push_back(
-      {.names = "--leave-out",
-       .target = &settings.leave_out,
-       .help = "what is left out to judge a model: condition, current, record, roles, fraction or "
-               "each; name which ones as current=0.5,1 or fraction=0.3, or of which conditions as "
-               "each=gap,pole_length",
-       .value = "WHAT",
-       .default_text = "as the dataset file says, else the first of condition, current, record and "
-                       "fraction that the records allow"});
+  options.push_back(leave_out_option(settings.leave_out));
   append(options, fit_options(settings.fit));
   append(options, result_options(settings.results));
   return options;

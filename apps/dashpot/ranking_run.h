@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,11 @@ struct RankingSettings {
   ResultSettings results;
   std::string leave_out;
 };
+
+Option leave_out_option(std::string& text);
+/// What the command line says of it, before the long work begins; nothing when it says nothing. Throws
+/// UsageError.
+std::optional<LeaveOut> stated_leave_out(const std::string& text);
 
 std::vector<Option> ranking_options(RankingSettings& settings);
 

@@ -51,8 +51,6 @@ std::vector<Option> result_options(ResultSettings& settings) {
           {.names = "--no-report", .target = &settings.report, .help = "write the model files only"}};
 }
 
-std::string program_id() { return DASHPOT_VERSION " " + sha256_of_file("/proc/self/exe"); }
-
 std::string date_now() {
   const std::time_t now = std::time(nullptr);
   std::tm utc{};
@@ -61,6 +59,8 @@ std::string date_now() {
   std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &utc);
   return text;
 }
+
+std::string program_id() { return DASHPOT_VERSION " " + sha256_of_file("/proc/self/exe"); }
 
 ReportInput report_input(const Dataset& dataset, const Ranking& ranking, const Console& console) {
   return {.dataset = dataset,
@@ -73,6 +73,9 @@ ReportInput report_input(const Dataset& dataset, const Ranking& ranking, const C
 void print_results(const ReportInput& input, Console& console) {
   console.print('\n' + ranking_table(input.ranking, console.width()) + '\n' +
                 paragraph(verdict(input.ranking), static_cast<std::size_t>(console.width())));
+  if (std::ranges::any_of(input.ranking.models,
+                          [](const RankedModel& m) { return m.left_out.one_step.has_value(); }))
+    console.print('\n' + paragraph(*one_step_note(input.ranking), static_cast<std::size_t>(console.width())));
   const RankedModel& best = input.ranking.models.front();
   if (!best.fit.parameters.empty())
     console.print('\n' + console.bold(best.name) + ", fitted on all training records\n" +

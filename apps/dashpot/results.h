@@ -43,6 +43,9 @@ std::string program_id();
 /// Now, in UTC: "2026-05-01T12:00:00Z".
 std::string date_now();
 
+/// This very build: a fit that another one made may differ.
+std::string program_id();
+
 /// What stands in a report beside the figures.
 ReportInput report_input(const Dataset& dataset, const Ranking& ranking, const Console& console);
 

@@ -42,4 +42,6 @@ TEST_CASE("bash completes commands, options, models and lists of them") {
   CHECK(bash_completion("dashpot identify --models bing", 4) == "bingham\n");
   CHECK(bash_completion("dashpot identify --models bingham,tanh_k", 4) == "bingham,tanh_kwok\n");
   CHECK(bash_completion("dashpot completion z", 3) == "zsh\n");
+  CHECK(bash_completion("dashpot study one", 3) == "one-sensor\n");
+  CHECK(bash_completion("dashpot study recovery --rep", 4) == "--repetitions\n");
 }

@@ -38,6 +38,21 @@ TEST_CASE("every command explains itself with an example") {
   }
 }
 
+TEST_CASE("a group of commands explains itself and names its own; each has options of its own") {
+  const ProgramResult group = run_dashpot("study --help");
+  CHECK(group.exit_code == 0);
+  for (const char* part : {"dashpot study STUDY [options]", "one-sensor", "recovery"})
+    CHECK(contains(group.output, part));
+  CHECK(run_dashpot("help study").output == group.output);
+  const std::string recovery = run_dashpot("study recovery --help").output;
+  CHECK(contains(recovery, "dashpot study recovery [options]"));
+  CHECK(contains(recovery, "--repetitions"));
+  CHECK_FALSE(contains(recovery, "--neurons"));
+  CHECK(run_dashpot("help study recovery").output == recovery);
+  CHECK(contains(run_dashpot("study one-sensor --help").output, "--neurons"));
+  CHECK(contains(run_dashpot("--help-markdown").output, "\n### dashpot study one-sensor\n"));
+}
+
 TEST_CASE("help keeps to the width of the terminal, but for the examples, which must be copied whole") {
   const std::string help = run_dashpot("identify --help", "COLUMNS=60").output;
   CHECK(longest_line(help.substr(0, help.find("\nExample\n"))) <= 60);
@@ -77,6 +92,11 @@ TEST_CASE("a wrong command line exits with 2 and says what would be right") {
       {"rank data --models bingam", "--models: unknown model 'bingam'; did you mean 'bingham'?"},
       {"rank data --leave-out moon", "moon"},
       {"rank data --fresher", "unknown option '--fresher'; did you mean '--fresh'?"},
+      {"study", "study: it is not said which; known: one-sensor, recovery"},
+      {"study recoveri", "unknown command 'recoveri'; did you mean 'recovery'?"},
+      {"study one-sensor --repetitions 3", "unknown option '--repetitions'"},
+      {"study one-sensor data --leave-out moon", "moon"},
+      {"study one-sensor --models bingam", "--models: unknown row 'bingam'; did you mean 'bingham'?"},
       {"models bimgham", "unknown model 'bimgham'; did you mean 'bingham'?"},
       {"models bingham tanh_kwok", "one argument too many"},
       {"bench --motions 3", "--motions: '3' is not an amplitude and a frequency; write mm x Hz"},

@@ -4,10 +4,14 @@
 #include "conformance/laws.h"
 #include "damper/family/example_family.h"
 #include "damper/inverse/inverses.h"
+#include "damper/neural/narx_example.h"
+#include "damper/neural/state_space_example.h"
 #include "dashpot/damper/fuzzy/fuzzy_model.h"
+#include "dashpot/damper/hybrid_model.h"
 #include "dashpot/damper/inverse/registry.h"
 #include "dashpot/damper/neural/hysteresis_network.h"
 #include "dashpot/damper/neural/mlp_evaluator.h"
+#include "dashpot/damper/neural/network_model.h"
 #include "support.h"
 
 using namespace dashpot;
@@ -31,9 +35,10 @@ void* operator new(std::size_t size, std::align_val_t alignment) {
   if (void* block = std::aligned_alloc(line, (size / line + 1) * line)) return block;
   throw std::bad_alloc();
 }
-void operator delete(void* block) noexcept { std::free(block); }
-void operator delete(void* block, std::align_val_t) noexcept { std::free(block); }
-void operator delete(void* block, std::size_t) noexcept { std::free(block); }
+// Out of line: inlined, g++ takes them for the library's and free() for a mismatch.
+[[gnu::noinline]] void operator delete(void* block) noexcept { std::free(block); }
+[[gnu::noinline]] void operator delete(void* block, std::align_val_t) noexcept { std::free(block); }
+[[gnu::noinline]] void operator delete(void* block, std::size_t) noexcept { std::free(block); }
 
 namespace {
 
@@ -44,7 +49,7 @@ void check_stepping(const DamperModel& model) {
   const std::size_t before = allocations;
   for (int k = 0; k < 1000; ++k) {
     model.advance(sine(k * 1e-3, 1), sine((k + 1) * 1e-3, 0.5), 1e-3, state);
-    sum += model.force(sine((k + 1) * 1e-3, 0.5), state);
+    sum += model.force(sine((k + 1) * 1e-3, 0.5), state) + model.spread(sine((k + 1) * 1e-3, 0.5), state);
   }
   CHECK(allocations == before);
   CHECK(std::isfinite(sum));
@@ -81,6 +86,40 @@ TEST_CASE("stepping a state network allocates nothing") {
 TEST_CASE("stepping a member of a family allocates nothing") {
   check_stepping(example_family(FamilyTarget::Residual));
   check_stepping(example_family_network());
+}
+
+TEST_CASE("stepping static networks allocates nothing") {
+  Mlp mlp;
+  mlp.layers = {2, 10, 1};
+  mlp.input_mean = {0, 0};
+  mlp.input_scale = {1, 1};
+  initialise(mlp, 1);
+  check_stepping(NetworkModel("test", {"velocity", "current"}, {mlp, mlp}));
+}
+
+TEST_CASE("stepping a state space allocates nothing") {
+  check_stepping(StateSpaceModel("test", {example_state_space(1), example_state_space(2)}));
+}
+
+TEST_CASE("stepping a network with fed-back forces allocates nothing") {
+  const Regressors regressors = example_regressors();
+  const Mlp mlp = example_narx_network(regressors);
+  check_stepping(NarxModel("test", regressors, {mlp, mlp}));
+}
+
+TEST_CASE("stepping a hybrid allocates nothing") {
+  for_each_law([](const Law& law) {
+    std::vector<double> values;
+    for (const ParamInfo& param : law.params) values.push_back(param.value);
+    const HybridSource source{LawModel::constant(law, values), {{60, 500}, {60}, {50}}};
+    const std::size_t motions = source.motions();
+    GatedNetwork network;
+    network.signals.resize(motions + 2);
+    network.currents = 2;
+    network.initialise(3, 1);
+    check_stepping(HybridModel(
+        source, {std::vector<double>(motions), std::vector<double>(motions * (motions + 1) / 2)}, network));
+  });
 }
 
 TEST_CASE("stepping a fuzzy model allocates nothing") {

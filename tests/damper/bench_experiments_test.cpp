@@ -95,7 +95,7 @@ TEST_CASE("the one-sensor paper's table 2: sequences by experiment and damper") 
     CHECK(second[k].motion.description.starts_with(motions[k]));
     CHECK(first[k].drive.description.starts_with(continuous[k]));
     CHECK(second[k].drive.description.starts_with(switched[k]));
-    for (double t = 0; t < second[k].motion.duration; t += 0.01) {
+    for (double t = 0; t < second[k].motion.duration; t += 0.037) {
       const double current = second[k].drive.at(t);
       CHECK((current == 0 || current == 2.5));
     }
@@ -156,5 +156,30 @@ TEST_CASE("mr2 is shaped like the paper's MR2: two levels, -6000 ... 11000 N, li
       CHECK(force > before);
       before = force;
     }
+  }
+}
+
+TEST_CASE("the second recording of an experiment: other sequences over the same ranges") {
+  for (const char* name : {"mr1", "mr2"}) {
+    const ParameterSet damper = load_parameter_set(name);
+    const auto first = experiment_tests("one-sensor", damper, 1),
+               second = experiment_tests("one-sensor", damper, 1, Recording::Second);
+    REQUIRE(second.size() == 5);
+    for (std::size_t k = 0; k < first.size(); ++k) {
+      CAPTURE(first[k].name);
+      double fastest = 0, again = 0, difference = 0;
+      for (double t = 0; t < std::min(first[k].motion.duration, second[k].motion.duration); t += 0.037) {
+        const double v = first[k].motion.at(t).velocity, w = second[k].motion.at(t).velocity;
+        fastest = std::max(fastest, std::abs(v));
+        again = std::max(again, std::abs(w));
+        difference = std::max(difference, std::abs(v - w));
+      }
+      CHECK_CLOSE(again, fastest, 0.35, 0);
+      CHECK(difference > 0.3 * fastest);
+    }
+    // Stepped currents fall where they rose.
+    CHECK(first[0].drive.at(0) == damper.drive_min);
+    CHECK(second[0].drive.at(0) == damper.drive_max);
+    CHECK(second[0].drive.at(second[0].motion.duration) == damper.drive_min);
   }
 }

@@ -22,6 +22,20 @@ TEST_CASE("a force band steps in speed and is linear in the drive, constant beyo
   CHECK(band.scaled(3).half_width_at({0, 0, 0}) == 30);
 }
 
+TEST_CASE("the spread of an ensemble's members adds in quadrature, with the band's factor") {
+  ForceBand band = example();
+  band.spread = 2;
+  CHECK(band.half_width_at({0, 0.1, 0}) == 20);
+  CHECK_CLOSE(band.half_width_at({0, 0.1, 0}, 7.5), 25, 1e-15, 0);  // 15, 20, 25
+  CHECK_CLOSE(band.scaled(3).half_width_at({0, 0.1, 0}, 7.5), 75, 1e-15, 0);
+  const std::string text = format_json(to_json(band), false);
+  CHECK(read_force_band(parse_json(text, "m.json")).spread == 2);
+  std::string broken = text;
+  broken.replace(broken.find("\"spread\":2"), 10, "\"spread\":0");
+  CHECK(message_of([&] { read_force_band(parse_json(broken, "m.json")); }).find("leave it out") !=
+        std::string::npos);
+}
+
 TEST_CASE("a force band in JSON: there and back, and what is refused") {
   const std::string text = format_json(to_json(example()));
   const ForceBand band = read_force_band(parse_json(text, "m.json"));

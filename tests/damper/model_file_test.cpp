@@ -1,10 +1,13 @@
 #include "dashpot/damper/model_file.h"
 
+#include "damper/neural/state_space_example.h"
 #include "dashpot/base/file.h"
 #include "dashpot/damper/fuzzy/fuzzy_model.h"
+#include "dashpot/damper/hybrid_model.h"
 #include "dashpot/damper/neural/hysteresis_network.h"
 #include "dashpot/damper/neural/network_model.h"
 #include "dashpot/damper/parameter_set.h"
+#include "hybrid_model_example.h"
 #include "support.h"
 
 using namespace dashpot;
@@ -61,10 +64,10 @@ TEST_CASE("a law's file comes back as it was, to the last bit") {
 }
 
 TEST_CASE("a network's file comes back as it was, to the last bit") {
-  const ModelFile saved =
-      example(std::make_unique<NetworkModel>(
-                  "mlp_one_sensor", std::vector<std::string>{"velocity", "current"}, small_network(), 4.5),
-              "A");
+  const ModelFile saved = example(
+      std::make_unique<NetworkModel>("mlp_one_sensor", std::vector<std::string>{"velocity", "current"},
+                                     std::vector{small_network()}, 4.5),
+      "A");
   const ModelFile loaded = parse_model(format_model(saved), "m.json");
   CHECK(format_model(loaded) == format_model(saved));
   for (const double v : {-0.2, 0.0, 0.13})
@@ -98,6 +101,27 @@ TEST_CASE("a state network's file comes back as it was, to the last bit") {
   CHECK(format_model(loaded) == format_model(saved));
   const std::vector<double> state{0.3, 0.6};
   CHECK(loaded.model->force({0, 0.13, 0.5}, state) == saved.model->force({0, 0.13, 0.5}, state));
+}
+
+TEST_CASE("a state space's file comes back as it was, to the last bit") {
+  const ModelFile saved = example(
+      std::make_unique<StateSpaceModel>("neural_state_space", std::vector{example_state_space()}, 4.5), "A");
+  const ModelFile loaded = parse_model(format_model(saved), "m.json");
+  CHECK(format_model(loaded) == format_model(saved));
+  const std::vector<double> state{0.3, 0.6, -0.2, 0.1};
+  CHECK(loaded.model->force({0, 0.13, 0.5}, state) == saved.model->force({0, 0.13, 0.5}, state));
+}
+
+TEST_CASE("a hybrid's file comes back as it was, to the last bit, and its law keeps its bounds") {
+  const ModelFile saved = example(std::make_unique<HybridModel>(example_hybrid()), "V");
+  const ModelFile loaded = parse_model(format_model(saved), "m.json");
+  CHECK(format_model(loaded) == format_model(saved));
+  std::vector<double> state(saved.model->state_size());
+  saved.model->rest({0.01, 0, 0.5}, state);
+  CHECK(loaded.model->force({0.01, 0.13, 0.5}, state) == saved.model->force({0.01, 0.13, 0.5}, state));
+  CHECK(message_of([&] {
+          parse_model(format_model(example(std::make_unique<HybridModel>(example_hybrid()), "A")), "m.json");
+        }).find("drive_unit is V, but A for the file") != std::string::npos);
 }
 
 TEST_CASE("a model file that cannot be used says where and why") {

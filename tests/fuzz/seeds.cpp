@@ -4,13 +4,18 @@
 #include <matio.h>
 
 #include "damper/family/example_family.h"
+#include "damper/hybrid_model_example.h"
 #include "damper/inverse/example_network.h"
 #include "damper/neural/bank_network_example.h"
+#include "damper/neural/narx_example.h"
+#include "damper/neural/state_space_example.h"
 #include "dashpot/base/file.h"
 #include "dashpot/damper/fuzzy/fuzzy_model.h"
+#include "dashpot/damper/hybrid_model.h"
 #include "dashpot/damper/inverse/inverse_file.h"
 #include "dashpot/damper/law_model.h"
 #include "dashpot/damper/model_file.h"
+#include "dashpot/damper/neural/network_model.h"
 #include "dashpot/damper/parameter_set.h"
 
 // Writes small valid inputs of every fuzz target into folders below the one given: where fuzzing starts.
@@ -96,10 +101,29 @@ void model_seeds(const fs::path& folder) {
   write_file(folder / "family_gates",
              model_seed(example_family(dashpot::FamilyTarget::Residual).with_offset(0), "A"));
   write_file(folder / "family_network", model_seed(example_family_network().with_offset(0), "A"));
+  const Regressors regressors = example_regressors();
+  write_file(folder / "narx",
+             model_seed(std::make_unique<NarxModel>("narx_one_sensor", regressors,
+                                                    std::vector{example_narx_network(regressors)}),
+                        "A"));
+  Mlp mlp;
+  mlp.layers = {2, 1, 1};
+  mlp.parameters = {0.1, 0.2, 0.3, 0.4, 0.5};
+  mlp.input_mean = mlp.input_scale = {1, 1};
+  const std::vector<std::string> inputs = {"velocity", "current"};
+  for (const std::size_t members : {1, 2})
+    write_file(
+        folder / ("network_" + std::to_string(members)),
+        model_seed(std::make_unique<NetworkModel>("mlp_one_sensor", inputs, std::vector(members, mlp)), "A"));
   write_file(folder / "state_network",
              model_seed(std::make_unique<HysteresisNetwork>("hysteresis_network",
                                                             std::vector{example_bank_network()}),
                         "A"));
+  write_file(folder / "state_space", model_seed(std::make_unique<StateSpaceModel>(
+                                                    "neural_state_space", std::vector{example_state_space()}),
+                                                "A"));
+  write_file(folder / "hybrid",
+             model_seed(std::make_unique<HybridModel>(example_hybrid()), law.drive_unit()));
 }
 
 constexpr const char* kFamily =

@@ -38,3 +38,21 @@ TEST_CASE("one record serves too: its end is held back to choose the price of we
   REQUIRE(fit.model);
   CHECK(evaluate(*fit.model, one, "A").pooled.esr < 1);
 }
+
+TEST_CASE("a hysteresis network as its design says") {
+  const std::vector<Record> training = campaign({{0.01, 1}}).records;
+  IdentifyOptions options{.threads = 1};
+  options.network = {.hidden = {3}, .epochs = 4, .l2 = 1e-3, .members = 2};
+  const FitReport fit = identify("hysteresis_network", training, "A", options);
+  const auto& network = dynamic_cast<const HysteresisNetwork&>(*fit.model);
+  REQUIRE(network.members().size() == 2);
+  CHECK(network.members()[1].network.hidden() == 3);
+  CHECK(fit.iterations <= 4);
+  options.network.l2 = 1;
+  CHECK(format_json(identify("hysteresis_network", training, "A", options).model->to_json()) !=
+        format_json(fit.model->to_json()));
+  options.network.hidden = {3, 3};
+  CHECK(message_of([&] {
+          identify("hysteresis_network", training, "A", options);
+        }).find("has one hidden layer") != std::string::npos);
+}

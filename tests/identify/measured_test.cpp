@@ -2,6 +2,7 @@
 // files. Fits take minutes under the sanitizers, so they run in the release build only.
 #include <cmath>
 
+#include "dashpot/base/file.h"
 #include "dashpot/damper/parameter_set.h"
 #include "dashpot/identify/identify.h"
 #include "support.h"
@@ -23,19 +24,32 @@ RankedModel ranked(const std::string& model, const Dataset& dataset) {
   return rank({model}, dataset, *dataset.leave_out, {}).models.front();
 }
 
+/// 90 % intervals on what they were made without: the project's gate. Measured: 90.0 % and 89.4 %.
+void check_coverage(const RankedModel& model) {
+  CHECK(model.left_out.coverage.percent() >= 86);
+  CHECK(model.left_out.coverage.percent() <= 94);
+}
+
+/// Of the dataset's only fold, without the fits that an interval needs.
+Metrics of_left_out(const std::string& model, const Dataset& dataset) {
+  const Fold fold = split(dataset, *dataset.leave_out).front();
+  const FitReport fit = identify(model, fold.training, dataset.drive_unit, {});
+  return evaluate(*fit.model, fold.left_out, dataset.drive_unit, {.known_offsets = fit.offsets}).pooled;
+}
+
 }  // namespace
 
 TEST_CASE("nees: modified Bouc-Wen beats the published parameters on the last third") {
   const auto folder = recordings("nees-2012-1158");
   if (folder.empty()) return;
-  const RankedModel model = ranked("modified_bouc_wen", load_dataset({folder}));
-  CHECK(model.left_out.pooled.r2 >= 0.965);  // published parameters, unfitted: 0.946
+  CHECK(of_left_out("modified_bouc_wen", load_dataset({folder})).r2 >=
+        0.965);  // published parameters, unfitted: 0.946
 }
 
 TEST_CASE("nees: the large-scale Bouc-Wen law on the last third") {
   const auto folder = recordings("nees-2012-1158");
   if (folder.empty()) return;
-  CHECK(ranked("large_scale_bouc_wen", load_dataset({folder})).left_out.pooled.r2 >= 0.975);
+  CHECK(of_left_out("large_scale_bouc_wen", load_dataset({folder})).r2 >= 0.975);
 }
 
 TEST_CASE("utfsm: modified Bouc-Wen on conditions left out") {
@@ -43,7 +57,9 @@ TEST_CASE("utfsm: modified Bouc-Wen on conditions left out") {
   if (folder.empty()) return;
   const Dataset data = load_dataset({folder});
   CHECK(data.records.size() == 20);
-  CHECK(ranked("modified_bouc_wen", data).left_out.pooled.esr <= 3);
+  const RankedModel model = ranked("modified_bouc_wen", data);
+  CHECK(model.left_out.pooled.esr <= 3);
+  check_coverage(model);
 }
 
 TEST_CASE("utfsm: records that begin in motion are no worse at their start, so that rest is a fair start") {
@@ -67,7 +83,9 @@ TEST_CASE("utfsm: records that begin in motion are no worse at their start, so t
 TEST_CASE("utfpr: inner voltages left out") {
   const auto folder = recordings("utfpr");
   if (folder.empty()) return;
-  CHECK(ranked("tanh_kwok", load_dataset({folder})).left_out.pooled.r2 >= 0.97);
+  const RankedModel model = ranked("tanh_kwok", load_dataset({folder}));
+  CHECK(model.left_out.pooled.r2 >= 0.97);
+  check_coverage(model);
 }
 
 TEST_CASE("fuzzy models on what was left out") {
@@ -108,14 +126,20 @@ TEST_CASE("hysteresis network: one fold of each set of recordings") {
 TEST_CASE("sysidentpy: the simulated damper, trained and tested on the halves that are used publicly") {
   const auto folder = recordings("sysidentpy-simulated");
   if (folder.empty()) return;
-  const RankedModel model = ranked("modified_bouc_wen", load_dataset({folder}));
-  CHECK(model.left_out.pooled.rrse <= 0.02);  // best public free-run figure: 0.0451
+  CHECK(of_left_out("modified_bouc_wen", load_dataset({folder})).rrse <=
+        0.01);  // best public free-run figure: 0.0451
 }
 
 TEST_CASE("sysidentpy: the stated parameters meet the second half of the data and not the first") {
   const auto folder = shared_data("sysidentpy-simulated");
   if (folder.empty()) return;
-  Record record = load_dataset({folder}).records.back();  // rows 0...3599
+  // With column v as the velocity, which the dataset file leaves out for what is found here.
+  TemporaryFolder own;
+  std::string file = read_file(project_file("data/datasets/sysidentpy-simulated.yaml"));
+  file.insert(file.find("      force:"), "      velocity: {column: v, unit: cm/s}\n");
+  LoadOptions options;
+  options.dataset_file = own.write("with-v.yaml", file);
+  Record record = load_dataset({folder}, options).records.back();  // rows 0...3599
   const auto rmse = [&](std::size_t first, std::size_t last) {
     Record part = record.slice(0, last);
     part.warm_up = first;

@@ -106,8 +106,22 @@ TEST_CASE("what names the law goes before what does not") {
   const std::vector<ParameterChoice> choices = {{.law = "bingham", .parameter = "c0", .fixed = 1},
                                                 {.parameter = "c0", .fixed = 2}};
   const Law& law = find_law("bingham");
-  CHECK(*choice_for(choices, law, law.params[0]).fixed == 1);
-  CHECK(*choice_for(choices, find_law("tanh_kwok"), law.params[0]).fixed == 2);
+  CHECK(*choice_for(choices, "bingham", law.params[0]).fixed == 1);
+  CHECK(*choice_for(choices, "tanh_kwok", law.params[0]).fixed == 2);
+  CHECK(*choice_for(choices, "bingham+network", law.params[0]).fixed == 2);
+}
+
+TEST_CASE("the law inside a hybrid is chosen for by the hybrid's name or by none") {
+  const ModelNames models = {"bingham+network"};
+  CHECK(parse_fixed_choice("bingham+network.c0=5", "--fix", models).law == "bingham+network");
+  CHECK(*parse_fixed_choice("c0=5N*s/cm", "--fix", models).fixed == 500);
+  CHECK(message_of([&] {
+          parse_fixed_choice("binham+network.c0=5", "--fix", models);
+        }).find("did you mean 'bingham+network'") != std::string::npos);
+  require_choices({{.law = "bingham+network", .parameter = "c0", .fixed = 5}}, models);
+  CHECK(message_of([&] {
+          require_choices({{.law = "bingham", .parameter = "c0", .fixed = 5}}, models);
+        }).find("none of the models") != std::string::npos);
 }
 
 TEST_CASE("a fixed parameter keeps its value, a freed one is found, bounds hold") {

@@ -116,9 +116,14 @@ TEST_CASE("verdict: the best, its worst record, the next, and who diverged") {
   CHECK(contains(verdict(example.ranking), "No model can be used"));
 }
 
-TEST_CASE("the one-step note stands only where every model is of a known kind") {
+TEST_CASE("the one-step note names models that feed force back, or says that there are none") {
   ExampleRanking example = example_ranking();
   CHECK(contains(one_step_note(example.ranking).value_or(""), "none of these models feeds force back"));
+  example.ranking.models[0].left_out.one_step.emplace().esr = 0.123;
+  example.ranking.models[0].left_out.pooled.esr = 3.5;
+  CHECK(contains(one_step_note(example.ranking).value_or(""),
+                 example.ranking.models[0].name + " 0.12 % (free run 3.5 %)"));
+  example.ranking.models[0].left_out.one_step.reset();
   example.ranking.models[1].fit.model.reset();
   CHECK(!one_step_note(example.ranking));
 }

@@ -110,14 +110,15 @@ TEST_CASE("what agrees in named conditions is left out together") {
         std::string::npos);
 }
 
-TEST_CASE("a training part is held back as the judged part was left out, else in thirds") {
+TEST_CASE("a training part is held back as the judged part was left out, else in six") {
   const std::vector<Record> training = small_dataset().records;
   CHECK(hold_back(training, parse_leave_out("condition=other")).size() == 2);
   CHECK(hold_back(training, parse_leave_out("current=0.7")).size() == 1);
   const auto records = hold_back(training, parse_leave_out("roles"));
-  REQUIRE(records.size() == 3);
-  CHECK(records[1].left_out.size() == 2);
-  CHECK(records[1].training.size() == 4);
+  REQUIRE(records.size() == 6);
+  CHECK(records[1].left_out.size() == 1);
+  CHECK(records[1].training.size() == 5);
+  CHECK(hold_back({training.begin(), training.begin() + 4}, parse_leave_out("roles")).size() == 4);
 
   Record record = training.front().slice(0, 10);
   for (int k = 10; k < 100; ++k) {
@@ -126,14 +127,31 @@ TEST_CASE("a training part is held back as the judged part was left out, else in
   }
   record.warm_up = 10;
   const auto stretches = hold_back({record}, parse_leave_out("fraction=0.3"));
-  REQUIRE(stretches.size() == 3);  // of the 90 scored samples
-  const Fold& middle = stretches[1];
-  CHECK(middle.left_out.front().warm_up == 40);  // run from the start, scored from 40 to 69
-  CHECK(middle.left_out.front().size() == 70);
-  REQUIRE(middle.training.size() == 2);
-  CHECK(middle.training[0].size() == 40);
-  CHECK(middle.training[1].time.front() == 70);
+  REQUIRE(stretches.size() == 6);  // of the 90 scored samples
+  const Fold& second = stretches[1];
+  CHECK(second.left_out.front().warm_up == 25);  // run from the start, scored from 25 to 39
+  CHECK(second.left_out.front().size() == 40);
+  REQUIRE(second.training.size() == 2);
+  CHECK(second.training[0].size() == 25);
+  CHECK(second.training[1].time.front() == 40);
   CHECK(stretches[0].training.size() == 1);
-  CHECK(stretches[2].training.size() == 1);
+  CHECK(stretches[5].training.size() == 1);
   CHECK(hold_back({training.front()}, parse_leave_out("fraction=0.3")).empty());  // too short
+}
+
+TEST_CASE("trials hold back each condition and each inner level, else the ends") {
+  const std::vector<Record> training = small_dataset().records;
+  const auto folds = trial_folds(training);
+  REQUIRE(folds.size() == 3);  // slow, fast, 0.5
+  for (const Fold& fold : folds) CHECK(fold.training.size() + fold.left_out.size() == training.size());
+  CHECK(folds[1].left_out.front().condition == "fast");
+  CHECK(folds[2].left_out.size() == 2);
+  CHECK(*folds[2].left_out[1].drive_level == 0.5);
+  Record one = training.front();
+  one.warm_up = 5;
+  const auto ends = trial_folds({one});
+  REQUIRE(ends.size() == 1);  // 30 % of 5 scored samples, rounded down
+  CHECK(ends[0].training[0].size() == 9);
+  CHECK(ends[0].left_out[0].size() == 10);
+  CHECK(ends[0].left_out[0].warm_up == 9);
 }

@@ -101,8 +101,11 @@ std::optional<std::string> closest(std::string_view word, const std::vector<std:
   return best;
 }
 
-std::string suggest(std::string_view word, const std::vector<std::string>& known) {
-  const auto near = closest(word, known);
+std::string suggest(std::string_view word, const std::vector<std::string>& known,
+                    const std::vector<std::string>& unlisted) {
+  std::vector<std::string> all = known;
+  all.insert(all.end(), unlisted.begin(), unlisted.end());
+  const auto near = closest(word, all);
   return (near ? "did you mean '" + *near + "'? " : "") + "known: " + join(known, ", ");
 }
 

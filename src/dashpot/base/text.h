@@ -25,6 +25,7 @@ std::string join(const std::vector<std::string>& parts, std::string_view separat
 std::optional<std::string> closest(std::string_view word, const std::vector<std::string>& candidates);
 
 /// "did you mean 'bingham'? known: bingham, ..." for the last part of an Error.
-std::string suggest(std::string_view word, const std::vector<std::string>& known);
+std::string suggest(std::string_view word, const std::vector<std::string>& known,
+                    const std::vector<std::string>& unlisted = {});
 
 }  // namespace dashpot

@@ -9,6 +9,7 @@ namespace dashpot {
 namespace {
 
 constexpr std::string_view kAll = "one-sensor";
+constexpr std::uint64_t kSecondSeed = 1000;  // further than the number of experiments
 
 // Each constant of SC sees the whole motion. In experiment 4 the frequencies are high and the amplitudes low,
 // as the paper says of it.
@@ -16,11 +17,13 @@ constexpr std::array kExperiments{
     BenchExperiment{.name = "one-sensor-1",
                     .title = "triangles of variable slope, stepped constants",
                     .continuous = {"TPNVS,repeats=10", "SC,levels=10"},
-                    .switched = {"TPNVS,repeats=2", "SC,levels=2"}},
+                    .switched = {"TPNVS,repeats=2", "SC,levels=2"},
+                    .second = "speed_min=0.06,speed_max=0.9"},
     BenchExperiment{.name = "one-sensor-2",
                     .title = "stepped frequencies, stepped constants",
                     .continuous = {"SFS,repeats=10", "SC,levels=10"},
-                    .switched = {"SFS,repeats=2", "SC,levels=2"}},
+                    .switched = {"SFS,repeats=2", "SC,levels=2"},
+                    .second = "frequency_min=1,frequency_max=14"},
     BenchExperiment{.name = "one-sensor-3",
                     .title = "rough way, transient current",
                     .continuous = {"RP", "ICPS"},
@@ -28,22 +31,27 @@ constexpr std::array kExperiments{
     BenchExperiment{.name = "one-sensor-4",
                     .title = "amplitude modulation, transient current",
                     .continuous = {"AM,carrier=12,amplitude=3mm", "ICPS"},
-                    .switched = {"AM,carrier=12,amplitude=3mm", "PRBS"}},
+                    .switched = {"AM,carrier=12,amplitude=3mm", "PRBS"},
+                    .second = "modulation=0.13"},
     BenchExperiment{.name = "one-sensor-5",
                     .title = "frequency modulation, transient current",
                     .continuous = {"FM", "ICPS"},
-                    .switched = {"FM", "PRBS"}},
+                    .switched = {"FM", "PRBS"},
+                    .second = "modulation=0.07"},
 };
 
-BenchTest test_of(std::size_t k, const ParameterSet& damper, std::uint64_t seed) {
-  const bool switched = !damper.drive_levels.empty();
+BenchTest test_of(std::size_t k, const ParameterSet& damper, std::uint64_t seed, Recording recording) {
+  const bool switched = !damper.drive_levels.empty(), second = recording == Recording::Second;
   const BenchExperiment& experiment = kExperiments[k];
   const Excitation& excitation = switched ? experiment.switched : experiment.continuous;
   DriveFrame frame{.low = damper.drive_min, .high = damper.drive_max};
   if (switched) frame = {.low = damper.drive_levels.front(), .high = damper.drive_levels.back()};
+  if (second) seed += kSecondSeed;
   frame.seed = seed + k;  // no two experiments have the same current
-  return under_sequence(sequence_test(std::string(excitation.motion), seed), std::string(excitation.drive),
-                        frame);
+  std::string motion(excitation.motion);
+  if (second && !experiment.second.empty()) motion.append(",").append(experiment.second);
+  if (second && excitation.drive.starts_with("SC")) std::swap(frame.low, frame.high);
+  return under_sequence(sequence_test(motion, seed), std::string(excitation.drive), frame);
 }
 
 }  // namespace
@@ -57,10 +65,10 @@ std::vector<std::string> experiment_names() {
 }
 
 std::vector<BenchTest> experiment_tests(const std::string& name, const ParameterSet& damper,
-                                        std::uint64_t seed) {
+                                        std::uint64_t seed, Recording recording) {
   std::vector<BenchTest> tests;
   for (std::size_t k = 0; k < kExperiments.size(); ++k)
-    if (name == kAll || name == kExperiments[k].name) tests.push_back(test_of(k, damper, seed));
+    if (name == kAll || name == kExperiments[k].name) tests.push_back(test_of(k, damper, seed, recording));
   if (tests.empty()) throw Error("", "unknown experiment '" + name + "'", suggest(name, experiment_names()));
   return tests;
 }

@@ -19,4 +19,15 @@ struct LagWeights {
   double of(double y0, double u0, double u1) const noexcept { return past * y0 + from * u0 + to * u1; }
 };
 
+/// Brings such a lag over a step; `slope`, when not null, is its derivative by the logarithm of its rate.
+inline void advance_lag(double from, double to, double turn, double& state, double* slope) noexcept {
+  const LagWeights weights(turn);
+  if (slope) {
+    const double fall = turn * weights.past, mean = weights.from + weights.past;
+    *slope = weights.past * *slope - fall * state + (weights.past - mean + fall) * from +
+             (mean - weights.past) * to;
+  }
+  state = weights.of(state, from, to);
+}
+
 }  // namespace dashpot

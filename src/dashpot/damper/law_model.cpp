@@ -98,7 +98,7 @@ void LawModel::advance(const DamperInput& from, const DamperInput& to, double dt
 
 double LawModel::force(const DamperInput& input, std::span<const double> state) const noexcept {
   Params p;
-  parameters_at(lag_rate_ > 0 ? state[law_->states.size()] : input.current, p.data());
+  parameters_at(coil_current(input, state), p.data());
   return law_->force(p.data(), input.displacement, input.velocity, state.data());
 }
 

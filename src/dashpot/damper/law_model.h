@@ -48,6 +48,10 @@ class LawModel final : public DamperModel {
     for (const std::size_t k : exponential_) out[k] = parameters_.at(k, current);
   }
   bool follows_current() const noexcept { return follows_current_; }
+  /// The current in the coil at this instant.
+  double coil_current(const DamperInput& input, std::span<const double> state) const noexcept {
+    return lag_rate_ > 0 ? state[law_->states.size()] : input.current;
+  }
 
   const Law& law() const { return *law_; }
   const Dependence& parameters() const { return parameters_; }

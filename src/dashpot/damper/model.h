@@ -31,7 +31,7 @@ class DamperModel {
  public:
   virtual ~DamperModel() = default;
 
-  virtual std::string kind() const = 0;  ///< "law", "network", "state_network", "fuzzy", "family"
+  virtual std::string kind() const = 0;  ///< as ModelInfo::kind: "law", "network", "narx" ...
   virtual std::string name() const = 0;  ///< as the registry knows it: "bingham"
   virtual bool needs_displacement() const noexcept = 0;
   virtual std::size_t parameter_count() const noexcept = 0;
@@ -45,6 +45,21 @@ class DamperModel {
                        std::span<double> state) const noexcept = 0;
   /// Force at this instant, N, positive when it resists extension.
   virtual double force(const DamperInput& input, std::span<const double> state) const noexcept = 0;
+
+  /// Whether this is the mean of several models, which tell by their spread where they have learnt little.
+  virtual bool is_ensemble() const noexcept { return false; }
+  /// Standard deviation of their forces at this instant, N; 0 for a single model.
+  virtual double spread(const DamperInput& /*input*/, std::span<const double> /*state*/) const noexcept {
+    return 0;
+  }
+  /// Whether the force left the range that the model can answer for: it stands still since, until the next
+  /// rest. Only a model that feeds its force back can.
+  virtual bool has_diverged(std::span<const double>) const noexcept { return false; }
+  /// s between the forces that are fed back; 0: none is.
+  virtual double feedback_step() const noexcept { return 0; }
+  /// Puts a measured force, N, in the place of the one that the model has just fed back: so the next one is
+  /// told one step ahead, not in free run.
+  virtual void observe(double, std::span<double>) const noexcept {}
 
   /// The same model giving force + offset.
   virtual std::unique_ptr<DamperModel> with_offset(double newton) const = 0;

@@ -3,36 +3,52 @@
 #include "dashpot/base/error.h"
 #include "dashpot/base/file.h"
 #include "dashpot/base/text.h"
-#include "dashpot/damper/file_parts.h"
 #include "dashpot/damper/family/family_model.h"
+#include "dashpot/damper/file_parts.h"
 #include "dashpot/damper/fuzzy/fuzzy_model.h"
+#include "dashpot/damper/hybrid_model.h"
 #include "dashpot/damper/law_model.h"
 #include "dashpot/damper/neural/hysteresis_network.h"
+#include "dashpot/damper/neural/narx_model.h"
 #include "dashpot/damper/neural/network_model.h"
+#include "dashpot/damper/neural/state_space_model.h"
 
 namespace dashpot {
 namespace {
 
 constexpr FileFormat kFormat{"dashpot-model", "a model file", 1};
 
+void require_law(const LawModel& law, const ModelFile& file, const std::string& where) {
+  if (law.drive_unit() != file.drive_unit)
+    throw Error(where, "drive_unit is " + law.drive_unit() + ", but " + file.drive_unit + " for the file");
+  require_bounds(law, file.domain.current_min, where);
+  require_bounds(law, file.domain.current_max, where);
+}
+
 std::unique_ptr<DamperModel> read_law(const Value& value, const ModelFile& file) {
   auto model = law_model_from_json(value);
-  if (model->drive_unit() != file.drive_unit)
-    throw Error(value.where(),
-                "drive_unit is " + model->drive_unit() + ", but " + file.drive_unit + " for the file");
-  require_bounds(*model, file.domain.current_min, value.where());
-  require_bounds(*model, file.domain.current_max, value.where());
+  require_law(*model, file, value.where());
+  return model;
+}
+
+std::unique_ptr<DamperModel> read_hybrid(const Value& value, const ModelFile& file) {
+  auto model = hybrid_model_from_json(value);
+  require_law(model->law(), file, value.where());
   return model;
 }
 
 std::unique_ptr<DamperModel> read_model(const Value& kind, const Value& value, const ModelFile& file) {
   if (kind.as_string() == "law") return read_law(value, file);
   if (kind.as_string() == "network") return network_model_from_json(value);
+  if (kind.as_string() == "narx") return narx_model_from_json(value);
   if (kind.as_string() == "state_network") return hysteresis_network_from_json(value);
+  if (kind.as_string() == "state_space") return state_space_model_from_json(value);
   if (kind.as_string() == "fuzzy") return fuzzy_model_from_json(value);
   if (kind.as_string() == "family") return family_model_from_json(value);
+  if (kind.as_string() == "hybrid") return read_hybrid(value, file);
   throw Error(kind.where(), "unknown kind '" + kind.as_string() + "'",
-              suggest(kind.as_string(), {"law", "network", "state_network", "fuzzy", "family"}));
+              suggest(kind.as_string(), {"law", "network", "narx", "state_network", "state_space", "fuzzy",
+                                         "hybrid", "family"}));
 }
 
 }  // namespace

@@ -48,8 +48,8 @@ constexpr std::array kLaws{&kArctan,
 constexpr std::string_view kOneSensorPaper =
     "Tudon-Martinez et al., the one-sensor paper: static network 8.22 % and 4.38 % (rms / half span)";
 
-const std::array<NetworkPreset, 2>& presets() {
-  static const std::array<NetworkPreset, 2> kPresets{{
+const std::array<NetworkPreset, 4>& presets() {
+  static const std::array<NetworkPreset, 4> kPresets{{
       {.name = "mlp_one_sensor",
        .title = "Static network, one sensor",
        .equation = "F = w2 . tanh(W1 [v, i] + b1) + b2",
@@ -68,6 +68,33 @@ const std::array<NetworkPreset, 2>& presets() {
            "trained on.",
        .inputs = {"displacement", "velocity", "current"},
        .hidden = {10}},
+      {.name = "narx_one_sensor",
+       .title = "Recurrent network (NARX), one sensor",
+       .equation =
+           "F(t) = w2 . tanh(W1 [v(t), v(t-T), v(t-2T), i(t), i(t-T), i(t-2T), F(t-T), F(t-2T)] + b1) + b2",
+       .source = kOneSensorPaper,
+       .remarks =
+           "101 parameters. Learnt on the measured force fed back, then in free run over windows of 10 "
+           "and 100 steps and over whole records, which begin without a measured force, by "
+           "Levenberg-Marquardt with exact derivatives; the price of weights is the one with which short "
+           "trials foretell best what was held back from them. T: as many samples as fit into 1 ms, one "
+           "at least, of the record with the longest sample time; others are brought to it. A drive that "
+           "is steady within each record is read at present only. The model stands still, and is "
+           "reported as diverged, where its force is ten standard deviations from the mean of its "
+           "training; --network output=bounded rules that out.",
+       .inputs = {"velocity", "current"},
+       .hidden = {10},
+       .delays = 2,
+       .feedback = 2},
+      {.name = "narx_two_sensors",
+       .title = "Recurrent network (NARX), two sensors",
+       .equation = "F(t) = w2 . tanh(W1 [x(t), v(t), i(t), F(t-T)] + b1) + b2",
+       .source = kOneSensorPaper,
+       .remarks =
+           "61 parameters, the recurrent network of the source; learnt and judged as narx_one_sensor is.",
+       .inputs = {"displacement", "velocity", "current"},
+       .hidden = {10},
+       .feedback = 1},
   }};
   return kPresets;
 }
@@ -92,6 +119,34 @@ constexpr std::array<StateNetworkPreset, 1> kStateNetworks{{
      .current_lags = 3,
      .hidden = 10,
      .members = 4},
+}};
+
+constexpr std::array<StateSpacePreset, 1> kStateSpaces{{
+    {.name = "neural_state_space",
+     .title = "Neural state space, one sensor",
+     .equation = "F = mean of members of  sum_j (sum_k G_jk c_k(u)) t_j,\n"
+                 "t = [1, z, tanh(V [z, u] + b)],  z = [v, x, v - y],  c = [1, u_m, u_m u_n],\n"
+                 "x' = r (w - |w| x),  y' = r (w - y),  u' = mu (i - u),\n"
+                 "w = v + B p,  r = rate exp(3 tanh(D p / 3)),  p = [1, x, u, tanh(W [x, y, v, u, 1])]",
+     .source =
+         "Dashpot's own cell; an encoder and a loss over several steps of windows after Beintema, Toth and "
+         "Schoukens, L4DC (2021), and Forgione and Piga, Eur. J. Control 59 (2021) 69",
+     .remarks =
+         "Velocity and current only. The states act back on their own speed and rates through a small "
+         "perceptron; without it they are a bank of Dahl states and lags, from which the training starts. "
+         "Bounded for bounded inputs: x stays within -1 ... 1, y near v plus something bounded. A step is "
+         "exact for rates and speeds held over it; steps longer than the model's own (5 ms at most, kept in "
+         "the file) are divided. Learnt first on windows of 400 samples, each run freely from where an "
+         "encoder of past forces and velocities puts the states, then in free run over whole records from "
+         "rest; Levenberg-Marquardt with exact derivatives in both. The encoder is not part of the model: a "
+         "damper that starts from rest has settled under its current. The price of weights is chosen as for "
+         "hysteresis_network. The members differ in their random start.",
+     .path_states = 4,
+     .lags = 2,
+     .current_lags = 2,
+     .hidden = 6,
+     .output_hidden = 6,
+     .members = 3},
 }};
 
 const std::array<FuzzyPreset, 2>& grids() {
@@ -131,8 +186,37 @@ const Law* law_named(std::string_view name) {
   return found == kLaws.end() ? nullptr : *found;
 }
 
+/// The best on measured dampers among the laws that hybrids were tried with: docs/decisions/009.
+constexpr std::array<std::string_view, 2> kUsualHybrids{"large_scale_bouc_wen", "modified_bouc_wen"};
+
+HybridPreset hybrid_of(const Law& law) {
+  return {
+      .name = hybrid_name(law.name),
+      .title = std::string(law.title) + " with a network",
+      .equation = std::string(law.equation) +
+                  "\nand to F is added  sum_j (sum_k G_jk c_k(i)) t_j,\n"
+                  "t = [1, s, tanh(W [s, i] + b)],  c = [1, i_m, i_m i_n],  s: v" +
+                  (law.needs_displacement ? ", x" : "") + (law.states.empty() ? "" : ", the states") +
+                  " and F of the law, mixed",
+      .source = std::string(law.source) + "; the network on top is Dashpot's own",
+      .remarks = (law.remarks.empty() ? "" : std::string(law.remarks) + " ") +
+                 "The numbers of the law and the weights of the network are found together, in free run, by "
+                 "Levenberg-Marquardt from the law's own fit; so the law's numbers are no properties of the "
+                 "damper here and have no intervals. The network reads what the law knows; where the drive "
+                 "varies within the records, a bank of Dahl states and lags, too. The price of weights is "
+                 "the one with which trials foretell best what was held back from them. Nothing feeds "
+                 "back, and beyond the training data the network's part stays as at their edge.",
+      .law = &law,
+      .hidden = 8,
+      .path_states = 5,
+      .velocity_lags = 2,
+      .current_lags = 2,
+      .usual = std::find(kUsualHybrids.begin(), kUsualHybrids.end(), law.name) != kUsualHybrids.end()};
+}
+
 [[noreturn]] void throw_unknown(std::string_view name, const std::string& where) {
-  throw Error(where, "unknown model '" + std::string(name) + "'", suggest(name, model_names()));
+  throw Error(where, "unknown model '" + std::string(name) + "'",
+              suggest(name, model_names(), more_model_names()));
 }
 
 }  // namespace
@@ -143,24 +227,43 @@ std::span<const NetworkPreset> network_presets() { return presets(); }
 
 std::span<const StateNetworkPreset> state_network_presets() { return kStateNetworks; }
 
+std::span<const StateSpacePreset> state_space_presets() { return kStateSpaces; }
+
 std::span<const FuzzyPreset> fuzzy_presets() { return grids(); }
+
+std::string hybrid_name(std::string_view law) { return std::string(law) + "+network"; }
+
+std::span<const HybridPreset> hybrid_presets() {
+  static const std::vector<HybridPreset> kHybrids = [] {
+    std::vector<HybridPreset> hybrids;
+    for (const Law* law : laws()) hybrids.push_back(hybrid_of(*law));
+    return hybrids;
+  }();
+  return kHybrids;
+}
 
 bool ModelInfo::needs_displacement() const {
   return std::find(inputs.begin(), inputs.end(), "displacement") != inputs.end();
 }
 
 ModelInfo model_info(std::string_view name, const std::string& where) {
-  if (const Law* law = law_named(name)) {
-    ModelInfo info{law->name, "law", law->title, law->equation, law->source, law->remarks, {}};
-    if (law->needs_displacement) info.inputs.push_back("displacement");
-    info.inputs.insert(info.inputs.end(), {"velocity", "current"});
-    return info;
-  }
+  const auto inputs_of = [](const Law& law) {
+    return law.needs_displacement ? std::vector<std::string>{"displacement", "velocity", "current"}
+                                  : std::vector<std::string>{"velocity", "current"};
+  };
+  if (const Law* law = law_named(name))
+    return {law->name, "law", law->title, law->equation, law->source, law->remarks, inputs_of(*law)};
+  for (const HybridPreset& p : hybrid_presets())
+    if (p.name == name)
+      return {p.name, "hybrid", p.title, p.equation, p.source, p.remarks, inputs_of(*p.law)};
   for (const NetworkPreset& p : network_presets())
-    if (p.name == name) return {p.name, "network", p.title, p.equation, p.source, p.remarks, p.inputs};
+    if (p.name == name) return {p.name, p.kind(), p.title, p.equation, p.source, p.remarks, p.inputs};
   for (const StateNetworkPreset& p : state_network_presets())
     if (p.name == name)
       return {p.name, "state_network", p.title, p.equation, p.source, p.remarks, {"velocity", "current"}};
+  for (const StateSpacePreset& p : state_space_presets())
+    if (p.name == name)
+      return {p.name, "state_space", p.title, p.equation, p.source, p.remarks, {"velocity", "current"}};
   for (const FuzzyPreset& p : fuzzy_presets())
     if (p.name == name) return {p.name, "fuzzy", p.title, p.equation, p.source, p.remarks, p.inputs};
   const FamilyPreset& p = find_family_preset(name, where);
@@ -174,8 +277,18 @@ std::vector<std::string> model_names() {
   for (const Law* law : laws()) names.emplace_back(law->name);
   for (const NetworkPreset& preset : network_presets()) names.emplace_back(preset.name);
   for (const StateNetworkPreset& preset : state_network_presets()) names.emplace_back(preset.name);
+  for (const StateSpacePreset& preset : state_space_presets()) names.emplace_back(preset.name);
   for (const FuzzyPreset& preset : fuzzy_presets()) names.emplace_back(preset.name);
+  for (const HybridPreset& preset : hybrid_presets())
+    if (preset.usual) names.push_back(preset.name);
   for (const FamilyPreset& preset : family_presets()) names.emplace_back(preset.name);
+  return names;
+}
+
+std::vector<std::string> more_model_names() {
+  std::vector<std::string> names;
+  for (const HybridPreset& preset : hybrid_presets())
+    if (!preset.usual) names.push_back(preset.name);
   return names;
 }
 
@@ -196,6 +309,12 @@ const StateNetworkPreset& find_state_network_preset(std::string_view name, const
   throw_unknown(name, where);
 }
 
+const StateSpacePreset& find_state_space_preset(std::string_view name, const std::string& where) {
+  for (const StateSpacePreset& preset : state_space_presets())
+    if (preset.name == name) return preset;
+  throw_unknown(name, where);
+}
+
 const FuzzyPreset& find_fuzzy_preset(std::string_view name, const std::string& where) {
   for (const FuzzyPreset& preset : fuzzy_presets())
     if (preset.name == name) return preset;
@@ -208,6 +327,18 @@ const FamilyPreset& find_family_preset(std::string_view name, const std::string&
   throw_unknown(name, where);
 }
 
+const HybridPreset& find_hybrid_preset(std::string_view name, const std::string& where) {
+  for (const HybridPreset& preset : hybrid_presets())
+    if (preset.name == name) return preset;
+  throw_unknown(name, where);
+}
+
 bool is_law(std::string_view name) { return law_named(name) != nullptr; }
+
+const Law* law_inside(std::string_view name) {
+  for (const HybridPreset& preset : hybrid_presets())
+    if (preset.name == name) return preset.law;
+  return law_named(name);
+}
 
 }  // namespace dashpot

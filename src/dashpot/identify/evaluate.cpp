@@ -8,6 +8,7 @@
 #include "dashpot/base/error.h"
 #include "dashpot/base/parallel.h"
 #include "dashpot/base/text.h"
+#include "dashpot/identify/one_step.h"
 
 namespace dashpot {
 namespace {
@@ -51,7 +52,7 @@ Coverage coverage_of(const RecordResult& r) {
   Coverage coverage;
   if (!r.band || r.diverged_at) return coverage;
   for (std::size_t k = r.warm_up; k < r.measured.size(); ++k) {
-    const double half = r.band->half_width_at({0, r.velocity[k], r.drive[k]});
+    const double half = r.band->half_width_at({0, r.velocity[k], r.drive[k]}, r.spread_at(k));
     coverage.inside += std::abs(r.measured[k] - r.modelled[k]) <= half;
     coverage.width += 2 * half;
   }
@@ -89,6 +90,7 @@ RecordResult evaluate_record(const DamperModel& model, const Record& record, std
   result.extrapolations = damper.extrapolations();
   FreeRun run = free_run(damper, damper_inputs(record, drive_unit), record.time);
   result.modelled = std::move(run.force);
+  result.spread = std::move(run.spread);
   result.diverged_at = run.diverged_at;
   if (result.diverged_at) return result;
 
@@ -99,6 +101,7 @@ RecordResult evaluate_record(const DamperModel& model, const Record& record, std
   }
   result.sums = error_sums(result, result.offset);
   result.sums_without_offset = error_sums(result, 0);
+  result.one_step = one_step_errors(model, record, drive_unit, result.offset);
   result.metrics = metrics(result.sums);
   result.metrics_without_offset = metrics(result.sums_without_offset);
   for (double& force : result.modelled) force += result.offset;
@@ -176,7 +179,7 @@ std::vector<DriveResult> by_drive(const std::vector<RecordResult>& records) {
 Evaluation summarise(std::vector<RecordResult> records) {
   Evaluation evaluation;
   evaluation.records = std::move(records);
-  ErrorSums sums, without;
+  ErrorSums sums, without, one_step;
   for (RecordResult& r : evaluation.records) {
     if (r.diverged_at) {
       ++evaluation.diverged;
@@ -186,6 +189,7 @@ Evaluation summarise(std::vector<RecordResult> records) {
     evaluation.coverage.add(r.coverage);
     sums.add(r.sums);
     without.add(r.sums_without_offset);
+    one_step.add(r.one_step);
     evaluation.mean_esr += r.metrics.esr;
     evaluation.mean_energy_error += std::abs(r.energy_error);
     if (r.metrics.esr >= evaluation.worst_esr) {
@@ -198,6 +202,7 @@ Evaluation summarise(std::vector<RecordResult> records) {
   evaluation.mean_energy_error /= judged;
   evaluation.pooled = metrics(sums);
   evaluation.pooled_without_offset = metrics(without);
+  if (one_step.n > 0) evaluation.one_step = metrics(one_step);
   evaluation.bands = velocity_bands(evaluation.records);
   evaluation.drive = by_drive(evaluation.records);
   return evaluation;
@@ -275,12 +280,15 @@ FreeRun free_run(const DamperModel& model, const std::vector<DamperInput>& input
                  const std::vector<double>& time) {
   FreeRun run;
   run.force.resize(inputs.size(), kNaN);
+  const bool is_ensemble = model.is_ensemble();
+  if (is_ensemble) run.spread.resize(inputs.size(), kNaN);
   std::vector<double> state(model.state_size());
   if (!inputs.empty()) model.rest(inputs.front(), state);
   for (std::size_t k = 0; k < inputs.size(); ++k) {
     if (k > 0) model.advance(inputs[k - 1], inputs[k], time[k] - time[k - 1], state);
     run.force[k] = model.force(inputs[k], state);
-    if (!std::isfinite(run.force[k])) {
+    if (is_ensemble) run.spread[k] = model.spread(inputs[k], state);
+    if (!std::isfinite(run.force[k]) || model.has_diverged(state)) {
       run.diverged_at = time[k];
       run.force[k] = kNaN;
       break;

@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "dashpot/base/error.h"
+#include "dashpot/identify/bank_records.h"
 #include "dashpot/identify/stroke.h"
 #include "dashpot/identify/training_samples.h"
 #include "dashpot/numerics/symmetric.h"
@@ -48,9 +49,9 @@ HysteresisBank bank_of(const FamilyPreset& preset, const std::vector<FamilyRecor
   }
   if (!(longest.way > 0)) throw Error(std::string(preset.name), "nothing moves in these records");
   HysteresisBank bank;
-  bank.path_rates = spaced(kSlowestWay / longest.way, kFastestWay / shortest.way, preset.path_states);
+  bank.path_rates = spaced_rates(kSlowestWay / longest.way, kFastestWay / shortest.way, preset.path_states);
   bank.velocity_rates =
-      spaced(kSlowestLag / longest.duration, kFastestLag / shortest.duration, preset.velocity_lags);
+      spaced_rates(kSlowestLag / longest.duration, kFastestLag / shortest.duration, preset.velocity_lags);
   return bank;
 }
 

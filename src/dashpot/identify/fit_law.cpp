@@ -5,7 +5,7 @@
 #include "dashpot/base/text.h"
 #include "dashpot/identify/fit.h"
 #include "dashpot/identify/law_residuals.h"
-#include "dashpot/identify/law_unknowns.h"
+#include "dashpot/identify/law_solution.h"
 #include "dashpot/identify/uncertainty.h"
 #include "dashpot/numerics/global_search.h"
 
@@ -13,15 +13,6 @@ namespace dashpot {
 namespace {
 
 constexpr double kNormal95 = 1.959963984540054;  // two-sided 95 % point of the normal distribution
-
-LeastSquaresOptions solver_options(const IdentifyOptions& options, int iterations, double tolerance) {
-  LeastSquaresOptions solver;
-  solver.max_iterations = iterations;
-  solver.function_tolerance = tolerance;
-  solver.threads = options.threads;
-  solver.on_iteration = [&options](int, double) { options.monitor.check(); };
-  return solver;
-}
 
 /// How much of each record the starts are tried on. A law without a memory needs no samples in a row, one
 /// with a memory gets the first part: all of small data, a fifth of large ones.
@@ -93,14 +84,6 @@ std::vector<double> best_start(const Task& task) {
   return best;
 }
 
-/// What the model leaves over.
-struct Noise {
-  double rms = 0;                 ///< N
-  std::vector<double> variances;  ///< N^2, of one independent residual in each record
-  double independent =
-      0;  ///< N, standard deviation of one independent residual: many correlated ones make one
-};
-
 Noise noise_at(const Task& task, const LawResiduals& residuals, std::span<const double> x) {
   std::vector<double> errors(residuals.size());
   if (!residuals.evaluate(x, errors)) return {};
@@ -112,11 +95,6 @@ Noise noise_at(const Task& task, const LawResiduals& residuals, std::span<const 
           independent_variances(errors, residuals.segments(), used),
           std::sqrt(length * squares / static_cast<double>(residuals.size() - used))};
 }
-
-struct Solution {
-  LeastSquaresReport solved;
-  Noise noise;
-};
 
 /// The end of a fit, with those unknowns moved off their bounds that nothing holds there: going back would
 /// hardly change the cost, as far as its slope tells.
@@ -148,10 +126,11 @@ LeastSquaresReport solve_twice(const Task& task, const LeastSquaresProblem& prob
 
 /// Priors are weighed against the residuals' noise, which the fit itself tells: so it is done again until the
 /// noise stays.
-Solution solve_all(const Task& task, const LawResiduals& residuals) {
+LawSolution solve_all(const Task& task) {
   constexpr int kRounds = 4;
   constexpr double kSameNoise = 0.02;
-  Solution end;
+  const LawResiduals residuals = task.residuals({});
+  LawSolution end{task.unknowns, {}, {}};
   std::vector<double> x = best_start(task);
   if (!task.unknowns.priors().empty()) end.noise = noise_at(task, residuals, x);
   for (int round = 0; round < kRounds; ++round) {
@@ -213,34 +192,46 @@ std::vector<std::string> warnings_of(const std::vector<LawUnknowns::Coefficient>
   return warnings;
 }
 
+}  // namespace
+
+LeastSquaresOptions solver_options(const IdentifyOptions& options, int iterations, double tolerance) {
+  LeastSquaresOptions solver;
+  solver.max_iterations = iterations;
+  solver.function_tolerance = tolerance;
+  solver.threads = options.threads;
+  solver.on_iteration = [&options](int, double) { options.monitor.check(); };
+  return solver;
+}
+
 FitReport::Status status_of(const LeastSquaresReport& solved) {
   if (solved.x.empty() || !std::isfinite(solved.cost)) return FitReport::Status::Failed;
   return solved.converged ? FitReport::Status::Converged : FitReport::Status::IterationLimit;
 }
 
-}  // namespace
+LawSolution solve_law(const Law& law, const std::vector<Record>& training, const std::string& drive_unit,
+                      const IdentifyOptions& options, std::string_view model) {
+  return solve_all({law, training, drive_unit, options,
+                    LawUnknowns(law, data_scale(training, drive_unit), drive_unit, options.offset,
+                                options.choices, model)});
+}
 
 FitReport fit_law(const Law& law, const std::vector<Record>& training, const std::string& drive_unit,
                   const IdentifyOptions& options) {
-  const Task task{
-      law, training, drive_unit, options,
-      LawUnknowns(law, data_scale(training, drive_unit), drive_unit, options.offset, options.choices)};
-  const LawResiduals residuals = task.residuals({});
-  const auto [solved, noise] = solve_all(task, residuals);
+  const auto [unknowns, solved, noise] = solve_law(law, training, drive_unit, options);
   FitReport report;
   report.status = status_of(solved);
   report.message = solved.message;
   report.iterations = solved.iterations;
   if (report.status == FitReport::Status::Failed) return report;
 
-  report.model = std::make_shared<LawModel>(task.unknowns.model(solved.x));
+  report.model = std::make_shared<LawModel>(unknowns.model(solved.x));
   report.training_rmse = noise.rms;
   std::vector<double> variances = noise.variances;
-  if (!task.unknowns.priors().empty()) variances.push_back(noise.independent * noise.independent);
-  const Covariance spread = covariance(solved.part_matrices, variances, task.unknowns.size());
-  const auto coefficients = task.unknowns.coefficients(solved.x);
+  if (!unknowns.priors().empty()) variances.push_back(noise.independent * noise.independent);
+  const Covariance spread = covariance(solved.part_matrices, variances, unknowns.size());
+  const auto coefficients = unknowns.coefficients(solved.x);
   report.parameters = fitted_parameters(coefficients, spread);
-  report.warnings = task.unknowns.warnings();
+  report.warnings = unknowns.warnings();
   for (std::string& warning : warnings_of(coefficients, spread))
     report.warnings.push_back(std::move(warning));
   return report;

@@ -1,9 +1,8 @@
-#include <algorithm>
 #include <tuple>
 
-#include "dashpot/damper/neural/ensemble.h"
 #include "dashpot/damper/neural/network_model.h"
 #include "dashpot/identify/fit.h"
+#include "dashpot/identify/network_trainer.h"
 #include "dashpot/identify/training_samples.h"
 
 namespace dashpot {
@@ -42,22 +41,20 @@ FitReport fit_network(const NetworkPreset& preset, const std::vector<Record>& tr
       for (const std::string& name : preset.inputs) values.push_back(input_of(input, name));
     return values;
   };
-  const TrainingSamples samples = training_samples(training, drive_unit, options.offset, rows);
-  const std::size_t starts = static_cast<std::size_t>(std::max(1, options.starts));
-  TrainOptions train_options;
-  train_options.threads = options.threads;
-  train_options.on_iteration = [&options](int, double) { options.monitor.check(); };
-  std::vector<TrainedMlp> trained =
-      train_from_starts(standardised(preset, options.network, samples), starts, options.seed, options.threads,
-                        [&](Mlp& mlp) { return train(mlp, samples, train_options); });
-  TrainedMlp& best = best_of(trained);
+  const SamplesOf samples_of = [&](const std::vector<Record>& records) {
+    return training_samples(records, drive_unit, options.offset, rows);
+  };
+  const Mlp start = standardised(preset, options.network, samples_of(training));
+  TrainedEnsemble trained = train_networks(start, training, samples_of, options);
 
   FitReport report;
-  report.status = best.report.converged ? FitReport::Status::Converged : FitReport::Status::IterationLimit;
-  report.message = best.report.converged ? "converged" : "iteration limit reached";
-  report.iterations = best.report.iterations;
-  report.training_rmse = best.report.rmse;
-  report.model = std::make_shared<NetworkModel>(std::string(preset.name), preset.inputs, std::move(best.mlp));
+  report.status = trained.status;
+  report.message = trained.message;
+  report.iterations = trained.iterations;
+  report.training_rmse = trained.rmse;
+  if (trained.status == FitReport::Status::Failed) return report;
+  report.model =
+      std::make_shared<NetworkModel>(std::string(preset.name), preset.inputs, std::move(trained.members));
   return report;
 }
 

@@ -46,9 +46,14 @@ FitReport fit(const std::string& model, const std::vector<Record>& training, con
               const IdentifyOptions& options) {
   const std::string_view kind = model_info(model).kind;
   if (kind == "law") return fit_law(find_law(model), training, drive_unit, options);
+  if (kind == "narx" || (kind == "network" && options.network.delays.value_or(0) > 0))
+    return fit_narx(find_network_preset(model), training, drive_unit, options);
   if (kind == "network") return fit_network(find_network_preset(model), training, drive_unit, options);
   if (kind == "state_network")
     return fit_state_network(find_state_network_preset(model), training, drive_unit, options);
+  if (kind == "state_space")
+    return fit_state_space(find_state_space_preset(model), training, drive_unit, options);
+  if (kind == "hybrid") return fit_hybrid(find_hybrid_preset(model), training, drive_unit, options);
   if (kind == "family") return fit_family(find_family_preset(model), training, drive_unit, options);
   return fit_fuzzy(find_fuzzy_preset(model), training, drive_unit, options);
 }

@@ -112,10 +112,8 @@ LeastSquaresProblem LawResiduals::problem(double noise, int threads) const {
   problem.lower = unknowns_->lower();
   problem.upper = unknowns_->upper();
   const auto add_priors = [this, noise, priors](std::span<const double> x, std::span<double> r) {
-    for (std::size_t k = 0; k < priors.size(); ++k) {
-      const LawUnknowns::PriorTerm& term = priors[k];
-      r[size_ + k] = noise * (term.size * x[term.unknown] - term.prior.value) / term.prior.deviation;
-    }
+    for (std::size_t k = 0; k < priors.size(); ++k)
+      r[size_ + k] = priors[k].residual(x[priors[k].unknown], noise);
   };
   problem.residual = [this, add_priors](std::span<const double> x, std::span<double> r) {
     add_priors(x, r);
@@ -127,9 +125,7 @@ LeastSquaresProblem LawResiduals::problem(double noise, int threads) const {
     add_priors(x, r);
     for (std::size_t k = 0; k < priors.size(); ++k)
       for (std::size_t u = 0; u < x.size(); ++u)
-        if (columns[u])
-          columns[u][size_ + k] =
-              u == priors[k].unknown ? noise * priors[k].size / priors[k].prior.deviation : 0;
+        if (columns[u]) columns[u][size_ + k] = u == priors[k].unknown ? priors[k].slope(noise) : 0;
     return jacobian(x, r.first(size_), columns, threads);
   };
   return problem;

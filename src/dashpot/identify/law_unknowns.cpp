@@ -69,15 +69,16 @@ DataScale data_scale(const std::vector<Record>& records, std::string_view drive_
 }
 
 LawUnknowns::LawUnknowns(const Law& law, const DataScale& scale, std::string drive_unit, OffsetMode offset,
-                         const std::vector<ParameterChoice>& choices)
+                         const std::vector<ParameterChoice>& choices, std::string_view model)
     : law_(&law),
       drive_unit_(std::move(drive_unit)),
       drive_min_(scale.drive.low),
       drive_max_(scale.drive.high) {
+  if (model.empty()) model = law.name;
   for (const ParamInfo& param : law.params)
-    rows_.push_back(make_row(param, choice_for(choices, law, param), scale, offset));
+    rows_.push_back(make_row(param, choice_for(choices, model, param), scale, offset));
   if (scale.drive.varies)
-    lag_ = make_row(kLagParameter, choice_for(choices, law, kLagParameter), scale, offset);
+    lag_ = make_row(kLagParameter, choice_for(choices, model, kLagParameter), scale, offset);
 }
 
 LawUnknowns::Row LawUnknowns::make_row(const ParamInfo& table, const ParameterChoice& choice,

@@ -28,8 +28,9 @@ DataScale data_scale(const std::vector<Record>& records, std::string_view drive_
 /// them when the drive varies within a record.
 class LawUnknowns {
  public:
+  /// model: whose choices hold, a hybrid's or the law's own (when empty).
   LawUnknowns(const Law& law, const DataScale& scale, std::string drive_unit, OffsetMode offset,
-              const std::vector<ParameterChoice>& choices = {});
+              const std::vector<ParameterChoice>& choices = {}, std::string_view model = {});
 
   std::size_t size() const { return lower_.size(); }
   const std::vector<double>& lower() const { return lower_; }
@@ -70,6 +71,12 @@ class LawUnknowns {
     std::size_t unknown = 0;
     double size = 1;
     Prior prior;
+
+    /// Beside residuals whose standard deviation is `noise`.
+    double residual(double x, double noise) const {
+      return noise * (size * x - prior.value) / prior.deviation;
+    }
+    double slope(double noise) const { return noise * size / prior.deviation; }
   };
   std::vector<PriorTerm> priors() const;
 

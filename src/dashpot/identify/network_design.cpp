@@ -12,7 +12,7 @@
 namespace dashpot {
 namespace {
 
-constexpr std::size_t kMaxLayers = 10, kMaxCount = 1'000'000;
+constexpr std::size_t kMaxLayers = 10, kMaxMembers = 100, kMaxCount = 1'000'000;
 
 template <class Choice>
 struct Word {
@@ -30,8 +30,13 @@ constexpr std::array kTrainers{Word{"lm", Trainer::LevenbergMarquardt},
                                Word{"rmsprop", Trainer::RmsProp},
                                Word{"adam", Trainer::Adam},
                                Word{"adamw", Trainer::AdamW}};
+constexpr std::array kSchedules{Word{"constant", Schedule::Kind::Constant},
+                                Word{"step", Schedule::Kind::Step}, Word{"cosine", Schedule::Kind::Cosine}};
 constexpr std::array kFeedbackTrainings{Word{"series_parallel", FeedbackTraining::SeriesParallel},
                                         Word{"free_run", FeedbackTraining::FreeRun}};
+
+constexpr std::array kOutputRanges{Word{"linear", OutputRange::Linear},
+                                   Word{"bounded", OutputRange::Bounded}};
 
 template <class Choice, std::size_t N>
 Choice parse_word(std::string_view text, const std::string& where, const std::array<Word<Choice>, N>& words) {
@@ -59,12 +64,13 @@ double parse_positive(std::string_view text, const std::string& where, bool zero
   return *number;
 }
 
-std::size_t parse_count(std::string_view text, const std::string& where, std::size_t least) {
+std::size_t parse_count(std::string_view text, const std::string& where, std::size_t least,
+                        std::size_t most = kMaxCount) {
   const std::optional<double> number = parse_number(text);
   if (!number || *number != std::floor(*number) || *number < static_cast<double>(least) ||
-      *number > kMaxCount)
+      *number > static_cast<double>(most))
     throw Error(where, "is '" + std::string(text) + "'",
-                "a whole number from " + std::to_string(least) + " to " + std::to_string(kMaxCount));
+                "a whole number from " + std::to_string(least) + " to " + std::to_string(most));
   return static_cast<std::size_t>(*number);
 }
 
@@ -87,12 +93,12 @@ std::string format_layers(const std::vector<std::size_t>& layers) {
 }
 
 /// A row for a number.
-template <auto Member, std::size_t Least>
+template <auto Member, std::size_t Least, std::size_t Most = kMaxCount>
 constexpr NetworkSetting count_setting(std::string_view name, std::string_view meaning,
                                        std::string_view value) {
   return {name, meaning, value,
           [](std::string_view text, const std::string& where, NetworkDesign& design) {
-            design.*Member = parse_count(text, where, Least);
+            design.*Member = parse_count(text, where, Least, Most);
           },
           [](const NetworkDesign& design) {
             return design.*Member ? std::to_string(*(design.*Member)) : std::string();
@@ -130,21 +136,39 @@ constexpr std::array kSettings{
     word_setting<&NetworkDesign::trainer, kTrainers>(
         "trainer", "Levenberg-Marquardt, the same with Bayesian regularisation, L-BFGS, or mini-batches",
         "lm, bayesian, lbfgs, sgd, momentum, rmsprop, adam or adamw"),
-    number_setting<&NetworkDesign::rate, false>("rate", "learning rate of a batch trainer", "1e-3"),
-    count_setting<&NetworkDesign::batch, 1>("batch", "samples of a mini-batch", "20"),
-    count_setting<&NetworkDesign::epochs, 1>("epochs", "epochs, or iterations on all samples, at most",
-                                             "100"),
-    number_setting<&NetworkDesign::l1, true>("l1", "price of a weight's size", "1e-5"),
-    number_setting<&NetworkDesign::l2, true>("l2", "price of a weight's square", "3e-4"),
-    count_setting<&NetworkDesign::patience, 0>(
-        "patience", "epochs without gain on held-back training records after which training stops; 0: never",
-        "20"),
-    count_setting<&NetworkDesign::members, 1>("members", "networks whose mean is the model", "5"),
+    number_setting<&NetworkDesign::rate, false>("rate", "learning rate of a batch trainer; 1e-3 unless set",
+                                                "1e-3"),
+    word_setting<&NetworkDesign::schedule, kSchedules>(
+        "schedule",
+        "of the rate: as it is, to a tenth after each third of the epochs, or down to 0 along a cosine, "
+        "which is usual",
+        "constant, step or cosine"),
+    count_setting<&NetworkDesign::batch, 1>("batch", "samples of a mini-batch; 20 unless set", "20"),
+    count_setting<&NetworkDesign::epochs, 1>(
+        "epochs", "epochs (100 unless set), or iterations on all samples, at most", "100"),
+    number_setting<&NetworkDesign::l1, true>("l1", "price of a weight's size, for batch trainers", "1e-5"),
+    number_setting<&NetworkDesign::l2, true>(
+        "l2",
+        "price of a weight's square; unless set, batch trainers have none and others find it by trials on "
+        "held-back training records",
+        "3e-4"),
+    count_setting<&NetworkDesign::patience, 0>("patience",
+                                               "epochs without gain on held-back training records after "
+                                               "which training stops; 0, which is usual: none is held back",
+                                               "20"),
+    count_setting<&NetworkDesign::members, 1, kMaxMembers>("members", "networks whose mean is the model",
+                                                           "5"),
     count_setting<&NetworkDesign::delays, 0>("delays", "past samples of each input", "2"),
     count_setting<&NetworkDesign::feedback, 0>("feedback", "past outputs fed back", "2"),
+    count_setting<&NetworkDesign::spacing, 1>("spacing", "samples from one past value to the next", "5"),
     word_setting<&NetworkDesign::training, kFeedbackTrainings>(
         "training", "what is fed back while it learns: the measured force, or its own output",
-        "series_parallel or free_run")};
+        "series_parallel or free_run"),
+    count_setting<&NetworkDesign::window, 0>(
+        "window", "steps in free run from a measured force on while it learns; 0: whole records", "100"),
+    word_setting<&NetworkDesign::output, kOutputRanges>(
+        "output", "whether the force of a network with fed-back outputs is held near that of its training",
+        "linear or bounded")};
 
 }  // namespace
 
@@ -178,11 +202,40 @@ std::string format_design(const NetworkDesign& design) {
 std::vector<std::string_view> network_settings_of(const std::string& model) {
   const std::string_view kind = model_info(model).kind;
   if (kind == "network")
-    return {"hidden", "activation", "trainer", "rate", "batch", "epochs", "l1", "l2", "patience", "members"};
+    return {"hidden", "activation", "trainer",  "rate",    "schedule", "batch",  "epochs",
+            "l1",     "l2",         "patience", "members", "delays",   "spacing"};
   if (kind == "family" && !find_family_preset(model).inputs.empty())
     return {"hidden", "activation", "rate", "batch", "epochs", "l2", "members"};
-  if (kind == "state_network") return {"hidden", "epochs", "l2", "members"};
+  if (kind == "narx")
+    return {"hidden", "activation", "trainer", "epochs",   "l2",     "members",
+            "delays", "feedback",   "spacing", "training", "window", "output"};
+  if (kind == "state_network" || kind == "state_space") return {"hidden", "epochs", "l2", "members"};
   return {};
+}
+
+bool trains_on_batches(Trainer trainer) {
+  return trainer != Trainer::LevenbergMarquardt && trainer != Trainer::Bayesian && trainer != Trainer::Lbfgs;
+}
+
+std::string_view name_of(Trainer trainer) {
+  return std::ranges::find(kTrainers, trainer, &Word<Trainer>::choice)->name;
+}
+
+void require_trainer(const NetworkDesign& design) {
+  const Trainer trainer = design.trainer.value_or(Trainer::LevenbergMarquardt);
+  const std::string name(name_of(trainer));
+  const std::string which = "trainer=" + name + (design.trainer ? "" : ", the usual one,");
+  const auto refuse = [&](std::string_view setting, bool set, const std::string& right) {
+    if (set) throw Error("--network " + std::string(setting), which + " has none", right);
+  };
+  if (!trains_on_batches(trainer)) {
+    const std::string right = "choose a batch trainer, as trainer=adam";
+    refuse("rate", design.rate.has_value(), right);
+    refuse("schedule", design.schedule.has_value(), right);
+    refuse("batch", design.batch.has_value(), right);
+    refuse("l1", design.l1.has_value(), right);
+  }
+  refuse("l2", design.l2 && trainer == Trainer::Bayesian, "it finds the price by itself; trainer=lm has l2");
 }
 
 void require_design(const NetworkDesign& design, const std::vector<std::string>& models) {
@@ -195,6 +248,10 @@ void require_design(const NetworkDesign& design, const std::vector<std::string>&
       throw Error("--network", "none of the models follows '" + std::string(setting.name) + "'",
                   "choose a network with --models; 'dashpot models NAME' tells what it follows");
   }
+  const bool has_trainer = std::any_of(models.begin(), models.end(), [](const std::string& model) {
+    return std::ranges::count(network_settings_of(model), "trainer") > 0;
+  });
+  if (has_trainer) require_trainer(design);
 }
 
 }  // namespace dashpot

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "dashpot/damper/neural/activation.h"
+#include "dashpot/damper/neural/train_batches.h"
 
 namespace dashpot {
 
@@ -17,13 +18,17 @@ enum class Trainer { LevenbergMarquardt, Bayesian, Lbfgs, Sgd, Momentum, RmsProp
 /// use.
 enum class FeedbackTraining { SeriesParallel, FreeRun };
 
+/// Whether a network's force is held within a range around that of its training records.
+enum class OutputRange { Linear, Bounded };
+
 /// How networks are built and trained where that differs from what their preset says; what is empty stays as
 /// it is there.
 struct NetworkDesign {
   std::vector<std::size_t> hidden;  ///< neurons per hidden layer
   std::optional<Activation> activation;
   std::optional<Trainer> trainer;
-  std::optional<double> rate;  ///< of batch trainers
+  std::optional<double> rate;  ///< of batch trainers, as schedule, batch and l1
+  std::optional<Schedule::Kind> schedule;
   std::optional<std::size_t> batch;
   std::optional<std::size_t> epochs;    ///< or iterations of a second-order trainer, at most
   std::optional<double> l1, l2;         ///< prices of weights, standardised, the mean squared error being 1
@@ -31,7 +36,10 @@ struct NetworkDesign {
   std::optional<std::size_t> members;   ///< networks whose mean is the model
   std::optional<std::size_t> delays;    ///< past samples of each input
   std::optional<std::size_t> feedback;  ///< past outputs fed back
+  std::optional<std::size_t> spacing;   ///< samples from one past value to the next
   std::optional<FeedbackTraining> training;
+  std::optional<std::size_t> window;  ///< steps in free run from a measured force on; 0: whole records
+  std::optional<OutputRange> output;
 
   bool operator==(const NetworkDesign&) const = default;
 };
@@ -53,9 +61,17 @@ void parse_network_setting(std::string_view text, const std::string& option, Net
 /// "hidden=15-15,activation=relu": what is set, in the order of the table; reads back as the same design.
 std::string format_design(const NetworkDesign& design);
 
+/// Whether a trainer descends on mini-batches.
+bool trains_on_batches(Trainer trainer);
+/// The word for it: "lm", "adam".
+std::string_view name_of(Trainer trainer);
+
 /// Names of the settings that a model's fit follows. Throws Error at an unknown model.
 std::vector<std::string_view> network_settings_of(const std::string& model);
-/// Throws Error when something is set that none of these models can follow.
+/// Throws Error when something is set that none of these models can follow, or that the trainer does not use.
 void require_design(const NetworkDesign& design, const std::vector<std::string>& models);
+/// Throws Error when something is set that the trainer (Levenberg-Marquardt where none is named) does not
+/// use.
+void require_trainer(const NetworkDesign& design);
 
 }  // namespace dashpot

@@ -19,8 +19,13 @@ struct Statement {
   std::string_view value;
 };
 
-bool contains(const ModelNames& models, std::string_view name) {
-  return std::find(models.begin(), models.end(), name) != models.end();
+/// The laws that a choice may mean: that of the model named, else those of all models to be fitted.
+std::vector<const Law*> laws_meant(const std::string& named, const ModelNames& models) {
+  std::vector<const Law*> meant;
+  for (const std::string& model : named.empty() ? models : ModelNames{named})
+    if (const Law* law = law_inside(model); law && std::find(meant.begin(), meant.end(), law) == meant.end())
+      meant.push_back(law);
+  return meant;
 }
 
 std::string quoted(std::string_view text) { return "'" + std::string(text) + "'"; }
@@ -28,20 +33,17 @@ std::string quoted(std::string_view text) { return "'" + std::string(text) + "'"
 /// The rows that may be meant by `parameter`: those of the law named, else of the laws among `models`.
 std::vector<const ParamInfo*> rows_named(const ParameterChoice& choice, const ModelNames& models) {
   std::vector<const ParamInfo*> rows;
-  for (const Law* law : laws()) {
-    if (choice.law.empty() ? !contains(models, law->name) : choice.law != law->name) continue;
+  for (const Law* law : laws_meant(choice.law, models))
     for (const ParamInfo& param : law->params)
       if (param.name == choice.parameter) rows.push_back(&param);
-  }
   if (choice.parameter == kLagParameter.name) rows.push_back(&kLagParameter);
   return rows;
 }
 
 std::vector<std::string> known_parameters(const std::string& law, const ModelNames& models) {
   std::vector<std::string> known;
-  for (const Law* each : laws())
-    if (law.empty() ? contains(models, each->name) : law == each->name)
-      for (const ParamInfo& param : each->params) known.emplace_back(param.name);
+  for (const Law* each : laws_meant(law, models))
+    for (const ParamInfo& param : each->params) known.emplace_back(param.name);
   known.emplace_back(kLagParameter.name);
   std::sort(known.begin(), known.end());
   known.erase(std::unique(known.begin(), known.end()), known.end());
@@ -52,7 +54,10 @@ std::vector<std::string> known_parameters(const std::string& law, const ModelNam
 ParameterChoice named(std::string_view text, const std::string& option, const ModelNames& models) {
   ParameterChoice choice;
   const std::size_t dot = text.find('.');
-  if (dot != std::string_view::npos) choice.law = find_law(trim(text.substr(0, dot)), option).name;
+  if (dot != std::string_view::npos) {
+    choice.law = trim(text.substr(0, dot));
+    if (!law_inside(choice.law)) find_law(choice.law, option);  // says what is known
+  }
   choice.parameter = trim(dot == std::string_view::npos ? text : text.substr(dot + 1));
   if (rows_named(choice, models).empty())
     throw Error(option, "no model to be fitted has a parameter " + quoted(choice.parameter),
@@ -196,16 +201,16 @@ void require_choices(const std::vector<ParameterChoice>& choices, const ModelNam
   for (const ParameterChoice& choice : choices) {
     bool meant = false;
     for (const std::string& model : models) {
-      if (!is_law(model) || (!choice.law.empty() && choice.law != model)) continue;
-      const Law& law = find_law(model);
+      const Law* law = law_inside(model);
+      if (!law || (!choice.law.empty() && choice.law != model)) continue;
       meant |= choice.parameter == kLagParameter.name;
-      for (const ParamInfo& param : law.params) {
+      for (const ParamInfo& param : law->params) {
         if (param.name != choice.parameter) continue;
         meant = true;
-        require_consistent(param, choice_for(choices, law, param));
+        require_consistent(param, choice_for(choices, model, param));
       }
       if (choice.parameter == kLagParameter.name)
-        require_consistent(kLagParameter, choice_for(choices, law, kLagParameter));
+        require_consistent(kLagParameter, choice_for(choices, model, kLagParameter));
     }
     if (!meant)
       throw Error(choice.parameter, "none of the models to be fitted has this parameter",
@@ -213,13 +218,13 @@ void require_choices(const std::vector<ParameterChoice>& choices, const ModelNam
   }
 }
 
-ParameterChoice choice_for(const std::vector<ParameterChoice>& choices, const Law& law,
+ParameterChoice choice_for(const std::vector<ParameterChoice>& choices, std::string_view model,
                            const ParamInfo& param) {
-  ParameterChoice all{.law = std::string(law.name), .parameter = std::string(param.name)};
+  ParameterChoice all{.law = std::string(model), .parameter = std::string(param.name)};
   for (const bool by_law : {false, true})
     for (const ParameterChoice& choice : choices) {
       if (choice.parameter != param.name || choice.law.empty() == by_law) continue;
-      if (by_law && choice.law != law.name) continue;
+      if (by_law && choice.law != model) continue;
       if (choice.form) all.form = choice.form;
       if (choice.fixed) all.fixed = choice.fixed;
       if (choice.bounds) all.bounds = choice.bounds;

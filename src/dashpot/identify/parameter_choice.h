@@ -19,7 +19,7 @@ struct ParameterBounds {
 
 /// What a user decides about one parameter of a fit.
 struct ParameterChoice {
-  std::string law;  ///< empty: every law that has the parameter
+  std::string law;  ///< the law or hybrid meant; empty: every one that has the parameter
   std::string parameter;
   std::optional<Form> form;
   std::optional<double> fixed;  ///< SI
@@ -52,9 +52,9 @@ ParameterChoice parse_prior_choice(std::string_view text, const std::string& opt
 /// Throws Error when a choice names no parameter of `models`, contradicts another one or leaves its bounds.
 void require_choices(const std::vector<ParameterChoice>& choices, const ModelNames& models);
 
-/// Everything that was chosen for one parameter of a law; a choice that names the law goes before one that
-/// does not.
-ParameterChoice choice_for(const std::vector<ParameterChoice>& choices, const Law& law,
+/// Everything that was chosen for one parameter of a model, a law or a hybrid; a choice that names the model
+/// goes before one that does not.
+ParameterChoice choice_for(const std::vector<ParameterChoice>& choices, std::string_view model,
                            const ParamInfo& param);
 
 /// The row of the table as the choice changes it: bounds, whether it is estimated, its form and its value.

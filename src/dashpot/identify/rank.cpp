@@ -47,30 +47,28 @@ double force_span(const std::vector<Record>& records) {
 /// memory.
 void drop_curves(Evaluation& evaluation) {
   for (RecordResult& r : evaluation.records)
-    for (auto curve : {&RecordResult::time, &RecordResult::displacement, &RecordResult::velocity,
-                       &RecordResult::drive, &RecordResult::measured, &RecordResult::modelled})
+    for (auto curve :
+         {&RecordResult::time, &RecordResult::displacement, &RecordResult::velocity, &RecordResult::drive,
+          &RecordResult::measured, &RecordResult::modelled, &RecordResult::spread})
       (r.*curve) = {};
-}
-
-void append(ErrorGroups& groups, const ErrorGroups& more) {
-  groups.insert(groups.end(), more.begin(), more.end());
 }
 
 /// How long a fit takes beside the others: the unknowns, times what a force costs, times the number of tries.
 double expected_cost(const std::string& model, const Record& record, std::string_view drive_unit) {
-  if (!is_law(model)) {
-    constexpr double kNetwork = 3000;  // a training beside the fit of a law without states, measured
-    return kNetwork;
-  }
-  const Law& law = find_law(model);
+  constexpr double kNetwork = 3000;  // a training beside the fit of a law without states, measured
+  const Law* inside = law_inside(model);
+  if (!inside) return kNetwork;
+  const Law& law = *inside;
   std::vector<double> values;
   double unknowns = 0;
   for (const ParamInfo& param : law.params) {
     values.push_back(param.value);
     if (param.fit != Fit::Fixed) unknowns += static_cast<double>(coefficient_count(param.form));
   }
-  return unknowns * step_cost(LawModel::constant(law, values),
-                              record.slice(0, std::min<std::size_t>(record.size(), 1000)), drive_unit);
+  const double of_law =
+      unknowns * step_cost(LawModel::constant(law, values),
+                           record.slice(0, std::min<std::size_t>(record.size(), 1000)), drive_unit);
+  return is_law(model) ? of_law : of_law + kNetwork;
 }
 
 /// All fits of one ranking: for each model one per fold, then the final one.
@@ -176,7 +174,7 @@ class RankingRun {
       evaluations.push_back(evaluate_fit(fit, folds_[f].left_out));
       for (RecordResult& record : evaluations.back().records) record.left_out = true;
     }
-    const ErrorGroups errors = add_bands(ranked, evaluations);
+    const std::vector<ErrorGroups> errors = add_bands(ranked, evaluations);
     ranked.left_out = pool(evaluations);
     if (!ranked.fit.model) return fail(ranked, "all records");
     ranked.training = evaluate_fit(ranked.fit, training_);
@@ -199,19 +197,20 @@ class RankingRun {
 
   /// Gives each left-out record its interval, built without its fold, and returns the errors that the final
   /// model's interval comes from.
-  ErrorGroups add_bands(const RankedModel& ranked, std::vector<Evaluation>& left_out) const {
+  std::vector<ErrorGroups> add_bands(const RankedModel& ranked, std::vector<Evaluation>& left_out) const {
     std::vector<FoldErrors> folds;
     for (std::size_t f = 0; f < folds_.size(); ++f)
       folds.push_back(fold_errors(fit_of(ranked, f), folds_[f], left_out[f]));
-    ErrorGroups held;
+    std::vector<ErrorGroups> held;
     for (std::size_t f = 0; f < held_back_.size(); ++f)
       if (const FitReport& fit = ranked.held_back_fits[f]; fit.model)
-        append(held, fold_errors(fit, held_back_[f], evaluate_fit(fit, held_back_[f].left_out)).relative);
+        held.push_back(fold_errors(fit, held_back_[f], evaluate_fit(fit, held_back_[f].left_out)).relative);
     const auto others = [&](std::size_t left) {
-      ErrorGroups groups = held;
+      std::vector<ErrorGroups> parts = held;
       for (std::size_t f = 0; f < folds.size() && folds.size() > 1; ++f)
-        if (f != left) append(groups, folds[f].relative);
-      return groups;
+        if (f != left) parts.push_back(folds[f].relative);
+      std::erase_if(parts, [](const ErrorGroups& part) { return part.empty(); });
+      return parts;
     };
     for (std::size_t f = 0; f < folds.size(); ++f) {
       const std::optional<ForceBand> band = conformal_band(folds[f].shape, others(f));

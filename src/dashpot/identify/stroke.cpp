@@ -21,11 +21,4 @@ Stroke mean_stroke(const std::vector<DamperInput>& inputs, const std::vector<dou
   return {way / strokes, (time.back() - time.front()) / strokes};
 }
 
-std::vector<double> spaced(double low, double high, std::size_t count) {
-  std::vector<double> rates(count, std::sqrt(low * high));
-  for (std::size_t k = 0; count > 1 && k < count; ++k)
-    rates[k] = low * std::pow(high / low, static_cast<double>(k) / static_cast<double>(count - 1));
-  return rates;
-}
-
 }  // namespace dashpot

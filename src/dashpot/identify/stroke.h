@@ -14,7 +14,4 @@ struct Stroke {
 };
 Stroke mean_stroke(const std::vector<DamperInput>& inputs, const std::vector<double>& time);
 
-/// Rates from low to high, each the same multiple of the one before; the geometric mean when there is one.
-std::vector<double> spaced(double low, double high, std::size_t count);
-
 }  // namespace dashpot

@@ -136,7 +136,7 @@ class Listener final : public ceres::IterationCallback {
 
 ceres::Solver::Options ceres_options(const LeastSquaresOptions& options, Listener& listener) {
   ceres::Solver::Options result;
-  result.linear_solver_type = ceres::DENSE_QR;
+  result.linear_solver_type = options.normal_equations ? ceres::DENSE_NORMAL_CHOLESKY : ceres::DENSE_QR;
   result.max_num_iterations = options.max_iterations;
   result.function_tolerance = options.function_tolerance;
   result.max_num_consecutive_invalid_steps = 50;  // residuals may fail in a large part of the space

@@ -27,6 +27,7 @@ struct LeastSquaresOptions {
   double function_tolerance = 1e-8;  ///< stop when the cost falls by less than this share
   double difference_step = 1e-6;     ///< relative to max(|x|, 1)
   int threads = 0;                   ///< results do not depend on it
+  bool normal_equations = false;     ///< quicker with many unknowns, at half the digits
   int hopeless_after = 0;            ///< gives up when after so many iterations (0: never) ...
   double hopeless_cost = 0;          ///< ... the cost is still above this
   std::function<void(int iteration, double cost)> on_iteration;  ///< may throw to stop

@@ -112,17 +112,19 @@ Value evaluation_json(const Evaluation& evaluation) {
     interval.add("worst_coverage_percent", worst->coverage.percent());
     interval.add("worst_record", worst->record);
   }
-  return Value::object({{"pooled", to_json(evaluation.pooled)},
-                        {"pooled_without_offset", to_json(evaluation.pooled_without_offset)},
-                        {"worst_esr_percent", evaluation.worst_esr},
-                        {"worst_record", evaluation.worst_record},
-                        {"mean_esr_percent", evaluation.mean_esr},
-                        {"mean_energy_error_percent", evaluation.mean_energy_error},
-                        {"diverged", evaluation.diverged},
-                        {"interval", std::move(interval)},
-                        {"bands", std::move(bands)},
-                        {"drive", std::move(drive)},
-                        {"records", std::move(records)}});
+  Value value = Value::object({{"pooled", to_json(evaluation.pooled)},
+                               {"pooled_without_offset", to_json(evaluation.pooled_without_offset)},
+                               {"worst_esr_percent", evaluation.worst_esr},
+                               {"worst_record", evaluation.worst_record},
+                               {"mean_esr_percent", evaluation.mean_esr},
+                               {"mean_energy_error_percent", evaluation.mean_energy_error},
+                               {"diverged", evaluation.diverged},
+                               {"interval", std::move(interval)},
+                               {"bands", std::move(bands)},
+                               {"drive", std::move(drive)},
+                               {"records", std::move(records)}});
+  if (evaluation.one_step) value.add("one_step", to_json(*evaluation.one_step));
+  return value;
 }
 
 Value dataset_json(const Dataset& dataset) {

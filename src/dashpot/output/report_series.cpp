@@ -50,8 +50,11 @@ Value pack_if_whole(const std::vector<double>& samples, std::size_t size,
 Value curves_json(const RecordCurves& curves, const std::vector<std::size_t>& chosen) {
   const RecordResult& first = *curves.first;
   const std::size_t size = first.time.size();
-  Value modelled = Value::object();
-  for (const auto& [name, result] : curves.models) modelled.add(name, pack_int16(result->modelled, chosen));
+  Value modelled = Value::object(), spread = Value::object();
+  for (const auto& [name, result] : curves.models) {
+    modelled.add(name, pack_int16(result->modelled, chosen));
+    if (result->spread.size() == size) spread.add(name, pack_int16(result->spread, chosen));
+  }
   return Value::object({{"name", first.record},
                         {"samples", size},
                         {"shown", chosen.size()},
@@ -60,7 +63,8 @@ Value curves_json(const RecordCurves& curves, const std::vector<std::size_t>& ch
                         {"velocity", pack_if_whole(first.velocity, size, chosen)},
                         {"drive", pack_if_whole(first.drive, size, chosen)},
                         {"measured", pack_if_whole(first.measured, size, chosen)},
-                        {"modelled", std::move(modelled)}});
+                        {"modelled", std::move(modelled)},
+                        {"spread", std::move(spread)}});
 }
 
 std::vector<std::size_t> shown_samples(const RecordCurves& curves, std::size_t points) {

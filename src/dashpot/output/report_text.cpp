@@ -1,4 +1,6 @@
 // The report for a terminal, as Markdown and as CSV.
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "dashpot/base/text.h"
@@ -50,6 +52,7 @@ std::vector<std::string> ranking_row(const RankedModel& model) {
 
 std::string interval_text(const FittedParameter& p) {
   if (p.fixed) return "fixed";
+  if (std::isnan(p.low)) return "none";
   return fmt::format("[{}, {}]", number_text(p.low, 4), number_text(p.high, 4));
 }
 

@@ -128,15 +128,19 @@ std::string protocol(const LeaveOut& leave_out, std::size_t folds) {
 }
 
 std::optional<std::string> one_step_note(const Ranking& ranking) {
-  // Laws, networks and fuzzy models of motion and drive; a kind that feeds force back must print its
-  // one-step error.
-  const bool none_feeds_back = std::ranges::all_of(ranking.models, [](const RankedModel& m) {
-    if (!m.fit.model) return false;
-    const std::string kind = m.fit.model->kind();
-    return kind == "law" || kind == "network" || kind == "state_network" || kind == "fuzzy" ||
-           kind == "family";
-  });
-  if (!none_feeds_back || ranking.models.empty()) return std::nullopt;
+  std::vector<std::string> figures;
+  bool all_known = !ranking.models.empty();
+  for (const RankedModel& m : ranking.models) {
+    all_known = all_known && m.fit.model;
+    if (m.left_out.one_step)
+      figures.push_back(m.name + " " + percent_text(m.left_out.one_step->esr) + " % (free run " +
+                        percent_text(m.left_out.pooled.esr) + " %)");
+  }
+  if (!figures.empty())
+    return "One step ahead, with the measured force fed back, which flatters and is not ranked by; ESR on "
+           "left-out records: " +
+           join(figures, ", ") + ".";
+  if (!all_known) return std::nullopt;
   return "There is no one-step error to print beside the free run: none of these models feeds force back.";
 }
 

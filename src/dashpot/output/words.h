@@ -28,7 +28,7 @@ std::string verdict(const Ranking& ranking);
 /// How records were left out: a few words, and in full.
 std::string protocol_title(const LeaveOut& leave_out);
 std::string protocol(const LeaveOut& leave_out, std::size_t folds);
-/// What stands in place of a one-step error; nothing when it cannot be said of all models.
+/// The one-step errors of models that feed force back, or that there are none; nothing when models failed.
 std::optional<std::string> one_step_note(const Ranking& ranking);
 
 }  // namespace dashpot

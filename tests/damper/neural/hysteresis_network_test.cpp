@@ -35,6 +35,11 @@ TEST_CASE("the force is the members' mean and the offset") {
   const std::span<const double> all(state);
   CHECK_CLOSE(both.force(input, state),
               (first.force(input, all.first(4)) + second.force(input, all.last(4))) / 2 + 4.5, 1e-14, 0);
+  CHECK(both.is_ensemble());
+  CHECK_CLOSE(both.spread(input, state),
+              std::abs(first.force(input, all.first(4)) - second.force(input, all.last(4))) / std::sqrt(2.0),
+              1e-12, 0);
+  CHECK(first.spread(input, all.first(4)) == 0);
   CHECK(both.state_size() == 8);
   CHECK(both.parameter_count() == 2 * (4 + 3 * 6 + 8 * 3));
   CHECK_FALSE(both.needs_displacement());
@@ -89,7 +94,7 @@ TEST_CASE("a state network that does not fit together is refused") {
   CHECK(mentions(message("\"scale\":0.2", "\"scale\":0"), "the scale of a signal is not a positive number"));
   CHECK(mentions(message("\"low\":-3", "\"low\":4"), "the range of a signal does not go upwards"));
   CHECK(mentions(message("\"neurons\":[", "\"neurons\":[0,"), "each neuron needs 6"));
-  CHECK(mentions(message("\"gates\":[", "\"gates\":[0,"), "has 25 weights of gates; its states need 24"));
+  CHECK(mentions(message("\"gates\":[", "\"gates\":[0,"), "has 25 weights of gates; its terms need 24"));
   CHECK(mentions(message("1000", "-1"), "the output scale is not a positive number"));
   CHECK(mentions(message("\"neurons\"", "\"neuron\""), "needs 'neurons'"));
   CHECK(mentions(message("\"offset\"", "\"off\""), "needs 'offset'"));

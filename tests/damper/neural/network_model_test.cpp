@@ -22,7 +22,7 @@ NetworkModel network(const std::vector<std::string>& inputs) {
   mlp.parameters[40] = 0.05;
   mlp.input_mean = {0, 0};
   mlp.input_scale = {1, 1};
-  return NetworkModel("test", inputs, mlp);
+  return NetworkModel("test", inputs, {mlp});
 }
 
 }  // namespace
@@ -45,11 +45,11 @@ TEST_CASE("an offset adds up and survives JSON") {
 }
 
 TEST_CASE("activations survive JSON; a file without them means tanh and a linear output") {
-  Mlp mlp = network({"velocity", "current"}).mlp();
-  CHECK(format_json(NetworkModel("m", {"velocity", "current"}, mlp).to_json()).find("activations") ==
+  Mlp mlp = network({"velocity", "current"}).members().front();
+  CHECK(format_json(NetworkModel("m", {"velocity", "current"}, {mlp}).to_json()).find("activations") ==
         std::string::npos);
   mlp.activations = {Activation::Relu, Activation::Sigmoid};
-  const NetworkModel model("m", {"velocity", "current"}, mlp);
+  const NetworkModel model("m", {"velocity", "current"}, {mlp});
   const std::string text = format_json(model.to_json(), false);
   CHECK(text.find(R"("activations":["relu","sigmoid"])") != std::string::npos);
   const auto back = network_model_from_json(parse_json(text, "m.json"));
@@ -62,6 +62,31 @@ TEST_CASE("activations survive JSON; a file without them means tanh and a linear
   };
   CHECK(refused(R"(["relu"])").find("one for each layer behind the inputs") != std::string::npos);
   CHECK(refused(R"(["relu","sigmoit"])").find("did you mean 'sigmoid'") != std::string::npos);
+}
+
+TEST_CASE("several networks answer with their mean, and survive JSON to the last bit") {
+  const Mlp one = network({"velocity", "current"}).members().front();
+  Mlp other = one;
+  for (double& weight : other.parameters) weight *= 0.7;
+  other.output_mean = 2;
+  const NetworkModel model("m", {"velocity", "current"}, {one, other}, 0.25);
+  CHECK(model.parameter_count() == 82);
+  const double x[] = {0.3, -0.5};
+  CHECK_CLOSE(model.force({0, x[0], x[1]}, {}), (one.evaluate(x) + other.evaluate(x)) / 2 + 0.25, 1e-12, 0);
+  CHECK(model.is_ensemble());
+  CHECK_CLOSE(model.spread({0, x[0], x[1]}, {}),
+              std::abs(one.evaluate(x) - other.evaluate(x)) / std::sqrt(2.0), 1e-9, 0);
+  CHECK(!NetworkModel("m", {"velocity", "current"}, {one}).is_ensemble());
+  const std::string text = format_json(model.to_json());
+  const auto back = network_model_from_json(parse_json(text, "m.json"));
+  CHECK(format_json(back->to_json()) == text);
+  CHECK(back->force({0, 0.3, -0.5}, {}) == model.force({0, 0.3, -0.5}, {}));
+  CHECK(message_of([] { NetworkModel("m", {"velocity"}, std::vector<Mlp>{}); }).find("has no members") !=
+        std::string::npos);
+  std::string broken = text;
+  broken.replace(broken.rfind("\"output_scale\": 1"), 17, "\"output_scale\": 0");
+  CHECK(message_of([&] { network_model_from_json(parse_json(broken, "m.json")); }).find("members") !=
+        std::string::npos);
 }
 
 TEST_CASE("a network that does not fit together is refused") {

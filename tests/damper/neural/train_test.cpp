@@ -257,7 +257,7 @@ TEST_CASE("denormal numbers are zero while it trains, and themselves again after
 
 TEST_CASE("starts do not depend on threads, the best is chosen, and an ensemble averages") {
   const TrainingSamples samples = wave(200, 0.05);
-  const auto train_one = [&](Mlp& mlp) { return train(mlp, samples, {.max_iterations = 15}); };
+  const auto train_one = [&](Mlp& mlp, std::size_t) { return train(mlp, samples, {.max_iterations = 15}); };
   std::vector<TrainedMlp> one = train_from_starts(network({1, 3, 1}), 3, 10, 1, train_one);
   const std::vector<TrainedMlp> two = train_from_starts(network({1, 3, 1}), 3, 10, 2, train_one);
   double mean = 0, squares = 0, least = HUGE_VAL;
@@ -268,7 +268,7 @@ TEST_CASE("starts do not depend on threads, the best is chosen, and an ensemble 
     least = std::min(least, one[k].report.rmse);
   }
   for (std::size_t k = 0; k < 3; ++k) squares += std::pow(one[k].mlp.evaluate(&x) - mean, 2);
-  const MlpEnsemble::Answer answer = MlpEnsemble(one).evaluate(&x);
+  const MlpEnsemble::Answer answer = MlpEnsemble({one[0].mlp, one[1].mlp, one[2].mlp}).evaluate(&x);
   CHECK_CLOSE(answer.mean, mean, 1e-12, 0);
   CHECK_CLOSE(answer.spread, std::sqrt(squares / 2), 1e-9, 1e-15);
   CHECK(best_of(one).report.rmse == least);

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <vector>
 
-#include "dashpot/damper/law_model.h"
+#include "dashpot/damper/hybrid_model.h"
 
 namespace dashpot {
 namespace {
@@ -23,9 +23,14 @@ struct Layout {
 }  // namespace
 
 BareDamper without_coil_lag(const DamperModel& model) {
-  const auto* law = dynamic_cast<const LawModel*>(&model);
+  const auto* hybrid = dynamic_cast<const HybridModel*>(&model);
+  const LawModel* law = hybrid ? &hybrid->law() : dynamic_cast<const LawModel*>(&model);
   if (!law || law->lag_rate() == 0) return {model.with_offset(0), 0};
-  return {std::make_unique<LawModel>(law->law(), law->parameters(), law->drive_unit(), 0), law->lag_rate()};
+  LawModel bare(law->law(), law->parameters(), law->drive_unit(), 0);
+  if (!hybrid) return {std::make_unique<LawModel>(std::move(bare)), law->lag_rate()};
+  return {std::make_unique<HybridModel>(HybridSource{std::move(bare), hybrid->source().bank},
+                                        hybrid->mixing(), hybrid->network(), hybrid->offset()),
+          law->lag_rate()};
 }
 
 Observer::Observer(const DamperModel& model, const InverseLimits& limits)

@@ -8,28 +8,30 @@
 
 namespace dashpot {
 
-std::vector<TrainedMlp> train_from_starts(const Mlp& mlp, std::size_t count, std::uint64_t seed, int threads,
-                                          const std::function<TrainReport(Mlp& mlp)>& train_one) {
+std::vector<TrainedMlp> train_from_starts(
+    const Mlp& mlp, std::size_t count, std::uint64_t seed, int threads,
+    const std::function<TrainReport(Mlp& mlp, std::size_t k)>& train_one) {
   std::vector<TrainedMlp> trained(count, {mlp, {}});
   parallel_for(count, threads, [&](std::size_t k) {
     initialise(trained[k].mlp, seed + k);
-    trained[k].report = train_one(trained[k].mlp);
+    trained[k].report = train_one(trained[k].mlp, k);
   });
   return trained;
 }
 
-TrainedMlp& best_of(std::vector<TrainedMlp>& trained) {
+TrainedMlp& best_of(std::span<TrainedMlp> trained) {
   assert(!trained.empty());
   const auto error = [](const TrainedMlp& one) {
-    return one.report.left_out_rmse > 0 ? one.report.left_out_rmse : one.report.rmse;
+    const double rmse = one.report.left_out_rmse > 0 ? one.report.left_out_rmse : one.report.rmse;
+    return std::isfinite(rmse) ? rmse : INFINITY;
   };
   return *std::min_element(trained.begin(), trained.end(),
                            [&](const TrainedMlp& a, const TrainedMlp& b) { return error(a) < error(b); });
 }
 
-MlpEnsemble::MlpEnsemble(const std::vector<TrainedMlp>& members) {
+MlpEnsemble::MlpEnsemble(const std::vector<Mlp>& members) {
   members_.reserve(members.size());
-  for (const TrainedMlp& member : members) members_.emplace_back(member.mlp);
+  for (const Mlp& member : members) members_.emplace_back(member);
 }
 
 MlpEnsemble::Answer MlpEnsemble::evaluate(const double* input) const noexcept {

@@ -14,17 +14,19 @@ struct TrainedMlp {
 };
 
 /// Trains `count` copies of a network from the starts that belong to seed, seed + 1, ... `train_one` trains
-/// one in place. Side by side; the same whatever the number of threads.
-std::vector<TrainedMlp> train_from_starts(const Mlp& mlp, std::size_t count, std::uint64_t seed, int threads,
-                                          const std::function<TrainReport(Mlp& mlp)>& train_one);
+/// the k-th in place. Side by side; the same whatever the number of threads.
+std::vector<TrainedMlp> train_from_starts(
+    const Mlp& mlp, std::size_t count, std::uint64_t seed, int threads,
+    const std::function<TrainReport(Mlp& mlp, std::size_t k)>& train_one);
 
-/// The one that did best: on what was left out when something was, else on its training samples.
-TrainedMlp& best_of(std::vector<TrainedMlp>& trained);
+/// The one that did best: on what was left out when something was, else on its training samples. One whose
+/// training went to infinity is the worst.
+TrainedMlp& best_of(std::span<TrainedMlp> trained);
 
 /// Networks that answer together.
 class MlpEnsemble {
  public:
-  explicit MlpEnsemble(const std::vector<TrainedMlp>& members);
+  explicit MlpEnsemble(const std::vector<Mlp>& members);
 
   struct Answer {
     double mean = 0;

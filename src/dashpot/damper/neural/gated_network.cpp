@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "dashpot/base/error.h"
 #include "dashpot/base/random.h"
 #include "dashpot/damper/neural/tanh.h"
 
@@ -14,7 +15,28 @@ namespace {
 constexpr std::size_t kMaxGates =
     1 + GatedNetwork::kMaxCurrents + GatedNetwork::kMaxCurrents * (GatedNetwork::kMaxCurrents + 1) / 2;
 
+bool is_positive(double value) { return value > 0 && std::isfinite(value); }
+
+void require_count(std::size_t count, std::size_t right, const std::string& what, const std::string& where) {
+  if (count != right)
+    throw Error(where, "has " + std::to_string(count) + " " + what,
+                "its states need " + std::to_string(right));
+}
+
 }  // namespace
+
+void GatedNetwork::require_sound(std::size_t signal_count, const std::string& where) const {
+  require_count(signals.size(), signal_count, "signals", where);
+  for (const Signal& signal : signals) {
+    if (!is_positive(signal.scale)) throw Error(where, "the scale of a signal is not a positive number");
+    if (!(signal.low <= signal.high)) throw Error(where, "the range of a signal does not go upwards");
+  }
+  if (neurons.size() % neuron_stride() != 0)
+    throw Error(where, "has " + std::to_string(neurons.size()) + " weights of neurons",
+                "each neuron needs " + std::to_string(neuron_stride()));
+  require_count(gates.size(), term_count() * gate_count(), "weights of gates", where);
+  if (!is_positive(output_scale)) throw Error(where, "the output scale is not a positive number");
+}
 
 void GatedNetwork::fill_gates(const double* u, double* c) const noexcept {
   *c++ = 1;
@@ -25,11 +47,23 @@ void GatedNetwork::fill_gates(const double* u, double* c) const noexcept {
 
 double GatedNetwork::evaluate(const double* raw) const noexcept {
   std::array<double, kMaxSignals> linear, held;
-  std::array<double, kMaxGates> c;
   for (std::size_t k = 0; k < signals.size(); ++k) {
     linear[k] = (raw[k] - signals[k].mean) / signals[k].scale;
     held[k] = std::clamp(linear[k], signals[k].low, signals[k].high);
   }
+  return output_scale * sum(linear.data(), held.data());
+}
+
+double GatedNetwork::evaluate_held(const double* raw) const noexcept {
+  std::array<double, kMaxSignals> held;
+  for (std::size_t k = 0; k < signals.size(); ++k)
+    held[k] = std::clamp((raw[k] - signals[k].mean) / signals[k].scale, signals[k].low, signals[k].high);
+  return output_scale * sum(held.data(), held.data());
+}
+
+/// linear: the motions as they stand among the terms; held: what gates and neurons see.
+double GatedNetwork::sum(const double* linear, const double* held) const noexcept {
+  std::array<double, kMaxGates> c;
   fill_gates(&held[motions()], c.data());
   const std::size_t count = gate_count();
   const double* gate = gates.data();
@@ -41,8 +75,8 @@ double GatedNetwork::evaluate(const double* raw) const noexcept {
   add(1);
   for (std::size_t k = 0; k < motions(); ++k) add(linear[k]);
   for (const double *w = neurons.data(), *end = w + neurons.size(); w != end; w += neuron_stride())
-    add(branchless_tanh(std::inner_product(w, w + signals.size(), held.begin(), w[signals.size()])));
-  return output_scale * sum;
+    add(branchless_tanh(std::inner_product(w, w + signals.size(), held, w[signals.size()])));
+  return sum;
 }
 
 double GatedNetwork::differentiate(const double* z, double* by_parameters,

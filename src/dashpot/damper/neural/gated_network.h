@@ -1,6 +1,7 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace dashpot {
@@ -32,9 +33,16 @@ struct GatedNetwork {
   std::size_t term_count() const noexcept { return 1 + motions() + hidden(); }
   std::size_t parameter_count() const noexcept { return neurons.size() + term_count() * gate_count(); }
 
+  /// Throws Error(where, ...) when the parts do not fit together or to that many signals.
+  void require_sound(std::size_t signal_count, const std::string& where) const;
+
   /// Output at raw signals, in raw units. Allocates nothing.
   double evaluate(const double* raw) const noexcept;
-  /// Standardised output at standardised signals, none held, and its derivatives: by `neurons`, then
+  /// The same with the motions among t held, too.
+  double evaluate_held(const double* raw) const noexcept;
+  /// Standardised output at standardised signals, none held.
+  double output(const double* standardised) const noexcept { return sum(standardised, standardised); }
+  /// The same and its derivatives: by `neurons`, then
   /// `gates`, and by the signals.
   double differentiate(const double* standardised, double* by_parameters, double* by_signals) const noexcept;
 
@@ -42,6 +50,7 @@ struct GatedNetwork {
   void initialise(std::size_t hidden, std::uint64_t seed);
 
  private:
+  double sum(const double* linear, const double* held) const noexcept;
   void fill_gates(const double* currents, double* c) const noexcept;
 };
 

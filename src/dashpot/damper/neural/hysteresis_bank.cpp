@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dashpot/base/error.h"
 #include "dashpot/damper/lag.h"
 
 namespace dashpot {
@@ -36,17 +37,12 @@ void slide(const Ways& ways, double rate, double& state, double* slope) noexcept
   }
 }
 
-void lag(double from, double to, double turn, double& state, double* slope) noexcept {
-  const LagWeights weights(turn);
-  if (slope) {
-    const double fall = turn * weights.past, mean = weights.from + weights.past;
-    *slope = weights.past * *slope - fall * state + (weights.past - mean + fall) * from +
-             (mean - weights.past) * to;
-  }
-  state = weights.of(state, from, to);
-}
-
 }  // namespace
+
+void HysteresisBank::require_sound(const std::string& where) const {
+  for (const double rate : rates())
+    if (!(rate > 0 && std::isfinite(rate))) throw Error(where, "a rate is not a positive number");
+}
 
 std::vector<double> HysteresisBank::rates() const {
   std::vector<double> all = path_rates;
@@ -76,8 +72,8 @@ void HysteresisBank::advance(const DamperInput& from, const DamperInput& to, dou
   const auto next = [&] { return slope ? slope++ : nullptr; };
   const Ways ways = ways_of(from.velocity, to.velocity, dt);
   for (const double rate : path_rates) slide(ways, rate, *at++, next());
-  for (const double rate : velocity_rates) lag(from.velocity, to.velocity, rate * dt, *at++, next());
-  for (const double rate : current_rates) lag(from.current, to.current, rate * dt, *at++, next());
+  for (const double rate : velocity_rates) advance_lag(from.velocity, to.velocity, rate * dt, *at++, next());
+  for (const double rate : current_rates) advance_lag(from.current, to.current, rate * dt, *at++, next());
 }
 
 void HysteresisBank::read(const DamperInput& input, std::span<const double> state,

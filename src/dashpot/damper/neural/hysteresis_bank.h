@@ -20,6 +20,8 @@ struct HysteresisBank {
   std::size_t size() const noexcept {
     return path_rates.size() + velocity_rates.size() + current_rates.size();
   }
+  /// Throws Error, beginning with `where`, when a rate is not a positive number.
+  void require_sound(const std::string& where) const;
   std::vector<double> rates() const;
   void set_rates(std::span<const double> rates);
 

@@ -1,6 +1,5 @@
 #include "dashpot/damper/neural/hysteresis_network.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -9,40 +8,16 @@
 namespace dashpot {
 namespace {
 
-bool is_positive(double value) { return value > 0 && std::isfinite(value); }
-
-void require_count(std::size_t count, std::size_t right, const std::string& what, const std::string& where) {
-  if (count != right)
-    throw Error(where, "has " + std::to_string(count) + " " + what,
-                "its states need " + std::to_string(right));
-}
-
-void require_signals(const GatedNetwork& network, const std::string& where) {
-  for (const GatedNetwork::Signal& signal : network.signals) {
-    if (!is_positive(signal.scale)) throw Error(where, "the scale of a signal is not a positive number");
-    if (!(signal.low <= signal.high)) throw Error(where, "the range of a signal does not go upwards");
-  }
-}
-
 void require_sound(const BankNetwork& member, const std::string& where) {
   const HysteresisBank& bank = member.bank;
-  const GatedNetwork& network = member.network;
-  const std::vector<double> rates = bank.rates();
-  if (!std::all_of(rates.begin(), rates.end(), is_positive))
-    throw Error(where, "a rate is not a positive number");
+  bank.require_sound(where);
   if (const std::size_t lags = bank.current_rates.size(); lags < 1 || lags > GatedNetwork::kMaxCurrents)
     throw Error(where, "has " + std::to_string(lags) + " current rates",
                 "1 to " + std::to_string(GatedNetwork::kMaxCurrents));
   if (bank.signal_count() > GatedNetwork::kMaxSignals)
     throw Error(where, "has " + std::to_string(bank.size()) + " rates",
                 "at most " + std::to_string(GatedNetwork::kMaxSignals - 1));
-  require_count(network.signals.size(), bank.signal_count(), "signals", where);
-  require_signals(network, where);
-  if (network.neurons.size() % network.neuron_stride() != 0)
-    throw Error(where, "has " + std::to_string(network.neurons.size()) + " weights of neurons",
-                "each neuron needs " + std::to_string(network.neuron_stride()));
-  require_count(network.gates.size(), network.term_count() * network.gate_count(), "weights of gates", where);
-  if (!is_positive(network.output_scale)) throw Error(where, "the output scale is not a positive number");
+  member.network.require_sound(bank.signal_count(), where);
 }
 
 }  // namespace
@@ -88,6 +63,19 @@ double HysteresisNetwork::force(const DamperInput& input, std::span<const double
     state = state.subspan(member.bank.size());
   }
   return sum / static_cast<double>(members_.size()) + offset_;
+}
+
+double HysteresisNetwork::spread(const DamperInput& input, std::span<const double> state) const noexcept {
+  const double mean = force(input, state) - offset_;
+  std::array<double, GatedNetwork::kMaxSignals> signals;
+  double squares = 0;
+  for (const BankNetwork& member : members_) {
+    member.bank.read(input, state.first(member.bank.size()), signals.data());
+    const double apart = member.network.evaluate(signals.data()) - mean;
+    squares += apart * apart;
+    state = state.subspan(member.bank.size());
+  }
+  return is_ensemble() ? std::sqrt(squares / static_cast<double>(members_.size() - 1)) : 0;
 }
 
 std::unique_ptr<DamperModel> HysteresisNetwork::with_offset(double newton) const {

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <limits>
 #include <memory>
+#include <numeric>
 
 #include "dashpot/base/parallel.h"
 #include "dashpot/damper/neural/sample_layers.h"
@@ -157,6 +158,21 @@ SampleBlocks make_blocks(const Mlp& mlp, const TrainingSamples& samples, double 
   return blocks;
 }
 
+double mean_square(double squared_error, std::span<const double> offsets, const SampleBlocks& blocks) {
+  for (std::size_t g = 0; g < offsets.size(); ++g)
+    squared_error -= blocks.offset_price(blocks.groups[g], offsets[g]);
+  // Rounding may leave less than nothing; what is not a number stays so.
+  return (squared_error < 0 ? 0 : squared_error) / static_cast<double>(blocks.samples);
+}
+
+std::vector<double> take_mean_offset(Mlp& mlp, std::vector<double> offsets) {
+  const double mean =
+      std::accumulate(offsets.begin(), offsets.end(), 0.0) / static_cast<double>(offsets.size());
+  mlp.parameters.back() += mean;
+  for (double& offset : offsets) offset = mlp.output_scale * (offset - mean);
+  return offsets;
+}
+
 BlockErrors::BlockErrors(const Mlp& mlp, const SampleBlocks& blocks, int threads, SimdLevel level)
     : mlp_(mlp), blocks_(blocks), threads_(threads), kernel_(jacobian_kernel(level)) {
   assert(mlp.layers.back() == 1);
@@ -182,7 +198,7 @@ NormalEquations BlockErrors::normal_equations(std::span<const double> parameters
   return combine(stretches, blocks_, parameters.size());
 }
 
-double BlockErrors::squared_error(std::span<const double> parameters,
+GroupedErrors BlockErrors::errors(std::span<const double> parameters,
                                   AlignedVector<double>* activations) const {
   SampleLayers<double> layers(mlp_);
   layers.set_parameters(parameters);
@@ -199,10 +215,17 @@ double BlockErrors::squared_error(std::span<const double> parameters,
     });
   });
   const AlignedVector<double> sums = sums_by_group(stretches);
-  double total = 0;
-  for (std::size_t g = 0; g < blocks_.groups.size(); ++g)
-    total += sums[2 * g + 1] - blocks_.centring(blocks_.groups[g]) * sums[2 * g] * sums[2 * g];
-  return total;
+  GroupedErrors errors;
+  for (std::size_t g = 0; g < blocks_.groups.size(); ++g) {
+    errors.offsets.push_back(-blocks_.centring(blocks_.groups[g]) * sums[2 * g]);
+    errors.squared_error += sums[2 * g + 1] + errors.offsets[g] * sums[2 * g];
+  }
+  return errors;
+}
+
+double BlockErrors::squared_error(std::span<const double> parameters,
+                                  AlignedVector<double>* activations) const {
+  return errors(parameters, activations).squared_error;
 }
 
 }  // namespace dashpot

@@ -43,16 +43,29 @@ struct NormalEquations {
   std::vector<double> offsets;   ///< one per group; 0 without groups
 };
 
+/// Errors of a network, r'r and the price of the offsets, with the offsets at their best.
+struct GroupedErrors {
+  double squared_error = 0;
+  std::vector<double> offsets;  ///< one per group; 0 without groups
+};
+/// Mean square of the residuals alone, the price of the offsets taken out.
+double mean_square(double squared_error, std::span<const double> offsets, const SampleBlocks& blocks);
+/// The mean offset belongs to the network: moves it into the bias of its output. Returns what is left of
+/// each, in raw units.
+std::vector<double> take_mean_offset(Mlp& mlp, std::vector<double> offsets);
+
 /// A network with one output on the blocks. Sums go over fixed stretches of blocks, then over those, so that
 /// they do not depend on the number of threads.
 class BlockErrors {
  public:
   BlockErrors(const Mlp& mlp, const SampleBlocks& blocks, int threads,
               SimdLevel level = simd_levels().back());
-  /// `activations`: what squared_error() left at the same parameters; null: they are computed.
+  /// `activations`: what errors() or squared_error() left at the same parameters; null: they are computed.
   NormalEquations normal_equations(std::span<const double> parameters,
                                    AlignedVector<double>* activations = nullptr) const;
-  /// Its squared_error alone, at a fraction of the price. Leaves its activations, when that pays.
+  /// Its squared_error and offsets alone, at a fraction of the price. Leaves its activations, when that pays.
+  GroupedErrors errors(std::span<const double> parameters,
+                       AlignedVector<double>* activations = nullptr) const;
   double squared_error(std::span<const double> parameters,
                        AlignedVector<double>* activations = nullptr) const;
 

@@ -15,7 +15,7 @@ EarlyStopping::EarlyStopping(const Mlp& mlp, const Stopping& stopping, double of
 bool EarlyStopping::judge(std::span<const double> parameters) {
   if (!errors_) return false;
   const double mean = errors_->squared_error(parameters) / static_cast<double>(blocks_.samples);
-  const double rmse = mlp_.output_scale * std::sqrt(std::max(0.0, mean));
+  const double rmse = mlp_.output_scale * std::sqrt(mean < 0 ? 0 : mean);
   if (best_.empty() || rmse < rmse_) {
     best_.assign(parameters.begin(), parameters.end());
     rmse_ = rmse;

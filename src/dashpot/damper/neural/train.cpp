@@ -115,23 +115,6 @@ class LevenbergMarquardt {
   std::vector<double> matrix_, descent_;
 };
 
-/// Of the residuals alone, the price of the offsets taken out.
-double mean_square(const NormalEquations& equations, const SampleBlocks& blocks) {
-  double sum = equations.squared_error;
-  for (std::size_t g = 0; g < equations.offsets.size(); ++g)
-    sum -= blocks.offset_price(blocks.groups[g], equations.offsets[g]);
-  return std::max(0.0, sum) / static_cast<double>(blocks.samples);
-}
-
-/// The mean offset belongs to the network: moves it into the bias of its output.
-std::vector<double> raw_offsets(Mlp& mlp, std::vector<double> offsets) {
-  const double mean =
-      std::accumulate(offsets.begin(), offsets.end(), 0.0) / static_cast<double>(offsets.size());
-  mlp.parameters.back() += mean;
-  for (double& offset : offsets) offset = mlp.output_scale * (offset - mean);
-  return offsets;
-}
-
 }  // namespace
 
 TrainReport train(Mlp& mlp, const TrainingSamples& samples, const TrainOptions& options) {
@@ -141,7 +124,10 @@ TrainReport train(Mlp& mlp, const TrainingSamples& samples, const TrainOptions& 
   const SampleBlocks blocks = make_blocks(mlp, samples, options.offset_decay);
   LevenbergMarquardt search(mlp, blocks, options);
   EarlyStopping stopping(mlp, options.stopping, options.offset_decay);
-  const auto rmse = [&] { return mlp.output_scale * std::sqrt(mean_square(search.equations(), blocks)); };
+  const auto rmse = [&] {
+    const NormalEquations& now = search.equations();
+    return mlp.output_scale * std::sqrt(mean_square(now.squared_error, now.offsets, blocks));
+  };
 
   TrainReport report;
   std::vector<double> costs{search.cost()};
@@ -160,7 +146,7 @@ TrainReport train(Mlp& mlp, const TrainingSamples& samples, const TrainOptions& 
   report.rmse = rmse();
   report.weight_decay = search.weight_decay();
   report.effective_parameters = search.effective_parameters();
-  if (!samples.group.empty()) report.offsets = raw_offsets(mlp, search.equations().offsets);
+  if (!samples.group.empty()) report.offsets = take_mean_offset(mlp, search.equations().offsets);
   return report;
 }
 

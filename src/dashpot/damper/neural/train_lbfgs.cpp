@@ -21,13 +21,19 @@ constexpr std::size_t kPass = 64;      // samples that go through the network to
 class FullBatch {
  public:
   FullBatch(const Mlp& mlp, const TrainingSamples& samples, const LbfgsOptions& options)
-      : mlp_(mlp), samples_(samples), options_(options), sums_(kStretches) {
+      : mlp_(mlp),
+        samples_(samples),
+        options_(options),
+        blocks_(make_blocks(mlp, samples, options.offset_decay)),
+        errors_(mlp, blocks_, options.threads, options.level),
+        sums_(kStretches) {
     for (std::size_t k = 0; k < kStretches; ++k)
       networks_.push_back(std::make_unique<PaddedNetwork<double>>(mlp, kPass, options.level));
   }
 
   bool evaluate(std::span<const double> w, double& cost, std::span<double> gradient) {
     const std::size_t count = samples_.targets.size();
+    if (!samples_.group.empty()) offsets_ = errors_.errors(w).offsets;
     parallel_for(kStretches, options_.threads, [&](std::size_t k) {
       networks_[k]->set_parameters(w);
       sums_[k].squares = 0;
@@ -36,15 +42,24 @@ class FullBatch {
       for (std::size_t first = k * count / kStretches; first < end; first += kPass)
         add(*networks_[k], first, std::min(kPass, end - first), sums_[k]);
     });
-    squares_ = 0;
-    for (const Sums& sums : sums_) squares_ += sums.squares;
-    cost = squares_ / static_cast<double>(count);
+    double squares = 0;
+    for (const Sums& sums : sums_) squares += sums.squares;
+    for (std::size_t g = 0; g < offsets_.size(); ++g)
+      squares += blocks_.offset_price(blocks_.groups[g], offsets_[g]);
+    cost = squares / static_cast<double>(count);
     for (std::size_t p = 0; p < w.size(); ++p) {
       gradient[p] = 2 * options_.weight_decay * w[p];
       cost += options_.weight_decay * w[p] * w[p];
       for (const Sums& sums : sums_) gradient[p] += sums.gradient[p];
     }
     return true;
+  }
+
+  GroupedErrors errors(std::span<const double> w) const { return errors_.errors(w); }
+  /// Raw units, offsets removed.
+  double rmse(std::span<const double> w) const {
+    const GroupedErrors now = errors(w);
+    return mlp_.output_scale * std::sqrt(mean_square(now.squared_error, now.offsets, blocks_));
   }
 
  private:
@@ -63,7 +78,8 @@ class FullBatch {
     const double share = 2 / static_cast<double>(samples_.targets.size());
     for (std::size_t s = 0; s < size; ++s) {
       const double target = (samples_.targets[first + s] - mlp_.output_mean) / mlp_.output_scale;
-      const double residual = network.output(0)[s] - target;
+      const double offset = offsets_.empty() ? 0 : offsets_[samples_.group[first + s]];
+      const double residual = network.output(0)[s] + offset - target;
       sums.squares += residual * residual;
       network.output_slope(0)[s] = share * residual;
     }
@@ -76,28 +92,26 @@ class FullBatch {
   const Mlp& mlp_;
   const TrainingSamples& samples_;
   const LbfgsOptions& options_;
+  const SampleBlocks blocks_;
+  const BlockErrors errors_;
+  std::vector<double> offsets_;  // at the parameters in work: where the cost is least over them, its slope
+                                 // is that at fixed ones
   std::vector<std::unique_ptr<PaddedNetwork<double>>> networks_;
   std::vector<Sums> sums_;
-  double squares_ = 0;
 };
 
 }  // namespace
 
 TrainReport train_lbfgs(Mlp& mlp, const TrainingSamples& samples, const LbfgsOptions& options) {
-  assert(samples.group.empty() && mlp.layers.back() == 1 && !samples.targets.empty());
+  assert(mlp.layers.back() == 1 && !samples.targets.empty());
   if (mlp.parameters.empty()) initialise(mlp, options.seed);
   FullBatch batch(mlp, samples, options);
-  EarlyStopping stopping(mlp, options.stopping);
-  const SampleBlocks blocks = make_blocks(mlp, samples, 0);
-  const BlockErrors errors(mlp, blocks, options.threads, options.level);
-  const auto rmse_of = [&](std::span<const double> w) {
-    return mlp.output_scale * std::sqrt(errors.squared_error(w) / static_cast<double>(blocks.samples));
-  };
+  EarlyStopping stopping(mlp, options.stopping, options.offset_decay);
 
   TrainReport report;
   MinimiseOptions how{.max_iterations = options.max_iterations, .function_tolerance = options.tolerance};
   how.on_iteration = [&](int iteration, double, std::span<const double> w) {
-    if (options.on_iteration) options.on_iteration(iteration, rmse_of(w));
+    if (options.on_iteration) options.on_iteration(iteration, batch.rmse(w));
     report.stopped_early = stopping.judge(w);
     return !report.stopped_early;
   };
@@ -109,8 +123,9 @@ TrainReport train_lbfgs(Mlp& mlp, const TrainingSamples& samples, const LbfgsOpt
   stopping.finish(mlp, report);
   report.converged = found.converged && !report.stopped_early;
   report.iterations = found.iterations;
-  report.rmse = rmse_of(mlp.parameters);
+  report.rmse = batch.rmse(mlp.parameters);
   report.weight_decay = options.weight_decay;
+  if (!samples.group.empty()) report.offsets = take_mean_offset(mlp, batch.errors(mlp.parameters).offsets);
   return report;
 }
 

@@ -1,7 +1,11 @@
 // The interval that a model claims around its force, and what it covered.
 
-// As the model file says: steps in speed, linear between the knots of the drive.
-function half_width(band, velocity, drive) {
+// As the model file says: steps in speed, linear between the knots of the drive, and in quadrature the spread of an ensemble.
+function half_width(band, velocity, drive, spread) {
+  return Math.hypot(class_width(band, velocity, drive), (band.spread ?? 0) * spread);
+}
+
+function class_width(band, velocity, drive) {
   const {speeds, drives, half_width_N} = band, last = drives.length - 1;
   const row = speeds.filter((edge) => Math.abs(velocity) >= edge).length * drives.length;
   const next = drives.findIndex((knot) => drive < knot);
@@ -15,7 +19,7 @@ function half_width(band, velocity, drive) {
 function interval_series(own) {
   const {band, interval} = own.result;
   if (!band || !interval || !own.velocity || !own.drive) return [];
-  const half = own.modelled.map((_, i) => half_width(band, own.velocity[i], own.drive[i]));
+  const half = own.modelled.map((_, i) => half_width(band, own.velocity[i], own.drive[i], own.spread?.[i] ?? 0));
   const edge = (sign) => Array.from(own.modelled, (force, i) => force + sign * half[i]);
   return [{label: `${short_text(100 * band.level)} % interval, covers ${percent_text(interval.coverage_percent)} %`, kind: "area", silent: true,
     x: [...own.time, ...[...own.time].reverse()], y: [...edge(1), ...edge(-1).reverse()], colour: colour("modelled"), alpha: 0.2}];

@@ -6,7 +6,8 @@ function traces(report, model, record_name) {
   const result = model.left_out.records.find(({record: name}) => name === record_name);
   if (!record || !result || !record.modelled[model.name]) return null;
   return {result, time: series_of(record.time), displacement: series_of(record.displacement), velocity: series_of(record.velocity),
-    drive: series_of(record.drive), measured: series_of(record.measured), modelled: series_of(record.modelled[model.name])};
+    drive: series_of(record.drive), measured: series_of(record.measured), modelled: series_of(record.modelled[model.name]),
+    spread: series_of(record.spread[model.name])};
 }
 
 const kHelp = "Every plot: drag to zoom, Shift and drag to move, double-click to reset; with the keyboard + − arrows 0.";

@@ -1,0 +1,10 @@
+#pragma once
+#include "console.h"
+#include "dashpot/output/document.h"
+
+namespace dashpot::cli {
+
+/// What a document says and its tables, for a terminal; figures are left to the page.
+void print_document(const Document& document, Console& console);
+
+}  // namespace dashpot::cli

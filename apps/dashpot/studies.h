@@ -1,0 +1,10 @@
+#pragma once
+#include "command.h"
+
+// One study each: subcommands of `dashpot study`.
+namespace dashpot::cli {
+
+Command recovery_study();
+Command one_sensor_study();
+
+}  // namespace dashpot::cli
