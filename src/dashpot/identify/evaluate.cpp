@@ -101,7 +101,7 @@ RecordResult evaluate_record(const DamperModel& model, const Record& record, std
   }
   result.sums = error_sums(result, result.offset);
   result.sums_without_offset = error_sums(result, 0);
-  result.one_step = one_step_errors(model, record, drive_unit, result.offset);
+  result.one_step = one_step_errors(damper, record, drive_unit, result.offset);
   result.metrics = metrics(result.sums);
   result.metrics_without_offset = metrics(result.sums_without_offset);
   for (double& force : result.modelled) force += result.offset;
