@@ -9,6 +9,7 @@ Command identify_command();
 Command rank_command();
 Command search_command();
 Command evaluate_command();
+Command member_command();
 Command models_command();
 Command inspect_command();
 Command track_command();

@@ -7,6 +7,7 @@
 #include "console.h"
 #include "dashpot/base/file.h"
 #include "dashpot/base/text.h"
+#include "dashpot/damper/family/family_model.h"
 #include "dashpot/output/interval_table.h"
 #include "dashpot/output/report_json.h"
 #include "data.h"
@@ -21,6 +22,7 @@ struct Settings {
   std::string model;
   DataSettings data;
   std::string force_offset = "record";
+  std::string outside_family = "mark";
   std::string report;
   int threads = 0;
 };
@@ -67,6 +69,15 @@ std::string band_table(const Evaluation& evaluation, int width) {
   return table.text(static_cast<std::size_t>(width));
 }
 
+/// What of the recordings' dampers lies outside the family that the model is of, each once.
+std::vector<std::string> outside_family(const Evaluation& evaluation) {
+  std::vector<std::string> told;
+  for (const RecordResult& r : evaluation.records)
+    for (const std::string& what : r.extrapolations)
+      if (std::ranges::find(told, what) == told.end()) told.push_back(what);
+  return told;
+}
+
 /// Of models that feed their force back.
 std::string one_step_line(const Evaluation& evaluation) {
   if (!evaluation.one_step) return {};
@@ -79,6 +90,7 @@ Value result_json(const ModelFile& file, const Evaluation& evaluation,
   Value value = evaluation_json(evaluation);
   value.add("model", file.model->name());
   value.add("outside_domain", to_json(outside));
+  value.add("outside_family", Value::array(outside_family(evaluation)));
   return value;
 }
 
@@ -111,6 +123,9 @@ void require_same_drive(const ModelFile& file, const Dataset& dataset, const std
 
 int run(const Settings& settings, Console& console) {
   ModelFile file = load_model(settings.model);
+  if (const auto* family = dynamic_cast<const FamilyModel*>(file.model.get());
+      family && settings.outside_family == "refuse")
+    file.model = family->with_outside(OutsideFamily::Refuse);
   const Dataset dataset = load_recordings(settings.data, console);
   require_same_drive(file, dataset, settings.model);
   const EvaluateOptions options{
@@ -128,6 +143,7 @@ int run(const Settings& settings, Console& console) {
   if (const std::string sentence = interval_sentence(evaluation); !sentence.empty())
     console.print('\n' + paragraph(sentence, static_cast<std::size_t>(console.width())));
   for (const Extrapolation& e : outside) console.warn(describe(e));
+  for (const std::string& what : outside_family(evaluation)) console.warn(what + ": it extrapolates there");
   if (console.json) console.print_json(result_json(file, evaluation, outside));
   if (!settings.report.empty()) write_report(settings, dataset, std::move(file), evaluation, console);
   if (evaluation.diverged == 0) return kDone;
@@ -156,7 +172,12 @@ Command evaluate_command() {
       .run = [settings](Console& console) { return run(*settings, console); }};
   append(command.options, data_options(settings->data));
   append(command.options,
-         {{.names = "--force-offset",
+         {{.names = "--outside-family",
+           .target = &settings->outside_family,
+           .help = "a damper outside the family that the model is of: tell of it and go on, or refuse it",
+           .value = "MODE",
+           .choices = {"mark", "refuse"}},
+          {.names = "--force-offset",
            .target = &settings->force_offset,
            .help = "the force zero (gas, load cell): a free offset per record, or the model's own alone",
            .value = "MODE",

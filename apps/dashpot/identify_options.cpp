@@ -15,13 +15,20 @@ const std::vector<std::string> kUsualModels = {
 
 std::vector<std::string> names_and_groups() {
   std::vector<std::string> words = model_names();
-  words.insert(words.end(), {"usual", "all"});
+  words.insert(words.end(), {"usual", "all", "family"});
   return words;
 }
 
 /// The models that a word on the command line stands for.
 std::vector<std::string> models_of(const std::string& word) {
-  if (word == "all") return model_names();
+  // Models of a family need what recordings of one damper do not have: each word stands for one of both.
+  if (word == "all" || word == "family") {
+    std::vector<std::string> names = model_names();
+    std::erase_if(names, [&](const std::string& name) {
+      return (model_info(name).kind == "family") != (word == "family");
+    });
+    return names;
+  }
   return word == "usual" ? kUsualModels : std::vector{word};
 }
 
@@ -74,7 +81,8 @@ std::vector<Option> fit_options(FitSettings& settings) {
       {.names = "--models",
        .target = &settings.models,
        .help = "the models to fit, separated by commas; 'usual' stands for " + join(kUsualModels, ", ") +
-               "; 'all' for every model that 'dashpot models' lists",
+               "; 'all' for every model of one damper that 'dashpot models' lists, 'family' for those of a "
+               "family of dampers",
        .value = "NAMES",
        .choices = names_and_groups(),
        .more_choices = more_model_names(),

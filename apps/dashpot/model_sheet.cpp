@@ -6,6 +6,7 @@
 
 #include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
+#include "dashpot/damper/family/family_force.h"
 #include "dashpot/damper/hybrid_model.h"
 #include "dashpot/damper/inverse/polynomial.h"
 #include "dashpot/damper/law_model.h"
@@ -129,6 +130,23 @@ void add_numbers(ModelSheet& sheet, const StateNetworkPreset& preset) {
   sheet.states.insert(sheet.states.end(), preset.members * preset.current_lags, "u, A");
 }
 
+void add_numbers(ModelSheet& sheet, const FamilyPreset& preset) {
+  if (!preset.inputs.empty()) {
+    std::vector<std::size_t> layers = {preset.inputs.size()};
+    layers.insert(layers.end(), preset.hidden.begin(), preset.hidden.end());
+    layers.push_back(1);
+    sheet.numbers = Mlp::parameter_count(layers);
+    return;
+  }
+  FamilyGates gates;
+  gates.bank.path_rates.resize(preset.path_states);
+  gates.bank.velocity_rates.resize(preset.velocity_lags);
+  gates.soft_speeds.resize(FamilyGates::kSoftSpeeds);
+  sheet.numbers = gates.term_count() * FamilyGates::kGates;
+  sheet.states.insert(sheet.states.end(), preset.path_states, "w, 1");
+  sheet.states.insert(sheet.states.end(), preset.velocity_lags, "y, m/s");
+}
+
 void add_numbers(ModelSheet& sheet, const StateSpacePreset& preset) {
   StateSpaceNetwork member;
   member.cell.path_rates.resize(preset.path_states);
@@ -190,6 +208,8 @@ ModelSheet model_sheet(const std::string& name) {
     add_numbers(sheet, find_state_space_preset(name));
   else if (info.kind == "hybrid")
     add_numbers(sheet, find_hybrid_preset(name));
+  else if (info.kind == "family")
+    add_numbers(sheet, find_family_preset(name));
   else
     add_numbers(sheet, find_fuzzy_preset(name));
   return sheet;

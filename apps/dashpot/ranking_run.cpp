@@ -8,8 +8,9 @@ Option leave_out_option(std::string& text) {
   return {.names = "--leave-out",
           .target = &text,
           .help =
-              "what is left out to judge a model: condition, current, record, roles or fraction; name which "
-              "ones as current=0.5,1 or fraction=0.3",
+              "what is left out to judge a model: condition, current, record, roles, fraction or each; "
+              "name which ones as current=0.5,1 or fraction=0.3, or of which conditions as "
+              "each=gap,pole_length",
           .value = "WHAT",
           .default_text =
               "as the dataset file says, else the first of condition, current, record and "

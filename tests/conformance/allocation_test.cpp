@@ -2,6 +2,7 @@
 #include <new>
 
 #include "conformance/laws.h"
+#include "damper/family/example_family.h"
 #include "damper/inverse/inverses.h"
 #include "damper/neural/narx_example.h"
 #include "damper/neural/state_space_example.h"
@@ -80,6 +81,11 @@ TEST_CASE("stepping a state network allocates nothing") {
   member.network.initialise(3, 1);
   const HysteresisNetwork model("test", {member, member});
   check_stepping(model);
+}
+
+TEST_CASE("stepping a member of a family allocates nothing") {
+  check_stepping(example_family(FamilyTarget::Residual));
+  check_stepping(example_family_network());
 }
 
 TEST_CASE("stepping static networks allocates nothing") {

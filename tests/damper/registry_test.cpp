@@ -2,19 +2,22 @@
 
 #include <algorithm>
 
+#include "dashpot/damper/family/family_force.h"
 #include "support.h"
 
 using namespace dashpot;
 
 TEST_CASE(
-    "laws stand in alphabetical order, networks, state networks, fuzzy models and usual hybrids follow") {
+    "laws stand in alphabetical order, networks, state networks, fuzzy models, usual hybrids and families "
+    "follow") {
   const std::vector<std::string> names = model_names();
   const auto others = names.begin() + static_cast<std::ptrdiff_t>(laws().size());
   CHECK(std::is_sorted(names.begin(), others));
   CHECK(std::vector<std::string>(others, names.end()) ==
         std::vector<std::string>{"mlp_one_sensor", "mlp_two_sensors", "narx_one_sensor", "narx_two_sensors",
                                  "hysteresis_network", "neural_state_space", "anfis", "takagi_sugeno",
-                                 "large_scale_bouc_wen+network", "modified_bouc_wen+network"});
+                                 "large_scale_bouc_wen+network", "modified_bouc_wen+network", "family_gated",
+                                 "family_h3x15", "family_h3x15_residual", "family_h3x15_total"});
   for (const Law* law : laws()) {
     CHECK(&find_law(law->name) == law);
     CHECK(is_law(law->name));
@@ -77,6 +80,17 @@ TEST_CASE("fuzzy models say their kind and inputs, and have sets for each") {
     CHECK(preset.sets.size() == preset.inputs.size());
     CHECK_FALSE(info.needs_displacement());
   }
+}
+
+TEST_CASE("families say their kind and inputs; the paper's network has its eight") {
+  for (const FamilyPreset& preset : family_presets()) {
+    const ModelInfo info = model_info(preset.name);
+    CHECK(info.kind == "family");
+    CHECK(info.needs_displacement() == !preset.inputs.empty());
+    CHECK(&find_family_preset(preset.name) == &preset);
+    for (const std::string& input : preset.inputs) CHECK_NOTHROW(family_input_named(input, ""));
+  }
+  CHECK(find_family_preset("family_h3x15").inputs.size() == 8);
 }
 
 TEST_CASE("an unknown name is answered with the near one") {

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <matio.h>
 
+#include "damper/family/example_family.h"
 #include "damper/hybrid_model_example.h"
 #include "damper/inverse/example_network.h"
 #include "damper/neural/bank_network_example.h"
@@ -97,6 +98,9 @@ void model_seeds(const fs::path& folder) {
              model_seed(std::make_unique<FuzzyModel>(
                             "anfis", FuzzyInputs({"velocity", "current"}, {0.01, 0.02}, "seed"), sugeno),
                         "A"));
+  write_file(folder / "family_gates",
+             model_seed(example_family(dashpot::FamilyTarget::Residual).with_offset(0), "A"));
+  write_file(folder / "family_network", model_seed(example_family_network().with_offset(0), "A"));
   const Regressors regressors = example_regressors();
   write_file(folder / "narx",
              model_seed(std::make_unique<NarxModel>("narx_one_sensor", regressors,

@@ -87,7 +87,10 @@ TEST_CASE("the saved model is the ranked one, with its domain and where it comes
 }
 
 TEST_CASE("a monitor stops a fit") {
-  const Dataset data = small_campaign();
+  Dataset data = small_campaign();
+  for (Record& record : data.records)
+    record.conditions = {{"piston_area", 1e-4}, {"gap_area", 2e-5},  {"gap", 1e-3},
+                         {"pole_length", 6e-3}, {"viscosity", 0.28}, {"yield_stress", 2e3}};
   std::atomic<bool> stop = true;
   IdentifyOptions options;
   options.monitor.stop = &stop;

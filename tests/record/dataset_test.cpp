@@ -189,7 +189,7 @@ TEST_CASE("the shipped dataset files recognise the measured recordings") {
   for (const Shipped shipped : {Shipped{"utfsm", "utfsm", "A", 20, 4}, Shipped{"utfpr", "utfpr", "V", 38, 2},
                                 Shipped{"nees-2012-1158", "nees-2012-1158", "V", 1, 1},
                                 Shipped{"sysidentpy-simulated", "sysidentpy-simulated", "V", 2, 1},
-                                Shipped{"family-dnn", "family-dnn", "A", 108, 18},
+                                Shipped{"family-dnn", "family-dnn", "A", 108, 9},
                                 Shipped{"utfsm/ME5mm3Hz.txt.gz", "utfsm-daq-logs", "A", 5, 3}}) {
     CAPTURE(std::string(shipped.folder));
     const auto path = shared_data(shipped.folder);

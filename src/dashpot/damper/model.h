@@ -2,6 +2,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "dashpot/base/value.h"
@@ -14,6 +15,9 @@ struct DamperInput {
   double velocity = 0;      ///< m/s, extension positive
   double current = 0;       ///< A commanded to the coil (V where the model is voltage-driven)
 };
+
+/// What was constant in a test, SI: {"gap", 1e-3} ...
+using Conditions = std::vector<std::pair<std::string, double>>;
 
 /// Where the training data were: outside, the model extrapolates.
 struct Domain {
@@ -59,6 +63,11 @@ class DamperModel {
 
   /// The same model giving force + offset.
   virtual std::unique_ptr<DamperModel> with_offset(double newton) const = 0;
+  /// The model of the damper that these conditions describe; null where they say nothing to this model, as to
+  /// any model of one damper. Throws Error at conditions that cannot be.
+  virtual std::shared_ptr<const DamperModel> specialised(const Conditions&) const { return nullptr; }
+  /// In what this damper lies outside those that its model was fitted on, in words.
+  virtual std::vector<std::string> extrapolations() const { return {}; }
   /// The kind's own part of a model file.
   virtual Value to_json() const = 0;
 };

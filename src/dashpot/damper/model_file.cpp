@@ -3,6 +3,7 @@
 #include "dashpot/base/error.h"
 #include "dashpot/base/file.h"
 #include "dashpot/base/text.h"
+#include "dashpot/damper/family/family_model.h"
 #include "dashpot/damper/file_parts.h"
 #include "dashpot/damper/fuzzy/fuzzy_model.h"
 #include "dashpot/damper/hybrid_model.h"
@@ -43,10 +44,11 @@ std::unique_ptr<DamperModel> read_model(const Value& kind, const Value& value, c
   if (kind.as_string() == "state_network") return hysteresis_network_from_json(value);
   if (kind.as_string() == "state_space") return state_space_model_from_json(value);
   if (kind.as_string() == "fuzzy") return fuzzy_model_from_json(value);
+  if (kind.as_string() == "family") return family_model_from_json(value);
   if (kind.as_string() == "hybrid") return read_hybrid(value, file);
   throw Error(kind.where(), "unknown kind '" + kind.as_string() + "'",
-              suggest(kind.as_string(),
-                      {"law", "network", "narx", "state_network", "state_space", "fuzzy", "hybrid"}));
+              suggest(kind.as_string(), {"law", "network", "narx", "state_network", "state_space", "fuzzy",
+                                         "hybrid", "family"}));
 }
 
 }  // namespace

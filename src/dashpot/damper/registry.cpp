@@ -264,8 +264,12 @@ ModelInfo model_info(std::string_view name, const std::string& where) {
   for (const StateSpacePreset& p : state_space_presets())
     if (p.name == name)
       return {p.name, "state_space", p.title, p.equation, p.source, p.remarks, {"velocity", "current"}};
-  const FuzzyPreset& p = find_fuzzy_preset(name, where);
-  return {p.name, "fuzzy", p.title, p.equation, p.source, p.remarks, p.inputs};
+  for (const FuzzyPreset& p : fuzzy_presets())
+    if (p.name == name) return {p.name, "fuzzy", p.title, p.equation, p.source, p.remarks, p.inputs};
+  const FamilyPreset& p = find_family_preset(name, where);
+  const std::vector<std::string> inputs =
+      p.inputs.empty() ? std::vector<std::string>{"velocity", "current"} : p.inputs;
+  return {p.name, "family", p.title, p.equation, p.source, p.remarks, inputs};
 }
 
 std::vector<std::string> model_names() {
@@ -277,6 +281,7 @@ std::vector<std::string> model_names() {
   for (const FuzzyPreset& preset : fuzzy_presets()) names.emplace_back(preset.name);
   for (const HybridPreset& preset : hybrid_presets())
     if (preset.usual) names.push_back(preset.name);
+  for (const FamilyPreset& preset : family_presets()) names.emplace_back(preset.name);
   return names;
 }
 
@@ -312,6 +317,12 @@ const StateSpacePreset& find_state_space_preset(std::string_view name, const std
 
 const FuzzyPreset& find_fuzzy_preset(std::string_view name, const std::string& where) {
   for (const FuzzyPreset& preset : fuzzy_presets())
+    if (preset.name == name) return preset;
+  throw_unknown(name, where);
+}
+
+const FamilyPreset& find_family_preset(std::string_view name, const std::string& where) {
+  for (const FamilyPreset& preset : family_presets())
     if (preset.name == name) return preset;
   throw_unknown(name, where);
 }

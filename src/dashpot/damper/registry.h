@@ -4,6 +4,7 @@
 #include <string_view>
 #include <vector>
 
+#include "dashpot/damper/family/family_baseline.h"
 #include "dashpot/damper/fuzzy/sugeno.h"
 #include "dashpot/damper/law.h"
 
@@ -54,6 +55,15 @@ struct FuzzyPreset {
 };
 std::span<const FuzzyPreset> fuzzy_presets();
 
+/// A model of a family of dampers, known by name: static networks of its inputs, or gates where it has none.
+struct FamilyPreset {
+  std::string_view name, title, equation, source, remarks;
+  std::vector<std::string> inputs;  ///< as family_input_named() has them
+  FamilyTarget target = FamilyTarget::Total;
+  std::vector<std::size_t> hidden;  ///< rectified linear units per hidden layer
+  std::size_t path_states = 0, velocity_lags = 0;
+};
+std::span<const FamilyPreset> family_presets();
 /// A law with a network on top that learns with it. Every law has one.
 struct HybridPreset {
   std::string name, title, equation, source, remarks;  ///< of the law and of the network part
@@ -74,7 +84,7 @@ struct ModelInfo {
 /// Throws Error "unknown model 'bouc'; did you mean ...; known: ...".
 ModelInfo model_info(std::string_view name, const std::string& where = {});
 
-/// Laws, networks, state networks, state spaces, fuzzy models and the usual hybrids.
+/// Laws, networks, state networks, state spaces, fuzzy models, the usual hybrids and families.
 std::vector<std::string> model_names();
 /// Hybrids that are known beside model_names().
 std::vector<std::string> more_model_names();
@@ -85,6 +95,7 @@ const NetworkPreset& find_network_preset(std::string_view name, const std::strin
 const StateNetworkPreset& find_state_network_preset(std::string_view name, const std::string& where = {});
 const StateSpacePreset& find_state_space_preset(std::string_view name, const std::string& where = {});
 const FuzzyPreset& find_fuzzy_preset(std::string_view name, const std::string& where = {});
+const FamilyPreset& find_family_preset(std::string_view name, const std::string& where = {});
 const HybridPreset& find_hybrid_preset(std::string_view name, const std::string& where = {});
 bool is_law(std::string_view name);
 /// The law itself, or the one inside a hybrid; nullptr where there is none.

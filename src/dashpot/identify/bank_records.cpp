@@ -5,27 +5,9 @@
 #include <numeric>
 
 #include "dashpot/identify/evaluate.h"
+#include "dashpot/identify/stroke.h"
 
 namespace dashpot {
-namespace {
-
-double mean_way(const BankRecord& record) {
-  double top = 0, way = 0;
-  for (const DamperInput& input : record.inputs) top = std::max(top, std::abs(input.velocity));
-  int turns = 0, direction = 0;
-  for (std::size_t k = 1; k < record.inputs.size(); ++k) {
-    const double v = record.inputs[k].velocity;
-    way += std::abs(v) * (record.time[k] - record.time[k - 1]);
-    const int now = v > 0 ? 1 : -1;
-    if (std::abs(v) <= 0.1 * top || now == direction) continue;
-    direction = now;
-    ++turns;
-  }
-  return way / std::max(1, turns);
-}
-
-}  // namespace
-
 std::vector<BankRecord> bank_records(const std::vector<Record>& records, const std::string& drive_unit) {
   std::vector<BankRecord> all;
   for (const Record& record : records)
@@ -56,7 +38,7 @@ double force_deviation(const std::vector<const BankRecord*>& records) {
 WayRange way_range(const std::vector<const BankRecord*>& records) {
   WayRange range{INFINITY, 0};
   for (const BankRecord* record : records) {
-    const double way = mean_way(*record);
+    const double way = mean_stroke(record->inputs, record->time).way;
     range.shortest = std::min(range.shortest, way);
     range.longest = std::max(range.longest, way);
   }

@@ -85,7 +85,10 @@ RecordResult evaluate_record(const DamperModel& model, const Record& record, std
   result.drive = drive_samples(record, drive_unit);
   if (const Channel* displacement = record.find("displacement")) result.displacement = displacement->samples;
 
-  FreeRun run = free_run(model, damper_inputs(record, drive_unit), record.time);
+  const std::shared_ptr<const DamperModel> specialised = model.specialised(record.conditions);
+  const DamperModel& damper = specialised ? *specialised : model;
+  result.extrapolations = damper.extrapolations();
+  FreeRun run = free_run(damper, damper_inputs(record, drive_unit), record.time);
   result.modelled = std::move(run.force);
   result.spread = std::move(run.spread);
   result.diverged_at = run.diverged_at;
@@ -98,7 +101,7 @@ RecordResult evaluate_record(const DamperModel& model, const Record& record, std
   }
   result.sums = error_sums(result, result.offset);
   result.sums_without_offset = error_sums(result, 0);
-  result.one_step = one_step_errors(model, record, drive_unit, result.offset);
+  result.one_step = one_step_errors(damper, record, drive_unit, result.offset);
   result.metrics = metrics(result.sums);
   result.metrics_without_offset = metrics(result.sums_without_offset);
   for (double& force : result.modelled) force += result.offset;

@@ -27,7 +27,8 @@ DriveRange drive_range(const std::vector<Record>& records, std::string_view driv
 Domain domain_of(const std::vector<Record>& records, std::string_view drive_unit);
 
 /// Force over a record in free run: the model sees motion and current only. From rest at the first
-/// sample. `diverged_at`: time of the first force that is not finite or out of the model's range; what follows is NaN.
+/// sample. `diverged_at`: time of the first force that is not finite or out of the model's range; what
+/// follows is NaN.
 struct FreeRun {
   std::vector<double> force;          ///< N, one per sample
   std::vector<double> spread;         ///< N, of an ensemble's members; empty for a single model
@@ -63,7 +64,8 @@ struct RecordResult {
   Metrics metrics;                 ///< with the offset
   Metrics metrics_without_offset;  ///< the model as it stands in its file
   ErrorSums sums, sums_without_offset;
-  ErrorSums one_step;        ///< with measured forces fed back; without samples: the model feeds none back
+  std::vector<std::string> extrapolations;  ///< as DamperModel has them, of the model on this record
+  ErrorSums one_step;       ///< with measured forces fed back; without samples: the model feeds none back
   double energy_error = 0;  ///< %, of the energy dissipated per record
   std::optional<double> diverged_at;
   std::optional<ForceBand> band;                                                ///< around the modelled force
@@ -89,7 +91,8 @@ struct Evaluation {
   std::vector<RecordResult> records;
   Metrics pooled;  ///< all samples of all scored records
   Metrics pooled_without_offset;
-  std::optional<Metrics> one_step;  ///< of a model that feeds its force back, measured ones fed back: no judge
+  std::optional<Metrics>
+      one_step;          ///< of a model that feeds its force back, measured ones fed back: no judge
   double worst_esr = 0;  ///< %, worst record
   std::string worst_record;
   double mean_esr = 0;                        ///< %, mean over the records

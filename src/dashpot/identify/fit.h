@@ -22,6 +22,9 @@ FitReport fit_state_space(const StateSpacePreset& preset, const std::vector<Reco
                           const std::string& drive_unit, const IdentifyOptions& options);
 FitReport fit_fuzzy(const FuzzyPreset& preset, const std::vector<Record>& training,
                     const std::string& drive_unit, const IdentifyOptions& options);
+/// Needs the conditions of a whole family member on each record. Throws Error where one is missing.
+FitReport fit_family(const FamilyPreset& preset, const std::vector<Record>& training,
+                     const std::string& drive_unit, const IdentifyOptions& options);
 FitReport fit_hybrid(const HybridPreset& preset, const std::vector<Record>& training,
                      const std::string& drive_unit, const IdentifyOptions& options);
 

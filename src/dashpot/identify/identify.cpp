@@ -54,6 +54,7 @@ FitReport fit(const std::string& model, const std::vector<Record>& training, con
   if (kind == "state_space")
     return fit_state_space(find_state_space_preset(model), training, drive_unit, options);
   if (kind == "hybrid") return fit_hybrid(find_hybrid_preset(model), training, drive_unit, options);
+  if (kind == "family") return fit_family(find_family_preset(model), training, drive_unit, options);
   return fit_fuzzy(find_fuzzy_preset(model), training, drive_unit, options);
 }
 

@@ -204,6 +204,8 @@ std::vector<std::string_view> network_settings_of(const std::string& model) {
   if (kind == "network")
     return {"hidden", "activation", "trainer",  "rate",    "schedule", "batch",  "epochs",
             "l1",     "l2",         "patience", "members", "delays",   "spacing"};
+  if (kind == "family" && !find_family_preset(model).inputs.empty())
+    return {"hidden", "activation", "rate", "batch", "epochs", "l2", "members"};
   if (kind == "narx")
     return {"hidden", "activation", "trainer", "epochs",   "l2",     "members",
             "delays", "feedback",   "spacing", "training", "window", "output"};

@@ -88,6 +88,8 @@ std::string protocol_title(const LeaveOut& leave_out) {
       return "one record left out";
     case LeaveOut::By::Fraction:
       return "the end of every record left out";
+    case LeaveOut::By::Each:
+      return "each " + join(leave_out.values, " and ") + " left out";
     case LeaveOut::By::Roles:
       break;
   }
@@ -111,6 +113,8 @@ std::string protocol(const LeaveOut& leave_out, std::size_t folds) {
                   : "." + in_turn);
     case LeaveOut::By::Record:
       return "One record is left out" + chosen + "." + in_turn;
+    case LeaveOut::By::Each:
+      return "All records that agree in " + join(leave_out.values, " and ") + " are left out." + in_turn;
     case LeaveOut::By::Fraction:
       return fmt::format(
           "The last {} % of every record is left out: the model is fitted on what comes before, runs on, and "

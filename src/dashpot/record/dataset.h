@@ -31,9 +31,10 @@ struct PassedOver {
 
 /// How records are left out to judge a model. `values` narrows it: the levels, conditions or record
 /// names to leave out one after the other; empty: each (for Current: each inner level, since a model
-/// is not asked to extrapolate in current).
+/// is not asked to extrapolate in current). Each: `values` names conditions of the records, gap or
+/// viscosity, and what agrees in all of them is left out together.
 struct LeaveOut {
-  enum class By { Condition, Current, Record, Fraction, Roles };
+  enum class By { Condition, Current, Record, Fraction, Roles, Each };
   By by = By::Condition;
   std::vector<std::string> values;
   double fraction = 0.3;  ///< Fraction: share of every record's end that is left out

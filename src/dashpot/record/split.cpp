@@ -13,11 +13,9 @@ struct Way {
   LeaveOut::By by;
   std::string_view name;
 };
-constexpr Way kWays[] = {{LeaveOut::By::Condition, "condition"},
-                         {LeaveOut::By::Current, "current"},
-                         {LeaveOut::By::Record, "record"},
-                         {LeaveOut::By::Fraction, "fraction"},
-                         {LeaveOut::By::Roles, "roles"}};
+constexpr Way kWays[] = {{LeaveOut::By::Condition, "condition"}, {LeaveOut::By::Current, "current"},
+                         {LeaveOut::By::Record, "record"},       {LeaveOut::By::Fraction, "fraction"},
+                         {LeaveOut::By::Roles, "roles"},         {LeaveOut::By::Each, "each"}};
 
 template <class T>
 void add_new(std::vector<T>& values, const T& value) {
@@ -125,6 +123,33 @@ std::vector<Fold> by_record(const Dataset& dataset, const LeaveOut& how) {
   return folds;
 }
 
+/// "gap 0.001, pole_length 0.006": what a record has of these conditions.
+std::string values_of(const Record& record, const std::vector<std::string>& names) {
+  std::vector<std::string> parts;
+  for (const std::string& name : names) {
+    const auto found = std::ranges::find(record.conditions, name, &std::pair<std::string, double>::first);
+    if (found == record.conditions.end()) {
+      std::vector<std::string> known;
+      for (const auto& condition : record.conditions) known.push_back(condition.first);
+      throw Error(record.name, "has no condition '" + name + "'",
+                  known.empty() ? "its dataset file states none" : suggest(name, known));
+    }
+    parts.push_back(name + " " + format_number(found->second));
+  }
+  return join(parts, ", ");
+}
+
+std::vector<Fold> by_each(const Dataset& dataset, const LeaveOut& how) {
+  std::vector<std::string> all;
+  for (const Record& record : dataset.records) add_new(all, values_of(record, how.values));
+  if (all.size() < 2) impossible(dataset, "all records have " + all.front());
+  std::vector<Fold> folds;
+  for (const std::string& values : all)
+    folds.push_back(fold_by(dataset, "without " + values,
+                            [&](const Record& r) { return values_of(r, how.values) == values; }));
+  return folds;
+}
+
 /// The left-out record runs from its start, so that the model reaches its state, and is scored at its end.
 std::vector<Fold> by_fraction(const Dataset& dataset, const LeaveOut& how) {
   Fold fold;
@@ -190,9 +215,12 @@ LeaveOut parse_leave_out(const std::string& text) {
       std::find_if(std::begin(kWays), std::end(kWays), [&](const Way& w) { return w.name == name; });
   if (way == std::end(kWays))
     throw Error("", "cannot leave out by '" + text + "'",
-                "'condition', 'current', 'current=0.5,1', 'record', 'fraction=0.3' or 'roles'");
+                "'condition', 'current', 'current=0.5,1', 'record', 'fraction=0.3', 'roles' or "
+                "'each=gap,pole_length'");
   LeaveOut out;
   out.by = way->by;
+  if (equals == std::string::npos && out.by == LeaveOut::By::Each)
+    throw Error("", "'each' does not say of what", "conditions of the records: 'each=gap,pole_length'");
   if (equals == std::string::npos) return out;
   const std::string rest = text.substr(equals + 1);
   if (out.by == LeaveOut::By::Fraction) {
@@ -243,6 +271,8 @@ std::vector<Fold> split(const Dataset& dataset, const LeaveOut& leave_out) {
       return by_fraction(dataset, leave_out);
     case LeaveOut::By::Roles:
       return by_roles(dataset);
+    case LeaveOut::By::Each:
+      return by_each(dataset, leave_out);
     case LeaveOut::By::Condition:
       break;
   }
