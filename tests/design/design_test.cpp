@@ -33,8 +33,8 @@ DesignReport designed(const std::string& text, DesignOptions options = {}) {
 }  // namespace
 
 TEST_CASE("design: the smallest active volume is that of Jolly and Carlson") {
-  // V = (12 / c^2) (eta / tau^2) lambda W_m: MODELS.md 5.2, recalled. With the pressures 12 eta L Q / (w h^3) and
-  // c tau L / h it is an identity; here c = 2. 132DG: 0.112 Pa s.
+  // V = (12 / c^2) (eta / tau^2) lambda W_m: MODELS.md 5.2, recalled. With the pressures 12 eta L Q / (w h^3)
+  // and c tau L / h it is an identity; here c = 2. 132DG: 0.112 Pa s.
   const DesignReport report = designed(kVolume);
   REQUIRE(report.designs.size() == 1);
   const double rule = 12. / 4 * 0.112 / (30e3 * 30e3) * 8 * 300;
@@ -42,8 +42,8 @@ TEST_CASE("design: the smallest active volume is that of Jolly and Carlson") {
 }
 
 TEST_CASE("design: the gap of the largest control ratio under friction") {
-  // Of a slot of fixed width, a h^-1 / (b h^-3 + f) is largest at h^3 = 2 b / f: there the viscous force is half
-  // of the friction.
+  // Of a slot of fixed width, a h^-1 / (b h^-3 + f) is largest at h^3 = 2 b / f: there the viscous force is
+  // half of the friction.
   const DesignReport report = designed(R"(
 damper: passenger_car
 at: {velocity: 0.2 m/s}

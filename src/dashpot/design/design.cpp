@@ -27,7 +27,8 @@ class DesignRun {
   OptimiseOptions search_options(const std::string& stage, double from, double to);
   std::vector<std::vector<double>> best_of_each_goal();
   std::vector<std::vector<double>> front_from(std::vector<std::vector<double>> ends);
-  void explain();
+  /// Which constraints conflict; or a design after all.
+  std::vector<std::vector<double>> explain();
   void add_designs(const std::vector<std::vector<double>>& places);
   void compare(Design& design) const;
   void name_roles();
@@ -91,23 +92,30 @@ std::vector<std::vector<double>> DesignRun::front_from(std::vector<std::vector<d
   }
   front.starts = ends;
   const OptimiseOptions& search = search_options("front", 0.3, 1);
-  const Front found =
-      pareto_front(front, {.method = report_.options.method, .points = report_.options.points,
-                           .generations = report_.options.generations, .seed = search.seed,
-                           .threads = search.threads, .monitor = search.monitor});
+  const Front found = pareto_front(front, {.method = report_.options.method,
+                                           .points = report_.options.points,
+                                           .generations = report_.options.generations,
+                                           .seed = search.seed,
+                                           .threads = search.threads,
+                                           .monitor = search.monitor});
   report_.evaluations += found.evaluations;
   report_.stopped = report_.stopped || found.stopped;
   return found.places.empty() ? ends : found.places;
 }
 
-void DesignRun::explain() {
+std::vector<std::vector<double>> DesignRun::explain() {
   const Optimum nearest = least_violation(problem_, search_options("least violation", 0.6, 0.7));
   report_.evaluations += nearest.evaluations;
   report_.stopped = report_.stopped || nearest.stopped;
-  if (nearest.violation == 0 || report_.stopped) return;  // rare, but there are such
+  if (nearest.violation == 0) return {nearest.place};  // designs are rare, but there are some
+  if (report_.stopped) return {};
   report_.conflict = find_conflict(problem_, nearest, search_options("conflict", 0.7, 1));
   report_.evaluations += report_.conflict->evaluations;
   report_.stopped = report_.stopped || report_.conflict->stopped;
+  const std::vector<double> design = report_.conflict->design;
+  if (design.empty()) return {};
+  report_.conflict.reset();
+  return {design};
 }
 
 void DesignRun::compare(Design& design) const {
@@ -124,8 +132,8 @@ void DesignRun::add_designs(const std::vector<std::vector<double>>& places) {
     Design design;
     design.damper = problem_.damper_at(place);
     design.damper.name = report_.request.name;
-    design.assessment = check_design(format_description(design.damper), report_.request, *model_,
-                                     report_.options.seed);
+    design.assessment =
+        check_design(format_description(design.damper), report_.request, *model_, report_.options.seed);
     if (!design.assessment.holds()) {
       ++report_.rejected;
       continue;
@@ -133,9 +141,8 @@ void DesignRun::add_designs(const std::vector<std::vector<double>>& places) {
     if (second_) compare(design);
     report_.designs.push_back(std::move(design));
   }
-  std::ranges::sort(report_.designs, [](const Design& a, const Design& b) {
-    return a.assessment.goals < b.assessment.goals;
-  });
+  std::ranges::sort(report_.designs,
+                    [](const Design& a, const Design& b) { return a.assessment.goals < b.assessment.goals; });
   for (std::size_t k = 0; k < report_.designs.size(); ++k) {
     Design& design = report_.designs[k];
     design.name = fmt::format("design_{:03}", k + 1);
@@ -143,7 +150,8 @@ void DesignRun::add_designs(const std::vector<std::vector<double>>& places) {
   }
 }
 
-/// The best for each goal, and the knee: nearest to the best of all goals at once, each in the front's extent.
+/// The best for each goal, and the knee: nearest to the best of all goals at once, each in the front's
+/// extent.
 void DesignRun::name_roles() {
   std::vector<Design>& designs = report_.designs;
   if (designs.empty()) return;
@@ -177,7 +185,7 @@ void DesignRun::add_sensitivities() {
 DesignReport DesignRun::run() {
   const auto start = std::chrono::steady_clock::now();
   std::vector<std::vector<double>> places = best_of_each_goal();
-  if (places.empty() && !report_.stopped) explain();
+  if (places.empty() && !report_.stopped) places = explain();
   if (report_.request.goals.size() > 1 && !places.empty() && !report_.stopped)
     places = front_from(std::move(places));
   add_designs(places);

@@ -20,7 +20,8 @@ struct ForceGrid {
   double largest = 0;
 };
 
-ForceGrid force_grid(const DamperDescription& damper, const DesignRequest& request, const DesignModel& model) {
+ForceGrid force_grid(const DamperDescription& damper, const DesignRequest& request,
+                     const DesignModel& model) {
   constexpr int kCurrents = 9, kVelocities = 12;
   constexpr double kUsualCurrent = 1, kUsualVelocity = 0.5;  // where the request names none
   ForceGrid grid;
@@ -82,7 +83,8 @@ LawFit fit(const Law& law, const ForceGrid& grid, Form form) {
 
 }  // namespace
 
-DesignLaw law_of_design(const DamperDescription& damper, const DesignRequest& request, const DesignModel& model) {
+DesignLaw law_of_design(const DamperDescription& damper, const DesignRequest& request,
+                        const DesignModel& model) {
   const Law& law = find_law("plate_bingham");
   const ForceGrid grid = force_grid(damper, request, model);
   const LawFit exponential = fit(law, grid, Form::Exponential), cubic = fit(law, grid, Form::Cubic);
@@ -90,7 +92,8 @@ DesignLaw law_of_design(const DamperDescription& damper, const DesignRequest& re
   const double lag = 1 / model.evaluate(damper, {grid.current, grid.velocity}).time_constant;
   DesignLaw result{.rms_error = best.rms, .largest_force = grid.largest};
   result.file.model = std::make_unique<LawModel>(law, best.parameters, "A", std::isfinite(lag) ? lag : 0);
-  result.file.domain = {-0.5 * damper.stroke, 0.5 * damper.stroke, -grid.velocity, grid.velocity, 0, grid.current};
+  result.file.domain = {-0.5 * damper.stroke, 0.5 * damper.stroke, -grid.velocity, grid.velocity, 0,
+                        grid.current};
   result.file.provenance.dataset = damper.name;
   result.file.quality = Value::object({{"against", model.name()},
                                        {"rms_error_N", best.rms},

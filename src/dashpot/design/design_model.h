@@ -18,8 +18,8 @@ class DesignModel {
                                  const DamperOperation& operation) const = 0;
 };
 
-/// "physics" is what the description asks for; "physics:plate", "physics:moving_wall" and "physics:paper" take
-/// that law of the flow. Throws Error(where, ...) on another name.
+/// "physics" is what the description asks for; "physics:plate", "physics:moving_wall" and "physics:paper"
+/// take that law of the flow. Throws Error(where, ...) on another name.
 std::unique_ptr<DesignModel> make_design_model(const std::string& name, const std::string& where);
 std::vector<std::string> design_model_names();
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <optional>
 
 #include "dashpot/base/error.h"
 #include "dashpot/base/random.h"
@@ -19,20 +20,23 @@ bool same(const DamperOperation& a, const DamperOperation& b) {
 /// Ratios of a decade and more are searched by their logarithm.
 bool is_logarithmic(const DesignVariable& v) { return v.from > 0 && v.to >= 10 * v.from; }
 
-void set_variable(const DesignVariable& variable, double place, std::size_t level, DamperDescription& damper) {
-  if (!variable.fluids.empty()) {
-    damper.fluid = variable.fluids[level];
-    return;
-  }
-  double& value = damper.*variable.field->field;
-  if (!variable.values.empty())
-    value = variable.values[level];
-  else if (variable.step > 0)
-    value = std::min(variable.to, variable.from + static_cast<double>(level) * variable.step);
-  else if (is_logarithmic(variable))
-    value = std::clamp(variable.from * std::pow(variable.to / variable.from, place), variable.from, variable.to);
+/// A range: its step `level` where it is taken in steps.
+double range_value(const DesignVariable& v, double place, std::optional<std::size_t> level) {
+  if (level) return std::min(v.to, v.from + static_cast<double>(*level) * v.step);
+  // A step has the places around its value, as place_of_level has them.
+  if (v.step > 0)
+    return std::clamp(v.from + (place * static_cast<double>(v.levels()) - 0.5) * v.step, v.from, v.to);
+  if (is_logarithmic(v)) return std::clamp(v.from * std::pow(v.to / v.from, place), v.from, v.to);
+  return v.from + place * (v.to - v.from);
+}
+
+void set_variable(const DesignVariable& variable, double place, std::optional<std::size_t> level,
+                  DamperDescription& damper) {
+  if (!variable.fluids.empty())
+    damper.fluid = variable.fluids[*level];
   else
-    value = variable.from + place * (variable.to - variable.from);
+    damper.*variable.field->field =
+        variable.values.empty() ? range_value(variable, place, level) : variable.values[*level];
 }
 
 bool is_possible(const DamperDescription& damper) {
@@ -90,11 +94,15 @@ double DesignProblem::place_of_level(std::size_t k, std::size_t level) const {
   return (static_cast<double>(level) + 0.5) / static_cast<double>(request_.variables[k].levels());
 }
 
-DamperDescription DesignProblem::damper_at(std::span<const double> place) const {
+DamperDescription DesignProblem::damper_at(std::span<const double> place, bool relaxed) const {
   assert(place.size() == size());
   DamperDescription damper = request_.damper;
-  for (std::size_t k = 0; k < place.size(); ++k)
-    set_variable(request_.variables[k], std::clamp(place[k], 0., 1.), level_at(k, place[k]), damper);
+  for (std::size_t k = 0; k < place.size(); ++k) {
+    const DesignVariable& variable = request_.variables[k];
+    const bool free = variable.levels() == 0 || (relaxed && variable.step > 0);
+    set_variable(variable, std::clamp(place[k], 0., 1.),
+                 free ? std::nullopt : std::optional(level_at(k, place[k])), damper);
+  }
   follow(damper);
   return damper;
 }
@@ -141,8 +149,8 @@ double DesignProblem::figure_of_share(std::vector<double>& figures, bool at_leas
   for (double& figure : figures)  // what cannot be told is as bad as can be
     if (std::isnan(figure)) figure = at_least ? -HUGE_VAL : HUGE_VAL;
   std::ranges::sort(figures);
-  const auto needed = static_cast<std::size_t>(
-      std::ceil(request_.share * static_cast<double>(figures.size()) * (1 - 1e-12)));
+  const auto needed =
+      static_cast<std::size_t>(std::ceil(request_.share * static_cast<double>(figures.size()) * (1 - 1e-12)));
   return at_least ? figures[figures.size() - needed] : figures[needed - 1];
 }
 
@@ -166,8 +174,8 @@ Assessment DesignProblem::assess(const DamperDescription& drawn) const {
       for (std::size_t k = 0; k < all.size(); ++k) by_quantity[k].push_back(of_damper[k]);
     }
     for (std::size_t k = 0; k < all.size(); ++k)
-      all[k] = figure_of_share(by_quantity[k], k < goals ? request_.goals[k].maximise
-                                                         : request_.constraints[k - goals].at_least);
+      all[k] = figure_of_share(
+          by_quantity[k], k < goals ? request_.goals[k].maximise : request_.constraints[k - goals].at_least);
   }
   assessment.goals.assign(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(goals));
   assessment.constraints.assign(all.begin() + static_cast<std::ptrdiff_t>(goals), all.end());

@@ -28,8 +28,8 @@ class DesignProblem {
   const DesignModel& model() const { return model_; }
   std::size_t size() const { return request_.variables.size(); }
 
-  /// The damper at a place of the unit cube.
-  DamperDescription damper_at(std::span<const double> place) const;
+  /// The damper at a place of the unit cube. `relaxed`: ranges with steps are taken without them.
+  DamperDescription damper_at(std::span<const double> place, bool relaxed = false) const;
   /// The place at which variable k takes its level (for a variable with levels), and the level at a place.
   double place_of_level(std::size_t k, std::size_t level) const;
   std::size_t level_at(std::size_t k, double place) const;

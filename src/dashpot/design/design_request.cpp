@@ -143,7 +143,8 @@ void read_robust(const Value& value, DesignRequest& request) {
     throw Error(value.where(), "samples is " + format_number(samples), "a whole number from 2 to 10000");
   request.samples = static_cast<int>(samples);
   if (request.tolerances.empty())
-    throw Error(value.where(), "robust against nothing: no tolerances are stated", "tolerances: {gap: 0.05 mm}");
+    throw Error(value.where(), "robust against nothing: no tolerances are stated",
+                "tolerances: {gap: 0.05 mm}");
 }
 
 DamperDescription read_damper(const Value& value, const std::filesystem::path& folder) {
@@ -160,7 +161,8 @@ bool varies(const DesignRequest& request, const DescriptionField* field) {
 }
 
 void require_consistent(const DesignRequest& request, const std::string& source) {
-  if (request.variables.empty()) throw Error(source, "nothing may vary", "vary: {gap: {from: 0.5 mm, to: 2 mm}}");
+  if (request.variables.empty())
+    throw Error(source, "nothing may vary", "vary: {gap: {from: 0.5 mm, to: 2 mm}}");
   if (request.goals.empty()) throw Error(source, "there is no goal", "goals: [{minimise: mass}]");
   for (const FollowingField& following : request.following) {
     const std::string name(following.field->name);
@@ -195,9 +197,8 @@ std::size_t DesignVariable::levels() const {
 }
 
 std::string describe(const DesignConstraint& c) {
-  const std::string unit = c.quantity->unit == "1" ? "" : ' ' + std::string(c.quantity->unit);
-  return std::string(c.quantity->name) + (c.at_least ? " at least " : " at most ") + format_number(c.bound) +
-         unit + place_of(*c.quantity, c.at);
+  return std::string(c.quantity->name) + (c.at_least ? " at least " : " at most ") +
+         shown_figure(c.bound, c.quantity->unit) + place_of(*c.quantity, c.at);
 }
 
 std::string describe(const DesignGoal& goal) {

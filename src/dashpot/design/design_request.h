@@ -55,7 +55,8 @@ struct DesignRequest {
   std::vector<DesignConstraint> constraints;
   std::vector<DesignGoal> goals;
   std::vector<DesignTolerance> tolerances;
-  double share = 0;  ///< of the dampers made that must hold the constraints and reach the goals; 0: the drawn one
+  double share =
+      0;  ///< of the dampers made that must hold the constraints and reach the goals; 0: the drawn one
   int samples = 32;  ///< dampers that stand for those made
 };
 

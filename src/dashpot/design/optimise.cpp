@@ -30,17 +30,19 @@ class Search {
     std::vector<double> slack;  // of the constraints that count
   };
 
-  Seen look(std::span<const double> place) {
+  /// relaxed: without the steps of ranges; such a place is no design, and not kept.
+  Seen look(std::span<const double> place, bool relaxed = false) {
     if (options_.monitor) options_.monitor->check();
     ++best_.evaluations;
-    const Assessment assessment = problem_.assess(problem_.damper_at(place));
+    const Assessment assessment = problem_.assess(problem_.damper_at(place, relaxed));
     Seen seen;
     for (std::size_t k = 0; k < assessment.slack.size(); ++k)
-      if (options_.counted.empty() || options_.counted[k]) seen.slack.push_back(assessment.slack[k] - kMargin);
+      if (options_.counted.empty() || options_.counted[k])
+        seen.slack.push_back(assessment.slack[k] - kMargin);
     if (!assessment.possible) seen.slack.push_back(-1);
     for (const double slack : seen.slack) seen.violation += std::max(0., -slack);
     seen.value = goal_ ? value_of(assessment, seen) : 0;
-    keep(place, seen);
+    if (!relaxed) keep(place, seen);
     return seen;
   }
   /// What holds the constraints beats what does not.
@@ -76,19 +78,21 @@ class Search {
   double best_rank_ = HUGE_VAL;
 };
 
-/// COBYLA on the variables without levels, the others held. NLopt asks for the goal and for the constraints
+/// COBYLA on some of the variables, the others held. NLopt asks for the goal and for the constraints
 /// separately: the last place is remembered.
 class Polish {
  public:
-  Polish(Search& search, std::vector<double> place, std::vector<std::size_t> free)
-      : search_(search), place_(std::move(place)), free_(std::move(free)) {
-    seen_ = search_.look(place_);
+  Polish(Search& search, std::vector<double> place, std::vector<std::size_t> free, bool relaxed)
+      : search_(search), place_(std::move(place)), free_(std::move(free)), relaxed_(relaxed) {
+    seen_ = search_.look(place_, relaxed_);
     scale_ = std::max(std::abs(seen_.value), 1e-30);
   }
 
-  void run(double radius) {
+  /// `radius` of the first steps; looks for each variable. Returns the place reached.
+  std::vector<double> run(double radius, int looks) {
     constexpr double kTolerance = 1e-9;
     const auto count = static_cast<unsigned>(free_.size());
+    if (count == 0) return place_;
     const std::unique_ptr<nlopt_opt_s, void (*)(nlopt_opt)> solver(nlopt_create(NLOPT_LN_COBYLA, count),
                                                                    nlopt_destroy);
     solver_ = solver.get();
@@ -100,12 +104,14 @@ class Polish {
                                        nullptr);
     nlopt_set_initial_step1(solver_, radius);
     nlopt_set_xtol_abs1(solver_, kTolerance);
-    nlopt_set_maxeval(solver_, static_cast<int>(300 * (count + 1)));
+    nlopt_set_maxeval(solver_, looks * static_cast<int>(count + 1));
     std::vector<double> x;
     for (const std::size_t k : free_) x.push_back(place_[k]);
     double value = 0;
     nlopt_optimize(solver_, x.data(), &value);
     if (failure_) std::rethrow_exception(failure_);
+    for (std::size_t k = 0; k < free_.size(); ++k) place_[free_[k]] = x[k];
+    return place_;
   }
 
  private:
@@ -118,7 +124,7 @@ class Polish {
     if (!moved || failure_) return;
     try {
       const std::size_t constraints = seen_.slack.size();
-      seen_ = search_.look(place_);
+      seen_ = search_.look(place_, relaxed_);
       seen_.slack.resize(constraints, -1);  // of a damper that cannot be drawn there is one more
     } catch (...) {
       failure_ = std::current_exception();
@@ -139,32 +145,42 @@ class Polish {
   Search& search_;
   std::vector<double> place_;
   std::vector<std::size_t> free_;
+  bool relaxed_;
   Search::Seen seen_;
   double scale_ = 1;
   nlopt_opt solver_ = nullptr;
   std::exception_ptr failure_;
 };
 
-void polish(const DesignProblem& problem, Search& search, double radius) {
+constexpr int kQuickLooks = 30, kLooks = 200;  // for each variable
+
+/// Variables that COBYLA may move: those of any value and, relaxed, those in steps.
+std::vector<std::size_t> movable(const DesignRequest& request, bool relaxed) {
   std::vector<std::size_t> free;
-  for (std::size_t k = 0; k < problem.size(); ++k)
-    if (problem.request().variables[k].levels() == 0) free.push_back(k);
-  if (!free.empty()) Polish(search, search.best().place, std::move(free)).run(radius);
+  for (std::size_t k = 0; k < request.variables.size(); ++k)
+    if (request.variables[k].levels() == 0 || (relaxed && request.variables[k].step > 0)) free.push_back(k);
+  return free;
 }
 
-/// Levels to try in place of one: the neighbours at growing distance; all of a choice.
+/// From a place: without steps at first, then with the nearest ones.
+void polish(const DesignProblem& problem, Search& search, std::vector<double> place, int looks) {
+  constexpr double kWide = 0.05, kNarrow = 0.005;
+  const std::vector<std::size_t> all = movable(problem.request(), true),
+                                 free = movable(problem.request(), false);
+  if (all.size() > free.size()) place = Polish(search, std::move(place), all, true).run(kWide, looks);
+  for (const std::size_t k : all)
+    if (problem.request().variables[k].levels() > 0)
+      place[k] = problem.place_of_level(k, problem.level_at(k, place[k]));
+  Polish(search, std::move(place), free, false).run(all.size() > free.size() ? kNarrow : kWide, looks);
+}
+
+/// Levels to try in place of one: the neighbours of a step; all of a choice.
 std::vector<std::size_t> other_levels(const DesignVariable& variable, std::size_t level) {
-  const std::size_t levels = variable.levels();
   std::vector<std::size_t> others;
-  if (variable.step > 0) {
-    for (std::size_t distance = 1; distance < levels; distance *= 4) {
-      if (level >= distance) others.push_back(level - distance);
-      if (level + distance < levels) others.push_back(level + distance);
-    }
-  } else {
-    for (std::size_t other = 0; other < levels; ++other)
-      if (other != level) others.push_back(other);
-  }
+  for (std::size_t other = 0; variable.step == 0 && other < variable.levels(); ++other)
+    if (other != level) others.push_back(other);
+  if (variable.step > 0 && level > 0) others.push_back(level - 1);
+  if (variable.step > 0 && level + 1 < variable.levels()) others.push_back(level + 1);
   return others;
 }
 
@@ -172,19 +188,16 @@ std::vector<std::size_t> other_levels(const DesignVariable& variable, std::size_
 bool step_level(const DesignProblem& problem, Search& search, std::size_t k) {
   const double before = search.best_rank();
   const std::vector<double> place = search.best().place;
-  std::vector<std::size_t> free;
-  for (std::size_t j = 0; j < problem.size(); ++j)
-    if (problem.request().variables[j].levels() == 0) free.push_back(j);
-  for (const std::size_t level :
-       other_levels(problem.request().variables[k], problem.level_at(k, place[k]))) {
+  const DesignVariable& variable = problem.request().variables[k];
+  for (const std::size_t level : other_levels(variable, problem.level_at(k, place[k]))) {
     std::vector<double> trial = place;
     trial[k] = problem.place_of_level(k, level);
-    if (free.empty())
-      search.look(trial);
+    if (variable.step > 0)
+      Polish(search, trial, movable(problem.request(), false), false).run(0.005, kQuickLooks);
     else
-      Polish(search, trial, free).run(0.05);
+      polish(problem, search, trial, kQuickLooks);
   }
-  return search.best_rank() < before - 1e-9 * std::abs(before);
+  return search.best_rank() < before - 1e-6 * std::abs(before);
 }
 
 void run_start(const DesignProblem& problem, Search& search, const OptimiseOptions& options,
@@ -194,14 +207,14 @@ void run_start(const DesignProblem& problem, Search& search, const OptimiseOptio
   const SearchBox box{std::vector<double>(size, 0.), std::vector<double>(size, 1.)};
   global_search([&](std::span<const double> place) { return Search::rank(search.look(place)); }, box,
                 std::vector<double>(size, 0.5), options.evaluations * static_cast<int>(size), seed);
-  polish(problem, search, 0.05);
+  polish(problem, search, search.best().place, kLooks);
   for (int round = 0; round < kRounds; ++round) {
     bool better = false;
     for (std::size_t k = 0; k < size; ++k)
       if (problem.request().variables[k].levels() > 1) better = step_level(problem, search, k) || better;
     if (!better) break;
   }
-  polish(problem, search, 0.005);
+  Polish(search, search.best().place, movable(problem.request(), false), false).run(0.002, kLooks);
 }
 
 Optimum run_starts(const DesignProblem& problem, const std::size_t* goal, const OptimiseOptions& options) {

@@ -120,8 +120,8 @@ pagmo::population first_population(const FrontProblem& problem, const FrontOptio
 pagmo::algorithm algorithm_of(const FrontProblem& problem, const FrontOptions& options) {
   const auto seed = static_cast<unsigned>(options.seed);
   if (options.method == FrontMethod::Moead)
-    return pagmo::algorithm(pagmo::moead(1u, problem.goals == 2 ? "grid" : "low discrepancy", "tchebycheff", 20u,
-                                         1.0, 0.5, 20., 0.9, 2u, true, seed));
+    return pagmo::algorithm(pagmo::moead(1u, problem.goals == 2 ? "grid" : "low discrepancy", "tchebycheff",
+                                         20u, 1.0, 0.5, 20., 0.9, 2u, true, seed));
   pagmo::nsga2 method(1u, 0.95, 10., 1. / static_cast<double>(problem.size), 50., seed);
   method.set_bfe(pagmo::bfe(ParallelEvaluation{options.threads}));
   return pagmo::algorithm(method);

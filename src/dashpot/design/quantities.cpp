@@ -145,6 +145,25 @@ std::vector<Q> all_quantities() {
 
 }  // namespace
 
+ShownUnit shown_unit(std::string_view si_unit) {
+  struct Row {
+    std::string_view si, shown;
+    double factor;
+  };
+  constexpr std::array kRows{
+      Row{"m", "mm", 1e-3},   Row{"m^2", "mm^2", 1e-6}, Row{"m^3", "cm^3", 1e-6},    Row{"s", "ms", 1e-3},
+      Row{"Pa", "kPa", 1e3},  Row{"A/m", "kA/m", 1e3},  Row{"A/m^2", "A/mm^2", 1e6}, Row{"H", "mH", 1e-3},
+      Row{"Wb", "mWb", 1e-3}, Row{"1", "", 1}};
+  for (const Row& row : kRows)
+    if (row.si == si_unit) return {std::string(row.shown), row.factor};
+  return {std::string(si_unit), 1};
+}
+
+std::string shown_figure(double value, std::string_view si_unit) {
+  const ShownUnit shown = shown_unit(si_unit);
+  return format_number(value / shown.factor) + (shown.unit.empty() ? "" : ' ' + shown.unit);
+}
+
 double DesignQuantity::of(const OperatedDamper& damper) const {
   if (estimate) return estimate(damper);
   return physics ? damper.physics.*physics : damper.description.*field;

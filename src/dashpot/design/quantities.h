@@ -29,6 +29,15 @@ std::span<const DesignQuantity> design_quantities();
 /// By its name, or by that of physics_quantities() ("time constant"). Throws Error(where, ...).
 const DesignQuantity& find_design_quantity(std::string_view name, const std::string& where);
 
+/// A unit in which people read such figures, and what one of it is in SI: "mm", 0.001.
+struct ShownUnit {
+  std::string unit;
+  double factor = 1;
+};
+ShownUnit shown_unit(std::string_view si_unit);
+/// "12.3 mm" of a figure in SI.
+std::string shown_figure(double value, std::string_view si_unit);
+
 /// Time from a step of the coil's voltage to 90 % of the force's change, s. The flux linkage N phi(i) follows
 /// the circuit with its saturation; eddy currents and the fluid's own milliseconds are left out.
 double response_time(const OperatedDamper& damper);

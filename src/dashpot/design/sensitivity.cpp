@@ -52,7 +52,8 @@ Samples sample(const DesignProblem& problem, const DamperDescription& design,
   Random random(options.seed);
   const std::size_t count = problem.request().tolerances.size();
   const Rows a = draw(options.samples, count, random), b = draw(options.samples, count, random);
-  Samples samples{Rows(options.samples), Rows(options.samples), std::vector<Rows>(count, Rows(options.samples))};
+  Samples samples{Rows(options.samples), Rows(options.samples),
+                  std::vector<Rows>(count, Rows(options.samples))};
   parallel_for(options.samples, options.threads, [&](std::size_t k) {
     samples.a[k] = figures_of(problem, design, a[k]);
     samples.b[k] = figures_of(problem, design, b[k]);
