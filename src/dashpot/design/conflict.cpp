@@ -58,10 +58,13 @@ void tell_reached(const DesignProblem& problem, const std::vector<bool>& counted
 
 }  // namespace
 
-Conflict find_conflict(const DesignProblem& problem, const Optimum& found, const OptimiseOptions& options) {
+Conflict find_conflict(const DesignProblem& problem, const Optimum& found, const OptimiseOptions& asked) {
   const std::size_t count = problem.request().constraints.size();
   Conflict conflict;
   conflict.nearest = found;
+  OptimiseOptions options = asked;  // many searches, each for what is easier than the whole
+  options.starts = 4;
+  options.evaluations = 250;
   if (!can_hold(problem, std::vector<bool>(count, false), options, conflict)) {
     conflict.undrawable = !conflict.stopped;
     return conflict;

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "dashpot/design/quantities.h"
+#include "dashpot/numerics/root.h"
 
 namespace dashpot {
 namespace {
@@ -12,27 +13,16 @@ double flux_linkage(const DamperDescription& d, double current) {
   return d.turns * fluid_state(d, current).core_flux_density * d.core_area;
 }
 
-/// The current at which the force has made 90 % of its way; the force rises with the current. Illinois'
-/// regula falsi.
+/// The current at which the force has made 90 % of its way; the force rises with the current.
 double current_of_90_percent(const OperatedDamper& damper, double off, double on) {
-  const double tolerance = 1e-9 * (on - off), wanted = off + 0.9 * (on - off);
-  double low = 0, high = std::abs(damper.operation.current), below = off - wanted, above = on - wanted;
+  const double wanted = off + 0.9 * (on - off);
   DamperOperation trial = damper.operation;
-  for (int k = 0; k < 60; ++k) {
-    trial.current = (low * above - high * below) / (above - below);
-    const double off_wanted = std::abs(damper.model.evaluate(damper.description, trial).force) - wanted;
-    if (std::abs(off_wanted) <= tolerance) break;
-    if (off_wanted < 0) {
-      low = trial.current;
-      below = off_wanted;
-      above *= 0.5;
-    } else {
-      high = trial.current;
-      above = off_wanted;
-      below *= 0.5;
-    }
-  }
-  return trial.current;
+  const auto missing = [&](double current) {
+    trial.current = current;
+    return std::abs(damper.model.evaluate(damper.description, trial).force) - wanted;
+  };
+  return find_root(missing, {0, off - wanted}, {std::abs(damper.operation.current), on - wanted},
+                   1e-9 * (on - off));
 }
 
 }  // namespace
@@ -47,12 +37,13 @@ double response_time(const OperatedDamper& damper) {
   const double end = std::abs(damper.operation.current);
   if (!(on > off) || end == 0) return std::numeric_limits<double>::quiet_NaN();
   const double reached = current_of_90_percent(damper, off, on);
-  // d(lambda)/dt = R (I - i), so that t is the integral of d(lambda) / (R (I - i)); by parts, lambda alone is
-  // asked.
+  // d(lambda)/dt = R (I - i), so that t is the integral of d(lambda) / (R (I - i)). By parts lambda alone is
+  // asked; in s = -ln(1 - i/I), with ds = di / (I - i), what is left is smooth.
   double time = flux_linkage(damper.description, reached) / (end - reached);
+  const double last = -std::log1p(-reached / end);
   for (std::size_t k = 0; k < kPoints.size(); ++k) {
-    const double current = reached * kPoints[k], left = end - current;
-    time -= reached * kWeights[k] * flux_linkage(damper.description, current) / (left * left);
+    const double left = end * std::exp(-last * kPoints[k]);
+    time -= last * kWeights[k] * flux_linkage(damper.description, end - left) / left;
   }
   return time / damper.physics.resistance;
 }

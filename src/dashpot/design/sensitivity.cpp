@@ -32,7 +32,7 @@ Rows draw(std::size_t samples, std::size_t count, Random& random) {
   return rows;
 }
 
-bool holds(const DesignRequest& request, const std::vector<double>& figures) {
+bool holds_all(const DesignRequest& request, const std::vector<double>& figures) {
   for (std::size_t k = 0; k < request.constraints.size(); ++k) {
     const DesignConstraint& own = request.constraints[k];
     const double figure = figures[request.goals.size() + k];
@@ -127,7 +127,7 @@ Sensitivity sensitivity(const DesignProblem& problem, const DamperDescription& d
   }
   std::size_t holding = 0;
   for (const Rows* rows : {&samples.a, &samples.b})
-    for (const auto& row : *rows) holding += holds(problem.request(), row);
+    for (const auto& row : *rows) holding += holds_all(problem.request(), row);
   result.holding = static_cast<double>(holding) / static_cast<double>(2 * options.samples);
   return result;
 }

@@ -10,6 +10,7 @@
 #include "dashpot/damper/physics/magnetic_circuit.h"
 #include "dashpot/damper/physics/plate_flow.h"
 #include "dashpot/damper/physics/spring.h"
+#include "dashpot/numerics/root.h"
 
 namespace dashpot {
 namespace {
@@ -105,15 +106,12 @@ double ampere_turns(const DamperDescription& d, const DamperPhysics& shape, doub
   return steel * d.core_length + field_of(d, core * d.core_area / shape.pole_area) * shape.magnetic_gap;
 }
 
-/// The core's flux density, by halving: ampere_turns rises with it without bound.
+/// The core's flux density: between none and what the steel alone would carry.
 double filled_core_flux_density(const DamperDescription& d, const DamperPhysics& shape, double current) {
-  const double wanted = d.turns * current;
-  double low = 0, high = d.saturation * (1 - 1e-12);
-  for (int k = 0; k < 100 && high - low > 1e-15 * d.saturation; ++k) {
-    const double middle = 0.5 * (low + high);
-    (ampere_turns(d, shape, middle) < wanted ? low : high) = middle;
-  }
-  return 0.5 * (low + high);
+  const double wanted = d.turns * current, steel = d.permeability * DASHPOT_MU0 * wanted / d.core_length;
+  const double most = d.saturation * steel / (steel + d.saturation);
+  const auto off = [&](double core) { return ampere_turns(d, shape, core) - wanted; };
+  return find_root(off, {0, -wanted}, {most, off(most)}, 1e-14 * wanted);
 }
 
 FluidState fluid_state(const DamperDescription& d, const DamperPhysics& shape, double current) {
