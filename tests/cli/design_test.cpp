@@ -10,8 +10,18 @@ namespace fs = std::filesystem;
 TEST_CASE("design: a front as descriptions, models that other commands take, and reports") {
   const TemporaryFolder folder;
   const std::string out = (folder.path() / "out").string();
+  const std::string request = folder
+                                  .write("r.yaml", R"(
+damper: passenger_car
+at: {current: 2 A, velocity: 0.3 m/s}
+vary: {gap: {from: 0.6 mm, to: 2 mm}, pole_length: {from: 8 mm, to: 40 mm}}
+tolerances: {gap: 0.05 mm}
+constraints: [{quantity: force, min: 1200 N}]
+goals: [{maximise: dynamic_range}, {minimise: mass}]
+)")
+                                  .string();
   const ProgramResult result = run_dashpot(
-      "design passenger_car --points 8 --generations 5 --second physics:moving_wall --output " + out);
+      "design " + request + " --points 8 --generations 20 --second physics:moving_wall --output " + out);
   CHECK_MESSAGE(result.exit_code == 0, result.output);
   CHECK(contains(result.output, "knee"));
   CHECK(contains(result.output, "Every one holds all constraints"));

@@ -185,7 +185,7 @@ std::string place_text(const DamperOperation& at) {
 
 /// Fields and sizes are the same at any current and speed.
 std::string place_of(const DesignQuantity& quantity, const DamperOperation& at) {
-  return quantity.field || (at.current == 0 && at.velocity == 0) ? "" : place_text(at);
+  return quantity.of_drawing || (at.current == 0 && at.velocity == 0) ? "" : place_text(at);
 }
 
 }  // namespace

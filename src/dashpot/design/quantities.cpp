@@ -76,12 +76,12 @@ constexpr std::array kEstimates{
       {},
       {},
       response_time},
-    Q{"active_volume", "m^3", "fluid in the gap where the field acts", {}, {}, active_volume},
-    Q{"piston_length", "m", "gap with field and without", {}, {}, piston_length},
-    Q{"body_length", "m", "stroke and piston; neither accumulator nor mounts", {}, {}, body_length},
-    Q{"outer_diameter", "m", "of a steel tube whose section is the core's", {}, {}, outer_diameter},
-    Q{"copper_mass", "kg", "of the coil", {}, {}, copper_mass},
-    Q{"mass", "kg", "estimate: steel tube, piston and rod, copper, fluid; no mounts", {}, {}, mass}};
+    Q{"active_volume", "m^3", "fluid in the gap where the field acts", {}, {}, active_volume, true},
+    Q{"piston_length", "m", "gap with field and without", {}, {}, piston_length, true},
+    Q{"body_length", "m", "stroke and piston; neither accumulator nor mounts", {}, {}, body_length, true},
+    Q{"outer_diameter", "m", "of a steel tube whose section is the core's", {}, {}, outer_diameter, true},
+    Q{"copper_mass", "kg", "of the coil", {}, {}, copper_mass, true},
+    Q{"mass", "kg", "estimate: steel tube, piston and rod, copper, fluid; no mounts", {}, {}, mass, true}};
 
 struct PhysicsWord {
   std::string_view name;
@@ -139,7 +139,7 @@ std::vector<Q> all_quantities() {
   all.insert(all.end(), kEstimates.begin(), kEstimates.end());
   for (const DescriptionField& field : description_fields())
     if (std::ranges::find(all, field.name, &Q::name) == all.end())
-      all.push_back({field.name, field.unit, field.meaning, nullptr, field.field});
+      all.push_back({field.name, field.unit, field.meaning, nullptr, field.field, nullptr, true});
   return all;
 }
 

@@ -21,6 +21,7 @@ struct DesignQuantity {
   double DamperPhysics::* physics = nullptr;
   double DamperDescription::* field = nullptr;
   double (*estimate)(const OperatedDamper&) = nullptr;
+  bool of_drawing = false;  ///< the same at any current and speed
 
   double of(const OperatedDamper& damper) const;
 };

@@ -128,7 +128,7 @@ std::string sensitivity_table(const DesignReport& report, const Design& design, 
                     shown(figure.low, quantity.unit) + " ... " + shown(figure.high, quantity.unit)});
     for (std::size_t t = 0; t < figure.local.size(); ++t)
       rows.back().push_back(fmt::format("{} ({} %)", shown(figure.local[t], quantity.unit),
-                                        percent_text(std::max(0., 100 * figure.total[t]))));
+                                        percent_text(100 * std::clamp(figure.total[t], 0., 1.))));
   }
   return text_table(columns, rows, width);
 }

@@ -86,10 +86,10 @@ function constraint_table(data, design) {
 function tolerance_table(data, design) {
   const named = [...data.goals, ...data.constraints];
   const cell = (figure, own, t) => {
-    const share = Math.max(0, figure.variance_total[t] ?? 0);
+    const share = Math.min(1, Math.max(0, figure.variance_total[t] ?? 0));
     const node = element("td", {class: "heat", title: `${percent_text(100 * share)} % of the variance`},
       `${short_text(figure.local[t] / own.shown_factor)} ${own.shown_unit}`);
-    node.style.setProperty("--heat", `${Math.min(100, 100 * share)}%`);
+    node.style.setProperty("--heat", `${100 * share}%`);
     return node;
   };
   const rows = design.sensitivity.figures.map((figure, i) => [figure, named[i]]).filter(([figure]) => figure.local.some((value) => value !== 0));
