@@ -20,6 +20,12 @@ function design_figures(data) {
   ];
 }
 
+// A sentence, and constraints that conflict as a list.
+function design_verdict([first, ...rest]) {
+  return [element("p", {class: "verdict"}, unbroken(words(first))),
+    rest.length ? element("ul", {}, rest.map((line) => element("li", {}, unbroken(words(line.replace(/^\* /, "")))))) : null];
+}
+
 function design_head(data) {
   const best = data.designs.find((design) => design.role);
   const figure = ([value, unit, label]) => element("div", {class: "figure"},
@@ -33,7 +39,7 @@ function design_head(data) {
     element("div", {class: "bar"}, element("span", {class: "over"}, "Dashpot · design"), theme_button()),
     element("h1", {}, data.name || "Design"),
     element("p", {class: "under"}, `${models} · ${data.evaluations} dampers assessed in ${seconds_text(data.wall_seconds)} · ${data.date}`),
-    ...data.verdict.split("\n").map((line) => element("p", {class: "verdict"}, unbroken(words(line)))),
+    ...design_verdict(data.verdict.split("\n")),
     best ? element("div", {class: "figures"}, goals.map(figure),
       figure([String(data.designs.length), "", data.designs.length === 1 ? "design" : "designs"])) : null);
 }
@@ -124,7 +130,7 @@ function start_design(data) {
   const show = (change = {}) => {
     Object.assign(choice, change);
     plot.show(() => front_spec(data, choice.x, choice.y, data.designs.length > 1 ? choice.design : null));
-    held.replaceChildren(constraint_table(data, choice.design));
+    held.replaceChildren(element("h3", {}, choice.design.name), constraint_table(data, choice.design));
   };
   const axis = (id, label) => {
     const node = chooser(id, label, figures.map((own) => [own.key, words(own.text)]), (key) => show({[id]: figures.find((own) => own.key === key)}));
