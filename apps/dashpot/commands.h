@@ -15,6 +15,7 @@ Command inspect_command();
 Command track_command();
 Command invert_command();
 Command physics_command();
+Command design_command();
 Command bench_command();
 Command demo_command();
 Command study_command();

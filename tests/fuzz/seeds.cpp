@@ -9,6 +9,7 @@
 #include "damper/neural/bank_network_example.h"
 #include "damper/neural/narx_example.h"
 #include "damper/neural/state_space_example.h"
+#include "dashpot/base/data_folder.h"
 #include "dashpot/base/file.h"
 #include "dashpot/damper/fuzzy/fuzzy_model.h"
 #include "dashpot/damper/hybrid_model.h"
@@ -162,6 +163,9 @@ int main(int argc, char** argv) {
   write_file(folder / "daq_text/log", daq_seed());
   write_file(folder / "family_json/pair", kFamily);
   write_file(folder / "dataset_yaml/all", kDataset);
+  for (const std::string& name : dashpot::data_names("designs", ".yaml"))
+    write_file(folder / "design_yaml" / name,
+               dashpot::read_file(dashpot::data_folder("designs") / (name + ".yaml")));
   model_seeds(folder / "model_json");
   for (const dashpot::InverseNetworkPreset& preset : dashpot::inverse_network_presets())
     write_file(folder / "inverse_json" / preset.name,

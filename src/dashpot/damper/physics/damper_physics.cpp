@@ -10,6 +10,7 @@
 #include "dashpot/damper/physics/magnetic_circuit.h"
 #include "dashpot/damper/physics/plate_flow.h"
 #include "dashpot/damper/physics/spring.h"
+#include "dashpot/numerics/root.h"
 
 namespace dashpot {
 namespace {
@@ -105,15 +106,12 @@ double ampere_turns(const DamperDescription& d, const DamperPhysics& shape, doub
   return steel * d.core_length + field_of(d, core * d.core_area / shape.pole_area) * shape.magnetic_gap;
 }
 
-/// The core's flux density, by halving: ampere_turns rises with it without bound.
+/// The core's flux density: between none and what the steel alone would carry.
 double filled_core_flux_density(const DamperDescription& d, const DamperPhysics& shape, double current) {
-  const double wanted = d.turns * current;
-  double low = 0, high = d.saturation * (1 - 1e-12);
-  for (int k = 0; k < 100 && high - low > 1e-15 * d.saturation; ++k) {
-    const double middle = 0.5 * (low + high);
-    (ampere_turns(d, shape, middle) < wanted ? low : high) = middle;
-  }
-  return 0.5 * (low + high);
+  const double wanted = d.turns * current, steel = d.permeability * DASHPOT_MU0 * wanted / d.core_length;
+  const double most = d.saturation * steel / (steel + d.saturation);
+  const auto off = [&](double core) { return ampere_turns(d, shape, core) - wanted; };
+  return find_root(off, {0, -wanted}, {most, off(most)}, 1e-14 * wanted);
 }
 
 FluidState fluid_state(const DamperDescription& d, const DamperPhysics& shape, double current) {
@@ -133,9 +131,10 @@ FluidState fluid_state(const DamperDescription& d, const DamperPhysics& shape, d
 }
 
 /// Where there is no current, what a small one sees.
-void add_circuit(const DamperDescription& d, double current, DamperPhysics& p) {
-  const double seen = std::max(std::abs(current), 1e-6);
-  const FluidState state = fluid_state(d, p, seen);
+void add_circuit(const DamperDescription& d, double current, const FluidState& at_current, DamperPhysics& p) {
+  constexpr double kSmall = 1e-6;
+  const double seen = std::max(std::abs(current), kSmall);
+  const FluidState state = seen > kSmall ? at_current : fluid_state(d, p, kSmall);
   const MagneticCircuit circuit = circuit_of(d, p);
   const double turns_current = d.turns * seen, flux = state.core_flux_density * d.core_area;
   p.core_reluctance = core_reluctance(&circuit);
@@ -151,8 +150,7 @@ void add_circuit(const DamperDescription& d, double current, DamperPhysics& p) {
   p.coil_fill = d.window_area > 0 ? d.turns * coil_wire_area(&coil) / d.window_area : 0;
 }
 
-void add_fluid(const DamperDescription& d, double current, DamperPhysics& p) {
-  const FluidState state = fluid_state(d, p, current);
+void add_fluid(const DamperDescription& d, const FluidState& state, DamperPhysics& p) {
   p.core_flux_density = state.core_flux_density;
   p.flux = state.core_flux_density * d.core_area;
   p.core_saturation = state.core_flux_density / d.saturation;
@@ -214,10 +212,11 @@ DamperPhysics evaluate_physics(const DamperDescription& d, const DamperOperation
     off.spring_force = off.spring_stiffness * operation.displacement;
   }
   DamperPhysics p = off;
-  add_circuit(d, operation.current, p);
-  add_fluid(d, operation.current, p);
+  const FluidState state = fluid_state(d, p, operation.current);
+  add_circuit(d, operation.current, state, p);
+  add_fluid(d, state, p);
   add_flow(d, operation.velocity, p);
-  add_fluid(d, 0, off);
+  add_fluid(d, fluid_state(d, off, 0), off);
   add_flow(d, operation.velocity, off);
   const double side = plate_side(operation.velocity);
   const double damping = flow_force(d, p) + d.friction, off_damping = flow_force(d, off) + d.friction;

@@ -1,0 +1,224 @@
+#include "dashpot/design/design.h"
+
+#include <algorithm>
+#include <memory>
+
+#include <fmt/core.h>
+
+#include "commands.h"
+#include "console.h"
+#include "dashpot/base/file.h"
+#include "dashpot/base/text.h"
+#include "dashpot/design/design_law.h"
+#include "dashpot/output/design_report.h"
+#include "layout.h"
+#include "results.h"
+
+namespace dashpot::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Settings {
+  std::string request, folder = "dashpot-design", method = "nsga2";
+  DesignOptions options;
+  std::uint64_t points = DesignOptions().points;
+  bool quantities = false, report = true;
+};
+
+constexpr std::string_view kExample =
+    "# A front of dampers for a car: a large range of forces against little mass\n"
+    "dashpot design passenger_car --output car\n"
+    "\n"
+    "# Your own request, with a second model's figures beside:\n"
+    "dashpot design my_request.yaml --second physics:moving_wall\n"
+    "\n"
+    "# What constraints and goals may speak of:\n"
+    "dashpot design --quantities\n"
+    "\n"
+    "# A design is a damper's description and a model:\n"
+    "dashpot physics car/designs/design_001.yaml --current 2 --velocity 0.3\n"
+    "dashpot track car/models/design_001.json";
+
+DesignRequest requested(const Settings& settings) {
+  if (settings.request.empty())
+    throw UsageError("REQUEST", "is missing: a file, or one of " + join(request_names(), ", "));
+  return is_path(settings.request) ? load_request(settings.request) : named_request(settings.request);
+}
+
+std::string quantities_text(int width) {
+  Table table({"quantity", "unit", "meaning"});
+  for (const DesignQuantity& quantity : design_quantities())
+    table.row({std::string(quantity.name), std::string(quantity.unit), std::string(quantity.meaning)});
+  return table.text(static_cast<std::size_t>(width));
+}
+
+/// What an earlier run left must not stand among the designs of this one.
+void clear_designs(const fs::path& folder) {
+  for (const auto& [part, ending] : {std::pair{"designs", ".yaml"}, std::pair{"models", ".json"}}) {
+    std::error_code none;
+    for (const auto& entry : fs::directory_iterator(folder / part, none))
+      if (entry.path().filename().string().starts_with("design_") && entry.path().extension() == ending)
+        fs::remove(entry.path());
+  }
+}
+
+/// Descriptions and models; returns the largest error of a model, as a share of its largest force.
+double write_designs(const DesignReport& report, const fs::path& folder, const Console& console) {
+  const std::unique_ptr<DesignModel> model = make_design_model(report.options.model, "--model");
+  clear_designs(folder);
+  double worst = 0;
+  for (const Design& design : report.designs) {
+    write_file(folder / "designs" / (design.name + ".yaml"), format_description(design.damper));
+    DesignLaw law = law_of_design(design.damper, report.request, *model);
+    law.file.provenance.command = console.command_line();
+    law.file.provenance.created = date_now();
+    save_model(law.file, folder / "models" / (design.name + ".json"));
+    worst = std::max(worst, law.rms_error / law.largest_force);
+  }
+  return worst;
+}
+
+void write_results(const DesignInput& input, const Settings& settings, Console& console) {
+  const fs::path folder = settings.folder;
+  std::string where;
+  if (!input.design.designs.empty()) {
+    const double worst = write_designs(input.design, folder, console);
+    where = fmt::format("\nDesigns  {}/\nModels   {}/ (laws, within {} % RMS of the largest force)\n",
+                        (folder / "designs").string(), (folder / "models").string(),
+                        format_number(100 * worst, 2));
+  }
+  if (settings.report) {
+    write_file(folder / "design.html", html_design(input));
+    write_file(folder / "design.json", format_json(json_design(input)));
+    write_file(folder / "design.md", markdown_design(input));
+    write_file(folder / "design.csv", csv_design(input.design));
+    where += "Report   " + (folder / "design.html").string() + " (also .json, .md, .csv)\n";
+  }
+  console.print(where);
+}
+
+void print_report(const DesignReport& report, Console& console) {
+  constexpr std::size_t kShown = 20;
+  const int width = console.width();
+  if (!report.designs.empty()) console.print('\n' + design_table(report, width, kShown));
+  if (report.designs.size() > kShown)
+    console.print(fmt::format("... all {} are in design.csv\n", report.designs.size()));
+  // One design is told in full; of a front the one that weighs all goals.
+  const auto knee = std::ranges::find_if(
+      report.designs, [](const Design& design) { return design.role.find("knee") != std::string::npos; });
+  if (!report.designs.empty()) {
+    const Design& told = knee == report.designs.end() ? report.designs.front() : *knee;
+    if (!report.request.constraints.empty())
+      console.print('\n' + console.bold(told.name) + '\n' + constraint_table(report, told, width));
+    if (told.sensitivity)
+      console.print(
+          fmt::format("\nWhat each tolerance moves (its share of the variance); {} % of the dampers made "
+                      "hold every constraint\n",
+                      format_number(100 * told.sensitivity->holding, 3)) +
+          sensitivity_table(report, told, width));
+  }
+  console.print('\n' + paragraph(design_verdict(report), static_cast<std::size_t>(width)) +
+                fmt::format("{} dampers assessed in {} s\n", report.evaluations,
+                            format_number(report.wall_seconds, 3)));
+}
+
+int run(Settings settings, Console& console) {
+  if (settings.quantities) {
+    console.print(quantities_text(console.width()));
+    return kDone;
+  }
+  const DesignRequest request = requested(settings);
+  settings.options.points = static_cast<std::size_t>(settings.points);
+  settings.options.method = settings.method == "moead" ? FrontMethod::Moead : FrontMethod::Nsga2;
+  settings.options.monitor = console.monitor();
+  prepare_results({settings.folder, settings.report});
+  const DesignReport report = design(request, settings.options);
+  const DesignInput input{report, console.command_line(), DASHPOT_VERSION, date_now()};
+  print_report(report, console);
+  write_results(input, settings, console);
+  if (console.json) console.print_json(json_design(input));
+  if (report.stopped) console.check_stop();
+  if (!report.designs.empty()) return kDone;
+  console.error(report.conflict ? "the constraints conflict; the lines above say which"
+                                : "no design was found");
+  return kNotUsable;
+}
+
+std::vector<Option> options_of(Settings& settings) {
+  return {{.names = "REQUEST",
+           .target = &settings.request,
+           .help = "what may vary, what must hold and what to favour: a YAML file, or one that comes with "
+                   "Dashpot: " +
+                   join(request_names(), ", "),
+           .takes = Takes::File},
+          {.names = "--output",
+           .target = &settings.folder,
+           .help = "folder of the results",
+           .value = "DIR",
+           .takes = Takes::Folder},
+          {.names = "--points",
+           .target = &settings.points,
+           .help = "designs on the front, where there are several goals",
+           .value = "N",
+           .minimum = 4},
+          {.names = "--generations",
+           .target = &settings.options.generations,
+           .help = "of the search for the front",
+           .value = "N",
+           .minimum = 1},
+          {.names = "--method",
+           .target = &settings.method,
+           .help = "how the front is searched for",
+           .value = "NAME",
+           .choices = {"nsga2", "moead"},
+           .noun = "method"},
+          {.names = "--model",
+           .target = &settings.options.model,
+           .help = "what tells a design's figures",
+           .value = "NAME",
+           .choices = design_model_names(),
+           .noun = "model"},
+          {.names = "--second",
+           .target = &settings.options.second,
+           .help = "a model whose figures stand beside, with the difference",
+           .value = "NAME",
+           .choices = design_model_names(),
+           .noun = "model",
+           .default_text = "none"},
+          {.names = "--seed",
+           .target = &settings.options.seed,
+           .help = "of all that is random",
+           .value = "N",
+           .minimum = 0},
+          {.names = "--threads",
+           .target = &settings.options.threads,
+           .help = "threads to use; the result does not depend on it",
+           .value = "N",
+           .minimum = 0,
+           .default_text = "all cores"},
+          {.names = "--quantities",
+           .target = &settings.quantities,
+           .help = "list what constraints and goals may speak of"},
+          {.names = "--no-report", .target = &settings.report, .help = "write descriptions and models only"}};
+}
+
+}  // namespace
+
+Command design_command() {
+  auto settings = std::make_shared<Settings>();
+  return {
+      .name = "design",
+      .title = "Dampers that do what is asked of them",
+      .description =
+          "Reads what may vary of a damper's description, what must hold and what to favour, and finds "
+          "designs: "
+          "the best for one goal, or a front for several, also where made dampers differ from their drawing. "
+          "Each design is written as a description and as a model for the other commands, after it was read "
+          "again and checked. Where none can be, it says which constraints conflict.",
+      .options = options_of(*settings),
+      .example = std::string(kExample),
+      .run = [settings](Console& console) { return run(*settings, console); }};
+}
+
+}  // namespace dashpot::cli

@@ -1,0 +1,103 @@
+#include "dashpot/design/conflict.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "dashpot/base/error.h"
+#include "dashpot/base/text.h"
+
+namespace dashpot {
+namespace {
+
+bool can_hold(const DesignProblem& problem, const std::vector<bool>& counted, OptimiseOptions options,
+              Conflict& conflict) {
+  options.counted = counted;
+  const Optimum optimum = least_violation(problem, options);
+  conflict.evaluations += optimum.evaluations;
+  conflict.stopped = conflict.stopped || optimum.stopped;
+  return optimum.violation == 0;
+}
+
+/// What a constraint reaches at best while the other members hold, and where.
+Optimum best_of(const DesignRequest& request, const DesignModel& model, std::size_t constraint,
+                OptimiseOptions options) {
+  const DesignConstraint& own = request.constraints[constraint];
+  DesignRequest asked = request;
+  asked.goals = {{own.quantity, own.at, own.at_least}};
+  const DesignProblem problem(asked, model, options.seed);
+  options.counted[constraint] = false;
+  return optimise(problem, 0, options);
+}
+
+/// The constraints that fail at the place of least violation or lie on their bounds, where these alone
+/// conflict; else all.
+std::vector<bool> first_members(const DesignProblem& problem, const OptimiseOptions& options,
+                                Conflict& conflict) {
+  constexpr double kNear = 0.01;
+  const Assessment nearest = problem.assess(problem.damper_at(conflict.nearest.place));
+  std::vector<bool> near;
+  for (const double slack : nearest.slack) near.push_back(slack < kNear);
+  return can_hold(problem, near, options, conflict) ? std::vector<bool>(near.size(), true) : near;
+}
+
+void tell_reached(const DesignProblem& problem, const std::vector<bool>& counted, OptimiseOptions options,
+                  Conflict& conflict) {
+  options.counted = counted;
+  for (const std::size_t k : conflict.members) {
+    const Optimum optimum = best_of(problem.request(), problem.model(), k, options);
+    const bool known = !conflict.stopped && !optimum.place.empty() && optimum.violation == 0;
+    conflict.evaluations += optimum.evaluations;
+    conflict.stopped = conflict.stopped || optimum.stopped;
+    conflict.reached.push_back(!known                                      ? NAN
+                               : problem.request().constraints[k].at_least ? -optimum.value
+                                                                           : optimum.value);
+    // A search for one figure may find what the search for all constraints has missed.
+    if (known && problem.assess(problem.damper_at(optimum.place)).holds()) conflict.design = optimum.place;
+  }
+}
+
+}  // namespace
+
+Conflict find_conflict(const DesignProblem& problem, const Optimum& found, const OptimiseOptions& asked) {
+  const std::size_t count = problem.request().constraints.size();
+  Conflict conflict;
+  conflict.nearest = found;
+  OptimiseOptions options = asked;  // many searches, each for what is easier than the whole
+  options.starts = 4;
+  options.evaluations = 250;
+  if (!can_hold(problem, std::vector<bool>(count, false), options, conflict)) {
+    conflict.undrawable = !conflict.stopped;
+    return conflict;
+  }
+  std::vector<bool> counted = first_members(problem, options, conflict);
+  for (std::size_t k = 0; k < count && !conflict.stopped; ++k) {
+    if (!counted[k]) continue;
+    if (options.monitor)
+      options.monitor->report("which constraints conflict",
+                              static_cast<double>(k) / static_cast<double>(count));
+    counted[k] = false;
+    if (can_hold(problem, counted, options, conflict)) counted[k] = true;
+  }
+  for (std::size_t k = 0; k < count; ++k)
+    if (counted[k]) conflict.members.push_back(k);
+  tell_reached(problem, counted, options, conflict);
+  return conflict;
+}
+
+std::string describe(const Conflict& conflict, const DesignRequest& request) {
+  if (conflict.undrawable)
+    return "no damper of these ranges can be drawn: the parts do not fit into each other";
+  std::string text;
+  for (std::size_t m = 0; m < conflict.members.size(); ++m) {
+    const DesignConstraint& own = request.constraints[conflict.members[m]];
+    text += describe(own);
+    if (std::isfinite(conflict.reached[m]))
+      text += ": " + shown_figure(conflict.reached[m], own.quantity->unit) +
+              (own.at_least ? " at most" : " at least") +
+              (conflict.members.size() > 1 ? " while the others hold" : "");
+    text += '\n';
+  }
+  return text;
+}
+
+}  // namespace dashpot

@@ -1,0 +1,209 @@
+#include "dashpot/design/design.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "dashpot/base/error.h"
+
+namespace dashpot {
+namespace {
+
+/// One run: the models and what is found with them.
+class DesignRun {
+ public:
+  DesignRun(const DesignRequest& request, const DesignOptions& options)
+      : model_(make_design_model(options.model, "model")),
+        second_(options.second.empty() ? nullptr : make_design_model(options.second, "second model")),
+        problem_(request, *model_, options.seed) {
+    report_.request = request;
+    report_.options = options;
+  }
+  DesignReport run();
+
+ private:
+  OptimiseOptions search_options(const std::string& stage, double from, double to);
+  std::vector<std::vector<double>> best_of_each_goal();
+  std::vector<std::vector<double>> front_from(std::vector<std::vector<double>> ends);
+  /// Which constraints conflict; or a design after all.
+  std::vector<std::vector<double>> explain();
+  void add_designs(const std::vector<std::vector<double>>& places);
+  void compare(Design& design) const;
+  void name_roles();
+  void add_sensitivities();
+
+  std::unique_ptr<DesignModel> model_, second_;
+  DesignProblem problem_;
+  Monitor staged_;
+  DesignReport report_;
+};
+
+OptimiseOptions DesignRun::search_options(const std::string& stage, double from, double to) {
+  const Monitor& monitor = report_.options.monitor;
+  if (!report_.stopped) try {
+      monitor.report(stage, from);
+    } catch (const Interrupted&) {
+      report_.stopped = true;
+    }
+  staged_ = {[&monitor, from, to](const Progress& own) {
+               if (monitor.on_progress) monitor.on_progress({own.stage, from + own.fraction * (to - from)});
+             },
+             monitor.stop};
+  return {.seed = report_.options.seed, .threads = report_.options.threads, .monitor = &staged_};
+}
+
+std::vector<std::vector<double>> DesignRun::best_of_each_goal() {
+  const std::vector<DesignGoal>& goals = report_.request.goals;
+  std::vector<std::vector<double>> places;
+  const double part = goals.size() > 1 ? 0.3 / static_cast<double>(goals.size()) : 0.6;
+  for (std::size_t k = 0; k < goals.size() && !report_.stopped; ++k) {
+    const double from = part * static_cast<double>(k);
+    const Optimum optimum = optimise(problem_, k, search_options(describe(goals[k]), from, from + part));
+    report_.evaluations += optimum.evaluations;
+    report_.stopped = report_.stopped || optimum.stopped;
+    if (optimum.place.empty() || optimum.violation > 0) break;  // neither can it for another goal
+    places.push_back(optimum.place);
+  }
+  return places;
+}
+
+/// Goals as numbers to be made small.
+std::vector<double> to_minimise(const DesignRequest& request, std::vector<double> goals) {
+  for (std::size_t k = 0; k < goals.size(); ++k)
+    if (request.goals[k].maximise) goals[k] = -goals[k];
+  return goals;
+}
+
+std::vector<std::vector<double>> DesignRun::front_from(std::vector<std::vector<double>> ends) {
+  const DesignRequest& request = report_.request;
+  FrontProblem front{.size = problem_.size(), .goals = request.goals.size()};
+  front.evaluate = [&](std::span<const double> place) {
+    const Assessment assessment = problem_.assess(problem_.damper_at(place));
+    return FrontProblem::Value{to_minimise(request, assessment.goals), assessment.violation};
+  };
+  front.scale.assign(front.goals, 0.);
+  for (std::size_t k = 0; k < front.goals; ++k) {
+    std::vector<double> values;
+    for (const auto& end : ends) values.push_back(front.evaluate(end).goals[k]);
+    const auto [low, high] = std::ranges::minmax(values);
+    front.scale[k] = high > low ? high - low : std::max(std::abs(high), 1e-30);
+  }
+  front.starts = ends;
+  const OptimiseOptions& search = search_options("front", 0.3, 1);
+  const Front found = pareto_front(front, {.method = report_.options.method,
+                                           .points = report_.options.points,
+                                           .generations = report_.options.generations,
+                                           .seed = search.seed,
+                                           .threads = search.threads,
+                                           .monitor = search.monitor});
+  report_.evaluations += found.evaluations;
+  report_.stopped = report_.stopped || found.stopped;
+  return found.places.empty() ? ends : found.places;
+}
+
+std::vector<std::vector<double>> DesignRun::explain() {
+  const Optimum nearest = least_violation(problem_, search_options("least violation", 0.6, 0.7));
+  report_.evaluations += nearest.evaluations;
+  report_.stopped = report_.stopped || nearest.stopped;
+  if (nearest.violation == 0) return {nearest.place};  // designs are rare, but there are some
+  if (report_.stopped) return {};
+  report_.conflict = find_conflict(problem_, nearest, search_options("conflict", 0.7, 1));
+  report_.evaluations += report_.conflict->evaluations;
+  report_.stopped = report_.stopped || report_.conflict->stopped;
+  const std::vector<double> design = report_.conflict->design;
+  if (design.empty()) return {};
+  report_.conflict.reset();
+  return {design};
+}
+
+void DesignRun::compare(Design& design) const {
+  const DesignRequest& request = report_.request;
+  const std::vector<double> first = problem_.figures(design.damper);
+  design.second = DesignProblem(request, *second_, report_.options.seed).figures(design.damper);
+  for (std::size_t k = 0; k < first.size(); ++k)
+    if (const double size = std::abs(first[k]); size > 0)
+      design.disagreement = std::max(design.disagreement, std::abs(design.second[k] - first[k]) / size);
+}
+
+void DesignRun::add_designs(const std::vector<std::vector<double>>& places) {
+  for (const auto& place : places) {
+    Design design;
+    design.damper = problem_.damper_at(place);
+    design.damper.name = report_.request.name;
+    design.assessment =
+        check_design(format_description(design.damper), report_.request, *model_, report_.options.seed);
+    if (!design.assessment.holds()) {
+      ++report_.rejected;
+      continue;
+    }
+    if (second_) compare(design);
+    report_.designs.push_back(std::move(design));
+  }
+  std::ranges::sort(report_.designs,
+                    [](const Design& a, const Design& b) { return a.assessment.goals < b.assessment.goals; });
+  for (std::size_t k = 0; k < report_.designs.size(); ++k) {
+    Design& design = report_.designs[k];
+    design.name = fmt::format("design_{:03}", k + 1);
+    design.damper.name += (design.damper.name.empty() ? "" : ", ") + design.name;
+  }
+}
+
+/// The best for each goal, and the knee: nearest to the best of all goals at once, each in the front's
+/// extent.
+void DesignRun::name_roles() {
+  std::vector<Design>& designs = report_.designs;
+  if (designs.empty()) return;
+  const DesignRequest& request = report_.request;
+  std::vector<std::vector<double>> values;
+  for (const Design& design : designs) values.push_back(to_minimise(request, design.assessment.goals));
+  std::vector<double> distance(designs.size(), 0.);
+  const auto add_role = [&](std::size_t k, const std::string& role) {
+    designs[k].role += (designs[k].role.empty() ? "" : "; ") + role;
+  };
+  for (std::size_t g = 0; g < request.goals.size(); ++g) {
+    const auto by_goal = [g](const std::vector<double>& row) { return row[g]; };
+    const auto best = std::ranges::min_element(values, {}, by_goal);
+    const double low = (*best)[g], high = (*std::ranges::max_element(values, {}, by_goal))[g];
+    add_role(static_cast<std::size_t>(best - values.begin()), describe(request.goals[g]));
+    for (std::size_t k = 0; k < designs.size(); ++k)
+      if (high > low) distance[k] += std::pow((values[k][g] - low) / (high - low), 2);
+  }
+  if (request.goals.size() > 1)
+    add_role(static_cast<std::size_t>(std::ranges::min_element(distance) - distance.begin()), "knee");
+}
+
+void DesignRun::add_sensitivities() {
+  if (report_.request.tolerances.empty()) return;
+  for (Design& design : report_.designs)
+    if (!design.role.empty())
+      design.sensitivity = sensitivity(problem_, design.damper,
+                                       {.seed = report_.options.seed, .threads = report_.options.threads});
+}
+
+DesignReport DesignRun::run() {
+  const auto start = std::chrono::steady_clock::now();
+  std::vector<std::vector<double>> places = best_of_each_goal();
+  if (places.empty() && !report_.stopped) places = explain();
+  if (report_.request.goals.size() > 1 && !places.empty() && !report_.stopped)
+    places = front_from(std::move(places));
+  add_designs(places);
+  name_roles();
+  add_sensitivities();
+  report_.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return std::move(report_);
+}
+
+}  // namespace
+
+Assessment check_design(const std::string& text, const DesignRequest& request, const DesignModel& model,
+                        std::uint64_t seed) {
+  return DesignProblem(request, model, seed).assess(parse_description(text, "design"));
+}
+
+DesignReport design(const DesignRequest& request, const DesignOptions& options) {
+  return DesignRun(request, options).run();
+}
+
+}  // namespace dashpot

@@ -1,0 +1,191 @@
+#include "dashpot/design/design_problem.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <optional>
+
+#include "dashpot/base/error.h"
+#include "dashpot/base/random.h"
+
+namespace dashpot {
+namespace {
+
+constexpr double kImpossible = 1e3;  // a violation that no bound comes near
+
+bool same(const DamperOperation& a, const DamperOperation& b) {
+  return a.current == b.current && a.velocity == b.velocity && a.displacement == b.displacement;
+}
+
+/// Ratios of a decade and more are searched by their logarithm.
+bool is_logarithmic(const DesignVariable& v) { return v.from > 0 && v.to >= 10 * v.from; }
+
+/// A range: its step `level` where it is taken in steps.
+double range_value(const DesignVariable& v, double place, std::optional<std::size_t> level) {
+  if (level) return std::min(v.to, v.from + static_cast<double>(*level) * v.step);
+  // A step has the places around its value, as place_of_level has them.
+  if (v.step > 0)
+    return std::clamp(v.from + (place * static_cast<double>(v.levels()) - 0.5) * v.step, v.from, v.to);
+  if (is_logarithmic(v)) return std::clamp(v.from * std::pow(v.to / v.from, place), v.from, v.to);
+  return v.from + place * (v.to - v.from);
+}
+
+void set_variable(const DesignVariable& variable, double place, std::optional<std::size_t> level,
+                  DamperDescription& damper) {
+  if (!variable.fluids.empty())
+    damper.fluid = variable.fluids[*level];
+  else
+    damper.*variable.field->field =
+        variable.values.empty() ? range_value(variable, place, level) : variable.values[*level];
+}
+
+bool is_possible(const DamperDescription& damper) {
+  try {
+    require_possible(damper, "");
+    return true;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+/// Latin hypercube in -1 ... 1: each tolerance is divided evenly among the dampers.
+std::vector<std::vector<double>> draw_made(std::size_t dampers, std::size_t tolerances, std::uint64_t seed) {
+  Random random(seed);
+  std::vector<std::vector<double>> made(dampers, std::vector<double>(tolerances));
+  std::vector<std::size_t> order(dampers);
+  for (std::size_t t = 0; t < tolerances; ++t) {
+    for (std::size_t k = 0; k < dampers; ++k) order[k] = k;
+    for (std::size_t k = dampers; k > 1; --k) std::swap(order[k - 1], order[random.index(k)]);
+    for (std::size_t k = 0; k < dampers; ++k)
+      made[k][t] = 2 * (static_cast<double>(order[k]) + random.uniform()) / static_cast<double>(dampers) - 1;
+  }
+  return made;
+}
+
+double slack_of(const DesignConstraint& constraint, double figure) {
+  const double scale = constraint.bound == 0 ? 1 : std::abs(constraint.bound);
+  const double slack = (constraint.at_least ? figure - constraint.bound : constraint.bound - figure) / scale;
+  return std::isnan(slack) ? -kImpossible : std::max(slack, -kImpossible);
+}
+
+}  // namespace
+
+DesignProblem::DesignProblem(const DesignRequest& request, const DesignModel& model, std::uint64_t seed)
+    : request_(request), model_(model) {
+  const auto place = [&](const DamperOperation& at) {
+    const auto found =
+        std::ranges::find_if(operations_, [&](const DamperOperation& known) { return same(known, at); });
+    operation_of_.push_back(static_cast<std::size_t>(found - operations_.begin()));
+    if (found == operations_.end()) operations_.push_back(at);
+  };
+  for (const DesignGoal& goal : request.goals) place(goal.at);
+  for (const DesignConstraint& constraint : request.constraints) place(constraint.at);
+  if (request.share > 0)
+    made_with_ = draw_made(static_cast<std::size_t>(request.samples), request.tolerances.size(), seed);
+}
+
+std::size_t DesignProblem::level_at(std::size_t k, double place) const {
+  const std::size_t levels = request_.variables[k].levels();
+  if (levels == 0) return 0;
+  return std::min(static_cast<std::size_t>(std::max(place, 0.) * static_cast<double>(levels)), levels - 1);
+}
+
+double DesignProblem::place_of_level(std::size_t k, std::size_t level) const {
+  return (static_cast<double>(level) + 0.5) / static_cast<double>(request_.variables[k].levels());
+}
+
+DamperDescription DesignProblem::damper_at(std::span<const double> place, bool relaxed) const {
+  assert(place.size() == size());
+  DamperDescription damper = request_.damper;
+  for (std::size_t k = 0; k < place.size(); ++k) {
+    const DesignVariable& variable = request_.variables[k];
+    const bool free = variable.levels() == 0 || (relaxed && variable.step > 0);
+    set_variable(variable, std::clamp(place[k], 0., 1.),
+                 free ? std::nullopt : std::optional(level_at(k, place[k])), damper);
+  }
+  follow(damper);
+  return damper;
+}
+
+void DesignProblem::follow(DamperDescription& damper) const {
+  for (const FollowingField& following : request_.following) {
+    double value = following.constant;
+    for (const auto& [field, factor] : following.terms) value += factor * damper.*field->field;
+    damper.*following.field->field = value;
+  }
+}
+
+DamperDescription DesignProblem::made(const DamperDescription& drawn, std::span<const double> shares) const {
+  DamperDescription damper = drawn;
+  const auto off = [&](bool followers) {
+    for (std::size_t t = 0; t < shares.size(); ++t) {
+      const DesignTolerance& tolerance = request_.tolerances[t];
+      const bool follows = std::ranges::find(request_.following, tolerance.field, &FollowingField::field) !=
+                           request_.following.end();
+      if (follows == followers) damper.*tolerance.field->field += shares[t] * tolerance.width;
+    }
+  };
+  off(false);
+  follow(damper);
+  off(true);
+  return damper;
+}
+
+std::vector<double> DesignProblem::figures(const DamperDescription& damper) const {
+  std::vector<DamperPhysics> physics;
+  for (const DamperOperation& operation : operations_) physics.push_back(model_.evaluate(damper, operation));
+  std::vector<double> figures;
+  for (std::size_t k = 0; k < operation_of_.size(); ++k) {
+    const std::size_t goals = request_.goals.size(), at = operation_of_[k];
+    const DesignQuantity& quantity =
+        k < goals ? *request_.goals[k].quantity : *request_.constraints[k - goals].quantity;
+    figures.push_back(quantity.of({damper, operations_[at], physics[at], model_}));
+  }
+  return figures;
+}
+
+/// What the share of the dampers reaches or exceeds (at_least), or stays at or below.
+double DesignProblem::figure_of_share(std::vector<double>& figures, bool at_least) const {
+  for (double& figure : figures)  // what cannot be told is as bad as can be
+    if (std::isnan(figure)) figure = at_least ? -HUGE_VAL : HUGE_VAL;
+  std::ranges::sort(figures);
+  const auto needed =
+      static_cast<std::size_t>(std::ceil(request_.share * static_cast<double>(figures.size()) * (1 - 1e-12)));
+  return at_least ? figures[figures.size() - needed] : figures[needed - 1];
+}
+
+Assessment DesignProblem::assess(const DamperDescription& drawn) const {
+  Assessment assessment;
+  const std::size_t goals = request_.goals.size();
+  const auto impossible = [&] {
+    assessment.possible = false;
+    assessment.violation = kImpossible * static_cast<double>(1 + request_.constraints.size());
+    assessment.slack.assign(request_.constraints.size(), -kImpossible);
+    return assessment;
+  };
+  if (!is_possible(drawn)) return impossible();
+  std::vector<double> all = figures(drawn);
+  if (!made_with_.empty()) {
+    std::vector<std::vector<double>> by_quantity(all.size());
+    for (const std::vector<double>& shares : made_with_) {
+      const DamperDescription damper = made(drawn, shares);
+      if (!is_possible(damper)) return impossible();
+      const std::vector<double> of_damper = figures(damper);
+      for (std::size_t k = 0; k < all.size(); ++k) by_quantity[k].push_back(of_damper[k]);
+    }
+    for (std::size_t k = 0; k < all.size(); ++k)
+      all[k] = figure_of_share(
+          by_quantity[k], k < goals ? request_.goals[k].maximise : request_.constraints[k - goals].at_least);
+  }
+  assessment.goals.assign(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(goals));
+  assessment.constraints.assign(all.begin() + static_cast<std::ptrdiff_t>(goals), all.end());
+  for (std::size_t k = 0; k < request_.constraints.size(); ++k) {
+    assessment.slack.push_back(slack_of(request_.constraints[k], assessment.constraints[k]));
+    assessment.violation += std::max(0., -assessment.slack.back());
+  }
+  for (const double goal : assessment.goals)
+    if (!std::isfinite(goal)) assessment.violation += kImpossible;
+  return assessment;
+}
+
+}  // namespace dashpot

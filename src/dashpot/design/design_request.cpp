@@ -1,0 +1,256 @@
+#include "dashpot/design/design_request.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "dashpot/base/data_folder.h"
+#include "dashpot/base/error.h"
+#include "dashpot/base/file.h"
+#include "dashpot/base/text.h"
+#include "dashpot/base/units.h"
+#include "dashpot/base/value.h"
+
+namespace dashpot {
+namespace {
+
+double read_number(const Value& value, std::string_view unit) {
+  const double number = value.kind() == Value::Kind::Number
+                            ? value.as_number()
+                            : parse_quantity(value.as_string(), unit, value.where());
+  if (!std::isfinite(number)) throw Error(value.where(), "is not finite", "a number");
+  return number;
+}
+
+/// In the field's unit and within its bounds.
+double read_field(const Value& value, const DescriptionField& field) {
+  const double number = read_number(value, field.unit);
+  if (number >= field.lower && number <= field.upper) return number;
+  const std::string unit = ' ' + std::string(field.unit);
+  throw Error(value.where(), std::string(field.name) + " is " + format_number(number) + unit,
+              format_number(field.lower) + " ... " + format_number(field.upper) + unit);
+}
+
+double positive(double value, const Value& at, const std::string& what) {
+  if (value > 0) return value;
+  throw Error(at.where(), what + " is " + format_number(value), "more than 0");
+}
+
+DesignVariable read_fluids(const Value& value) {
+  DesignVariable variable;
+  for (const Value& item : value.items())
+    variable.fluids.push_back(&find_fluid(item.as_string(), item.where()));
+  if (variable.fluids.empty()) throw Error(value.where(), "no fluid to choose from", "[122EG, 132DG]");
+  return variable;
+}
+
+void read_range(const Value& value, DesignVariable& variable) {
+  constexpr double kMostSteps = 1e6;
+  ObjectReader reader(value, "a range");
+  variable.from = read_field(reader.required("from"), *variable.field);
+  variable.to = read_field(reader.required("to"), *variable.field);
+  if (const Value* step = reader.optional("step"))
+    variable.step = positive(read_number(*step, variable.field->unit), *step, "the step");
+  reader.finish();
+  const auto shown = [&](double number) {
+    return format_number(number) + ' ' + std::string(variable.field->unit);
+  };
+  if (!(variable.from < variable.to))
+    throw Error(value.where(),
+                "the range of " + variable.name() + " is empty: " + shown(variable.from) + " to " +
+                    shown(variable.to),
+                "from less than to");
+  if (variable.step > 0 && (variable.to - variable.from) / variable.step > kMostSteps)
+    throw Error(value.where(), "the step of " + variable.name() + " is too small for its range");
+}
+
+DesignVariable read_variable(const std::string& name, const Value& value) {
+  if (name == "fluid") return read_fluids(value);
+  DesignVariable variable;
+  variable.field = &find_description_field(name, value.where());
+  if (value.kind() == Value::Kind::Object) {
+    read_range(value, variable);
+    return variable;
+  }
+  for (const Value& item : value.items()) variable.values.push_back(read_field(item, *variable.field));
+  if (variable.values.empty())
+    throw Error(value.where(), "no " + name + " to choose from", "{from: ..., to: ...} or a list of values");
+  return variable;
+}
+
+void read_operation(ObjectReader& reader, DamperOperation& operation) {
+  const auto read = [&](std::string_view key, std::string_view unit, double& target) {
+    if (const Value* value = reader.optional(key)) target = read_number(*value, unit);
+  };
+  read("current", "A", operation.current);
+  read("velocity", "m/s", operation.velocity);
+  read("displacement", "m", operation.displacement);
+}
+
+void read_constraint(const Value& value, const DamperOperation& at, DesignRequest& request) {
+  ObjectReader reader(value, "a constraint");
+  const Value& named = reader.required("quantity");
+  DesignConstraint constraint{&find_design_quantity(named.as_string(), named.where()), at};
+  read_operation(reader, constraint.at);
+  const Value *least = reader.optional("min"), *most = reader.optional("max");
+  reader.finish();
+  if (!least && !most) throw Error(value.where(), "the constraint has no bound", "min, max or both");
+  for (const Value* bound : {least, most}) {
+    if (!bound) continue;
+    constraint.at_least = bound == least;
+    constraint.bound = read_number(*bound, constraint.quantity->unit);
+    request.constraints.push_back(constraint);
+  }
+  const std::size_t count = request.constraints.size();
+  if (least && most && request.constraints[count - 2].bound > request.constraints[count - 1].bound)
+    throw Error(value.where(), std::string(constraint.quantity->name) + " has a min above its max");
+}
+
+DesignGoal read_goal(const Value& value, const DamperOperation& at) {
+  ObjectReader reader(value, "a goal");
+  const Value *most = reader.optional("maximise"), *least = reader.optional("minimise");
+  DesignGoal goal;
+  goal.at = at;
+  read_operation(reader, goal.at);
+  reader.finish();
+  if (!most == !least)
+    throw Error(value.where(), "a goal is one quantity", "maximise: dynamic_range, or minimise: mass");
+  const Value& named = most ? *most : *least;
+  goal.quantity = &find_design_quantity(named.as_string(), named.where());
+  goal.maximise = most != nullptr;
+  return goal;
+}
+
+FollowingField read_following(const std::string& name, const Value& value) {
+  FollowingField following;
+  following.field = &find_description_field(name, value.where());
+  for (const auto& [key, factor] : value.members())
+    if (key == "constant")
+      following.constant = read_number(factor, following.field->unit);
+    else
+      following.terms.emplace_back(&find_description_field(key, factor.where()), factor.as_number());
+  return following;
+}
+
+void read_robust(const Value& value, DesignRequest& request) {
+  constexpr double kMostSamples = 10000;
+  ObjectReader reader(value, "robust");
+  request.share = reader.number("share");
+  const double samples = reader.number("samples", request.samples);
+  reader.finish();
+  if (!(request.share > 0 && request.share <= 1))
+    throw Error(value.where(), "share is " + format_number(request.share), "more than 0, 1 at most");
+  if (!(samples >= 2 && samples <= kMostSamples && samples == std::floor(samples)))
+    throw Error(value.where(), "samples is " + format_number(samples), "a whole number from 2 to 10000");
+  request.samples = static_cast<int>(samples);
+  if (request.tolerances.empty())
+    throw Error(value.where(), "robust against nothing: no tolerances are stated",
+                "tolerances: {gap: 0.05 mm}");
+}
+
+DamperDescription read_damper(const Value& value, const std::filesystem::path& folder) {
+  const std::string& name = value.as_string();
+  const std::vector<std::string> known = description_names();
+  if (std::ranges::find(known, name) != known.end()) return named_description(name);
+  if (!name.ends_with(".yaml"))
+    throw Error(value.where(), "unknown damper '" + name + "'", suggest(name, known) + ", or a .yaml file");
+  return load_description(folder / name);
+}
+
+bool varies(const DesignRequest& request, const DescriptionField* field) {
+  return std::ranges::any_of(request.variables, [&](const DesignVariable& v) { return v.field == field; });
+}
+
+void require_consistent(const DesignRequest& request, const std::string& source) {
+  if (request.variables.empty())
+    throw Error(source, "nothing may vary", "vary: {gap: {from: 0.5 mm, to: 2 mm}}");
+  if (request.goals.empty()) throw Error(source, "there is no goal", "goals: [{minimise: mass}]");
+  for (const FollowingField& following : request.following) {
+    const std::string name(following.field->name);
+    if (varies(request, following.field)) throw Error(source, name + " both varies and follows others");
+    for (const auto& [term, factor] : following.terms)
+      if (term == following.field) throw Error(source, name + " follows itself");
+  }
+}
+
+template <class Read>
+void each_member(ObjectReader& reader, std::string_view key, Read read) {
+  if (const Value* value = reader.optional(key))
+    for (const auto& [name, member] : value->members()) read(name, member);
+}
+
+std::string place_text(const DamperOperation& at) {
+  std::string text = " at " + format_number(at.current) + " A, " + format_number(at.velocity) + " m/s";
+  return at.displacement == 0 ? text : text + ", " + format_number(at.displacement) + " m";
+}
+
+/// Fields and sizes are the same at any current and speed.
+std::string place_of(const DesignQuantity& quantity, const DamperOperation& at) {
+  return quantity.of_drawing || (at.current == 0 && at.velocity == 0) ? "" : place_text(at);
+}
+
+}  // namespace
+
+std::size_t DesignVariable::levels() const {
+  if (!field) return fluids.size();
+  if (!values.empty()) return values.size();
+  return step > 0 ? static_cast<std::size_t>(std::floor((to - from) / step * (1 + 1e-12))) + 1 : 0;
+}
+
+std::string describe(const DesignConstraint& c) {
+  return std::string(c.quantity->name) + (c.at_least ? " at least " : " at most ") +
+         shown_figure(c.bound, c.quantity->unit) + place_of(*c.quantity, c.at);
+}
+
+std::string describe(const DesignGoal& goal) {
+  return (goal.maximise ? "largest " : "smallest ") + std::string(goal.quantity->name) +
+         place_of(*goal.quantity, goal.at);
+}
+
+DesignRequest parse_request(std::string_view text, const std::string& source,
+                            const std::filesystem::path& folder) {
+  const Value document = parse_yaml(text, source);
+  ObjectReader reader(document, "a design request");
+  DesignRequest request;
+  request.name = reader.string("name", "");
+  request.note = reader.string("note", "");
+  request.damper = read_damper(reader.required("damper"), folder);
+  DamperOperation at;
+  if (const Value* place = reader.optional("at")) {
+    ObjectReader operation(*place, "at");
+    read_operation(operation, at);
+    operation.finish();
+  }
+  each_member(reader, "vary", [&](const std::string& name, const Value& value) {
+    request.variables.push_back(read_variable(name, value));
+  });
+  each_member(reader, "follow", [&](const std::string& name, const Value& value) {
+    request.following.push_back(read_following(name, value));
+  });
+  each_member(reader, "tolerances", [&](const std::string& name, const Value& value) {
+    const DescriptionField& field = find_description_field(name, value.where());
+    request.tolerances.push_back({&field, positive(read_number(value, field.unit), value, "the tolerance")});
+  });
+  if (const Value* robust = reader.optional("robust")) read_robust(*robust, request);
+  if (const Value* list = reader.optional("constraints"))
+    for (const Value& item : list->items()) read_constraint(item, at, request);
+  if (const Value* list = reader.optional("goals"))
+    for (const Value& item : list->items()) request.goals.push_back(read_goal(item, at));
+  reader.finish();
+  require_consistent(request, source);
+  return request;
+}
+
+DesignRequest load_request(const std::filesystem::path& path) {
+  return parse_request(read_file(path), path.string(), path.parent_path());
+}
+
+DesignRequest named_request(const std::string& name) {
+  const std::vector<std::string> known = request_names();
+  if (std::ranges::find(known, name) == known.end())
+    throw Error("", "unknown design request '" + name + "'", suggest(name, known));
+  return load_request(data_folder("designs") / (name + ".yaml"));
+}
+
+std::vector<std::string> request_names() { return data_names("designs", ".yaml"); }
+
+}  // namespace dashpot

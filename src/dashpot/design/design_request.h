@@ -1,0 +1,76 @@
+#pragma once
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "dashpot/design/quantities.h"
+
+namespace dashpot {
+
+/// What may vary: a field within a range, in steps where a step is given; one of several values; the fluid.
+struct DesignVariable {
+  const DescriptionField* field = nullptr;  ///< nullptr: the fluid
+  double from = 0, to = 0, step = 0;        ///< step 0: any value
+  std::vector<double> values;               ///< a choice of numbers
+  std::vector<const Fluid*> fluids;
+
+  std::string name() const { return field ? std::string(field->name) : "fluid"; }
+  /// Values that can be chosen; 0: any of the range.
+  std::size_t levels() const;
+};
+
+/// One bound of one quantity at one operating point; a request's min and max are two.
+struct DesignConstraint {
+  const DesignQuantity* quantity = nullptr;
+  DamperOperation at;
+  bool at_least = true;  ///< else at most
+  double bound = 0;
+};
+
+struct DesignGoal {
+  const DesignQuantity* quantity = nullptr;
+  DamperOperation at;
+  bool maximise = true;
+};
+
+/// How far a made part may lie from its drawing: anywhere within +- width, all places alike.
+struct DesignTolerance {
+  const DescriptionField* field = nullptr;
+  double width = 0;
+};
+
+/// A field that others determine: constant + sum of factor times field, SI.
+struct FollowingField {
+  const DescriptionField* field = nullptr;
+  double constant = 0;
+  std::vector<std::pair<const DescriptionField*, double>> terms;
+};
+
+struct DesignRequest {
+  std::string name, note;
+  DamperDescription damper;  ///< what does not vary
+  std::vector<DesignVariable> variables;
+  std::vector<FollowingField> following;
+  std::vector<DesignConstraint> constraints;
+  std::vector<DesignGoal> goals;
+  std::vector<DesignTolerance> tolerances;
+  double share =
+      0;  ///< of the dampers made that must hold the constraints and reach the goals; 0: the drawn one
+  int samples = 32;  ///< dampers that stand for those made
+};
+
+/// "force at least 1500 N at 2 A, 0.3 m/s"; the same of a goal: "largest dynamic_range at ..."
+std::string describe(const DesignConstraint& constraint);
+std::string describe(const DesignGoal& goal);
+
+/// YAML as docs/design.md describes. `folder`: where a damper's file is looked for. Throws Error that names
+/// file and line.
+DesignRequest parse_request(std::string_view text, const std::string& source,
+                            const std::filesystem::path& folder = {});
+DesignRequest load_request(const std::filesystem::path& path);
+/// One that comes with Dashpot, of data/designs.
+DesignRequest named_request(const std::string& name);
+std::vector<std::string> request_names();
+
+}  // namespace dashpot

@@ -1,0 +1,251 @@
+#include "dashpot/design/optimise.h"
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <memory>
+#include <nlopt.h>
+
+#include "dashpot/base/error.h"
+#include "dashpot/base/parallel.h"
+#include "dashpot/numerics/global_search.h"
+
+namespace dashpot {
+namespace {
+
+// Searches keep this far inside of the constraints, in shares of the bounds: COBYLA ends on them to rounding.
+constexpr double kMargin = 1e-7;
+constexpr double kFails = 1e9;  // more than any goal that can be
+
+struct Enough {};  // a search for feasibility is at its end
+
+/// One start: remembers the best place it has seen, whatever stops it.
+class Search {
+ public:
+  Search(const DesignProblem& problem, const std::size_t* goal, const OptimiseOptions& options)
+      : problem_(problem), goal_(goal), options_(options) {}
+
+  struct Seen {
+    double value = 0, violation = 0;
+    std::vector<double> slack;  // of the constraints that count
+  };
+
+  /// relaxed: without the steps of ranges; such a place is no design, and not kept.
+  Seen look(std::span<const double> place, bool relaxed = false) {
+    if (options_.monitor) options_.monitor->check();
+    ++best_.evaluations;
+    const Assessment assessment = problem_.assess(problem_.damper_at(place, relaxed));
+    Seen seen;
+    for (std::size_t k = 0; k < assessment.slack.size(); ++k)
+      if (options_.counted.empty() || options_.counted[k])
+        seen.slack.push_back(assessment.slack[k] - kMargin);
+    if (!assessment.possible) seen.slack.push_back(-1);
+    for (const double slack : seen.slack) seen.violation += std::max(0., -slack);
+    seen.value = goal_ ? value_of(assessment, seen) : 0;
+    if (!relaxed) keep(place, seen);
+    return seen;
+  }
+  /// What holds the constraints beats what does not.
+  static double rank(const Seen& seen) {
+    return seen.violation > 0 ? kFails * (1 + seen.violation) : std::min(seen.value, kFails);
+  }
+  double best_rank() const { return best_rank_; }
+  Optimum& best() { return best_; }
+
+ private:
+  double value_of(const Assessment& assessment, Seen& seen) const {
+    const double figure = assessment.possible ? assessment.goals[*goal_] : NAN;
+    if (!std::isfinite(figure)) {
+      seen.violation += 1;
+      return kFails;
+    }
+    return problem_.request().goals[*goal_].maximise ? -figure : figure;
+  }
+  void keep(std::span<const double> place, const Seen& seen) {
+    if (const double own = rank(seen); best_.place.empty() || own < best_rank_) {
+      best_rank_ = own;
+      best_.place.assign(place.begin(), place.end());
+      best_.violation = seen.violation;
+      best_.value = seen.value;
+    }
+    if (!goal_ && seen.violation == 0) throw Enough();
+  }
+
+  const DesignProblem& problem_;
+  const std::size_t* goal_;
+  const OptimiseOptions& options_;
+  Optimum best_;
+  double best_rank_ = HUGE_VAL;
+};
+
+/// COBYLA on some of the variables, the others held. NLopt asks for the goal and for the constraints
+/// separately: the last place is remembered.
+class Polish {
+ public:
+  Polish(Search& search, std::vector<double> place, std::vector<std::size_t> free, bool relaxed)
+      : search_(search), place_(std::move(place)), free_(std::move(free)), relaxed_(relaxed) {
+    seen_ = search_.look(place_, relaxed_);
+    scale_ = std::max(std::abs(seen_.value), 1e-30);
+  }
+
+  /// `radius` of the first steps; looks for each variable. Returns the place reached.
+  std::vector<double> run(double radius, int looks) {
+    constexpr double kTolerance = 1e-9;
+    const auto count = static_cast<unsigned>(free_.size());
+    if (count == 0) return place_;
+    const std::unique_ptr<nlopt_opt_s, void (*)(nlopt_opt)> solver(nlopt_create(NLOPT_LN_COBYLA, count),
+                                                                   nlopt_destroy);
+    solver_ = solver.get();
+    nlopt_set_lower_bounds1(solver_, 0);
+    nlopt_set_upper_bounds1(solver_, 1);
+    nlopt_set_min_objective(solver_, goal, this);
+    if (!seen_.slack.empty())
+      nlopt_add_inequality_mconstraint(solver_, static_cast<unsigned>(seen_.slack.size()), constraints, this,
+                                       nullptr);
+    nlopt_set_initial_step1(solver_, radius);
+    nlopt_set_xtol_abs1(solver_, kTolerance);
+    nlopt_set_maxeval(solver_, looks * static_cast<int>(count + 1));
+    std::vector<double> x;
+    for (const std::size_t k : free_) x.push_back(place_[k]);
+    double value = 0;
+    nlopt_optimize(solver_, x.data(), &value);
+    if (failure_) std::rethrow_exception(failure_);
+    for (std::size_t k = 0; k < free_.size(); ++k) place_[free_[k]] = x[k];
+    return place_;
+  }
+
+ private:
+  void move(const double* x) {
+    bool moved = false;
+    for (std::size_t k = 0; k < free_.size(); ++k) {
+      moved = moved || place_[free_[k]] != x[k];
+      place_[free_[k]] = x[k];
+    }
+    if (!moved || failure_) return;
+    try {
+      const std::size_t constraints = seen_.slack.size();
+      seen_ = search_.look(place_, relaxed_);
+      seen_.slack.resize(constraints, -1);  // of a damper that cannot be drawn there is one more
+    } catch (...) {
+      failure_ = std::current_exception();
+      nlopt_force_stop(solver_);
+    }
+  }
+  static double goal(unsigned, const double* x, double*, void* self) {
+    auto& own = *static_cast<Polish*>(self);
+    own.move(x);
+    return own.seen_.value / own.scale_;
+  }
+  static void constraints(unsigned count, double* result, unsigned, const double* x, double*, void* self) {
+    auto& own = *static_cast<Polish*>(self);
+    own.move(x);
+    for (unsigned k = 0; k < count; ++k) result[k] = -own.seen_.slack[k];
+  }
+
+  Search& search_;
+  std::vector<double> place_;
+  std::vector<std::size_t> free_;
+  bool relaxed_;
+  Search::Seen seen_;
+  double scale_ = 1;
+  nlopt_opt solver_ = nullptr;
+  std::exception_ptr failure_;
+};
+
+constexpr int kQuickLooks = 30, kLooks = 200;  // for each variable
+
+/// Variables that COBYLA may move: those of any value and, relaxed, those in steps.
+std::vector<std::size_t> movable(const DesignRequest& request, bool relaxed) {
+  std::vector<std::size_t> free;
+  for (std::size_t k = 0; k < request.variables.size(); ++k)
+    if (request.variables[k].levels() == 0 || (relaxed && request.variables[k].step > 0)) free.push_back(k);
+  return free;
+}
+
+/// From a place: without steps at first, then with the nearest ones.
+void polish(const DesignProblem& problem, Search& search, std::vector<double> place, int looks) {
+  constexpr double kWide = 0.05, kNarrow = 0.005;
+  const std::vector<std::size_t> all = movable(problem.request(), true),
+                                 free = movable(problem.request(), false);
+  if (all.size() > free.size()) place = Polish(search, std::move(place), all, true).run(kWide, looks);
+  for (const std::size_t k : all)
+    if (problem.request().variables[k].levels() > 0)
+      place[k] = problem.place_of_level(k, problem.level_at(k, place[k]));
+  Polish(search, std::move(place), free, false).run(all.size() > free.size() ? kNarrow : kWide, looks);
+}
+
+/// Levels to try in place of one: the neighbours of a step; all of a choice.
+std::vector<std::size_t> other_levels(const DesignVariable& variable, std::size_t level) {
+  std::vector<std::size_t> others;
+  for (std::size_t other = 0; variable.step == 0 && other < variable.levels(); ++other)
+    if (other != level) others.push_back(other);
+  if (variable.step > 0 && level > 0) others.push_back(level - 1);
+  if (variable.step > 0 && level + 1 < variable.levels()) others.push_back(level + 1);
+  return others;
+}
+
+/// Polishes anew at each other level of one variable from the best place; whether one was better.
+bool step_level(const DesignProblem& problem, Search& search, std::size_t k) {
+  const double before = search.best_rank();
+  const std::vector<double> place = search.best().place;
+  const DesignVariable& variable = problem.request().variables[k];
+  for (const std::size_t level : other_levels(variable, problem.level_at(k, place[k]))) {
+    std::vector<double> trial = place;
+    trial[k] = problem.place_of_level(k, level);
+    if (variable.step > 0)
+      Polish(search, trial, movable(problem.request(), false), false).run(0.005, kQuickLooks);
+    else
+      polish(problem, search, trial, kQuickLooks);
+  }
+  return search.best_rank() < before - 1e-6 * std::abs(before);
+}
+
+void run_start(const DesignProblem& problem, Search& search, const OptimiseOptions& options,
+               std::uint64_t seed) {
+  constexpr int kRounds = 4;
+  const std::size_t size = problem.size();
+  const SearchBox box{std::vector<double>(size, 0.), std::vector<double>(size, 1.)};
+  global_search([&](std::span<const double> place) { return Search::rank(search.look(place)); }, box,
+                std::vector<double>(size, 0.5), options.evaluations * static_cast<int>(size), seed);
+  polish(problem, search, search.best().place, kLooks);
+  for (int round = 0; round < kRounds; ++round) {
+    bool better = false;
+    for (std::size_t k = 0; k < size; ++k)
+      if (problem.request().variables[k].levels() > 1) better = step_level(problem, search, k) || better;
+    if (!better) break;
+  }
+  Polish(search, search.best().place, movable(problem.request(), false), false).run(0.002, kLooks);
+}
+
+Optimum run_starts(const DesignProblem& problem, const std::size_t* goal, const OptimiseOptions& options) {
+  const auto starts = static_cast<std::size_t>(options.starts);
+  std::vector<Search> searches(starts, Search(problem, goal, options));
+  std::vector<char> stopped(starts, 0);
+  parallel_for(starts, options.threads, [&](std::size_t k) {
+    try {
+      run_start(problem, searches[k], options, options.seed + k);
+    } catch (const Interrupted&) {
+      stopped[k] = 1;
+    } catch (const Enough&) {
+      return;  // what was sought is found
+    }
+  });
+  const auto best = std::ranges::min_element(searches, {}, &Search::best_rank);
+  Optimum optimum = best->best();
+  optimum.evaluations = 0;
+  for (Search& search : searches) optimum.evaluations += search.best().evaluations;
+  optimum.stopped = std::ranges::find(stopped, 1) != stopped.end();
+  return optimum;
+}
+
+}  // namespace
+
+Optimum optimise(const DesignProblem& problem, std::size_t goal, const OptimiseOptions& options) {
+  return run_starts(problem, &goal, options);
+}
+
+Optimum least_violation(const DesignProblem& problem, const OptimiseOptions& options) {
+  return run_starts(problem, nullptr, options);
+}
+
+}  // namespace dashpot

@@ -1,0 +1,46 @@
+#pragma once
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "dashpot/design/design_model.h"
+
+namespace dashpot {
+
+/// A damper at work: what a quantity is told of.
+struct OperatedDamper {
+  const DamperDescription& description;
+  const DamperOperation& operation;
+  const DamperPhysics& physics;
+  const DesignModel& model;
+};
+
+/// Something that a design can be asked for: a figure of the physics, a field, or an estimate made of them.
+struct DesignQuantity {
+  std::string_view name, unit, meaning;
+  double DamperPhysics::* physics = nullptr;
+  double DamperDescription::* field = nullptr;
+  double (*estimate)(const OperatedDamper&) = nullptr;
+  bool of_drawing = false;  ///< the same at any current and speed
+
+  double of(const OperatedDamper& damper) const;
+};
+
+std::span<const DesignQuantity> design_quantities();
+/// By its name, or by that of physics_quantities() ("time constant"). Throws Error(where, ...).
+const DesignQuantity& find_design_quantity(std::string_view name, const std::string& where);
+
+/// A unit in which people read such figures, and what one of it is in SI: "mm", 0.001.
+struct ShownUnit {
+  std::string unit;
+  double factor = 1;
+};
+ShownUnit shown_unit(std::string_view si_unit);
+/// "12.3 mm" of a figure in SI.
+std::string shown_figure(double value, std::string_view si_unit);
+
+/// Time from a step of the coil's voltage to 90 % of the force's change, s. The flux linkage N phi(i) follows
+/// the circuit with its saturation; eddy currents and the fluid's own milliseconds are left out.
+double response_time(const OperatedDamper& damper);
+
+}  // namespace dashpot

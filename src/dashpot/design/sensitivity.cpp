@@ -1,0 +1,135 @@
+#include "dashpot/design/sensitivity.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "dashpot/base/error.h"
+#include "dashpot/base/parallel.h"
+#include "dashpot/base/random.h"
+
+namespace dashpot {
+namespace {
+
+using Rows = std::vector<std::vector<double>>;
+
+/// The figures of the damper made with these shares of the tolerances; NaN where it cannot be made.
+std::vector<double> figures_of(const DesignProblem& problem, const DamperDescription& design,
+                               const std::vector<double>& shares) {
+  const DesignRequest& request = problem.request();
+  const DamperDescription damper = problem.made(design, shares);
+  try {
+    require_possible(damper, "");
+  } catch (const Error&) {
+    return std::vector<double>(request.goals.size() + request.constraints.size(), NAN);
+  }
+  return problem.figures(damper);
+}
+
+Rows draw(std::size_t samples, std::size_t count, Random& random) {
+  Rows rows(samples, std::vector<double>(count));
+  for (auto& row : rows)
+    for (double& share : row) share = random.uniform(-1, 1);
+  return rows;
+}
+
+bool holds_all(const DesignRequest& request, const std::vector<double>& figures) {
+  for (std::size_t k = 0; k < request.constraints.size(); ++k) {
+    const DesignConstraint& own = request.constraints[k];
+    const double figure = figures[request.goals.size() + k];
+    if (!(own.at_least ? figure >= own.bound : figure <= own.bound)) return false;
+  }
+  return true;
+}
+
+/// f(A), f(B) and, for every tolerance, f(A with that column of B).
+struct Samples {
+  Rows a, b;
+  std::vector<Rows> mixed;
+};
+
+Samples sample(const DesignProblem& problem, const DamperDescription& design,
+               const SensitivityOptions& options) {
+  Random random(options.seed);
+  const std::size_t count = problem.request().tolerances.size();
+  const Rows a = draw(options.samples, count, random), b = draw(options.samples, count, random);
+  Samples samples{Rows(options.samples), Rows(options.samples),
+                  std::vector<Rows>(count, Rows(options.samples))};
+  parallel_for(options.samples, options.threads, [&](std::size_t k) {
+    samples.a[k] = figures_of(problem, design, a[k]);
+    samples.b[k] = figures_of(problem, design, b[k]);
+    for (std::size_t t = 0; t < count; ++t) {
+      std::vector<double> mixed = a[k];
+      mixed[t] = b[k][t];
+      samples.mixed[t][k] = figures_of(problem, design, mixed);
+    }
+  });
+  return samples;
+}
+
+void add_shares(const Samples& samples, std::size_t figure, Sensitivity::Figure& result) {
+  const auto count = static_cast<double>(samples.a.size());
+  double sum = 0, squares = 0;
+  for (const Rows* rows : {&samples.a, &samples.b})
+    for (const auto& row : *rows) sum += row[figure];
+  const double mean = sum / (2 * count);
+  for (const Rows* rows : {&samples.a, &samples.b})
+    for (const auto& row : *rows) squares += (row[figure] - mean) * (row[figure] - mean);
+  const double variance = squares / (2 * count);
+  for (const Rows& mixed : samples.mixed) {
+    double alone = 0, total = 0;
+    for (std::size_t k = 0; k < mixed.size(); ++k) {
+      const double a = samples.a[k][figure], step = mixed[k][figure] - a;
+      alone += (samples.b[k][figure] - mean) * step;
+      total += 0.5 * step * step;
+    }
+    const bool varies = variance > 1e-24 * mean * mean;
+    result.alone.push_back(varies ? alone / count / variance : 0);
+    result.total.push_back(varies ? total / count / variance : 0);
+  }
+}
+
+void add_range(const Samples& samples, std::size_t figure, Sensitivity::Figure& result) {
+  std::vector<double> all;
+  for (const Rows* rows : {&samples.a, &samples.b})
+    for (const auto& row : *rows) all.push_back(row[figure]);
+  std::ranges::sort(all, [](double x, double y) { return std::isnan(y) ? !std::isnan(x) : x < y; });
+  result.low = all[all.size() / 20];
+  result.high = all[all.size() - 1 - all.size() / 20];
+}
+
+/// Derivatives by central differences of 1 % of the tolerance, times the tolerance.
+void add_local(const DesignProblem& problem, const DamperDescription& design, Sensitivity& result) {
+  constexpr double kStep = 0.01;
+  const std::size_t count = problem.request().tolerances.size();
+  for (std::size_t t = 0; t < count; ++t) {
+    std::vector<double> shares(count, 0.);
+    shares[t] = kStep;
+    const std::vector<double> up = figures_of(problem, design, shares);
+    shares[t] = -kStep;
+    const std::vector<double> down = figures_of(problem, design, shares);
+    for (std::size_t k = 0; k < result.figures.size(); ++k)
+      result.figures[k].local.push_back((up[k] - down[k]) / (2 * kStep));
+  }
+}
+
+}  // namespace
+
+Sensitivity sensitivity(const DesignProblem& problem, const DamperDescription& design,
+                        const SensitivityOptions& options) {
+  Sensitivity result;
+  for (const double figure : problem.figures(design)) result.figures.push_back({.drawn = figure});
+  if (problem.request().tolerances.empty()) return result;
+  add_local(problem, design, result);
+  const Samples samples = sample(problem, design, options);
+  for (std::size_t k = 0; k < result.figures.size(); ++k) {
+    add_range(samples, k, result.figures[k]);
+    add_shares(samples, k, result.figures[k]);
+  }
+  std::size_t holding = 0;
+  for (const Rows* rows : {&samples.a, &samples.b})
+    for (const auto& row : *rows) holding += holds_all(problem.request(), row);
+  result.holding = static_cast<double>(holding) / static_cast<double>(2 * options.samples);
+  return result;
+}
+
+}  // namespace dashpot

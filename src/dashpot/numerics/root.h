@@ -1,0 +1,29 @@
+#pragma once
+#include <cmath>
+
+namespace dashpot {
+
+/// A place and the function's value there.
+struct RootEnd {
+  double x, value;
+};
+
+/// Where f is within `tolerance` of 0, between a place where it is negative and one where it is not. Regula
+/// falsi with Illinois' weights (Dowell and Jarratt 1971).
+template <class Function>
+double find_root(Function f, RootEnd low, RootEnd high, double tolerance) {
+  constexpr int kMost = 100;
+  double x = high.x;
+  for (int k = 0, side = 0; k < kMost && high.value > tolerance; ++k) {
+    x = (low.x * high.value - high.x * low.value) / (high.value - low.value);
+    const double value = f(x);
+    if (std::abs(value) <= tolerance || x == low.x || x == high.x) break;
+    const int now = value < 0 ? -1 : 1;
+    (value < 0 ? low : high) = {x, value};
+    if (side == now) (value < 0 ? high : low).value *= 0.5;  // the end that stays draws less
+    side = now;
+  }
+  return x;
+}
+
+}  // namespace dashpot

@@ -1,0 +1,83 @@
+#include "dashpot/design/design_request.h"
+
+#include "support.h"
+
+using namespace dashpot;
+
+namespace {
+
+std::string request(const std::string& vary, const std::string& rest = "goals: [{minimise: mass}]") {
+  return "damper: passenger_car\nvary:\n  " + vary + "\n" + rest + "\n";
+}
+
+std::string refusal(const std::string& text) {
+  return message_of([&] { parse_request(text, "request.yaml"); });
+}
+
+}  // namespace
+
+TEST_CASE("design request: units, steps, choices, places and bounds") {
+  const DesignRequest parsed = parse_request(R"(
+name: test
+damper: passenger_car
+at: {current: 500 mA, velocity: 20 cm/s}
+vary:
+  gap: {from: 0.5 mm, to: 2 mm}
+  turns: {from: 10, to: 20, step: 2.5}
+  wire_diameter: [0.3 mm, 0.5 mm]
+  fluid: [122EG, 140CG]
+follow: {core_length: {constant: 2 cm, pole_length: 2}}
+tolerances: {gap: 0.3 mm}
+robust: {share: 0.9, samples: 20}
+constraints: [{quantity: force, current: 1 A, min: 1 kN, max: 2 kN}]
+goals: [{maximise: dynamic_range}, {minimise: time constant}]
+)",
+                                             "request.yaml");
+  REQUIRE(parsed.variables.size() == 4);
+  CHECK(parsed.variables[0].levels() == 0);
+  CHECK_CLOSE(parsed.variables[0].to, 2e-3, 1e-15, 0);
+  CHECK(parsed.variables[1].levels() == 5);
+  CHECK(parsed.variables[2].levels() == 2);
+  CHECK(parsed.variables[3].fluids[1]->name == "140CG");
+  REQUIRE(parsed.constraints.size() == 2);
+  CHECK(parsed.constraints[0].at_least);
+  CHECK_CLOSE(parsed.constraints[1].bound, 2000, 1e-15, 0);
+  CHECK(parsed.constraints[0].at.current == 1);
+  CHECK_CLOSE(parsed.constraints[0].at.velocity, 0.2, 1e-15, 0);
+  CHECK(parsed.goals[1].quantity->name == "time_constant");
+  CHECK(describe(parsed.constraints[0]) == "force at least 1000 N at 1 A, 0.2 m/s");
+  CHECK(parsed.following[0].constant == 0.02);
+}
+
+TEST_CASE("design request: what is wrong is named") {
+  const auto says = [](const std::string& text, const std::string& part) {
+    const std::string message = refusal(text);
+    CHECK_MESSAGE(message.find(part) != std::string::npos, message);
+  };
+  says(request("gpa: {from: 1 mm, to: 2 mm}"), "did you mean 'gap'");
+  says(request("gap: {from: 2 mm, to: 1 mm}"), "the range of gap is empty: 0.002 m to 0.001 m");
+  says(request("gap: {from: 1 mm, to: 20 mm}"), "gap is 0.02 m");
+  says(request("gap: {from: 1 kg, to: 2 mm}"), "not a unit of it");
+  says(request("gap: []"), "no gap to choose from");
+  says(request("gap: {from: 1 mm, to: 2 mm, step: 0}"), "the step is 0");
+  says(request("gap: {from: 1 mm, to: 2 mm}", ""), "there is no goal");
+  says(request("gap: {from: 1 mm, to: 2 mm}", "goals: [{minimise: weight}]"), "unknown quantity 'weight'");
+  says(request("gap: {from: 1 mm, to: 2 mm}", "goals: [{minimise: mass, maximise: force}]"), "one quantity");
+  says(request("gap: {from: 1 mm, to: 2 mm}", "goals: [{minimise: mass}]\nconstraints: [{quantity: force}]"),
+       "no bound");
+  says(request("gap: {from: 1 mm, to: 2 mm}",
+               "goals: [{minimise: mass}]\nconstraints: [{quantity: force, min: 2 kN, max: 1 kN}]"),
+       "min above its max");
+  says(request("gap: {from: 1 mm, to: 2 mm}", "goals: [{minimise: mass}]\nrobust: {share: 0.9}"),
+       "robust against nothing");
+  says(request("gap: {from: 1 mm, to: 2 mm}", "goals: [{minimise: mass}]\nfollow: {gap: {pole_length: 1}}"),
+       "both varies and follows");
+  says(request("fluid: [132DH]"), "unknown fluid");
+  says("vary: {gap: [1 mm]}\ngoals: [{minimise: mass}]", "damper");
+  says("damper: car\nvary: {gap: [1 mm]}", "unknown damper 'car'");
+}
+
+TEST_CASE("design request: those that come with Dashpot are understood") {
+  CHECK(request_names() == std::vector<std::string>{"family_prototype", "passenger_car"});
+  for (const std::string& name : request_names()) CHECK(!named_request(name).variables.empty());
+}
