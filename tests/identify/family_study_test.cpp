@@ -101,7 +101,7 @@ TEST_CASE("the same bits on any number of threads and from kept trainings; it ca
         CHECK(study->outcome(e.protocol, e.rule)->by_seed[seed].absolute ==
               one.outcome(e.protocol, e.rule)->by_seed[seed].absolute);
   CHECK(one.outcome(FamilyProtocol::Fluids, quick_rule({4})) == nullptr);
-  const FamilyNetwork &made = three.networks.front(), &found = kept.networks.front();
+  const StudiedNetwork &made = three.networks.front(), &found = kept.networks.front();
   CHECK(made.history == found.history);
   std::atomic<bool> stop = true;
   options.monitor.stop = &stop;
@@ -125,7 +125,7 @@ TEST_CASE("medians over seeds, and the mean of their forces") {
 
 TEST_CASE("raw inputs stand in the authors' units: kPa and mm") {
   const FamilySamples family = family_samples(small_family());
-  const FamilyNetwork raw = untrained_network(authors_rule({3}), family.samples);
+  const StudiedNetwork raw = untrained_network(authors_rule({3}), family.samples);
   CHECK(raw.mlp.input_scale == std::vector<double>{1, 1, 1, 1, 1, 1000, 1, 0.001});
   CHECK(raw.mlp.output_scale == 1);
   CHECK(describe(authors_rule({30, 30, 30})) ==
@@ -140,7 +140,7 @@ TEST_CASE("h3x15 on the published samples: better than the paper's chart in a th
   FamilyRule rule = own_rule(chosen_architecture());
   rule.epochs /= 3;
   const FamilyDivision all = all_samples(family);
-  const FamilyNetwork network = train_family_network(rule, family.samples, 1, {});
+  const StudiedNetwork network = train_family_network(rule, family.samples, 1, {});
   const Metrics m =
       metrics(errors_at(family.samples, all.judged, forces_at(network.mlp, family.samples, all.judged)));
   CHECK(m.mae <= 0.45);  // the issue's acceptance; the paper's chart: 0.5115

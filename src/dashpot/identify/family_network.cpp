@@ -40,8 +40,8 @@ std::string describe(const FamilyRule& rule) {
                      rule.falls ? "falling" : "constant", rule.batch, rule.epochs, format_exact(rule.l2));
 }
 
-FamilyNetwork untrained_network(const FamilyRule& rule, const TrainingSamples& samples) {
-  FamilyNetwork network;
+StudiedNetwork untrained_network(const FamilyRule& rule, const TrainingSamples& samples) {
+  StudiedNetwork network;
   Mlp& mlp = network.mlp;
   mlp.layers = {kFamilyInputs.size()};
   mlp.layers.insert(mlp.layers.end(), rule.hidden.begin(), rule.hidden.end());
@@ -57,10 +57,10 @@ FamilyNetwork untrained_network(const FamilyRule& rule, const TrainingSamples& s
   return network;
 }
 
-FamilyNetwork train_family_network(const FamilyRule& rule, const TrainingSamples& samples, std::uint64_t seed,
-                                   const Monitor& monitor) {
+StudiedNetwork train_family_network(const FamilyRule& rule, const TrainingSamples& samples,
+                                    std::uint64_t seed, const Monitor& monitor) {
   const double begin = cpu_seconds();
-  FamilyNetwork network = untrained_network(rule, samples);
+  StudiedNetwork network = untrained_network(rule, samples);
   if (rule.inputs == FamilyRule::Inputs::Raw) draw_normal_weights(network.mlp, seed);
   BatchTrainOptions options;
   options.rate = rule.rate;

@@ -29,17 +29,17 @@ std::string architecture_name(const std::vector<std::size_t>& hidden);
 /// All of it, for people and as a key.
 std::string describe(const FamilyRule& rule);
 
-struct FamilyNetwork {
+struct StudiedNetwork {
   Mlp mlp;
   std::vector<double> history;  ///< N, rms error met in each epoch
   double seconds = 0;           ///< CPU time
 };
 
 /// The network before it is trained: scales of the samples, no parameters.
-FamilyNetwork untrained_network(const FamilyRule& rule, const TrainingSamples& samples);
+StudiedNetwork untrained_network(const FamilyRule& rule, const TrainingSamples& samples);
 /// The same bits for the same input. Throws Interrupted when stopped.
-FamilyNetwork train_family_network(const FamilyRule& rule, const TrainingSamples& samples, std::uint64_t seed,
-                                   const Monitor& monitor);
+StudiedNetwork train_family_network(const FamilyRule& rule, const TrainingSamples& samples,
+                                    std::uint64_t seed, const Monitor& monitor);
 
 /// The network's forces at these samples, N.
 std::vector<double> forces_at(const Mlp& mlp, const TrainingSamples& samples,

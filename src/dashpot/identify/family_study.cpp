@@ -24,7 +24,7 @@ struct Task {
   FamilyRule rule;
   const FamilyDivision* division;
   std::uint64_t seed;
-  FamilyNetwork* network;
+  StudiedNetwork* network;
 
   /// About what it costs.
   double work() const {
@@ -52,7 +52,7 @@ class StudyRun {
       options_.monitor.check();
       judge(study_.outcomes[k]);
     });
-    for (const FamilyNetwork& network : study_.networks) study_.seconds += network.seconds;
+    for (const StudiedNetwork& network : study_.networks) study_.seconds += network.seconds;
     study_.kept = kept_;
     return std::move(study_);
   }
@@ -80,7 +80,7 @@ class StudyRun {
     }
   }
 
-  const FamilyNetwork& network_of(Task task) {
+  const StudiedNetwork& network_of(Task task) {
     task.network = &study_.networks.emplace_back();
     tasks_.push_back(std::move(task));
     return *tasks_.back().network;
@@ -121,7 +121,7 @@ class StudyRun {
       std::vector<double> mean(judged.size());
       outcome.by_division.emplace_back();
       for (std::size_t seed = 0; seed < outcome.networks.size(); ++seed) {
-        const FamilyNetwork& network = *outcome.networks[seed][d];
+        const StudiedNetwork& network = *outcome.networks[seed][d];
         const std::vector<double> forces = forces_at(network.mlp, samples, judged);
         const ErrorSums sums = errors_at(samples, judged, forces);
         outcome.by_seed[seed].add(sums);

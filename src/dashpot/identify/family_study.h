@@ -48,11 +48,11 @@ std::vector<FamilyExperiment> family_experiments(std::size_t seeds);
 /// What came of an experiment.
 struct FamilyOutcome {
   FamilyExperiment experiment;
-  std::vector<std::vector<const FamilyNetwork*>> networks;  ///< by seed, by division
-  std::vector<ErrorSums> by_seed;                           ///< over the divisions
-  std::vector<std::vector<ErrorSums>> by_division;          ///< by division, by seed
-  ErrorSums together;                                       ///< of the mean of all seeds' forces
-  double seconds = 0;                                       ///< CPU time of all trainings
+  std::vector<std::vector<const StudiedNetwork*>> networks;  ///< by seed, by division
+  std::vector<ErrorSums> by_seed;                            ///< over the divisions
+  std::vector<std::vector<ErrorSums>> by_division;           ///< by division, by seed
+  ErrorSums together;                                        ///< of the mean of all seeds' forces
+  double seconds = 0;                                        ///< CPU time of all trainings
 
   std::size_t median_seed() const;  ///< by its mean absolute error; of an even number the better middle one
 };
@@ -71,7 +71,7 @@ struct FamilyStudy {
   FamilyStudy& operator=(FamilyStudy&&) = default;
 
   FamilySamples family;
-  std::deque<FamilyNetwork> networks;
+  std::deque<StudiedNetwork> networks;
   std::vector<FamilyOutcome> outcomes;
   std::size_t kept = 0;  ///< trainings found in the store
   double seconds = 0;    ///< CPU time of all trainings, those kept from before too

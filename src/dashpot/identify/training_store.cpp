@@ -20,7 +20,7 @@ std::filesystem::path TrainingStore::file_of(const std::string& key) const {
   return folder_ / (sha256(basis_ + key).substr(0, 24) + ".json");
 }
 
-bool TrainingStore::load(const std::string& key, FamilyNetwork& network) const {
+bool TrainingStore::load(const std::string& key, StudiedNetwork& network) const {
   const std::filesystem::path path = file_of(key);
   if (!std::filesystem::exists(path)) return false;
   try {
@@ -38,7 +38,7 @@ bool TrainingStore::load(const std::string& key, FamilyNetwork& network) const {
   }
 }
 
-void TrainingStore::save(const std::string& key, const FamilyNetwork& network) const {
+void TrainingStore::save(const std::string& key, const StudiedNetwork& network) const {
   write_file(file_of(key), format_json(Value::object({{"format", kFormat},
                                                       {"key", key},
                                                       {"parameters", Value::array(network.mlp.parameters)},

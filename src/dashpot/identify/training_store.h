@@ -15,9 +15,9 @@ class TrainingStore {
 
   /// Fills parameters, history and time of a network whose layers and scales stand. False when there is no
   /// such training, or when its file cannot be read as one.
-  bool load(const std::string& key, FamilyNetwork& network) const;
+  bool load(const std::string& key, StudiedNetwork& network) const;
   /// Throws Error when the folder cannot take it.
-  void save(const std::string& key, const FamilyNetwork& network) const;
+  void save(const std::string& key, const StudiedNetwork& network) const;
 
  private:
   std::filesystem::path file_of(const std::string& key) const;

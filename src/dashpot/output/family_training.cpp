@@ -79,7 +79,7 @@ std::string best_of(const std::vector<const FamilyOutcome*>& outcomes) {
 double rms_weight(const FamilyOutcome& outcome) {
   double squares = 0, count = 0;
   for (const auto& networks : outcome.networks)
-    for (const FamilyNetwork* network : networks)
+    for (const StudiedNetwork* network : networks)
       for (const double parameter : network->mlp.parameters) squares += parameter * parameter, ++count;
   return std::sqrt(squares / count);
 }
