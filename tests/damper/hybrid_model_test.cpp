@@ -90,7 +90,7 @@ TEST_CASE("a hybrid that does not fit together is refused") {
   CHECK(mentions(message("{\"mean\":0,\"scale\":1,\"low\":0,\"high\":3}",
                          "{\"mean\":0,\"scale\":1,\"low\":4,\"high\":3}"),
                  "the range of a signal does not go upwards"));
-  CHECK(mentions(message("\"gates\":[0", "\"gates\":[0,0"), "has 10 weights of gates; its terms need 9"));
+  CHECK(mentions(message("\"gates\":[0", "\"gates\":[0,0"), "has 10 weights of gates; its states need 9"));
   CHECK(mentions(message("\"law\":\"bingham\"", "\"law\":\"bingam\""), "did you mean 'bingham'"));
   CHECK(mentions(message("\"path_rates\":[]", "\"path_rates\":[0]"), "a rate is not a positive number"));
   CHECK(mentions(message("\"current_rates\":[]", "\"current_rates\":[1,2,3,4]"), "more states in its bank"));
