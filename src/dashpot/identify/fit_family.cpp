@@ -124,9 +124,9 @@ LearnedForce fit_networks(const FamilyPreset& preset, const FamilyBaseline& base
                                 .epochs = static_cast<int>(design.epochs.value_or(kEpochs)),
                                 .l2 = design.l2.value_or(0),
                                 .on_epoch = [&](int, double) { options.monitor.check(); }};
-  std::vector<TrainedMlp> trained =
-      train_from_starts(standardised(preset, design, samples), design.members.value_or(1), options.seed,
-                        options.threads, [&](Mlp& mlp, std::size_t) { return train_batches(mlp, samples, train); });
+  std::vector<TrainedMlp> trained = train_from_starts(
+      standardised(preset, design, samples), design.members.value_or(1), options.seed, options.threads,
+      [&](Mlp& mlp, std::size_t) { return train_batches(mlp, samples, train); });
   LearnedForce learned;
   std::vector<Mlp> members;
   for (TrainedMlp& member : trained) {
