@@ -274,7 +274,7 @@ class NarxFit {
     constexpr std::size_t kWashout = 20;
     NarxTrainOptions how{.max_iterations = effort_.iterations, .weight_decay = effort_.decay};
     how.most_residuals = effort_.residuals;
-    how.washout = kWashout;
+    how.washout = plan_.feedback > 0 ? kWashout : 0;
     how.on_iteration = [this] { options_.monitor.check(); };
     return how;
   }

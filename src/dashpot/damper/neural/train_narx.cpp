@@ -35,12 +35,15 @@ class FreeRunCost {
     const std::size_t groups = samples.rows.group.empty() ? 0 : samples.rows.groups;
     group_sizes_.assign(groups, 0);
     scored_.assign(residuals(), false);
-    for (const Window& window : windows_)
-      for (std::size_t row = window.first + options.washout; row < window.last; ++row) {
+    for (const Window& window : windows_) {
+      // Short stretches keep half their rows.
+      const std::size_t unscored = std::min(options.washout, (window.last - window.first) / 2);
+      for (std::size_t row = window.first + unscored; row < window.last; ++row) {
         if (row % stride_ != 0) continue;
         scored_[row / stride_] = true;
         if (groups > 0) ++group_sizes_[samples.rows.group[row]];
       }
+    }
   }
 
   /// Rows at which there is a residual, 0 where it is not scored.
