@@ -152,7 +152,7 @@ std::vector<Option> options_of(Settings& settings) {
                    "Dashpot: " +
                    join(request_names(), ", "),
            .takes = Takes::File},
-          {.names = "--output",
+          {.names = "-o,--output",
            .target = &settings.folder,
            .help = "folder of the results",
            .value = "DIR",

@@ -93,7 +93,7 @@ class BankFit {
  private:
   /// The price of weights with which trials foretell best what was held back from them.
   double best_decay(const Trials& trials) const {
-    return trials.best_price(kDecays, options_.threads, [this](const Trial& trial, double decay) {
+    return trials.best_price(kDecays, options_.threads, [this](const BankTrial& trial, double decay) {
       const Effort effort{decay, std::min(kTrialIterations, iterations_)};
       const BankNetwork found = fit(trial.training, kTrialSamples, effort).network;
       double squares = 0;

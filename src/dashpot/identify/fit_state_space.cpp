@@ -122,7 +122,7 @@ class StateSpaceFit {
 
   double best_decay(const Trials& trials) const {
     const bool lone = trials.all().size() == 1;
-    return trials.best_price(kDecays, options_.threads, [this, lone](const Trial& trial, double decay) {
+    return trials.best_price(kDecays, options_.threads, [this, lone](const BankTrial& trial, double decay) {
       StateSpaceNetwork found =
           from_windows(trial.training, lone ? Effort{decay, kWindowIterations, kWindowSteps}
                                             : Effort{decay, kTrialIterations, kTrialSteps});

@@ -10,7 +10,7 @@ namespace dashpot {
 
 Trials::Trials(const std::vector<Record>& training, const std::string& drive_unit) {
   for (const Fold& fold : trial_folds(training)) {
-    Trial trial;
+    BankTrial trial;
     trial.training = keep(bank_records(fold.training, drive_unit));
     trial.held_back = keep(bank_records(fold.left_out, drive_unit));
     trials_.push_back(std::move(trial));
@@ -24,7 +24,7 @@ std::vector<const BankRecord*> Trials::keep(std::vector<BankRecord> records) {
 }
 
 double Trials::best_price(std::span<const double> prices, int threads,
-                          const std::function<double(const Trial&, double)>& squares_left) const {
+                          const std::function<double(const BankTrial&, double)>& squares_left) const {
   std::vector<double> squares(prices.size() * trials_.size());
   parallel_for(squares.size(), threads, [&](std::size_t k) {
     squares[k] = squares_left(trials_[k / prices.size()], prices[k % prices.size()]);

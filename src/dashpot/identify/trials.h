@@ -11,7 +11,7 @@
 namespace dashpot {
 
 /// A part of the training records that a trial does without and is judged on.
-struct Trial {
+struct BankTrial {
   std::vector<const BankRecord*> training, held_back;
 };
 
@@ -22,18 +22,18 @@ class Trials {
   Trials(const Trials&) = delete;
   Trials& operator=(const Trials&) = delete;
 
-  const std::vector<Trial>& all() const { return trials_; }
+  const std::vector<BankTrial>& all() const { return trials_; }
 
   /// The price with which trials foretell best what was held back: the least sum of
   /// squares_left(trial, price).
   double best_price(std::span<const double> prices, int threads,
-                    const std::function<double(const Trial&, double price)>& squares_left) const;
+                    const std::function<double(const BankTrial&, double price)>& squares_left) const;
 
  private:
   std::vector<const BankRecord*> keep(std::vector<BankRecord> records);
 
   std::list<std::vector<BankRecord>> kept_;  ///< what the trials point into
-  std::vector<Trial> trials_;
+  std::vector<BankTrial> trials_;
 };
 
 }  // namespace dashpot
