@@ -4,6 +4,23 @@
 
 namespace dashpot::cli {
 
+Option seed_option(std::uint64_t& seed) {
+  return {.names = "--seed",
+          .target = &seed,
+          .help = "seed of all random numbers: the same seed gives the same result",
+          .value = "N",
+          .minimum = 0};
+}
+
+Option threads_option(int& threads) {
+  return {.names = "--threads",
+          .target = &threads,
+          .help = "threads to use; the result does not depend on it",
+          .value = "N",
+          .minimum = 0,
+          .default_text = "all cores"};
+}
+
 std::string Option::long_name() const { return names.substr(names.find(',') + 1); }
 
 void append(std::vector<Option>& options, const std::vector<Option>& more) {

@@ -51,6 +51,10 @@ struct Option {
 /// Whether a word that may name a choice or a file names a file: names have neither dot nor slash.
 inline bool is_path(const std::string& word) { return word.find_first_of("./") != std::string::npos; }
 
+/// Rows that several commands have.
+Option seed_option(std::uint64_t& seed);
+Option threads_option(int& threads);
+
 void append(std::vector<Option>& options, const std::vector<Option>& more);
 
 /// One thing that the program does, or a group of such things.

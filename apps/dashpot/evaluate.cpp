@@ -187,12 +187,7 @@ Command evaluate_command() {
            .help = "also write a report page",
            .value = "FILE",
            .takes = Takes::File},
-          {.names = "--threads",
-           .target = &settings->threads,
-           .help = "threads to use; the result does not depend on it",
-           .value = "N",
-           .minimum = 0,
-           .default_text = "all cores"}});
+          threads_option(settings->threads)});
   return command;
 }
 

@@ -135,17 +135,8 @@ std::vector<Option> fit_options(FitSettings& settings) {
        .help = "evaluations of a global search on a part of the data before the local fit; 0: none",
        .value = "N",
        .minimum = 0},
-      {.names = "--seed",
-       .target = &settings.options.seed,
-       .help = "seed of all random numbers: the same seed gives the same result",
-       .value = "N",
-       .minimum = 0},
-      {.names = "--threads",
-       .target = &settings.options.threads,
-       .help = "threads to use; the result does not depend on it",
-       .value = "N",
-       .minimum = 0,
-       .default_text = "all cores"}};
+      seed_option(settings.options.seed),
+      threads_option(settings.options.threads)};
 }
 
 std::vector<std::string> chosen_models(const FitSettings& settings, const Dataset& dataset,

@@ -252,13 +252,8 @@ std::vector<Option> network_options(Settings& s) {
            .value = "HZ",
            .minimum = 0,
            .default_text = "so that its speed is that of the model's data, else 3"},
-          {.names = "--seed", .target = &s.seed, .help = "of all that is random", .value = "N", .minimum = 0},
-          {.names = "--threads",
-           .target = &s.threads,
-           .help = "threads to use; the result does not depend on it",
-           .value = "N",
-           .minimum = 0,
-           .default_text = "all cores"}};
+          seed_option(s.seed),
+          threads_option(s.threads)};
 }
 
 }  // namespace

@@ -4,14 +4,12 @@
 #include <fmt/core.h>
 
 #include "console.h"
-#include "dashpot/base/file.h"
 #include "dashpot/identify/fit_store.h"
 #include "dashpot/output/one_sensor_document.h"
-#include "dashpot/output/safe_text.h"
 #include "dashpot/output/words.h"
-#include "document_text.h"
 #include "ranking_run.h"
 #include "studies.h"
+#include "study_results.h"
 
 namespace dashpot::cli {
 namespace {
@@ -21,11 +19,9 @@ namespace fs = std::filesystem;
 struct Settings {
   DataSettings data;
   std::string leave_out;
-  std::string folder = "dashpot-one-sensor";
+  StudyResults results = {.folder = "dashpot-one-sensor"};
   OneSensorOptions options;
   int most_neurons = 20;
-  bool figures = false;
-  bool fresh = false;
 };
 
 constexpr std::string_view kExample =
@@ -50,35 +46,16 @@ std::vector<std::string> row_names() {
   return names;
 }
 
-void write_study(const Document& document, const Settings& settings, Console& console) {
-  const fs::path folder = settings.folder;
-  write_file(folder / "report.html", html_document(document));
-  if (settings.figures) write_document_figures(document, folder / "figures");
-  write_file(folder / "report.md", markdown_document(document, settings.figures ? "figures" : ""));
-  std::string where = "\nReport   " + (folder / "report.html").string() + " (also .json, .md)\n";
-  if (settings.figures) where += "Figures  " + (folder / "figures").string() + "/\n";
-  console.print(where);
-}
-
 int run(const Settings& settings, Console& console) {
-  if (settings.folder.empty()) throw UsageError("--output", "the name of the folder is empty");
-  make_folder(settings.folder);
+  prepare_study(settings.results);
   OneSensorOptions options = settings.options;
   options.most_neurons = static_cast<std::size_t>(settings.most_neurons);
   options.monitor = console.monitor();
-  const FitStore store(fs::path(settings.folder) / "fits", program_id());
-  if (!settings.fresh) options.store = &store;
+  const FitStore store(fs::path(settings.results.folder) / "fits", program_id());
+  if (!settings.results.fresh) options.store = &store;
   const OneSensorStudy study = study_one_sensor(studied_dampers(settings, console), options);
-  Document document = one_sensor_document(study);
-  document.command = console.command_line();
-  document.version = DASHPOT_VERSION;
-  document.date = date_now();
-  print_document(document, console);
-  const Value data = presentable(one_sensor_json(study));
-  write_file(fs::path(settings.folder) / "report.json", format_json(data));
-  write_study(document, settings, console);
+  write_study(one_sensor_document(study), one_sensor_json(study), settings.results, console);
   if (study.kept_fits > 0) console.note(counted(study.kept_fits, "fit") + " kept from before");
-  if (console.json) console.print_json(data);
   return kDone;
 }
 
@@ -104,40 +81,22 @@ Command one_sensor_study() {
       .run = [settings](Console& console) { return run(*settings, console); }};
   command.options.front().required = false;
   command.options.front().default_text = "two virtual dampers";
-  append(command.options,
-         {leave_out_option(settings->leave_out),
-          {.names = "-o,--output",
-           .target = &settings->folder,
-           .help = "folder for the page and the fits",
-           .value = "DIR",
-           .takes = Takes::Folder},
-          {.names = "--figures",
-           .target = &settings->figures,
-           .help = "also draw the figures as SVG and PDF (needs gnuplot)"},
-          {.names = "--models",
-           .target = &settings->options.keys,
-           .help = "rows to fit, separated by commas",
-           .value = "LIST",
-           .choices = row_names(),
-           .noun = "row",
-           .default_text = "all"},
-          {.names = "--neurons",
-           .target = &settings->most_neurons,
-           .help = "the largest network of the size choice",
-           .value = "N",
-           .minimum = 1},
-          {.names = "--fresh", .target = &settings->fresh, .help = "neither use nor keep finished fits"},
-          {.names = "--seed",
-           .target = &settings->options.seed,
-           .help = "seed of all random numbers: the same seed gives the same result",
-           .value = "N",
-           .minimum = 0},
-          {.names = "--threads",
-           .target = &settings->options.threads,
-           .help = "threads to use; the result does not depend on it",
-           .value = "N",
-           .minimum = 0,
-           .default_text = "all cores"}});
+  append(command.options, study_result_options(settings->results, "fits"));
+  append(command.options, {leave_out_option(settings->leave_out),
+                           {.names = "--models",
+                            .target = &settings->options.keys,
+                            .help = "rows to fit, separated by commas",
+                            .value = "LIST",
+                            .choices = row_names(),
+                            .noun = "row",
+                            .default_text = "all"},
+                           {.names = "--neurons",
+                            .target = &settings->most_neurons,
+                            .help = "the largest network of the size choice",
+                            .value = "N",
+                            .minimum = 1},
+                           seed_option(settings->options.seed),
+                           threads_option(settings->options.threads)});
   return command;
 }
 

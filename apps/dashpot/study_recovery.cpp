@@ -144,17 +144,8 @@ Command recovery_study() {
                    .target = &options.noisy_motion,
                    .help = "derive the velocity from a noisy displacement, as on a real bench: the "
                            "intervals know of noise in the force alone"},
-                  {.names = "--seed",
-                   .target = &options.seed,
-                   .help = "seed of all random numbers: the same seed gives the same result",
-                   .value = "N",
-                   .minimum = 0},
-                  {.names = "--threads",
-                   .target = &options.threads,
-                   .help = "threads to use; the result does not depend on it",
-                   .value = "N",
-                   .minimum = 0,
-                   .default_text = "all cores"}},
+                  seed_option(options.seed),
+                  threads_option(options.threads)},
       .example = std::string(kExample),
       .run = [settings](Console& console) { return run(*settings, console); }};
 }

@@ -221,21 +221,21 @@ std::string_view name_of(Trainer trainer) {
   return std::ranges::find(kTrainers, trainer, &Word<Trainer>::choice)->name;
 }
 
+bool has_use(Trainer trainer, std::string_view setting) {
+  for (const std::string_view of_batches : {"rate", "schedule", "batch", "l1"})
+    if (setting == of_batches) return trains_on_batches(trainer);
+  return setting != "l2" || trainer != Trainer::Bayesian;  // which finds it by itself
+}
+
 void require_trainer(const NetworkDesign& design) {
   const Trainer trainer = design.trainer.value_or(Trainer::LevenbergMarquardt);
-  const std::string name(name_of(trainer));
-  const std::string which = "trainer=" + name + (design.trainer ? "" : ", the usual one,");
-  const auto refuse = [&](std::string_view setting, bool set, const std::string& right) {
-    if (set) throw Error("--network " + std::string(setting), which + " has none", right);
-  };
-  if (!trains_on_batches(trainer)) {
-    const std::string right = "choose a batch trainer, as trainer=adam";
-    refuse("rate", design.rate.has_value(), right);
-    refuse("schedule", design.schedule.has_value(), right);
-    refuse("batch", design.batch.has_value(), right);
-    refuse("l1", design.l1.has_value(), right);
-  }
-  refuse("l2", design.l2 && trainer == Trainer::Bayesian, "it finds the price by itself; trainer=lm has l2");
+  const std::string which =
+      "trainer=" + std::string(name_of(trainer)) + (design.trainer ? "" : ", the usual one,");
+  for (const NetworkSetting& setting : kSettings)
+    if (!setting.format(design).empty() && !has_use(trainer, setting.name))
+      throw Error("--network " + std::string(setting.name), which + " has none",
+                  setting.name == "l2" ? "it finds the price by itself; trainer=lm has l2"
+                                       : "choose a batch trainer, as trainer=adam");
 }
 
 void require_design(const NetworkDesign& design, const std::vector<std::string>& models) {

@@ -63,6 +63,8 @@ std::string format_design(const NetworkDesign& design);
 
 /// Whether a trainer descends on mini-batches.
 bool trains_on_batches(Trainer trainer);
+/// Whether a setting makes a difference to training by `trainer`.
+bool has_use(Trainer trainer, std::string_view setting);
 /// The word for it: "lm", "adam".
 std::string_view name_of(Trainer trainer);
 

@@ -73,14 +73,6 @@ Statement parse_statement(std::string_view text, const std::string& option, cons
   return {named(text.substr(0, equals), option, models), trim(text.substr(equals + 1))};
 }
 
-/// The number at the front of "5N/cm" and what stands behind it.
-std::pair<std::optional<double>, std::string_view> leading_number(std::string_view text) {
-  for (std::size_t length = text.size(); length > 0; --length)
-    if (const auto number = parse_number(trim(text.substr(0, length))); number && std::isfinite(*number))
-      return {number, trim(text.substr(length))};
-  return {std::nullopt, text};
-}
-
 /// The unit of the parameter in SI, where all laws meant agree on it.
 std::string_view unit_of(const ParameterChoice& choice, const ModelNames& models) {
   const auto rows = rows_named(choice, models);
@@ -89,20 +81,14 @@ std::string_view unit_of(const ParameterChoice& choice, const ModelNames& models
   return agree ? rows.front()->unit : kUnknownUnit;
 }
 
-double parse_quantity(std::string_view text, const ParameterChoice& choice, const std::string& option,
-                      const ModelNames& models) {
-  const auto [number, suffix] = leading_number(text);
+double chosen_quantity(std::string_view text, const ParameterChoice& choice, const std::string& option,
+                       const ModelNames& models) {
   const std::string where = option + ", " + choice.parameter;
-  if (!number) throw Error(where, quoted(text) + " is not a number", "write 500, or 5N/cm with its unit");
-  if (suffix.empty()) return *number;
   const std::string_view own = unit_of(choice, models);
-  if (own == kUnknownUnit)
-    throw Error(where, "the laws that have it count it in different units",
-                "name one: law." + choice.parameter);
-  const Unit unit = require_unit(suffix, where);
-  if (unit.dimension != require_unit(own, where).dimension)
-    throw Error(where, quoted(suffix) + " is not a unit of it", "it is counted in " + std::string(own));
-  return unit.factor * *number + unit.offset;
+  if (own != kUnknownUnit) return parse_quantity(text, own, where);
+  if (const auto plain = parse_number(text); plain && std::isfinite(*plain)) return *plain;
+  throw Error(where, "the laws that have it count it in different units",
+              "name one: law." + choice.parameter);
 }
 
 std::string range_text(const ParameterBounds& bounds, std::string_view unit) {
@@ -160,7 +146,7 @@ ParameterChoice parse_form_choice(std::string_view text, const std::string& opti
 ParameterChoice parse_fixed_choice(std::string_view text, const std::string& option,
                                    const ModelNames& models) {
   auto [choice, value] = parse_statement(text, option, models, "write n=2");
-  choice.fixed = parse_quantity(value, choice, option, models);
+  choice.fixed = chosen_quantity(value, choice, option, models);
   return choice;
 }
 
@@ -177,8 +163,8 @@ ParameterChoice parse_bounds_choice(std::string_view text, const std::string& op
   const std::size_t colon = value.find(':');
   if (colon == std::string_view::npos)
     throw Error(option, quoted(text) + " has one bound", "write lower:upper, as c0=0:5000");
-  choice.bounds = {parse_quantity(trim(value.substr(0, colon)), choice, option, models),
-                   parse_quantity(trim(value.substr(colon + 1)), choice, option, models)};
+  choice.bounds = {chosen_quantity(trim(value.substr(0, colon)), choice, option, models),
+                   chosen_quantity(trim(value.substr(colon + 1)), choice, option, models)};
   return choice;
 }
 
@@ -189,8 +175,8 @@ ParameterChoice parse_prior_choice(std::string_view text, const std::string& opt
   const std::size_t sign = value.find(kSign);
   if (sign == std::string_view::npos)
     throw Error(option, quoted(text) + " has no standard deviation", "write k1=500+-100");
-  choice.prior = {parse_quantity(trim(value.substr(0, sign)), choice, option, models),
-                  parse_quantity(trim(value.substr(sign + kSign.size())), choice, option, models)};
+  choice.prior = {chosen_quantity(trim(value.substr(0, sign)), choice, option, models),
+                  chosen_quantity(trim(value.substr(sign + kSign.size())), choice, option, models)};
   if (!(choice.prior->deviation > 0))
     throw Error(option, "the standard deviation of " + choice.parameter + " is not above 0",
                 "--fix fixes a parameter");

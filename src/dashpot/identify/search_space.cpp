@@ -19,16 +19,6 @@ constexpr int kDigits = 3;  // of what is drawn: more would only make tables wid
 /// A setting's name and its text.
 using Setting = std::pair<std::string, std::string>;
 
-bool descends_on_batches(Trainer trainer) {
-  return trainer != Trainer::LevenbergMarquardt && trainer != Trainer::Bayesian && trainer != Trainer::Lbfgs;
-}
-
-bool has_use(std::string_view setting, Trainer trainer) {
-  for (const std::string_view of_batches : {"rate", "schedule", "batch", "l1"})
-    if (setting == of_batches) return descends_on_batches(trainer);
-  return setting != "l2" || trainer != Trainer::Bayesian;  // which finds it by itself
-}
-
 /// The design with what is fixed and what is given. What its trainer has no use for is left out: it would
 /// only make several trials of one.
 NetworkDesign compose(const NetworkDesign& fixed, std::vector<Setting> given) {
@@ -39,7 +29,7 @@ NetworkDesign compose(const NetworkDesign& fixed, std::vector<Setting> given) {
   for (const auto& [name, value] : given) find_network_setting(name, name).parse(value, name, all);
   const Trainer trainer = all.trainer.value_or(Trainer::LevenbergMarquardt);
   for (const auto& [name, value] : given)
-    if (has_use(name, trainer)) find_network_setting(name, name).parse(value, name, used);
+    if (has_use(trainer, name)) find_network_setting(name, name).parse(value, name, used);
   return used;
 }
 
@@ -161,7 +151,7 @@ void require_space(const SearchSpace& space, const std::string& model) {
   const auto require = [&](const std::string& setting, const std::string& option) {
     if (std::ranges::count(known, setting) == 0)
       throw Error(option, model + " does not follow '" + setting + "'", "it follows " + join(known, ", "));
-    if (std::ranges::none_of(trainers_of(space), [&](Trainer t) { return has_use(setting, t); }))
+    if (std::ranges::none_of(trainers_of(space), [&](Trainer t) { return has_use(t, setting); }))
       throw Error(option, "no trainer of this search has a use for '" + setting + "'",
                   "search or fix another trainer too, as trainer=adam");
   };

@@ -39,16 +39,10 @@ PlantForces::PlantForces(const Plant& plant, const GroundMotion& ground)
   }
 }
 
-double PlantForces::height(const std::vector<double>& row, const double* q) const noexcept {
-  double sum = 0;
-  for (std::size_t k = 0; k < row.size(); ++k) sum += row[k] * q[k];
-  return sum;
-}
-
 DamperInput PlantForces::strut_motion(std::size_t strut, double t, std::span<const double> x,
                                       double current) const noexcept {
   const Strut& s = plant_.struts[strut];
-  DamperInput motion{height(s.row, x.data()), height(s.row, x.data() + plant_.size()), current};
+  DamperInput motion{along(s.row, x.data()), along(s.row, x.data() + plant_.size()), current};
   if (s.track) {
     const FootMotion ground = ground_.foot(t, *s.track, 0);
     motion.displacement -= ground.height;
@@ -74,8 +68,8 @@ FootMotion PlantForces::foot(std::size_t tyre, double t) const noexcept {
 double PlantForces::tyre_load(std::size_t tyre, double t, std::span<const double> x) const noexcept {
   const Tyre& w = plant_.tyres[tyre];
   const FootMotion ground = foot(tyre, t);
-  const double load = w.static_load + w.stiffness * (ground.height - height(w.row, x.data())) +
-                      w.damping * (ground.velocity - height(w.row, x.data() + plant_.size()));
+  const double load = w.static_load + w.stiffness * (ground.height - along(w.row, x.data())) +
+                      w.damping * (ground.velocity - along(w.row, x.data() + plant_.size()));
   return plant_.tyres_may_lift ? std::fmax(load, 0) : load;
 }
 
@@ -89,8 +83,8 @@ void PlantForces::add_up(double t, std::span<const double> x, std::span<const do
     const FootMotion ground = foot(w, t);
     double push = tyre.stiffness * ground.height + tyre.damping * ground.velocity;
     if (plant_.tyres_may_lift) {
-      const double load = tyre.static_load + push - tyre.stiffness * height(tyre.row, x.data()) -
-                          tyre.damping * height(tyre.row, x.data() + g.size());
+      const double load = tyre.static_load + push - tyre.stiffness * along(tyre.row, x.data()) -
+                          tyre.damping * along(tyre.row, x.data() + g.size());
       push -= std::fmin(load, 0);
     }
     for (std::size_t k = 0; k < g.size(); ++k) g[k] += tyre.row[k] * push;

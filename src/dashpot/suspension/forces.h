@@ -34,8 +34,6 @@ class PlantForces {
   const LinearPlant& linear() const { return linear_; }
 
  private:
-  double height(const std::vector<double>& row, const double* q) const noexcept;
-
   const Plant& plant_;
   const GroundMotion& ground_;
   LinearPlant linear_;

@@ -17,6 +17,13 @@ struct Coordinate {
   std::string name, unit;  ///< "body", "m"; "pitch", "rad"
 };
 
+/// row . q of a row with one value per coordinate.
+inline double along(const std::vector<double>& row, const double* q) noexcept {
+  double sum = 0;
+  for (std::size_t k = 0; k < row.size(); ++k) sum += row[k] * q[k];
+  return sum;
+}
+
 /// A height on the plant, row . q: where a rider sits, a floor moves.
 struct PlantPoint {
   std::string name;

@@ -138,11 +138,6 @@ class Simulation {
   StrutSignals signals_of(std::size_t s) const {
     const Strut& strut = setting_.plant.struts[s];
     const std::size_t n = setting_.plant.size();
-    const auto along = [](const std::vector<double>& row, const double* values) {
-      double sum = 0;
-      for (std::size_t k = 0; k < row.size(); ++k) sum += row[k] * values[k];
-      return sum;
-    };
     const double current = state_.dampers[s].current();
     const DamperInput motion = forces_.strut_motion(s, state_.time, state_.x, current);
     return {.body_velocity = along(strut.body_row, state_.x.data() + n),

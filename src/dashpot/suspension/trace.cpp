@@ -3,12 +3,6 @@
 namespace dashpot {
 namespace {
 
-double along(const std::vector<double>& row, const double* q) {
-  double sum = 0;
-  for (std::size_t k = 0; k < row.size(); ++k) sum += row[k] * q[k];
-  return sum;
-}
-
 std::string per_time(const std::string& unit, const char* time) { return unit + "/" + time; }
 
 }  // namespace

@@ -3,16 +3,9 @@
 namespace dashpot {
 namespace {
 
-struct None {
-  double unused;
-};
-DamperDemand acceleration_driven(const None&, const ControlLimits& limits, const StrutSignals& s) {
+DamperDemand acceleration_driven(const NoParameters&, const ControlLimits& limits, const StrutSignals& s) {
   return hard_when(s.body_acceleration * s.deflection_velocity >= 0, limits);
 }
-ControllerPointer make_add(std::span<const double>, const ControlContext& context) {
-  return std::make_unique<StrutLaw<None, acceleration_driven>>(None{}, context.limits);
-}
-
 struct PowerDriven {
   double stiffness;
 };
@@ -71,7 +64,7 @@ const ControlLaw kAdd{
         "Where -c_max d^2 < k x d < -c_min d^2 neither side holds: it flips at every sample, and "
         "rides as the sampling has it. pdd is what it would settle at.",
     .parameters = {},
-    .make = make_add};
+    .make = make_plain<acceleration_driven>};
 const ControlLaw kPdd{
     .name = "pdd",
     .title = "Power-driven damper",

@@ -28,6 +28,13 @@ ControllerPointer make_strut_law(std::span<const double> values, const ControlCo
   return std::make_unique<StrutLaw<Parameters, Law>>(values_as<Parameters>(values), context.limits);
 }
 
+/// The same for laws that cannot be told anything.
+struct NoParameters {};
+template <DamperDemand (*Law)(const NoParameters&, const ControlLimits&, const StrutSignals&)>
+ControllerPointer make_plain(std::span<const double>, const ControlContext& context) {
+  return std::make_unique<StrutLaw<NoParameters, Law>>(NoParameters{}, context.limits);
+}
+
 inline DamperDemand damping(double value) noexcept { return {DamperDemand::Kind::Damping, value}; }
 inline DamperDemand hard_when(bool hard, const ControlLimits& limits) noexcept {
   return damping(hard ? limits.damping_max : limits.damping_min);

@@ -8,11 +8,7 @@ constexpr std::string_view kBook =
     "Semi-Active "
     "Suspension Control Design for Vehicles, 2010, recalled";
 
-struct None {
-  double unused;
-};
-
-DamperDemand skyhook(const None&, const ControlLimits& limits, const StrutSignals& s) {
+DamperDemand skyhook(const NoParameters&, const ControlLimits& limits, const StrutSignals& s) {
   return hard_when(s.body_velocity * s.deflection_velocity >= 0, limits);
 }
 
@@ -34,7 +30,7 @@ DamperDemand skyhook_modified(const Modified& p, const ControlLimits& limits, co
   return dissipating_force(wanted, s.deflection_velocity, limits);
 }
 
-DamperDemand groundhook(const None&, const ControlLimits& limits, const StrutSignals& s) {
+DamperDemand groundhook(const NoParameters&, const ControlLimits& limits, const StrutSignals& s) {
   return hard_when(-s.wheel_velocity * s.deflection_velocity >= 0, limits);
 }
 
@@ -46,11 +42,6 @@ DamperDemand hybrid(const Hybrid& p, const ControlLimits& limits, const StrutSig
   const double sky = s.body_velocity * d > 0 ? s.body_velocity : 0;
   const double ground = -s.wheel_velocity * d > 0 ? -s.wheel_velocity : 0;
   return dissipating_force(p.gain * (p.share * sky + (1 - p.share) * ground), d, limits);
-}
-
-template <DamperDemand (*Law)(const None&, const ControlLimits&, const StrutSignals&)>
-ControllerPointer make_plain(std::span<const double>, const ControlContext& context) {
-  return std::make_unique<StrutLaw<None, Law>>(None{}, context.limits);
 }
 
 }  // namespace
