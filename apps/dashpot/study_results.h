@@ -1,0 +1,26 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "command.h"
+#include "dashpot/output/document.h"
+
+namespace dashpot::cli {
+
+/// Where a study that makes a page leaves it, with what it keeps to go on from.
+struct StudyResults {
+  std::string folder;
+  bool figures = false;
+  bool fresh = false;  ///< neither use nor keep what was finished
+};
+
+/// kept: what the folder keeps, "fits".
+std::vector<Option> study_result_options(StudyResults& results, const std::string& kept);
+
+/// Throws UsageError or Error where the folder cannot be made.
+void prepare_study(const StudyResults& results);
+
+/// Prints the document and writes it as a page, Markdown and, with `data`, JSON.
+void write_study(Document document, const Value& data, const StudyResults& results, Console& console);
+
+}  // namespace dashpot::cli
