@@ -1,0 +1,47 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "dashpot/damper/model_file.h"
+#include "dashpot/suspension/plant_set.h"
+#include "dashpot/suspension/simulate.h"
+
+namespace dashpot {
+
+/// A plant with its dampers and what drives them, in the words of the command line and of a sweep's file.
+struct VehicleWords {
+  std::string plant = "savaresi_spelta";  ///< a set, a kind of plant, or a file of data/plants' form
+  std::vector<std::string> values;        ///< in place of the plant's: "sprung_mass=350 kg"
+  /// One per strut, or one for all: a model file; a parameter set's name; "viscous,damping=1500" (passive);
+  /// "ideal,damping_min=300,damping_max=3900" (any damping in between); a passive curve by name or CSV file.
+  /// Empty: the plant's own range as an ideal damper.
+  std::vector<std::string> dampers;
+  std::string controller;     ///< "mix1,crossover=1.9Hz"; empty: every damper keeps `current`
+  std::string inverse;        ///< scheme or file, from a wanted force to a current; empty: damping is mapped
+  double current = 0;         ///< A (or V), where there is no controller
+  double current_max = 0;     ///< A (or V); 0: that of the damper's data
+  double lag_rate = -1;       ///< 1/s, of the coil; below 0: the damper's own
+  double sample_time = 1e-3;  ///< s, of the controller
+  SensorOptions sensors;
+  std::string where = "vehicle";  ///< stands in messages
+};
+
+/// The same as things: owns all that simulate() refers to.
+struct Vehicle {
+  PlantSet set;
+  std::vector<MountedDamper> dampers;          ///< one per strut
+  std::vector<std::string> damper_names;       ///< one per strut
+  std::vector<std::optional<Domain>> domains;  ///< where each damper's data were
+  ControllerPointer controller;                ///< null: none
+  ControlLimits limits;
+  std::vector<std::string> notes;  ///< "these parameters are an example: ..."
+
+  Setting on(const GroundMotion& ground) const { return {set.plant, dampers, ground, controller.get()}; }
+};
+
+/// Throws Error(where, ...) at a word that nothing is known by, at a value outside its bounds, at parts that
+/// do not fit together.
+Vehicle make_vehicle(const VehicleWords& words);
+
+}  // namespace dashpot
