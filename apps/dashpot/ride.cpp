@@ -18,7 +18,8 @@ struct Settings {
   StudyResults results = {.folder = "dashpot-ride"};
   std::string controllers = "skyhook;skyhook_linear;groundhook;add;pdd;sh_add;mix1", against, list;
   std::vector<std::string> frequencies;
-  double amplitude = 5, step = 30, allowed_outside = 5;  // mm, mm, %
+  double amplitude = 5, step = 30, allowed_outside = 5;                   // mm, mm, %
+  double settling = GainOptions{}.settling, chirp = GainOptions{}.chirp;  // s
   int held = 12, threads = 0;
 };
 
@@ -45,7 +46,9 @@ RideStudyOptions options_of(const Settings& settings, Console& console) {
                            .controllers = {},
                            .against = settings.against,
                            .frequencies = frequencies_of(settings),
-                           .amplitude = settings.amplitude / 1000,
+                           .gains = {.amplitude = settings.amplitude / 1000,
+                                     .settling = settings.settling,
+                                     .chirp = settings.chirp},
                            .road = settings.road.road,
                            .road_duration = settings.road.duration,
                            .step_height = settings.step / 1000,
@@ -89,6 +92,16 @@ std::vector<Option> study_options(Settings& settings) {
        .target = &settings.amplitude,
        .help = "of sines and chirp, mm",
        .value = "MM"},
+      {.names = "--settling",
+       .target = &settings.settling,
+       .help = "before the periods of a sine that count, s",
+       .value = "S",
+       .minimum = 0},
+      {.names = "--chirp",
+       .target = &settings.chirp,
+       .help = "how long the chirp lasts, s",
+       .value = "S",
+       .minimum = 1},
       {.names = "--step", .target = &settings.step, .help = "height of the step, mm", .value = "MM"},
       {.names = "--held",
        .target = &settings.held,

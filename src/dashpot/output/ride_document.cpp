@@ -66,7 +66,7 @@ std::vector<std::size_t> shown_frequencies(const std::vector<double>& f) {
 }
 
 DocumentTable gain_table(const RideStudy& study) {
-  DocumentTable table{.title = "On sines of " + format_number(1000 * study.options.amplitude) + " mm",
+  DocumentTable table{.title = "On sines of " + format_number(1000 * study.options.gains.amplitude) + " mm",
                       .columns = {{.title = "controller"}},
                       .rows = {},
                       .note =

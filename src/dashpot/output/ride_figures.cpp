@@ -80,21 +80,22 @@ DocumentFigure gain_figure(const RideStudy& study) {
   const std::vector<double>& f = study.options.frequencies;
   const auto &body = &GainPoint::body_acceleration, &tyre = &GainPoint::tyre_deflection;
   std::vector<FigurePanel> panels;
-  panels.push_back(gain_panel(study, "Body acceleration", "1/s^2", fundamental(body)));
-  panels.push_back(gain_panel(study, "Body acceleration at its resonance", "1/s^2", fundamental(body), 4));
+  panels.push_back(gain_panel(study, "Body acceleration", "gain, 1/s^2", fundamental(body)));
+  panels.push_back(
+      gain_panel(study, "Body acceleration at its resonance", "gain, 1/s^2", fundamental(body), 4));
   panels.back().series.push_back(limit_line("passive, greatest to 2 Hz", f.front(), kPaperComfortTo,
                                             greatest_gain(study.passive, body, kPaperComfortTo)));
-  panels.push_back(gain_panel(study, "Tyre deflection", "1", fundamental(tyre)));
+  panels.push_back(gain_panel(study, "Tyre deflection", "gain", fundamental(tyre)));
   panels.back().series.push_back(limit_line("one-sensor paper: 2.5 at most", f.front(),
                                             std::min(f.back(), kPaperHoldingTo), kPaperHoldingLimit));
-  panels.push_back(gain_panel(study, "Body displacement", "1", fundamental(&GainPoint::body), 5));
-  panels.push_back(gain_panel(study, "Travel", "1", fundamental(&GainPoint::travel)));
-  panels.push_back(
-      gain_panel(study, "Body acceleration: variance over fundamental gain", "1", [](const GainPoint& point) {
-        return point.body_acceleration.variance / point.body_acceleration.fundamental;
-      }));
+  panels.push_back(gain_panel(study, "Body displacement", "gain", fundamental(&GainPoint::body), 5));
+  panels.push_back(gain_panel(study, "Travel", "gain", fundamental(&GainPoint::travel)));
+  panels.push_back(gain_panel(study, "Body acceleration: variance over fundamental gain", "ratio",
+                              [](const GainPoint& point) {
+                                return point.body_acceleration.variance / point.body_acceleration.fundamental;
+                              }));
   return {"gains", "Gains by sines",
-          "Fundamental gain over the road's height, " + format_number(1000 * study.options.amplitude) +
+          "Fundamental gain over the road's height, " + format_number(1000 * study.options.gains.amplitude) +
               " mm. The last panel tells what a law adds at other frequencies: 1 is none; a law that "
               "chatters shows there, and not in its fundamental.",
           std::move(panels), 2};
@@ -103,8 +104,8 @@ DocumentFigure gain_figure(const RideStudy& study) {
 DocumentFigure chirp_figure(const RideStudy& study) {
   std::vector<FigurePanel> panels;
   for (const auto& [signal, title, unit] :
-       {std::tuple{&GainPoint::body_acceleration, "Body acceleration", "1/s^2"},
-        std::tuple{&GainPoint::tyre_deflection, "Tyre deflection", "1"}}) {
+       {std::tuple{&GainPoint::body_acceleration, "Body acceleration", "gain, 1/s^2"},
+        std::tuple{&GainPoint::tyre_deflection, "Tyre deflection", "gain"}}) {
     FigurePanel panel{title, "frequency, Hz", unit, {}};
     for (const auto& [ridden, look] : drawn(study)) {
       panel.series.push_back(gain_curve(ridden->chirp, fundamental(signal), kWhole, look));
@@ -116,7 +117,8 @@ DocumentFigure chirp_figure(const RideStudy& study) {
     panels.push_back(std::move(panel));
   }
   return {"chirp", "Gains by one chirp",
-          "Lines: two minutes of exponential chirp, each frequency read over four periods. Dots: by sines.",
+          "Lines: " + format_number(study.options.gains.chirp) +
+              " s of exponential chirp, read over four periods about each frequency. Dots: by sines.",
           std::move(panels), 2};
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <functional>
 #include <mutex>
 
@@ -61,6 +62,15 @@ std::vector<SharedVehicle> make_held(const RideStudyOptions& options, const Cont
   return vehicles;
 }
 
+/// The range of the sines, finely, by equal ratios.
+std::vector<double> chirp_frequencies(const std::vector<double>& sines) {
+  constexpr int kPoints = 120;
+  std::vector<double> f;
+  for (int k = 0; k <= kPoints; ++k)
+    f.push_back(sines.front() * std::pow(sines.back() / sines.front(), static_cast<double>(k) / kPoints));
+  return f;
+}
+
 /// All that is to be run, as tasks that write to places of their own.
 class Tasks {
  public:
@@ -74,7 +84,7 @@ class Tasks {
         place.sines[k] = gain_by_sine(*vehicle, options_.frequencies[k], gain_options());
       });
     tasks_.push_back([this, vehicle, &place] {
-      place.chirp = gains_by_chirp(*vehicle, options_.frequencies, gain_options());
+      place.chirp = gains_by_chirp(*vehicle, chirp_frequencies(options_.frequencies), gain_options());
     });
     tasks_.push_back([this, vehicle, &place] {
       place.road = run_vehicle(vehicle, road_, run_options(options_.road_duration));
@@ -107,9 +117,10 @@ class Tasks {
   /// Within a task nothing is reported, only stopped.
   Monitor quiet() const { return {.on_progress = {}, .stop = options_.monitor.stop}; }
   GainOptions gain_options() const {
-    return {.amplitude = options_.amplitude,
-            .relative_tolerance = options_.relative_tolerance,
-            .monitor = quiet()};
+    GainOptions gains = options_.gains;
+    gains.relative_tolerance = options_.relative_tolerance;
+    gains.monitor = quiet();
+    return gains;
   }
   RunOptions run_options(double duration) const {
     return {.duration = duration,

@@ -14,7 +14,7 @@ struct RideStudyOptions {
   std::vector<std::string> controllers;                   ///< words; "all": every law that suits it
   std::string against;                                    ///< as passive_words() has it
   std::vector<double> frequencies = usual_frequencies();  ///< Hz
-  double amplitude = 0.005;                               ///< m, of sines and chirp
+  GainOptions gains;  ///< its tolerance and monitor are those of the study
   std::string road = "iso8608,class=C";
   double road_duration = 30;      ///< s
   double step_height = 0.03;      ///< m
@@ -28,7 +28,8 @@ struct RideStudyOptions {
 
 /// One of them.
 struct RiddenVehicle {
-  std::vector<GainPoint> sines, chirp;  ///< one per frequency
+  std::vector<GainPoint> sines;  ///< one per frequency
+  std::vector<GainPoint> chirp;  ///< over the same range, finely
   SimulatedRun road, step;
   const std::string& name() const { return road.name; }
 };
