@@ -4,6 +4,7 @@
 #include <array>
 #include <cctype>
 #include <functional>
+#include <limits>
 
 #include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
@@ -62,15 +63,23 @@ std::string rewritten(std::string_view code, const Rewriting& rewriting) {
 }
 
 std::string single_word(std::string_view word) {
-  static constexpr std::array kFunctions{"atan", "atanh", "ceil", "copysign", "exp", "expm1",
-                                         "fabs", "fmax",  "fmin", "floor",    "log", "log1p",
-                                         "pow",  "sin",   "cos",  "sqrt",     "tan", "tanh"};
+  static constexpr std::array kFunctions{
+      "acos",  "acosh", "asin", "asinh", "atan",  "atan2", "atanh", "cbrt", "ceil", "copysign", "cos",
+      "cosh",  "exp",   "exp2", "expm1", "fabs",  "floor", "fmax",  "fmin", "fmod", "hypot",    "log",
+      "log10", "log1p", "log2", "pow",   "round", "sin",   "sinh",  "sqrt", "tan",  "tanh",     "trunc"};
   if (word == "double") return "float";
   return std::string(word) + (std::ranges::find(kFunctions, word) != kFunctions.end() ? "f" : "");
 }
 
+/// Where it is too small for a float, the smallest normal one.
 std::string single_number(std::string_view number) {
-  return std::string(number) + (number.find_first_of(".e") != std::string_view::npos ? "F" : "");
+  if (number.find_first_of(".e") == std::string_view::npos) return std::string(number);
+  const double value =
+      parse_number(number.ends_with('.') ? number.substr(0, number.size() - 1) : number).value();
+  if (value > std::numeric_limits<float>::max())
+    throw Error("single precision", "cannot hold " + std::string(number), "export in double precision");
+  if (value > 0 && value < std::numeric_limits<float>::min()) return "1.17549435e-38F";
+  return std::string(number) + "F";
 }
 
 void join_text(const std::string& name, std::vector<std::string>& done, std::string& out) {
