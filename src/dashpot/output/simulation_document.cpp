@@ -68,6 +68,8 @@ FigurePanel ground_panel(const Simulation& s, const std::string& channel, const 
           {over_time(s.run, channel, factor, shown_stretch(s.duration, s.discard), look)}};
 }
 
+bool is_driven(const Vehicle& vehicle) { return vehicle.limits.current_min < vehicle.limits.current_max; }
+
 std::vector<FigurePanel> time_panels(const Simulation& s) {
   const Vehicle& vehicle = *s.run.vehicle;
   const Plant& plant = vehicle.set.plant;
@@ -87,9 +89,11 @@ std::vector<FigurePanel> time_panels(const Simulation& s) {
   if (strut.empty()) return panels;
   panels.push_back(time_panel(s, strut + "_deflection", strut + ", deflection", "mm", 1000));
   panels.push_back(time_panel(s, strut + "_force", strut + ", damper force", "N"));
-  if (vehicle.limits.current_min < vehicle.limits.current_max) {
+  if (is_driven(vehicle)) {
     const std::string unit = vehicle.drive_unit.empty() ? "0 to 1" : vehicle.drive_unit;
     panels.push_back(time_panel(s, strut + "_current", strut + ", drive", unit));
+    if (s.against && !is_driven(*s.against->vehicle))
+      panels.back().series.erase(panels.back().series.begin());
   }
   return panels;
 }
