@@ -2,7 +2,6 @@
 
 #include "commands.h"
 #include "console.h"
-#include "dashpot/base/text.h"
 #include "dashpot/base/units.h"
 #include "dashpot/output/ride_document.h"
 #include "study_results.h"
@@ -42,23 +41,21 @@ std::vector<double> frequencies_of(const Settings& settings) {
 }
 
 RideStudyOptions options_of(const Settings& settings, Console& console) {
-  RideStudyOptions options{.vehicle = words_of(settings.vehicle),
-                           .controllers = {},
-                           .against = settings.against,
-                           .frequencies = frequencies_of(settings),
-                           .gains = {.amplitude = settings.amplitude / 1000,
-                                     .settling = settings.settling,
-                                     .chirp = settings.chirp},
-                           .road = settings.road.road,
-                           .road_duration = settings.road.duration,
-                           .step_height = settings.step / 1000,
-                           .held = static_cast<std::size_t>(settings.held),
-                           .allowed_outside = settings.allowed_outside / 100,
-                           .seed = settings.vehicle.seed,
-                           .threads = settings.threads,
-                           .monitor = console.monitor()};
-  for (const std::string& one : split(settings.controllers, ';')) options.controllers.emplace_back(trim(one));
-  return options;
+  return {.vehicle = words_of(settings.vehicle),
+          .controllers = words_between(settings.controllers),
+          .against = settings.against,
+          .frequencies = frequencies_of(settings),
+          .gains = {.amplitude = settings.amplitude / 1000,
+                    .settling = settings.settling,
+                    .chirp = settings.chirp},
+          .road = settings.road.road,
+          .road_duration = settings.road.duration,
+          .step_height = settings.step / 1000,
+          .held = static_cast<std::size_t>(settings.held),
+          .allowed_outside = settings.allowed_outside / 100,
+          .seed = settings.vehicle.seed,
+          .threads = settings.threads,
+          .monitor = console.monitor()};
 }
 
 int run(const Settings& settings, Console& console) {

@@ -96,6 +96,13 @@ std::vector<Option> road_options(RoadChoice& choice) {
            choice.duration > 0 ? "" : "20 on a road; to the end of a bump, chirp or earthquake and 5 more"}};
 }
 
+std::vector<std::string> words_between(const std::string& text) {
+  std::vector<std::string> words;
+  for (const std::string& one : split(text, ';'))
+    if (!trim(one).empty()) words.emplace_back(trim(one));
+  return words;
+}
+
 VehicleWords words_of(const VehicleChoice& choice) {
   VehicleWords words{.plant = choice.plant,
                      .values = choice.values,
@@ -105,8 +112,7 @@ VehicleWords words_of(const VehicleChoice& choice) {
                      .current_max = choice.current_max,
                      .lag_rate = choice.lag_rate,
                      .sample_time = choice.sample_time / 1000};
-  if (!choice.damper.empty())
-    for (const std::string& one : split(choice.damper, ';')) words.dampers.emplace_back(trim(one));
+  words.dampers = words_between(choice.damper);
   words.sensors.in_car = choice.in_car;
   words.sensors.delay = choice.delay / 1000;
   words.sensors.seed = choice.seed;

@@ -31,6 +31,8 @@ std::vector<Option> controlled_vehicle_options(VehicleChoice& choice);
 /// --road, --duration.
 std::vector<Option> road_options(RoadChoice& choice);
 
+/// What stands between semicolons: "skyhook;mix1,crossover=2Hz".
+std::vector<std::string> words_between(const std::string& text);
 VehicleWords words_of(const VehicleChoice& choice);
 /// Throws Error where it suits no such plant: a road under a building.
 GroundPointer ground_of(const RoadChoice& choice, std::uint64_t seed, const Plant& plant);

@@ -147,11 +147,6 @@ DocumentTable step_table(const RideStudy& study) {
   return table;
 }
 
-std::string change_text(const RiddenVehicle& one, const RiddenVehicle& passive, const char* measure) {
-  const double percent = 100 * (on_road(one, measure) / on_road(passive, measure) - 1);
-  return format_number(std::abs(percent), 2) + " % " + (percent < 0 ? "less" : "more");
-}
-
 std::string verdict_of(const RideStudy& study) {
   const auto least = [&](const char* measure) -> const RiddenVehicle& {
     return *std::ranges::min_element(study.controlled, {}, [&](const RiddenVehicle& one) {
@@ -159,14 +154,17 @@ std::string verdict_of(const RideStudy& study) {
       return std::isfinite(value) ? value : INFINITY;
     });
   };
+  const auto change = [&](const RiddenVehicle& one, const char* measure) {
+    return against_text(on_road(one, measure), on_road(study.passive, measure));
+  };
   const auto sentence = [&](const RiddenVehicle& one, const char* what) {
-    return std::string(what) + ' ' + one.name() + ": " +
-           change_text(one, study.passive, "weighted_acceleration") + " weighted acceleration, " +
-           change_text(one, study.passive, "tyre_load") + " dynamic tyre load than passive.";
+    return what + one.name() + ": " + change(one, "weighted_acceleration") + " weighted acceleration, " +
+           change(one, "tyre_load") + " dynamic tyre load than passive.";
   };
   const RiddenVehicle &comfort = least("weighted_acceleration"), &holding = least("tyre_load");
-  if (&comfort == &holding) return sentence(comfort, "Best in comfort and in road holding is");
-  return sentence(comfort, "Most comfortable is") + ' ' + sentence(holding, "Best on the road is");
+  if (study.controlled.size() == 1) return sentence(comfort, "");
+  if (&comfort == &holding) return sentence(comfort, "Best in comfort and in road holding is ");
+  return sentence(comfort, "Most comfortable is ") + ' ' + sentence(holding, "Best on the road is ");
 }
 
 Value gains_json(const std::vector<GainPoint>& points) {

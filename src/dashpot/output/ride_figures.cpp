@@ -166,13 +166,14 @@ DocumentFigure road_figure(const RideStudy& study) {
   const Plant& plant = study.passive.road.vehicle->set.plant;
   const std::string &body = plant.coordinates.front().name, &tyre = plant.tyres.front().name,
                     &strut = plant.struts.front().name;
-  const Stretch stretch{5, std::min(10.0, study.options.road_duration)};
+  const double duration = study.options.road_duration;
+  const Stretch stretch = shown_stretch(duration, std::max(0.0, std::min(5.0, duration - 5)));
   const auto panel = [&](const std::string& channel, const char* title, const char* unit) {
     return time_panel(shown, &RiddenVehicle::road, channel, {title, "time, s", unit, {}}, stretch);
   };
   return {
       "road",
-      "Five seconds of the road",
+      "A stretch of the road",
       "Passive, the most comfortable and the best on the road.",
       {panel(body + "_acceleration", "Body acceleration", "m/s^2"), panel(tyre + "_load", "Tyre load", "N"),
        panel(strut + "_deflection", "Deflection", "mm"), panel(strut + "_force", "Damper force", "N")},

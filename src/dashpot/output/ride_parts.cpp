@@ -6,6 +6,7 @@
 
 #include "dashpot/base/text.h"
 #include "dashpot/output/series.h"
+#include "dashpot/output/words.h"
 
 namespace dashpot {
 
@@ -35,6 +36,7 @@ FigureSeries over_time(const SimulatedRun& run, const std::string& channel, doub
     return static_cast<std::size_t>(std::ranges::lower_bound(time, t - 1e-9) - time.begin());
   };
   const std::size_t first = place(stretch.from), last = place(stretch.to);
+  if (first >= last) return series;  // it diverged before
   const std::span<const double> shown = std::span(samples).subspan(first, last - first);
   for (const std::size_t k : thinned_indices({shown}, kPoints)) {
     series.x.push_back(time[first + k]);
@@ -47,6 +49,11 @@ std::string ratio_text(double value, double reference) {
   const double ratio = value / reference;
   if (!std::isfinite(ratio)) return "-";
   return format_number(std::round(1000 * ratio) / 1000, 4);
+}
+
+std::string against_text(double value, double reference) {
+  const double percent = 100 * (value / reference - 1);
+  return percent_text(std::abs(percent)) + " % " + (percent < 0 ? "less" : "more");
 }
 
 std::vector<std::string> run_remarks(const std::vector<const SimulatedRun*>& runs) {

@@ -26,6 +26,9 @@ FigureSeries over_time(const SimulatedRun& run, const std::string& channel, doub
 /// "0.97"; "-" where there is no ratio.
 std::string ratio_text(double value, double reference);
 
+/// "22 % less", "0.5 % more": of a value against a reference.
+std::string against_text(double value, double reference);
+
 /// What is to be said of runs: warnings with the run's name, then the vehicle's notes, each once.
 std::vector<std::string> run_remarks(const std::vector<const SimulatedRun*>& runs);
 

@@ -119,21 +119,17 @@ DocumentFigure work_figure(const Simulation& s) {
 std::string verdict_of(const Simulation& s) {
   if (s.run.trace.diverged_at)
     return "It diverged at " + format_number(*s.run.trace.diverged_at) + " s: nothing below can be used.";
-  const auto ratio = [&](const char* measure) {
-    return measure_named(s.run.measures, measure) / measure_named(s.against->measures, measure);
-  };
-  const auto change = [](double value) {
-    const double percent = 100 * (value - 1);
-    return format_number(std::abs(percent), 2) + " % " + (percent < 0 ? "less" : "more");
-  };
   if (s.run.vehicle->set.plant.tyres.empty() || !s.against) {
     const double a = measure_named(s.run.measures, "weighted_acceleration");
     if (!std::isfinite(a)) return "";
     return "a_w " + format_number(a, 3) + " m/s^2: " + std::string(RideComfort{.weighted_rms = a}.feeling()) +
            " by ISO 2631-1 (bands as recalled).";
   }
-  return "Against " + s.against->name + ": " + change(ratio("weighted_acceleration")) +
-         " weighted acceleration, " + change(ratio("tyre_load")) + " dynamic tyre load.";
+  const auto change = [&](const char* measure) {
+    return against_text(measure_named(s.run.measures, measure), measure_named(s.against->measures, measure));
+  };
+  return "Against " + s.against->name + ": " + change("weighted_acceleration") + " weighted acceleration, " +
+         change("tyre_load") + " dynamic tyre load.";
 }
 
 }  // namespace

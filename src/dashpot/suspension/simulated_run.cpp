@@ -15,8 +15,8 @@ std::string name_of(const Vehicle& vehicle) {
     if (std::ranges::find(names, name) == names.end()) names.push_back(name);
   std::string text = join(names, "; ");
   if (vehicle.limits.current_min < vehicle.limits.current_max) {
-    text += " at " + format_number(vehicle.dampers.front().current);
-    if (!vehicle.drive_unit.empty()) text += ' ' + vehicle.drive_unit;
+    const std::string drive = format_number(vehicle.dampers.front().current);
+    text += vehicle.drive_unit.empty() ? " at drive " + drive : " at " + drive + ' ' + vehicle.drive_unit;
   }
   return text;
 }
