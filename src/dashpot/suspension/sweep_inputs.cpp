@@ -7,7 +7,6 @@
 #include <boost/random/sobol.hpp>
 
 #include "dashpot/base/error.h"
-#include "dashpot/base/file.h"
 #include "dashpot/base/random.h"
 #include "dashpot/base/text.h"
 #include "dashpot/damper/parameter_set.h"
@@ -24,6 +23,7 @@ constexpr double kMostSeed = 4294967295.0;  // a double holds it, and so does ev
 constexpr ParameterRow kSeedRow{"road.seed", "1", 1, 0, kMostSeed, "of the road's random numbers", true};
 constexpr ParameterRow kCurrentRow{"current", "A", 0, -100, 100, "where there is no controller"};
 constexpr ParameterRow kLagRow{"lag_rate", "1/s", 0, 0, 1e6, "of the coil; 0: none"};
+constexpr ParameterRow kSpeedRow{"speed", "m/s", 20, 0.1, 200, "of the vehicle"};
 constexpr ParameterRow kRatioRow{"motion_ratio", "1", 1, 0.01, 100, "damper's travel over the strut's"};
 
 std::string first_word(const std::string& text) { return std::string(trim(split(text, ',').front())); }
@@ -70,9 +70,8 @@ ParameterRow damper_row(SweepInput& input, const SweepRequest& request, const st
               suggest("damper." + parameter, known));
 }
 
-ParameterRow plant_row(const std::string& plant, const std::string& name, const std::string& where) {
-  const bool is_file = plant.find_first_of("./") != std::string::npos;
-  const PlantSet set = is_file ? parse_plant_set(read_file(plant), plant, plant) : load_plant_set(plant);
+ParameterRow plant_row(const VehicleWords& words, const std::string& name, const std::string& where) {
+  const PlantSet set = load_plant(words);
   if (set.kind.empty()) throw Error(where, set.name + " has matrices, no parameter '" + name + "'");
   const PlantModel& model = find_plant_model(set.kind);
   std::vector<std::string> known;
@@ -123,9 +122,11 @@ ParameterRow find_target(SweepInput& input, const SweepRequest& request, const s
   if (input.name == "lag_rate") return is(Target::LagRate, kLagRow);
   if (input.name == "road.seed") return is(Target::RoadSeed, kSeedRow);
   if (dot == std::string::npos)
-    return is(Target::Plant, plant_row(request.controllers.front().words.plant, input.name, where));
+    return is(Target::Plant, plant_row(request.controllers.front().words, input.name, where));
   if (owner == "damper") return is(Target::Damper, damper_row(input, request, where));
   if (owner == "road") {
+    if (input.parameter == "speed" && first_word(request.road) == "measured")
+      return is(Target::Road, kSpeedRow);
     const SequenceInfo& info = find_ground_sequence(first_word(request.road), where).info;
     return is(Target::Road, info.params[row_named(info.params, input.parameter, info.name, where)]);
   }

@@ -1,6 +1,6 @@
 #pragma once
+#include <cmath>
 #include <limits>
-#include <optional>
 #include <span>
 #include <string_view>
 
@@ -11,11 +11,13 @@ namespace dashpot {
 /// What a ride of a sweep comes to. Of several struts and tyres the worst one counts; not a number where the
 /// ride diverged.
 struct RideMeasures {
-  double body_acceleration, weighted_acceleration, vibration_dose, tyre_load_index, contact_lost, travel,
-      greatest_travel, stops_met, energy, current, outside_data;
-  double diverged_at = std::numeric_limits<double>::quiet_NaN();
+  static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  double body_acceleration = kNone, weighted_acceleration = kNone, vibration_dose = kNone;
+  double tyre_load_index = kNone, contact_lost = kNone;
+  double travel = kNone, greatest_travel = kNone, stops_met = kNone;
+  double energy = kNone, current = kNone, outside_data = kNone, diverged_at = kNone;
 
-  bool has_diverged() const { return diverged_at == diverged_at; }
+  bool has_diverged() const { return !std::isnan(diverged_at); }
 };
 
 struct SweepMeasure {
@@ -26,5 +28,8 @@ struct SweepMeasure {
 std::span<const SweepMeasure> sweep_measures();
 /// Those that a ride is judged by: all but the last.
 std::span<const SweepMeasure> judged_measures();
+
+/// Of what happened from `discard` s on.
+RideMeasures measure_ride(const Vehicle& vehicle, const Trace& trace, double discard);
 
 }  // namespace dashpot

@@ -11,7 +11,8 @@ namespace dashpot {
 /// Makes vehicles of a request and drives them over their roads, some at a time. Immutable once made.
 class SweepRider {
  public:
-  /// Tries every controller with the first vehicle. Throws Error on words that nothing is known by.
+  /// Tries every controller with the first vehicle. Throws Error on words that nothing is known by and on
+  /// parts that do not fit together.
   explicit SweepRider(const SweepRequest& request);
 
   /// Which vehicle under which controller.
@@ -24,12 +25,10 @@ class SweepRider {
   const std::vector<std::string>& notes() const { return notes_; }
 
  private:
-  struct Made;
-  Made make(const Task& task, const SweepDraw& draw) const;
+  Vehicle make(const Task& task, const SweepDraw& draw) const;
 
   const SweepRequest& request_;
-  std::vector<std::shared_ptr<const Vehicle>> examples_;  ///< one per controller: the first vehicle
-  std::vector<char> own_dampers_;  ///< by controller: whether they differ from vehicle to vehicle
+  std::vector<Vehicle> examples_;  ///< one per controller: the first vehicle
   std::vector<std::string> notes_;
 };
 
