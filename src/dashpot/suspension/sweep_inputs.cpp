@@ -9,6 +9,7 @@
 #include "dashpot/base/error.h"
 #include "dashpot/base/random.h"
 #include "dashpot/base/text.h"
+#include "dashpot/base/units.h"
 #include "dashpot/damper/parameter_set.h"
 #include "dashpot/suspension/damper_words.h"
 #include "dashpot/suspension/ground_sequences.h"
@@ -177,6 +178,22 @@ std::string setting(const std::string& parameter, double value) {
   return parameter + '=' + format_exact(value);
 }
 
+/// A random road without a stated length is made as long as the ride, for the last axle too.
+std::string with_length(const std::string& road, const SweepRequest& request) {
+  constexpr double kLongestVehicle = 30;  // m
+  const std::string name = first_word(road);
+  if (!name.starts_with("iso8608") && name != "filtered_noise") return road;
+  const SequenceInfo& info = find_ground_sequence(name).info;
+  double speed = info.params[row_named(info.params, "speed", name, request.source)].value;
+  for (const std::string& part : split(road, ',')) {
+    const std::size_t equals = part.find('=');
+    const std::string_view key = trim(std::string_view(part).substr(0, equals));
+    if (key == "length") return road;
+    if (key == "speed") speed = parse_quantity(part.substr(equals + 1), "m/s", request.source);
+  }
+  return road + ',' + setting("length", speed * request.duration + kLongestVehicle);
+}
+
 }  // namespace
 
 SweepInput read_sweep_input(const std::string& name, const Value& value, const SweepRequest& request,
@@ -268,7 +285,7 @@ std::string road_words(const SweepRequest& request, const SweepDraw& draw) {
     if (input.target == Target::Road) road += ',' + setting(input.parameter, draw.values[k]);
     if (input.target == Target::RoadClass) road += ",class=" + input.text_of(draw.values[k]);
   }
-  return road;
+  return with_length(road, request);
 }
 
 bool varies_dampers(const SweepRequest& request, std::size_t controller) {
