@@ -27,13 +27,30 @@ struct MountedDamper {
   double current = 0;  ///< A, commanded where there is no controller
 };
 
+/// The way from a demand to a command, with the memories of inverse and force loop.
+class CommandPath {
+ public:
+  CommandPath(const MountedDamper& damper, const ControlLimits& limits, double deflection);
+
+  /// A; force: what the damper gives now, N.
+  double command(const DamperDemand& demand, const DamperInput& now, double force);
+
+ private:
+  double wanted_force(const DamperDemand& demand, const DamperInput& now, double force);
+
+  const MountedDamper* damper_;
+  ControlLimits limits_;
+  std::vector<double> inverse_state_;
+  double missed_ = 0, missed_sum_ = 0;
+};
+
 /// Its moving parts: states of model, driver, inverse and force loop. Copied to try a step.
 class DamperState {
  public:
   DamperState(const MountedDamper& damper, const ControlLimits& limits, double deflection);
 
-  /// A new demand at this deflection and velocity: sets the driver's command.
-  void demand(const DamperDemand& demand, const DamperInput& now);
+  /// A new demand at this deflection and velocity, with this measured force: sets the driver's command.
+  void demand(const DamperDemand& demand, const DamperInput& now, double force);
   /// From one instant to another one dt later.
   void advance(const DamperInput& from, const DamperInput& to, double dt) noexcept;
   double force(const DamperInput& input) const noexcept { return damper_->model->force(input, state_); }
@@ -43,13 +60,11 @@ class DamperState {
   double command() const noexcept { return command_; }
 
  private:
-  double wanted_force(const DamperDemand& demand, const DamperInput& now);
-
   const MountedDamper* damper_;
-  ControlLimits limits_;
+  CommandPath path_;
   Driver driver_;
-  std::vector<double> state_, driver_state_, inverse_state_;
-  double command_ = 0, missed_ = 0, missed_sum_ = 0;
+  std::vector<double> state_, driver_state_;
+  double command_ = 0;
 };
 
 }  // namespace dashpot
