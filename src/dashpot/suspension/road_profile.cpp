@@ -27,6 +27,16 @@ class DrivenRoad final : public GroundMotion {
   double duration() const noexcept override { return profile_.length() / speed_; }
   double speed() const noexcept override { return speed_; }
   FootMotion foot(double t, std::size_t track, double behind) const noexcept override {
+    return at(t, track, behind);
+  }
+  void feet(double t, double step, std::size_t track, double behind,
+            std::span<FootMotion> out) const noexcept override {
+    for (std::size_t k = 0; k < out.size(); ++k)
+      out[k] = at(t + step * static_cast<double>(k), track, behind);
+  }
+
+ private:
+  FootMotion at(double t, std::size_t track, double behind) const noexcept {
     const std::size_t which = std::min(track, profile_.tracks.size() - 1);
     const std::vector<double>&z = profile_.tracks[which], &slope = slopes_[which];
     const double place = (speed_ * t - behind) / profile_.spacing;
@@ -38,8 +48,6 @@ class DrivenRoad final : public GroundMotion {
             speed_ / profile_.spacing *
                 (6 * u * w * rise + w * (w - 2 * u) * slope[k] + u * (u - 2 * w) * slope[k + 1])};
   }
-
- private:
   /// Per spacing, central; level at both ends, where the road goes on level.
   static std::vector<double> slopes_of(const std::vector<double>& z) {
     std::vector<double> slopes(z.size());

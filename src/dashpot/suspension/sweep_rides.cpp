@@ -4,6 +4,7 @@
 #include <map>
 
 #include "dashpot/base/error.h"
+#include "dashpot/suspension/batch.h"
 #include "dashpot/suspension/ground_sequences.h"
 
 namespace dashpot {
@@ -54,17 +55,26 @@ Vehicle SweepRider::make(const Task& task, const SweepDraw& draw) const {
 
 std::vector<SweepStore::Ride> SweepRider::ride(const std::vector<Task>& tasks, const Monitor& monitor) const {
   std::map<std::size_t, GroundPointer> grounds;  // a vehicle's controllers meet the same road
-  std::vector<SweepStore::Ride> rides;
+  std::vector<Vehicle> vehicles;
+  vehicles.reserve(tasks.size());
+  std::vector<BatchVehicle> batch;
   for (const Task& task : tasks) {
     const SweepDraw draw = draw_vehicle(request_, task.vehicle);
     GroundPointer& ground = grounds[task.vehicle];
     if (!ground) ground = make_road(request_, draw);
-    const Vehicle vehicle = make(task, draw);
-    SimulateOptions options = vehicle.options(request_.duration);
-    options.relative_tolerance = request_.relative_tolerance;
-    options.monitor.stop = monitor.stop;
-    const Trace trace = simulate(vehicle.on(*ground), options);
-    rides.push_back({task.controller, task.vehicle, measure_ride(vehicle, trace, request_.discard)});
+    const Vehicle& vehicle = vehicles.emplace_back(make(task, draw));
+    batch.push_back({vehicle.on(*ground), vehicle.limits, vehicle.sensors});
+  }
+  std::vector<BatchResult> results = simulate_batch(batch, {.duration = request_.duration,
+                                                            .discard = request_.discard,
+                                                            .relative_tolerance = request_.relative_tolerance,
+                                                            .traces = true,
+                                                            .monitor = {.stop = monitor.stop}});
+  std::vector<SweepStore::Ride> rides;
+  for (std::size_t k = 0; k < tasks.size(); ++k) {
+    const Trace trace{.record = std::move(results[k].trace), .diverged_at = results[k].diverged_at};
+    rides.push_back(
+        {tasks[k].controller, tasks[k].vehicle, measure_ride(vehicles[k], trace, request_.discard)});
   }
   return rides;
 }

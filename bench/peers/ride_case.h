@@ -1,0 +1,167 @@
+#pragma once
+#include <array>
+#include <cmath>
+#include <memory>
+
+#include "dashpot/damper/laws/modified_bouc_wen.h"
+#include "dashpot/damper/neural/network_model.h"
+#include "dashpot/damper/parameter_set.h"
+#include "dashpot/suspension/ground_motion.h"
+#include "dashpot/suspension/mounted_damper.h"
+#include "dashpot/suspension/plant_set.h"
+#include "dashpot/suspension/road_profile.h"
+#include "peer.h"
+
+// The ride that all integrators take: the one-sensor paper's quarter car, 10 s of a class C road at 20 m/s,
+// Mix-1 at 1 kHz, rtol 1e-6, atol 1e-9.
+namespace peer {
+
+constexpr double kRideSeconds = 10, kSample = 1e-3, kRelative = 1e-6, kAbsolute = 1e-9;
+constexpr double kSpeed = 20, kCrossover = 1.9, kDriveMax[] = {1, 2.25};
+constexpr std::size_t kSamples10s = 10000;
+enum class Ride { Network, BoucWen };
+
+/// 2-10-1 tanh of velocity and current, fitted to a curve that looks like a small damper's.
+inline dashpot::Mlp ride_network() {
+  dashpot::TrainingSamples samples;
+  dashpot::Random random(3);
+  for (int s = 0; s < 2000; ++s) {
+    const double v = 1.5 * std::pow(random.uniform(-1, 1), 3), i = random.uniform();
+    samples.inputs.insert(samples.inputs.end(), {v, i});
+    samples.targets.push_back((150 + 900 * i) * std::tanh(v / 0.08) + (700 + 900 * i) * v);
+  }
+  dashpot::Mlp mlp;
+  mlp.layers = kTanh;
+  mlp.input_mean = {0, 0.5};
+  mlp.input_scale = {0.5, 0.3};
+  mlp.output_scale = 800;
+  initialise(mlp, 1);
+  train(mlp, samples, {.max_iterations = 100});
+  return mlp;
+}
+
+/// A vehicle of its own road for each number.
+inline dashpot::RoadProfile ride_road(int vehicle) {
+  return dashpot::cosine_road({.length = kSpeed * (kRideSeconds + 0.1),
+                               .spacing = kSpeed * kSample,  // so that a sample lies on each point
+                               .seed = static_cast<std::uint64_t>(vehicle) + 1});
+}
+inline const dashpot::Plant& ride_plant() {
+  static const dashpot::Plant plant = dashpot::load_plant_set("tudon_martinez2012").plant;
+  return plant;
+}
+
+inline dashpot::MountedDamper ride_damper(Ride ride) {
+  dashpot::MountedDamper damper;
+  damper.driver.current_max = kDriveMax[static_cast<int>(ride)];
+  if (ride == Ride::Network) {
+    damper.model = std::make_shared<dashpot::NetworkModel>(
+        "network", std::vector<std::string>{"velocity", "current"}, std::vector{ride_network()});
+    return damper;
+  }
+  const dashpot::LawModel published = dashpot::load_parameters("spencer1997");
+  dashpot::Dependence parameters = published.parameters();
+  parameters.coefficients[published.law().index_of("x0")] = {0};
+  damper.model = std::make_shared<dashpot::LawModel>(published.law(), parameters, "V", published.lag_rate());
+  return damper;
+}
+
+/// The same as equations for a general integrator: y = body, wheel, their speeds; then the law's two states
+/// and its coil's voltage.
+class RideEquations {
+ public:
+  RideEquations(Ride ride, int vehicle) : ride_(ride), heights_(ride_road(vehicle).tracks[0]) {
+    const dashpot::MountedDamper damper = ride_damper(ride);
+    if (ride == Ride::Network) {
+      const auto& network = dynamic_cast<const dashpot::NetworkModel&>(*damper.model);
+      mlp_ = network.members().front();
+      for (int n = 0; n < 10; ++n) {  // on raw inputs
+        const double* w = &mlp_.parameters[2 * n];
+        neurons_[n] = {w[0] / mlp_.input_scale[0], w[1] / mlp_.input_scale[1], mlp_.parameters[20 + n],
+                       mlp_.parameters[30 + n] * mlp_.output_scale};
+        neurons_[n][2] -= neurons_[n][0] * mlp_.input_mean[0] + neurons_[n][1] * mlp_.input_mean[1];
+      }
+      bias_ = mlp_.output_mean + mlp_.output_scale * mlp_.parameters[40];
+    } else {
+      const auto& law = dynamic_cast<const dashpot::LawModel&>(*damper.model);
+      lag_rate_ = law.lag_rate();
+      law.parameters_at(0, &off_.alpha);
+      ModifiedBoucWen on;
+      law.parameters_at(1, &on.alpha);
+      alpha_slope_ = on.alpha - off_.alpha;
+      c0_slope_ = on.c0 - off_.c0;
+      c1_slope_ = on.c1 - off_.c1;
+    }
+  }
+
+  std::size_t size() const { return ride_ == Ride::Network ? 4 : 7; }
+  const std::vector<double>& heights() const { return heights_; }
+
+  /// dy/dt; the command is constant between samples.
+  void derivative(double t, const double* y, double* dy) const {
+    ++evaluations;
+    const double x = y[0] - y[1], v = y[2] - y[3];
+    double force;
+    if (ride_ == Ride::Network) {
+      force = network(v, command);
+    } else {
+      law_at(y[6], law_);
+      force = modified_bouc_wen_force(&law_, x, v, y + 4);
+      modified_bouc_wen_derivative(&law_, x, v, y + 4, dy + 4);
+      dy[6] = lag_rate_ * (command - y[6]);
+    }
+    const double spring = kSpring * x + force;
+    dy[0] = y[2];
+    dy[1] = y[3];
+    dy[2] = -spring / kBody;
+    dy[3] = (spring - kTyre * (y[1] - road(t))) / kWheel;
+  }
+
+  /// A sample of Mix-1: hard where the body moves slower than at the crossover.
+  void control(double t, const double* y) {
+    std::array<double, 7> dy;
+    derivative(t, y, dy.data());
+    const double rate = 2 * std::numbers::pi * kCrossover * y[2];
+    command = dy[2] * dy[2] - rate * rate <= 0 ? kDriveMax[static_cast<int>(ride_)] : 0;
+  }
+
+  /// y at the begin: at rest.
+  void rest(double* y) const { std::fill_n(y, size(), 0.0); }
+
+  double command = 0;
+  mutable std::size_t evaluations = 0;
+
+ private:
+  void law_at(double u, ModifiedBoucWen& p) const {
+    p = off_;
+    p.alpha += alpha_slope_ * u;
+    p.c0 += c0_slope_ * u;
+    p.c1 += c1_slope_ * u;
+  }
+  double network(double v, double i) const {
+    double force = bias_;
+    for (const auto& [by_v, by_i, bias, out] : neurons_) force += out * std::tanh(by_v * v + by_i * i + bias);
+    return force;
+  }
+  /// The road as Dashpot has it: a cubic between its points, one per sample.
+  double road(double t) const {
+    const double place = t / kSample;
+    const auto k = std::min(static_cast<std::size_t>(place), heights_.size() - 3);
+    const double u = place - static_cast<double>(k), w = 1 - u;
+    const double rise = heights_[k + 1] - heights_[k];
+    const double before = k > 0 ? 0.5 * (heights_[k + 1] - heights_[k - 1]) : 0;
+    const double after = 0.5 * (heights_[k + 2] - heights_[k]);
+    return heights_[k] + u * (rise * u * (3 - 2 * u) + w * (w * before - u * after));
+  }
+
+  static constexpr double kBody = 387, kWheel = 139.5, kSpring = 37300, kTyre = 295200;  // table 7
+  Ride ride_;
+  std::vector<double> heights_;
+  dashpot::Mlp mlp_;
+  std::array<std::array<double, 4>, 10> neurons_{};
+  double bias_ = 0, lag_rate_ = 0, alpha_slope_ = 0, c0_slope_ = 0, c1_slope_ = 0;
+  ModifiedBoucWen off_{};
+  mutable ModifiedBoucWen law_{};
+};
+
+}  // namespace peer
