@@ -103,6 +103,7 @@ class LaneBatch {
     const auto root_mean = [&](LaneResult row) { return std::sqrt(sum(row) / count); };
     result.measures = {.body_acceleration = root_mean(kAcceleration2),
                        .weighted_acceleration = root_mean(kWeighted2),
+                       .vibration_dose = std::pow(sum(kWeighted4) * ride_.sample_time, 0.25),
                        .tyre_load = root_mean(kLoad2),
                        .tyre_deflection = root_mean(kTyreDeflection2),
                        .deflection = root_mean(kDeflection2),
@@ -140,9 +141,11 @@ class LaneBatch {
     for (std::size_t row = 0; row < kLaneTraces; ++row) {
       record.channels.push_back(
           {.name = kChannels[row][0], .unit = kChannels[row][1], .origin = "simulated"});
-      for (std::size_t k = 0; k < count; ++k)
-        record.channels.back().samples.push_back(rows.at(k * kLaneTraces + row, lane));
+      record.channels.back().samples.resize(count);
     }
+    for (std::size_t k = 0; k < count; ++k)
+      for (std::size_t row = 0; row < kLaneTraces; ++row)
+        record.channels[row].samples[k] = rows.at(k * kLaneTraces + row, lane);
     return record;
   }
 
@@ -171,6 +174,9 @@ BatchMeasures measures_of(const Trace& trace, const Plant& plant, double dt, std
   BatchMeasures m{.body_acceleration = root_mean_square(std::span(acceleration).subspan(first)),
                   .weighted_acceleration = root_mean_square(std::span(weighted).subspan(first)),
                   .contact_lost = trace.contact_lost};
+  double fourth = 0;
+  for (const double a : std::span(weighted).subspan(first)) fourth += a * a * a * a;
+  m.vibration_dose = std::pow(fourth * dt, 0.25);
   for (const Strut& strut : plant.struts) {
     const auto travel = samples(strut.name + "_deflection"), current = samples(strut.name + "_current");
     m.deflection = std::max(m.deflection, root_mean_square(travel));

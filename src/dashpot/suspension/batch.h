@@ -32,6 +32,7 @@ struct BatchOptions {
 struct BatchMeasures {
   double body_acceleration = 0;      ///< m/s^2, root mean square
   double weighted_acceleration = 0;  ///< m/s^2, by Wk of ISO 2631-1: a_w
+  double vibration_dose = 0;         ///< m/s^1.75, VDV by Wk
   double tyre_load = 0;              ///< N, root mean square of what comes on top of the load at rest
   double tyre_deflection = 0;        ///< m, root mean square
   double deflection = 0;             ///< m, root mean square of the strut's travel

@@ -2,13 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <numeric>
+#include <cmath>
 #include <string>
 #include <vector>
 
 #include "dashpot/suspension/domain_use.h"
-#include "dashpot/suspension/ride.h"
-#include "dashpot/suspension/weighting.h"
 
 namespace dashpot {
 namespace {
@@ -42,81 +40,66 @@ std::span<const double> kept(const Trace& trace, const std::string& channel, std
   return std::span(trace.record.channel(channel).samples).subspan(first);
 }
 
-double greatest_magnitude(std::span<const double> x) {
+/// Of the tyre whose load moves most for the load that it carries.
+double tyre_load_index(const Plant& plant, const Trace& trace, std::size_t first) {
   double greatest = 0;
-  for (const double value : x) greatest = std::max(greatest, std::abs(value));
-  return greatest;
-}
-
-double mean(std::span<const double> x) {
-  return std::accumulate(x.begin(), x.end(), 0.0) / static_cast<double>(x.size());
-}
-
-void measure_body(const Plant& plant, const Trace& trace, double dt, double discard, RideMeasures& measures) {
-  const auto& body = trace.record.channel(plant.coordinates.front().name + "_acceleration").samples;
-  const RideComfort comfort = ride_comfort(find_weighting("Wk"), body, dt, discard);
-  measures.body_acceleration = comfort.rms;
-  measures.weighted_acceleration = comfort.weighted_rms;
-  measures.vibration_dose = comfort.vdv;
-}
-
-void measure_tyres(const Plant& plant, const Trace& trace, std::size_t first, RideMeasures& measures) {
-  if (plant.tyres.empty()) return;
-  const std::size_t count = trace.record.size() - first;
-  std::vector<char> lifted(count);
-  measures.tyre_load_index = 0;
   for (const Tyre& tyre : plant.tyres) {
     const std::span load = kept(trace, tyre.name + "_load", first);
     double squares = 0;
-    for (std::size_t k = 0; k < count; ++k) {
-      squares += (load[k] - tyre.static_load) * (load[k] - tyre.static_load);
-      lifted[k] |= load[k] <= 0;
-    }
-    const double index = std::sqrt(squares / static_cast<double>(count)) / tyre.static_load;
-    measures.tyre_load_index = std::max(measures.tyre_load_index, index);
+    for (const double value : load) squares += (value - tyre.static_load) * (value - tyre.static_load);
+    const double rms = std::sqrt(squares / static_cast<double>(load.size()));
+    greatest = std::max(greatest, rms / tyre.static_load);
   }
-  measures.contact_lost = static_cast<double>(std::ranges::count(lifted, 1)) / static_cast<double>(count);
+  return greatest;
 }
 
-void measure_struts(const Plant& plant, const Trace& trace, std::size_t first, RideMeasures& measures) {
-  const std::size_t count = trace.record.size() - first;
-  std::vector<char> met(count);
-  measures.travel = measures.greatest_travel = measures.energy = measures.current = 0;
+double share_at_stops(const Plant& plant, const Trace& trace, std::size_t first) {
+  std::vector<char> met(trace.record.size() - first);
   for (const Strut& strut : plant.struts) {
     const std::span x = kept(trace, strut.name + "_deflection", first);
-    const std::span v = kept(trace, strut.name + "_velocity", first);
-    const std::span force = kept(trace, strut.name + "_force", first);
-    measures.travel = std::max(measures.travel, root_mean_square(x));
-    measures.greatest_travel = std::max(measures.greatest_travel, greatest_magnitude(x));
-    measures.current +=
-        mean(kept(trace, strut.name + "_current", first)) / static_cast<double>(plant.struts.size());
-    for (std::size_t k = 0; k < count; ++k) {
+    for (std::size_t k = 0; k < met.size(); ++k)
       met[k] |= (strut.extension_stop > 0 && x[k] > strut.extension_stop) ||
                 (strut.compression_stop > 0 && x[k] < -strut.compression_stop);
-      if (k > 0)
-        measures.energy += 0.5 * (force[k] * v[k] + force[k - 1] * v[k - 1]) *
-                           (trace.record.time[first + k] - trace.record.time[first + k - 1]);
-    }
   }
-  measures.stops_met = static_cast<double>(std::ranges::count(met, 1)) / static_cast<double>(count);
+  return static_cast<double>(std::ranges::count(met, 1)) / static_cast<double>(met.size());
+}
+
+bool has_stops(const Plant& plant) {
+  return std::ranges::any_of(plant.struts,
+                             [](const Strut& s) { return s.extension_stop > 0 || s.compression_stop > 0; });
+}
+
+bool has_domain(const Vehicle& vehicle) {
+  return std::ranges::any_of(vehicle.domains, [](const auto& domain) { return domain.has_value(); });
 }
 
 }  // namespace
 
-RideMeasures measure_ride(const Vehicle& vehicle, const Trace& trace, double discard) {
-  RideMeasures measures;
-  if (trace.diverged_at) {
-    measures.diverged_at = *trace.diverged_at;
-    return measures;
-  }
-  const std::vector<double>& time = trace.record.time;
-  const double dt = time.size() > 1 ? time[1] - time[0] : 0;
-  const auto first = static_cast<std::size_t>(std::lround(discard / dt));
+bool needs_trace(const Vehicle& vehicle) {
+  return vehicle.set.plant.tyres.size() > 1 || has_stops(vehicle.set.plant) || has_domain(vehicle);
+}
+
+RideMeasures measure_ride(const Vehicle& vehicle, const BatchResult& result, double discard) {
+  if (result.diverged_at) return {.diverged_at = *result.diverged_at};
   const Plant& plant = vehicle.set.plant;
-  measure_body(plant, trace, dt, discard, measures);
-  measure_tyres(plant, trace, first, measures);
-  measure_struts(plant, trace, first, measures);
-  measures.outside_data = 0;
+  const BatchMeasures& m = result.measures;
+  RideMeasures measures{.body_acceleration = m.body_acceleration,
+                        .weighted_acceleration = m.weighted_acceleration,
+                        .vibration_dose = m.vibration_dose,
+                        .tyre_load_index = plant.tyres.empty() ? 0 : m.tyre_load / plant.tyres[0].static_load,
+                        .contact_lost = m.contact_lost,
+                        .travel = m.deflection,
+                        .greatest_travel = m.greatest_deflection,
+                        .stops_met = 0,
+                        .energy = m.energy,
+                        .current = m.current,
+                        .outside_data = 0};
+  if (!needs_trace(vehicle)) return measures;
+  const Trace trace{.record = result.trace};
+  const std::vector<double>& time = trace.record.time;
+  const auto first = static_cast<std::size_t>(std::ranges::lower_bound(time, discard) - time.begin());
+  if (plant.tyres.size() > 1) measures.tyre_load_index = tyre_load_index(plant, trace, first);
+  measures.stops_met = share_at_stops(plant, trace, first);
   for (const DomainUse& use : domain_use(vehicle, trace))
     measures.outside_data = std::max(measures.outside_data, use.any());
   return measures;

@@ -4,6 +4,7 @@
 #include <span>
 #include <string_view>
 
+#include "dashpot/suspension/batch.h"
 #include "dashpot/suspension/vehicle.h"
 
 namespace dashpot {
@@ -29,7 +30,9 @@ std::span<const SweepMeasure> sweep_measures();
 /// Those that a ride is judged by: all but the last.
 std::span<const SweepMeasure> judged_measures();
 
-/// Of what happened from `discard` s on.
-RideMeasures measure_ride(const Vehicle& vehicle, const Trace& trace, double discard);
+/// Whether its measures take more than simulate_batch() sums up: stops, limits of data, several tyres.
+bool needs_trace(const Vehicle& vehicle);
+/// Of what happened from `discard` s on; with the trace where it is needed.
+RideMeasures measure_ride(const Vehicle& vehicle, const BatchResult& result, double discard);
 
 }  // namespace dashpot

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <span>
 
 #include "dashpot/base/error.h"
 #include "dashpot/suspension/batch.h"
@@ -9,6 +10,8 @@
 
 namespace dashpot {
 namespace {
+
+constexpr std::size_t kMostTraces = 16;
 
 void require_ground(const GroundMotion& ground, const Plant& plant, const SweepRequest& request) {
   if (plant.tyres.empty() && !ground.shakes())
@@ -65,16 +68,22 @@ std::vector<SweepStore::Ride> SweepRider::ride(const std::vector<Task>& tasks, c
     const Vehicle& vehicle = vehicles.emplace_back(make(task, draw));
     batch.push_back({vehicle.on(*ground), vehicle.limits, vehicle.sensors});
   }
-  std::vector<BatchResult> results = simulate_batch(batch, {.duration = request_.duration,
-                                                            .discard = request_.discard,
-                                                            .relative_tolerance = request_.relative_tolerance,
-                                                            .traces = true,
-                                                            .monitor = {.stop = monitor.stop}});
+  BatchOptions options{.duration = request_.duration,
+                       .discard = request_.discard,
+                       .relative_tolerance = request_.relative_tolerance,
+                       .monitor = {.stop = monitor.stop}};
+  options.traces = std::ranges::any_of(vehicles, needs_trace);
+  // Traces take memory: some at a time. A result does not depend on its neighbours.
+  const std::size_t most = options.traces ? kMostTraces : tasks.size();
   std::vector<SweepStore::Ride> rides;
-  for (std::size_t k = 0; k < tasks.size(); ++k) {
-    const Trace trace{.record = std::move(results[k].trace), .diverged_at = results[k].diverged_at};
-    rides.push_back(
-        {tasks[k].controller, tasks[k].vehicle, measure_ride(vehicles[k], trace, request_.discard)});
+  for (std::size_t first = 0; first < tasks.size(); first += most) {
+    const std::size_t count = std::min(most, tasks.size() - first);
+    const std::vector<BatchResult> results = simulate_batch(std::span(batch).subspan(first, count), options);
+    for (std::size_t k = 0; k < count; ++k) {
+      const Task& task = tasks[first + k];
+      rides.push_back(
+          {task.controller, task.vehicle, measure_ride(vehicles[first + k], results[k], request_.discard)});
+    }
   }
   return rides;
 }

@@ -82,6 +82,7 @@ enum LaneSignal : std::size_t {
 enum LaneResult : std::size_t {
   kAcceleration2,
   kWeighted2,
+  kWeighted4,
   kLoad2,
   kTyreDeflection2,
   kDeflection2,

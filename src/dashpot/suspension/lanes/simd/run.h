@@ -19,6 +19,7 @@ class Tally {
     const Lane more = s.load - s.load_at_rest;
     put(kAcceleration2, s.acceleration * s.acceleration);
     put(kWeighted2, weighted * weighted);
+    put(kWeighted4, weighted * weighted * weighted * weighted);
     put(kLoad2, more * more);
     put(kTyreDeflection2, s.tyre_deflection * s.tyre_deflection);
     put(kDeflection2, s.deflection * s.deflection);
