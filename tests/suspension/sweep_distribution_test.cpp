@@ -82,13 +82,13 @@ TEST_CASE("of a list every value is drawn alike") {
 
 TEST_CASE("a distribution that makes no sense is refused with file, line and what would be right") {
   const std::pair<std::string, std::string> cases[] = {
-      {"{uniform: [500 kg, 300 kg]}", "test.yaml:1: the range of sprung_mass is empty: 500 to 300 kg"},
+      {"{uniform: [500 kg, 300 kg]}", "test.yaml:1: the range of sprung_mass is empty: 500 kg to 300 kg"},
       {"{uniform: [300 kg]}", "has 1 ends; two: uniform: [from, to]"},
       {"{uniform: [-5 kg, 300 kg]}", "sprung_mass is -5 kg; between 1 and 1e+06 kg"},
-      {"{normal: 400 kg}", "no 'sd'"},
+      {"{normal: 400 kg}", "a distribution needs 'sd'"},
       {"{normal: 400 kg, sd: 0}", "a spread of 0; above 0"},
       {"{normal: 400 kg, sd: 40 kg, from: 900 kg}", "cut off where the distribution has nothing"},
-      {"{normal: 400 kg, sd: 40 N}", "'40 N'"},
+      {"{normal: 400 kg, sd: 40 N}", "'N' is not a unit of it; it is counted in kg"},
       {"{gauss: 400 kg}", "unknown key 'gauss'"},
       {"{from: 300 kg, to: 500 kg}", "unknown key 'from'"},
       {"[]", "no sprung_mass to choose from"},

@@ -115,13 +115,13 @@ TEST_CASE("every place of a grid has the same samples, on the same roads") {
 
 TEST_CASE("a request that cannot be understood is refused with file, line and what would be right") {
   const std::pair<std::string, std::string> cases[] = {
-      {"sampels: 5\n", "test.yaml:7: unknown key 'sampels'"},
+      {"sampels: 5\n", "test.yaml:7: a sweep has an unknown key 'sampels'"},
       {"samples: 0\n", "samples is 0; between 1 and"},
       {"samples: 1.5\n", "samples is 1.5; a whole number"},
       {"drawing: halton\n", "unknown drawing 'halton'"},
       {"baseline: pasive\n", "no controller is called 'pasive'; did you mean 'passive'"},
       {"duration: 3 s\n", "nothing is left of 3 s when 5 s are discarded"},
-      {"duration: 3 kg\n", "'3 kg'"},
+      {"duration: 3 kg\n", "'kg' is not a unit of it; it is counted in s"},
       {"sensors: perfect\n", "unknown sensors 'perfect'"},
       {"vary:\n  sprung_mas: [350 kg]\n",
        "test.yaml:8: nothing of a vehicle is known as 'sprung_mas'; did you mean 'sprung_mass'"},

@@ -97,15 +97,14 @@ void write_hdf5(const std::filesystem::path& path, const std::vector<ColumnTable
   if (path.has_parent_path()) make_folder(path.parent_path());
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // what fails is told by an Error, not on stderr
   const std::filesystem::path partial = path.string() + ".partial";
-  std::error_code failed;
   try {
     write_tables(partial, tables, attributes);
-    std::filesystem::rename(partial, path, failed);
-  } catch (const Error& error) {
-    std::filesystem::remove(partial, failed);
-    throw Error(path.string(), std::string("cannot be written: ") + error.what());
+    std::filesystem::rename(partial, path);
+  } catch (const std::exception& failure) {
+    std::error_code none;
+    std::filesystem::remove(partial, none);
+    throw Error(path.string(), std::string("cannot be written: ") + failure.what());
   }
-  if (failed) throw Error(path.string(), "cannot be written: " + failed.message());
 }
 
 }  // namespace dashpot

@@ -51,7 +51,7 @@ Quantile quantile_of(std::span<const double> sorted, double share) {
   // Of `count` values, B lie below the quantile, B binomial: x_(j) is above it with P(B < j), rank j from 1.
   const boost::math::binomial_distribution<> below_it(static_cast<double>(count), share);
   const double tail = 0.5 * (1 - kSweepConfidence);
-  auto j = static_cast<std::size_t>(boost::math::quantile(below_it, tail));
+  auto j = static_cast<std::size_t>(boost::math::quantile(below_it, tail)) + 1;
   while (j > 0 && boost::math::cdf(below_it, static_cast<double>(j - 1)) > tail) --j;
   if (j > 0) quantile.low = sorted[j - 1];
   auto k = static_cast<std::size_t>(boost::math::quantile(below_it, 1 - tail)) + 1;
