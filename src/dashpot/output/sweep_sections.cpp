@@ -51,28 +51,37 @@ FigureSeries quantile_curve(std::vector<double> values, double factor, const std
   return series;
 }
 
-/// Median and the middle 90 % of y over bins of x that hold equally many vehicles.
+using Pairs = std::vector<std::pair<double, double>>;
+
+/// Pairs of equal x where there are few x; else bins of equally many. Rising.
+std::vector<Pairs> binned(Pairs pairs) {
+  constexpr std::size_t kMostBins = 12, kFewest = 20;
+  std::ranges::sort(pairs);
+  std::vector<Pairs> bins;
+  for (const auto& pair : pairs) {
+    if (bins.empty() || bins.back().front().first != pair.first) bins.emplace_back();
+    bins.back().push_back(pair);
+  }
+  if (bins.size() <= kMostBins) return bins;
+  bins.assign(std::clamp(pairs.size() / kFewest, std::size_t{1}, kMostBins), {});
+  for (std::size_t k = 0; k < pairs.size(); ++k) bins[k * bins.size() / pairs.size()].push_back(pairs[k]);
+  return bins;
+}
+
+/// Median and the middle 90 % of y over x.
 void add_trend(FigurePanel& panel, const std::vector<double>& x, const std::vector<double>& y,
                const std::string& label, const std::string& colour) {
-  constexpr std::size_t kBins = 12, kFewest = 20;
-  std::vector<std::pair<double, double>> pairs;
+  Pairs pairs;
   for (std::size_t k = 0; k < x.size(); ++k)
     if (std::isfinite(y[k])) pairs.emplace_back(x[k], y[k]);
-  std::ranges::sort(pairs);
-  const std::size_t bins = std::clamp(pairs.size() / kFewest, std::size_t{1}, kBins);
   FigureSeries middle{label, colour, {}, {}}, low{"", colour, {}, {}, FigureSeries::Mark::Dashes, 1},
       high = low;
-  for (std::size_t b = 0; b < bins; ++b) {
-    std::vector<double> xs, ys;
-    for (std::size_t k = b * pairs.size() / bins; k < (b + 1) * pairs.size() / bins; ++k) {
-      xs.push_back(pairs[k].first);
-      ys.push_back(pairs[k].second);
-    }
-    if (xs.empty()) continue;
+  for (const Pairs& bin : binned(std::move(pairs))) {
+    std::vector<double> ys;
+    for (const auto& pair : bin) ys.push_back(pair.second);
     std::ranges::sort(ys);
-    const double place = quantile_of(xs, 0.5).value;
     for (const auto& [series, share] : {std::pair{&middle, 0.5}, {&low, 0.05}, {&high, 0.95}}) {
-      series->x.push_back(place);
+      series->x.push_back(bin[bin.size() / 2].first);
       series->y.push_back(quantile_of(ys, share).value);
     }
   }
