@@ -15,7 +15,7 @@ struct Fraction {
   Lanes<Real> above, below;
 };
 template <class Real>
-inline Fraction<Real> tanh_fraction(Lanes<Real> x) {
+[[gnu::always_inline]] inline Fraction<Real> tanh_fraction(Lanes<Real> x) {
   using A = Arithmetic<Real>;
   using V = Lanes<Real>;
   using I = typename LaneTypes<Real>::Integers;
