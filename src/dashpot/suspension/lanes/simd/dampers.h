@@ -16,6 +16,10 @@ class NetworkLanes {
       const std::size_t kind = shape_.inputs[i];
       (kind == 0 ? by_displacement_ : kind == 1 ? by_velocity_ : by_current_) = i;
     }
+    const std::size_t outputs = shape_.layers[0].outputs;
+    const double* out = behind(shape_.layers[0], weights_);
+    if (shape_.count == 2)
+      for (std::size_t n = 0; n <= outputs; ++n) all_ones_ += load(out + n * kWidth);
   }
 
   void set_current(Lane current) {
@@ -82,19 +86,18 @@ class NetworkLanes {
     for (std::size_t i = 0; i < layer.inputs; ++i) total += load(row + i * kWidth) * in[i];
     return total;
   }
-  /// The bias and the weighted tanh of so many sums. Two neurons share a division, which takes longer than
-  /// all else.
+  /// The bias and the weighted tanh of so many sums: tanh s = 1 - 2 / (1 + exp 2s), the ones summed
+  /// beforehand. Two neurons share a division, which takes longer than all else.
   template <class First>
-  static Lane sum_of_tanh(std::size_t count, First first, const double* out) {
-    Lane total = load(out + count * kWidth);
+  Lane sum_of_tanh(std::size_t count, First first, const double* out) const {
+    Lane fractions{};
     std::size_t n = 0;
     for (; n + 2 <= count; n += 2) {
-      const Fraction<double> a = tanh_fraction<double>(first(n)), b = tanh_fraction<double>(first(n + 1));
-      const Lane one = load(out + n * kWidth) * a.above, other = load(out + (n + 1) * kWidth) * b.above;
-      total += (one * b.below + other * a.below) / (a.below * b.below);
+      const Lane a = 1 + exp_of_twice(first(n)), b = 1 + exp_of_twice(first(n + 1));
+      fractions += (load(out + n * kWidth) * b + load(out + (n + 1) * kWidth) * a) / (a * b);
     }
-    if (n < count) total += load(out + n * kWidth) * tanh(first(n));
-    return total;
+    if (n < count) fractions += load(out + n * kWidth) / (1 + exp_of_twice(first(n)));
+    return all_ones_ - 2 * fractions;
   }
   static Lane ended(const LaneNetwork::Layer& last, Lane sum, const double* weights) {
     with_activation(last.activation, [&]<Activation kKind>() { sum = activated<kKind, double>(sum); });
@@ -107,6 +110,7 @@ class NetworkLanes {
   const double* weights_;
   std::size_t by_displacement_ = kNone, by_velocity_ = kNone, by_current_ = kNone;
   Lane biases_[kMaxWidth];
+  Lane all_ones_{};  ///< what the last of two layers sums up where all neurons give 1
 };
 
 /// A law whose text is compiled for lanes: a struct of numbers per lane and its functions.
