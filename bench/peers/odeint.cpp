@@ -7,12 +7,15 @@ namespace odeint = boost::numeric::odeint;
 
 namespace {
 
-/// The stepper lives through all samples; its last slope is the next one's first but where the command changes.
+/// The stepper lives through all samples; its last slope is the next one's first but where the command
+/// changes.
 template <std::size_t kSize>
 double run_sized(Ride ride, RideTrace* trace) {
   using State = std::array<double, kSize>;
   RideEquations equations(ride, 0);
-  const auto system = [&](const State& y, State& dy, double t) { equations.derivative(t, y.data(), dy.data()); };
+  const auto system = [&](const State& y, State& dy, double t) {
+    equations.derivative(t, y.data(), dy.data());
+  };
   auto stepper = odeint::make_controlled(kAbsolute, kRelative, odeint::runge_kutta_dopri5<State>());
   const double start = cpu_seconds();
   State y{}, slope{};

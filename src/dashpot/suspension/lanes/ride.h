@@ -111,8 +111,8 @@ struct RideKernel {
   std::size_t lanes;
   void (*run)(const LaneRide& ride) noexcept;
 };
-/// `level`: one of simd_levels().
-const RideKernel& ride_kernel(SimdLevel level);
+/// For so many vehicles: the widest, but for one or two, which the shortest vectors serve sooner.
+const RideKernel& ride_kernel(std::size_t vehicles);
 
 /// Names of the laws that have lanes, in the order of LaneRide::law and of the alphabet.
 std::span<const std::string_view> lane_law_table();

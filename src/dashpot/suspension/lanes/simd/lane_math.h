@@ -13,9 +13,9 @@ constexpr std::size_t kWidth = kLanes<double>;
 inline Lane all(double value) { return Lane{} + value; }
 
 inline bool any(LaneMask mask) {
-#if defined(__AVX512F__)
+#if DASHPOT_LANE_BYTES == 64
   return _mm512_movepi64_mask(__builtin_bit_cast(__m512i, mask)) != 0;
-#elif defined(__AVX2__)
+#elif DASHPOT_LANE_BYTES == 32
   return _mm256_movemask_pd(__builtin_bit_cast(__m256d, mask)) != 0;
 #elif defined(__SSE2__)
   return _mm_movemask_pd(__builtin_bit_cast(__m128d, mask)) != 0;
@@ -27,9 +27,9 @@ inline bool any(LaneMask mask) {
 }
 
 /// a < b ? a : b, so b where one of them is a NaN.
-#if defined(__AVX512F__)
+#if DASHPOT_LANE_BYTES == 64
 inline Lane smaller(Lane a, Lane b) { return _mm512_maskz_min_pd(0xFF, a, b); }
-#elif defined(__AVX2__)
+#elif DASHPOT_LANE_BYTES == 32
 inline Lane smaller(Lane a, Lane b) { return _mm256_min_pd(a, b); }
 #elif defined(__SSE2__)
 inline Lane smaller(Lane a, Lane b) { return _mm_min_pd(a, b); }
