@@ -1,7 +1,9 @@
 #pragma once
 #include <array>
 #include <cmath>
+#include <fstream>
 #include <memory>
+#include <numbers>
 
 #include "dashpot/damper/laws/modified_bouc_wen.h"
 #include "dashpot/damper/neural/network_model.h"
@@ -97,6 +99,20 @@ class RideEquations {
   std::size_t size() const { return ride_ == Ride::Network ? 4 : 7; }
   const std::vector<double>& heights() const { return heights_; }
 
+  /// Of the network: its neurons (by velocity, by current, bias, out), bias; of the law: its parameters
+  /// without current, the slopes of alpha, c0 and c1 by it, the lag's rate.
+  std::vector<double> numbers() const {
+    std::vector<double> all;
+    if (ride_ == Ride::Network) {
+      for (const auto& neuron : neurons_) all.insert(all.end(), neuron.begin(), neuron.end());
+      all.push_back(bias_);
+    } else {
+      all.assign(&off_.alpha, &off_.alpha + sizeof off_ / sizeof(double));
+      all.insert(all.end(), {alpha_slope_, c0_slope_, c1_slope_, lag_rate_});
+    }
+    return all;
+  }
+
   /// dy/dt; the command is constant between samples.
   void derivative(double t, const double* y, double* dy) const {
     ++evaluations;
@@ -117,16 +133,14 @@ class RideEquations {
     dy[3] = (spring - kTyre * (y[1] - road(t))) / kWheel;
   }
 
-  /// A sample of Mix-1: hard where the body moves slower than at the crossover.
-  void control(double t, const double* y) {
-    std::array<double, 7> dy;
-    derivative(t, y, dy.data());
-    const double rate = 2 * std::numbers::pi * kCrossover * y[2];
-    command = dy[2] * dy[2] - rate * rate <= 0 ? kDriveMax[static_cast<int>(ride_)] : 0;
+  /// A sample of Mix-1: hard where the body moves slower than at the crossover. Whether the command has
+  /// changed.
+  bool control(double body_velocity, double body_acceleration) {
+    const double rate = 2 * std::numbers::pi * kCrossover * body_velocity, before = command;
+    command =
+        body_acceleration * body_acceleration - rate * rate <= 0 ? kDriveMax[static_cast<int>(ride_)] : 0;
+    return command != before;
   }
-
-  /// y at the begin: at rest.
-  void rest(double* y) const { std::fill_n(y, size(), 0.0); }
 
   double command = 0;
   mutable std::size_t evaluations = 0;
@@ -163,5 +177,54 @@ class RideEquations {
   ModifiedBoucWen off_{};
   mutable ModifiedBoucWen law_{};
 };
+
+/// Body, wheel and their speeds at each sample.
+using RideTrace = std::vector<std::array<double, 4>>;
+
+/// Where the trace lies that all others are compared with, written by the peer that makes it: SUNDIALS at
+/// rtol 1e-10.
+inline std::string reference_file(Ride ride) {
+  return std::string("/tmp/dashpot_bench_") + (ride == Ride::Network ? "network" : "bouc_wen") + ".reference";
+}
+inline void write_reference(Ride ride, const RideTrace& trace) {
+  std::ofstream file(reference_file(ride), std::ios::binary);
+  file.write(reinterpret_cast<const char*>(trace.data()),
+             static_cast<std::streamsize>(trace.size() * sizeof trace[0]));
+}
+/// Greatest distance of a channel from the reference, of its greatest magnitude. NaN without a reference.
+inline double error_of(Ride ride, const RideTrace& trace) {
+  RideTrace reference(kSamples10s + 1);
+  std::ifstream file(reference_file(ride), std::ios::binary);
+  file.read(reinterpret_cast<char*>(reference.data()),
+            static_cast<std::streamsize>(reference.size() * sizeof reference[0]));
+  if (!file) return NAN;
+  double worst = 0;
+  for (std::size_t c = 0; c < 4; ++c) {
+    double top = 0, apart = 0;
+    for (std::size_t k = 0; k < trace.size(); ++k) {
+      top = std::max(top, std::abs(reference[k][c]));
+      apart = std::max(apart, std::abs(reference[k][c] - trace[k][c]));
+    }
+    worst = std::max(worst, apart / top);
+  }
+  return worst;
+}
+
+constexpr const char* kRideTasks[] = {"ride_network", "ride_bouc_wen"};
+
+/// Tasks of a general integrator: run(ride, trace or null) rides the first vehicle and returns CPU seconds.
+/// One vehicle and a batch are the same to it.
+template <class Run>
+void add_ride_tasks(std::map<std::string, Task>& tasks, Run run) {
+  for (const Ride ride : {Ride::Network, Ride::BoucWen}) {
+    const std::string name = kRideTasks[static_cast<int>(ride)];
+    tasks[name] = tasks[name + "_batch"] = [run, ride](int) { return run(ride, nullptr); };
+    tasks[name + ".error"] = tasks[name + "_batch.error"] = [run, ride](int) {
+      RideTrace trace;
+      run(ride, &trace);
+      return error_of(ride, trace);
+    };
+  }
+}
 
 }  // namespace peer

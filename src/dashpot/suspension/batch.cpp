@@ -47,8 +47,8 @@ std::span<const double> as_numbers(const QuarterCarNumbers<double>& numbers) {
 class LaneBatch {
  public:
   LaneBatch(std::span<const BatchVehicle> vehicles, const BatchOptions& options, const LaneShape& shape,
-            std::span<const std::size_t> members)
-      : options_(options), members_(members), lanes_(ride_kernel(simd_levels().back()).lanes) {
+            std::span<const std::size_t> members, const RideKernel& kernel)
+      : options_(options), members_(members), kernel_(kernel), lanes_(kernel.lanes) {
     for (std::size_t lane = 0; lane < lanes_; ++lane)  // the last ones again where there are too few
       vehicles_.push_back(&vehicles[members[std::min(lane, members.size() - 1)]]);
     ride_.kind = shape.kind;
@@ -83,7 +83,7 @@ class LaneBatch {
     ride_.weighting = &weighting[0].b0;
     ride_.results = sums.data();
     ride_.trace = options_.traces ? trace.data() : nullptr;
-    ride_kernel(simd_levels().back()).run(ride_);
+    kernel_.run(ride_);
     for (std::size_t lane = 0; lane < members_.size(); ++lane) {
       results[members_[lane]] = result_of(sums, lane);
       if (options_.traces) results[members_[lane]].trace = trace_of(trace, lane, results[members_[lane]]);
@@ -151,6 +151,7 @@ class LaneBatch {
 
   const BatchOptions& options_;
   std::span<const std::size_t> members_;
+  const RideKernel& kernel_;
   std::size_t lanes_;
   std::vector<const BatchVehicle*> vehicles_;
   LaneRide ride_;
@@ -213,22 +214,20 @@ BatchResult alone(const BatchVehicle& vehicle, const BatchOptions& options) {
   return result;
 }
 
-void require_options(const BatchOptions& options) {
+void require_options(std::span<const BatchVehicle> vehicles, const BatchOptions& options) {
   if (!(options.discard >= 0 && options.discard < options.duration))
     throw Error("batch", "the whole ride is left out of the measures");
+  for (const BatchVehicle& vehicle : vehicles)
+    require_fitting(vehicle.setting, {.duration = options.duration,
+                                      .relative_tolerance = options.relative_tolerance,
+                                      .absolute_tolerance = options.absolute_tolerance,
+                                      .limits = vehicle.limits});
 }
 
-}  // namespace
-
-std::vector<BatchResult> simulate_batch(std::span<const BatchVehicle> vehicles, const BatchOptions& options) {
-  require_options(options);
+/// Those that fit into lanes by what they have in common; `others` takes the rest.
+std::vector<Group> groups_of(std::span<const BatchVehicle> vehicles, std::vector<std::size_t>& others) {
   std::vector<Group> groups;
-  std::vector<std::size_t> others;
   for (std::size_t k = 0; k < vehicles.size(); ++k) {
-    require_fitting(vehicles[k].setting, {.duration = options.duration,
-                                          .relative_tolerance = options.relative_tolerance,
-                                          .absolute_tolerance = options.absolute_tolerance,
-                                          .limits = vehicles[k].limits});
     if (!reason_against_lanes(vehicles[k]).empty()) {
       others.push_back(k);
       continue;
@@ -241,13 +240,23 @@ std::vector<BatchResult> simulate_batch(std::span<const BatchVehicle> vehicles, 
     else
       groups.push_back({shape, {k}});
   }
+  return groups;
+}
+
+}  // namespace
+
+std::vector<BatchResult> simulate_batch(std::span<const BatchVehicle> vehicles, const BatchOptions& options) {
+  require_options(vehicles, options);
+  std::vector<std::size_t> others;
+  const std::vector<Group> groups = groups_of(vehicles, others);
   std::vector<LaneBatch> batches;
-  const std::size_t lanes = ride_kernel(simd_levels().back()).lanes;
+  const RideKernel& kernel = ride_kernel(vehicles.size());
   for (const Group& group : groups)
-    for (std::size_t first = 0; first < group.members.size(); first += lanes)
+    for (std::size_t first = 0; first < group.members.size(); first += kernel.lanes)
       batches.emplace_back(
           vehicles, options, group.shape,
-          std::span(group.members).subspan(first, std::min(lanes, group.members.size() - first)));
+          std::span(group.members).subspan(first, std::min(kernel.lanes, group.members.size() - first)),
+          kernel);
   std::vector<BatchResult> results(vehicles.size());
   parallel_for(batches.size() + others.size(), options.threads, [&](std::size_t task) {
     options.monitor.check();

@@ -54,9 +54,9 @@ struct BatchResult {
 /// Many vehicles side by side in the lanes of the processor, one result each. Lanes take quarter cars with
 /// any controller, sensors and ground whose damper is a static network (one of tanh, sigmoid or ReLU neurons)
 /// or a law that has lanes (lane_laws()), behind a driver without limited rate and sampling of its own; all
-/// others go through simulate() one by one. A result does not depend on what else is in the batch. Roads take
-/// memory: give thousands of vehicles in blocks of some hundred. Throws Error as simulate() does, naming the
-/// vehicle.
+/// others go through simulate() one by one. A result does not depend on what else is in the batch; batches of
+/// one or two vehicles, which ride on shorter vectors, may differ in the last digits. Roads take memory: give
+/// thousands of vehicles in blocks of some hundred. Throws Error as simulate() does, naming the vehicle.
 std::vector<BatchResult> simulate_batch(std::span<const BatchVehicle> vehicles, const BatchOptions& options);
 
 /// Laws whose equations run in lanes, too, in alphabetical order.

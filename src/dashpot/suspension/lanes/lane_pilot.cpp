@@ -78,7 +78,7 @@ double LanePilot::command(Driver& driver, const double (&signals)[kLaneSignals],
   const std::array<double, 4> x{signals[kBody] - resting[0] * signals[kGround],
                                 signals[kWheel] - resting[1] * signals[kGround], strut.body_velocity,
                                 strut.wheel_velocity};
-  driver.sensors.measure({&strut, 1});
+  if (!sensors.ideal()) driver.sensors.measure({&strut, 1});
   DamperDemand demand;
   vehicle->setting.controller->step({&strut, 1},
                                     sensors.ideal() ? std::span<const double>(x) : std::span<const double>(),

@@ -18,9 +18,6 @@ struct QuarterCarNumbers {
   Number may_lift;  ///< 1 or 0
   Number friction, friction_slope, extension_stop, compression_stop, stop_stiffness;
   Number driver_lag, model_lag;  ///< 1/s; 0: none
-  // A whole sample at once: x in its middle and at its end, by x and by F and P at its three nodes
-  Number middle[4][10], end[4][10];
-  Number kept[2];  ///< of a current on its way to the command: after half a sample, after a whole
 };
 
 enum class LaneDamperKind { Network, Law };
@@ -46,7 +43,6 @@ struct LaneRide {
   std::size_t law = 0;        ///< its place in lane_law_table()
   bool lags = false;          ///< some coil or model has a lag
   bool resists_more = false;  ///< some strut has stops or friction, some tyre may lift
-  bool adaptive = false;      ///< steps as long as the tolerances allow, within samples
   double relative_tolerance = 0, absolute_tolerance = 0;
   double sample_time = 0;
   std::size_t samples = 0, discarded = 0;
@@ -116,8 +112,8 @@ struct RideKernel {
   std::size_t lanes;
   void (*run)(const LaneRide& ride) noexcept;
 };
-/// `level`: one of simd_levels().
-const RideKernel& ride_kernel(SimdLevel level);
+/// For so many vehicles: the widest, but for one or two, which the shortest vectors serve sooner.
+const RideKernel& ride_kernel(std::size_t vehicles);
 
 /// Names of the laws that have lanes, in the order of LaneRide::law and of the alphabet.
 std::span<const std::string_view> lane_law_table();

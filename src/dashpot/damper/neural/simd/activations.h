@@ -9,13 +9,8 @@ namespace {
 ///   x = k ln 2 / 2 + z,  |z| <= ln 2 / 4,  p = 2^k:  tanh(k ln 2 / 2) = (p - 1) / (p + 1),  and
 ///   tanh z = z N(z^2) / D(z^2), so far down Lambert's continued fraction that the rest rounds away.
 /// The addition theorem makes one fraction of the two.
-/// Left as that fraction, for sums that divide once for several.
 template <class Real>
-struct Fraction {
-  Lanes<Real> above, below;
-};
-template <class Real>
-inline Fraction<Real> tanh_fraction(Lanes<Real> x) {
+inline Lanes<Real> tanh_lanes(Lanes<Real> x) {
   using A = Arithmetic<Real>;
   using V = Lanes<Real>;
   using I = typename LaneTypes<Real>::Integers;
@@ -37,12 +32,7 @@ inline Fraction<Real> tanh_fraction(Lanes<Real> x) {
     denominator = ((square + 210) * square + 4725) * square + 10395;
   }
   const V less = p - 1, more = p + 1;
-  return {less * denominator + more * numerator, more * denominator + less * numerator};
-}
-template <class Real>
-inline Lanes<Real> tanh_lanes(Lanes<Real> x) {
-  const Fraction<Real> f = tanh_fraction<Real>(x);
-  return f.above / f.below;
+  return (less * denominator + more * numerator) / (more * denominator + less * numerator);
 }
 
 /// Activations that only bound a sum below: products do it in passing.

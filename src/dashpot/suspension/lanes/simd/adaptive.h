@@ -13,16 +13,19 @@ class AdaptiveSteps {
   static constexpr std::size_t kStates = Damper::kStates, kSize = 4 + kStates + (kLags ? 2 : 0);
   struct Slope {
     Lane d[kSize];
+    Lane force;  ///< of the damper
   };
 
  public:
   AdaptiveSteps(const LaneRide& ride, Car& car) : ride_(ride), car_(car), next_(all(ride.sample_time)) {}
 
-  /// Forces at the begin of a sample, after the command: to be called where some lane's has changed.
-  void refresh(const State& state, Lane command, LaneMask changed, Lane pushed) {
-    const Slope fresh = slope(state, command, pushed);
-    for (std::size_t k = 0; k < kSize; ++k) first_.d[k] = changed ? fresh.d[k] : first_.d[k];
+  /// Forces at the begin of a sample, after the command has changed in some lanes.
+  void refresh(const State& state, Lane command, LaneMask changed, Lane road) {
+    keep(slope(state, command, road), changed);
   }
+  /// At the present state: the damper's force, N, and the acceleration of coordinate k, m/s^2.
+  Lane force() const { return first_.force; }
+  Lane acceleration(std::size_t k) const { return first_.d[2 + k]; }
 
   /// Over one sample.
   void advance(State& state, Lane command, const RoadPush& road) {
@@ -41,7 +44,7 @@ class AdaptiveSteps {
       const LaneMask accepted = moving & ((error <= 1) | small | (error != error));
       missed = missed | (accepted & !(error <= 1));
       take(state, end, accepted);
-      for (std::size_t k = 0; k < kSize; ++k) first_.d[k] = accepted ? ending.d[k] : first_.d[k];
+      keep(ending, accepted);
       steps += accepted ? all(1) : Lane{};
       const Lane factor = fmin(fmax(0.9 * about_fifth_root_below(fmax(error, 1e-5)), 0.2), 5);
       const Lane proposed = fmin(fmax(h * factor, least), whole);
@@ -55,7 +58,7 @@ class AdaptiveSteps {
   Lane steps{};
 
  private:
-  Slope slope(const State& s, Lane command, Lane road) {
+  [[gnu::always_inline]] Slope slope(const State& s, Lane command, Lane road) {
     Slope out;
     const Lane* x = s.x;
     if constexpr (kLags) {
@@ -63,7 +66,8 @@ class AdaptiveSteps {
       out.d[4 + kStates] = car_.numbers.driver_lag * (command - s.currents.coil);
       out.d[5 + kStates] = car_.numbers.model_lag * (s.currents.coil - s.currents.inner);
     }
-    const Lane force = car_.damper_force(x, s.z) + car_.strut_extra(x), pushed = car_.push_on_wheel(x, road);
+    out.force = car_.damper_force(x, s.z);
+    const Lane force = out.force + car_.strut_extra(x), pushed = car_.push_on_wheel(x, road);
     car_.damper.derivative(x[0] - x[1], x[2] - x[3], s.z, out.d + 4);
     out.d[0] = x[2];
     out.d[1] = x[3];
@@ -71,8 +75,12 @@ class AdaptiveSteps {
     out.d[3] = car_.acceleration(1, x, force, pushed);
     return out;
   }
+  void keep(const Slope& fresh, LaneMask which) {
+    for (std::size_t k = 0; k < kSize; ++k) first_.d[k] = which ? fresh.d[k] : first_.d[k];
+    first_.force = which ? fresh.force : first_.force;
+  }
   template <class Change>
-  static void each_of(const State& from, State& to, Change change) {
+  [[gnu::always_inline]] static void each_of(const State& from, State& to, Change change) {
 #pragma GCC unroll 16
     for (std::size_t k = 0; k < 4; ++k) to.x[k] = change(from.x[k], k);
 #pragma GCC unroll 16

@@ -68,13 +68,14 @@ class QuarterCarLanes {
   const LaneRide& ride_;
 };
 
-/// The road's push within a sample: a parabola through its begin, middle and end.
+/// The road's push within a sample: a parabola through its begin, middle and end and, so that its slopes
+/// there are the road's, twist u (u - 1/2) (u - 1), u = 0 ... 1.
 struct RoadPush {
-  Lane begin{}, slope{}, bend{};
-  RoadPush(Lane p0, Lane p1, Lane p2)
-      : begin(p0), slope(4 * p1 - 3 * p0 - p2), bend(2 * (p0 + p2) - 4 * p1) {}
-  /// u: 0 ... 1
-  Lane at(Lane u) const { return begin + u * (slope + u * bend); }
+  Lane node[3]{}, twist{};
+  Lane at(Lane u) const {
+    const Lane slope = 4 * node[1] - 3 * node[0] - node[2], bend = 2 * (node[0] + node[2]) - 4 * node[1];
+    return node[0] + u * (slope + u * bend + (u - 0.5) * (u - 1) * twist);
+  }
 };
 
 }  // namespace

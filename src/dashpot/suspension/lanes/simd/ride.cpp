@@ -1,4 +1,5 @@
 // Compiled once per instruction set; DASHPOT_RIDES names the function that hands out the result.
+#include "dashpot/suspension/lanes/simd/adaptive.h"
 #include "dashpot/suspension/lanes/simd/laws.h"
 #include "dashpot/suspension/lanes/simd/run.h"
 #include "dashpot/suspension/lanes/simd/tables.h"

@@ -1,5 +1,5 @@
 #pragma once
-#include "dashpot/suspension/lanes/simd/adaptive.h"
+#include "dashpot/suspension/lanes/simd/quarter_car.h"
 
 namespace dashpot {
 namespace {
@@ -64,21 +64,13 @@ class LaneRun {
   }
 
   void run() {
-    LaneMask changed = all(0) == 0;
     for (std::size_t k = 0;; ++k) {
       meet_ground(k);
-      force_ = car_.damper_force(state_.x, state_.z);
-      if (ride_.control) changed = changed | control();
-      if (any(changed)) {
-        car_.damper.set_current(car_.driving(state_.currents));
-        const Lane fresh = car_.damper_force(state_.x, state_.z);
-        force_ = changed ? fresh : force_;
-        steps_.refresh(state_, command_, changed, push_[0]);
-      }
+      if (k == 0) steps_.refresh(state_, command_, all(0) == 0, road_.node[0]);
+      if (ride_.control) control();
       sample(k);
       if (k == ride_.samples) break;
-      steps_.advance(state_, command_, RoadPush(push_[0], push_[1], push_[2]));
-      changed = LaneMask{};
+      steps_.advance(state_, command_, road_);
       check(k + 1);
     }
     tally_.row(kMissed) = steps_.missed ? all(1) : Lane{};
@@ -92,28 +84,26 @@ class LaneRun {
   void meet_ground(std::size_t k) {
     const std::size_t place = k % kAhead;
     if (place == 0) ride_.ground(ride_.pilot, 2 * k, 2 * kAhead + 1, heights_, rates_);
+    Lane height[3], rate[3];
     for (std::size_t node = 0; node < 3; ++node) {
       const std::size_t at = (2 * place + node) * kWidth;
-      push_[node] = car_.push(load(heights_ + at), load(rates_ + at));
+      height[node] = load(heights_ + at);
+      rate[node] = load(rates_ + at);
+      road_.node[node] = car_.push(height[node], rate[node]);
     }
-    height_ = load(heights_ + 2 * place * kWidth);
+    road_.twist =
+        car_.numbers.tyre_stiffness * (ride_.sample_time * (rate[0] + rate[2]) - 2 * (height[2] - height[0]));
+    height_ = height[0];
   }
-  void accelerate() {
-    const Lane strut = force_ + car_.strut_extra(state_.x), pushed = car_.push_on_wheel(state_.x, push_[0]);
-    for (std::size_t k = 0; k < 2; ++k) acceleration_[k] = car_.acceleration(k, state_.x, strut, pushed);
-  }
-
-  /// Which lanes' commands differ from before.
-  LaneMask control() {
-    accelerate();
+  void control() {
     const Lane* x = state_.x;
     Lane signals[kLaneSignals];
     signals[kBodyVelocity] = x[2];
-    signals[kBodyAcceleration] = acceleration_[0];
+    signals[kBodyAcceleration] = steps_.acceleration(0);
     signals[kWheelVelocity] = x[3];
     signals[kDeflection] = x[0] - x[1];
     signals[kDeflectionVelocity] = x[2] - x[3];
-    signals[kForce] = force_;
+    signals[kForce] = steps_.force();
     signals[kCurrent] = state_.currents.coil;
     signals[kBody] = x[0];
     signals[kWheel] = x[1];
@@ -122,20 +112,31 @@ class LaneRun {
     ride_.control(ride_.pilot, reinterpret_cast<const double*>(signals),
                   reinterpret_cast<double*>(&command_));
     state_.currents.coil = car_.numbers.driver_lag > 0 ? state_.currents.coil : command_;
-    return command_ != before;
+    const LaneMask changed = command_ != before;
+    if (!any(changed)) return;
+    car_.damper.set_current(car_.driving(state_.currents));
+    steps_.refresh(state_, command_, changed, road_.node[0]);
   }
 
   void sample(std::size_t k) {
-    accelerate();
     const Lane* x = state_.x;
-    const Lane load_here = car_.tyre_load(x, car_.push_on_wheel(x, push_[0]));
-    tally_.add({acceleration_[0], load_here, car_.numbers.static_load, x[1] - height_, x[0] - x[1],
-                x[2] - x[3], force_, state_.currents.coil},
+    const Lane load_here = car_.tyre_load(x, car_.push_on_wheel(x, road_.node[0]));
+    tally_.add({steps_.acceleration(0), load_here, car_.numbers.static_load, x[1] - height_, x[0] - x[1],
+                x[2] - x[3], steps_.force(), state_.currents.coil},
                alive_, k >= ride_.discarded);
     if (!ride_.trace) return;
-    const Lane rows[kLaneTraces] = {
-        x[0],        x[2],   acceleration_[0],     x[1],    x[3],     acceleration_[1], x[0] - x[1],
-        x[2] - x[3], force_, state_.currents.coil, height_, load_here};
+    const Lane rows[kLaneTraces] = {x[0],
+                                    x[2],
+                                    steps_.acceleration(0),
+                                    x[1],
+                                    x[3],
+                                    steps_.acceleration(1),
+                                    x[0] - x[1],
+                                    x[2] - x[3],
+                                    steps_.force(),
+                                    state_.currents.coil,
+                                    height_,
+                                    load_here};
     for (std::size_t row = 0; row < kLaneTraces; ++row)
       store(ride_.trace + (k * kLaneTraces + row) * kWidth, rows[row]);
   }
@@ -154,7 +155,8 @@ class LaneRun {
   Steps steps_;
   Tally tally_;
   Moving<Damper::kStates> state_;
-  Lane command_{}, force_{}, height_{}, acceleration_[2]{}, push_[3]{};
+  Lane command_{}, height_{};
+  RoadPush road_;
   LaneMask alive_ = all(0) == 0;
   alignas(64) double heights_[(2 * kAhead + 1) * kWidth];
   alignas(64) double rates_[(2 * kAhead + 1) * kWidth];
