@@ -2,8 +2,8 @@
 #include <string>
 #include <vector>
 
-#include "dashpot/base/result_file.h"
 #include "dashpot/identify/identify.h"
+#include "dashpot/identify/result_file.h"
 
 // What kept results are found again by: all that a fit depends on, as text.
 namespace dashpot {

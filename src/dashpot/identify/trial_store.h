@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 
-#include "dashpot/base/result_file.h"
 #include "dashpot/identify/metrics.h"
+#include "dashpot/identify/result_file.h"
 
 namespace dashpot {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "dashpot/base/result_file.h"
+#include "dashpot/identify/result_file.h"
 #include "dashpot/suspension/sweep_measures.h"
 #include "dashpot/suspension/sweep_request.h"
 

@@ -1,4 +1,4 @@
-#include "dashpot/base/result_file.h"
+#include "dashpot/identify/result_file.h"
 
 #include <map>
 #include <mutex>
