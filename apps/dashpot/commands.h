@@ -19,6 +19,7 @@ Command physics_command();
 Command design_command();
 Command simulate_command();
 Command ride_command();
+Command sweep_command();
 Command bench_command();
 Command demo_command();
 Command study_command();

@@ -1,7 +1,7 @@
 #include "dashpot/base/error.h"
 #include "dashpot/damper/neural/mlp_evaluator.h"
 #include "dashpot/damper/neural/train_batches.h"
-#include "peer.h"
+#include "rides.h"
 
 using namespace dashpot;
 using namespace peer;
@@ -93,6 +93,15 @@ double fit(int round) {
 }  // namespace
 
 int main(int count, char** arguments) {
+  if (count > 1 && arguments[1] == std::string("simulate")) {
+    std::map<std::string, Task> rides;
+    add_own_rides(rides, false);
+    return serve(rides);
+  }
+  if (count > 2 && arguments[1] == std::string("ride")) {
+    print_ride(arguments[2] == std::string(kRideTasks[0]) ? Ride::Network : Ride::BoucWen);
+    return 0;
+  }
   const bool narrow = count > 1 && arguments[1] == std::string("avx2");
   const SimdLevel level = narrow ? SimdLevel::Avx2 : simd_levels().back();
   std::map<std::string, Task> tasks{{"peak", [level](int) { return peak_float(level); }},
@@ -104,5 +113,6 @@ int main(int count, char** arguments) {
                   {"batch_tanh", [](int) { return batch(kTanh); }},
                   {"fit_iteration", fit_iteration},
                   {"fit", fit}});
+  if (!narrow) add_own_rides(tasks, true);
   return serve(tasks);
 }

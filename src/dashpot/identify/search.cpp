@@ -13,6 +13,7 @@
 #include "dashpot/base/parallel.h"
 #include "dashpot/base/text.h"
 #include "dashpot/damper/neural/kernel.h"
+#include "dashpot/identify/fit_identity.h"
 
 namespace dashpot {
 namespace {

@@ -1,12 +1,11 @@
 #pragma once
 #include <cstddef>
 #include <filesystem>
-#include <memory>
 #include <optional>
 #include <string>
 
-#include "dashpot/identify/fit_identity.h"
 #include "dashpot/identify/metrics.h"
+#include "dashpot/identify/result_file.h"
 
 namespace dashpot {
 
@@ -20,8 +19,7 @@ struct FoldResult {
   double seconds = 0;          ///< CPU time
 };
 
-/// Results of a search in one SQLite file, each written as it comes and never again: what a killed search has
-/// finished is there whole, what it had not is not there. One process at a time. Safe from several threads.
+/// Results of a search in one file, each written as it comes and never again. Safe from several threads.
 class TrialStore {
  public:
   /// What a result belongs to. share: of the full effort, 0 ... 1.
@@ -34,7 +32,6 @@ class TrialStore {
   /// Opens the file or makes it. `search`: all that its results depend on besides their keys. Throws Error
   /// when the file holds another search (naming what differs), is in use, is something else or is damaged.
   TrialStore(const std::filesystem::path& path, const NamedTexts& search);
-  ~TrialStore();
 
   /// Throws away what the file holds, damaged or of another search. Throws Error when it is in use.
   static void remove(const std::filesystem::path& path);
@@ -45,8 +42,7 @@ class TrialStore {
   std::size_t size() const;  ///< results
 
  private:
-  struct Connection;
-  std::unique_ptr<Connection> connection_;
+  ResultFile file_;
 };
 
 }  // namespace dashpot

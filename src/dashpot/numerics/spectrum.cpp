@@ -1,5 +1,6 @@
 #include "dashpot/numerics/spectrum.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <complex>
@@ -35,6 +36,19 @@ PowerSpectrum power_spectrum(std::span<const double> x, double dt) {
     spectrum.power[k] = sides * std::norm(lines[k]) / (window_power * static_cast<double>(padded));
   }
   return spectrum;
+}
+
+std::vector<double> sum_of_harmonics(std::span<const std::complex<double>> lines, std::size_t points) {
+  std::vector<std::complex<double>> half(points / 2 + 1);
+  std::copy(lines.begin(), lines.end(), half.begin());
+  half[0] *= 2;  // a constant has no mirror image
+  Eigen::FFT<double> fft;
+  fft.SetFlag(Eigen::FFT<double>::HalfSpectrum);
+  fft.SetFlag(Eigen::FFT<double>::Unscaled);
+  std::vector<double> sum;
+  fft.inv(sum, half, static_cast<Eigen::Index>(points));
+  for (double& value : sum) value *= 0.5;
+  return sum;
 }
 
 }  // namespace dashpot

@@ -1,4 +1,5 @@
 #pragma once
+#include <complex>
 #include <span>
 #include <vector>
 
@@ -12,5 +13,9 @@ struct PowerSpectrum {
 
 /// Periodogram of x less its mean, under a Hann window, padded with zeros to a power of two. dt s.
 PowerSpectrum power_spectrum(std::span<const double> x, double dt);
+
+/// y_j = sum over k of Re(lines_k exp(2 pi i j k / points)). points: a power of two, at least twice the
+/// lines.
+std::vector<double> sum_of_harmonics(std::span<const std::complex<double>> lines, std::size_t points);
 
 }  // namespace dashpot

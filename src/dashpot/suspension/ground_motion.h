@@ -1,6 +1,7 @@
 #pragma once
 #include <limits>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,12 @@ class GroundMotion {
   virtual double duration() const noexcept { return std::numeric_limits<double>::infinity(); }
   /// Under a tyre on `track` (0 left or only, 1 right), `behind` metres behind the first axle, at t s.
   virtual FootMotion foot(double t, std::size_t track, double behind) const noexcept = 0;
+  /// The same at t, t + step, ... `out` holds how many.
+  virtual void feet(double t, double step, std::size_t track, double behind,
+                    std::span<FootMotion> out) const noexcept {
+    for (std::size_t k = 0; k < out.size(); ++k)
+      out[k] = foot(t + step * static_cast<double>(k), track, behind);
+  }
   virtual double acceleration(double) const noexcept { return 0; }  ///< m/s^2, of the ground, at t s
   /// Whether it is an acceleration, which plants without tyres ask for, and not a height.
   virtual bool shakes() const noexcept { return false; }

@@ -33,14 +33,31 @@ struct MountedDamper {
   }
 };
 
+/// The way from a demand to a command, with the memories of inverse and force loop.
+class CommandPath {
+ public:
+  CommandPath(const MountedDamper& damper, const ControlLimits& limits, double deflection);
+
+  /// A; force: what the damper gives now, N.
+  double command(const DamperDemand& demand, const DamperInput& now, double force);
+
+ private:
+  double wanted_force(const DamperDemand& demand, const DamperInput& now, double force);
+
+  const MountedDamper* damper_;
+  ControlLimits limits_;
+  std::vector<double> inverse_state_;
+  double missed_ = 0, missed_sum_ = 0;
+};
+
 /// Its moving parts: states of model, driver, inverse and force loop. Motions and forces are the strut's.
 /// Copied to try a step.
 class DamperState {
  public:
   DamperState(const MountedDamper& damper, const ControlLimits& limits, double deflection);
 
-  /// A new demand at this deflection and velocity: sets the driver's command.
-  void demand(const DamperDemand& demand, const DamperInput& now);
+  /// A new demand at this deflection and velocity, with this measured force: sets the driver's command.
+  void demand(const DamperDemand& demand, const DamperInput& now, double force);
   /// From one instant to another one dt later.
   void advance(const DamperInput& from, const DamperInput& to, double dt) noexcept;
   double force(const DamperInput& input) const noexcept {
@@ -52,13 +69,11 @@ class DamperState {
   double command() const noexcept { return command_; }
 
  private:
-  double wanted_force(const DamperDemand& demand, const DamperInput& now);
-
   const MountedDamper* damper_;
-  ControlLimits limits_;
+  CommandPath path_;
   Driver driver_;
-  std::vector<double> state_, driver_state_, inverse_state_;
-  double command_ = 0, missed_ = 0, missed_sum_ = 0;
+  std::vector<double> state_, driver_state_;
+  double command_ = 0;
 };
 
 }  // namespace dashpot

@@ -1,6 +1,7 @@
 #include "dashpot/suspension/road_profile.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <complex>
 #include <numbers>
@@ -8,6 +9,7 @@
 #include "dashpot/base/error.h"
 #include "dashpot/base/random.h"
 #include "dashpot/base/text.h"
+#include "dashpot/numerics/spectrum.h"
 
 namespace dashpot {
 namespace {
@@ -26,6 +28,16 @@ class DrivenRoad final : public GroundMotion {
   double duration() const noexcept override { return profile_.length() / speed_; }
   double speed() const noexcept override { return speed_; }
   FootMotion foot(double t, std::size_t track, double behind) const noexcept override {
+    return at(t, track, behind);
+  }
+  void feet(double t, double step, std::size_t track, double behind,
+            std::span<FootMotion> out) const noexcept override {
+    for (std::size_t k = 0; k < out.size(); ++k)
+      out[k] = at(t + step * static_cast<double>(k), track, behind);
+  }
+
+ private:
+  FootMotion at(double t, std::size_t track, double behind) const noexcept {
     const std::size_t which = std::min(track, profile_.tracks.size() - 1);
     const std::vector<double>&z = profile_.tracks[which], &slope = slopes_[which];
     const double place = (speed_ * t - behind) / profile_.spacing;
@@ -37,8 +49,6 @@ class DrivenRoad final : public GroundMotion {
             speed_ / profile_.spacing *
                 (6 * u * w * rise + w * (w - 2 * u) * slope[k] + u * (u - 2 * w) * slope[k + 1])};
   }
-
- private:
   /// Per spacing, central; level at both ends, where the road goes on level.
   static std::vector<double> slopes_of(const std::vector<double>& z) {
     std::vector<double> slopes(z.size());
@@ -150,6 +160,30 @@ RoadProfile cosine_road(const RoadOptions& o) {
     const double shared = shared_part(n, o.track_width);
     add_wave(road.tracks[1], o.spacing, {shared * amplitude, n, phase});
     add_wave(road.tracks[1], o.spacing, {std::sqrt(1 - shared * shared) * amplitude, n, own_phase});
+  }
+  begin_level(road);
+  return road;
+}
+
+RoadProfile harmonic_road(const RoadOptions& o) {
+  RoadProfile road = empty_road("ISO 8608, sum of harmonics", o);
+  const std::size_t points = std::bit_ceil(road.tracks[0].size());
+  const double step = 1 / (o.spacing * static_cast<double>(points));
+  std::vector<std::vector<std::complex<double>>> lines(road.tracks.size());
+  for (auto& track : lines) track.resize(points / 2);
+  Random random(o.seed);
+  const auto first = static_cast<std::size_t>(std::ceil(o.wave_number_min / step));
+  for (std::size_t k = first; k < points / 2 && step * static_cast<double>(k) <= o.wave_number_max; ++k) {
+    const double n = step * static_cast<double>(k), amplitude = wave_amplitude(o.roughness, n, step);
+    lines[0][k] = std::polar(amplitude, random.uniform(0, kTurn));
+    if (lines.size() < 2) continue;
+    const double shared = shared_part(n, o.track_width);
+    lines[1][k] = shared * lines[0][k] +
+                  std::polar(std::sqrt(1 - shared * shared) * amplitude, random.uniform(0, kTurn));
+  }
+  for (std::size_t t = 0; t < lines.size(); ++t) {
+    const std::vector<double> heights = sum_of_harmonics(lines[t], points);
+    std::copy_n(heights.begin(), road.tracks[t].size(), road.tracks[t].begin());
   }
   begin_level(road);
   return road;

@@ -50,6 +50,10 @@ RoadProfile cosine_road(const RoadOptions& options);
 /// The amplitude of one of its waves.
 double wave_amplitude(double roughness, double wave_number, double step);
 
+/// The same by a fast Fourier transform: waves are all those within the band of which a whole number fits
+/// into the road's length, rounded up; `waves` is not looked at. A hundredth of the work.
+RoadProfile harmonic_road(const RoadOptions& options);
+
 /// White noise through a first-order filter along the way, z' = -2 pi n_min z + 2 pi n0 sqrt(G_d) w, with w
 /// of one-sided density 1: as the filtered noise over time at any speed. wave_number_max is that of its
 /// points.

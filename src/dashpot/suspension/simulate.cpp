@@ -11,23 +11,6 @@
 namespace dashpot {
 namespace {
 
-void require_fitting(const Setting& setting, const SimulateOptions& options) {
-  const Plant& plant = setting.plant;
-  if (setting.dampers.size() != plant.struts.size())
-    throw Error(plant.name, "has " + std::to_string(plant.struts.size()) + " places for dampers, not " +
-                                std::to_string(setting.dampers.size()));
-  for (const MountedDamper& damper : setting.dampers)
-    if (!damper.model) throw Error(plant.name, "a damper has no model");
-  if (!(options.duration > 0))
-    throw Error("simulation", "a duration of " + format_number(options.duration) + " s", "above 0");
-  if (options.step && !(*options.step > 0)) throw Error("simulation", "its step is not above 0");
-  if (options.step && setting.controller && *options.step > options.limits.sample_time * (1 + 1e-9))
-    throw Error("simulation", "its step is longer than the controller's sample time",
-                "at most " + format_number(options.limits.sample_time) + " s");
-  if (!(options.relative_tolerance > 0 && options.absolute_tolerance > 0))
-    throw Error("simulation", "a tolerance is not above 0");
-}
-
 /// Instants k dt, without the sum of their rounding.
 class Clock {
  public:
@@ -130,8 +113,9 @@ class Simulation {
     }
     setting_.controller->step(signals_, x, controller_state_, demands_);
     for (std::size_t s = 0; s < signals_.size(); ++s)
-      state_.dampers[s].demand(demands_[s], {signals_[s].deflection, signals_[s].deflection_velocity,
-                                             state_.dampers[s].current()});
+      state_.dampers[s].demand(
+          demands_[s], {signals_[s].deflection, signals_[s].deflection_velocity, state_.dampers[s].current()},
+          signals_[s].force);
     integrator_.refresh(state_);
   }
 
@@ -201,6 +185,23 @@ class Simulation {
 };
 
 }  // namespace
+
+void require_fitting(const Setting& setting, const SimulateOptions& options) {
+  const Plant& plant = setting.plant;
+  if (setting.dampers.size() != plant.struts.size())
+    throw Error(plant.name, "has " + std::to_string(plant.struts.size()) + " places for dampers, not " +
+                                std::to_string(setting.dampers.size()));
+  for (const MountedDamper& damper : setting.dampers)
+    if (!damper.model) throw Error(plant.name, "a damper has no model");
+  if (!(options.duration > 0))
+    throw Error("simulation", "a duration of " + format_number(options.duration) + " s", "above 0");
+  if (options.step && !(*options.step > 0)) throw Error("simulation", "its step is not above 0");
+  if (options.step && setting.controller && *options.step > options.limits.sample_time * (1 + 1e-9))
+    throw Error("simulation", "its step is longer than the controller's sample time",
+                "at most " + format_number(options.limits.sample_time) + " s");
+  if (!(options.relative_tolerance > 0 && options.absolute_tolerance > 0))
+    throw Error("simulation", "a tolerance is not above 0");
+}
 
 Trace simulate(const Setting& setting, const SimulateOptions& options) {
   return Simulation(setting, options).run();

@@ -43,10 +43,13 @@ struct Trace {
   std::size_t evaluations = 0;
 };
 
+/// Throws Error where the parts do not fit together.
+void require_fitting(const Setting& setting, const SimulateOptions& options);
+
 /// From rest on the ground as it is at t = 0. Between samples of the controller, instants of the output and
 /// jumps of the ground, which are met exactly, the linear part moves exactly under forces that are parabolas
 /// within a step (Propagator), found by iteration: of fourth order where forces are smooth, and no damper's
-/// own stiffness shortens the step. Throws Error where the parts do not fit together.
+/// own stiffness shortens the step. Throws Error as require_fitting().
 Trace simulate(const Setting& setting, const SimulateOptions& options);
 
 }  // namespace dashpot

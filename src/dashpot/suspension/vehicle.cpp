@@ -19,7 +19,8 @@ PlantSet load_plant(const std::string& plant, const NamedValues& values) {
   return parse_plant_set(read_file(plant), plant, std::filesystem::path(plant).stem().string(), values);
 }
 
-/// "sprung_mass=350 kg" in the units of the plant's table.
+}  // namespace
+
 PlantSet load_plant(const VehicleWords& words) {
   PlantSet set = load_plant(words.plant, {});
   if (words.values.empty()) return set;
@@ -36,6 +37,8 @@ PlantSet load_plant(const VehicleWords& words) {
   }
   return load_plant(words.plant, values);
 }
+
+namespace {
 
 std::vector<ChosenDamper> choose_dampers(const VehicleWords& words, const PlantSet& set) {
   std::vector<std::string> texts = words.dampers;

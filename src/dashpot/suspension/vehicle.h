@@ -44,6 +44,9 @@ struct Vehicle {
   SimulateOptions options(double duration) const;
 };
 
+/// Its plant alone, with the values that stand in place of the plant's.
+PlantSet load_plant(const VehicleWords& words);
+
 /// Throws Error(where, ...) at a word that nothing is known by, at a value outside its bounds, at parts that
 /// do not fit together.
 Vehicle make_vehicle(const VehicleWords& words);

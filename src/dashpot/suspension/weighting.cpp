@@ -9,7 +9,6 @@
 
 #include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
-#include "dashpot/numerics/filter.h"
 #include "dashpot/suspension/ride.h"
 
 namespace dashpot {
@@ -103,13 +102,19 @@ std::complex<double> weighting_response(const Weighting& weighting, double f) {
   return h;
 }
 
-std::vector<double> weigh(const Weighting& weighting, std::span<const double> signal, double dt) {
+std::vector<Biquad> weighting_filter(const Weighting& weighting, double dt) {
   if (!(dt > 0 && dt <= 0.25 / weighting.f2))
     throw Error("weighting " + std::string(weighting.name), "a sample time of " + format_number(dt) + " s",
                 format_number(0.25 / weighting.f2) + " s at most");
+  std::vector<Biquad> cascade;
+  for (const Section& part : sections_of(weighting)) cascade.push_back(digital(part, dt));
+  for (double* b : {&cascade[0].b0, &cascade[0].b1, &cascade[0].b2}) *b *= gain_of(weighting);
+  return cascade;
+}
+
+std::vector<double> weigh(const Weighting& weighting, std::span<const double> signal, double dt) {
   std::vector<double> out(signal.begin(), signal.end());
-  for (const Section& part : sections_of(weighting)) filter_in_place(digital(part, dt), out);
-  for (double& value : out) value *= gain_of(weighting);
+  for (const Biquad& section : weighting_filter(weighting, dt)) filter_in_place(section, out);
   return out;
 }
 

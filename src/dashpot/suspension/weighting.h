@@ -4,6 +4,8 @@
 #include <string_view>
 #include <vector>
 
+#include "dashpot/numerics/filter.h"
+
 namespace dashpot {
 
 /// A frequency weighting of ISO 2631-1: band limits, transition and upward step. Frequencies in Hz; infinity
@@ -24,6 +26,9 @@ std::complex<double> weighting_response(const Weighting& weighting, double f);
 /// The signal through the filter, from rest. dt s; each part by the bilinear transform, pre-warped at its own
 /// frequency. Throws Error where dt is too long for the band: above 1 / (4 f2).
 std::vector<double> weigh(const Weighting& weighting, std::span<const double> signal, double dt);
+
+/// That filter as a cascade. Throws Error likewise.
+std::vector<Biquad> weighting_filter(const Weighting& weighting, double dt);
 
 /// What a rider feels of an acceleration.
 struct RideComfort {

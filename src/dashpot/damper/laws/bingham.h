@@ -20,7 +20,7 @@ typedef struct Bingham {
 } Bingham;
 
 static inline double bingham_force(const Bingham* p, double x, double v, const double* z) {
-  const double s = p->v_s > 0 ? tanh(v / p->v_s) : (double)((v > 0) - (v < 0));
+  const double s = p->v_s > 0 ? tanh(v / p->v_s) : v > 0 ? 1.0 : v < 0 ? -1.0 : 0.0;
   (void)x, (void)z;
   return p->c0 * v + p->f_c * s + p->f0;
 }

@@ -31,11 +31,6 @@ static inline double bouc_wen_z_max(double A, double gamma, double beta, double 
   return n == 2 ? sqrt(ratio) : pow(ratio, 1 / n);
 }
 
-static inline void bouc_wen_rest(const BoucWen* p, double x, double v, double* z) {
-  (void)p, (void)x, (void)v;
-  z[0] = 0;
-}
-
 static inline void bouc_wen_derivative(const BoucWen* p, double x, double v, const double* z, double* dz) {
   const double u = fabs(z[0]), power = p->n == 2 ? u : pow(u, p->n - 1);
   (void)x;
@@ -46,12 +41,19 @@ static inline double bouc_wen_force(const BoucWen* p, double x, double v, const 
   return p->c0 * v + p->k0 * (x - p->x0) + p->alpha * z[0] + p->f0;
 }
 
+#ifndef DASHPOT_LAW_IN_LANES /* branches that differ from lane to lane */
+static inline void bouc_wen_rest(const BoucWen* p, double x, double v, double* z) {
+  (void)p, (void)x, (void)v;
+  z[0] = 0;
+}
+
 /* z after a displacement s of either sign */
 static inline double bouc_wen_travel(const BoucWen* p, double z, double s) {
   const double z_max = bouc_wen_z_max(p->A, p->gamma, p->beta, p->n);
   const double sigma = p->gamma / (p->gamma + p->beta);
   return z_max * normalised_bouc_wen_move(sigma, p->n, z / z_max, p->A / z_max * s);
 }
+#endif
 
 /* 1/s: how fast z settles at speed v */
 static inline double bouc_wen_rate(const BoucWen* p, double v) {

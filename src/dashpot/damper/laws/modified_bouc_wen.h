@@ -41,13 +41,6 @@ static inline double modified_bouc_wen_series_speed(const ModifiedBoucWen* p, do
   return (p->alpha * z[1] + p->c0 * v + p->k0 * (x - z[0])) * ease;
 }
 
-static inline void modified_bouc_wen_rest(const ModifiedBoucWen* p, double x, double v, double* z) {
-  (void)p;
-  (void)v;
-  z[0] = x;
-  z[1] = 0;
-}
-
 static inline void modified_bouc_wen_derivative(const ModifiedBoucWen* p, double x, double v, const double* z,
                                                 double* dz) {
   const double dy = modified_bouc_wen_series_speed(p, x, v, z);
@@ -60,6 +53,14 @@ static inline void modified_bouc_wen_derivative(const ModifiedBoucWen* p, double
 static inline double modified_bouc_wen_force(const ModifiedBoucWen* p, double x, double v, const double* z) {
   const double w = v - modified_bouc_wen_series_speed(p, x, v, z);
   return p->alpha * z[1] + p->c0 * w + p->k0 * (x - z[0]) + p->k1 * (x - p->x0) + p->f0;
+}
+
+#ifndef DASHPOT_LAW_IN_LANES /* branches that differ from lane to lane */
+static inline void modified_bouc_wen_rest(const ModifiedBoucWen* p, double x, double v, double* z) {
+  (void)p;
+  (void)v;
+  z[0] = x;
+  z[1] = 0;
 }
 
 /* States after a step of length h in which x and v go linearly from x[0], v[0] to x[1], v[1]. Second order,
@@ -104,6 +105,7 @@ static inline int modified_bouc_wen_step(const ModifiedBoucWen* p, const double*
   z[1] = side * z1;
   return 1;
 }
+#endif
 
 /* 1/s: bound of the rate at which z settles and y creeps, at speed v */
 static inline double modified_bouc_wen_rate(const ModifiedBoucWen* p, double v) {

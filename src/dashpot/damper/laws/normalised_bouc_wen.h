@@ -31,6 +31,12 @@ static inline double normalised_bouc_wen_slope(double sigma, double n, double w)
   return 1 + (w > 0 ? -1 : 2 * sigma - 1) * normalised_bouc_wen_power(n, w);
 }
 
+#ifndef DASHPOT_LAW_IN_LANES /* branches that differ from lane to lane */
+static inline void normalised_bouc_wen_rest(const NormalisedBoucWen* p, double x, double v, double* z) {
+  (void)p, (void)x, (void)v;
+  z[0] = 0;
+}
+
 /* For any n: each step goes along the straight line that touches the slope at its start, in closed form. */
 static inline double normalised_bouc_wen_travel_by_tangents(double sigma, double n, double w, double s) {
   const double fastest = n * (w > 0 ? 1 : fmax(1, fabs(2 * sigma - 1)));
@@ -90,11 +96,7 @@ static inline double normalised_bouc_wen_move(double sigma, double n, double w, 
 static inline double normalised_bouc_wen_travel(const NormalisedBoucWen* p, double w, double s) {
   return normalised_bouc_wen_move(p->sigma, p->n, w, p->rho * s);
 }
-
-static inline void normalised_bouc_wen_rest(const NormalisedBoucWen* p, double x, double v, double* z) {
-  (void)p, (void)x, (void)v;
-  z[0] = 0;
-}
+#endif
 
 static inline void normalised_bouc_wen_derivative(const NormalisedBoucWen* p, double x, double v,
                                                   const double* z, double* dz) {

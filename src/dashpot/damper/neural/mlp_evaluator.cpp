@@ -5,10 +5,6 @@
 
 namespace dashpot {
 
-namespace {
-
-/// The same network on raw inputs: its first layer standardises in passing. That loses no more digits than
-/// an input far from zero has lost when it was rounded.
 Mlp on_raw_inputs(Mlp mlp) {
   const std::size_t inputs = mlp.layers[0], outputs = mlp.layers[1];
   double* weight = mlp.parameters.data();
@@ -20,8 +16,6 @@ Mlp on_raw_inputs(Mlp mlp) {
     }
   return mlp;
 }
-
-}  // namespace
 
 template <class Real>
 MlpEvaluator<Real>::MlpEvaluator(const Mlp& mlp, SimdLevel level)

@@ -6,6 +6,10 @@
 
 namespace dashpot {
 
+/// The same network on raw inputs: its first layer standardises in passing. That loses no more digits than an
+/// input far from zero has lost when it was rounded.
+Mlp on_raw_inputs(Mlp mlp);
+
 /// A network ready to run fast, in raw units; Real is float or double. Safe from several threads.
 template <class Real>
 class MlpEvaluator {

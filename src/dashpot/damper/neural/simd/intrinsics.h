@@ -8,11 +8,11 @@
 namespace dashpot {
 namespace {
 
-#if defined(__AVX512F__)
+#if DASHPOT_LANE_BYTES == 64
 inline Lanes<double> root(Lanes<double> x) { return _mm512_maskz_sqrt_pd(0xFF, x); }
 inline Lanes<float> root(Lanes<float> x) { return _mm512_maskz_sqrt_ps(0xFFFF, x); }
 inline Lanes<float> reciprocal_estimate(Lanes<float> x) { return _mm512_maskz_rcp14_ps(0xFFFF, x); }
-#elif defined(__AVX2__)
+#elif DASHPOT_LANE_BYTES == 32
 inline Lanes<double> root(Lanes<double> x) { return _mm256_sqrt_pd(x); }
 inline Lanes<float> root(Lanes<float> x) { return _mm256_sqrt_ps(x); }
 inline Lanes<float> reciprocal_estimate(Lanes<float> x) { return _mm256_rcp_ps(x); }
@@ -33,10 +33,10 @@ inline Lanes<float> reciprocal_estimate(Lanes<float> x) { return 1 / x; }
 #endif
 
 /// a > b ? a : b, so b where one of them is a NaN. The compiler would compare and choose.
-#if defined(__AVX512F__)
+#if DASHPOT_LANE_BYTES == 64
 inline Lanes<double> larger(Lanes<double> a, Lanes<double> b) { return _mm512_maskz_max_pd(0xFF, a, b); }
 inline Lanes<float> larger(Lanes<float> a, Lanes<float> b) { return _mm512_maskz_max_ps(0xFFFF, a, b); }
-#elif defined(__AVX2__)
+#elif DASHPOT_LANE_BYTES == 32
 inline Lanes<double> larger(Lanes<double> a, Lanes<double> b) { return _mm256_max_pd(a, b); }
 inline Lanes<float> larger(Lanes<float> a, Lanes<float> b) { return _mm256_max_ps(a, b); }
 #elif defined(__SSE2__)

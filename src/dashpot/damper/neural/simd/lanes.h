@@ -9,13 +9,18 @@
 namespace dashpot {
 namespace {
 
+// DASHPOT_NARROW_LANES: the instructions of the set on its shortest vectors, for few lanes.
 #if defined(__AVX512F__)
-constexpr std::size_t kLaneBytes = 64, kRegisters = 32;
-#elif defined(__AVX2__)
-constexpr std::size_t kLaneBytes = 32, kRegisters = 16;
+#define DASHPOT_LANE_BYTES 64
+constexpr std::size_t kRegisters = 32;
+#elif defined(__AVX2__) && !defined(DASHPOT_NARROW_LANES)
+#define DASHPOT_LANE_BYTES 32
+constexpr std::size_t kRegisters = 16;
 #else
-constexpr std::size_t kLaneBytes = 16, kRegisters = 16;
+#define DASHPOT_LANE_BYTES 16
+constexpr std::size_t kRegisters = 16;
 #endif
+constexpr std::size_t kLaneBytes = DASHPOT_LANE_BYTES;
 
 template <class Real>
 struct Arithmetic;

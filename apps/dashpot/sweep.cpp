@@ -1,0 +1,164 @@
+#include "dashpot/suspension/sweep.h"
+
+#include <filesystem>
+#include <memory>
+
+#include <fmt/core.h>
+
+#include "commands.h"
+#include "console.h"
+#include "dashpot/base/file.h"
+#include "dashpot/base/text.h"
+#include "dashpot/output/sweep_report.h"
+#include "dashpot/output/words.h"
+#include "results.h"
+#include "study_results.h"
+
+namespace dashpot::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Settings {
+  std::string request;
+  StudyResults results = {.folder = "dashpot-sweep"};
+  std::uint64_t samples = 0, seed = 0;
+  double duration = 0;
+  int threads = 0;
+  bool measures = false;
+};
+
+constexpr std::string_view kExample =
+    "# Three controllers on the same thousand cars and roads:\n"
+    "dashpot sweep comfort --output comfort\n"
+    "\n"
+    "# Interrupted, or not enough? The same command goes on where it stopped; more samples are added:\n"
+    "dashpot sweep comfort --output comfort --samples 5000\n"
+    "\n"
+    "# Your own: what varies and how, as docs/sweep.md describes:\n"
+    "dashpot sweep my_sweep.yaml --figures";
+
+SweepRequest requested(const Settings& settings) {
+  if (settings.request.empty())
+    throw UsageError("REQUEST", "is missing: a file, or one of " + join(sweep_names(), ", "));
+  SweepRequest request =
+      is_path(settings.request) ? load_sweep(settings.request) : named_sweep(settings.request);
+  if (settings.samples > 0) request.samples = settings.samples;
+  if (settings.seed > 0) request.seed = settings.seed;
+  if (settings.duration > 0) request.duration = settings.duration;
+  if (!(request.discard < request.duration))
+    throw Error("--duration", "nothing is left of " + format_number(request.duration) + " s",
+                "more than the " + format_number(request.discard) + " s that are discarded");
+  return request;
+}
+
+std::string measures_text(int width) {
+  std::vector<std::vector<std::string>> rows;
+  for (const SweepMeasure& m : sweep_measures())
+    rows.push_back({std::string(m.name), std::string(m.unit), std::string(m.meaning)});
+  return text_table({{"measure"}, {"unit"}, {"meaning", false, 1, true}}, rows, width);
+}
+
+void write_tables(const Sweep& result, const fs::path& folder, Console& console) {
+  const std::vector<ColumnTable> tables = sweep_tables(result);
+  for (const ColumnTable& table : tables) write_file(folder / (table.name + ".csv"), csv_table(table));
+  write_hdf5(folder / "sweep.h5", tables,
+             {{"command", console.command_line()},
+              {"version", DASHPOT_VERSION},
+              {"created", date_now()},
+              {"name", result.request.name}});
+  console.print("Tables   " + (folder / "rides.csv").string() +
+                " (also quantiles.csv, ratios.csv, correlations.csv; all in sweep.h5)\n");
+}
+
+/// The request as it ran, beside its results.
+Sweep run_sweep(const SweepRequest& request, const Settings& settings, Console& console) {
+  const fs::path file = fs::path(settings.results.folder) / "sweep.sqlite";
+  if (settings.results.fresh) SweepStore::remove(file);
+  SweepStore store(file, request, program_id());
+  console.talk(fmt::format("sweep: {}, {} each, {} s\n", counted(request.vehicles(), "vehicle"),
+                           counted(request.controllers.size(), "controller"),
+                           format_number(request.duration)));
+  return sweep(request, store, {settings.threads, console.monitor()});
+}
+
+int run(const Settings& settings, Console& console) {
+  if (settings.measures) {
+    console.print(measures_text(console.width()));
+    return kDone;
+  }
+  const SweepRequest request = requested(settings);
+  prepare_study(settings.results);
+  try {
+    const Sweep result = run_sweep(request, settings, console);
+    write_study(sweep_document(result), sweep_json(result), settings.results, console);
+    write_tables(result, settings.results.folder, console);
+    console.note(fmt::format("{} in {} s{}", counted(result.ride_count(), "ride"),
+                             number_text(result.wall_seconds),
+                             result.kept ? fmt::format("; {} kept from before", result.kept) : ""));
+    for (const auto& rides : result.rides)
+      for (const RideMeasures& ride : rides)
+        if (!ride.has_diverged()) return kDone;
+    console.error("every ride diverged");
+    return kNotUsable;
+  } catch (const Interrupted&) {
+    console.note("every finished block of rides is kept in " + settings.results.folder +
+                 "; the same command goes on from there");
+    throw;
+  }
+}
+
+std::vector<Option> options_of(Settings& settings) {
+  std::vector<Option> options{
+      {.names = "REQUEST",
+       .target = &settings.request,
+       .help = "what vehicle, what controllers, what varies: a YAML file, or one that comes with Dashpot: " +
+               join(sweep_names(), ", "),
+       .takes = Takes::File},
+      {.names = "--samples",
+       .target = &settings.samples,
+       .help = "vehicles drawn; more than before go on where the last ones ended",
+       .value = "N",
+       .minimum = 1,
+       .default_text = "the request's"},
+      {.names = "--duration",
+       .target = &settings.duration,
+       .help = "of each ride, s",
+       .value = "S",
+       .minimum = 0.1,
+       .default_text = "the request's"},
+      {.names = "--seed",
+       .target = &settings.seed,
+       .help = "of all that is drawn",
+       .value = "N",
+       .minimum = 1,
+       .default_text = "the request's"}};
+  append(options, study_result_options(settings.results, "rides"));
+  options.back().help = "begin anew: what an earlier sweep left in DIR/sweep.sqlite is thrown away";
+  append(options,
+         {threads_option(settings.threads),
+          {.names = "--measures", .target = &settings.measures, .help = "list what a ride is judged by"}});
+  return options;
+}
+
+}  // namespace
+
+Command sweep_command() {
+  auto settings = std::make_shared<Settings>();
+  return {
+      .name = "sweep",
+      .title = "Thousands of vehicles over roads: how far controllers and dampers can be trusted",
+      .description =
+          "Draws vehicles from the distributions of a request - masses, stiffnesses, dampers as built, "
+          "speeds, "
+          "roads - and drives each of them under every controller over the same road. Prints quantiles of "
+          "comfort, road holding, travel and energy, the ratios to a baseline vehicle by vehicle, and which "
+          "inputs matter; writes every ride as CSV and HDF5, and a page. Each block of rides is kept in "
+          "DIR/sweep.sqlite as it ends: the same command goes on where it was stopped. The result does not "
+          "depend on threads or interruptions.",
+      .options = options_of(*settings),
+      .example = std::string(kExample),
+      .run = [settings](Console& console) { return run(*settings, console); }};
+}
+
+}  // namespace dashpot::cli

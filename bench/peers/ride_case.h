@@ -1,0 +1,230 @@
+#pragma once
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <memory>
+#include <numbers>
+
+#include "dashpot/damper/laws/modified_bouc_wen.h"
+#include "dashpot/damper/neural/network_model.h"
+#include "dashpot/damper/parameter_set.h"
+#include "dashpot/suspension/ground_motion.h"
+#include "dashpot/suspension/mounted_damper.h"
+#include "dashpot/suspension/plant_set.h"
+#include "dashpot/suspension/road_profile.h"
+#include "peer.h"
+
+// The ride that all integrators take: the one-sensor paper's quarter car, 10 s of a class C road at 20 m/s,
+// Mix-1 at 1 kHz, rtol 1e-6, atol 1e-9.
+namespace peer {
+
+constexpr double kRideSeconds = 10, kSample = 1e-3, kRelative = 1e-6, kAbsolute = 1e-9;
+constexpr double kSpeed = 20, kCrossover = 1.9, kDriveMax[] = {1, 2.25};
+constexpr std::size_t kSamples10s = 10000;
+enum class Ride { Network, BoucWen };
+
+/// 2-10-1 tanh of velocity and current, fitted to a curve that looks like a small damper's.
+inline dashpot::Mlp ride_network() {
+  dashpot::TrainingSamples samples;
+  dashpot::Random random(3);
+  for (int s = 0; s < 2000; ++s) {
+    const double v = 1.5 * std::pow(random.uniform(-1, 1), 3), i = random.uniform();
+    samples.inputs.insert(samples.inputs.end(), {v, i});
+    samples.targets.push_back((150 + 900 * i) * std::tanh(v / 0.08) + (700 + 900 * i) * v);
+  }
+  dashpot::Mlp mlp;
+  mlp.layers = kTanh;
+  mlp.input_mean = {0, 0.5};
+  mlp.input_scale = {0.5, 0.3};
+  mlp.output_scale = 800;
+  initialise(mlp, 1);
+  train(mlp, samples, {.max_iterations = 100});
+  return mlp;
+}
+
+/// A vehicle of its own road for each number.
+inline dashpot::RoadProfile ride_road(int vehicle) {
+  return dashpot::cosine_road({.length = kSpeed * (kRideSeconds + 0.1),
+                               .spacing = kSpeed * kSample,  // so that a sample lies on each point
+                               .seed = static_cast<std::uint64_t>(vehicle) + 1});
+}
+inline const dashpot::Plant& ride_plant() {
+  static const dashpot::Plant plant = dashpot::load_plant_set("tudon_martinez2012").plant;
+  return plant;
+}
+
+inline dashpot::MountedDamper ride_damper(Ride ride) {
+  dashpot::MountedDamper damper;
+  damper.driver.current_max = kDriveMax[static_cast<int>(ride)];
+  if (ride == Ride::Network) {
+    damper.model = std::make_shared<dashpot::NetworkModel>(
+        "network", std::vector<std::string>{"velocity", "current"}, std::vector{ride_network()});
+    return damper;
+  }
+  const dashpot::LawModel published = dashpot::load_parameters("spencer1997");
+  dashpot::Dependence parameters = published.parameters();
+  parameters.coefficients[published.law().index_of("x0")] = {0};
+  damper.model = std::make_shared<dashpot::LawModel>(published.law(), parameters, "V", published.lag_rate());
+  return damper;
+}
+
+/// The same as equations for a general integrator: y = body, wheel, their speeds; then the law's two states
+/// and its coil's voltage.
+class RideEquations {
+ public:
+  RideEquations(Ride ride, int vehicle) : ride_(ride), heights_(ride_road(vehicle).tracks[0]) {
+    const dashpot::MountedDamper damper = ride_damper(ride);
+    if (ride == Ride::Network) {
+      const auto& network = dynamic_cast<const dashpot::NetworkModel&>(*damper.model);
+      mlp_ = network.members().front();
+      for (int n = 0; n < 10; ++n) {  // on raw inputs
+        const double* w = &mlp_.parameters[2 * n];
+        neurons_[n] = {w[0] / mlp_.input_scale[0], w[1] / mlp_.input_scale[1], mlp_.parameters[20 + n],
+                       mlp_.parameters[30 + n] * mlp_.output_scale};
+        neurons_[n][2] -= neurons_[n][0] * mlp_.input_mean[0] + neurons_[n][1] * mlp_.input_mean[1];
+      }
+      bias_ = mlp_.output_mean + mlp_.output_scale * mlp_.parameters[40];
+    } else {
+      const auto& law = dynamic_cast<const dashpot::LawModel&>(*damper.model);
+      lag_rate_ = law.lag_rate();
+      law.parameters_at(0, &off_.alpha);
+      ModifiedBoucWen on;
+      law.parameters_at(1, &on.alpha);
+      alpha_slope_ = on.alpha - off_.alpha;
+      c0_slope_ = on.c0 - off_.c0;
+      c1_slope_ = on.c1 - off_.c1;
+    }
+  }
+
+  std::size_t size() const { return ride_ == Ride::Network ? 4 : 7; }
+  const std::vector<double>& heights() const { return heights_; }
+
+  /// Of the network: its neurons (by velocity, by current, bias, out), bias; of the law: its parameters
+  /// without current, the slopes of alpha, c0 and c1 by it, the lag's rate.
+  std::vector<double> numbers() const {
+    std::vector<double> all;
+    if (ride_ == Ride::Network) {
+      for (const auto& neuron : neurons_) all.insert(all.end(), neuron.begin(), neuron.end());
+      all.push_back(bias_);
+    } else {
+      all.assign(&off_.alpha, &off_.alpha + sizeof off_ / sizeof(double));
+      all.insert(all.end(), {alpha_slope_, c0_slope_, c1_slope_, lag_rate_});
+    }
+    return all;
+  }
+
+  /// dy/dt; the command is constant between samples.
+  void derivative(double t, const double* y, double* dy) const {
+    ++evaluations;
+    const double x = y[0] - y[1], v = y[2] - y[3];
+    double force;
+    if (ride_ == Ride::Network) {
+      force = network(v, command);
+    } else {
+      law_at(y[6], law_);
+      force = modified_bouc_wen_force(&law_, x, v, y + 4);
+      modified_bouc_wen_derivative(&law_, x, v, y + 4, dy + 4);
+      dy[6] = lag_rate_ * (command - y[6]);
+    }
+    const double spring = kSpring * x + force;
+    dy[0] = y[2];
+    dy[1] = y[3];
+    dy[2] = -spring / kBody;
+    dy[3] = (spring - kTyre * (y[1] - road(t))) / kWheel;
+  }
+
+  /// A sample of Mix-1: hard where the body moves slower than at the crossover. Whether the command has
+  /// changed.
+  bool control(double body_velocity, double body_acceleration) {
+    const double rate = 2 * std::numbers::pi * kCrossover * body_velocity, before = command;
+    command =
+        body_acceleration * body_acceleration - rate * rate <= 0 ? kDriveMax[static_cast<int>(ride_)] : 0;
+    return command != before;
+  }
+
+  double command = 0;
+  mutable std::size_t evaluations = 0;
+
+ private:
+  void law_at(double u, ModifiedBoucWen& p) const {
+    p = off_;
+    p.alpha += alpha_slope_ * u;
+    p.c0 += c0_slope_ * u;
+    p.c1 += c1_slope_ * u;
+  }
+  double network(double v, double i) const {
+    double force = bias_;
+    for (const auto& [by_v, by_i, bias, out] : neurons_) force += out * std::tanh(by_v * v + by_i * i + bias);
+    return force;
+  }
+  /// The road as Dashpot has it: a cubic between its points, one per sample.
+  double road(double t) const {
+    const double place = t / kSample;
+    const auto k = std::min(static_cast<std::size_t>(place), heights_.size() - 3);
+    const double u = place - static_cast<double>(k), w = 1 - u;
+    const double rise = heights_[k + 1] - heights_[k];
+    const double before = k > 0 ? 0.5 * (heights_[k + 1] - heights_[k - 1]) : 0;
+    const double after = 0.5 * (heights_[k + 2] - heights_[k]);
+    return heights_[k] + u * (rise * u * (3 - 2 * u) + w * (w * before - u * after));
+  }
+
+  static constexpr double kBody = 387, kWheel = 139.5, kSpring = 37300, kTyre = 295200;  // table 7
+  Ride ride_;
+  std::vector<double> heights_;
+  dashpot::Mlp mlp_;
+  std::array<std::array<double, 4>, 10> neurons_{};
+  double bias_ = 0, lag_rate_ = 0, alpha_slope_ = 0, c0_slope_ = 0, c1_slope_ = 0;
+  ModifiedBoucWen off_{};
+  mutable ModifiedBoucWen law_{};
+};
+
+/// Body, wheel and their speeds at each sample.
+using RideTrace = std::vector<std::array<double, 4>>;
+
+/// Where the trace lies that all others are compared with, written by the peer that makes it: SUNDIALS at
+/// rtol 1e-10.
+inline std::string reference_file(Ride ride) {
+  return std::string("/tmp/dashpot_bench_") + (ride == Ride::Network ? "network" : "bouc_wen") + ".reference";
+}
+inline void write_reference(Ride ride, const RideTrace& trace) {
+  std::ofstream file(reference_file(ride), std::ios::binary);
+  file.write(reinterpret_cast<const char*>(trace.data()),
+             static_cast<std::streamsize>(trace.size() * sizeof trace[0]));
+}
+/// Greatest distance of a channel from the reference, of its greatest magnitude. NaN without a reference.
+inline double error_of(Ride ride, const RideTrace& trace) {
+  RideTrace reference(kSamples10s + 1);
+  std::ifstream file(reference_file(ride), std::ios::binary);
+  file.read(reinterpret_cast<char*>(reference.data()),
+            static_cast<std::streamsize>(reference.size() * sizeof reference[0]));
+  if (!file) return NAN;
+  double worst = 0;
+  for (std::size_t c = 0; c < 4; ++c) {
+    double top = 0, apart = 0;
+    for (std::size_t k = 0; k < trace.size(); ++k) {
+      top = std::max(top, std::abs(reference[k][c]));
+      apart = std::max(apart, std::abs(reference[k][c] - trace[k][c]));
+    }
+    worst = std::max(worst, apart / top);
+  }
+  return worst;
+}
+
+constexpr const char* kRideTasks[] = {"ride_network", "ride_bouc_wen"};
+
+/// Tasks of a general integrator: run(ride, trace or null) rides the first vehicle and returns CPU seconds.
+/// One vehicle and a batch are the same to it.
+template <class Run>
+void add_ride_tasks(std::map<std::string, Task>& tasks, Run run) {
+  for (const Ride ride : {Ride::Network, Ride::BoucWen}) {
+    const std::string name = kRideTasks[static_cast<int>(ride)];
+    tasks[name] = tasks[name + "_batch"] = [run, ride](int) { return run(ride, nullptr); };
+    tasks[name + ".error"] = tasks[name + "_batch.error"] = [run, ride](int) {
+      RideTrace trace;
+      run(ride, &trace);
+      return error_of(ride, trace);
+    };
+  }
+}
+
+}  // namespace peer

@@ -1,0 +1,92 @@
+#include "dashpot/suspension/lanes/lane_pilot.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "dashpot/suspension/forces.h"
+#include "dashpot/suspension/lanes/lane_vehicle.h"
+
+namespace dashpot {
+namespace {
+
+struct RaisedGround final : GroundMotion {
+  std::string description() const override { return "1 m higher"; }
+  FootMotion foot(double, std::size_t, double) const noexcept override { return {1, 0}; }
+};
+
+}  // namespace
+
+LanePilot::LanePilot(std::span<const BatchVehicle* const> vehicles) {
+  for (const BatchVehicle* vehicle : vehicles) {
+    const Setting& setting = vehicle->setting;
+    drivers_.push_back({vehicle,
+                        Sensors(vehicle->sensors, 1, vehicle->limits.sample_time),
+                        CommandPath(setting.dampers[0], vehicle->limits, 0),
+                        std::vector<double>(setting.controller ? setting.controller->state_size() : 0),
+                        {}});
+    if (!setting.controller) continue;
+    setting.controller->reset(drivers_.back().state);
+    PlantForces(setting.plant, RaisedGround()).resting_place(0, drivers_.back().resting);
+  }
+}
+
+void LanePilot::take(LaneRide& ride) {
+  ride.pilot = this;
+  ride.ground = [](void* self, std::size_t first, std::size_t count, double* heights, double* rates) {
+    static_cast<LanePilot*>(self)->ground(first, count, heights, rates);
+  };
+  if (drivers_.front().vehicle->setting.controller)
+    ride.control = [](void* self, const double* signals, double* commands) {
+      static_cast<LanePilot*>(self)->control(signals, commands);
+    };
+}
+
+void LanePilot::ground(std::size_t first, std::size_t count, double* heights, double* rates) noexcept {
+  const std::size_t lanes = drivers_.size();
+  feet_.resize(count);
+  for (std::size_t lane = 0; lane < lanes; ++lane) {
+    const BatchVehicle& vehicle = *drivers_[lane].vehicle;
+    const Tyre& tyre = vehicle.setting.plant.tyres[0];
+    const double half = 0.5 * sample_time_of(vehicle);
+    vehicle.setting.ground.feet(half * static_cast<double>(first), half, tyre.track, tyre.behind, feet_);
+    for (std::size_t k = 0; k < count; ++k) {
+      heights[k * lanes + lane] = feet_[k].height;
+      rates[k * lanes + lane] = feet_[k].velocity;
+    }
+  }
+}
+
+void LanePilot::control(const double* signals, double* commands) {
+  const std::size_t lanes = drivers_.size();
+  for (std::size_t lane = 0; lane < lanes; ++lane) {
+    double own[kLaneSignals];
+    for (std::size_t k = 0; k < kLaneSignals; ++k) own[k] = signals[k * lanes + lane];
+    commands[lane] = command(drivers_[lane], own, commands[lane]);
+  }
+}
+
+double LanePilot::command(Driver& driver, const double (&signals)[kLaneSignals], double before) {
+  const auto& [vehicle, sensors, path, state, resting] = driver;
+  StrutSignals strut{.body_velocity = signals[kBodyVelocity],
+                     .body_acceleration = signals[kBodyAcceleration],
+                     .wheel_velocity = signals[kWheelVelocity],
+                     .deflection = signals[kDeflection],
+                     .deflection_velocity = signals[kDeflectionVelocity],
+                     .force = signals[kForce],
+                     .current = signals[kCurrent]};
+  const std::array<double, 4> x{signals[kBody] - resting[0] * signals[kGround],
+                                signals[kWheel] - resting[1] * signals[kGround], strut.body_velocity,
+                                strut.wheel_velocity};
+  if (!sensors.ideal()) driver.sensors.measure({&strut, 1});
+  DamperDemand demand;
+  vehicle->setting.controller->step({&strut, 1},
+                                    sensors.ideal() ? std::span<const double>(x) : std::span<const double>(),
+                                    driver.state, {&demand, 1});
+  const DamperInput now{strut.deflection, strut.deflection_velocity, signals[kCurrent]};
+  const double wanted = driver.path.command(demand, now, strut.force);
+  const DriverOptions& limits = vehicle->setting.dampers[0].driver;
+  return std::isnan(wanted) ? before : std::clamp(wanted, limits.current_min, limits.current_max);
+}
+
+}  // namespace dashpot

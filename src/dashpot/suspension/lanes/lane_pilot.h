@@ -1,0 +1,34 @@
+#pragma once
+#include <span>
+#include <vector>
+
+#include "dashpot/suspension/batch.h"
+#include "dashpot/suspension/lanes/ride.h"
+
+namespace dashpot {
+
+/// The road under the vehicles of a ride in lanes, and who drives their dampers.
+class LanePilot {
+ public:
+  /// One vehicle per lane.
+  explicit LanePilot(std::span<const BatchVehicle* const> vehicles);
+  /// Makes a ride ask this pilot.
+  void take(LaneRide& ride);
+
+ private:
+  struct Driver {
+    const BatchVehicle* vehicle;
+    Sensors sensors;
+    CommandPath path;
+    std::vector<double> state;
+    double resting[2];  ///< where the plant rests on ground that is 1 m higher
+  };
+  void ground(std::size_t first, std::size_t count, double* heights, double* rates) noexcept;
+  void control(const double* signals, double* commands);
+  double command(Driver& driver, const double (&signals)[kLaneSignals], double before);
+
+  std::vector<Driver> drivers_;
+  std::vector<FootMotion> feet_;
+};
+
+}  // namespace dashpot

@@ -1,0 +1,32 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "dashpot/suspension/batch.h"
+#include "dashpot/suspension/lanes/ride.h"
+
+namespace dashpot {
+
+/// What vehicles must have in common to ride side by side.
+struct LaneShape {
+  LaneDamperKind kind = LaneDamperKind::Network;
+  LaneNetwork network;
+  std::size_t law = 0;
+  bool lags = false, resists_more = false, controlled = false;
+  double sample_time = 0;
+  bool operator==(const LaneShape&) const = default;
+};
+
+/// One vehicle as numbers.
+struct LaneVehicle {
+  LaneShape shape;
+  QuarterCarNumbers<double> numbers;
+  std::vector<double> damper, start;  ///< as LaneRide's
+};
+
+/// s between the samples of a vehicle.
+double sample_time_of(const BatchVehicle& vehicle);
+/// Only of one that reason_against_lanes() has nothing against.
+LaneVehicle lane_vehicle(const BatchVehicle& vehicle);
+
+}  // namespace dashpot

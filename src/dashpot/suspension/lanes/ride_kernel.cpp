@@ -1,0 +1,23 @@
+#include <array>
+
+#include "dashpot/suspension/lanes/simd/tables.h"
+
+namespace dashpot {
+
+const RideKernel& ride_kernel(std::size_t vehicles) {
+#if defined(__x86_64__)
+  const SimdLevel level = simd_levels().back();
+  if (level != SimdLevel::Baseline && vehicles <= narrow_rides().lanes) return narrow_rides();
+  if (level == SimdLevel::Avx512) return avx512_rides();
+  if (level == SimdLevel::Avx2) return avx2_rides();
+#endif
+  (void)vehicles;
+  return baseline_rides();
+}
+
+std::span<const std::string_view> lane_law_table() {
+  static constexpr std::array<std::string_view, 3> kNames{"bingham", "bouc_wen", "modified_bouc_wen"};
+  return kNames;
+}
+
+}  // namespace dashpot

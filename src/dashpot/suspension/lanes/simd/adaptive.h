@@ -1,0 +1,167 @@
+#pragma once
+#include "dashpot/suspension/lanes/simd/quarter_car.h"
+
+namespace dashpot {
+namespace {
+
+/// The method of Dormand and Prince, order 5 with an error of order 4 (J. Comput. Appl. Math. 6 (1980) 19),
+/// every lane in steps of its own length.
+template <class Damper, bool kLags>
+class AdaptiveSteps {
+  using Car = QuarterCarLanes<Damper>;
+  using State = typename Car::State;
+  static constexpr std::size_t kStates = Damper::kStates, kSize = 4 + kStates + (kLags ? 2 : 0);
+  struct Slope {
+    Lane d[kSize];
+    Lane force;  ///< of the damper
+  };
+
+ public:
+  AdaptiveSteps(const LaneRide& ride, Car& car) : ride_(ride), car_(car), next_(all(ride.sample_time)) {}
+
+  /// Forces at the begin of a sample, after the command has changed in some lanes.
+  void refresh(const State& state, Lane command, LaneMask changed, Lane road) {
+    keep(slope(state, command, road), changed);
+  }
+  /// At the present state: the damper's force, N, and the acceleration of coordinate k, m/s^2.
+  Lane force() const { return first_.force; }
+  Lane acceleration(std::size_t k) const { return first_.d[2 + k]; }
+
+  /// Over one sample.
+  void advance(State& state, Lane command, const RoadPush& road) {
+    const double whole = ride_.sample_time, least = whole / 256;
+    Lane done{};
+    LaneMask moving = done < whole;
+    do {
+      const Lane left = whole - done;
+      const LaneMask last = next_ >= left;
+      const Lane h = moving ? (last ? left : next_) : Lane{};
+      State end;
+      Slope ending;
+      const Lane error = attempt(state, h, command, road, done / whole, end, ending);
+      ++evaluations_;
+      const LaneMask small = h <= least;
+      const LaneMask accepted = moving & ((error <= 1) | small | (error != error));
+      missed = missed | (accepted & !(error <= 1));
+      take(state, end, accepted);
+      keep(ending, accepted);
+      steps += accepted ? all(1) : Lane{};
+      const Lane factor = fmin(fmax(0.9 * about_fifth_root_below(fmax(error, 1e-5)), 0.2), 5);
+      const Lane proposed = fmin(fmax(h * factor, least), whole);
+      next_ = moving ? (accepted & last ? fmax(next_, proposed) : proposed) : next_;
+      done = accepted ? (last ? all(whole) : done + h) : done;
+      moving = done < whole;
+    } while (any(moving));
+  }
+
+  LaneMask missed{};
+  Lane steps{};
+
+ private:
+  [[gnu::always_inline]] Slope slope(const State& s, Lane command, Lane road) {
+    Slope out;
+    const Lane* x = s.x;
+    if constexpr (kLags) {
+      car_.damper.set_current(car_.driving(s.currents));
+      out.d[4 + kStates] = car_.numbers.driver_lag * (command - s.currents.coil);
+      out.d[5 + kStates] = car_.numbers.model_lag * (s.currents.coil - s.currents.inner);
+    }
+    out.force = car_.damper_force(x, s.z);
+    const Lane force = out.force + car_.strut_extra(x), pushed = car_.push_on_wheel(x, road);
+    car_.damper.derivative(x[0] - x[1], x[2] - x[3], s.z, out.d + 4);
+    out.d[0] = x[2];
+    out.d[1] = x[3];
+    out.d[2] = car_.acceleration(0, x, force, pushed);
+    out.d[3] = car_.acceleration(1, x, force, pushed);
+    return out;
+  }
+  void keep(const Slope& fresh, LaneMask which) {
+    for (std::size_t k = 0; k < kSize; ++k) first_.d[k] = which ? fresh.d[k] : first_.d[k];
+    first_.force = which ? fresh.force : first_.force;
+  }
+  template <class Change>
+  [[gnu::always_inline]] static void each_of(const State& from, State& to, Change change) {
+#pragma GCC unroll 16
+    for (std::size_t k = 0; k < 4; ++k) to.x[k] = change(from.x[k], k);
+#pragma GCC unroll 16
+    for (std::size_t k = 0; k < kStates; ++k) to.z[k] = change(from.z[k], 4 + k);
+    if constexpr (kLags) {
+      to.currents.coil = change(from.currents.coil, 4 + kStates);
+      to.currents.inner = change(from.currents.inner, 5 + kStates);
+    } else {
+      to.currents = from.currents;
+    }
+  }
+  static void take(State& state, const State& end, LaneMask accepted) {
+    for (std::size_t k = 0; k < 4; ++k) state.x[k] = accepted ? end.x[k] : state.x[k];
+    for (std::size_t k = 0; k < kStates; ++k) state.z[k] = accepted ? end.z[k] : state.z[k];
+    if constexpr (kLags) {
+      state.currents.coil = accepted ? end.currents.coil : state.currents.coil;
+      state.currents.inner = accepted ? end.currents.inner : state.currents.inner;
+    }
+  }
+
+  /// A step of length h from `begin` (share of the sample) on; its error in tolerances.
+  Lane attempt(const State& from, Lane h, Lane command, const RoadPush& road, Lane begin, State& end,
+               Slope& k7) {
+    const Lane share = h / ride_.sample_time;
+    const Slope& k1 = first_;
+    const auto at = [&](double c) { return road.at(begin + c * share); };
+    State trial;
+    each_of(from, trial, [&](Lane y, std::size_t k) { return y + h * (0.2 * k1.d[k]); });
+    const Slope k2 = slope(trial, command, at(0.2));
+    each_of(from, trial,
+            [&](Lane y, std::size_t k) { return y + h * (3.0 / 40 * k1.d[k] + 9.0 / 40 * k2.d[k]); });
+    const Slope k3 = slope(trial, command, at(0.3));
+    each_of(from, trial, [&](Lane y, std::size_t k) {
+      return y + h * (44.0 / 45 * k1.d[k] - 56.0 / 15 * k2.d[k] + 32.0 / 9 * k3.d[k]);
+    });
+    const Slope k4 = slope(trial, command, at(0.8));
+    each_of(from, trial, [&](Lane y, std::size_t k) {
+      return y + h * (19372.0 / 6561 * k1.d[k] - 25360.0 / 2187 * k2.d[k] + 64448.0 / 6561 * k3.d[k] -
+                      212.0 / 729 * k4.d[k]);
+    });
+    const Slope k5 = slope(trial, command, at(8.0 / 9));
+    each_of(from, trial, [&](Lane y, std::size_t k) {
+      return y + h * (9017.0 / 3168 * k1.d[k] - 355.0 / 33 * k2.d[k] + 46732.0 / 5247 * k3.d[k] +
+                      49.0 / 176 * k4.d[k] - 5103.0 / 18656 * k5.d[k]);
+    });
+    const Slope k6 = slope(trial, command, at(1));
+    each_of(from, end, [&](Lane y, std::size_t k) {
+      return y + h * (35.0 / 384 * k1.d[k] + 500.0 / 1113 * k3.d[k] + 125.0 / 192 * k4.d[k] -
+                      2187.0 / 6784 * k5.d[k] + 11.0 / 84 * k6.d[k]);
+    });
+    k7 = slope(end, command, at(1));
+    State off;
+    each_of(from, off, [&](Lane, std::size_t k) {
+      return h * (71.0 / 57600 * k1.d[k] - 71.0 / 16695 * k3.d[k] + 71.0 / 1920 * k4.d[k] -
+                  17253.0 / 339200 * k5.d[k] + 22.0 / 525 * k6.d[k] - 1.0 / 40 * k7.d[k]);
+    });
+    return distance(from, end, off, k1, h);
+  }
+
+  /// Heights are measured against each other, and so are speeds; damper and currents one by one, each against
+  /// what it is and what it moves by.
+  Lane distance(const State& from, const State& end, const State& off, const Slope& k1, Lane h) const {
+    const double absolute = ride_.absolute_tolerance, relative = ride_.relative_tolerance;
+    const auto of = [&](Lane error, Lane size) { return error / (absolute + relative * size); };
+    const auto pair = [&](std::size_t k) {
+      const Lane size =
+          fmax(fmax(fabs(from.x[k]), fabs(from.x[k + 1])), fmax(fabs(end.x[k]), fabs(end.x[k + 1])));
+      return of(fmax(fabs(off.x[k]), fabs(off.x[k + 1])), size);
+    };
+    Lane greatest = fmax(pair(0), pair(2));
+    for (std::size_t k = 0; k < kStates; ++k)
+      greatest = fmax(of(fabs(off.z[k]), fabs(from.z[k]) + fabs(h * k1.d[4 + k])), greatest);
+    return greatest;
+  }
+
+  const LaneRide& ride_;
+  Car& car_;
+  Lane next_;
+  Slope first_{};
+  std::size_t evaluations_ = 0;
+};
+
+}  // namespace
+}  // namespace dashpot

@@ -1,0 +1,156 @@
+#pragma once
+#include "dashpot/suspension/lanes/ride.h"
+#include "dashpot/suspension/lanes/simd/lane_math.h"
+
+namespace dashpot {
+namespace {
+
+/// A static network, one set of weights per lane. The current's part of the first layer is added up once for
+/// all motions at that current.
+class NetworkLanes {
+ public:
+  static constexpr std::size_t kStates = 0;
+  explicit NetworkLanes(const LaneRide& ride) : shape_(*ride.network), weights_(ride.damper) {
+    const std::size_t inputs = shape_.layers[0].inputs;
+    for (std::size_t i = 0; i < inputs; ++i) {
+      const std::size_t kind = shape_.inputs[i];
+      (kind == 0 ? by_displacement_ : kind == 1 ? by_velocity_ : by_current_) = i;
+    }
+    const std::size_t outputs = shape_.layers[0].outputs;
+    const double* out = behind(shape_.layers[0], weights_);
+    if (shape_.count == 2)
+      for (std::size_t n = 0; n <= outputs; ++n) all_ones_ += load(out + n * kWidth);
+  }
+
+  void set_current(Lane current) {
+    const LaneNetwork::Layer& first = shape_.layers[0];
+    const double* biases = weights_ + first.inputs * first.outputs * kWidth;
+    for (std::size_t n = 0; n < first.outputs; ++n) {
+      biases_[n] = load(biases + n * kWidth);
+      if (by_current_ != kNone) biases_[n] += weight(n, by_current_) * current;
+    }
+  }
+  void derivative(Lane, Lane, const Lane*, Lane*) const {}
+
+  Lane force(Lane x, Lane v, const Lane*) const {
+    if (by_displacement_ == kNone)
+      return respond([&](std::size_t n) { return biases_[n] + weight(n, by_velocity_) * v; });
+    if (by_velocity_ == kNone)
+      return respond([&](std::size_t n) { return biases_[n] + weight(n, by_displacement_) * x; });
+    return respond([&](std::size_t n) {
+      return biases_[n] + weight(n, by_displacement_) * x + weight(n, by_velocity_) * v;
+    });
+  }
+
+ private:
+  static constexpr std::size_t kNone = kMaxWidth;
+
+  Lane weight(std::size_t neuron, std::size_t input) const {
+    return load(weights_ + (neuron * shape_.layers[0].inputs + input) * kWidth);
+  }
+
+  /// first(n): sum of neuron n of the first layer.
+  template <class First>
+  Lane respond(First first) const {
+    const LaneNetwork::Layer& layer = shape_.layers[0];
+    if (shape_.count == 2 && layer.activation == Activation::Tanh)
+      return ended(shape_.layers[1], sum_of_tanh(layer.outputs, first, behind(layer, weights_)),
+                   behind(layer, weights_));
+    Lane room[2][kMaxWidth];
+    with_activation(layer.activation, [&]<Activation kKind>() {
+      for (std::size_t n = 0; n < layer.outputs; ++n) room[0][n] = activated<kKind, double>(first(n));
+    });
+    return respond_behind(room);
+  }
+  /// All layers behind the first, whose values stand in room[0].
+  Lane respond_behind(Lane (&room)[2][kMaxWidth]) const {
+    const double* weights = weights_;
+    std::size_t from = 0;
+    for (std::size_t l = 1; l < shape_.count; ++l, from = 1 - from) {
+      const LaneNetwork::Layer& layer = shape_.layers[l];
+      weights = behind(shape_.layers[l - 1], weights);
+      with_activation(layer.activation, [&]<Activation kKind>() {
+        for (std::size_t n = 0; n < layer.outputs; ++n)
+          room[1 - from][n] = activated<kKind, double>(sum(layer, n, room[from], weights));
+      });
+    }
+    return raw(room[from][0], behind(shape_.layers[shape_.count - 1], weights));
+  }
+  static const double* behind(const LaneNetwork::Layer& layer, const double* weights) {
+    return weights + (layer.inputs + 1) * layer.outputs * kWidth;
+  }
+  static Lane sum(const LaneNetwork::Layer& layer, std::size_t neuron, const Lane* in,
+                  const double* weights) {
+    const double* row = weights + neuron * layer.inputs * kWidth;
+    Lane total = load(weights + (layer.inputs * layer.outputs + neuron) * kWidth);
+    for (std::size_t i = 0; i < layer.inputs; ++i) total += load(row + i * kWidth) * in[i];
+    return total;
+  }
+  /// The bias and the weighted tanh of so many sums: tanh s = 1 - 2 / (1 + exp 2s), the ones summed
+  /// beforehand. Two neurons share a division, which takes longer than all else.
+  template <class First>
+  Lane sum_of_tanh(std::size_t count, First first, const double* out) const {
+    Lane fractions{};
+    std::size_t n = 0;
+    for (; n + 2 <= count; n += 2) {
+      const Lane a = 1 + exp_of_twice(first(n)), b = 1 + exp_of_twice(first(n + 1));
+      fractions += (load(out + n * kWidth) * b + load(out + (n + 1) * kWidth) * a) / (a * b);
+    }
+    if (n < count) fractions += load(out + n * kWidth) / (1 + exp_of_twice(first(n)));
+    return all_ones_ - 2 * fractions;
+  }
+  static Lane ended(const LaneNetwork::Layer& last, Lane sum, const double* weights) {
+    with_activation(last.activation, [&]<Activation kKind>() { sum = activated<kKind, double>(sum); });
+    return raw(sum, behind(last, weights));
+  }
+  /// In raw units: scale and mean stand behind the last layer's weights.
+  static Lane raw(Lane output, const double* scale) { return load(scale) * output + load(scale + kWidth); }
+
+  const LaneNetwork& shape_;
+  const double* weights_;
+  std::size_t by_displacement_ = kNone, by_velocity_ = kNone, by_current_ = kNone;
+  Lane biases_[kMaxWidth];
+  Lane all_ones_{};  ///< what the last of two layers sums up where all neurons give 1
+};
+
+/// A law whose text is compiled for lanes: a struct of numbers per lane and its functions.
+template <class P, auto Force, auto Derivative, std::size_t kCount>
+class LawLanes {
+ public:
+  static constexpr std::size_t kStates = kCount;
+  explicit LawLanes(const LaneRide& ride) : by_power_(ride.damper) {
+    for (std::size_t k = 0; k < kParameters; ++k) {
+      LaneMask varies{};
+      for (std::size_t power = 1; power < 4; ++power)
+        varies |= load(by_power_ + (power * kParameters + k) * kWidth) != 0;
+      const Lane value = load(by_power_ + k * kWidth);
+      __builtin_memcpy(reinterpret_cast<char*>(&law_) + k * sizeof value, &value, sizeof value);
+      if (any(varies)) varying_[count_++] = k;
+    }
+  }
+
+  void set_current(Lane current) {
+    for (std::size_t place = 0; place < count_; ++place) {
+      const std::size_t k = varying_[place];
+      const double* at = by_power_ + k * kWidth;
+      constexpr std::size_t kStep = kParameters * kWidth;
+      const Lane value =
+          load(at) +
+          current * (load(at + kStep) + current * (load(at + 2 * kStep) + current * load(at + 3 * kStep)));
+      __builtin_memcpy(reinterpret_cast<char*>(&law_) + k * sizeof value, &value, sizeof value);
+    }
+  }
+  void derivative(Lane x, Lane v, const Lane* z, Lane* dz) const {
+    if constexpr (kStates > 0) Derivative(&law_, x, v, z, dz);
+  }
+  Lane force(Lane x, Lane v, const Lane* z) const { return Force(&law_, x, v, z); }
+
+ private:
+  static constexpr std::size_t kParameters = sizeof(P) / sizeof(Lane);
+  const double* by_power_;
+  std::size_t varying_[kParameters], count_ = 0;  ///< parameters that follow the current
+  P law_{};
+};
+
+}  // namespace
+}  // namespace dashpot

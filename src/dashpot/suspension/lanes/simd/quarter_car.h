@@ -1,0 +1,82 @@
+#pragma once
+#include "dashpot/suspension/lanes/simd/dampers.h"
+
+namespace dashpot {
+namespace {
+
+/// A current that follows `command` through the coil's lag and then the model's own; the second one drives.
+struct Currents {
+  Lane coil{}, inner{};
+};
+
+/// What moves, and what it feels.
+template <std::size_t kStates>
+struct Moving {
+  Lane x[4]{};            ///< body, wheel, their speeds
+  Lane z[kStates + 1]{};  ///< the damper's
+  Currents currents;
+};
+
+/// The equations of a quarter car in each lane.
+template <class Damper>
+class QuarterCarLanes {
+ public:
+  static constexpr std::size_t kStates = Damper::kStates;
+  using State = Moving<kStates>;
+  explicit QuarterCarLanes(const LaneRide& ride)
+      : damper(ride), numbers(*reinterpret_cast<const Numbers*>(ride.numbers)), ride_(ride) {}
+
+  /// Force of the damper at its present current, N.
+  Lane damper_force(const Lane* x, const Lane* z) const { return damper.force(x[0] - x[1], x[2] - x[3], z); }
+  /// What else acts along the strut.
+  Lane strut_extra(const Lane* x) const {
+    if (!ride_.resists_more) return Lane{};
+    const Lane d = x[0] - x[1];
+    const Lane stopped = d > numbers.extension_stop      ? d - numbers.extension_stop
+                         : d < -numbers.compression_stop ? d + numbers.compression_stop
+                                                         : Lane{};
+    return numbers.friction * tanh(numbers.friction_slope * (x[2] - x[3])) + numbers.stop_stiffness * stopped;
+  }
+  /// Force of a tyre by the road alone, of a given height and rate.
+  Lane push(Lane height, Lane rate) const {
+    return numbers.tyre_stiffness * height + numbers.tyre_damping * rate;
+  }
+  Lane tyre_load(const Lane* x, Lane pushed) const {
+    return numbers.static_load + pushed - numbers.tyre_stiffness * x[1] - numbers.tyre_damping * x[3];
+  }
+  /// The same where the tyre lets go instead of pulling.
+  Lane push_on_wheel(const Lane* x, Lane pushed) const {
+    if (!ride_.resists_more) return pushed;
+    return pushed - numbers.may_lift * fmin(tyre_load(x, pushed), 0);
+  }
+  /// Of coordinate k, m/s^2.
+  Lane acceleration(std::size_t k, const Lane* x, Lane strut, Lane pushed) const {
+    const Lane(&a)[4] = numbers.by_state[k];
+    return (a[0] * x[0] + a[1] * x[1]) + (a[2] * x[2] + a[3] * x[3]) +
+           (numbers.by_force[k] * strut + numbers.by_push[k] * pushed);
+  }
+  /// The current that drives the damper.
+  Lane driving(const Currents& currents) const {
+    return ride_.lags ? (numbers.model_lag > 0 ? currents.inner : currents.coil) : currents.coil;
+  }
+
+  Damper damper;
+  using Numbers = QuarterCarNumbers<Lane>;
+  const Numbers& numbers;
+
+ private:
+  const LaneRide& ride_;
+};
+
+/// The road's push within a sample: a parabola through its begin, middle and end and, so that its slopes
+/// there are the road's, twist u (u - 1/2) (u - 1), u = 0 ... 1.
+struct RoadPush {
+  Lane node[3]{}, twist{};
+  Lane at(Lane u) const {
+    const Lane slope = 4 * node[1] - 3 * node[0] - node[2], bend = 2 * (node[0] + node[2]) - 4 * node[1];
+    return node[0] + u * (slope + u * bend + (u - 0.5) * (u - 1) * twist);
+  }
+};
+
+}  // namespace
+}  // namespace dashpot

@@ -1,0 +1,152 @@
+#if defined(DASHPOT_SUNDIALS)
+#include <arkode/arkode_erkstep.h>
+#include <nvector/nvector_serial.h>
+#endif
+
+#include "dashpot/damper/law_model.h"
+#include "dashpot/damper/laws/modified_bouc_wen.h"
+#include "dashpot/damper/neural/hysteresis_network.h"
+#include "dashpot/damper/neural/network_model.h"
+#include "dashpot/damper/parameter_set.h"
+#include "dashpot/suspension/batch.h"
+#include "dashpot/suspension/forces.h"
+#include "dashpot/suspension/ground_sequences.h"
+#include "dashpot/suspension/plant_set.h"
+#include "support.h"
+
+using namespace dashpot;
+
+// simulate() and simulate_batch() against ARKODE's DP5(4) at a relative tolerance of 1e-10, which knows neither their
+// integrators nor their damper code: it takes the textbook's quarter car, and a damper's derivative written out here.
+#if defined(DASHPOT_SUNDIALS)
+namespace {
+
+/// A damper as equations: its states' derivatives and its force.
+struct Equations {
+  std::size_t states = 0;
+  std::function<double(double x, double v, double current, const double* z, double* dz)> force;
+  double x0_state = -1;
+};
+
+struct Problem {
+  const Plant& plant;
+  const GroundMotion& road;
+  const Equations& damper;
+  const Controller* controller = nullptr;
+  ControlLimits limits;
+  double current = 0;
+
+  int derivative(double t, const double* y, double* dy) const {
+    const double mass = plant.mass[0], wheel = plant.mass[3], spring = plant.stiffness[0], tyre = plant.tyres[0].stiffness;
+    const double x = y[0] - y[1], v = y[2] - y[3];
+    const double strut = spring * x + damper.force(x, v, current, y + 4, dy + 4);
+    dy[0] = y[2];
+    dy[1] = y[3];
+    dy[2] = -strut / mass;
+    dy[3] = (strut + tyre * (road.foot(t, 0, 0).height - y[1])) / wheel;
+    return 0;
+  }
+};
+
+int right_hand_side(double t, N_Vector y, N_Vector dy, void* problem) {
+  return static_cast<const Problem*>(problem)->derivative(t, NV_DATA_S(y), NV_DATA_S(dy));
+}
+
+/// Body and wheel at each millisecond.
+std::vector<std::array<double, 2>> reference(Problem problem, double duration) {
+  sundials::Context context;
+  N_Vector y = N_VNew_Serial(static_cast<sunindextype>(4 + problem.damper.states), context), slope = N_VClone(y);
+  N_VConst(0, y);
+  void* solver = ERKStepCreate(right_hand_side, 0, y, context);
+  ERKStepSetTableNum(solver, ARKODE_DORMAND_PRINCE_7_4_5);
+  ERKStepSStolerances(solver, 1e-10, 1e-13);
+  ERKStepSetUserData(solver, &problem);
+  ERKStepSetMaxNumSteps(solver, 1000000);
+  std::vector<std::array<double, 2>> trace;
+  const double* const at = NV_DATA_S(y);
+  const auto count = static_cast<std::size_t>(std::lround(duration * 1e3));
+  for (std::size_t k = 0;; ++k) {
+    trace.push_back({at[0], at[1]});
+    if (k == count) break;
+    double t = 1e-3 * static_cast<double>(k);
+    if (problem.controller) {
+      problem.derivative(t, at, NV_DATA_S(slope));
+      const StrutSignals signals{.body_velocity = at[2],
+                                 .body_acceleration = NV_DATA_S(slope)[2],
+                                 .wheel_velocity = at[3],
+                                 .deflection = at[0] - at[1],
+                                 .deflection_velocity = at[2] - at[3]};
+      DamperDemand demand;
+      problem.controller->step({&signals, 1}, {}, {}, {&demand, 1});
+      const double share = (demand.value - problem.limits.damping_min) /
+                           (problem.limits.damping_max - problem.limits.damping_min);
+      problem.current = share * problem.limits.current_max;
+    }
+    ERKStepReset(solver, t, y);
+    ERKStepSetStopTime(solver, 1e-3 * static_cast<double>(k + 1));
+    ERKStepEvolve(solver, 1e-3 * static_cast<double>(k + 1), y, &t, ARK_NORMAL);
+  }
+  ERKStepFree(&solver);
+  N_VDestroy(slope);
+  N_VDestroy(y);
+  return trace;
+}
+
+double apart(const std::vector<std::array<double, 2>>& truth, const Record& record) {
+  double worst = 0;
+  for (std::size_t c = 0; c < 2; ++c) {
+    const std::vector<double>& samples = record.channel(c == 0 ? "body" : "wheel").samples;
+    REQUIRE(samples.size() == truth.size());
+    double top = 0, off = 0;
+    for (std::size_t k = 0; k < truth.size(); ++k) {
+      top = std::max(top, std::abs(truth[k][c]));
+      off = std::max(off, std::abs(truth[k][c] - samples[k]));
+    }
+    worst = std::max(worst, off / top);
+  }
+  return worst;
+}
+
+struct Errors {
+  double alone, in_lanes;
+};
+/// Of both engines, with a controller where `law` names one.
+Errors errors_of(std::shared_ptr<const DamperModel> model, const Equations& equations, const char* law, double highest) {
+  const Plant plant = load_plant_set("tudon_martinez2012").plant;
+  const GroundPointer road = make_ground("iso8608,class=C,length=60,wave_number_max=1,waves=200", 5);
+  const ControlLimits limits{.current_max = highest};
+  const ControllerPointer controller = law ? make_controller(law, {limits, plant}) : nullptr;
+  const std::vector<MountedDamper> dampers{
+      {.model = std::move(model), .driver = {.current_max = highest}, .current = law ? 0 : 0.4 * highest}};
+  constexpr double kDuration = 1.5;
+  const auto truth = reference({plant, *road, equations, controller.get(), limits, dampers[0].current}, kDuration);
+  const Setting setting{plant, dampers, *road, controller.get()};
+  const BatchVehicle vehicle{setting, limits, {}};
+  const std::vector<BatchVehicle> three(3, vehicle);
+  return {apart(truth, simulate(setting, {.duration = kDuration, .limits = limits}).record),
+          apart(truth, simulate_batch(three, {.duration = kDuration, .traces = true})[1].trace)};
+}
+
+}  // namespace
+
+TEST_CASE("network damper against SUNDIALS, with and without a controller") {
+  Mlp mlp;
+  mlp.layers = {2, 10, 1};
+  mlp.input_mean = {0, 0.5};
+  mlp.input_scale = {0.3, 0.3};
+  mlp.output_scale = 700;
+  initialise(mlp, 3);
+  const Equations equations{0, [&](double, double v, double i, const double*, double*) {
+                              const double input[] = {v, i};
+                              return mlp.evaluate(input);
+                            }};
+  const auto model = std::make_shared<NetworkModel>("network", std::vector<std::string>{"velocity", "current"}, std::vector{mlp});
+  for (const char* law : {static_cast<const char*>(nullptr), "mix1"}) {
+    const Errors errors = errors_of(model, equations, law, 1);
+    CHECK_CLOSE(errors.alone, 0, 0, 1e-6);
+    CHECK_CLOSE(errors.in_lanes, 0, 0, 1e-6);
+  }
+}
+#else
+TEST_CASE("integrators against SUNDIALS") { MESSAGE("skipped: libsundials-dev is not installed"); }
+#endif
