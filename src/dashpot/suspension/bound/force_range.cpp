@@ -1,0 +1,107 @@
+#include "dashpot/suspension/bound/force_range.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "dashpot/base/error.h"
+#include "dashpot/base/text.h"
+
+namespace dashpot {
+namespace {
+
+double straight(const std::vector<double>& v, const std::vector<double>& f, std::size_t k, double at) {
+  return f[k] + (f[k + 1] - f[k]) * (at - v[k]) / (v[k + 1] - v[k]);
+}
+
+std::size_t place_of(const std::vector<double>& velocity, double v) {
+  const auto after = std::upper_bound(velocity.begin() + 1, velocity.end() - 1, v);
+  return static_cast<std::size_t>(after - velocity.begin()) - 1;
+}
+
+}  // namespace
+
+ForceRange::Piece ForceRange::piece(double v, double share) const noexcept {
+  const std::size_t k = place_of(velocity, v);
+  const auto mixed = [&](std::size_t n) { return soft[n] + share * (hard[n] - soft[n]); };
+  const double slope = (mixed(k + 1) - mixed(k)) / (velocity[k + 1] - velocity[k]);
+  return {slope, mixed(k) - slope * velocity[k]};
+}
+
+double ForceRange::force(double v, double share) const noexcept {
+  const Piece at = piece(v, share);
+  return at.slope * v + at.offset;
+}
+
+double ForceRange::force_against(double free, double by_force, double share) const noexcept {
+  double v = free, force = 0;
+  for (int k = 0; k < 8; ++k) {
+    const Piece at = piece(v, share);
+    force = (at.slope * free + at.offset) / (1 - at.slope * by_force);
+    const double reached = free + by_force * force;
+    if (place_of(velocity, reached) == place_of(velocity, v)) break;
+    v = reached;
+  }
+  return force;
+}
+
+double ForceRange::share(double v, double f) const noexcept {
+  const std::size_t k = place_of(velocity, v);
+  const double least = straight(velocity, soft, k, v), wide = straight(velocity, hard, k, v) - least;
+  return wide == 0 ? 0 : std::clamp((f - least) / wide, 0.0, 1.0);
+}
+
+ForceRange damping_range(double least, double greatest) {
+  if (!(least <= greatest))
+    throw Error("damping range", "least " + format_number(least) + ", greatest " + format_number(greatest));
+  return {{-1, 0, 1}, {-least, 0, least}, {-greatest, 0, greatest}};
+}
+
+namespace {
+
+/// Least of -(F - a v)(F - b v) over both edges of a range: what is missing to 0 is the limit's constant.
+/// q is concave in F, so the edges decide; on a straight piece it is a parabola in v.
+double shortfall(const ForceRange& range, double a, double b) {
+  double least = 0;
+  const auto& v = range.velocity;
+  for (std::size_t k = 0; k + 1 < v.size(); ++k)
+    for (const double share : {0.0, 1.0}) {
+      const auto [slope, offset] = range.piece(0.5 * (v[k] + v[k + 1]), share);
+      const double square = -(slope - a) * (slope - b), linear = -offset * (2 * slope - a - b);
+      const bool first = k == 0, last = k + 2 == v.size();
+      const auto at = [&](double x) { return square * x * x + linear * x - offset * offset; };
+      if (!first) least = std::min(least, at(v[k]));
+      if (!last) least = std::min(least, at(v[k + 1]));
+      if ((first || last) && (square < 0 || (square == 0 && linear != 0))) {
+        const bool falls = square < 0 || (first ? linear > 0 : linear < 0);
+        if (falls) return -std::numeric_limits<double>::infinity();
+      }
+      const double bottom = square > 0 ? -0.5 * linear / square : 0;
+      const bool inside = (first || bottom > v[k]) && (last || bottom < v[k + 1]);
+      if (square > 0 && inside) least = std::min(least, at(bottom));
+    }
+  return least;
+}
+
+}  // namespace
+
+std::vector<ForceLimit> force_limits(const ForceRange& range) {
+  double least = INFINITY, greatest = -INFINITY;
+  std::vector<double> slopes;
+  for (std::size_t k = 0; k + 1 < range.velocity.size(); ++k)
+    for (const double share : {0.0, 1.0}) {
+      const double slope = range.piece(0.5 * (range.velocity[k] + range.velocity[k + 1]), share).slope;
+      least = std::min(least, slope);
+      greatest = std::max(greatest, slope);
+    }
+  std::vector<ForceLimit> limits;
+  const auto add = [&](double a, double b) {
+    const double missing = shortfall(range, a, b);
+    if (std::isfinite(missing)) limits.push_back({-1, a + b, -a * b, 0, -missing});
+  };
+  add(least, greatest);
+  return limits;
+}
+
+}  // namespace dashpot
