@@ -87,21 +87,58 @@ double shortfall(const ForceRange& range, double a, double b) {
 }  // namespace
 
 std::vector<ForceLimit> force_limits(const ForceRange& range) {
-  double least = INFINITY, greatest = -INFINITY;
-  std::vector<double> slopes;
-  for (std::size_t k = 0; k + 1 < range.velocity.size(); ++k)
-    for (const double share : {0.0, 1.0}) {
-      const double slope = range.piece(0.5 * (range.velocity[k] + range.velocity[k + 1]), share).slope;
+  // Slopes that hold the range in above some speed; below it the limit's constant does.
+  constexpr double kAbove[] = {0, 0.05, 0.15, 0.4, 1};
+  const std::size_t last = range.velocity.size() - 1;
+  std::vector<ForceLimit> limits;
+  for (const double above : kAbove) {
+    double least = INFINITY, greatest = -INFINITY;
+    const auto include = [&](double slope) {
       least = std::min(least, slope);
       greatest = std::max(greatest, slope);
+    };
+    for (const double share : {0.0, 1.0}) {
+      for (const double end : {range.velocity[0] - 1, range.velocity[last] + 1})
+        include(range.piece(end, share).slope);
+      for (const double v : range.velocity)
+        if (v != 0 && std::abs(v) >= above) include(range.force(v, share) / v);
     }
-  std::vector<ForceLimit> limits;
-  const auto add = [&](double a, double b) {
-    const double missing = shortfall(range, a, b);
-    if (std::isfinite(missing)) limits.push_back({-1, a + b, -a * b, 0, -missing});
-  };
-  add(least, greatest);
+    const double missing = shortfall(range, least, greatest);
+    if (!std::isfinite(missing)) continue;
+    const ForceLimit limit{-1, least + greatest, -least * greatest, -missing};
+    const auto same = [&](const ForceLimit& other) { return other.fv == limit.fv && other.vv == limit.vv; };
+    if (std::none_of(limits.begin(), limits.end(), same)) limits.push_back(limit);
+  }
   return limits;
+}
+
+bool has_width(const ForceRange& range) { return range.soft != range.hard; }
+
+ForceRange model_range(const DamperModel& model, double current_min, double current_max,
+                       double velocity_max) {
+  if (model.state_size() > 0)
+    throw Error(model.name(), "has a memory: it has no range of forces by velocity alone",
+                "a model without states, as 'network'");
+  if (!(velocity_max > 0 && current_min < current_max))
+    throw Error(model.name(), "a range up to " + format_number(velocity_max) + " m/s between " +
+                                  format_number(current_min) + " and " + format_number(current_max) + " A");
+  constexpr int kVelocities = 60, kCurrents = 20;  // either way
+  ForceRange range;
+  for (int k = -kVelocities; k <= kVelocities; ++k) {
+    const double share = static_cast<double>(k) / kVelocities;
+    const double v = velocity_max * share * std::abs(share);  // close together where curves bend
+    double least = INFINITY, greatest = -INFINITY;
+    for (int i = 0; i <= kCurrents; ++i) {
+      const double current = current_min + (current_max - current_min) * i / kCurrents;
+      const double force = model.force({0, v, current}, {});
+      least = std::min(least, force);
+      greatest = std::max(greatest, force);
+    }
+    range.velocity.push_back(v);
+    range.soft.push_back(v < 0 ? greatest : least);
+    range.hard.push_back(v < 0 ? least : greatest);
+  }
+  return range;
 }
 
 }  // namespace dashpot

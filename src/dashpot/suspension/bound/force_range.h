@@ -17,26 +17,27 @@ struct ForceRange {
   double force_against(double free, double by_force, double share) const noexcept;
   /// How hard a force is, 0 ... 1, at a velocity; 0 where soft and hard are one.
   double share(double velocity, double force) const noexcept;
-  /// [slope, force at 0] of the straight piece at a velocity.
   struct Piece {
-    double slope, offset;
+    double slope, offset;  ///< force = slope velocity + offset
   };
   Piece piece(double velocity, double share) const noexcept;
 };
 
 /// Any damping in between, N*s/m. Throws Error where least > greatest.
 ForceRange damping_range(double least, double greatest);
-/// Of a damper without memory, from its forces at the two currents, A. Throws Error where the model has
-/// states, or where one current is not the harder of the two at all velocities.
-ForceRange model_range(const DamperModel& model, double current_soft, double current_hard,
-                       double velocity_max);
+/// Of a damper without memory: from its least force to its greatest over the currents, A.
+/// Throws Error where the model has states, and at limits that make no sense.
+ForceRange model_range(const DamperModel& model, double current_min, double current_max, double velocity_max);
+/// Whether there is anything to choose.
+bool has_width(const ForceRange& range);
 
 /// A quadratic that no force of a range makes negative:
-/// q(v, F) = ff F^2 + fv F v + vv v^2 + f F + one >= 0.
+/// q(v, F) = ff F^2 + fv F v + vv v^2 + one >= 0.
 struct ForceLimit {
-  double ff = 0, fv = 0, vv = 0, f = 0, one = 0;
+  double ff = 0, fv = 0, vv = 0, one = 0;
 };
-/// Those that hold a range in. Each is checked on every straight piece of the range, not at samples alone.
+/// Those that hold a range in, of the form (F - a v)(b v - F) + one: of a range of damping the exact one.
+/// Each is checked along every straight piece of the range.
 std::vector<ForceLimit> force_limits(const ForceRange& range);
 
 }  // namespace dashpot

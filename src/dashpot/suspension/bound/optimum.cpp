@@ -98,23 +98,17 @@ Path path_of_shares(const SampledPlant& car, const ForceRange& range, const Ride
 
 }  // namespace
 
-Course follow_law(const SampledPlant& car, const ForceRange& range, const RideIndex& index,
-                  const std::vector<Law>& law) {
-  return course_of(car, run(car, range, index, [&](std::size_t cell, const State& z, double, double) {
-                     return (law[cell] * z)(0, 0);
-                   }));
-}
-
 Course follow_shares(const SampledPlant& car, const ForceRange& range, const RideIndex& index,
                      const std::vector<double>& shares) {
   return course_of(car, path_of_shares(car, range, index, shares));
 }
 
-Course improve(const SampledPlant& car, const ForceRange& range, const RideIndex& index, Course course,
-               int iterations) {
-  constexpr double kLeastFall = 1e-5, kLeastStep = 1.0 / 128;
+Course improve(const SampledPlant& car, const ForceRange& range, const RideIndex& index,
+               const Course& course) {
+  constexpr double kLeastFall = 1e-6, kLeastStep = 1.0 / 128;
+  constexpr int kMost = 100;
   Path path = path_of_shares(car, range, index, course.shares);
-  for (int k = 0; k < iterations; ++k) {
+  for (int k = 0; k < kMost; ++k) {
     const std::vector<Law> laws = sweep_back(car, range, index, path);
     Path best;
     best.sum = INFINITY;

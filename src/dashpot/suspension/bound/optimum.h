@@ -12,16 +12,14 @@ struct Course {
   std::vector<double> shares;  ///< per cell, of the way from the softest force to the hardest
 };
 
-/// Under forces that are clip(law . [q, q', 1]), a law per cell; under shares that are given.
-Course follow_law(const SampledPlant& car, const ForceRange& range, const RideIndex& index,
-                  const std::vector<SmallMatrix<1, 5>>& law);
+/// Under shares that are given.
 Course follow_shares(const SampledPlant& car, const ForceRange& range, const RideIndex& index,
                      const std::vector<double>& shares);
 
 /// From a course to a better one, until none is found: a Riccati sweep back along the course, in which a
 /// force at an end of its range stays there and one inside is free, gives a law per cell; a run forward
 /// follows it, clipped to the range, as far as the index falls.
-Course improve(const SampledPlant& car, const ForceRange& range, const RideIndex& index, Course course,
-               int iterations);
+Course improve(const SampledPlant& car, const ForceRange& range, const RideIndex& index,
+               const Course& course);
 
 }  // namespace dashpot

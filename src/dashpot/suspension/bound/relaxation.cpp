@@ -10,7 +10,7 @@
 namespace dashpot {
 namespace {
 
-using Form = SmallMatrix<6, 6>;   // over [q, q', 1, F]
+using Form = SmallMatrix<6, 6>;    // over [q, q', 1, F]
 using Value5 = SmallMatrix<5, 5>;  // over [q, q', 1]
 constexpr std::size_t kOne = 4, kForce = 5;
 
@@ -26,16 +26,14 @@ void add_limit(Form& form, double weight, const ForceLimit& limit, const SmallMa
   add_product(form, weight * limit.ff, force, force);
   add_product(form, weight * limit.fv, force, speed);
   add_product(form, weight * limit.vv, speed, speed);
-  add_product(form, weight * limit.f, force, one);
   add_product(form, weight * limit.one, one, one);
 }
 
 /// The integrand of L.
 Form integrand(const AffineCar& car, const std::vector<ForceLimit>& limits, const RideIndex& index,
-               const Multipliers& multipliers, std::size_t cell) {
+               const double* multipliers) {
   Form form = price(car, index);
-  for (std::size_t j = 0; j < limits.size(); ++j)
-    add_limit(form, -multipliers.at(cell, j), limits[j], car.speed);
+  for (std::size_t j = 0; j < limits.size(); ++j) add_limit(form, -multipliers[j], limits[j], car.speed);
   return form;
 }
 
@@ -114,7 +112,7 @@ class Certificate {
   /// -dP/dt.
   bool slope_of(const Value5& p, double into, std::size_t cell, Value5& slope) const {
     const AffineCar now = car_.at(cell, into);
-    Form form = integrand(now, limits_, index_, multipliers_, cell);
+    Form form = integrand(now, limits_, index_, multipliers_.in(cell));
     add_value(form, p, now.motion, false);
     if (!(form(kForce, kForce) > 0)) return false;
     slope = minimum_over_force(form).value;
@@ -157,7 +155,7 @@ class Dual {
     for (std::size_t cell = car_.cells(); cell-- > 0;) {
       for (std::size_t i = 0; i < kOne; ++i) shaken += noise_[i] * p(i, i);
       const AffineCar car = car_.over(cell);
-      Form form = car_.step() * integrand(car, limits_, index_, multipliers, cell);
+      Form form = car_.step() * integrand(car, limits_, index_, multipliers.in(cell));
       add_value(form, p, car.motion, true);
       if (!(form(kForce, kForce) > 0)) return false;
       const Minimum least = minimum_over_force(form);
@@ -233,10 +231,16 @@ double middle_damping(const std::vector<ForceLimit>& limits) {
   return sum / static_cast<double>(limits.size());
 }
 
-Multipliers on_blocks(const Multipliers& from, const SampledPlant& car, std::size_t block) {
+/// The same multipliers on blocks of another length, over cells of another plant on the same road.
+Multipliers on_blocks(const Multipliers& from, const SampledPlant& from_car, const SampledPlant& car,
+                      std::size_t block) {
   Multipliers to{.block = block, .limits = from.limits, .values = {}};
-  for (std::size_t cell = 0; cell < car.cells(); cell += block)
-    for (std::size_t j = 0; j < from.limits; ++j) to.values.push_back(from.at(cell, j));
+  const double ratio = car.step() / from_car.step();
+  for (std::size_t cell = 0; cell < car.cells(); cell += block) {
+    const auto there = static_cast<std::size_t>((static_cast<double>(cell) + 0.5) * ratio);
+    const double* values = from.in(std::min(there, from_car.cells() - 1));
+    to.values.insert(to.values.end(), values, values + from.limits);
+  }
   return to;
 }
 
@@ -261,7 +265,9 @@ Multipliers climb(Dual& dual, Multipliers multipliers, int iterations) {
   };
   std::vector<double> start;
   for (const double value : multipliers.values) start.push_back(std::log(value));
-  set(minimise(fall, std::move(start), {.max_iterations = iterations, .function_tolerance = 1e-6, .on_iteration = {}}).x);
+  set(minimise(fall, std::move(start),
+               {.max_iterations = iterations, .function_tolerance = 1e-6, .on_iteration = {}})
+          .x);
   return trial;
 }
 
@@ -272,36 +278,35 @@ std::optional<double> certified_minimum(const SampledPlant& car, const std::vect
   return Certificate(car, limits, index, multipliers).minimum();
 }
 
-Relaxation relax(const SampledPlant& car, const std::vector<ForceLimit>& limits, const RideIndex& index,
-                 const RelaxationOptions& options, const Multipliers* start) {
-  const double by_force = car.at(0, 0).acceleration(0, kForce);
+Relaxation relax(const SampledPlant& car, const SampledPlant& coarse, const std::vector<ForceLimit>& limits,
+                 const RideIndex& index, const RelaxationOptions& options) {
+  const double by_force = coarse.at(0, 0).acceleration(0, kForce);
   const double natural = index.comfort * by_force * by_force + index.holding;
-  Multipliers constant{.block = car.cells(),
-                       .limits = limits.size(),
-                       .values = std::vector<double>(limits.size(), natural)};
-  std::array<double, 4> motion = typical_motion(car, middle_damping(limits));
-  const auto noisy = [&](double per_second) {
+  const std::array<double, 4> motion = typical_motion(coarse, middle_damping(limits));
+  const auto shaken = [&](double per_second) {
     std::array<double, 4> noise = motion;
-    for (double& value : noise) value *= per_second * car.step();
-    return Dual(car, limits, index, noise);
+    for (double& value : noise) value *= per_second * coarse.step();
+    return Dual(coarse, limits, index, noise);
   };
-  Dual coarse = noisy(1e-2), fine = noisy(1e-4);
-  if (!start) constant = climb(coarse, constant, options.iterations);
-  Multipliers found = on_blocks(start ? *start : constant, car, options.block);
-  found = climb(coarse, found, options.iterations);
-  found = climb(fine, found, options.iterations);
+  Dual much = shaken(1e-2), little = shaken(1e-4);
+  const Multipliers constant = climb(
+      much, {coarse.cells(), limits.size(), std::vector<double>(limits.size(), natural)}, options.iterations);
+  Multipliers found = constant;
+  for (std::size_t block = 8 * options.block; block >= options.block; block /= 2)
+    found = climb(much, on_blocks(found, coarse, coarse, block), options.iterations);
+  found = climb(little, found, options.iterations);
 
   const double duration = car.step() * static_cast<double>(car.cells());
-  const Multipliers even = on_blocks(constant, car, options.block);
-  for (double share = 0; share <= 1; share = share == 0 ? 0.01 : 3 * share) {
+  for (double share = 0; share <= 1; share = share == 0 ? 0.003 : 3 * share) {
     Multipliers mixed = found;
     for (std::size_t k = 0; k < mixed.values.size(); ++k)
-      mixed.values[k] += share * (even.values[k] - found.values[k]);
-    const std::optional<double> least = certified_minimum(car, limits, index, mixed);
-    if (!least) continue;
-    double value = 0;
-    fine.value(mixed, value);
-    return {mixed, *least / duration, fine.law()};
+      mixed.values[k] += share * (constant.values[k % limits.size()] - found.values[k]);
+    const std::size_t cells =
+        std::max<std::size_t>(1, static_cast<std::size_t>(std::llround(static_cast<double>(options.block) *
+                                                                       coarse.step() / car.step())));
+    const Multipliers certified = on_blocks(mixed, coarse, car, cells);
+    const std::optional<double> least = certified_minimum(car, limits, index, certified);
+    if (least) return {certified, *least / duration};
   }
   throw Error("clairvoyant bound", "no multipliers have a certified minimum");
 }

@@ -12,7 +12,8 @@ struct Multipliers {
   std::size_t block = 1, limits = 1;
   std::vector<double> values;
 
-  double at(std::size_t cell, std::size_t limit) const { return values[cell / block * limits + limit]; }
+  /// One per limit, in a cell.
+  const double* in(std::size_t cell) const { return values.data() + cell / block * limits; }
 };
 
 /// The index less the limits, each times its multiplier: min over ALL forces of
@@ -24,20 +25,20 @@ struct Multipliers {
 std::optional<double> certified_minimum(const SampledPlant& car, const std::vector<ForceLimit>& limits,
                                         const RideIndex& index, const Multipliers& multipliers);
 
-/// Multipliers for which that minimum is high.
-struct Relaxation {
-  Multipliers multipliers;
-  double bound = 0;  ///< certified_minimum over the duration: a mean
-  /// Per cell the force that is best under the multipliers, over [q, q', 1]: where an optimum may begin.
-  std::vector<SmallMatrix<1, 5>> law;
-};
-
 struct RelaxationOptions {
-  std::size_t block = 10;  ///< cells that share multipliers
-  int iterations = 80;     ///< of L-BFGS, at most, per stage
+  std::size_t block = 2;  ///< coarse cells that share multipliers in the end
+  int iterations = 40;    ///< of L-BFGS, at most, per climb
 };
 
-Relaxation relax(const SampledPlant& car, const std::vector<ForceLimit>& limits, const RideIndex& index,
-                 const RelaxationOptions& options, const Multipliers* start = nullptr);
+/// Multipliers for which that minimum is high, and the minimum as a mean over time.
+struct Relaxation {
+  Multipliers multipliers;  ///< over the cells of `car`
+  double bound = 0;
+};
+/// Multipliers are sought on the cells of `coarse`, where a force is held over a cell, from one for all of
+/// the time to shorter and shorter blocks; what they are worth is certified on `car`, the same road in finer
+/// cells, for forces that change as they like.
+Relaxation relax(const SampledPlant& car, const SampledPlant& coarse, const std::vector<ForceLimit>& limits,
+                 const RideIndex& index, const RelaxationOptions& options);
 
 }  // namespace dashpot

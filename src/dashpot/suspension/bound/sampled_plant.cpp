@@ -38,8 +38,8 @@ SampledPlant::SampledPlant(const Plant& plant, const GroundMotion& ground, doubl
     : step_(step) {
   require_quarter_car(plant);
   if (!(step > 0 && duration >= step))
-    throw Error("clairvoyant bound", "a duration of " + format_number(duration) + " s in steps of " +
-                                         format_number(step) + " s");
+    throw Error("clairvoyant bound",
+                "a duration of " + format_number(duration) + " s in steps of " + format_number(step) + " s");
   set_rates(plant);
   end_ = flow(step);
   middle_ = flow(step / 2);
