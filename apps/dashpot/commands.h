@@ -16,6 +16,7 @@ Command track_command();
 Command invert_command();
 Command physics_command();
 Command design_command();
+Command simulate_command();
 Command bench_command();
 Command demo_command();
 Command study_command();
