@@ -104,11 +104,12 @@ std::vector<ForceLimit> force_limits(const ForceRange& range) {
         if (v != 0 && std::abs(v) >= above) include(range.force(v, share) / v);
     }
     const double missing = shortfall(range, least, greatest);
-    if (!std::isfinite(missing)) continue;
+    if (!(least >= 0) || !std::isfinite(missing)) continue;
     const ForceLimit limit{-1, least + greatest, -least * greatest, -missing};
     const auto same = [&](const ForceLimit& other) { return other.fv == limit.fv && other.vv == limit.vv; };
     if (std::none_of(limits.begin(), limits.end(), same)) limits.push_back(limit);
   }
+  if (limits.empty()) throw Error("clairvoyant bound", "the range of forces is not dissipative");
   return limits;
 }
 
@@ -137,6 +138,12 @@ ForceRange model_range(const DamperModel& model, double current_min, double curr
     range.velocity.push_back(v);
     range.soft.push_back(v < 0 ? greatest : least);
     range.hard.push_back(v < 0 ? least : greatest);
+  }
+  // Where the model has no data, forces in proportion to the velocity.
+  for (std::vector<double>* table : {&range.velocity, &range.soft, &range.hard}) {
+    const double first = table->front(), last = table->back();
+    table->insert(table->begin(), 2 * first);
+    table->push_back(2 * last);
   }
   return range;
 }

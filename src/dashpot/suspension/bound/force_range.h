@@ -25,7 +25,8 @@ struct ForceRange {
 
 /// Any damping in between, N*s/m. Throws Error where least > greatest.
 ForceRange damping_range(double least, double greatest);
-/// Of a damper without memory: from its least force to its greatest over the currents, A.
+/// Of a damper without memory: from its least force to its greatest over the currents, A; beyond
+/// velocity_max in proportion to the velocity.
 /// Throws Error where the model has states, and at limits that make no sense.
 ForceRange model_range(const DamperModel& model, double current_min, double current_max, double velocity_max);
 /// Whether there is anything to choose.

@@ -296,18 +296,20 @@ Relaxation relax(const SampledPlant& car, const SampledPlant& coarse, const std:
     found = climb(much, on_blocks(found, coarse, coarse, block), options.iterations);
   found = climb(little, found, options.iterations);
 
+  // A climb may end at an edge that only its cells have: then the constants pull it back, or less of them.
   const double duration = car.step() * static_cast<double>(car.cells());
-  for (double share = 0; share <= 1; share = share == 0 ? 0.003 : 3 * share) {
-    Multipliers mixed = found;
-    for (std::size_t k = 0; k < mixed.values.size(); ++k)
-      mixed.values[k] += share * (constant.values[k % limits.size()] - found.values[k]);
-    const std::size_t cells =
-        std::max<std::size_t>(1, static_cast<std::size_t>(std::llround(static_cast<double>(options.block) *
-                                                                       coarse.step() / car.step())));
-    const Multipliers certified = on_blocks(mixed, coarse, car, cells);
-    const std::optional<double> least = certified_minimum(car, limits, index, certified);
-    if (least) return {certified, *least / duration};
-  }
+  const auto cells = static_cast<std::size_t>(
+      std::max(1.0, std::round(static_cast<double>(options.block) * coarse.step() / car.step())));
+  constexpr double kPulls[] = {0, 0.003, 0.01, 0.03, 0.1, 0.3, 1};
+  for (double size = 1; size > 1e-6; size /= 10)
+    for (const double pull : kPulls) {
+      Multipliers mixed = found;
+      for (std::size_t k = 0; k < mixed.values.size(); ++k)
+        mixed.values[k] += pull * (size * constant.values[k % limits.size()] - found.values[k]);
+      const Multipliers certified = on_blocks(mixed, coarse, car, cells);
+      const std::optional<double> least = certified_minimum(car, limits, index, certified);
+      if (least) return {certified, *least / duration};
+    }
   throw Error("clairvoyant bound", "no multipliers have a certified minimum");
 }
 
