@@ -70,24 +70,24 @@ DocumentTable share_table(const SuspensionStudy& study, const std::string& title
                        {"Both, over passive", true, 2},
                        {"% of possible", true, 2}},
                       {}};
-  const RideSquares& passive = study.rides.front().*where;
+  const RideSquares& off = study.rides[study.place("off")].*where;
   const ClairvoyantBound &comfort = front.front(), &both = front[kMiddle], &holding = front.back();
   const auto add = [&](const std::string& name, const RideSquares& squares, bool within) {
     const auto share = [&](const ClairvoyantBound& best) {
-      return within ? share_text(root(passive, best), root(squares, best), std::sqrt(best.optimum)) : "-";
+      return within ? share_text(root(off, best), root(squares, best), std::sqrt(best.optimum)) : "-";
     };
     table.rows.push_back({name, number_text(std::sqrt(squares.acceleration)), share(comfort),
                           number_text(std::sqrt(squares.tyre_force)), share(holding),
                           number_text(root(squares, both)), share(both)});
   };
   for (std::size_t k = 0; k < study.rides.size(); ++k)
-    add(study.schemes[k].title, study.rides[k].*where, k == 0 || study.schemes[k].within_range);
+    add(study.schemes[k].title, study.rides[k].*where, study.schemes[k].within_range);
   add("knew the road: best for comfort", comfort.squares, true);
   add("knew the road: best for both", both.squares, true);
   add("knew the road: best for holding", holding.squares, true);
   table.note =
-      "% of possible = (passive - controller) / (passive - optimum), of root mean squares; - where the "
-      "damper is another one.";
+      "% of possible = (off - controller) / (off - optimum), of root mean squares, off being the same damper "
+      "at 0 A; - where the damper is another one. Both: the two mean squares, each over that of passive.";
   return table;
 }
 
@@ -140,20 +140,40 @@ DocumentFigure front_figure(const SuspensionStudy& study) {
           .panels = {std::move(panel)}};
 }
 
+/// Of the damper's schemes on the road the one with the least index.
+RideSquares best_within(const SuspensionStudy& study, const ClairvoyantBound& index) {
+  RideSquares best = study.rides[study.place("off")].on_road;
+  for (std::size_t k = 0; k < study.rides.size(); ++k)
+    if (study.schemes[k].within_range && root(study.rides[k].on_road, index) < root(best, index))
+      best = study.rides[k].on_road;
+  return best;
+}
+
 }  // namespace
 
 DocumentSection possible_section(const SuspensionStudy& study) {
   DocumentSection section{"possible", "What is possible at best", {}};
-  const SchemeRide &passive = study.rides.front(), &mix1 = study.rides[study.place("mix1")];
+  const SchemeRide &passive = study.rides.front(), &mix1 = study.rides[study.place("mix1")],
+                   &off = study.rides[study.place("off")];
   const ClairvoyantBound &comfort = study.road_front.front(), &holding = study.road_front.back();
+  const auto reached = [&](const RideSquares& squares, const ClairvoyantBound& best) {
+    return share_text(root(off.on_road, best), root(squares, best), std::sqrt(best.optimum));
+  };
   section.paragraphs.push_back(fmt::format(
-      "On {} the best that this damper could do for comfort, had it known the road, lies between {} and {} "
-      "m/s^2; passive gives {}, Mix-1-sensor {}: {} % of what is possible. For road holding it reaches {} %.",
+      "On {} the least body acceleration that this damper could give, had it known the road, lies between {} "
+      "and {} m/s^2 (at 0 A it gives {}, the passive damper {}), the least tyre force between {} and {} N "
+      "(at "
+      "0 A {}, passive {}). Of what is possible beyond 0 A Mix-1-sensor reaches {} % for comfort and {} % "
+      "for "
+      "road holding, the best controllers {} and {} %.",
       study.road, number_text(std::sqrt(comfort.bound) * unit_of(comfort)),
       number_text(std::sqrt(comfort.optimum) * unit_of(comfort)),
-      number_text(std::sqrt(passive.on_road.acceleration)), number_text(std::sqrt(mix1.on_road.acceleration)),
-      share_text(root(passive.on_road, comfort), root(mix1.on_road, comfort), std::sqrt(comfort.optimum)),
-      share_text(root(passive.on_road, holding), root(mix1.on_road, holding), std::sqrt(holding.optimum))));
+      number_text(std::sqrt(off.on_road.acceleration)), number_text(std::sqrt(passive.on_road.acceleration)),
+      number_text(std::sqrt(holding.bound) * unit_of(holding)),
+      number_text(std::sqrt(holding.optimum) * unit_of(holding)),
+      number_text(std::sqrt(off.on_road.tyre_force)), number_text(std::sqrt(passive.on_road.tyre_force)),
+      reached(mix1.on_road, comfort), reached(mix1.on_road, holding),
+      reached(best_within(study, comfort), comfort), reached(best_within(study, holding), holding)));
   section.tables.push_back(bound_table(study));
   section.tables.push_back(share_table(study, "On the road", study.road_front, &SchemeRide::on_road));
   section.tables.push_back(share_table(study, "On the step", study.step_front, &SchemeRide::on_step));
