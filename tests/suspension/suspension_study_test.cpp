@@ -65,7 +65,7 @@ TEST_CASE("dampings of the paper's gains at the wheel's resonance: MODELS 3.6") 
 TEST_CASE("the passive curve is identified by the paper's network, and has no force at rest") {
   const NetworkDamper damper = identified_passive(1804, 1);
   CHECK(damper.model->parameter_count() == 41);
-  CHECK(damper.quality.esr < 0.01);
+  CHECK(damper.quality.esr < 1);  // %
   CHECK_CLOSE(damper.model->force({}, {}), 0, 0, 1e-9);
   CHECK(damper.model->force({0, 0.5, 0}, {}) > 0);
   CHECK(damper.model->force({0, -0.5, 0}, {}) < 0);
@@ -83,13 +83,14 @@ TEST_CASE("the page judges claims by what was simulated and proven") {
   const std::string page = markdown_document(document, "");
   // From 3.36 to 2.6: 23 % less, where the paper claims 40.4 %.
   CHECK(contains(page,
-                 "| tyre's greatest gain | 40.4 % less | 3.36 | 3.36 | 2.6 | 23 | 23 | - | in direction"));
+                 "| tyre's greatest gain, chirp of 2 cm | 40.4 % less | 3.36 | 3.36 | 2.6 | 23 | 23 | - | in "
+                 "direction"));
   CHECK(contains(page, "| 7.4 % less | 1 | 1 | 0.8 | 20 | 20 | 0.6 | follows |"));
   // The bound of 600 N leaves 40 % of 1000 N: 64.9 % cannot be.
   CHECK(contains(page, "| 64.9 % less | 1000 | 1000 | 1100 | -10 | -10 | 600 | no damper can do it |"));
   // Of 0.9 m/s^2 at 0 A and 0.7 at the optimum, 0.8 is half of the way.
   CHECK(contains(page, "| scheme mix1 | 0.8 | 50 | 1100 |"));
   const Value json = suspension_study_json(made_study());
-  CHECK_CLOSE(json.find("least_damping_for_claim")->as_number(), 2666.67, 1e-5, 0);
+  CHECK_CLOSE(json.find("least_damping_for_claim")->as_number(), 3333.33, 1e-5, 0);
   CHECK(format_json(json).size() > 1000);
 }

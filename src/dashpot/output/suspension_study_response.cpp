@@ -64,9 +64,9 @@ DocumentTable gain_table(const SuspensionStudy& study) {
   for (std::size_t k = 0; k < study.rides.size(); ++k) {
     const SchemeRide& ride = study.rides[k];
     table.rows.push_back({study.schemes[k].title, number_text(body(ride)),
-                          number_text(less_percent(body(passive), body(ride)), 2), number_text(large(ride)),
-                          number_text(less_percent(large(passive), large(ride)), 2), number_text(small(ride)),
-                          number_text(less_percent(small(passive), small(ride)), 2),
+                          whole_text(less_percent(body(passive), body(ride))), number_text(large(ride)),
+                          whole_text(less_percent(large(passive), large(ride))), number_text(small(ride)),
+                          whole_text(less_percent(small(passive), small(ride))),
                           number_text(100 * ride.contact_lost, 2), number_text(100 * ride.too_fast, 2)});
   }
   table.note =
@@ -129,9 +129,8 @@ DocumentTable step_table(const SuspensionStudy& study) {
                           decay_text(ride.comfort.decay_ratio), number_text(ride.comfort.greatest_deviation),
                           number_text(ride.holding.settling_time), decay_text(ride.holding.decay_ratio),
                           number_text(100 * ride.holding.greatest_deviation), number_text(body),
-                          number_text(less_percent(std::sqrt(passive.acceleration), body), 2),
-                          number_text(tyre),
-                          number_text(less_percent(std::sqrt(passive.tyre_force), tyre), 2)});
+                          whole_text(less_percent(std::sqrt(passive.acceleration), body)), whole_text(tyre),
+                          whole_text(less_percent(std::sqrt(passive.tyre_force), tyre))});
   }
   table.note = fmt::format(
       "Settled: within 5 % of the acceleration's peak, of the step's height. Decay ratio: second positive "
