@@ -21,7 +21,7 @@ struct Settings {
   RoadChoice road;
   StudyResults results;
   std::string list, against;
-  double allowed_outside = 5, tolerance = 1e-6;  // %, 1
+  double allowed_outside = 5, tolerance = 1e-6, step = 0;  // %, 1, ms
   bool mat = false;
 };
 
@@ -44,6 +44,7 @@ Simulation simulate_choice(const Settings& settings, Console& console) {
   const RunOptions options{.duration = duration_of(settings.road, *ground),
                            .allowed_outside = settings.allowed_outside / 100,
                            .relative_tolerance = settings.tolerance,
+                           .step = settings.step > 0 ? std::optional(settings.step / 1000) : std::nullopt,
                            .monitor = console.monitor()};
   Simulation simulation{.run = run_vehicle(vehicle, *ground, options),
                         .ground = ground->description(),
@@ -116,6 +117,13 @@ Command simulate_command() {
            .target = &settings->tolerance,
            .help = "relative, of the integrator",
            .value = "NUMBER"},
+          {.names = "--max-step",
+           .target = &settings->step,
+           .help = "of the integrator, ms, without control of its error: quicker, for dampers without "
+                   "hysteresis",
+           .value = "MS",
+           .minimum = 0,
+           .default_text = "as the tolerance asks"},
           {.names = "-o,--output",
            .target = &settings->results.folder,
            .help = "folder for the page and the traces",

@@ -82,16 +82,18 @@ std::vector<Option> controlled_vehicle_options(VehicleChoice& choice) {
 }
 
 std::vector<Option> road_options(RoadChoice& choice) {
-  return {{.names = "--road",
-           .target = &choice.road,
-           .help = "road, step, sine, chirp, earthquake ... with its settings (--list roads)",
-           .value = "WORDS"},
-          {.names = "--duration",
-           .target = &choice.duration,
-           .help = "s",
-           .value = "S",
-           .minimum = 0,
-           .default_text = "20 on a road; to the end of a bump, chirp or earthquake and 5 more"}};
+  return {
+      {.names = "--road",
+       .target = &choice.road,
+       .help = "road, step, sine, chirp, earthquake ... with its settings (--list roads)",
+       .value = "WORDS"},
+      {.names = "--duration",
+       .target = &choice.duration,
+       .help = "s",
+       .value = "S",
+       .minimum = 0,
+       .default_text =
+           choice.duration > 0 ? "" : "20 on a road; to the end of a bump, chirp or earthquake and 5 more"}};
 }
 
 VehicleWords words_of(const VehicleChoice& choice) {

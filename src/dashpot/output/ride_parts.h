@@ -8,13 +8,20 @@
 // Parts that the pages of a suspension share.
 namespace dashpot {
 
-/// Of the k-th controller; the passive reference is "series-6".
-std::string controller_colour(std::size_t k);
-constexpr std::string_view kPassiveColour = "series-6";
+/// How the curves of the k-th controller look; the passive reference is grey.
+FigureSeries controller_look(const std::string& name, std::size_t k);
+FigureSeries passive_look(const std::string& name);
+
+/// A stretch of time, s.
+struct Stretch {
+  double from = 0, to = 0;
+};
+/// What of a run can be looked at: five seconds of a ground that is alike all along, all of another one.
+Stretch shown_stretch(double duration, double discard);
 
 /// A channel over time, thinned to what a screen can show; `factor` as the axis has it.
 FigureSeries over_time(const SimulatedRun& run, const std::string& channel, double factor,
-                       const FigureSeries& look);
+                       const Stretch& stretch, const FigureSeries& look);
 
 /// "0.97"; "-" where there is no ratio.
 std::string ratio_text(double value, double reference);

@@ -19,10 +19,8 @@ struct Shown {
 
 std::vector<Shown> shown_runs(const Simulation& s) {
   std::vector<Shown> runs;
-  if (s.against)
-    runs.push_back(
-        {&*s.against, {s.against->name, std::string(kPassiveColour), {}, {}, FigureSeries::Mark::Line, 1.2}});
-  runs.push_back({&s.run, {s.run.name, "series-1", {}, {}, FigureSeries::Mark::Line, 1.4}});
+  if (s.against) runs.push_back({&*s.against, passive_look(s.against->name)});
+  runs.push_back({&s.run, controller_look(s.run.name, 0)});
   return runs;
 }
 
@@ -51,13 +49,26 @@ DocumentTable measure_table(const Simulation& s) {
   return table;
 }
 
-FigurePanel time_panel(const Simulation& s, const std::string& channel, const std::string& label,
-                       double factor = 1) {
-  FigurePanel panel{"", "time, s", label, {}};
+FigurePanel time_panel(const Simulation& s, const std::string& channel, const std::string& title,
+                       const std::string& unit, double factor = 1) {
+  FigurePanel panel{title, "time, s", unit, {}};
   for (const auto& [run, look] : shown_runs(s))
-    if (run->trace.record.find(channel)) panel.series.push_back(over_time(*run, channel, factor, look));
+    if (run->trace.record.find(channel))
+      panel.series.push_back(over_time(*run, channel, factor, shown_stretch(s.duration, s.discard), look));
   return panel;
 }
+
+/// What moves the ground: the same for both runs.
+FigurePanel ground_panel(const Simulation& s, const std::string& channel, const std::string& unit,
+                         double factor) {
+  const FigureSeries look{"", "measured", {}, {}, FigureSeries::Mark::Line, 1.2};
+  return {"Ground",
+          "time, s",
+          unit,
+          {over_time(s.run, channel, factor, shown_stretch(s.duration, s.discard), look)}};
+}
+
+bool is_driven(const Vehicle& vehicle) { return vehicle.limits.current_min < vehicle.limits.current_max; }
 
 std::vector<FigurePanel> time_panels(const Simulation& s) {
   const Vehicle& vehicle = *s.run.vehicle;
@@ -66,22 +77,23 @@ std::vector<FigurePanel> time_panels(const Simulation& s) {
   std::vector<FigurePanel> panels;
   if (plant.tyres.empty()) {
     const std::string top = plant.coordinates.back().name;
-    panels.push_back(time_panel(s, "ground_acceleration", "ground acceleration, m/s^2"));
-    panels.push_back(time_panel(s, top, top + ", mm", 1000));
-    panels.push_back(time_panel(s, top + "_acceleration", top + " acceleration, m/s^2"));
+    panels.push_back(ground_panel(s, "ground_acceleration", "m/s^2", 1));
+    panels.push_back(time_panel(s, top, top + ", displacement", "mm", 1000));
+    panels.push_back(time_panel(s, top + "_acceleration", top + ", acceleration over the ground", "m/s^2"));
   } else {
     const std::string body = plant.coordinates.front().name, tyre = plant.tyres.front().name;
-    panels.push_back(time_panel(s, tyre + "_road", "road, mm", 1000));
-    panels.back().series.resize(1);  // the same for both
-    panels.push_back(time_panel(s, body + "_acceleration", body + " acceleration, m/s^2"));
-    panels.push_back(time_panel(s, tyre + "_load", tyre + " load, N"));
+    panels.push_back(ground_panel(s, tyre + "_road", "mm", 1000));
+    panels.push_back(time_panel(s, body + "_acceleration", body + ", acceleration", "m/s^2"));
+    panels.push_back(time_panel(s, tyre + "_load", tyre + ", load", "N"));
   }
   if (strut.empty()) return panels;
-  panels.push_back(time_panel(s, strut + "_deflection", strut + " deflection, mm", 1000));
-  panels.push_back(time_panel(s, strut + "_force", "damper force, N"));
-  if (vehicle.limits.current_min < vehicle.limits.current_max) {
-    const std::string unit = vehicle.drive_unit.empty() ? "drive, 0 to 1" : "drive, " + vehicle.drive_unit;
-    panels.push_back(time_panel(s, strut + "_current", unit));
+  panels.push_back(time_panel(s, strut + "_deflection", strut + ", deflection", "mm", 1000));
+  panels.push_back(time_panel(s, strut + "_force", strut + ", damper force", "N"));
+  if (is_driven(vehicle)) {
+    const std::string unit = vehicle.drive_unit.empty() ? "0 to 1" : vehicle.drive_unit;
+    panels.push_back(time_panel(s, strut + "_current", strut + ", drive", unit));
+    if (s.against && !is_driven(*s.against->vehicle))
+      panels.back().series.erase(panels.back().series.begin());
   }
   return panels;
 }
@@ -147,7 +159,9 @@ Document simulation_document(const Simulation& s) {
                                .figures = {},
                                .remarks = run_remarks(runs)});
   DocumentSection time{.name = "time", .title = "Over time", .paragraphs = {}};
-  time.figures.push_back({"time", "Over time", "Drag to enlarge a stretch.", time_panels(s), 2});
+  const auto [from, to] = shown_stretch(s.duration, s.discard);
+  time.figures.push_back({"time", "From " + format_number(from) + " to " + format_number(to) + " s",
+                          "Drag to enlarge. The traces beside this page hold all of it.", time_panels(s), 2});
   if (!vehicle.set.plant.struts.empty()) time.figures.push_back(work_figure(s));
   document.sections.push_back(std::move(time));
   return document;

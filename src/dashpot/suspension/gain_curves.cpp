@@ -12,8 +12,7 @@ namespace dashpot {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-constexpr double kChirpDuration = 120;  // s
-constexpr double kBeyond = 1.25;        // how far the chirp goes beyond the frequencies that are read
+constexpr double kBeyond = 1.25;  // how far the chirp goes beyond the frequencies that are read
 constexpr int kChirpPeriods = 4;
 
 /// The response signals of a GainPoint, in its order, and its members.
@@ -83,21 +82,22 @@ GainPoint gain_by_sine(const Vehicle& vehicle, double f, const GainOptions& opti
 std::vector<GainPoint> gains_by_chirp(const Vehicle& vehicle, const std::vector<double>& frequencies,
                                       const GainOptions& options) {
   const double f0 = frequencies.front() / kBeyond, f1 = frequencies.back() * kBeyond;
-  const GroundPointer chirp = chirp_ground(options.amplitude, f0, f1, kChirpDuration, true);
-  const SimulateOptions settings = simulate_options(vehicle, kChirpDuration, options);
+  const double duration = options.chirp;
+  const GroundPointer chirp = chirp_ground(options.amplitude, f0, f1, duration, true);
+  const SimulateOptions settings = simulate_options(vehicle, duration, options);
   const Trace trace = simulate(vehicle.on(*chirp), settings);
   const auto [signals, road] = responses_of(vehicle.set.plant, trace);
   std::vector<GainPoint> points;
   for (const double f : frequencies) {
     points.push_back(no_gain(f));
     if (trace.diverged_at) continue;
-    const double at = kChirpDuration * std::log(f / f0) / std::log(f1 / f0), h = settings.output_step;
+    const double at = duration * std::log(f / f0) / std::log(f1 / f0), h = settings.output_step;
     const double half = 0.5 * kChirpPeriods / f;
     const auto first = static_cast<std::size_t>(std::max(0.0, std::round((at - half) / h)));
     const auto last = std::min(road->size(), static_cast<std::size_t>(std::round((at + half) / h)));
     for (std::size_t k = 0; k < kGains.size(); ++k)
       points.back().*kGains[k] = gain_along(*signals[k], *road, first, last, [&](std::size_t i) {
-        return exponential_chirp(f0, f1, kChirpDuration, h * static_cast<double>(i)).phase;
+        return exponential_chirp(f0, f1, duration, h * static_cast<double>(i)).phase;
       });
   }
   return points;

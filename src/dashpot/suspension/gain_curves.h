@@ -18,6 +18,7 @@ struct GainOptions {
   double amplitude = 0.005;  ///< m, of the road
   double settling = 20;      ///< s before the periods that count
   double counted = 4;        ///< s, and four periods at least, that count
+  double chirp = 120;        ///< s, of the whole chirp
   double relative_tolerance = 1e-6;
   Monitor monitor;
 };

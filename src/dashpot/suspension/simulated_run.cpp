@@ -25,6 +25,7 @@ SimulatedRun run_vehicle(const std::shared_ptr<const Vehicle>& vehicle, const Gr
                          const RunOptions& options) {
   SimulateOptions settings = vehicle->options(options.duration);
   settings.relative_tolerance = options.relative_tolerance;
+  settings.step = options.step;
   settings.monitor = options.monitor;
   SimulatedRun run{.name = name_of(*vehicle),
                    .vehicle = vehicle,

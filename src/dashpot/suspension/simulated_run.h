@@ -21,6 +21,7 @@ struct RunOptions {
   double duration = 10;           ///< s
   double allowed_outside = 0.05;  ///< share of the time that a damper may be outside its data
   double relative_tolerance = 1e-6;
+  std::optional<double> step = {};  ///< s, as in SimulateOptions
   Monitor monitor;
 };
 

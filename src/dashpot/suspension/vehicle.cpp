@@ -156,10 +156,8 @@ void add_controller(Vehicle& vehicle, const DriveRange& drive, const VehicleWord
 SimulateOptions Vehicle::options(double duration) const {
   // The weighting of accelerations reaches to 100 Hz: every millisecond, or an even part of a sample.
   const double parts = std::max(1.0, std::ceil(limits.sample_time / 1e-3 - 1e-9));
-  return {.duration = duration,
-          .output_step = limits.sample_time / parts,
-          .sensors = sensors,
-          .limits = limits};
+  return {
+      .duration = duration, .output_step = limits.sample_time / parts, .sensors = sensors, .limits = limits};
 }
 
 Vehicle make_vehicle(const VehicleWords& words) {

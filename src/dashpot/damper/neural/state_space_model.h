@@ -35,10 +35,13 @@ class StateSpaceModel final : public DamperModel {
   void advance(const DamperInput& from, const DamperInput& to, double dt,
                std::span<double> state) const noexcept override;
   double force(const DamperInput& input, std::span<const double> state) const noexcept override;
+  bool is_ensemble() const noexcept override { return members_.size() > 1; }
+  double spread(const DamperInput& input, std::span<const double> state) const noexcept override;
   std::unique_ptr<DamperModel> with_offset(double newton) const override;
   Value to_json() const override;
 
   const std::vector<StateSpaceNetwork>& members() const { return members_; }
+  double offset() const { return offset_; }
 
  private:
   std::string name_;
