@@ -32,17 +32,16 @@ std::string verdict_of(const SuspensionStudy& study) {
       "Mix-1-sensor with the identified damper against the linear damper that has the paper's passive gain: "
       "at the wheel's resonance the tyre's gain {} (the paper: by 40.4 %), on the road the tyre's force {} "
       "and "
-      "the body's acceleration {}. Those 40.4 % need a damper whose least damping is {}; the 64.9 % of road "
-      "holding after a step {} possible with any damper. MR2 here is a virtual damper, shaped after the "
-      "paper's words.",
+      "the body's acceleration {}. Those 40.4 % need a damper whose least damping is {}. The 64.9 % of road "
+      "holding after a step {}. MR2 here is a virtual damper, shaped after the paper's words.",
       change_words(tyre(linear), tyre(mix1)),
       change_words(std::sqrt(linear.on_road.tyre_force), std::sqrt(mix1.on_road.tyre_force)),
       change_words(std::sqrt(linear.on_road.acceleration), std::sqrt(mix1.on_road.acceleration)),
       needed > 0 ? number_text(std::round(needed), 4) + " N*s/m" : "beyond the sweep",
       less_percent(std::sqrt(linear.on_step.tyre_force), std::sqrt(holding.bound / holding.index.holding)) <
               paper::kHoldingRmsLess
-          ? "are not"
-          : "may be");
+          ? "no damper reaches from there, had it known the road: that is proven"
+          : "are not ruled out");
 }
 
 Value squares_json(const RideSquares& squares) {
