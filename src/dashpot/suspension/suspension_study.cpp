@@ -4,7 +4,6 @@
 #include <atomic>
 #include <cmath>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/parallel.h"
 #include "dashpot/base/text.h"
 #include "dashpot/damper/parameter_set.h"

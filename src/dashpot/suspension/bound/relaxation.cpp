@@ -50,7 +50,7 @@ Minimum minimum_over_force(const Form& form) {
   return out;
 }
 
-/// value = integrand + 2 z'P (change of z), or + z+'P z+ where `motion` is a whole step.
+/// form += 2 z'P (rate of z), or z+'P z+ where `motion` is a whole step.
 void add_value(Form& form, const Value5& p, const SmallMatrix<5, 6>& motion, bool whole_step) {
   const SmallMatrix<5, 6> moved = p * motion;
   if (whole_step) {
@@ -126,7 +126,7 @@ class Certificate {
     for (std::size_t i = 0; i < 5; ++i)
       for (std::size_t j = 0; j < 5; ++j) {
         const double entry = std::abs(p(i, j)) * kUnit[i] * kUnit[j];
-        if (!(entry <= greatest)) greatest = entry;  // NaN stays
+        if (entry > greatest || std::isnan(entry)) greatest = entry;  // and NaN stays
       }
     return greatest;
   }
