@@ -7,5 +7,6 @@ namespace dashpot::cli {
 Command recovery_study();
 Command one_sensor_study();
 Command family_study();
+Command suspension_study();
 
 }  // namespace dashpot::cli

@@ -17,10 +17,13 @@ Command study_command() {
                       "# Those of the family paper, on its published recordings:\n"
                       "dashpot study family recordings/family-dnn\n"
                       "\n"
+                      "# The one-sensor paper's suspension, and what is possible at best:\n"
+                      "dashpot study suspension\n"
+                      "\n"
                       "# Do intervals hold the truth?\n"
                       "dashpot study recovery --laws tanh_kwok --repetitions 20",
                   .run = {}};
-  command.subcommands = {family_study(), one_sensor_study(), recovery_study()};
+  command.subcommands = {family_study(), one_sensor_study(), recovery_study(), suspension_study()};
   return command;
 }
 

@@ -92,7 +92,7 @@ TEST_CASE("a wrong command line exits with 2 and says what would be right") {
       {"rank data --models bingam", "--models: unknown model 'bingam'; did you mean 'bingham'?"},
       {"rank data --leave-out moon", "moon"},
       {"rank data --fresher", "unknown option '--fresher'; did you mean '--fresh'?"},
-      {"study", "study: it is not said which; known: family, one-sensor, recovery"},
+      {"study", "study: it is not said which; known: family, one-sensor, recovery, suspension"},
       {"study recoveri", "unknown command 'recoveri'; did you mean 'recovery'?"},
       {"study one-sensor --repetitions 3", "unknown option '--repetitions'"},
       {"study one-sensor data --leave-out moon", "moon"},

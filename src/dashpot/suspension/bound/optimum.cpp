@@ -1,0 +1,128 @@
+#include "dashpot/suspension/bound/optimum.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace dashpot {
+namespace {
+
+constexpr std::size_t kOne = 4, kForce = 5;
+using State = SmallMatrix<5, 1>;  // [q, q', 1]
+using Law = SmallMatrix<1, 5>;
+
+/// What happened in each cell.
+struct Path {
+  double sum = 0;  ///< the index's integral
+  std::vector<State> states;
+  std::vector<double> forces, shares;
+};
+
+double at(const SmallMatrix<1, 6>& row, const State& z) {
+  double sum = 0;
+  for (std::size_t i = 0; i < 5; ++i) sum += row(0, i) * z(i, 0);
+  return sum;
+}
+
+/// Along cells under forces as choose(cell, state, softest, hardest) asks for, clipped to the range.
+template <class Choose>
+Path run(const SampledPlant& car, const ForceRange& range, const RideIndex& index, Choose choose) {
+  Path path;
+  State z;
+  z(kOne, 0) = 1;
+  for (std::size_t cell = 0; cell < car.cells(); ++cell) {
+    const AffineCar now = car.over(cell);
+    const double free = at(now.speed, z), by_force = now.speed(0, kForce);
+    const double soft = range.force_against(free, by_force, 0), hard = range.force_against(free, by_force, 1);
+    const double force =
+        std::clamp(choose(cell, z, free, by_force), std::min(soft, hard), std::max(soft, hard));
+    const double a = at(now.acceleration, z) + now.acceleration(0, kForce) * force;
+    const double w = at(now.tyre_force, z) + now.tyre_force(0, kForce) * force;
+    path.sum += car.step() * (index.comfort * a * a + index.holding * w * w);
+    path.states.push_back(z);
+    path.forces.push_back(force);
+    path.shares.push_back(range.share(free + by_force * force, force));
+    SmallMatrix<6, 1> joint;
+    for (std::size_t i = 0; i < 5; ++i) joint(i, 0) = z(i, 0);
+    joint(kForce, 0) = force;
+    z = now.motion * joint;
+  }
+  return path;
+}
+
+/// A law per cell that is best when forces at an end of the range stay at that end.
+std::vector<Law> sweep_back(const SampledPlant& car, const ForceRange& range, const RideIndex& index,
+                            const Path& path) {
+  std::vector<Law> laws(car.cells());
+  SmallMatrix<5, 5> value;
+  for (std::size_t cell = car.cells(); cell-- > 0;) {
+    const AffineCar now = car.over(cell);
+    const SmallMatrix<6, 6> form =
+        car.step() * price(now, index) + transposed(now.motion) * (value * now.motion);
+    Law law;
+    for (std::size_t j = 0; j < 5; ++j) law(0, j) = -form(kForce, j) / form(kForce, kForce);
+    laws[cell] = law;
+
+    const State& z = path.states[cell];
+    const double free = at(now.speed, z), by_force = now.speed(0, kForce);
+    const double wanted = (law * z)(0, 0);
+    const double soft = range.force_against(free, by_force, 0), hard = range.force_against(free, by_force, 1);
+    const bool outside = wanted < std::min(soft, hard) || wanted > std::max(soft, hard);
+    if (outside) {
+      const bool is_hard = std::abs(wanted - hard) < std::abs(wanted - soft);
+      const double force = is_hard ? hard : soft;
+      const auto [slope, offset] = range.piece(free + by_force * force, is_hard ? 1 : 0);
+      for (std::size_t j = 0; j < 5; ++j)
+        law(0, j) = (slope * now.speed(0, j) + (j == kOne ? offset : 0)) / (1 - slope * by_force);
+    }
+    SmallMatrix<6, 5> lift;
+    for (std::size_t i = 0; i < 5; ++i) {
+      lift(i, i) = 1;
+      lift(kForce, i) = law(0, i);
+    }
+    value = transposed(lift) * (form * lift);
+  }
+  return laws;
+}
+
+Course course_of(const SampledPlant& car, Path path) {
+  return {path.sum / (car.step() * static_cast<double>(car.cells())), std::move(path.shares)};
+}
+
+Path path_of_shares(const SampledPlant& car, const ForceRange& range, const RideIndex& index,
+                    const std::vector<double>& shares) {
+  return run(car, range, index, [&](std::size_t cell, const State&, double free, double by_force) {
+    return range.force_against(free, by_force, shares[cell]);
+  });
+}
+
+}  // namespace
+
+Course follow_shares(const SampledPlant& car, const ForceRange& range, const RideIndex& index,
+                     const std::vector<double>& shares) {
+  return course_of(car, path_of_shares(car, range, index, shares));
+}
+
+Course improve(const SampledPlant& car, const ForceRange& range, const RideIndex& index,
+               const Course& course) {
+  constexpr double kLeastFall = 1e-6, kLeastStep = 1.0 / 128;
+  constexpr int kMost = 100;
+  Path path = path_of_shares(car, range, index, course.shares);
+  for (int k = 0; k < kMost; ++k) {
+    const std::vector<Law> laws = sweep_back(car, range, index, path);
+    Path best;
+    best.sum = INFINITY;
+    for (double step = 1; step >= kLeastStep && !(best.sum < path.sum); step /= 2)
+      best = run(car, range, index, [&](std::size_t cell, const State& z, double, double) {
+        const double wanted = (laws[cell] * z)(0, 0);
+        return wanted - (1 - step) * ((laws[cell] * path.states[cell])(0, 0) - path.forces[cell]);
+      });
+    if (!(best.sum < path.sum)) break;
+    const bool enough = path.sum - best.sum < kLeastFall * path.sum;
+    path = std::move(best);
+    if (enough) break;
+  }
+  return course_of(car, std::move(path));
+}
+
+}  // namespace dashpot

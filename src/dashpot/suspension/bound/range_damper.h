@@ -1,0 +1,34 @@
+#pragma once
+#include "dashpot/damper/model.h"
+#include "dashpot/suspension/bound/force_range.h"
+#include "dashpot/suspension/mounted_damper.h"
+
+namespace dashpot {
+
+/// The damper that a range describes. What is its current is the share, 0 softest ... 1 hardest; without
+/// memory.
+class RangeDamper final : public DamperModel {
+ public:
+  explicit RangeDamper(ForceRange range) : range_(std::move(range)) {}
+
+  std::string kind() const override { return "range"; }
+  std::string name() const override { return "force_range"; }
+  bool needs_displacement() const noexcept override { return false; }
+  std::size_t parameter_count() const noexcept override { return 2 * range_.velocity.size(); }
+  std::size_t state_size() const noexcept override { return 0; }
+  void rest(const DamperInput&, std::span<double>) const noexcept override {}
+  void advance(const DamperInput&, const DamperInput&, double, std::span<double>) const noexcept override {}
+  double force(const DamperInput& input, std::span<const double>) const noexcept override {
+    return range_.force(input.velocity, input.current);
+  }
+  std::unique_ptr<DamperModel> with_offset(double newton) const override;
+  Value to_json() const override;
+
+ private:
+  ForceRange range_;
+};
+
+/// In a strut, following commands at once.
+MountedDamper mounted(const ForceRange& range);
+
+}  // namespace dashpot

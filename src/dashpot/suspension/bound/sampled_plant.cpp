@@ -1,0 +1,147 @@
+#include "dashpot/suspension/bound/sampled_plant.h"
+
+#include <cmath>
+
+#include <Eigen/Dense>
+#include <unsupported/Eigen/MatrixFunctions>
+
+#include "dashpot/base/error.h"
+#include "dashpot/base/text.h"
+#include "dashpot/suspension/linear.h"
+
+namespace dashpot {
+namespace {
+
+constexpr std::size_t kOne = 4, kForce = 5;  // places in [q, q', 1, F]
+
+void require_quarter_car(const Plant& plant) {
+  const std::string right = "a quarter car without stops, friction and lifting tyre";
+  if (plant.size() != 2 || plant.struts.size() != 1 || plant.tyres.size() != 1 || plant.struts[0].track)
+    throw Error(plant.name, "has no clairvoyant bound", right);
+  const Strut& strut = plant.struts[0];
+  if (plant.tyres_may_lift || strut.friction > 0 || strut.extension_stop > 0 || strut.compression_stop > 0)
+    throw Error(plant.name, "is not linear but for its damper: the clairvoyant bound asks for that", right);
+}
+
+/// A row over [q, q', 1, F], looked at after a motion.
+SmallMatrix<1, 6> after(const SmallMatrix<1, 6>& row, const SmallMatrix<5, 6>& motion) {
+  SmallMatrix<1, 6> out;
+  for (std::size_t i = 0; i < 5; ++i)
+    for (std::size_t j = 0; j < 6; ++j) out(0, j) += row(0, i) * motion(i, j);
+  out(0, kForce) += row(0, kForce);
+  return out;
+}
+
+}  // namespace
+
+SampledPlant::SampledPlant(const Plant& plant, const GroundMotion& ground, double duration, double step)
+    : step_(step) {
+  require_quarter_car(plant);
+  if (!(step > 0 && duration >= step))
+    throw Error("clairvoyant bound",
+                "a duration of " + format_number(duration) + " s in steps of " + format_number(step) + " s");
+  set_rates(plant);
+  end_ = flow(step);
+  middle_ = flow(step / 2);
+  // Through two points inside the cell, so that a jump between cells stays between them.
+  const Tyre& tyre = plant.tyres[0];
+  const auto cells = static_cast<std::size_t>(std::llround(duration / step));
+  for (std::size_t k = 0; k < cells; ++k) {
+    const double begin = static_cast<double>(k) * step;
+    const double early = ground.foot(begin + 0.25 * step, tyre.track, tyre.behind).height;
+    const double late = ground.foot(begin + 0.75 * step, tyre.track, tyre.behind).height;
+    road_.push_back({1.5 * early - 0.5 * late, (late - early) / (0.5 * step)});
+  }
+}
+
+void SampledPlant::set_rates(const Plant& plant) {
+  const LinearPlant linear = linear_plant(plant);
+  const Tyre& tyre = plant.tyres[0];
+  const Strut& strut = plant.struts[0];
+  stiffness_ = tyre.stiffness;
+  damping_ = tyre.damping;
+  using Square = Eigen::Matrix<double, 2, 2, Eigen::RowMajor>;
+  const Square inverse = Eigen::Map<const Square>(linear.mass.data()).inverse();
+  const Square by_q = -inverse * Eigen::Map<const Square>(linear.stiffness.data());
+  const Square by_v = -inverse * Eigen::Map<const Square>(linear.damping.data());
+  const Eigen::Vector2d by_force = -inverse * Eigen::Map<const Eigen::Vector2d>(strut.row.data());
+  const Eigen::Vector2d by_push = inverse * Eigen::Map<const Eigen::Vector2d>(tyre.row.data());
+  for (std::size_t i = 0; i < 2; ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    rates_.motion(i, i + 2) = 1;
+    for (std::size_t j = 0; j < 2; ++j) {
+      rates_.motion(i + 2, j) = by_q(row, static_cast<Eigen::Index>(j));
+      rates_.motion(i + 2, j + 2) = by_v(row, static_cast<Eigen::Index>(j));
+    }
+    rates_.motion(i + 2, kForce) = by_force(row);
+    by_push_(i + 2, 0) = by_push(row);
+    rates_.speed(0, i + 2) = strut.row[i];
+    rates_.tyre_force(0, i) = -tyre.stiffness * tyre.row[i];
+    rates_.tyre_force(0, i + 2) = -tyre.damping * tyre.row[i];
+    acceleration_by_push_ += strut.body_row[i] * by_push(row);
+  }
+  for (std::size_t i = 0; i < 2; ++i)
+    for (std::size_t j = 0; j < 6; ++j)
+      rates_.acceleration(0, j) += strut.body_row[i] * rates_.motion(i + 2, j);
+}
+
+SampledPlant::Flow SampledPlant::flow(double time) const {
+  Eigen::Matrix<double, 7, 7> chain = Eigen::Matrix<double, 7, 7>::Zero();  // x, F, push, its rate
+  for (int i = 0; i < 4; ++i) {
+    const auto row = static_cast<std::size_t>(i);
+    for (int j = 0; j < 4; ++j) chain(i, j) = rates_.motion(row, static_cast<std::size_t>(j));
+    chain(i, 4) = rates_.motion(row, kForce);
+    chain(i, 5) = by_push_(row, 0);
+  }
+  chain(5, 6) = 1;
+  const Eigen::Matrix<double, 7, 7> moved = (chain * time).exp();
+  Flow out;
+  for (int i = 0; i < 4; ++i) {
+    const auto row = static_cast<std::size_t>(i);
+    for (int j = 0; j < 4; ++j) out.motion(row, static_cast<std::size_t>(j)) = moved(i, j);
+    out.motion(row, kForce) = moved(i, 4);
+    out.constant(row, 0) = moved(i, 5);
+    out.rising(row, 0) = moved(i, 6);
+  }
+  out.motion(kOne, kOne) = 1;
+  return out;
+}
+
+void SampledPlant::drive(AffineCar& car, const SmallMatrix<5, 1>& change, const SmallMatrix<5, 1>& state,
+                         double push) const noexcept {
+  for (std::size_t i = 0; i < 4; ++i) {
+    car.motion(i, kOne) = change(i, 0);
+    car.acceleration(0, kOne) += rates_.acceleration(0, i) * state(i, 0);
+    car.tyre_force(0, kOne) += rates_.tyre_force(0, i) * state(i, 0);
+    car.speed(0, kOne) += rates_.speed(0, i) * state(i, 0);
+  }
+  car.acceleration(0, kOne) += acceleration_by_push_ * push;
+  car.tyre_force(0, kOne) += push;
+}
+
+AffineCar SampledPlant::at(std::size_t cell, double into) const noexcept {
+  const Road& road = road_[cell];
+  const double push = stiffness_ * (road.height + road.slope * into) + damping_ * road.slope;
+  AffineCar car = rates_;
+  drive(car, push * by_push_, {}, push);
+  return car;
+}
+
+AffineCar SampledPlant::over(std::size_t cell) const noexcept {
+  const Road& road = road_[cell];
+  const double push = stiffness_ * road.height + damping_ * road.slope, rising = stiffness_ * road.slope;
+  AffineCar car{end_.motion, after(rates_.acceleration, middle_.motion),
+                after(rates_.tyre_force, middle_.motion), after(rates_.speed, middle_.motion)};
+  drive(car, push * end_.constant + rising * end_.rising, push * middle_.constant + rising * middle_.rising,
+        push + 0.5 * step_ * rising);
+  return car;
+}
+
+SmallMatrix<6, 6> price(const AffineCar& car, const RideIndex& index) noexcept {
+  SmallMatrix<6, 6> form;
+  add_product(form, index.comfort, car.acceleration, car.acceleration);
+  add_product(form, index.holding, car.tyre_force, car.tyre_force);
+  return form;
+}
+
+}  // namespace dashpot

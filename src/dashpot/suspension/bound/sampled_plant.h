@@ -1,0 +1,64 @@
+#pragma once
+#include <vector>
+
+#include "dashpot/numerics/small_matrix.h"
+#include "dashpot/suspension/ground_motion.h"
+#include "dashpot/suspension/plant.h"
+
+namespace dashpot {
+
+/// What is to be small: comfort * mean(body acceleration^2) + holding * mean(tyre force^2), of the tyre's
+/// force the part beyond its static load.
+struct RideIndex {
+  double comfort = 1;  ///< 1/(m/s^2)^2
+  double holding = 0;  ///< 1/N^2
+};
+
+/// A quarter car as it moves under a damper's force F. All rows stand over [q, q', 1, F]: what is affine in
+/// state and force is linear in these.
+struct AffineCar {
+  SmallMatrix<5, 6> motion;  ///< of [q, q', 1]: its rate, or its value one step later
+  SmallMatrix<1, 6> acceleration, tyre_force, speed;  ///< of the body, beyond the static load, of the damper
+};
+
+/// A quarter car on its road, cell by cell of one step. Within a cell the road is straight.
+class SampledPlant {
+ public:
+  /// Throws Error at a plant that is not linear but for its one damper: not a quarter car, a tyre that may
+  /// lift, stops, friction; and at times that make no sense.
+  SampledPlant(const Plant& plant, const GroundMotion& ground, double duration, double step);
+
+  std::size_t cells() const noexcept { return road_.size(); }
+  double step() const noexcept { return step_; }
+  /// Rates and outputs at `into` s in a cell.
+  AffineCar at(std::size_t cell, double into) const noexcept;
+  /// One step under a force that is held, exactly, with the outputs at the middle of the step.
+  AffineCar over(std::size_t cell) const noexcept;
+
+ private:
+  struct Road {
+    double height, slope;  ///< m at the begin of the cell, m/s
+  };
+  /// After some time, by [q, q', 1, F] and by the tyre's push: 1 N that stays, and one that rises by 1 N/s.
+  struct Flow {
+    SmallMatrix<5, 6> motion;
+    SmallMatrix<5, 1> constant, rising;
+  };
+  Flow flow(double time) const;
+  void set_rates(const Plant& plant);
+  /// The column of what is neither state nor force.
+  void drive(AffineCar& car, const SmallMatrix<5, 1>& change, const SmallMatrix<5, 1>& state,
+             double push) const noexcept;
+
+  double step_, stiffness_ = 0, damping_ = 0;  ///< of the tyre
+  double acceleration_by_push_ = 0;
+  AffineCar rates_;
+  SmallMatrix<5, 1> by_push_;
+  Flow end_, middle_;
+  std::vector<Road> road_;
+};
+
+/// The index's form over [q, q', 1, F].
+SmallMatrix<6, 6> price(const AffineCar& car, const RideIndex& index) noexcept;
+
+}  // namespace dashpot
