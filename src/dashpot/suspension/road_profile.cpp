@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <complex>
 #include <numbers>
 
 #include "dashpot/base/error.h"
@@ -72,14 +71,29 @@ void begin_level(RoadProfile& road) {
     }
 }
 
-/// Each cosine turns by a constant angle from point to point.
+/// Each cosine turns by a constant angle from point to point; several points at once, since each turn waits
+/// for the one before.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
+[[gnu::target_clones("default", "avx2", "avx512f")]]  // the same sums, side by side
+#endif
 void add_wave(std::vector<double>& heights, double spacing, const RoadWave& wave) {
-  const std::complex<double> turn = std::polar(1.0, kTurn * wave.wave_number * spacing);
-  std::complex<double> now = std::polar(wave.amplitude, wave.phase);
-  for (double& height : heights) {
-    height += now.real();
-    now *= turn;
+  constexpr std::size_t kPoints = 8;
+  const double angle = kTurn * wave.wave_number * spacing;
+  const double c = std::cos(kPoints * angle), s = std::sin(kPoints * angle);
+  double re[kPoints], im[kPoints];
+  for (std::size_t j = 0; j < kPoints; ++j) {
+    re[j] = wave.amplitude * std::cos(wave.phase + angle * static_cast<double>(j));
+    im[j] = wave.amplitude * std::sin(wave.phase + angle * static_cast<double>(j));
   }
+  std::size_t k = 0;
+  for (double* at = heights.data(); k + kPoints <= heights.size(); k += kPoints, at += kPoints)
+    for (std::size_t j = 0; j < kPoints; ++j) {
+      at[j] += re[j];
+      const double turned = c * re[j] - s * im[j];
+      im[j] = s * re[j] + c * im[j];
+      re[j] = turned;
+    }
+  for (std::size_t j = 0; k < heights.size(); ++j, ++k) heights[k] += re[j];
 }
 
 double shared_part(double wave_number, double width) {
