@@ -7,13 +7,18 @@
 #include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
 #include "dashpot/output/exporters/c_source.h"
+#include "dashpot/output/exporters/force_map.h"
 
 namespace dashpot {
 namespace {
 
 constexpr std::array kExporters{
     Exporter{"c", "C99 for an ECU or a simulator", "every model",
-             "NAME.h, NAME.c and NAME_test.c, a main that checks them along a run", write_c_source}};
+             "NAME.h, NAME.c and NAME_test.c, a main that checks them along a run", write_c_source},
+    Exporter{"dpr", "TeimOrbit damper curves of multibody programs", "every model, its states settled",
+             "NAME_00.dpr ..., one curve of settled force over velocity per current", write_dpr},
+    Exporter{"tables", "look-up tables", "every model, its states settled",
+             "NAME_force.csv, NAME_current.csv (its inverse) and NAME.mat with both", write_tables}};
 
 bool is_c_name(const std::string& name) {
   const auto is_word = [](char c) {

@@ -1,0 +1,40 @@
+#include "cli/program.h"
+#include "dashpot/base/file.h"
+#include "support.h"
+
+namespace fs = std::filesystem;
+
+TEST_CASE("export writes each format of a published damper into one folder, and C that passes its own test") {
+  const TemporaryFolder folder;
+  const std::string out = (folder.path() / "out").string();
+  const ProgramResult result =
+      run_program(program_path() +
+                  " export --parameters spencer1997 --to c,tables,dpr --precision float -o '" + out + "'");
+  CAPTURE(result.output);
+  REQUIRE(result.exit_code == 0);
+  for (const char* name :
+       {"modified_bouc_wen_damper.h", "modified_bouc_wen_damper.c", "modified_bouc_wen_damper_test.c",
+        "modified_bouc_wen_damper_force.csv", "modified_bouc_wen_damper_current.csv",
+        "modified_bouc_wen_damper.mat", "modified_bouc_wen_damper_00.dpr"})
+    CHECK(fs::exists(fs::path(out) / name));
+  if (run_program("cc --version").exit_code != 0) return;
+  const ProgramResult check = run_program("cd '" + out + "' && cc -std=c99 *.c -lm -o check && ./check");
+  CAPTURE(check.output);
+  CHECK(check.exit_code == 0);
+}
+
+TEST_CASE("export says what is wrong") {
+  const auto complains = [](const std::string& arguments, const std::string& of) {
+    const ProgramResult result = run_dashpot("export " + arguments);
+    CAPTURE(result.output);
+    CHECK(result.exit_code != 0);
+    CHECK(contains(result.output, of));
+  };
+  const std::string damper = "--parameters spencer1997 ";
+  complains(damper, "--to: is missing; one or more of c, dpr, tables");
+  complains("--to c", "needs one damper");
+  complains(damper + "--to d", "unknown format 'd'");
+  complains(damper + "--to c --name 2x", "cannot begin names in C");
+  complains(damper + "--to c --name modified_bouc_wen", "begins names that the code has inside");
+  complains(damper + "--to c --sample-time=-1ms", "sample time");
+}
