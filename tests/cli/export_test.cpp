@@ -1,5 +1,6 @@
 #include "cli/program.h"
-#include "dashpot/base/file.h"
+#include "damper/inverse/example_network.h"
+#include "dashpot/damper/inverse/inverse_file.h"
 #include "support.h"
 
 namespace fs = std::filesystem;
@@ -21,6 +22,20 @@ TEST_CASE("export writes each format of a published damper into one folder, and 
   const ProgramResult check = run_program("cd '" + out + "' && cc -std=c99 *.c -lm -o check && ./check");
   CAPTURE(check.output);
   CHECK(check.exit_code == 0);
+}
+
+TEST_CASE("export takes an inverse network, to C alone") {
+  const TemporaryFolder folder;
+  const auto preset = dashpot::inverse_network_presets().front();
+  dashpot::InverseFile inverse{.network = example_network(preset), .domain = {-0.02, 0.02, -0.3, 0.3, 0, 1}};
+  const fs::path file = folder.path() / "inverse.json";
+  save_inverse(inverse, file);
+  const std::string command = "export '" + file.string() + "' -o '" + folder.path().string() + "' --to ";
+  const ProgramResult result = run_dashpot(command + "c --name controller");
+  CAPTURE(result.output);
+  CHECK(result.exit_code == 0);
+  CHECK(fs::exists(folder.path() / "controller.c"));
+  CHECK(contains(run_dashpot(command + "dpr").output, "is an inverse, which cannot become 'dpr'"));
 }
 
 TEST_CASE("export says what is wrong") {

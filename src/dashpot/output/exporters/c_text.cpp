@@ -139,6 +139,22 @@ std::string with_prefix(std::string_view code, std::string_view prefix) {
   return rewritten(code, {word, [](std::string_view number) { return std::string(number); }, true});
 }
 
+void require_free_names(const std::string& prefix, const std::string& code) {
+  for (const char* part :
+       {"input", "model", "init", "reset", "step", "advance", "rest", "move", "force", "derivatives"}) {
+    const std::string word = prefix + '_' + part;
+    for (std::size_t at = 0; (at = code.find(word, at)) != std::string::npos; ++at)
+      if ((at == 0 || !is_word(code[at - 1])) && !is_word(code[at + word.size()]))
+        throw Error("name", "'" + prefix + "' begins names that the code has inside",
+                    "say '" + prefix + "_damper'");
+  }
+}
+
+std::string in_comment(std::string text) {
+  for (std::size_t at = 0; (at = text.find("*/", at)) != std::string::npos;) text.insert(at + 1, " ");
+  return text;
+}
+
 std::string c_number(double value) {
   const std::string text = format_exact(value);
   return text.find_first_of(".e") == std::string::npos ? text + ".0" : text;

@@ -13,7 +13,7 @@ namespace dashpot {
 namespace {
 
 constexpr std::array kExporters{
-    Exporter{"c", "C99 for an ECU or a simulator", "every model",
+    Exporter{"c", "C99 for an ECU or a simulator", "every model and inverse network",
              "NAME.h, NAME.c and NAME_test.c, a main that checks them along a run", write_c_source},
     Exporter{"dpr", "TeimOrbit damper curves of multibody programs", "every model, its states settled",
              "NAME_00.dpr ..., one curve of settled force over velocity per current", write_dpr},
@@ -51,12 +51,16 @@ double export_sample_time(const ExportedModel& model, const ExportOptions& optio
   return kUsual;
 }
 
-std::string export_name(const ExportedModel& model, const ExportOptions& options) {
-  std::string name = options.name.empty() ? model.model.name() + "_damper" : options.name;
-  if (options.name.empty()) std::ranges::replace(name, '+', '_');
+std::string c_name(const std::string& name) {
   if (!is_c_name(name))
     throw Error("name", "'" + name + "' cannot begin names in C", "letters, digits and _, no digit first");
   return name;
+}
+
+std::string export_name(const ExportedModel& model, const ExportOptions& options) {
+  std::string name = options.name.empty() ? model.model.name() + "_damper" : options.name;
+  if (options.name.empty()) std::ranges::replace(name, '+', '_');
+  return c_name(name);
 }
 
 }  // namespace dashpot
