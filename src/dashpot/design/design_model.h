@@ -22,7 +22,7 @@ class DesignModel {
 
   /// Whether it was fitted on dampers, beyond which it extrapolates; first principles were not.
   virtual bool is_fitted() const { return false; }
-  /// How far a drawing lies outside of those dampers, in shares of their ranges; 0 within.
+  /// How far a drawing lies outside of those dampers, in shares of their ranges; 0 or less within.
   virtual double outside(const DamperDescription&) const { return 0; }
   /// In what it does, in words; and a current or a speed.
   virtual std::vector<std::string> extrapolations(const DamperDescription&) const { return {}; }

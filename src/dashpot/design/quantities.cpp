@@ -86,7 +86,7 @@ constexpr std::array kEstimates{
     Q{"mass", "kg", "estimate: steel tube, piston and rod, copper, fluid; no mounts", {}, {}, mass, true},
     Q{kOutsideFamily,
       "1",
-      "how far beyond the dampers of a family's model, in shares of their ranges; 0 by first principles",
+      "how far beyond the dampers of a family's model, in shares of their ranges; 0 or less within",
       {},
       {},
       outside_family,

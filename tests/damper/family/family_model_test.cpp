@@ -72,7 +72,11 @@ TEST_CASE("a member outside the family is marked, or refused where that is asked
   CHECK_CLOSE(marks.with_member(dynamic_cast<const FamilyModel&>(*marked).member())->extrapolation(),
               (5 - 2) / 1.5, 1e-12, 0);
   CHECK(marks.extrapolations().empty());
-  CHECK(marks.extrapolation() == 0);
+  CHECK_CLOSE(marks.extrapolation(), -0.5 / 1.5, 1e-12, 0);  // half a value from the lower end
+  CHECK_CLOSE(
+      marks.with_member(dynamic_cast<const FamilyModel&>(*marks.specialised({{"gap", 2e-3}})).member())
+          ->extrapolation(),
+      -0.5 / 1.5, 1e-12, 0);                                                         // the gap is at its end
   CHECK(marks.specialised({{"gap", 2e-3 * (1 + 1e-9)}})->extrapolations().empty());  // rounding
   CHECK(marks.specialised({{"gap", 2.001e-3}})->extrapolations().size() == 1);
   const auto refuses = marks.with_outside(OutsideFamily::Refuse);

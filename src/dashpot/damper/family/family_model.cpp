@@ -72,23 +72,27 @@ std::shared_ptr<const DamperModel> FamilyModel::specialised(const Conditions& co
 
 double Family::Range::excess(double value) const noexcept {
   constexpr double kRounding = 1e-6;
-  if (value >= min * (1 - kRounding) && value <= max * (1 + kRounding)) return 0;
-  return std::max(min - value, value - max);
+  const double beyond = std::max(min - value, value - max);
+  return std::abs(beyond) <= kRounding * max ? 0 : beyond;
 }
 
 double FamilyModel::extrapolation() const noexcept {
-  double most = 0;
-  for (const Family::Range& range : family_->domain)
-    most = std::max(most, range.excess(member_.*range.field) /
-                              (range.max > range.min ? range.max - range.min : range.max));
-  return most;
+  double most = -1;
+  bool any = false;
+  for (const Family::Range& range : family_->domain) {
+    const double beyond = range.excess(member_.*range.field);
+    if (beyond == 0) continue;
+    most = std::max(most, beyond / (range.max > range.min ? range.max - range.min : range.max));
+    any = true;
+  }
+  return any ? most : 0;
 }
 
 std::vector<std::string> FamilyModel::extrapolations() const {
   std::vector<std::string> outside;
   for (const Family::Range& range : family_->domain) {
     const double value = member_.*range.field;
-    if (range.excess(value) == 0) continue;
+    if (range.excess(value) <= 0) continue;
     for (const MemberField& field : member_fields())
       if (field.field == range.field)
         outside.push_back(std::string(field.name) + " is " + format_number(value) + " " +

@@ -16,7 +16,7 @@ struct Family {
   struct Range {
     double FamilyMember::* field;
     double min = 0, max = 0;
-    /// By how much a value lies outside, beyond rounding; 0 within.
+    /// By how much a value lies outside; negative within, 0 at an end but for rounding.
     double excess(double value) const noexcept;
   };
   std::string name;
@@ -50,7 +50,8 @@ class FamilyModel final : public DamperModel {
   /// Throws Error where such a member is outside the family, and that is to be refused.
   std::shared_ptr<const DamperModel> specialised(const Conditions& conditions) const override;
   std::vector<std::string> extrapolations() const override;
-  /// How far this damper lies outside of the family, in shares of its ranges; 0 within.
+  /// How far this damper lies outside of the family, in shares of its ranges; within negative: how far the
+  /// nearest end is, those left out at which it lies.
   double extrapolation() const noexcept;
 
   const Family& family() const { return *family_; }
