@@ -20,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Settings {
-  std::string request, folder = "dashpot-design", method = "nsga2";
+  std::string request, folder = "dashpot-design", method = "nsga2", outside_family = "mark";
   DesignOptions options;
   std::uint64_t points = DesignOptions().points;
   bool quantities = false, report = true;
@@ -32,6 +32,10 @@ constexpr std::string_view kExample =
     "\n"
     "# Your own request, with a second model's figures beside:\n"
     "dashpot design my_request.yaml --second physics:moving_wall\n"
+    "\n"
+    "# Designs within a fitted family, as that and as the physics tell of them:\n"
+    "dashpot design family_prototype --model results/models/family_gated.json --second physics "
+    "--outside-family refuse\n"
     "\n"
     "# What constraints and goals may speak of:\n"
     "dashpot design --quantities\n"
@@ -63,30 +67,76 @@ void clear_designs(const fs::path& folder) {
   }
 }
 
-/// Descriptions and models; returns the largest error of a model, as a share of its largest force.
-double write_designs(const DesignReport& report, const fs::path& folder, const Console& console) {
-  const std::unique_ptr<DesignModel> model = make_design_model(report.options.model, "--model");
+/// The models of a design: members of families, or laws, the largest error of which is kept, as a share of
+/// its largest force.
+class ModelWriter {
+ public:
+  ModelWriter(const DesignReport& report, const Console& console) : report_(report), console_(console) {
+    add(report.options.model, "--model", "");
+    if (!report.options.second.empty()) add(report.options.second, "--second", "_second");
+  }
+
+  void write(const Design& design, const fs::path& folder) {
+    for (const Told& told : models_) {
+      ModelFile file = file_of(design, *told.model);
+      file.provenance.command = console_.command_line();
+      file.provenance.created = date_now();
+      save_model(file, folder / (design.name + told.ending + ".json"));
+    }
+  }
+  /// "laws, within 1.2 % RMS of the largest force"
+  std::string text() const {
+    std::vector<std::string> kinds;
+    if (laws_ > 0)
+      kinds.push_back("laws, within " + format_number(100 * worst_, 2) + " % RMS of the largest force");
+    if (members_ > 0) kinds.push_back("members of a family");
+    return join(kinds, "; ");
+  }
+
+ private:
+  struct Told {
+    std::unique_ptr<DesignModel> model;
+    std::string ending;
+  };
+  void add(const std::string& name, const std::string& option, const std::string& ending) {
+    models_.push_back({make_design_model(name, option), ending});
+  }
+  ModelFile file_of(const Design& design, const DesignModel& model) {
+    if (std::optional<ModelFile> own = model.model_of(design.damper)) {
+      ++members_;
+      return std::move(*own);
+    }
+    ++laws_;
+    DesignLaw law = law_of_design(design.damper, report_.request, model);
+    worst_ = std::max(worst_, law.rms_error / law.largest_force);
+    return std::move(law.file);
+  }
+
+  const DesignReport& report_;
+  const Console& console_;
+  std::vector<Told> models_;
+  int laws_ = 0, members_ = 0;
+  double worst_ = 0;
+};
+
+/// Descriptions and models; says of which kind these are.
+std::string write_designs(const DesignReport& report, const fs::path& folder, const Console& console) {
   clear_designs(folder);
-  double worst = 0;
+  ModelWriter models(report, console);
   for (const Design& design : report.designs) {
     write_file(folder / "designs" / (design.name + ".yaml"), format_description(design.damper));
-    DesignLaw law = law_of_design(design.damper, report.request, *model);
-    law.file.provenance.command = console.command_line();
-    law.file.provenance.created = date_now();
-    save_model(law.file, folder / "models" / (design.name + ".json"));
-    worst = std::max(worst, law.rms_error / law.largest_force);
+    models.write(design, folder / "models");
   }
-  return worst;
+  return models.text();
 }
 
 void write_results(const DesignInput& input, const Settings& settings, Console& console) {
   const fs::path folder = settings.folder;
   std::string where;
   if (!input.design.designs.empty()) {
-    const double worst = write_designs(input.design, folder, console);
-    where = fmt::format("\nDesigns  {}/\nModels   {}/ (laws, within {} % RMS of the largest force)\n",
-                        (folder / "designs").string(), (folder / "models").string(),
-                        format_number(100 * worst, 2));
+    const std::string kinds = write_designs(input.design, folder, console);
+    where = fmt::format("\nDesigns  {}/\nModels   {}/ ({})\n", (folder / "designs").string(),
+                        (folder / "models").string(), kinds);
   }
   if (settings.report) {
     write_file(folder / "design.html", html_design(input));
@@ -131,11 +181,13 @@ int run(Settings settings, Console& console) {
   const DesignRequest request = requested(settings);
   settings.options.points = static_cast<std::size_t>(settings.points);
   settings.options.method = settings.method == "moead" ? FrontMethod::Moead : FrontMethod::Nsga2;
+  settings.options.refuse_outside = settings.outside_family == "refuse";
   settings.options.monitor = console.monitor();
   prepare_results({settings.folder, settings.report});
   const DesignReport report = design(request, settings.options);
   const DesignInput input{report, console.command_line(), DASHPOT_VERSION, date_now()};
   print_report(report, console);
+  for (const std::string& note : report.notes) console.warn(note);
   write_results(input, settings, console);
   if (console.json) console.print_json(json_design(input));
   if (report.stopped) console.check_stop();
@@ -146,52 +198,61 @@ int run(Settings settings, Console& console) {
 }
 
 std::vector<Option> options_of(Settings& settings) {
-  return {{.names = "REQUEST",
-           .target = &settings.request,
-           .help = "what may vary, what must hold and what to favour: a YAML file, or one that comes with "
-                   "Dashpot: " +
-                   join(request_names(), ", "),
-           .takes = Takes::File},
-          {.names = "-o,--output",
-           .target = &settings.folder,
-           .help = "folder of the results",
-           .value = "DIR",
-           .takes = Takes::Folder},
-          {.names = "--points",
-           .target = &settings.points,
-           .help = "designs on the front, where there are several goals",
-           .value = "N",
-           .minimum = 4},
-          {.names = "--generations",
-           .target = &settings.options.generations,
-           .help = "of the search for the front",
-           .value = "N",
-           .minimum = 1},
-          {.names = "--method",
-           .target = &settings.method,
-           .help = "how the front is searched for",
-           .value = "NAME",
-           .choices = {"nsga2", "moead"},
-           .noun = "method"},
-          {.names = "--model",
-           .target = &settings.options.model,
-           .help = "what tells a design's figures",
-           .value = "NAME",
-           .choices = design_model_names(),
-           .noun = "model"},
-          {.names = "--second",
-           .target = &settings.options.second,
-           .help = "a model whose figures stand beside, with the difference",
-           .value = "NAME",
-           .choices = design_model_names(),
-           .noun = "model",
-           .default_text = "none"},
-          seed_option(settings.options.seed),
-          threads_option(settings.options.threads),
-          {.names = "--quantities",
-           .target = &settings.quantities,
-           .help = "list what constraints and goals may speak of"},
-          {.names = "--no-report", .target = &settings.report, .help = "write descriptions and models only"}};
+  return {
+      {.names = "REQUEST",
+       .target = &settings.request,
+       .help = "what may vary, what must hold and what to favour: a YAML file, or one that comes with "
+               "Dashpot: " +
+               join(request_names(), ", "),
+       .takes = Takes::File},
+      {.names = "-o,--output",
+       .target = &settings.folder,
+       .help = "folder of the results",
+       .value = "DIR",
+       .takes = Takes::Folder},
+      {.names = "--points",
+       .target = &settings.points,
+       .help = "designs on the front, where there are several goals",
+       .value = "N",
+       .minimum = 4},
+      {.names = "--generations",
+       .target = &settings.options.generations,
+       .help = "of the search for the front",
+       .value = "N",
+       .minimum = 1},
+      {.names = "--method",
+       .target = &settings.method,
+       .help = "how the front is searched for",
+       .value = "NAME",
+       .choices = {"nsga2", "moead"},
+       .noun = "method"},
+      {.names = "--model",
+       .target = &settings.options.model,
+       .help = "what tells a design's figures: first principles, or the file of a family's model",
+       .value = "MODEL",
+       .choices = design_model_names(),
+       .noun = "model",
+       .takes = Takes::File},
+      {.names = "--second",
+       .target = &settings.options.second,
+       .help = "a model whose figures stand beside, with the difference; constraints and goals can be "
+               "asked of it too",
+       .value = "MODEL",
+       .choices = design_model_names(),
+       .noun = "model",
+       .takes = Takes::File,
+       .default_text = "none"},
+      {.names = "--outside-family",
+       .target = &settings.outside_family,
+       .help = "designs beyond the dampers that a family's model was fitted on: tell of it, or refuse them",
+       .value = "MODE",
+       .choices = {"mark", "refuse"}},
+      seed_option(settings.options.seed),
+      threads_option(settings.options.threads),
+      {.names = "--quantities",
+       .target = &settings.quantities,
+       .help = "list what constraints and goals may speak of"},
+      {.names = "--no-report", .target = &settings.report, .help = "write descriptions and models only"}};
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "console.h"
+#include "dashpot/damper/registry.h"
 #include "dashpot/identify/training_store.h"
 #include "dashpot/output/family_document.h"
 #include "dashpot/output/words.h"
@@ -35,6 +36,7 @@ int run(const Settings& settings, Console& console) {
   const TrainingStore store(fs::path(settings.results.folder) / "fits", program_id(), family.cycles);
   FamilyStudyOptions options = settings.options;
   options.monitor = console.monitor();
+  for (const FamilyPreset& preset : family_presets()) options.models.emplace_back(preset.name);
   if (!settings.results.fresh) options.store = &store;
   const FamilyStudy study =
       study_family(std::move(family), family_experiments(static_cast<std::size_t>(settings.seeds)), options);
@@ -58,7 +60,9 @@ Command family_study() {
                       "paper's figure and "
                       "those of its published networks beside ours. Beyond the paper, each geometry and each "
                       "fluid is left "
-                      "out in turn: what the networks know of a damper that they have not seen. Finished "
+                      "out in turn: what the networks, and Dashpot's own models of a family, know of a "
+                      "damper that they have "
+                      "not seen. Finished "
                       "trainings are kept "
                       "in DIR/fits: the same command goes on where it was interrupted.",
                   .options = data_options(settings->data),

@@ -1,7 +1,9 @@
 #include <filesystem>
 
+#include "damper/family/example_family.h"
 #include "dashpot/base/file.h"
 #include "dashpot/base/value.h"
+#include "dashpot/damper/model_file.h"
 #include "program.h"
 
 using namespace dashpot;
@@ -57,4 +59,35 @@ goals: [{minimise: mass}]
   CHECK(run_dashpot("design no_such_request" + out).exit_code == 1);
   CHECK(run_dashpot("design passenger_car --second physics:none" + out).exit_code == 2);
   CHECK(contains(run_dashpot("design --quantities").output, "response_time"));
+}
+
+TEST_CASE("design by a family and beside the physics: members that 'member' and 'track' take") {
+  const TemporaryFolder folder;
+  const std::string family = (folder.path() / "family.json").string();
+  const std::string out = (folder.path() / "out").string();
+  ModelFile file;
+  file.model = example_family().with_offset(0);
+  file.domain = {-0.02, 0.02, -0.05, 0.05, 0, 1};
+  save_model(file, family);
+  const std::string request = folder
+                                  .write("r.yaml", R"(
+damper: family_prototype
+at: {current: 0.5 A, velocity: 20 mm/s}
+vary: {gap: {from: 1 mm, to: 3 mm}}
+follow: {gap_area: {gap: 0.02487}, magnetic_gap: {gap: 2}}
+constraints: [{quantity: force, min: 1 N, by: second}]
+goals: [{maximise: gap}]
+)")
+                                  .string();
+  const ProgramResult result = run_dashpot("design " + request + " --model " + family +
+                                           " --second physics --outside-family refuse --output " + out);
+  CHECK_MESSAGE(result.exit_code == 0, result.output);
+  CHECK(contains(result.output, "members of a family"));
+  CHECK(contains(result.output, "family_gated and physics differ by"));
+  const ProgramResult member = run_dashpot("member " + out + "/models/design_001.json");
+  CHECK_MESSAGE(member.exit_code == 0, member.output);
+  CHECK(!contains(member.output, "extrapolates"));
+  CHECK(fs::exists(fs::path(out) / "models/design_001_second.json"));
+  CHECK(run_dashpot("track " + out + "/models/design_001.json --inverses numeric").exit_code != 1);
+  CHECK(run_dashpot("design " + request + " --model " + family + "x --output " + out).exit_code == 1);
 }

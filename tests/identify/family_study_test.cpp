@@ -75,6 +75,24 @@ TEST_CASE("a geometry that is left out is not learnt from with any fluid, nor a 
   CHECK_THROWS_AS(divisions_of(family_samples(one), FamilyProtocol::Fluids), Error);
 }
 
+TEST_CASE("models of the registry stand beside the networks: the same samples, with each group left out") {
+  const FamilySamples family = family_samples(small_family());
+  CHECK(family.runs[3].size() - family.runs[3].warm_up == family.cycles[3].size());
+  CHECK(family.runs[3].time[family.runs[3].warm_up] == family.cycles[3].time.front());
+  FamilyStudyOptions options;
+  options.models = {"family_gated"};
+  const FamilyStudy study = study_family(family, {}, options);
+  REQUIRE(study.models.size() == 1);
+  const FamilyModelOutcome& gated = study.models.front();
+  for (const ErrorSums* sums : {&gated.learnt, &gated.geometries, &gated.fluids})
+    CHECK(metrics(*sums).samples == family.size());
+  CHECK(metrics(gated.learnt).r2 > 0.98);
+  CHECK(metrics(gated.geometries).r2 < metrics(gated.learnt).r2);
+  Dataset no_current = small_family();
+  for (Record& record : no_current.records) record.channels.pop_back();
+  CHECK(judge_family_models(family_samples(no_current), options).empty());
+}
+
 TEST_CASE("the same bits on any number of threads and from kept trainings; it can be stopped") {
   const TemporaryFolder folder;
   const FamilySamples family = family_samples(small_family());

@@ -19,14 +19,12 @@ bool can_hold(const DesignProblem& problem, const std::vector<bool>& counted, Op
 }
 
 /// What a constraint reaches at best while the other members hold, and where.
-Optimum best_of(const DesignRequest& request, const DesignModel& model, std::size_t constraint,
-                OptimiseOptions options) {
-  const DesignConstraint& own = request.constraints[constraint];
-  DesignRequest asked = request;
-  asked.goals = {{own.quantity, own.at, own.at_least}};
-  const DesignProblem problem(asked, model, options.seed);
+Optimum best_of(const DesignProblem& problem, std::size_t constraint, OptimiseOptions options) {
+  DesignRequest asked = problem.request();
+  const DesignConstraint& own = asked.constraints[constraint];
+  asked.goals = {{own.quantity, own.at, own.at_least, own.by}};
   options.counted[constraint] = false;
-  return optimise(problem, 0, options);
+  return optimise(DesignProblem(asked, problem.model(), options.seed, problem.second()), 0, options);
 }
 
 /// The constraints that fail at the place of least violation or lie on their bounds, where these alone
@@ -44,7 +42,7 @@ void tell_reached(const DesignProblem& problem, const std::vector<bool>& counted
                   Conflict& conflict) {
   options.counted = counted;
   for (const std::size_t k : conflict.members) {
-    const Optimum optimum = best_of(problem.request(), problem.model(), k, options);
+    const Optimum optimum = best_of(problem, k, options);
     const bool known = !conflict.stopped && !optimum.place.empty() && optimum.violation == 0;
     conflict.evaluations += optimum.evaluations;
     conflict.stopped = conflict.stopped || optimum.stopped;

@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 
 #include "dashpot/base/error.h"
+#include "dashpot/base/text.h"
+#include "dashpot/design/model_limits.h"
 
 namespace dashpot {
 namespace {
@@ -17,9 +19,13 @@ class DesignRun {
   DesignRun(const DesignRequest& request, const DesignOptions& options)
       : model_(make_design_model(options.model, "model")),
         second_(options.second.empty() ? nullptr : make_design_model(options.second, "second model")),
-        problem_(request, *model_, options.seed) {
-    report_.request = request;
-    report_.options = options;
+        report_{
+            .request = options.refuse_outside ? within_families(request, *model_, second_.get()) : request,
+            .options = options,
+            .first_name = model_->name(),
+            .second_name = second_ ? second_->name() : ""},
+        problem_(report_.request, *model_, options.seed, second_.get()) {
+    note_limits();
   }
   DesignReport run();
 
@@ -29,16 +35,31 @@ class DesignRun {
   std::vector<std::vector<double>> front_from(std::vector<std::vector<double>> ends);
   /// Which constraints conflict; or a design after all.
   std::vector<std::vector<double>> explain();
+  void note_limits();
   void add_designs(const std::vector<std::vector<double>>& places);
   void compare(Design& design) const;
   void name_roles();
   void add_sensitivities();
 
   std::unique_ptr<DesignModel> model_, second_;
+  DesignReport report_;
   DesignProblem problem_;
   Monitor staged_;
-  DesignReport report_;
 };
+
+void DesignRun::note_limits() {
+  for (const DesignModel* model : {model_.get(), second_.get()}) {
+    if (!model || !model->is_fitted()) continue;
+    const std::vector<std::string> beyond = operations_beyond(report_.request, *model);
+    if (report_.options.refuse_outside && !beyond.empty())
+      throw Error("the request", join(beyond, "; "),
+                  "a place within, or a model that marks what lies outside");
+    report_.notes.insert(report_.notes.end(), beyond.begin(), beyond.end());
+    if (const std::vector<std::string> unseen = unseen_fields(problem_, *model); !unseen.empty())
+      report_.notes.push_back(model->name() + " does not see " + join(unseen, ", ") +
+                              ": in that its force is of the dampers that it was fitted on");
+  }
+}
 
 OptimiseOptions DesignRun::search_options(const std::string& stage, double from, double to) {
   const Monitor& monitor = report_.options.monitor;
@@ -119,12 +140,12 @@ std::vector<std::vector<double>> DesignRun::explain() {
 }
 
 void DesignRun::compare(Design& design) const {
-  const DesignRequest& request = report_.request;
-  const std::vector<double> first = problem_.figures(design.damper);
-  design.second = DesignProblem(request, *second_, report_.options.seed).figures(design.damper);
-  for (std::size_t k = 0; k < first.size(); ++k)
-    if (const double size = std::abs(first[k]); size > 0)
-      design.disagreement = std::max(design.disagreement, std::abs(design.second[k] - first[k]) / size);
+  design.first = problem_.figures(design.damper, model_.get());
+  design.second = problem_.figures(design.damper, second_.get());
+  for (std::size_t k = 0; k < design.first.size(); ++k) {
+    const double share = std::abs(design.second[k] / design.first[k] - 1);
+    if (std::isfinite(share)) design.disagreement = std::max(design.disagreement, share);
+  }
 }
 
 void DesignRun::add_designs(const std::vector<std::vector<double>>& places) {
@@ -132,13 +153,19 @@ void DesignRun::add_designs(const std::vector<std::vector<double>>& places) {
     Design design;
     design.damper = problem_.damper_at(place);
     design.damper.name = report_.request.name;
-    design.assessment =
-        check_design(format_description(design.damper), report_.request, *model_, report_.options.seed);
+    design.assessment = check_design(format_description(design.damper), report_.request, *model_,
+                                     report_.options.seed, second_.get());
     if (!design.assessment.holds()) {
       ++report_.rejected;
       continue;
     }
-    if (second_) compare(design);
+    design.outside = model_->extrapolations(design.damper);
+    if (second_) {
+      compare(design);
+      for (std::string& what : second_->extrapolations(design.damper))
+        if (std::ranges::find(design.outside, what) == design.outside.end())
+          design.outside.push_back(std::move(what));
+    }
     report_.designs.push_back(std::move(design));
   }
   std::ranges::sort(report_.designs,
@@ -198,8 +225,8 @@ DesignReport DesignRun::run() {
 }  // namespace
 
 Assessment check_design(const std::string& text, const DesignRequest& request, const DesignModel& model,
-                        std::uint64_t seed) {
-  return DesignProblem(request, model, seed).assess(parse_description(text, "design"));
+                        std::uint64_t seed, const DesignModel* second) {
+  return DesignProblem(request, model, seed, second).assess(parse_description(text, "design"));
 }
 
 DesignReport design(const DesignRequest& request, const DesignOptions& options) {

@@ -17,8 +17,9 @@ struct DesignOptions {
   std::size_t points = 200;  ///< of a front
   int generations = 100;
   FrontMethod method = FrontMethod::Nsga2;
-  std::string model = "physics";
-  std::string second;  ///< a model whose figures stand beside; empty: none
+  std::string model = "physics";  ///< as make_design_model has them
+  std::string second;             ///< a model whose figures stand beside; empty: none
+  bool refuse_outside = false;    ///< designs beyond the dampers of a family's model, else they are marked
   Monitor monitor;
 };
 
@@ -27,18 +28,22 @@ struct Design {
   std::string name;  ///< "design_001"
   DamperDescription damper;
   Assessment assessment;
-  std::vector<double> second;  ///< the second model's figures as drawn: goals, then constraints
-  double disagreement = 0;     ///< the largest difference of the two as drawn, in shares of the first's
-  std::string role;            ///< what makes it stand out: "largest force", "knee"; else empty
+  /// Where there is a second model: all figures as drawn by each, goals and then constraints.
+  std::vector<double> first, second;
+  double disagreement = 0;                 ///< the largest difference of the two, in shares of the first's
+  std::string role;                        ///< what makes it stand out: "largest force", "knee"; else empty
+  std::vector<std::string> outside;        ///< in what it lies beyond the dampers of a family's model
   std::optional<Sensitivity> sensitivity;  ///< of those that stand out, where there are tolerances
 };
 
 struct DesignReport {
-  DesignRequest request;
+  DesignRequest request;  ///< with what else is asked where designs beyond a family are refused
   DesignOptions options;
-  std::vector<Design> designs;       ///< the best, or a front in the order of its first goal
-  std::optional<Conflict> conflict;  ///< why there is none
-  std::size_t rejected = 0;          ///< designs that failed when checked by themselves
+  std::string first_name, second_name;  ///< of the models
+  std::vector<std::string> notes;       ///< what a family's model cannot know, in words
+  std::vector<Design> designs;          ///< the best, or a front in the order of its first goal
+  std::optional<Conflict> conflict;     ///< why there is none
+  std::size_t rejected = 0;             ///< designs that failed when checked by themselves
   std::size_t evaluations = 0;
   double wall_seconds = 0;
   bool stopped = false;  ///< the user asked to stop: the best so far
@@ -46,11 +51,12 @@ struct DesignReport {
 
 /// One goal: the best design. Several: a front of designs of which none is better in all goals. Every design
 /// is written as a damper's description, read again and assessed anew; one that then fails a constraint is
-/// not returned. Ends with what it has when the monitor asks to stop.
+/// not returned. Ends with what it has when the monitor asks to stop. Throws Error where a current or a speed
+/// is beyond a family's model, and that is to be refused.
 DesignReport design(const DesignRequest& request, const DesignOptions& options);
 
 /// The assessment of a description's text, from scratch.
 Assessment check_design(const std::string& text, const DesignRequest& request, const DesignModel& model,
-                        std::uint64_t seed);
+                        std::uint64_t seed, const DesignModel* second = nullptr);
 
 }  // namespace dashpot

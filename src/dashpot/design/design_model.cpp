@@ -45,7 +45,9 @@ std::vector<std::string> design_model_names() {
 std::unique_ptr<DesignModel> make_design_model(const std::string& name, const std::string& where) {
   for (const NamedModel& model : kModels)
     if (model.name == name) return std::make_unique<PhysicsModel>(name, model.flow);
-  throw Error(where, "unknown model '" + name + "'", suggest(name, design_model_names()));
+  if (name.find_first_of("./") != std::string::npos) return load_family_design_model(name);
+  throw Error(where, "unknown model '" + name + "'",
+              suggest(name, design_model_names()) + ", or the file of a family's model");
 }
 
 }  // namespace dashpot

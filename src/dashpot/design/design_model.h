@@ -1,8 +1,11 @@
 #pragma once
+#include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "dashpot/damper/model_file.h"
 #include "dashpot/damper/physics/damper_physics.h"
 
 namespace dashpot {
@@ -16,11 +19,25 @@ class DesignModel {
   /// from evaluate_physics. What it cannot tell is not finite, which counts as a constraint that fails.
   virtual DamperPhysics evaluate(const DamperDescription& description,
                                  const DamperOperation& operation) const = 0;
+
+  /// Whether it was fitted on dampers, beyond which it extrapolates; first principles were not.
+  virtual bool is_fitted() const { return false; }
+  /// How far a drawing lies outside of those dampers, in shares of their ranges; 0 or less within.
+  virtual double outside(const DamperDescription&) const { return 0; }
+  /// In what it does, in words; and a current or a speed.
+  virtual std::vector<std::string> extrapolations(const DamperDescription&) const { return {}; }
+  virtual std::vector<std::string> extrapolations(const DamperOperation&) const { return {}; }
+  /// The model of this damper for other commands; none where it is to be a law fitted to the forces.
+  virtual std::optional<ModelFile> model_of(const DamperDescription&) const { return std::nullopt; }
 };
 
 /// "physics" is what the description asks for; "physics:plate", "physics:moving_wall" and "physics:paper"
-/// take that law of the flow. Throws Error(where, ...) on another name.
+/// take that law of the flow. A word with a dot or a slash is the file of a family's model. Throws
+/// Error(where, ...) on another name, or where the file holds something else.
 std::unique_ptr<DesignModel> make_design_model(const std::string& name, const std::string& where);
-std::vector<std::string> design_model_names();
+std::vector<std::string> design_model_names();  ///< those that are no files
+
+/// A fitted family's force in place of that of first principles, which tell the rest.
+std::unique_ptr<DesignModel> load_family_design_model(const std::filesystem::path& path);
 
 }  // namespace dashpot

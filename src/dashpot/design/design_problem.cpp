@@ -70,16 +70,19 @@ double slack_of(const DesignConstraint& constraint, double figure) {
 
 }  // namespace
 
-DesignProblem::DesignProblem(const DesignRequest& request, const DesignModel& model, std::uint64_t seed)
-    : request_(request), model_(model) {
-  const auto place = [&](const DamperOperation& at) {
-    const auto found =
-        std::ranges::find_if(operations_, [&](const DamperOperation& known) { return same(known, at); });
-    operation_of_.push_back(static_cast<std::size_t>(found - operations_.begin()));
-    if (found == operations_.end()) operations_.push_back(at);
+DesignProblem::DesignProblem(const DesignRequest& request, const DesignModel& model, std::uint64_t seed,
+                             const DesignModel* second)
+    : request_(request), model_(model), second_(second) {
+  const auto place = [&](const DamperOperation& at, ToldBy by) {
+    if (by == ToldBy::Second && !second)
+      throw Error("the request", "asks for figures by a second model, and there is none", "name one");
+    const auto found = std::ranges::find_if(
+        questions_, [&](const Question& known) { return same(known.at, at) && known.by == by; });
+    question_of_.push_back(static_cast<std::size_t>(found - questions_.begin()));
+    if (found == questions_.end()) questions_.push_back({at, by});
   };
-  for (const DesignGoal& goal : request.goals) place(goal.at);
-  for (const DesignConstraint& constraint : request.constraints) place(constraint.at);
+  for (const DesignGoal& goal : request.goals) place(goal.at, goal.by);
+  for (const DesignConstraint& constraint : request.constraints) place(constraint.at, constraint.by);
   if (request.share > 0)
     made_with_ = draw_made(static_cast<std::size_t>(request.samples), request.tolerances.size(), seed);
 }
@@ -131,15 +134,21 @@ DamperDescription DesignProblem::made(const DamperDescription& drawn, std::span<
   return damper;
 }
 
-std::vector<double> DesignProblem::figures(const DamperDescription& damper) const {
+std::vector<double> DesignProblem::figures(const DamperDescription& damper, const DesignModel* all_by) const {
+  const auto asked = [&](const Question& question) -> const DesignModel& {
+    if (all_by) return *all_by;
+    return question.by == ToldBy::Second ? *second_ : model_;
+  };
   std::vector<DamperPhysics> physics;
-  for (const DamperOperation& operation : operations_) physics.push_back(model_.evaluate(damper, operation));
+  for (const Question& question : questions_)
+    physics.push_back(asked(question).evaluate(damper, question.at));
   std::vector<double> figures;
-  for (std::size_t k = 0; k < operation_of_.size(); ++k) {
-    const std::size_t goals = request_.goals.size(), at = operation_of_[k];
+  for (std::size_t k = 0; k < question_of_.size(); ++k) {
+    const std::size_t goals = request_.goals.size();
+    const Question& question = questions_[question_of_[k]];
     const DesignQuantity& quantity =
         k < goals ? *request_.goals[k].quantity : *request_.constraints[k - goals].quantity;
-    figures.push_back(quantity.of({damper, operations_[at], physics[at], model_}));
+    figures.push_back(quantity.of({damper, question.at, physics[question_of_[k]], asked(question)}));
   }
   return figures;
 }

@@ -21,11 +21,14 @@ struct Assessment {
 /// A request turned into a search: places in the unit cube are dampers, which are assessed. Immutable.
 class DesignProblem {
  public:
-  /// `request` and `model` must outlive it. The seed draws the dampers that stand for those made.
-  DesignProblem(const DesignRequest& request, const DesignModel& model, std::uint64_t seed);
+  /// Request and models must outlive it. The seed draws the dampers that stand for those made. Throws Error
+  /// when the request asks a second model and there is none.
+  DesignProblem(const DesignRequest& request, const DesignModel& model, std::uint64_t seed,
+                const DesignModel* second = nullptr);
 
   const DesignRequest& request() const { return request_; }
   const DesignModel& model() const { return model_; }
+  const DesignModel* second() const { return second_; }
   std::size_t size() const { return request_.variables.size(); }
 
   /// The damper at a place of the unit cube. `relaxed`: ranges with steps are taken without them.
@@ -37,17 +40,24 @@ class DesignProblem {
   Assessment assess(const DamperDescription& drawn) const;
   /// The damper with its fields off by these shares of their tolerances.
   DamperDescription made(const DamperDescription& drawn, std::span<const double> shares) const;
-  /// The figures of every goal, then of every constraint, of one damper as it is.
-  std::vector<double> figures(const DamperDescription& damper) const;
+  /// The figures of every goal, then of every constraint, of one damper as it is: each by the model that is
+  /// asked for it, or all by one.
+  std::vector<double> figures(const DamperDescription& damper, const DesignModel* all_by = nullptr) const;
 
  private:
   void follow(DamperDescription& damper) const;
   double figure_of_share(std::vector<double>& figures, bool at_least) const;
 
+  struct Question {
+    DamperOperation at;
+    ToldBy by;
+  };
+
   const DesignRequest& request_;
   const DesignModel& model_;
-  std::vector<DamperOperation> operations_;     // each once
-  std::vector<std::size_t> operation_of_;       // of every goal, then of every constraint
+  const DesignModel* second_;
+  std::vector<Question> questions_;             // each once
+  std::vector<std::size_t> question_of_;        // of every goal, then of every constraint
   std::vector<std::vector<double>> made_with_;  // shares of the tolerances of each damper made
 };
 

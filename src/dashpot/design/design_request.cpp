@@ -86,20 +86,34 @@ void read_operation(ObjectReader& reader, DamperOperation& operation) {
   read("displacement", "m", operation.displacement);
 }
 
+/// By which models; a constraint may be asked of both.
+std::vector<ToldBy> read_by(ObjectReader& reader, bool both_allowed) {
+  const Value* value = reader.optional("by");
+  const std::string by = value ? value->as_string() : "first";
+  if (by == "first") return {ToldBy::First};
+  if (by == "second") return {ToldBy::Second};
+  if (by == "both" && both_allowed) return {ToldBy::First, ToldBy::Second};
+  throw Error(value->where(), "by is '" + by + "'",
+              both_allowed ? "first, second or both" : "first or second");
+}
+
 void read_constraint(const Value& value, const DamperOperation& at, DesignRequest& request) {
   ObjectReader reader(value, "a constraint");
   const Value& named = reader.required("quantity");
   DesignConstraint constraint{&find_design_quantity(named.as_string(), named.where()), at};
   read_operation(reader, constraint.at);
   const Value *least = reader.optional("min"), *most = reader.optional("max");
+  const std::vector<ToldBy> asked_of = read_by(reader, true);
   reader.finish();
   if (!least && !most) throw Error(value.where(), "the constraint has no bound", "min, max or both");
-  for (const Value* bound : {least, most}) {
-    if (!bound) continue;
-    constraint.at_least = bound == least;
-    constraint.bound = read_number(*bound, constraint.quantity->unit);
-    request.constraints.push_back(constraint);
-  }
+  for (const ToldBy by : asked_of)
+    for (const Value* bound : {least, most}) {
+      if (!bound) continue;
+      constraint.by = by;
+      constraint.at_least = bound == least;
+      constraint.bound = read_number(*bound, constraint.quantity->unit);
+      request.constraints.push_back(constraint);
+    }
   const std::size_t count = request.constraints.size();
   if (least && most && request.constraints[count - 2].bound > request.constraints[count - 1].bound)
     throw Error(value.where(), std::string(constraint.quantity->name) + " has a min above its max");
@@ -111,6 +125,7 @@ DesignGoal read_goal(const Value& value, const DamperOperation& at) {
   DesignGoal goal;
   goal.at = at;
   read_operation(reader, goal.at);
+  goal.by = read_by(reader, false).front();
   reader.finish();
   if (!most == !least)
     throw Error(value.where(), "a goal is one quantity", "maximise: dynamic_range, or minimise: mass");
@@ -184,8 +199,9 @@ std::string place_text(const DamperOperation& at) {
 }
 
 /// Fields and sizes are the same at any current and speed.
-std::string place_of(const DesignQuantity& quantity, const DamperOperation& at) {
-  return quantity.of_drawing || (at.current == 0 && at.velocity == 0) ? "" : place_text(at);
+std::string place_of(const DesignQuantity& quantity, const DamperOperation& at, ToldBy by) {
+  const bool anywhere = quantity.of_drawing || (at.current == 0 && at.velocity == 0);
+  return (anywhere ? "" : place_text(at)) + (by == ToldBy::Second ? ", by the second model" : "");
 }
 
 }  // namespace
@@ -198,12 +214,12 @@ std::size_t DesignVariable::levels() const {
 
 std::string describe(const DesignConstraint& c) {
   return std::string(c.quantity->name) + (c.at_least ? " at least " : " at most ") +
-         shown_figure(c.bound, c.quantity->unit) + place_of(*c.quantity, c.at);
+         shown_figure(c.bound, c.quantity->unit) + place_of(*c.quantity, c.at, c.by);
 }
 
 std::string describe(const DesignGoal& goal) {
   return (goal.maximise ? "largest " : "smallest ") + std::string(goal.quantity->name) +
-         place_of(*goal.quantity, goal.at);
+         place_of(*goal.quantity, goal.at, goal.by);
 }
 
 DesignRequest parse_request(std::string_view text, const std::string& source,

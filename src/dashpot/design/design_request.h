@@ -20,18 +20,23 @@ struct DesignVariable {
   std::size_t levels() const;
 };
 
+/// Which of two models tells a figure.
+enum class ToldBy { First, Second };
+
 /// One bound of one quantity at one operating point; a request's min and max are two.
 struct DesignConstraint {
   const DesignQuantity* quantity = nullptr;
   DamperOperation at;
   bool at_least = true;  ///< else at most
   double bound = 0;
+  ToldBy by = ToldBy::First;
 };
 
 struct DesignGoal {
   const DesignQuantity* quantity = nullptr;
   DamperOperation at;
   bool maximise = true;
+  ToldBy by = ToldBy::First;
 };
 
 /// How far a made part may lie from its drawing: anywhere within +- width, all places alike.
@@ -60,7 +65,8 @@ struct DesignRequest {
   int samples = 32;  ///< dampers that stand for those made
 };
 
-/// "force at least 1500 N at 2 A, 0.3 m/s"; the same of a goal: "largest dynamic_range at ..."
+/// "force at least 1500 N at 2 A, 0.3 m/s, by the second model"; the same of a goal: "largest dynamic_range
+/// at ..."
 std::string describe(const DesignConstraint& constraint);
 std::string describe(const DesignGoal& goal);
 

@@ -61,6 +61,8 @@ double mass(const OperatedDamper& d) {
          0.5 * (drawn.fluid->density_min + drawn.fluid->density_max) * fluid;
 }
 
+double outside_family(const OperatedDamper& d) { return d.model.outside(d.description); }
+
 constexpr std::array kEstimates{
     Q{"controllable_force", "N", "force less that without current", {}, {}, controllable_force},
     Q{"control_ratio",
@@ -81,7 +83,14 @@ constexpr std::array kEstimates{
     Q{"body_length", "m", "stroke and piston; neither accumulator nor mounts", {}, {}, body_length, true},
     Q{"outer_diameter", "m", "of a steel tube whose section is the core's", {}, {}, outer_diameter, true},
     Q{"copper_mass", "kg", "of the coil", {}, {}, copper_mass, true},
-    Q{"mass", "kg", "estimate: steel tube, piston and rod, copper, fluid; no mounts", {}, {}, mass, true}};
+    Q{"mass", "kg", "estimate: steel tube, piston and rod, copper, fluid; no mounts", {}, {}, mass, true},
+    Q{kOutsideFamily,
+      "1",
+      "how far beyond the dampers of a family's model, in shares of their ranges; 0 or less within",
+      {},
+      {},
+      outside_family,
+      true}};
 
 struct PhysicsWord {
   std::string_view name;
@@ -167,6 +176,11 @@ std::string shown_figure(double value, std::string_view si_unit) {
 double DesignQuantity::of(const OperatedDamper& damper) const {
   if (estimate) return estimate(damper);
   return physics ? damper.physics.*physics : damper.description.*field;
+}
+
+bool DesignQuantity::is_of_force() const {
+  return physics == &P::force || physics == &P::off_force || physics == &P::dynamic_range ||
+         estimate == controllable_force || estimate == response_time;
 }
 
 std::span<const DesignQuantity> design_quantities() {

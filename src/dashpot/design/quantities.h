@@ -24,11 +24,16 @@ struct DesignQuantity {
   bool of_drawing = false;  ///< the same at any current and speed
 
   double of(const OperatedDamper& damper) const;
+  /// Whether it is made of forces, which models tell differently.
+  bool is_of_force() const;
 };
 
 std::span<const DesignQuantity> design_quantities();
 /// By its name, or by that of physics_quantities() ("time constant"). Throws Error(where, ...).
 const DesignQuantity& find_design_quantity(std::string_view name, const std::string& where);
+
+/// How far a damper lies outside of those that its model was fitted on: what a constraint refuses.
+constexpr std::string_view kOutsideFamily = "outside_family";
 
 /// A unit in which people read such figures, and what one of it is in SI: "mm", 0.001.
 struct ShownUnit {

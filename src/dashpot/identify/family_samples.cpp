@@ -34,6 +34,15 @@ void add_cycle(const Record& cycle, TrainingSamples& samples) {
   samples.targets.insert(samples.targets.end(), force.begin(), force.end());
 }
 
+/// The record from its beginning to the end of its cycle, which is what is scored.
+Record run_up_to(const Record& record, const Record& cycle) {
+  const auto first = static_cast<std::size_t>(std::ranges::lower_bound(record.time, cycle.time.front()) -
+                                              record.time.begin());
+  Record run = record.slice(0, first + cycle.size());
+  run.warm_up = first;
+  return run;
+}
+
 using NameOf = std::function<std::string(std::size_t cycle)>;
 
 /// Indices of the samples of each group of cycles, in the order of their first cycles.
@@ -68,9 +77,12 @@ double FamilySamples::condition(std::size_t cycle, std::string_view name) const 
 
 FamilySamples family_samples(const Dataset& dataset) {
   FamilySamples family;
+  family.drive_unit = dataset.drive_unit;
   for (const Record& record : dataset.records) {
     family.first.push_back(family.size());
-    add_cycle(family.cycles.emplace_back(last_cycle(record)), family.samples);
+    const Record& cycle = family.cycles.emplace_back(last_cycle(record));
+    add_cycle(cycle, family.samples);
+    family.runs.push_back(run_up_to(record, cycle));
   }
   family.first.push_back(family.size());
   return family;

@@ -19,6 +19,8 @@ inline constexpr std::size_t kFamilyConditions = 6;
 /// One cycle of each record of a family of dampers, as samples to learn the force from.
 struct FamilySamples {
   std::vector<Record> cycles;
+  std::vector<Record> runs;  ///< the records up to their cycles' ends, scored on these: for what remembers
+  std::string drive_unit;
   TrainingSamples samples;         ///< the cycles one behind the other
   std::vector<std::size_t> first;  ///< of each cycle in them, and their number
 

@@ -54,6 +54,7 @@ class StudyRun {
     });
     for (const StudiedNetwork& network : study_.networks) study_.seconds += network.seconds;
     study_.kept = kept_;
+    study_.models = judge_family_models(study_.family, options_);
     return std::move(study_);
   }
 

@@ -64,6 +64,13 @@ struct Spread {
 Spread mae_of(const std::vector<ErrorSums>& seeds);  ///< N
 Spread r2_of(const std::vector<ErrorSums>& seeds);
 
+/// A model of the registry beside the networks: it learns from the same samples, which its records run up to,
+/// and is judged on the same.
+struct FamilyModelOutcome {
+  std::string name;
+  ErrorSums learnt, geometries, fluids;  ///< on what it learnt from, and on what was left out in turn
+};
+
 /// Its outcomes point into its networks: it can be moved, not copied.
 struct FamilyStudy {
   FamilyStudy() = default;
@@ -73,6 +80,7 @@ struct FamilyStudy {
   FamilySamples family;
   std::deque<StudiedNetwork> networks;
   std::vector<FamilyOutcome> outcomes;
+  std::vector<FamilyModelOutcome> models;
   std::size_t kept = 0;  ///< trainings found in the store
   double seconds = 0;    ///< CPU time of all trainings, those kept from before too
   double effort = 1;     ///< share of each rule's epochs that was trained
@@ -85,6 +93,7 @@ struct FamilyStudyOptions {
   double effort = 1;  ///< share of each rule's epochs
   int threads = 0;
   const TrainingStore* store = nullptr;  ///< where finished trainings are found and kept
+  std::vector<std::string> models;       ///< of the registry, to stand beside
   Monitor monitor;
 };
 
@@ -92,5 +101,9 @@ struct FamilyStudyOptions {
 /// threads. Throws Interrupted when stopped; what the store holds by then is not made again.
 FamilyStudy study_family(FamilySamples family, const std::vector<FamilyExperiment>& experiments,
                          const FamilyStudyOptions& options);
+
+/// Fits and judges options.models; none where the records state no current.
+std::vector<FamilyModelOutcome> judge_family_models(const FamilySamples& family,
+                                                    const FamilyStudyOptions& options);
 
 }  // namespace dashpot

@@ -3,18 +3,18 @@
 #include <tuple>
 
 #include "dashpot/base/error.h"
-#include "dashpot/base/parallel.h"
 #include "dashpot/damper/family/family_model.h"
-#include "dashpot/damper/neural/ensemble.h"
-#include "dashpot/damper/neural/train_batches.h"
 #include "dashpot/identify/family_gates_fit.h"
 #include "dashpot/identify/fit.h"
+#include "dashpot/identify/network_trainer.h"
 #include "dashpot/identify/training_samples.h"
 
 namespace dashpot {
 namespace {
 
-constexpr double kRate = 5e-3;
+// What the user leaves open of the paper's network and its training. Without a price of weights networks
+// learn the builds of their training by heart, which a new damper does not share.
+constexpr double kRate = 5e-3, kL2 = 5e-3;
 constexpr std::size_t kBatch = 100, kEpochs = 200;
 
 std::vector<FamilyRecord> family_records(const std::vector<Record>& training, const std::string& drive_unit) {
@@ -108,33 +108,38 @@ Mlp standardised(const FamilyPreset& preset, const NetworkDesign& design, const 
 }
 
 struct LearnedForce {
-  std::shared_ptr<const FamilyForce> force;
+  std::shared_ptr<const FamilyForce> force;  ///< none where the training failed
   double build_spread = 0;
-  int iterations = 0;
 };
 
+/// The design with what it leaves open as the family's networks learn.
+NetworkDesign completed(NetworkDesign design) {
+  if (design.trainer.value_or(Trainer::Adam) != Trainer::Adam) return design;
+  design.trainer = Trainer::Adam;
+  design.rate = design.rate.value_or(kRate);
+  design.batch = design.batch.value_or(kBatch);
+  design.epochs = design.epochs.value_or(kEpochs);
+  design.l2 = design.l2.value_or(kL2);
+  return design;
+}
+
 LearnedForce fit_networks(const FamilyPreset& preset, const FamilyBaseline& baseline,
-                          const std::vector<FamilyRecord>& records, const IdentifyOptions& options) {
-  const NetworkDesign& design = options.network;
-  const TrainingSamples samples = samples_of(preset, baseline, records);
-  const BatchTrainOptions train{.optimiser = Optimiser::Adam,
-                                .rate = design.rate.value_or(kRate),
-                                .schedule = {.kind = Schedule::Kind::Cosine},
-                                .batch = design.batch.value_or(kBatch),
-                                .epochs = static_cast<int>(design.epochs.value_or(kEpochs)),
-                                .l2 = design.l2.value_or(0),
-                                .on_epoch = [&](int, double) { options.monitor.check(); }};
-  std::vector<TrainedMlp> trained = train_from_starts(
-      standardised(preset, design, samples), design.members.value_or(1), options.seed, options.threads,
-      [&](Mlp& mlp, std::size_t) { return train_batches(mlp, samples, train); });
-  LearnedForce learned;
-  std::vector<Mlp> members;
-  for (TrainedMlp& member : trained) {
-    learned.iterations = std::max(learned.iterations, member.report.iterations);
-    members.push_back(std::move(member.mlp));
-  }
-  learned.force = std::make_shared<FamilyNetwork>(preset.inputs, std::move(members));
-  return learned;
+                          const std::vector<Record>& training, const std::string& drive_unit,
+                          const IdentifyOptions& asked, FitReport& report) {
+  IdentifyOptions options = asked;
+  options.network = completed(asked.network);
+  // Of several starts the one that fits best is not the one that foretells best.
+  if (options.network.patience.value_or(0) == 0) options.starts = 1;
+  const SamplesOf samples_of_records = [&](const std::vector<Record>& records) {
+    return samples_of(preset, baseline, family_records(records, drive_unit));
+  };
+  const Mlp start = standardised(preset, options.network, samples_of_records(training));
+  TrainedEnsemble trained = train_networks(start, training, samples_of_records, options);
+  report.status = trained.status;
+  report.message = trained.message;
+  report.iterations = trained.iterations;
+  if (trained.status == FitReport::Status::Failed) return {};
+  return {std::make_shared<FamilyNetwork>(preset.inputs, std::move(trained.members))};
 }
 
 LearnedForce fit_gates(const FamilyPreset& preset, const std::vector<FamilyRecord>& records,
@@ -143,7 +148,10 @@ LearnedForce fit_gates(const FamilyPreset& preset, const std::vector<FamilyRecor
   report.parameters.push_back({"build_spread", "1",
                                "standard deviation of a new damper's force from its design's, as a share",
                                fit.build_spread, fit.spread_low, fit.spread_high});
-  return {std::make_shared<GatedFamily>(std::move(fit.gates)), fit.build_spread, 1};
+  report.status = FitReport::Status::Converged;
+  report.message = "solved";
+  report.iterations = 1;
+  return {std::make_shared<GatedFamily>(std::move(fit.gates)), fit.build_spread};
 }
 
 double rmse_of(const FamilyModel& model, const std::vector<Record>& training, const std::string& drive_unit,
@@ -163,17 +171,15 @@ FitReport fit_family(const FamilyPreset& preset, const std::vector<Record>& trai
   family.name = preset.name;
   family.domain = domain_of(records);
   family.baseline = fitted_baseline(preset.target, records);
-  const LearnedForce learned = preset.inputs.empty()
-                                   ? fit_gates(preset, records, options, report)
-                                   : fit_networks(preset, family.baseline, records, options);
+  const LearnedForce learned =
+      preset.inputs.empty() ? fit_gates(preset, records, options, report)
+                            : fit_networks(preset, family.baseline, training, drive_unit, options, report);
+  if (!learned.force) return report;
   family.force = learned.force;
   family.build_spread = learned.build_spread;
   FamilyMember member = records.front().member;
   member.yield = yield_of(records, member.viscosity);
   const auto model = std::make_shared<FamilyModel>(std::make_shared<Family>(std::move(family)), member);
-  report.status = FitReport::Status::Converged;
-  report.message = preset.inputs.empty() ? "solved" : "trained to the last epoch";
-  report.iterations = learned.iterations;
   report.training_rmse = rmse_of(*model, training, drive_unit, options);
   report.model = model;
   return report;

@@ -205,7 +205,8 @@ std::vector<std::string_view> network_settings_of(const std::string& model) {
     return {"hidden", "activation", "trainer",  "rate",    "schedule", "batch",  "epochs",
             "l1",     "l2",         "patience", "members", "delays",   "spacing"};
   if (kind == "family" && !find_family_preset(model).inputs.empty())
-    return {"hidden", "activation", "rate", "batch", "epochs", "l2", "members"};
+    return {"hidden", "activation", "trainer", "rate",     "schedule", "batch",
+            "epochs", "l1",         "l2",      "patience", "members"};
   if (kind == "narx")
     return {"hidden", "activation", "trainer", "epochs",   "l2",     "members",
             "delays", "feedback",   "spacing", "training", "window", "output"};
@@ -227,8 +228,12 @@ bool has_use(Trainer trainer, std::string_view setting) {
   return setting != "l2" || trainer != Trainer::Bayesian;  // which finds it by itself
 }
 
-void require_trainer(const NetworkDesign& design) {
-  const Trainer trainer = design.trainer.value_or(Trainer::LevenbergMarquardt);
+Trainer usual_trainer(const std::string& model) {
+  return model_info(model).kind == "family" ? Trainer::Adam : Trainer::LevenbergMarquardt;
+}
+
+void require_trainer(const NetworkDesign& design, Trainer usual) {
+  const Trainer trainer = design.trainer.value_or(usual);
   const std::string which =
       "trainer=" + std::string(name_of(trainer)) + (design.trainer ? "" : ", the usual one,");
   for (const NetworkSetting& setting : kSettings)
@@ -248,10 +253,9 @@ void require_design(const NetworkDesign& design, const std::vector<std::string>&
       throw Error("--network", "none of the models follows '" + std::string(setting.name) + "'",
                   "choose a network with --models; 'dashpot models NAME' tells what it follows");
   }
-  const bool has_trainer = std::any_of(models.begin(), models.end(), [](const std::string& model) {
-    return std::ranges::count(network_settings_of(model), "trainer") > 0;
-  });
-  if (has_trainer) require_trainer(design);
+  for (const std::string& model : models)
+    if (std::ranges::count(network_settings_of(model), "trainer") > 0)
+      require_trainer(design, usual_trainer(model));
 }
 
 }  // namespace dashpot

@@ -40,6 +40,7 @@ Value constraints_json(const DesignRequest& request) {
   for (const DesignConstraint& constraint : request.constraints) {
     Value json = named(constraint.quantity->name, constraint.quantity->unit, constraint.quantity->meaning);
     json.add("text", describe(constraint));
+    json.add("by", constraint.by == ToldBy::Second ? "second" : "first");
     json.add("at_least", constraint.at_least);
     json.add("bound", constraint.bound);
     list.push_back(std::move(json));
@@ -81,9 +82,11 @@ Value design_json(const Design& design, const DesignRequest& request) {
                               {"constraints", Value::array(design.assessment.constraints)},
                               {"slack", Value::array(design.assessment.slack)}});
   if (!design.second.empty()) {
+    json.add("first", Value::array(design.first));
     json.add("second", Value::array(design.second));
     json.add("disagreement", design.disagreement);
   }
+  if (!design.outside.empty()) json.add("beyond_family", Value::array(design.outside));
   if (design.sensitivity) json.add("sensitivity", sensitivity_json(*design.sensitivity));
   return json;
 }
@@ -111,8 +114,9 @@ Value json_design(const DesignInput& input) {
                                     {"command", input.command},
                                     {"name", request.name},
                                     {"note", request.note},
-                                    {"model", report.options.model},
-                                    {"second_model", report.options.second},
+                                    {"model", report.first_name},
+                                    {"second_model", report.second_name},
+                                    {"notes", Value::array(report.notes)},
                                     {"seed", static_cast<double>(report.options.seed)},
                                     {"share", request.share},
                                     {"verdict", design_verdict(report)},

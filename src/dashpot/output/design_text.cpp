@@ -27,6 +27,12 @@ std::string variable_text(const DesignVariable& variable, const DamperDescriptio
   return shown(damper.*variable.field->field, variable.field->unit);
 }
 
+/// Its role, and whether a family's model extrapolates.
+std::string design_note(const Design& design) {
+  if (design.outside.empty()) return design.role;
+  return design.role + (design.role.empty() ? "" : "; ") + "beyond the family";
+}
+
 std::vector<TextColumn> design_columns(const DesignReport& report) {
   std::vector<TextColumn> columns{{"Design"}};
   for (const DesignVariable& variable : report.request.variables)
@@ -34,7 +40,7 @@ std::vector<TextColumn> design_columns(const DesignReport& report) {
         {variable.field ? with_unit(variable.name(), variable.field->unit) : variable.name(), true, 2});
   for (const DesignGoal& goal : report.request.goals)
     columns.push_back({with_unit(goal.quantity->name, goal.quantity->unit), true});
-  if (!report.options.second.empty()) columns.push_back({"Models differ %", true, 1});
+  if (!report.second_name.empty()) columns.push_back({"Models differ %", true, 1});
   columns.push_back({"Note", false, 0, true});
   return columns;
 }
@@ -45,8 +51,8 @@ std::vector<std::string> design_row(const DesignReport& report, const Design& de
     row.push_back(variable_text(variable, design.damper));
   for (std::size_t k = 0; k < report.request.goals.size(); ++k)
     row.push_back(shown(design.assessment.goals[k], report.request.goals[k].quantity->unit));
-  if (!report.options.second.empty()) row.push_back(percent_text(100 * design.disagreement));
-  row.push_back(design.role);
+  if (!report.second_name.empty()) row.push_back(percent_text(100 * design.disagreement));
+  row.push_back(design_note(design));
   return row;
 }
 
@@ -82,6 +88,21 @@ std::string conflict_verdict(const DesignReport& report) {
       lines.size(), join(lines, "\n* "));
 }
 
+/// What is to be known of designs beyond a family, and of how far two models agree.
+std::string models_verdict(const DesignReport& report) {
+  std::string text;
+  const auto outside =
+      std::ranges::count_if(report.designs, [](const Design& d) { return !d.outside.empty(); });
+  if (outside > 0)
+    text += fmt::format(" {} of them {} beyond the dampers that the family's model was fitted on.", outside,
+                        outside == 1 ? "lies" : "lie");
+  if (report.second_name.empty()) return text;
+  double most = 0;
+  for (const Design& design : report.designs) most = std::max(most, design.disagreement);
+  return text + fmt::format(" {} and {} differ by {} % at most.", report.first_name, report.second_name,
+                            percent_text(100 * most));
+}
+
 std::string best_of(const DesignReport& report) {
   const DesignGoal& goal = report.request.goals.front();
   return fmt::format("{}: {}", describe(goal),
@@ -100,12 +121,15 @@ std::string constraint_table(const DesignReport& report, const Design& design, i
     const DesignConstraint& own = report.request.constraints[k];
     rows.push_back({describe(own), shown(design.assessment.constraints[k], own.quantity->unit),
                     shown_unit(own.quantity->unit).unit, percent_text(100 * design.assessment.slack[k])});
-    if (!report.options.second.empty())
-      rows.back().push_back(shown(design.second[report.request.goals.size() + k], own.quantity->unit));
+    if (!report.second_name.empty())
+      for (const auto* told : {&design.first, &design.second})
+        rows.back().push_back(shown((*told)[report.request.goals.size() + k], own.quantity->unit));
   }
   std::vector<TextColumn> columns{
       {"Constraint", false, 0, true}, {"Reached", true}, {"Unit"}, {"Left over %", true}};
-  if (!report.options.second.empty()) columns.push_back({report.options.second, true});
+  if (!report.second_name.empty())
+    for (const std::string& name : {report.first_name, report.second_name})
+      columns.push_back({name, true, 1});
   return text_table(columns, rows, width);
 }
 
@@ -148,6 +172,7 @@ std::string design_verdict(const DesignReport& report) {
               ? fmt::format(" {} % of the dampers made hold the constraints and reach the goals.",
                             number_text(100 * report.request.share))
               : " Every one holds all constraints, as drawn.";
+  text += models_verdict(report);
   if (report.rejected)
     text += fmt::format(" {} failed when checked by themselves and are left out.",
                         counted(report.rejected, "design"));
@@ -167,6 +192,7 @@ std::string markdown_design(const DesignInput& input) {
     constraints.push_back(describe(constraint));
   text += join(goals, "; ") + ".\n";
   if (!constraints.empty()) text += "Constraints: " + join(constraints, "; ") + ".\n";
+  for (const std::string& note : report.notes) text += "\nNote: " + note + ".\n";
   return text + "\nMade by `" + input.command + "`, Dashpot " + input.version + ".\n";
 }
 
@@ -181,6 +207,9 @@ std::string csv_design(const DesignReport& report) {
   for (const DesignGoal& goal : request.goals) title(describe(goal), goal.quantity->unit);
   for (const DesignConstraint& constraint : request.constraints)
     title(describe(constraint), constraint.quantity->unit);
+  const bool has_second = !report.second_name.empty();
+  if (has_second) titles.emplace_back("disagreement");
+  titles.emplace_back("beyond_family");
   titles.emplace_back("role");
   std::string text = join(titles, ",") + "\n";
   for (const Design& design : report.designs) {
@@ -190,6 +219,8 @@ std::string csv_design(const DesignReport& report) {
                                    : std::string(design.damper.fluid->name));
     for (const auto* figures : {&design.assessment.goals, &design.assessment.constraints})
       for (const double figure : *figures) row.push_back(std::isfinite(figure) ? format_exact(figure) : "");
+    if (has_second) row.push_back(format_exact(design.disagreement));
+    row.push_back(csv_field(join(design.outside, "; ")));
     row.push_back(csv_field(design.role));
     text += join(row, ",") + "\n";
   }

@@ -68,6 +68,13 @@ Value outcome_json(const FamilyStudy& study, const FamilyOutcome& outcome) {
                         {"seconds", outcome.seconds}});
 }
 
+Value model_json(const FamilyModelOutcome& model) {
+  return Value::object({{"name", model.name},
+                        {"learnt", to_json(metrics(model.learnt))},
+                        {"geometries_left_out", to_json(metrics(model.geometries))},
+                        {"fluids_left_out", to_json(metrics(model.fluids))}});
+}
+
 }  // namespace
 
 std::string decimals(double value, int count) { return fmt::format("{:.{}f}", value, count); }
@@ -113,10 +120,13 @@ Document family_document(const FamilyStudy& study) {
 Value family_json(const FamilyStudy& study) {
   Value outcomes = Value::array();
   for (const FamilyOutcome& outcome : study.outcomes) outcomes.push_back(outcome_json(study, outcome));
+  Value models = Value::array();
+  for (const FamilyModelOutcome& model : study.models) models.push_back(model_json(model));
   return Value::object({{"format", "dashpot family study 1"},
                         {"records", study.family.cycles.size()},
                         {"samples", study.family.size()},
                         {"experiments", std::move(outcomes)},
+                        {"models", std::move(models)},
                         {"seconds", study.seconds}});
 }
 

@@ -170,6 +170,12 @@ DocumentSection left_out_section(const FamilyStudy& study) {
                             mae_text(outcome), r2_text(outcome), decimals(together.mae, 3),
                             decimals(together.r2, 4)});
     }
+    for (const FamilyModelOutcome& model : study.models) {
+      const Metrics learnt = metrics(model.learnt),
+                    left = metrics(protocol == FamilyProtocol::Geometries ? model.geometries : model.fluids);
+      table.rows.push_back(
+          {model.name, decimals(learnt.mae, 3), decimals(left.mae, 3), decimals(left.r2, 4), "-", "-"});
+    }
     section.tables.push_back(std::move(table));
   }
   const FamilyRule chosen = own_rule(chosen_architecture());
@@ -190,6 +196,13 @@ DocumentSection left_out_section(const FamilyStudy& study) {
       "Two fluids are too few to learn what a fluid does: with one left out, viscosity and yield stress of "
       "the other are beyond all that was seen.",
       "Mean of seeds: the force is the mean of those of all seeds' networks."};
+  if (!study.models.empty())
+    section.remarks.push_back(
+        "The last rows are Dashpot's own models of a family (docs/family.md), fitted once each: family_gated "
+        "has "
+        "memory in place of the displacement and little freedom in geometry; the others are the paper's "
+        "network "
+        "as 'dashpot identify' trains it, with a price of weights.");
   if (std::string remark = raw_inputs_remark(study); !remark.empty())
     section.remarks.push_back(std::move(remark));
   return section;

@@ -25,7 +25,7 @@ inline FamilyGates example_gates() {
   gates.half_current = 0.6;
   gates.mean = {0.4, std::log(0.1), 1.5e-3, 8e-3};
   gates.scale = {0.2, 0.9, 4e-4, 1.6e-3};
-  gates.term_scale = {0.01, 1, 1, 0.01, 1};
+  gates.term_scale = {0.01, 1, 1, 0.01, 1, 1};
   for (std::size_t k = 0; k < gates.term_count() * FamilyGates::kGates; ++k)
     gates.weights.push_back(std::sin(static_cast<double>(k)));
   return gates;

@@ -26,16 +26,16 @@ TEST_CASE("a gated family is the sum of its terms, each through its gates") {
   const FamilyModel model = example_family();
   const std::vector<double> state{0.3, -0.8, 0.004};
   const DamperInput input{0, 0.02, 0.5};
-  const double terms[] = {0.02, 0.3, -0.8, 0.016, std::tanh(2.0)};
+  const double terms[] = {0.02, 0.3, -0.8, 0.016, std::tanh(2.0), 1};
   const double b = (0.5 / 1.1 - 0.4) / 0.2, e = std::log(2.8) / 0.9, h = -0.5e-3 / 4e-4, l = -2e-3 / 1.6e-3;
   const double open[] = {1, b, b * b, b * b * b, e, b * e, b * b * e, h, l, e * h, e * l, b * h, b * l};
   double sum = 0;
-  for (std::size_t j = 0; j < 5; ++j)
+  for (std::size_t j = 0; j < 6; ++j)
     for (std::size_t k = 0; k < 13; ++k)
       sum += gates.weights[j * 13 + k] * open[k] * terms[j] / gates.term_scale[j];
   CHECK_CLOSE(model.force(input, state), sum + 0.5, 1e-12, 0);
   CHECK(model.state_size() == 3);
-  CHECK(model.parameter_count() == 65);
+  CHECK(model.parameter_count() == 78);
   CHECK_FALSE(model.needs_displacement());
 }
 
@@ -59,6 +59,8 @@ TEST_CASE("a build one standard deviation strong is stronger by the family's spr
   const std::vector<double> state(3);
   const double mean = model.force(input, state) - 0.5;
   CHECK_CLOSE(model.specialised({{"build", 1}})->force(input, state), 1.1 * mean + 0.5, 1e-13, 0);
+  CHECK(model.is_ensemble());
+  CHECK_CLOSE(model.spread(input, state), 0.1 * std::abs(mean), 1e-13, 0);
 }
 
 TEST_CASE("a member outside the family is marked, or refused where that is asked") {
@@ -67,7 +69,16 @@ TEST_CASE("a member outside the family is marked, or refused where that is asked
   const auto marked = marks.specialised(far);
   REQUIRE(marked->extrapolations().size() == 1);
   CHECK(marked->extrapolations()[0] == "gap is 0.005 m, the family has 0.0005 to 0.002");
+  CHECK_CLOSE(marks.with_member(dynamic_cast<const FamilyModel&>(*marked).member())->extrapolation(),
+              (5 - 2) / 1.5, 1e-12, 0);
   CHECK(marks.extrapolations().empty());
+  CHECK_CLOSE(marks.extrapolation(), -0.5 / 1.5, 1e-12, 0);  // half a value from the lower end
+  CHECK_CLOSE(
+      marks.with_member(dynamic_cast<const FamilyModel&>(*marks.specialised({{"gap", 2e-3}})).member())
+          ->extrapolation(),
+      -0.5 / 1.5, 1e-12, 0);                                                         // the gap is at its end
+  CHECK(marks.specialised({{"gap", 2e-3 * (1 + 1e-9)}})->extrapolations().empty());  // rounding
+  CHECK(marks.specialised({{"gap", 2.001e-3}})->extrapolations().size() == 1);
   const auto refuses = marks.with_outside(OutsideFamily::Refuse);
   CHECK(message_of([&] { refuses->specialised(far); }).find("gap is 0.005 m") != std::string::npos);
   CHECK(refuses->specialised({{"gap", 1.5e-3}}) != nullptr);

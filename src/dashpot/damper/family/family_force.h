@@ -23,6 +23,9 @@ class FamilyForce {
   virtual void advance(const DamperInput&, const DamperInput&, double, std::span<double>) const noexcept {}
   virtual double force(const FamilyMember& member, const DamperInput& input,
                        std::span<const double> state) const noexcept = 0;
+  /// As DamperModel has them.
+  virtual bool is_ensemble() const noexcept { return false; }
+  virtual double spread(const FamilyMember&, const DamperInput&) const noexcept { return 0; }
   virtual Value to_json() const = 0;
 };
 std::unique_ptr<FamilyForce> family_force_from_json(const Value& value);
@@ -41,12 +44,17 @@ class FamilyNetwork final : public FamilyForce {
   std::size_t parameter_count() const noexcept override;
   double force(const FamilyMember& member, const DamperInput& input,
                std::span<const double> state) const noexcept override;
+  bool is_ensemble() const noexcept override { return evaluators_.size() > 1; }
+  double spread(const FamilyMember& member, const DamperInput& input) const noexcept override;
   Value to_json() const override;
 
   const std::vector<std::string>& inputs() const { return inputs_; }
   const std::vector<Mlp>& mlps() const { return mlps_; }
 
  private:
+  using Row = std::array<double, Mlp::kMaxWidth>;
+  Row read(const FamilyMember& member, const DamperInput& input) const noexcept;
+
   std::vector<std::string> inputs_;
   std::vector<FamilyInput> reads_;
   std::vector<Mlp> mlps_;
@@ -55,7 +63,7 @@ class FamilyNetwork final : public FamilyForce {
 
 /// Memory from a bank of states that read the velocity; geometry, fluid and field enter as gates, polynomials
 /// of low order in few numbers:
-///   F = sum_j (sum_k W_jk g_k) t_j / s_j,  t = [v, w, v - y, tanh(v / v_m)],  g = prod_n q_n^e_kn,
+///   F = sum_j (sum_k W_jk g_k) t_j / s_j,  t = [v, w, v - y, tanh(v / v_m), 1],  g = prod_n q_n^e_kn,
 /// q: the field's share i / (i + i_half), the logarithm of the viscosity, gap and pole length, standardised.
 struct FamilyGates {
   static constexpr std::size_t kQuantities = 4;  ///< q
@@ -71,7 +79,7 @@ struct FamilyGates {
   std::vector<double> term_scale;  ///< s
   std::vector<double> weights;     ///< W, row by row, N
 
-  std::size_t term_count() const noexcept { return bank.signal_count() + soft_speeds.size(); }
+  std::size_t term_count() const noexcept { return bank.signal_count() + soft_speeds.size() + 1; }
   void read_terms(const DamperInput& input, std::span<const double> state, double* terms) const noexcept;
   Quantities quantities(const FamilyMember& member, double current) const noexcept;  ///< standardised
   /// Powers of the quantities in each gate.

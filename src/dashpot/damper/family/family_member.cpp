@@ -82,6 +82,12 @@ void require_member(const Conditions& conditions, const std::string& where) {
 
 FamilyMember member_of(const DamperDescription& description, double largest_current) {
   constexpr int kPoints = 32;
+  std::vector<double> currents;
+  for (int k = 0; k <= kPoints; ++k) currents.push_back(largest_current * k / kPoints);
+  return member_of(description, currents);
+}
+
+FamilyMember member_of(const DamperDescription& description, std::span<const double> currents) {
   const DamperPhysics physics = evaluate_physics(description, {});
   FamilyMember member;
   member.piston_area = physics.piston_area;
@@ -90,9 +96,9 @@ FamilyMember member_of(const DamperDescription& description, double largest_curr
   member.pole_length = description.pole_length;
   member.viscosity = physics.viscosity;
   member.spring_stiffness = physics.spring_stiffness;
-  for (int k = 0; k <= kPoints; ++k) {
-    member.yield.currents.push_back(largest_current * k / kPoints);
-    member.yield.stresses.push_back(fluid_state(description, member.yield.currents.back()).yield_stress);
+  for (const double current : currents) {
+    member.yield.currents.push_back(current);
+    member.yield.stresses.push_back(fluid_state(description, current).yield_stress);
   }
   return member;
 }

@@ -46,8 +46,10 @@ FamilyMember with_conditions(FamilyMember member, const Conditions& conditions, 
 /// Throws Error(where, "has no condition 'gap', which ...") unless the conditions state a whole member.
 void require_member(const Conditions& conditions, const std::string& where);
 
-/// The member that a drawing, a coil and a fluid make, with its yield stress up to a current, A.
+/// The member that a drawing, a coil and a fluid make, with its yield stress up to a current, A; or at these,
+/// ascending from 0 on.
 FamilyMember member_of(const DamperDescription& description, double largest_current);
+FamilyMember member_of(const DamperDescription& description, std::span<const double> currents);
 
 Value to_json(const FamilyMember& member);
 FamilyMember read_member(const Value& value);

@@ -1,5 +1,8 @@
 #include "dashpot/damper/family/family_model.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
 
@@ -26,8 +29,20 @@ void FamilyModel::advance(const DamperInput& from, const DamperInput& to, double
 }
 
 double FamilyModel::force(const DamperInput& input, std::span<const double> state) const noexcept {
-  const double sum = family_->baseline.force(member_, input) + family_->force->force(member_, input, state);
-  return strength_ * sum + offset_;
+  return strength_ * told(input, state) + offset_;
+}
+
+double FamilyModel::told(const DamperInput& input, std::span<const double> state) const noexcept {
+  return family_->baseline.force(member_, input) + family_->force->force(member_, input, state);
+}
+
+bool FamilyModel::is_ensemble() const noexcept {
+  return family_->build_spread > 0 || family_->force->is_ensemble();
+}
+
+double FamilyModel::spread(const DamperInput& input, std::span<const double> state) const noexcept {
+  return std::hypot(family_->build_spread * told(input, state),
+                    strength_ * family_->force->spread(member_, input));
 }
 
 std::unique_ptr<DamperModel> FamilyModel::with_offset(double newton) const {
@@ -55,12 +70,29 @@ std::shared_ptr<const DamperModel> FamilyModel::specialised(const Conditions& co
   return any ? with_member(with_conditions(member_, conditions, name())) : nullptr;
 }
 
-std::vector<std::string> FamilyModel::extrapolations() const {
+double Family::Range::excess(double value) const noexcept {
   constexpr double kRounding = 1e-6;
+  const double beyond = std::max(min - value, value - max);
+  return std::abs(beyond) <= kRounding * max ? 0 : beyond;
+}
+
+double FamilyModel::extrapolation() const noexcept {
+  double most = -1;
+  bool any = false;
+  for (const Family::Range& range : family_->domain) {
+    const double beyond = range.excess(member_.*range.field);
+    if (beyond == 0) continue;
+    most = std::max(most, beyond / (range.max > range.min ? range.max - range.min : range.max));
+    any = true;
+  }
+  return any ? most : 0;
+}
+
+std::vector<std::string> FamilyModel::extrapolations() const {
   std::vector<std::string> outside;
   for (const Family::Range& range : family_->domain) {
     const double value = member_.*range.field;
-    if (value >= range.min * (1 - kRounding) && value <= range.max * (1 + kRounding)) continue;
+    if (range.excess(value) <= 0) continue;
     for (const MemberField& field : member_fields())
       if (field.field == range.field)
         outside.push_back(std::string(field.name) + " is " + format_number(value) + " " +

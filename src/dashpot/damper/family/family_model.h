@@ -16,6 +16,8 @@ struct Family {
   struct Range {
     double FamilyMember::* field;
     double min = 0, max = 0;
+    /// By how much a value lies outside; negative within, 0 at an end but for rounding.
+    double excess(double value) const noexcept;
   };
   std::string name;
   std::shared_ptr<const FamilyForce> force;
@@ -40,11 +42,17 @@ class FamilyModel final : public DamperModel {
   void advance(const DamperInput& from, const DamperInput& to, double dt,
                std::span<double> state) const noexcept override;
   double force(const DamperInput& input, std::span<const double> state) const noexcept override;
+  /// By how much a new damper of this design differs from their mean, and networks from theirs.
+  bool is_ensemble() const noexcept override;
+  double spread(const DamperInput& input, std::span<const double> state) const noexcept override;
   std::unique_ptr<DamperModel> with_offset(double newton) const override;
   Value to_json() const override;
   /// Throws Error where such a member is outside the family, and that is to be refused.
   std::shared_ptr<const DamperModel> specialised(const Conditions& conditions) const override;
   std::vector<std::string> extrapolations() const override;
+  /// How far this damper lies outside of the family, in shares of its ranges; within negative: how far the
+  /// nearest end is, those left out at which it lies.
+  double extrapolation() const noexcept;
 
   const Family& family() const { return *family_; }
   const FamilyMember& member() const { return member_; }
@@ -55,6 +63,9 @@ class FamilyModel final : public DamperModel {
   std::unique_ptr<FamilyModel> with_outside(OutsideFamily outside) const;
 
  private:
+  /// Of the mean build.
+  double told(const DamperInput& input, std::span<const double> state) const noexcept;
+
   std::shared_ptr<const Family> family_;
   FamilyMember member_;
   double offset_, strength_;

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
@@ -63,13 +64,30 @@ std::size_t FamilyNetwork::parameter_count() const noexcept {
   return count;
 }
 
+FamilyNetwork::Row FamilyNetwork::read(const FamilyMember& member, const DamperInput& input) const noexcept {
+  Row row;
+  for (std::size_t k = 0; k < reads_.size(); ++k) row[k] = reads_[k](member, input);
+  return row;
+}
+
 double FamilyNetwork::force(const FamilyMember& member, const DamperInput& input,
                             std::span<const double>) const noexcept {
-  std::array<double, Mlp::kMaxWidth> raw;
-  for (std::size_t k = 0; k < reads_.size(); ++k) raw[k] = reads_[k](member, input);
+  const Row row = read(member, input);
   double sum = 0;
-  for (const MlpEvaluator<double>& evaluator : evaluators_) sum += evaluator.evaluate(raw.data());
+  for (const MlpEvaluator<double>& evaluator : evaluators_) sum += evaluator.evaluate(row.data());
   return sum / static_cast<double>(evaluators_.size());
+}
+
+double FamilyNetwork::spread(const FamilyMember& member, const DamperInput& input) const noexcept {
+  if (!is_ensemble()) return 0;
+  const Row row = read(member, input);
+  const double mean = force(member, input, {});
+  double squares = 0;
+  for (const MlpEvaluator<double>& evaluator : evaluators_) {
+    const double off = evaluator.evaluate(row.data()) - mean;
+    squares += off * off;
+  }
+  return std::sqrt(squares / static_cast<double>(evaluators_.size() - 1));
 }
 
 Value FamilyNetwork::to_json() const {

@@ -25,7 +25,7 @@ std::array<FamilyPreset, 4> make_presets() {
   presets[0] = {.name = "family_gated",
                 .title = "Gated family with memory, one sensor",
                 .equation =
-                    "F = sum_j (sum_k W_jk g_k) t_j / s_j,  t = [v, w, v - y, tanh(v / v_m)],\n"
+                    "F = sum_j (sum_k W_jk g_k) t_j / s_j,  t = [v, w, v - y, tanh(v / v_m), 1],\n"
                     "g = 1, b, b^2, b^3, e, b e, b^2 e, h, L, e h, e L, b h, b L,\n"
                     "b = |i| / (|i| + i_half),  e = ln eta,  w' = rho (v - |v| w),  y' = lambda (v - y)",
                 .source = "Dashpot's own; b saturates as the family paper's equation 8",
@@ -41,7 +41,7 @@ std::array<FamilyPreset, 4> make_presets() {
   constexpr std::string_view kPlain =
       "Static, so that displacement stands for the memory. Inputs standardised and trained by Adam, 200 "
       "epochs "
-      "of batches of 100, the rate falling as a cosine from 0.005; ";
+      "of batches of 100, the rate falling as a cosine from 0.005, with a price of weights; ";
   static const std::array<std::string, 3> kRemarks{
       std::string(kPlain) + "the authors' notebook standardises nothing.",
       std::string(kPlain) + "the share of the plate flow's force is fitted first.",

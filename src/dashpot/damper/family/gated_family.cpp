@@ -57,6 +57,7 @@ void FamilyGates::read_terms(const DamperInput& input, std::span<const double> s
   bank.read(input, state, terms);
   terms += bank.signal_count();
   for (const double speed : soft_speeds) *terms++ = std::tanh(input.velocity / speed);
+  *terms = 1;
 }
 
 FamilyGates::Quantities FamilyGates::quantities(const FamilyMember& member, double current) const noexcept {

@@ -11,11 +11,12 @@ function design_figures(data) {
   };
   const figure = (kind, named, index, text, rest = {}) => ({kind, key: `${kind}-${index}`, named, text: unbroken(text),
     label: with_shown_unit(named, words(text)), value: scaled(named, (design) => design[kind][index]), ...rest});
-  const second = (named, index) => data.second_model ? scaled(named, (design) => design.second?.[index]) : null;
+  const told = (by) => (named, index) => data.second_model ? scaled(named, (design) => design[by]?.[index]) : null;
+  const first = told("first"), second = told("second");
   return [
     ...data.goals.map((goal, i) => figure("goals", goal, i, goal.text.replace(/^(largest|smallest) /, ""), {second: second(goal, i), hint: goal.meaning})),
     ...data.constraints.map((own, i) => figure("constraints", own, i, own.text.replace(/ at (least|most) \S+( [^ ]+)?(?= at |$)/, ""),
-      {second: second(own, data.goals.length + i), bound: own.bound / own.shown_factor, hint: own.text})),
+      {first: first(own, data.goals.length + i), second: second(own, data.goals.length + i), bound: own.bound / own.shown_factor, hint: own.text})),
     ...data.variables.map((own, i) => figure("variables", own, i, own.name, {hint: own.meaning})).filter((own) => own.named.name !== "fluid"),
   ];
 }
@@ -40,6 +41,7 @@ function design_head(data) {
     element("h1", {}, data.name || "Design"),
     element("p", {class: "under"}, `${models} · ${data.evaluations} dampers assessed in ${seconds_text(data.wall_seconds)} · ${data.date}`),
     ...design_verdict(data.verdict.split("\n")),
+    data.notes?.length ? element("ul", {class: "under"}, data.notes.map((note) => element("li", {}, unbroken(words(note))))) : null,
     best ? element("div", {class: "figures"}, goals.map(figure),
       figure([String(data.designs.length), "", data.designs.length === 1 ? "design" : "designs"])) : null);
 }
@@ -71,7 +73,8 @@ function design_columns(data, figures) {
     ...(fluid < 0 ? [] : [{title: "fluid", value: (design) => design.variables[fluid]}]),
     ...numbers("variables"),
     ...(data.second_model ? [{title: "Models differ %", numeric: true, hint: "The largest difference of a goal or constraint, as drawn", value: (d) => d.disagreement, text: (d) => percent_text(100 * d.disagreement)}] : []),
-    {title: "Note", value: (design) => design.role},
+    {title: "Note", hint: "Beyond the family: its model extrapolates there",
+      value: (design) => [design.role, design.beyond_family ? "beyond the family" : ""].filter(Boolean).join("; ")},
   ];
 }
 
@@ -83,7 +86,8 @@ function constraint_table(data, design) {
   return sortable_table(`Constraints of ${design.name}`, [
     {title: "Constraint", value: (row) => unbroken(words(row.own.text))},
     {title: "Reached", numeric: true, value: (row) => figures[row.i].value(design), text: (row) => shown(row, figures[row.i].value(design))},
-    ...(data.second_model ? [{title: `By ${data.second_model}`, numeric: true, value: (row) => figures[row.i].second(design), text: (row) => shown(row, figures[row.i].second(design))}] : []),
+    ...(data.second_model ? [["first", data.model], ["second", data.second_model]].map(([by, name]) => ({title: `By ${name}`, numeric: true, hint: "As drawn",
+      value: (row) => figures[row.i][by](design), text: (row) => shown(row, figures[row.i][by](design))})) : []),
     {title: "Left over %", numeric: true, hint: "In shares of the bound", value: (row) => design.slack[row.i], text: (row) => percent_text(100 * design.slack[row.i])},
   ], rows);
 }

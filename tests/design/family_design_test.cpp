@@ -1,0 +1,145 @@
+#include <filesystem>
+
+#include "damper/family/example_family.h"
+#include "dashpot/base/error.h"
+#include "dashpot/design/design.h"
+#include "dashpot/output/design_report.h"
+#include "support.h"
+
+using namespace dashpot;
+
+namespace {
+
+// Gap and pole length of the family paper's prototype: the family has gaps of 0.5 to 2 mm.
+constexpr const char* kRequest = R"(
+damper: family_prototype
+at: {current: 0.5 A, velocity: 20 mm/s}
+vary: {gap: {from: 1.5 mm, to: 3 mm}, pole_length: {from: 6 mm, to: 10 mm}, turns: {from: 3000, to: 4000}}
+follow: {gap_area: {gap: 0.02487}, magnetic_gap: {gap: 2}}
+goals: [{maximise: gap}]
+)";
+
+/// The example's file, of a family that was driven up to 1 A, 50 mm/s and 20 mm.
+std::string family_file(const TemporaryFolder& folder, const FamilyModel& model) {
+  const auto path = folder.path() / "family.json";
+  ModelFile file;
+  file.model = model.with_offset(0);
+  file.domain = {-0.02, 0.02, -0.05, 0.05, 0, 1};
+  save_model(file, path);
+  return path.string();
+}
+
+DesignReport designed(const std::string& text, DesignOptions options) {
+  options.threads = 1;
+  return design(parse_request(text, "request.yaml"), options);
+}
+
+}  // namespace
+
+TEST_CASE("design by a family: a model without a memory gives the force of the member that is drawn") {
+  const TemporaryFolder folder;
+  const FamilyModel family = example_family_network();
+  const auto model = make_design_model(family_file(folder, family), "--model");
+  CHECK(model->name() == "family_h3x15");
+  CHECK(model->is_fitted());
+  const DamperDescription drawn = named_description("family_prototype");
+  const DamperOperation at{0.7, 0.02, 0.001};
+  const DamperPhysics physics = evaluate_physics(drawn, at), told = model->evaluate(drawn, at);
+  const FamilyMember member = member_of(drawn, std::vector<double>{0, 0.7});
+  const double force = family.with_member(member)->force({0.001, 0.02, 0.7}, {});
+  const double off = family.with_member(member)->force({0.001, 0.02, 0}, {});
+  CHECK_CLOSE(told.force, force, 1e-12, 0);
+  CHECK_CLOSE(told.off_force, off, 1e-12, 0);
+  CHECK_CLOSE(told.dynamic_range, (force - physics.spring_force) / (off - physics.spring_force), 1e-12, 0);
+  CHECK(told.flux_density == physics.flux_density);  // the rest is first principles'
+}
+
+TEST_CASE("design by a family: one with a memory is told in a sine of the stroke of its recordings") {
+  const TemporaryFolder folder;
+  const auto model = make_design_model(family_file(folder, example_family()), "--model");
+  const DamperDescription drawn = named_description("family_prototype");
+  const DamperOperation at{0.7, 0.02};
+  // The same motion, run for twenty cycles in steps a tenth as long.
+  const auto damper = example_family().with_member(member_of(drawn, 0.7));
+  const double rate = 0.02 / 0.02, step = 2 * 3.14159265358979 / rate / 1000;
+  std::vector<double> state(damper->state_size());
+  DamperInput now{0, 0.02, 0.7};
+  damper->rest(now, state);
+  for (int k = 1; k <= 20000; ++k) {
+    const double phase = rate * step * k;
+    const DamperInput next{0.02 * std::sin(phase), 0.02 * std::cos(phase), 0.7};
+    damper->advance(now, next, step, state);
+    now = next;
+  }
+  CHECK_CLOSE(model->evaluate(drawn, at).force, damper->force(now, state), 2e-3, 0);
+}
+
+TEST_CASE("design beyond a family: marked, or kept within it by a constraint of its own") {
+  const TemporaryFolder folder;
+  const std::string file = family_file(folder, example_family());
+  const DesignReport marked = designed(kRequest, {.model = file});
+  REQUIRE(marked.designs.size() == 1);
+  CHECK_CLOSE(marked.designs[0].damper.gap, 3e-3, 1e-6, 0);
+  REQUIRE(!marked.designs[0].outside.empty());
+  CHECK(marked.designs[0].outside[0].find("the family has") != std::string::npos);
+  CHECK(csv_design(marked).find("the family has") != std::string::npos);
+  CHECK(design_verdict(marked).find("beyond the dampers") != std::string::npos);
+
+  const DesignReport within = designed(kRequest, {.model = file, .refuse_outside = true});
+  REQUIRE(within.designs.size() == 1);
+  CHECK(within.designs[0].outside.empty());
+  CHECK_CLOSE(within.designs[0].damper.gap, 2e-3, 1e-4, 0);
+}
+
+TEST_CASE("design by two models: constraints and goals of either, and by how much they differ") {
+  const TemporaryFolder folder;
+  const std::string file = family_file(folder, example_family_network());
+  const std::string request = std::string(kRequest).substr(0, std::string(kRequest).find("goals")) + R"(
+constraints: [{quantity: force, min: 1 N}, {quantity: force, max: 1 MN, by: both}]
+goals: [{maximise: force, by: second}]
+)";
+  const DesignReport report = designed(request, {.model = "physics", .second = file});
+  REQUIRE(report.designs.size() == 1);
+  const Design& own = report.designs[0];
+  CHECK(report.request.constraints.size() == 3);
+  CHECK(own.assessment.goals[0] == own.second[0]);
+  CHECK(own.assessment.constraints[0] == own.first[1]);
+  CHECK(own.assessment.constraints[2] == own.second[3]);
+  CHECK_CLOSE(own.disagreement, std::abs(own.second[0] / own.first[0] - 1), 1e-12, 0);
+  CHECK(describe(report.request.goals[0]).ends_with(", by the second model"));
+  CHECK(constraint_table(report, own, 160).find("family_h3x15") != std::string::npos);
+  CHECK(message_of([&] { designed(request, {.model = file}); }).find("second model") != std::string::npos);
+}
+
+TEST_CASE("design by a family: what it cannot know is told") {
+  const TemporaryFolder folder;
+  const std::string file = family_file(folder, example_family());
+  const std::string request = std::string(kRequest).substr(0, std::string(kRequest).find("goals")) +
+                              "goals: [{maximise: force, current: 3 A}]";
+  const DesignReport report = designed(request, {.model = file});
+  REQUIRE(report.notes.size() == 2);
+  CHECK(report.notes[0] == "family_gated knows a current up to 1 A, not of 3 A");
+  CHECK(report.notes[1].find("does not see turns:") != std::string::npos);  // it reads the current
+  CHECK(message_of([&] { designed(request, {.model = file, .refuse_outside = true}); }).find("3 A") !=
+        std::string::npos);
+  const std::string law = folder.write("law.json", "{}").string();
+  CHECK_THROWS_AS(make_design_model(law, "--model"), Error);
+}
+
+TEST_CASE("a design by a family is a member of it, as a file that reads back") {
+  const TemporaryFolder folder;
+  const auto model = make_design_model(family_file(folder, example_family()), "--model");
+  DamperDescription drawn = named_description("family_prototype");
+  drawn.gap = 1.7e-3;
+  const std::optional<ModelFile> file = model->model_of(drawn);
+  REQUIRE(file);
+  const ModelFile read = parse_model(format_model(*file), "design");
+  const auto& member = dynamic_cast<const FamilyModel&>(*read.model);
+  CHECK(member.member().gap == 1.7e-3);
+  CHECK(member.member().viscosity == 0.28);
+  CHECK(read.domain.current_max == 1);
+  const std::vector<double> state{0.2, 0.4, 0.01};
+  CHECK(member.force({0, 0.02, 0.5}, state) ==
+        example_family().specialised({{"gap", 1.7e-3}})->force({0, 0.02, 0.5}, state));
+  CHECK(!make_design_model("physics", "")->model_of(drawn));
+}
