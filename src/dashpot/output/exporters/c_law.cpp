@@ -80,17 +80,16 @@ std::string integration(const Law& law) {
       "#define LAW_MOST_STATES " + states +
       "\n\nstatic inline void law_derivative(const LawParameters* p, double x, double v, const "
       "double* z, double* dz) {\n  " +
-      name + "_derivative(p, x, v, z, dz);\n}\n\n" +
-      c_texts_joined(std::vector<std::string>{"law_runge_kutta.h"});
+      name + "_derivative(p, x, v, z, dz);\n}\n\n" + "#include \"law_runge_kutta.h\"\n";
   if (law.exact_step)
     code += "static inline double law_travel(const LawParameters* p, double z, double s) {\n  return " +
-            name + "_travel(p, z, s);\n}\n\n" + c_texts_joined(std::vector<std::string>{"law_travel.h"});
+            name + "_travel(p, z, s);\n}\n\n" + "#include \"law_travel.h\"\n";
   code += filled(kSteps, {{"states", states},
                           {"law", name},
                           {"has_step", law.step ? "1" : "0"},
                           {"exact", law.exact_step ? "1" : "0"},
                           {"own_step", own_step(law)}});
-  return code + c_texts_joined(std::vector<std::string>{"law_path.h", "law_integrate.h"});
+  return code + "#include \"law_path.h\"\n#include \"law_integrate.h\"\n";
 }
 
 constexpr const char* kCoilAlone =
@@ -169,7 +168,7 @@ CModel c_law(const LawModel& model, const std::string& stem) {
   const std::string name(law.name);
   if (!has_c_text(name + ".h")) throw Error(name, "its law has no C text in this build of Dashpot");
   std::string code =
-      c_texts_joined(std::vector<std::string>{name + ".h"}) + "typedef " + pascal_case(name) +
+      "#include \"" + name + ".h\"\n" + "typedef " + pascal_case(name) +
       " LawParameters;\n\ntypedef struct LawModel {\n  double lag_rate; /* 1/s, of the coil; 0: "
       "none */\n} LawModel;\n\nstatic const LawModel kLaw = {" +
       c_number(model.lag_rate()) + "};\n\n" + parameter_function(model);
@@ -181,12 +180,12 @@ CModel c_law(const LawModel& model, const std::string& stem) {
   if (!law.states.empty())
     code += integration(law);
   else if (model.lag_rate() > 0)
-    code += c_texts_joined(std::vector<std::string>{"law_path.h"});
-  const bool has_states = model.state_size() > 0;
+    code += "#include \"law_path.h\"\n";
+  const bool has_derivatives = model.state_size() > 0 && stem == "model";
   code += filled(rest_function(model) + advance_function(model) + force_function(model) +
-                     (has_states ? derivative_function(model) : ""),
+                     (has_derivatives ? derivative_function(model) : ""),
                  {{"stem", stem}, {"law", name}, {"states", std::to_string(law.states.size())}});
-  return {code, has_states};
+  return {code, has_derivatives};
 }
 
 }  // namespace dashpot

@@ -99,6 +99,14 @@ std::string rows_of(const ExportedModel& model, double sample_time) {
   return rows;
 }
 
+/// As the registry has it; a design of the user's has its name alone.
+std::string title_of(const DamperModel& model) {
+  for (const std::vector<std::string>& names : {model_names(), more_model_names()})
+    if (std::ranges::find(names, model.name()) != names.end())
+      return std::string(model_info(model.name()).title);
+  return model.name();
+}
+
 /// Text that ends no comment.
 std::string in_comment(std::string text) {
   for (std::size_t at = 0; (at = text.find("*/", at)) != std::string::npos;) text.insert(at + 1, " ");
@@ -108,8 +116,7 @@ std::string in_comment(std::string text) {
 std::vector<std::pair<std::string, std::string>> facts(const ExportedModel& model,
                                                        const ExportOptions& options, const CSource& source) {
   const Domain& d = model.domain;
-  const ModelInfo info = model_info(model.model.name());
-  return {{"title", std::string(info.title)},
+  return {{"title", title_of(model.model)},
           {"prefix", source.prefix},
           {"what", in_comment(model.origin)},
           {"unit", model.drive_unit},
@@ -162,7 +169,7 @@ CSource c_source(const ExportedModel& model, const ExportOptions& options) {
                            (code.has_derivatives ? kDerivatives : "") + kHeaderEnd);
   source.source = finished(
       "#include \"" + source.prefix + ".h\"\n\n#include <math.h>\n\ntypedef damper_input DamperInput;\n\n" +
-      code.code + std::string(c_text("damper_api.c")) +
+      with_texts(code.code) + std::string(c_text("damper_api.c")) +
       (code.has_derivatives
            ? "\nvoid damper_derivatives(const damper_input* input, const double* state, double* "
              "derivatives) {\n  model_derivatives(input, state, derivatives);\n}\n"

@@ -82,23 +82,26 @@ std::string single_number(std::string_view number) {
   return std::string(number) + "F";
 }
 
-void join_text(const std::string& name, std::vector<std::string>& done, std::string& out) {
-  if (std::ranges::find(done, name) != done.end()) return;
-  done.push_back(name);
-  std::string own;
-  const auto is_guard = [&](const std::string& line) {
-    return line.starts_with("#ifndef DASHPOT_") || line.starts_with("#define DASHPOT_LAW_") ||
-           line == "#endif" || (line.starts_with("#define DASHPOT_") && line.ends_with("_H"));
-  };
-  for (const std::string& line : split(c_text(name), '\n')) {
-    if (line.starts_with("#include \"")) {
-      const std::string path = line.substr(10, line.size() - 11);
-      join_text(path.substr(path.rfind('/') + 1), done, out);
-    } else if (!line.starts_with("#include") && !is_guard(line)) {
-      own += line + '\n';
+/// What keeps a header from being read twice.
+bool is_guard(const std::string& line) {
+  return line.starts_with("#ifndef DASHPOT_") || line.starts_with("#endif") ||
+         (line.starts_with("#define DASHPOT_") && line.ends_with("_H"));
+}
+
+void expand(std::string_view code, std::vector<std::string>& done, std::string& out) {
+  for (const std::string& line : split(code, '\n')) {
+    if (!line.starts_with("#include \"")) {
+      out += line + '\n';
+      continue;
     }
+    const std::string path = line.substr(10, line.size() - 11), name = path.substr(path.rfind('/') + 1);
+    if (std::ranges::find(done, name) != done.end()) continue;
+    done.push_back(name);
+    std::string text;
+    for (const std::string& own : split(c_text(name), '\n'))
+      if (!own.starts_with("#include <") && !is_guard(own)) text += own + '\n';
+    expand(std::string(trim(text)) + '\n', done, out);
   }
-  out += std::string(trim(own)) + "\n\n";
 }
 
 }  // namespace
@@ -113,10 +116,10 @@ std::string_view c_text(std::string_view name) {
   throw Error(std::string(name), "is no C text of Dashpot");
 }
 
-std::string c_texts_joined(std::span<const std::string> names) {
+std::string with_texts(std::string_view code) {
   std::vector<std::string> done;
   std::string out;
-  for (const std::string& name : names) join_text(name, done, out);
+  expand(code, done, out);
   return out;
 }
 

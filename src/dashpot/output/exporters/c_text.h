@@ -13,8 +13,9 @@ bool has_c_text(std::string_view name);
 /// One of them. Throws Error when there is none of this name.
 std::string_view c_text(std::string_view name);
 
-/// These texts in this order, behind all that they include with "", each once, without guards and includes.
-std::string c_texts_joined(std::span<const std::string> names);
+/// Code with each line `#include "name.h"` that names such a text replaced by it, each once, without its
+/// guard and what it includes in <>.
+std::string with_texts(std::string_view code);
 
 enum class CPrecision { Double, Single };
 
