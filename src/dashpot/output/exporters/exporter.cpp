@@ -7,13 +7,20 @@
 #include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
 #include "dashpot/output/exporters/c_source.h"
+#include "dashpot/output/exporters/fmu.h"
 
 namespace dashpot {
 namespace {
 
 constexpr std::array kExporters{
     Exporter{"c", "C99 for an ECU or a simulator", "every model",
-             "NAME.h, NAME.c and NAME_test.c, a main that checks them along a run", write_c_source}};
+             "NAME.h, NAME.c and NAME_test.c, a main that checks them along a run", write_c_source},
+    Exporter{"fmu2", "FMU of FMI 2.0 for a simulator",
+             "every model; model exchange for laws and models without a state",
+             "NAME.fmu with its sources and a binary for Linux", write_fmu2},
+    Exporter{"fmu3", "FMU of FMI 3.0 for a simulator",
+             "every model; model exchange for laws and models without a state",
+             "NAME.fmu with its sources and a binary for Linux", write_fmu3}};
 
 bool is_c_name(const std::string& name) {
   const auto is_word = [](char c) {
