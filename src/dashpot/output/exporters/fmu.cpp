@@ -139,15 +139,15 @@ std::vector<ExportedFile> write_fmu(const ExportedModel& model, const ExportOpti
       {"documentation/index.html", fmu_page(fmu)}};
   const std::string results = "extra/org.fmi-standard.fmi-ls-ref/";
   files.push_back({results + "fmi-ls-manifest.xml", fmu_reference_manifest(fmu)});
-  files.push_back({results + fmu.source.prefix + "_out.csv", fmu_reference_run(fmu)});
+  files.push_back({results + fmu.name + "_out.csv", fmu_reference_run(fmu)});
   const std::vector<ExportedFile> sources = fmu_sources(fmu);
   for (const ExportedFile& file : sources) files.push_back({"sources/" + file.name, file.content});
   if (version == 3) files.push_back({"sources/buildDescription.xml", fmu_build_description(fmu)});
   if (!options.sources_only)
     files.push_back(
-        {std::string("binaries/") + (version == 2 ? "linux64/" : "x86_64-linux/") + fmu.source.prefix + ".so",
+        {std::string("binaries/") + (version == 2 ? "linux64/" : "x86_64-linux/") + fmu.name + ".so",
          compile_shared_library(sources, fmu_translation_units(fmu), options.compiler)});
-  return {{fmu.source.prefix + ".fmu", zip_archive(files, fmu.made)}};
+  return {{fmu.name + ".fmu", zip_archive(files, fmu.made)}};
 }
 
 }  // namespace
@@ -156,8 +156,10 @@ Fmu make_fmu(const ExportedModel& model, const ExportOptions& options, int versi
   ExportOptions own = options;
   own.precision = CPrecision::Double;
   own.settable_parameters = true;
+  own.name = "damper";
   const ModelInfo info = model_info(model.model.name());
   Fmu fmu{.version = version,
+          .name = export_name(model, options),
           .source = c_source(model, own),
           .made = time_of_making(),
           .title = std::string(info.title),

@@ -19,8 +19,9 @@ struct FmuVariable {
 
 /// What an FMU says of itself, whichever version of FMI it speaks.
 struct Fmu {
-  int version = 3;  ///< of FMI: 2 or 3
-  CSource source;
+  int version = 3;   ///< of FMI: 2 or 3
+  std::string name;  ///< of the archive and the library
+  CSource source;    ///< whose names begin with "damper", whatever the FMU's name: it may be that of a law
   std::vector<FmuVariable> variables;
   std::string token;     ///< FMI 2's GUID, FMI 3's instantiation token: a hash of all the rest but the date
   std::string date;      ///< xs:dateTime; that of SOURCE_DATE_EPOCH where it is set

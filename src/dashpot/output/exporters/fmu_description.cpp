@@ -94,7 +94,7 @@ std::string about(const Fmu& fmu) { return fmu.title + ". " + fmu.origin; }
 
 void add_fmi2_interface(const Fmu& fmu, const char* kind, Node root) {
   Node node = root.append_child(kind);
-  set(node, "modelIdentifier", fmu.source.prefix);
+  set(node, "modelIdentifier", fmu.name);
   if (kind == std::string_view("CoSimulation")) set(node, "canHandleVariableCommunicationStepSize", "true");
   for (const char* can : {"canGetAndSetFMUstate", "canSerializeFMUstate", "providesDirectionalDerivative"})
     set(node, can, "true");
@@ -104,7 +104,7 @@ void add_fmi2_interface(const Fmu& fmu, const char* kind, Node root) {
 
 void add_fmi3_interface(const Fmu& fmu, const char* kind, Node root) {
   Node node = root.append_child(kind);
-  set(node, "modelIdentifier", fmu.source.prefix);
+  set(node, "modelIdentifier", fmu.name);
   for (const char* can : {"canGetAndSetFMUState", "canSerializeFMUState", "providesDirectionalDerivatives"})
     set(node, can, "true");
   if (kind != std::string_view("CoSimulation")) return;
@@ -149,7 +149,7 @@ std::string fmi2_description(const Fmu& fmu) {
   pugi::xml_document document;
   Node root = begin(document, "fmiModelDescription");
   set(root, "fmiVersion", "2.0");
-  set(root, "modelName", fmu.source.prefix);
+  set(root, "modelName", fmu.name);
   set(root, "guid", fmu.token);
   set(root, "description", about(fmu));
   set(root, "generationTool", fmu.tool);
@@ -170,7 +170,7 @@ std::string fmi3_description(const Fmu& fmu) {
   pugi::xml_document document;
   Node root = begin(document, "fmiModelDescription");
   set(root, "fmiVersion", "3.0");
-  set(root, "modelName", fmu.source.prefix);
+  set(root, "modelName", fmu.name);
   set(root, "instantiationToken", fmu.token);
   set(root, "description", about(fmu));
   set(root, "generationTool", fmu.tool);
@@ -210,7 +210,7 @@ std::string fmu_build_description(const Fmu& fmu) {
   Node root = begin(document, "fmiBuildDescription");
   set(root, "fmiVersion", "3.0");
   Node configuration = root.append_child("BuildConfiguration");
-  set(configuration, "modelIdentifier", fmu.source.prefix);
+  set(configuration, "modelIdentifier", fmu.name);
   set(configuration, "description", "C99 and its library of mathematics, nothing else");
   Node files = configuration.append_child("SourceFileSet");
   set(files, "language", "C99");
@@ -231,7 +231,7 @@ std::string fmu_reference_manifest(const Fmu& fmu) {
   set(root, "fmi-ls:fmi-ls-description", "reference files");
   Node file = root.append_child("Related");
   set(file, "type", "text/csv");
-  set(file, "source", fmu.source.prefix + "_out.csv");
+  set(file, "source", fmu.name + "_out.csv");
   set(file, "role", "result");
   set(file, "description", "inputs and the force at the same instants, by Dashpot itself");
   return text_of(document);

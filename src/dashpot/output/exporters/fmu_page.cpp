@@ -75,10 +75,10 @@ std::string fmu_page(const Fmu& fmu) {
   html.append_attribute("lang") = "en";
   Node head = html.append_child("head");
   head.append_child("meta").append_attribute("charset") = "utf-8";
-  add(head, "title", fmu.source.prefix);
+  add(head, "title", fmu.name);
   add(head, "style", kStyle);
   Node body = html.append_child("body");
-  add(body, "h1", fmu.source.prefix + ": " + fmu.title);
+  add(body, "h1", fmu.name + ": " + fmu.title);
   add(body, "p", fmu.origin);
   add(body, "pre", fmu.equation);
   add(body, "p", "Source: " + fmu.literature + ".");
