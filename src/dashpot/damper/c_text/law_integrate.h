@@ -27,9 +27,11 @@ static inline void law_explicit_steps(const LawModel* m, const LawPath* path, co
                                       int count, double* z) {
   const double h = path->dt / count;
   LawParameters begin = *start, middle, end;
-  const LawParameters* const stages[3] = {&begin, (path->varies != 0) ? &middle : &begin,
-                                          (path->varies != 0) ? &end : &begin};
+  const LawParameters* stages[3];
   int k;
+  stages[0] = &begin;
+  stages[1] = &begin;
+  stages[2] = &begin;
   for (k = 0; k < count; ++k) {
     const double t = k * h;
     double x[3], v[3];
@@ -42,6 +44,8 @@ static inline void law_explicit_steps(const LawModel* m, const LawPath* path, co
     if (path->varies != 0) {
       law_parameters(m, law_path_current(path, (k + 0.5) * h), &middle);
       law_parameters(m, law_path_current(path, (k + 1) * h), &end);
+      stages[1] = &middle;
+      stages[2] = &end;
     }
     law_explicit_step(m, stages, x, v, h, z);
     if (path->varies != 0) {

@@ -12,7 +12,7 @@ namespace {
 std::string number(std::size_t count) { return std::to_string(count); }
 
 std::string yield_stress() {
-  return "yield_stress_at(kYieldCurrents, kYieldStresses, kYieldPoints, input->current)";
+  return "yield_stress_at(kYieldCurrents, kYieldStresses, FAMILY_YIELD_POINTS, input->current)";
 }
 
 bool reads_yield_stress(const FamilyModel& model) {
@@ -25,8 +25,8 @@ bool reads_yield_stress(const FamilyModel& model) {
 }
 
 std::string yield_curve(const FamilyMember& member) {
-  return "#include \"yield_curve.h\"\nenum { kYieldPoints = " + number(member.yield.currents.size()) +
-         " };\n" + c_table("kYieldCurrents", member.yield.currents) +
+  return "#include \"yield_curve.h\"\n#define FAMILY_YIELD_POINTS " + number(member.yield.currents.size()) +
+         "\n\n" + c_table("kYieldCurrents", member.yield.currents) +
          c_table("kYieldStresses", member.yield.stresses) + "\n";
 }
 

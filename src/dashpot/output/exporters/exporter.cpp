@@ -54,7 +54,7 @@ double export_sample_time(const ExportedModel& model, const ExportOptions& optio
 }
 
 std::string export_name(const ExportedModel& model, const ExportOptions& options) {
-  std::string name = options.name.empty() ? model.model.name() : options.name;
+  std::string name = options.name.empty() ? model.model.name() + "_damper" : options.name;
   if (options.name.empty()) std::ranges::replace(name, '+', '_');
   if (!is_c_name(name))
     throw Error("name", "'" + name + "' cannot begin names in C", "letters, digits and _, no digit first");

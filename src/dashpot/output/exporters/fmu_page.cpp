@@ -96,8 +96,7 @@ std::string fmu_page(const Fmu& fmu) {
   add(body, "h2", "Made by");
   add(body, "pre", fmu.tool + ":\n" + fmu.command);
   std::ostringstream out;
-  document.save(out, " ", pugi::format_raw | pugi::format_no_declaration | pugi::format_no_empty_element_tags,
-                pugi::encoding_utf8);
+  document.save(out, " ", pugi::format_raw | pugi::format_no_declaration, pugi::encoding_utf8);
   return out.str();
 }
 
