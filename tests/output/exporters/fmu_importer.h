@@ -178,6 +178,9 @@ class FmuInstance {
 inline std::string fmu_of(const dashpot::ExportedModel& model, int version,
                           dashpot::ExportOptions options = {}) {
   options.compiler += " -O0";
+#ifdef __SANITIZE_ADDRESS__
+  options.compiler += " -fsanitize=address,undefined -fno-sanitize-recover=undefined -Wl,-z,undefs";
+#endif
   const dashpot::Exporter& exporter = dashpot::find_exporter(version == 2 ? "fmu2" : "fmu3");
   return exporter.write(model, options).front().content;
 }

@@ -260,13 +260,14 @@ static int fmu_check_new_value(const FmuInstance* f, const char* function, unsig
 /* All of them or, on an error, none. */
 static int fmu_set(FmuInstance* f, const char* function, const unsigned* references, size_t count,
                    const double* values) {
-  FmuData* d = &f->data;
+  FmuData* d;
   int parameters = 0;
   size_t k;
   if (!fmu_may(f, function, FMU_ANY & ~FMU_TERMINATED) || !fmu_takes(f, function, references, count, count) ||
       !fmu_takes(f, function, values, count, count)) {
     return FMU_ERROR;
   }
+  d = &f->data;
   for (k = 0; k < count; ++k) {
     if (fmu_check_new_value(f, function, references[k], values[k]) != FMU_OK) {
       return FMU_ERROR;

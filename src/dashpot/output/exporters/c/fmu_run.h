@@ -44,10 +44,11 @@ static int fmu_schedule(FmuInstance* f, const char* function, double start, doub
 }
 
 static int fmu_do_step(FmuInstance* f, const char* function, double point, double step) {
-  FmuData* d = &f->data;
+  FmuData* d;
   if (!fmu_may(f, function, FMU_STEP)) {
     return FMU_ERROR;
   }
+  d = &f->data;
   if (!(step >= 0) || !isfinite(step)) {
     return fmu_fail(f, function, "a step of %g s is impossible", step);
   }
