@@ -17,6 +17,8 @@ Command export_command();
 Command invert_command();
 Command physics_command();
 Command design_command();
+Command simulate_command();
+Command ride_command();
 Command bench_command();
 Command demo_command();
 Command study_command();

@@ -12,6 +12,7 @@
 #include "dashpot/base/units.h"
 #include "dashpot/damper/model_file.h"
 #include "dashpot/damper/parameter_set.h"
+#include "dashpot/output/exporters/c_inverse.h"
 #include "dashpot/output/exporters/exporter.h"
 
 namespace dashpot::cli {
@@ -62,6 +63,13 @@ std::string formats_text() {
   return text;
 }
 
+bool is_inverse(const std::string& path) {
+  if (path.empty()) return false;
+  const Value document = parse_json(read_file(path), path);
+  const Value* format = document.kind() == Value::Kind::Object ? document.find("format") : nullptr;
+  return format && format->kind() == Value::Kind::String && format->as_string() == "dashpot-inverse";
+}
+
 double sample_time_of(const DamperChoice& choice) {
   return choice.model.empty() ? 0 : load_model(choice.model).sample_time;
 }
@@ -73,16 +81,32 @@ std::string compiler_of(const Settings& settings) {
   return usual && *usual != '\0' ? usual : "cc";
 }
 
-int run(const Settings& settings, Console& console) {
-  if (settings.formats.empty())
-    throw UsageError("--to", "is missing", "one or more of " + join(exporter_names(), ", "));
-  if (settings.folder.empty()) throw UsageError("--output", "the name of the folder is empty");
+std::vector<ExportedFile> exported_damper(const Settings& settings, const ExportOptions& options,
+                                          Console& console) {
   const Damper damper = load_damper(settings.damper, "export", console);
   const ExportedModel exported{.model = *damper.model,
                                .drive_unit = damper.drive_unit,
                                .domain = damper.domain.value_or(usual_domain(damper)),
                                .sample_time = sample_time_of(settings.damper),
                                .origin = origin_of(settings.damper)};
+  std::vector<ExportedFile> files;
+  for (const std::string& format : settings.formats)
+    for (ExportedFile& file : find_exporter(format, "--to").write(exported, options))
+      files.push_back(std::move(file));
+  return files;
+}
+
+std::vector<ExportedFile> exported_inverse(const Settings& settings, const ExportOptions& options) {
+  for (const std::string& format : settings.formats)
+    if (find_exporter(format, "--to").name != "c")
+      throw Error(settings.damper.model, "is an inverse, which cannot become '" + format + "'", "--to c");
+  return write_c_inverse(load_inverse(settings.damper.model), options);
+}
+
+int run(const Settings& settings, Console& console) {
+  if (settings.formats.empty())
+    throw UsageError("--to", "is missing", "one or more of " + join(exporter_names(), ", "));
+  if (settings.folder.empty()) throw UsageError("--output", "the name of the folder is empty");
   const ExportOptions options{
       .name = settings.name,
       .precision = settings.precision == "float" ? CPrecision::Single : CPrecision::Double,
@@ -92,10 +116,9 @@ int run(const Settings& settings, Console& console) {
       .sources_only = settings.sources_only,
       .command = console.command_line(),
       .version = DASHPOT_VERSION};
-  std::vector<ExportedFile> files;
-  for (const std::string& format : settings.formats)
-    for (ExportedFile& file : find_exporter(format, "--to").write(exported, options))
-      files.push_back(std::move(file));
+  const std::vector<ExportedFile> files = is_inverse(settings.damper.model)
+                                              ? exported_inverse(settings, options)
+                                              : exported_damper(settings, options, console);
   Value list = Value::array();
   for (const ExportedFile& file : files) {
     const std::string path = (std::filesystem::path(settings.folder) / file.name).string();
@@ -147,7 +170,11 @@ Command export_command() {
                     .takes = Takes::Folder}});
   return {.name = "export",
           .title = "A model as code or tables for other programs",
-          .description = "Writes a model in a form that needs Dashpot no more." + formats_text(),
+          .description =
+              "Writes a model in a form that needs Dashpot no more; an inverse network that 'dashpot invert' "
+              "wrote "
+              "becomes C, too." +
+              formats_text(),
           .options = std::move(options),
           .example = std::string(kExample),
           .run = [settings](Console& console) { return run(*settings, console); }};

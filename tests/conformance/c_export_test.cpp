@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cctype>
 
-#include "dashpot/base/file.h"
-#include "dashpot/base/text.h"
+#include "damper/inverse/example_network.h"
+#include "dashpot/output/exporters/c_inverse.h"
 #include "dashpot/output/exporters/c_source.h"
 #include "output/exporters/example_models.h"
 #include "support.h"
@@ -51,6 +51,23 @@ TEST_CASE("exported C: every kind of model in single precision gives it within 1
   const TemporaryFolder folder;
   write_all(folder, CPrecision::Single);
   const ProgramResult result = compile_and_run(folder, "-Wdouble-promotion");
+  CAPTURE(result.output);
+  CHECK(result.exit_code == 0);
+}
+
+TEST_CASE("exported C: every inverse network gives the library's currents, in both precisions") {
+  if (!is_there("cc")) return;
+  const TemporaryFolder folder;
+  for (const InverseNetworkPreset& preset : inverse_network_presets())
+    for (const CPrecision precision : {CPrecision::Double, CPrecision::Single}) {
+      InverseFile inverse{.network = example_network(preset), .domain = {-0.02, 0.02, -0.3, 0.3, 0, 1}};
+      inverse.network.rate_max = 30;
+      const std::string name = std::string(preset.name) + (precision == CPrecision::Double ? "_d" : "_s");
+      for (const ExportedFile& file :
+           write_c_inverse(inverse, {.name = name, .precision = precision, .sample_time = 2.5e-3}))
+        folder.write(file.name, file.content);
+    }
+  const ProgramResult result = compile_and_run(folder, "");
   CAPTURE(result.output);
   CHECK(result.exit_code == 0);
 }

@@ -32,6 +32,14 @@ TEST_CASE("a description runs the paper's chain: the data set's yield stresses w
     CHECK_CLOSE(fluid_state(prototype(), 0.25 * k).yield_stress, published[k], 0, 12);
 }
 
+TEST_CASE("a description of 122EG has the data set's four points at its currents") {
+  DamperDescription damper = prototype();
+  damper.fluid = &find_fluid("122EG");
+  damper.yield_law = YieldLaw::DataSet;
+  const double published[] = {779.93, 21101.58, 30174.10, 33500};
+  for (int k = 0; k < 4; ++k) CHECK_CLOSE(fluid_state(damper, 0.25 * k).yield_stress, published[k], 0, 12);
+}
+
 TEST_CASE("the paper's hydraulics, dimensionally right: TC-3.3") {
   DamperDescription damper = prototype();
   damper.yield_stress = 20122.8539;

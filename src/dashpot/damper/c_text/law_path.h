@@ -29,7 +29,7 @@ static inline LawPath law_path(const LawModel* m, const DamperInput* from, const
   if (lag_rate > 0) {
     path.i -= path.i_slope / lag_rate;
     path.deviation = coil_current - path.i;
-    if (fabs(path.deviation) <= 1e-14 * fabs(path.i)) {
+    if (1e-14 * fabs(path.i) >= fabs(path.deviation)) { /* rounding */
       path.deviation = 0;
     }
   }

@@ -1,9 +1,7 @@
 #include "dashpot/output/exporters/c_source.h"
 
 #include <algorithm>
-#include <cctype>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
 #include "dashpot/damper/law_model.h"
 #include "dashpot/damper/registry.h"
@@ -19,7 +17,7 @@ constexpr const char* kHeader = R"(/* @title@.
  *
  * @what@
  * Inputs: displacement m and velocity m/s, extension positive; command @unit@. Output: force N, positive when it
- * resists extension. Finite inputs give finite forces. Known for displacements @x_min@ ... @x_max@ m,
+ * resists extension. Known for displacements @x_min@ ... @x_max@ m,
  * velocities @v_min@ ... @v_max@ m/s, commands @i_min@ ... @i_max@ @unit@; beyond, the model extrapolates.
  *
  *   damper_model model;
@@ -119,31 +117,11 @@ std::string title_of(const DamperModel& model) {
   return model.name();
 }
 
-/// Throws Error where the interface would have names that the code has inside.
-void require_free(const std::string& prefix, const std::string& code) {
-  const auto is_word = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
-  for (const char* part :
-       {"input", "model", "init", "reset", "step", "advance", "rest", "move", "force", "derivatives"}) {
-    const std::string word = prefix + '_' + part;
-    for (std::size_t at = 0; (at = code.find(word, at)) != std::string::npos; ++at)
-      if ((at == 0 || !is_word(code[at - 1])) && !is_word(code[at + word.size()]))
-        throw Error("name", "'" + prefix + "' begins names that the code has inside",
-                    "say '" + prefix + "_damper'");
-  }
-}
-
-/// Text that ends no comment.
-std::string in_comment(std::string text) {
-  for (std::size_t at = 0; (at = text.find("*/", at)) != std::string::npos;) text.insert(at + 1, " ");
-  return text;
-}
-
 std::vector<std::pair<std::string, std::string>> facts(const ExportedModel& model,
                                                        const ExportOptions& options, const CSource& source) {
   const Domain& d = model.domain;
   return {{"title", title_of(model.model)},
           {"prefix", source.prefix},
-          {"what", in_comment(model.origin)},
           {"unit", model.drive_unit},
           {"x_min", format_number(d.displacement_min)},
           {"x_max", format_number(d.displacement_max)},
@@ -152,7 +130,6 @@ std::vector<std::pair<std::string, std::string>> facts(const ExportedModel& mode
           {"i_min", format_number(d.current_min)},
           {"i_max", format_number(d.current_max)},
           {"version", options.version},
-          {"command", in_comment(options.command)},
           {"deviations", kDeviations},
           {"size", std::to_string(std::max<std::size_t>(1, source.state_size))},
           {"unused", source.state_size == 0 ? ": one that is not used" : ""},
@@ -193,13 +170,15 @@ CSource c_source(const ExportedModel& model, const ExportOptions& options) {
     source.state_size += source.parameters.size() + (law->lag_rate() > 0 ? 0 : 1);
   }
   const std::string own = with_texts(code.code);
-  require_free(source.prefix, own);
+  require_free_names(source.prefix, own);
   const auto finished = [&](const std::string& text) {
     return with_prefix(in_precision(text, options.precision), source.prefix);
   };
   std::vector<std::pair<std::string, std::string>> values = facts(model, options, source);
-  source.header = finished(filled(kHeader, values) + std::string(c_text("damper_api.h")) +
-                           (code.has_derivatives ? kDerivatives : "") + (law ? kDefaults : "") + kHeaderEnd);
+  source.header =
+      filled(finished(filled(kHeader, values) + std::string(c_text("damper_api.h")) +
+                      (code.has_derivatives ? kDerivatives : "") + (law ? kDefaults : "") + kHeaderEnd),
+             {{"what", in_comment(model.origin)}, {"command", in_comment(options.command)}});
   source.source = finished(
       "#include \"" + source.prefix + ".h\"\n\n#include <math.h>\n\ntypedef damper_input DamperInput;\n\n" +
       own + std::string(c_text("damper_api.c")) +

@@ -82,6 +82,17 @@ std::string single_number(std::string_view number) {
   return std::string(number) + "F";
 }
 
+/// With what iterations stop at, `<= 1e-8`, as near as floats come: their next step would move by its square.
+std::string with_single_tolerances(std::string code) {
+  constexpr std::string_view kStop = "<= 1e-";
+  for (std::size_t at = 0; (at = code.find(kStop, at)) != std::string::npos; ++at) {
+    const std::size_t number = at + 3, end = end_of_number(code, number);
+    if (parse_number(std::string_view(code).substr(number, end - number)).value_or(1) < 1e-6)
+      code.replace(number, end - number, "1e-5");
+  }
+  return code;
+}
+
 /// What keeps a header from being read twice.
 bool is_guard(const std::string& line) {
   return line.starts_with("#ifndef DASHPOT_") || line.starts_with("#endif") ||
@@ -125,7 +136,7 @@ std::string with_texts(std::string_view code) {
 
 std::string in_precision(std::string_view code, CPrecision precision) {
   if (precision == CPrecision::Double) return std::string(code);
-  return rewritten(code, {single_word, single_number});
+  return rewritten(with_single_tolerances(std::string(code)), {single_word, single_number});
 }
 
 std::string with_prefix(std::string_view code, std::string_view prefix) {
@@ -137,6 +148,22 @@ std::string with_prefix(std::string_view code, std::string_view prefix) {
     return std::string(name);
   };
   return rewritten(code, {word, [](std::string_view number) { return std::string(number); }, true});
+}
+
+void require_free_names(const std::string& prefix, const std::string& code) {
+  for (const char* part :
+       {"input", "model", "init", "reset", "step", "advance", "rest", "move", "force", "derivatives"}) {
+    const std::string word = prefix + '_' + part;
+    for (std::size_t at = 0; (at = code.find(word, at)) != std::string::npos; ++at)
+      if ((at == 0 || !is_word(code[at - 1])) && !is_word(code[at + word.size()]))
+        throw Error("name", "'" + prefix + "' begins names that the code has inside",
+                    "say '" + prefix + "_damper'");
+  }
+}
+
+std::string in_comment(std::string text) {
+  for (std::size_t at = 0; (at = text.find("*/", at)) != std::string::npos;) text.insert(at + 1, " ");
+  return text;
 }
 
 std::string c_number(double value) {

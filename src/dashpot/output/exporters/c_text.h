@@ -25,6 +25,11 @@ std::string in_precision(std::string_view code, CPrecision precision);
 /// Every name that begins with "damper_" or "DAMPER_" with this prefix in its place.
 std::string with_prefix(std::string_view code, std::string_view prefix);
 
+/// Throws Error where an interface with this prefix would have names that the code has inside.
+void require_free_names(const std::string& prefix, const std::string& code);
+/// Text that ends no comment.
+std::string in_comment(std::string text);
+
 /// A number as C writes it in double precision: 1.0, 0.25, 1e-07.
 std::string c_number(double value);
 /// {1.0, 2.0, 3.0}, wrapped.

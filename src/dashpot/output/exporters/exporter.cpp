@@ -8,19 +8,24 @@
 #include "dashpot/base/text.h"
 #include "dashpot/output/exporters/c_source.h"
 #include "dashpot/output/exporters/fmu.h"
+#include "dashpot/output/exporters/force_map.h"
 
 namespace dashpot {
 namespace {
 
 constexpr std::array kExporters{
-    Exporter{"c", "C99 for an ECU or a simulator", "every model",
+    Exporter{"c", "C99 for an ECU or a simulator", "every model and inverse network",
              "NAME.h, NAME.c and NAME_test.c, a main that checks them along a run", write_c_source},
+    Exporter{"dpr", "TeimOrbit damper curves of multibody programs", "every model, its states settled",
+             "NAME_00.dpr ..., one curve of settled force over velocity per current", write_dpr},
     Exporter{"fmu2", "FMU of FMI 2.0 for a simulator",
              "every model; model exchange for laws and models without a state",
              "NAME.fmu with its sources and a binary for Linux", write_fmu2},
     Exporter{"fmu3", "FMU of FMI 3.0 for a simulator",
              "every model; model exchange for laws and models without a state",
-             "NAME.fmu with its sources and a binary for Linux", write_fmu3}};
+             "NAME.fmu with its sources and a binary for Linux", write_fmu3},
+    Exporter{"tables", "look-up tables", "every model, its states settled",
+             "NAME_force.csv, NAME_current.csv (its inverse) and NAME.mat with both", write_tables}};
 
 bool is_c_name(const std::string& name) {
   const auto is_word = [](char c) {
@@ -53,12 +58,16 @@ double export_sample_time(const ExportedModel& model, const ExportOptions& optio
   return kUsual;
 }
 
-std::string export_name(const ExportedModel& model, const ExportOptions& options) {
-  std::string name = options.name.empty() ? model.model.name() + "_damper" : options.name;
-  if (options.name.empty()) std::ranges::replace(name, '+', '_');
+std::string c_name(const std::string& name) {
   if (!is_c_name(name))
     throw Error("name", "'" + name + "' cannot begin names in C", "letters, digits and _, no digit first");
   return name;
+}
+
+std::string export_name(const ExportedModel& model, const ExportOptions& options) {
+  std::string name = options.name.empty() ? model.model.name() + "_damper" : options.name;
+  if (options.name.empty()) std::ranges::replace(name, '+', '_');
+  return c_name(name);
 }
 
 }  // namespace dashpot

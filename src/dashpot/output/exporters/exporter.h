@@ -52,4 +52,7 @@ double export_sample_time(const ExportedModel& model, const ExportOptions& optio
 /// The name, or one made of the model's. Throws Error where it is none in C.
 std::string export_name(const ExportedModel& model, const ExportOptions& options);
 
+/// The same. Throws Error where it is no name in C.
+std::string c_name(const std::string& name);
+
 }  // namespace dashpot

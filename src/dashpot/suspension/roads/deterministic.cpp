@@ -28,6 +28,7 @@ class Step final : public GroundMotion {
 class Sine final : public GroundMotion {
  public:
   Sine(double amplitude, double frequency) : amplitude_(amplitude), rate_(kTurn * frequency) {}
+  bool is_steady() const noexcept override { return true; }
   std::string description() const override {
     return "sine of " + with_unit(amplitude_, "m") + ", " + with_unit(rate_ / kTurn, "Hz");
   }
@@ -88,6 +89,7 @@ class Shaking final : public GroundMotion {
   std::string description() const override { return description_; }
   double duration() const noexcept override { return step_ * static_cast<double>(a_.size() - 1); }
   FootMotion foot(double, std::size_t, double) const noexcept override { return {}; }
+  bool shakes() const noexcept override { return true; }
   double acceleration(double t) const noexcept override {
     const double place = t / step_;
     if (!(place >= 0) || place >= static_cast<double>(a_.size() - 1)) return 0;

@@ -1,0 +1,55 @@
+#include "cli/program.h"
+#include "damper/inverse/example_network.h"
+#include "dashpot/damper/inverse/inverse_file.h"
+#include "support.h"
+
+namespace fs = std::filesystem;
+
+TEST_CASE("export writes each format of a published damper into one folder, and C that passes its own test") {
+  const TemporaryFolder folder;
+  const std::string out = (folder.path() / "out").string();
+  const ProgramResult result =
+      run_program(program_path() +
+                  " export --parameters spencer1997 --to c,tables,dpr --precision float -o '" + out + "'");
+  CAPTURE(result.output);
+  REQUIRE(result.exit_code == 0);
+  for (const char* name :
+       {"modified_bouc_wen_damper.h", "modified_bouc_wen_damper.c", "modified_bouc_wen_damper_test.c",
+        "modified_bouc_wen_damper_force.csv", "modified_bouc_wen_damper_current.csv",
+        "modified_bouc_wen_damper.mat", "modified_bouc_wen_damper_00.dpr"})
+    CHECK(fs::exists(fs::path(out) / name));
+  if (run_program("cc --version").exit_code != 0) return;
+  const ProgramResult check = run_program("cd '" + out + "' && cc -std=c99 *.c -lm -o check && ./check");
+  CAPTURE(check.output);
+  CHECK(check.exit_code == 0);
+}
+
+TEST_CASE("export takes an inverse network, to C alone") {
+  const TemporaryFolder folder;
+  const auto preset = dashpot::inverse_network_presets().front();
+  dashpot::InverseFile inverse{.network = example_network(preset), .domain = {-0.02, 0.02, -0.3, 0.3, 0, 1}};
+  const fs::path file = folder.path() / "inverse.json";
+  save_inverse(inverse, file);
+  const std::string command = "export '" + file.string() + "' -o '" + folder.path().string() + "' --to ";
+  const ProgramResult result = run_dashpot(command + "c --name controller");
+  CAPTURE(result.output);
+  CHECK(result.exit_code == 0);
+  CHECK(fs::exists(folder.path() / "controller.c"));
+  CHECK(contains(run_dashpot(command + "dpr").output, "is an inverse, which cannot become 'dpr'"));
+}
+
+TEST_CASE("export says what is wrong") {
+  const auto complains = [](const std::string& arguments, const std::string& of) {
+    const ProgramResult result = run_dashpot("export " + arguments);
+    CAPTURE(result.output);
+    CHECK(result.exit_code != 0);
+    CHECK(contains(result.output, of));
+  };
+  const std::string damper = "--parameters spencer1997 ";
+  complains(damper, "--to: is missing; one or more of c, dpr, tables");
+  complains("--to c", "needs one damper");
+  complains(damper + "--to d", "unknown format 'd'");
+  complains(damper + "--to c --name 2x", "cannot begin names in C");
+  complains(damper + "--to c --name modified_bouc_wen", "begins names that the code has inside");
+  complains(damper + "--to c --sample-time=-1ms", "sample time");
+}
