@@ -20,10 +20,10 @@ constexpr std::array kExporters{
              "NAME_00.dpr ..., one curve of settled force over velocity per current", write_dpr},
     Exporter{"fmu2", "FMU of FMI 2.0 for a simulator",
              "every model; model exchange for laws and models without a state",
-             "NAME.fmu with its sources and a binary for Linux", write_fmu2},
+             "NAME_fmi2.fmu with its sources and a binary for Linux", write_fmu2},
     Exporter{"fmu3", "FMU of FMI 3.0 for a simulator",
              "every model; model exchange for laws and models without a state",
-             "NAME.fmu with its sources and a binary for Linux", write_fmu3},
+             "NAME_fmi3.fmu with its sources and a binary for Linux", write_fmu3},
     Exporter{"tables", "look-up tables", "every model, its states settled",
              "NAME_force.csv, NAME_current.csv (its inverse) and NAME.mat with both", write_tables}};
 

@@ -147,7 +147,7 @@ std::vector<ExportedFile> write_fmu(const ExportedModel& model, const ExportOpti
     files.push_back(
         {std::string("binaries/") + (version == 2 ? "linux64/" : "x86_64-linux/") + fmu.name + ".so",
          compile_shared_library(sources, fmu_translation_units(fmu), options.compiler)});
-  return {{fmu.name + ".fmu", zip_archive(files, fmu.made)}};
+  return {{fmu.name + (version == 2 ? "_fmi2.fmu" : "_fmi3.fmu"), zip_archive(files, fmu.made)}};
 }
 
 }  // namespace

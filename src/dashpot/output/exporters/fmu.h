@@ -64,7 +64,7 @@ std::string compile_shared_library(const std::vector<ExportedFile>& files,
 /// A zip archive, all files bearing one time.
 std::string zip_archive(const std::vector<ExportedFile>& files, std::time_t time);
 
-/// NAME.fmu
+/// NAME_fmi2.fmu, NAME_fmi3.fmu
 std::vector<ExportedFile> write_fmu2(const ExportedModel& model, const ExportOptions& options);
 std::vector<ExportedFile> write_fmu3(const ExportedModel& model, const ExportOptions& options);
 
