@@ -1,3 +1,4 @@
+#include <cstdlib>
 #include <filesystem>
 #include <memory>
 
@@ -20,12 +21,16 @@ namespace {
 struct Settings {
   DamperChoice damper;
   std::vector<std::string> formats;
-  std::string name, precision = "double", sample_time, folder = "dashpot-export";
+  std::string name, precision = "double", sample_time, folder = "dashpot-export", compiler;
+  bool sources_only = false;
 };
 
 constexpr std::string_view kExample =
     "# A fitted model for an ECU: one header, one source, and a test that checks them:\n"
     "dashpot export results/models/bouc_wen.json --to c --precision float --sample-time 1ms\n"
+    "\n"
+    "# A fitted model for a simulator, with a binary that needs nothing but the C library:\n"
+    "dashpot export results/models/bouc_wen.json --to fmu3 -o results/fmu\n"
     "\n"
     "# A published damper, under a name of your own:\n"
     "dashpot export --parameters spencer1997 --to c --name front_damper -o front";
@@ -69,6 +74,13 @@ double sample_time_of(const DamperChoice& choice) {
   return choice.model.empty() ? 0 : load_model(choice.model).sample_time;
 }
 
+/// As make has it: $CC, or cc.
+std::string compiler_of(const Settings& settings) {
+  if (!settings.compiler.empty()) return settings.compiler;
+  const char* usual = std::getenv("CC");
+  return usual && *usual != '\0' ? usual : "cc";
+}
+
 std::vector<ExportedFile> exported_damper(const Settings& settings, const ExportOptions& options,
                                           Console& console) {
   const Damper damper = load_damper(settings.damper, "export", console);
@@ -100,6 +112,8 @@ int run(const Settings& settings, Console& console) {
       .precision = settings.precision == "float" ? CPrecision::Single : CPrecision::Double,
       .sample_time =
           settings.sample_time.empty() ? 0 : parse_quantity(settings.sample_time, "s", "--sample-time"),
+      .compiler = compiler_of(settings),
+      .sources_only = settings.sources_only,
       .command = console.command_line(),
       .version = DASHPOT_VERSION};
   const std::vector<ExportedFile> files = is_inverse(settings.damper.model)
@@ -141,6 +155,14 @@ Command export_command() {
                     .help = "between two steps, as 1ms",
                     .value = "S",
                     .default_text = "that of the model's data, or 1 ms"},
+                   {.names = "--compiler",
+                    .target = &settings->compiler,
+                    .help = "C compiler for the binary in an FMU, and more arguments for it",
+                    .value = "CC",
+                    .default_text = "$CC, or cc"},
+                   {.names = "--sources-only",
+                    .target = &settings->sources_only,
+                    .help = "an FMU without a binary, for an importer that compiles"},
                    {.names = "-o,--output",
                     .target = &settings->folder,
                     .help = "folder for the files",

@@ -1,15 +1,10 @@
 #include "dashpot/output/gnuplot.h"
 
-#include <array>
 #include <cmath>
-#include <cstring>
-#include <fcntl.h>
-#include <spawn.h>
-#include <unistd.h>
 
 #include <fmt/format.h>
-#include <sys/wait.h>
 
+#include "dashpot/base/child_process.h"
 #include "dashpot/base/error.h"
 #include "dashpot/base/file.h"
 #include "dashpot/base/text.h"
@@ -22,30 +17,15 @@ namespace {
 
 /// What gnuplot printed while it ran the script, or an Error when it could not run it.
 std::string run_gnuplot(const fs::path& script) {
-  std::array<int, 2> ends;
-  if (pipe2(ends.data(), O_CLOEXEC) != 0) throw Error("gnuplot", std::strerror(errno));
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
-  posix_spawn_file_actions_adddup2(&actions, ends[1], STDERR_FILENO);
-  std::string program = "gnuplot", argument = script.string();
-  const std::array<char*, 3> arguments{program.data(), argument.data(), nullptr};
-  pid_t child = 0;
-  const int problem = posix_spawnp(&child, program.c_str(), &actions, nullptr, arguments.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
-  close(ends[1]);
-  std::string printed;
-  std::array<char, 4096> buffer;
-  if (problem == 0)
-    for (ssize_t n; (n = read(ends[0], buffer.data(), buffer.size())) > 0;) printed.append(buffer.data(), n);
-  close(ends[0]);
-  if (problem != 0)
-    throw Error("gnuplot", std::strerror(problem), "install gnuplot-nox, or leave the figures out");
-  int status = 0;
-  waitpid(child, &status, 0);
-  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
-    throw Error(script.string(), "gnuplot cannot draw it: " + std::string(trim(printed)));
-  return printed;
+  ChildResult result;
+  try {
+    result = run_child({"gnuplot", script.string()});
+  } catch (const Error& error) {
+    throw Error("gnuplot", error.what(), "install gnuplot-nox, or leave the figures out");
+  }
+  if (!result.succeeded)
+    throw Error(script.string(), "gnuplot cannot draw it: " + std::string(trim(result.printed)));
+  return result.printed;
 }
 
 /// Colours of the page, plain axes, a light grid.

@@ -12,8 +12,8 @@
 
 namespace dashpot {
 
-CModel c_model(const DamperModel& model) {
-  if (const auto* law = dynamic_cast<const LawModel*>(&model)) return c_law(*law);
+CModel c_model(const DamperModel& model, bool settable) {
+  if (const auto* law = dynamic_cast<const LawModel*>(&model)) return c_law(*law, "model", settable);
   if (const auto* network = dynamic_cast<const NetworkModel*>(&model)) return c_network(*network);
   if (const auto* narx = dynamic_cast<const NarxModel*>(&model)) return c_narx(*narx);
   if (const auto* bank = dynamic_cast<const HysteresisNetwork*>(&model)) return c_hysteresis_network(*bank);

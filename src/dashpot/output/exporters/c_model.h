@@ -1,4 +1,5 @@
 #pragma once
+#include <cmath>
 #include <span>
 #include <string>
 #include <utility>
@@ -29,11 +30,21 @@ struct CModel {
   bool has_derivatives = false;  ///< also void model_derivatives(input, state, double* derivatives)
 };
 
-/// Throws Error for a model of which no C code is known.
-CModel c_model(const DamperModel& model);
+/// A number of a model that whoever runs its C code may set.
+struct CParameter {
+  std::string name, unit, meaning;
+  double value = 0;
+  double lower = -HUGE_VAL, upper = HUGE_VAL;
+};
+std::vector<CParameter> c_parameters(const LawModel& model);
+
+/// Throws Error for a model of which no C code is known. `settable`: the parameters of a law stand behind its
+/// state, in the order of c_parameters() and then a lag rate also where it is 0; model_defaults(state) writes
+/// them.
+CModel c_model(const DamperModel& model, bool settable = false);
 
 // One per kind; `stem` in place of "model" where a law is a part of something.
-CModel c_law(const LawModel& model, const std::string& stem = "model");
+CModel c_law(const LawModel& model, const std::string& stem = "model", bool settable = false);
 CModel c_network(const NetworkModel& model);
 CModel c_narx(const NarxModel& model);
 CModel c_hysteresis_network(const HysteresisNetwork& model);

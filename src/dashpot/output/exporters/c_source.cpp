@@ -41,6 +41,11 @@ constexpr const char* kDerivatives = R"(
 void damper_derivatives(const damper_input* input, const double* state, double* derivatives);
 )";
 
+constexpr const char* kDefaults = R"(
+/* Writes the parameters, which stand behind the state, as they were identified: before anything else. */
+void damper_defaults(double* state);
+)";
+
 constexpr const char* kHeaderEnd = R"(
 #ifdef __cplusplus
 }
@@ -146,7 +151,8 @@ std::vector<CSource::Variable> states_of(const DamperModel& model) {
 }  // namespace
 
 CSource c_source(const ExportedModel& model, const ExportOptions& options) {
-  const CModel code = c_model(model.model);
+  const auto* law = options.settable_parameters ? dynamic_cast<const LawModel*>(&model.model) : nullptr;
+  const CModel code = c_model(model.model, law != nullptr);
   const bool single = options.precision == CPrecision::Single;
   CSource source{.prefix = export_name(model, options),
                  .real = single ? "float" : "double",
@@ -158,18 +164,25 @@ CSource c_source(const ExportedModel& model, const ExportOptions& options) {
                  .states = code.has_derivatives ? states_of(model.model) : std::vector<CSource::Variable>{},
                  .sample_time = export_sample_time(model, options),
                  .grid = model.model.feedback_step()};
+  if (law) {
+    source.parameters = c_parameters(*law);
+    source.first_parameter = source.state_size;
+    source.state_size += source.parameters.size() + (law->lag_rate() > 0 ? 0 : 1);
+  }
   const std::string own = with_texts(code.code);
   require_free_names(source.prefix, own);
   const auto finished = [&](const std::string& text) {
     return with_prefix(in_precision(text, options.precision), source.prefix);
   };
   std::vector<std::pair<std::string, std::string>> values = facts(model, options, source);
-  source.header = filled(finished(filled(kHeader, values) + std::string(c_text("damper_api.h")) +
-                                  (code.has_derivatives ? kDerivatives : "") + kHeaderEnd),
-                         {{"what", in_comment(model.origin)}, {"command", in_comment(options.command)}});
+  source.header =
+      filled(finished(filled(kHeader, values) + std::string(c_text("damper_api.h")) +
+                      (code.has_derivatives ? kDerivatives : "") + (law ? kDefaults : "") + kHeaderEnd),
+             {{"what", in_comment(model.origin)}, {"command", in_comment(options.command)}});
   source.source = finished(
       "#include \"" + source.prefix + ".h\"\n\n#include <math.h>\n\ntypedef damper_input DamperInput;\n\n" +
       own + std::string(c_text("damper_api.c")) +
+      (law ? "\nvoid damper_defaults(double* state) { model_defaults(state); }\n" : "") +
       (code.has_derivatives
            ? "\nvoid damper_derivatives(const damper_input* input, const double* state, double* "
              "derivatives) {\n  model_derivatives(input, state, derivatives);\n}\n"

@@ -1,5 +1,5 @@
 #pragma once
-#include "dashpot/damper/law.h"
+#include "dashpot/output/exporters/c_model.h"
 #include "dashpot/output/exporters/exporter.h"
 
 namespace dashpot {
@@ -22,8 +22,12 @@ struct CSource {
   std::vector<Variable> inputs;   ///< the fields of <prefix>_input, in their order
   std::vector<Variable> outputs;  ///< the force
   std::vector<Variable> states;   ///< of a law: continuous states, the first of the state; else empty
-  double sample_time = 0;         ///< s, of <prefix>_step
-  double grid = 0;                ///< s: the model remembers at such steps; 0: at any
+  /// Where ExportOptions::settable_parameters: they follow in the state; <prefix>_defaults(state) writes
+  /// them.
+  std::vector<CParameter> parameters;
+  std::size_t first_parameter = 0;  ///< where in the state
+  double sample_time = 0;           ///< s, of <prefix>_step
+  double grid = 0;                  ///< s: the model remembers at such steps; 0: at any
 };
 
 /// Throws Error where the model cannot become C.

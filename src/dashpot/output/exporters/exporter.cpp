@@ -7,6 +7,7 @@
 #include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
 #include "dashpot/output/exporters/c_source.h"
+#include "dashpot/output/exporters/fmu.h"
 #include "dashpot/output/exporters/force_map.h"
 
 namespace dashpot {
@@ -17,6 +18,12 @@ constexpr std::array kExporters{
              "NAME.h, NAME.c and NAME_test.c, a main that checks them along a run", write_c_source},
     Exporter{"dpr", "TeimOrbit damper curves of multibody programs", "every model, its states settled",
              "NAME_00.dpr ..., one curve of settled force over velocity per current", write_dpr},
+    Exporter{"fmu2", "FMU of FMI 2.0 for a simulator",
+             "every model; model exchange for laws and models without a state",
+             "NAME_fmi2.fmu with its sources and a binary for Linux", write_fmu2},
+    Exporter{"fmu3", "FMU of FMI 3.0 for a simulator",
+             "every model; model exchange for laws and models without a state",
+             "NAME_fmi3.fmu with its sources and a binary for Linux", write_fmu3},
     Exporter{"tables", "look-up tables", "every model, its states settled",
              "NAME_force.csv, NAME_current.csv (its inverse) and NAME.mat with both", write_tables}};
 

@@ -21,7 +21,10 @@ struct ExportedModel {
 struct ExportOptions {
   std::string name;  ///< of files and functions: a name in C
   CPrecision precision = CPrecision::Double;
-  double sample_time = 0;  ///< s; 0: the model's own
+  double sample_time = 0;            ///< s; 0: the model's own
+  bool settable_parameters = false;  ///< of a law in C: kept behind its state instead of in its code
+  std::string compiler = "cc";       ///< of C, and more of its arguments: for what holds a binary
+  bool sources_only = false;         ///< of an FMU: no binary
   std::string command, version;
 };
 
