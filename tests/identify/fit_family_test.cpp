@@ -103,7 +103,8 @@ TEST_CASE("records without a member's conditions are refused") {
 }
 
 // Acceptance of the family model: a plain ridge on interpolated features has 0.974 and 1.27 N.
-TEST_CASE("measured dampers of geometries never seen are foretold, with intervals that hold") {
+TEST_CASE("measured dampers of geometries never seen are foretold, with intervals that hold" *
+          doctest::test_suite("long")) {
   const auto folder = shared_data("family-dnn");
   if (folder.empty()) return;
   const Dataset data = load_dataset({folder});

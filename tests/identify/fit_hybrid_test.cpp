@@ -4,6 +4,7 @@
 #include "dashpot/damper/virtual_bench.h"
 #include "dashpot/identify/fit_store.h"
 #include "dashpot/identify/identify.h"
+#include "small_campaign.h"
 #include "support.h"
 
 using namespace dashpot;
@@ -12,13 +13,7 @@ namespace {
 
 /// A damper with hysteresis and a knee that the bingham law lacks.
 Dataset campaign(std::vector<SineMotion> motions) {
-  BenchOptions options;
-  options.motions = std::move(motions);
-  options.drive_levels = {0, 0.3, 0.7, 1};
-  options.sample_rate = 60;
-  options.cycles = 1;
-  options.force_noise = 0;
-  return run_virtual_bench(load_parameters("kwok2006"), "A", options);
+  return small_campaign(std::move(motions), {{0, 0.3, 0.7, 1}, 60});
 }
 
 }  // namespace

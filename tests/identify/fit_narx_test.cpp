@@ -1,8 +1,7 @@
 #include "dashpot/base/text.h"
 #include "dashpot/damper/neural/narx_model.h"
-#include "dashpot/damper/parameter_set.h"
-#include "dashpot/damper/virtual_bench.h"
 #include "dashpot/identify/identify.h"
+#include "small_campaign.h"
 #include "support.h"
 
 using namespace dashpot;
@@ -10,13 +9,7 @@ using namespace dashpot;
 namespace {
 
 Dataset campaign(std::vector<SineMotion> motions, double sample_rate = 100) {
-  BenchOptions options;
-  options.motions = std::move(motions);
-  options.drive_levels = {0, 1};
-  options.sample_rate = sample_rate;
-  options.cycles = 1;
-  options.force_noise = 0;
-  Dataset dataset = run_virtual_bench(load_parameters("kwok2006"), "A", options);
+  Dataset dataset = small_campaign(std::move(motions), {.sample_rate = sample_rate});
   for (Record& record : dataset.records) record.warm_up = 20;  // they begin in motion, models at rest
   return dataset;
 }

@@ -1,46 +1,31 @@
 #include "dashpot/damper/neural/hysteresis_network.h"
-#include "dashpot/damper/parameter_set.h"
-#include "dashpot/damper/virtual_bench.h"
 #include "dashpot/identify/identify.h"
+#include "small_campaign.h"
 #include "support.h"
 
 using namespace dashpot;
 
-namespace {
-
-Dataset campaign(std::vector<SineMotion> motions) {
-  BenchOptions options;
-  options.motions = std::move(motions);
-  options.drive_levels = {0, 1};
-  options.sample_rate = 100;
-  options.cycles = 1;
-  options.force_noise = 0;
-  return run_virtual_bench(load_parameters("kwok2006"), "A", options);
-}
-
-}  // namespace
-
 TEST_CASE("a hysteresis network learns a damper, with the same bits on any number of threads") {
-  const std::vector<Record> training = campaign({{0.01, 1}, {0.005, 3}}).records;
+  const std::vector<Record> training = small_campaign({{0.01, 1}, {0.005, 3}}).records;
   const FitReport one = identify("hysteresis_network", training, "A", {.threads = 1});
   const FitReport three = identify("hysteresis_network", training, "A", {.threads = 3});
   CHECK(format_json(one.model->to_json()) == format_json(three.model->to_json()));
   CHECK(one.model->parameter_count() == 4 * 165);
   CHECK(one.offsets.size() == training.size());
   // A motion between those that it has seen; resolution of the sensors and derived velocity leave something.
-  const Evaluation unseen = evaluate(*one.model, campaign({{0.007, 2}}).records, "A");
+  const Evaluation unseen = evaluate(*one.model, small_campaign({{0.007, 2}}).records, "A");
   CHECK(unseen.pooled.esr < 2);
 }
 
 TEST_CASE("one record serves too: its end is held back to choose the price of weights") {
-  std::vector<Record> one = {campaign({{0.01, 1}}).records.back()};
+  std::vector<Record> one = {small_campaign({{0.01, 1}}).records.back()};
   const FitReport fit = identify("hysteresis_network", one, "A", {});
   REQUIRE(fit.model);
   CHECK(evaluate(*fit.model, one, "A").pooled.esr < 1);
 }
 
 TEST_CASE("a hysteresis network as its design says") {
-  const std::vector<Record> training = campaign({{0.01, 1}}).records;
+  const std::vector<Record> training = small_campaign({{0.01, 1}}).records;
   IdentifyOptions options{.threads = 1};
   options.network = {.hidden = {3}, .epochs = 4, .l2 = 1e-3, .members = 2};
   const FitReport fit = identify("hysteresis_network", training, "A", options);

@@ -1,27 +1,12 @@
 #include "dashpot/damper/neural/state_space_model.h"
-#include "dashpot/damper/parameter_set.h"
-#include "dashpot/damper/virtual_bench.h"
 #include "dashpot/identify/identify.h"
+#include "small_campaign.h"
 #include "support.h"
 
 using namespace dashpot;
 
-namespace {
-
-Dataset campaign(std::vector<SineMotion> motions) {
-  BenchOptions options;
-  options.motions = std::move(motions);
-  options.drive_levels = {0, 1};
-  options.sample_rate = 100;
-  options.cycles = 1;
-  options.force_noise = 0;
-  return run_virtual_bench(load_parameters("kwok2006"), "A", options);
-}
-
-}  // namespace
-
 TEST_CASE("a neural state space learns a damper, with the same bits on any number of threads") {
-  const std::vector<Record> training = campaign({{0.01, 1}, {0.005, 3}}).records;
+  const std::vector<Record> training = small_campaign({{0.01, 1}, {0.005, 3}}).records;
   IdentifyOptions options{.threads = 1};
   options.network = {.epochs = 8, .members = 2};
   const FitReport one = identify("neural_state_space", training, "A", options);
@@ -29,12 +14,12 @@ TEST_CASE("a neural state space learns a damper, with the same bits on any numbe
   const FitReport three = identify("neural_state_space", training, "A", options);
   CHECK(format_json(one.model->to_json()) == format_json(three.model->to_json()));
   CHECK(one.offsets.size() == training.size());
-  const Evaluation unseen = evaluate(*one.model, campaign({{0.007, 2}}).records, "A");
+  const Evaluation unseen = evaluate(*one.model, small_campaign({{0.007, 2}}).records, "A");
   CHECK(unseen.pooled.esr < 2);
 }
 
 TEST_CASE("a neural state space is built and trained as the design says") {
-  const std::vector<Record> one = {campaign({{0.01, 1}}).records.back()};
+  const std::vector<Record> one = {small_campaign({{0.01, 1}}).records.back()};
   IdentifyOptions options;
   options.network = {.hidden = {2, 3}, .epochs = 4, .l2 = 1e-3, .members = 1};
   const FitReport fit = identify("neural_state_space", one, "A", options);

@@ -39,20 +39,21 @@ Metrics of_left_out(const std::string& model, const Dataset& dataset) {
 
 }  // namespace
 
-TEST_CASE("nees: modified Bouc-Wen beats the published parameters on the last third") {
+TEST_CASE("nees: modified Bouc-Wen beats the published parameters on the last third" *
+          doctest::test_suite("long")) {
   const auto folder = recordings("nees-2012-1158");
   if (folder.empty()) return;
   CHECK(of_left_out("modified_bouc_wen", load_dataset({folder})).r2 >=
         0.965);  // published parameters, unfitted: 0.946
 }
 
-TEST_CASE("nees: the large-scale Bouc-Wen law on the last third") {
+TEST_CASE("nees: the large-scale Bouc-Wen law on the last third" * doctest::test_suite("long")) {
   const auto folder = recordings("nees-2012-1158");
   if (folder.empty()) return;
   CHECK(of_left_out("large_scale_bouc_wen", load_dataset({folder})).r2 >= 0.975);
 }
 
-TEST_CASE("utfsm: modified Bouc-Wen on conditions left out") {
+TEST_CASE("utfsm: modified Bouc-Wen on conditions left out" * doctest::test_suite("long")) {
   const auto folder = recordings("utfsm");
   if (folder.empty()) return;
   const Dataset data = load_dataset({folder});
@@ -88,7 +89,7 @@ TEST_CASE("utfpr: inner voltages left out") {
   check_coverage(model);
 }
 
-TEST_CASE("fuzzy models on what was left out") {
+TEST_CASE("fuzzy models on what was left out" * doctest::test_suite("long")) {
   struct Gate {
     const char *folder, *model;
     double esr;  // %, a fifth above what was measured
@@ -102,7 +103,7 @@ TEST_CASE("fuzzy models on what was left out") {
   }
 }
 
-TEST_CASE("hysteresis network: one fold of each set of recordings") {
+TEST_CASE("hysteresis network: one fold of each set of recordings" * doctest::test_suite("long")) {
   struct Gate {
     const char *folder, *left_out;
     double esr;  // %, well above what was measured: 0.71, 0.14, 1.0, 1.4
@@ -151,7 +152,8 @@ TEST_CASE("sysidentpy: the stated parameters meet the second half of the data an
   CHECK_CLOSE(rmse(2000, 3600), 1.87, 0.02, 0);
 }
 
-TEST_CASE("sysidentpy: every parameter that the data tell to 2 % is found to 2 %") {
+TEST_CASE("sysidentpy: every parameter that the data tell to 2 % is found to 2 %" *
+          doctest::test_suite("long")) {
   const auto folder = recordings("sysidentpy-simulated");
   if (folder.empty()) return;
   LoadOptions options;

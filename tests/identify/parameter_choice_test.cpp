@@ -71,7 +71,7 @@ TEST_CASE("choices that cannot be understood say what would be right") {
         }).find("did you mean 'bingham'") != std::string::npos);
   CHECK(message_of([] { parse_fixed_choice("n", "--fix", kModels); }).find("write n=2") != std::string::npos);
   CHECK(message_of([] { parse_fixed_choice("k1=soft", "--fix", kModels); }) ==
-        "--fix, k1: 'soft' is not a number; write 500, or 5N/cm with its unit");
+        "--fix, k1: 'soft' is not a number; a number in N/m, or one with its unit");
   CHECK(message_of([] { parse_fixed_choice("modified_bouc_wen.k1=5mm", "--fix", kModels); }) ==
         "--fix, k1: 'mm' is not a unit of it; it is counted in N/m");
   CHECK(message_of([] { parse_form_choice("alpha=square", "--form", kModels); }).find("known: constant") !=

@@ -10,6 +10,7 @@
 #include "dashpot/damper/neural/narx_model.h"
 #include "dashpot/damper/neural/train_narx.h"
 #include "dashpot/identify/fit.h"
+#include "dashpot/identify/member_report.h"
 #include "dashpot/identify/training_samples.h"
 #include "dashpot/record/split.h"
 #include "dashpot/record/time_base.h"
@@ -349,17 +350,10 @@ FitReport fit_narx(const NetworkPreset& preset, const std::vector<Record>& train
   const NarxData data = training_data(plan, regressors, training, drive_unit, options, kMostRows);
   const Effort effort =
       full_effort(plan, options, best_decay(plan, regressors, training, drive_unit, options));
-  FitReport report;
+  std::vector<TrainedMlp> trained = NarxFit(plan, data, options, effort).members();
+  FitReport report = report_of_members(trained);
   std::vector<Mlp> members;
-  bool converged = true;
-  for (TrainedMlp& member : NarxFit(plan, data, options, effort).members()) {
-    members.push_back(std::move(member.mlp));
-    converged = converged && member.report.converged;
-    report.iterations = std::max(report.iterations, member.report.iterations);
-    report.training_rmse += member.report.rmse / static_cast<double>(plan.members);
-  }
-  report.status = converged ? FitReport::Status::Converged : FitReport::Status::IterationLimit;
-  report.message = converged ? "converged" : "iteration limit reached";
+  for (TrainedMlp& member : trained) members.push_back(std::move(member.mlp));
   const auto model = std::make_shared<NarxModel>(plan.name, regressors, std::move(members));
   if (model->can_diverge())
     report.warnings.push_back(

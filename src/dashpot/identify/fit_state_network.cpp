@@ -7,6 +7,7 @@
 #include "dashpot/damper/neural/train_bank.h"
 #include "dashpot/identify/bank_records.h"
 #include "dashpot/identify/fit.h"
+#include "dashpot/identify/member_report.h"
 #include "dashpot/identify/starting_bank.h"
 #include "dashpot/identify/trials.h"
 
@@ -133,20 +134,10 @@ class BankFit {
 
 FitReport fit_state_network(const StateNetworkPreset& preset, const std::vector<Record>& training,
                             const std::string& drive_unit, const IdentifyOptions& options) {
-  const BankFit search(preset, training, drive_unit, options);
-  FitReport report;
+  const std::vector<BankFit::Member> members = BankFit(preset, training, drive_unit, options).members();
+  FitReport report = report_of_members(members);
   std::vector<BankNetwork> networks;
-  bool converged = true;
-  const std::vector<BankFit::Member> trained = search.members();
-  const auto members = static_cast<double>(trained.size());
-  for (const BankFit::Member& member : trained) {
-    networks.push_back(member.network);
-    converged = converged && member.report.converged;
-    report.iterations = std::max(report.iterations, member.report.iterations);
-    report.training_rmse += member.report.rmse / members;
-  }
-  report.status = converged ? FitReport::Status::Converged : FitReport::Status::IterationLimit;
-  report.message = converged ? "converged" : "iteration limit reached";
+  for (const BankFit::Member& member : members) networks.push_back(member.network);
   report.model = std::make_shared<HysteresisNetwork>(std::string(preset.name), std::move(networks));
   return report;
 }

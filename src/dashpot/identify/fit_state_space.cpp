@@ -7,6 +7,7 @@
 #include "dashpot/damper/neural/train_state_space.h"
 #include "dashpot/identify/bank_records.h"
 #include "dashpot/identify/fit.h"
+#include "dashpot/identify/member_report.h"
 #include "dashpot/identify/trials.h"
 
 namespace dashpot {
@@ -170,17 +171,9 @@ FitReport fit_state_space(const StateSpacePreset& preset, const std::vector<Reco
                           const std::string& drive_unit, const IdentifyOptions& options) {
   const std::vector<StateSpaceFit::Member> members =
       StateSpaceFit(preset, training, drive_unit, options).members();
-  FitReport report;
+  FitReport report = report_of_members(members);
   std::vector<StateSpaceNetwork> networks;
-  bool converged = true;
-  for (const StateSpaceFit::Member& member : members) {
-    networks.push_back(member.network);
-    converged = converged && member.report.converged;
-    report.iterations = std::max(report.iterations, member.report.iterations);
-    report.training_rmse += member.report.rmse / static_cast<double>(members.size());
-  }
-  report.status = converged ? FitReport::Status::Converged : FitReport::Status::IterationLimit;
-  report.message = converged ? "converged" : "iteration limit reached";
+  for (const StateSpaceFit::Member& member : members) networks.push_back(member.network);
   report.model = std::make_shared<StateSpaceModel>(std::string(preset.name), std::move(networks));
   return report;
 }

@@ -13,6 +13,10 @@ TEST_CASE("the force of a state space is the members' mean and the offset") {
   const DamperInput input{9, 0.1, 1};
   CHECK_CLOSE(both.force(input, state),
               (first.force(input, all.first(4)) + second.force(input, all.last(4))) / 2 + 4.5, 1e-14, 0);
+  CHECK_CLOSE(both.spread(input, state),
+              std::abs(first.force(input, all.first(4)) - second.force(input, all.last(4))) / std::sqrt(2.0),
+              1e-12, 0);
+  CHECK(first.spread(input, all.first(4)) == 0);
   CHECK(both.state_size() == 8);
   CHECK(both.kind() == "state_space");
   // 4 rates, 3 neurons of 6, 2 x 3 rows over 1 + 2 + 1 + 3; 2 neurons of 6, 7 terms of 3 gates

@@ -1,42 +1,15 @@
 #include "dashpot/damper/neural/train_bank.h"
 
 #include "bank_network_example.h"
+#include "bank_record_example.h"
 #include "support.h"
 
 using namespace dashpot;
 
 namespace {
 
-using Records = std::vector<const BankRecord*>;
-
-/// What `truth` makes of sines of several sizes, a record each, from a current that is switched; an offset
-/// of -100, 0, 100 N.
 std::vector<BankRecord> measured(const BankNetwork& truth, std::size_t samples) {
-  const HysteresisNetwork model("truth", {truth});
-  std::vector<BankRecord> records(3);
-  for (std::size_t r = 0; r < records.size(); ++r) {
-    BankRecord& record = records[r];
-    record.first = 20;
-    std::vector<double> state(model.state_size());
-    for (std::size_t k = 0; k < samples; ++k) {
-      const double t = 0.004 * static_cast<double>(k), size = 0.1 * static_cast<double>(r + 1);
-      const DamperInput input{0, size * std::sin(12 * t) + 0.05 * std::sin(31 * t), k / 40 % 2 ? 1.8 : 0.2};
-      if (k == 0)
-        model.rest(input, state);
-      else
-        model.advance(record.inputs.back(), input, t - record.time.back(), state);
-      record.inputs.push_back(input);
-      record.time.push_back(t);
-      record.force.push_back(model.force(input, state) + 100.0 * (static_cast<double>(r) - 1));
-    }
-  }
-  return records;
-}
-
-Records all_of(const std::vector<BankRecord>& records) {
-  Records all;
-  for (const BankRecord& record : records) all.push_back(&record);
-  return all;
+  return measured(HysteresisNetwork("truth", {truth}), samples, 20);
 }
 
 /// Other weights and rates than the truth's.
@@ -81,7 +54,7 @@ TEST_CASE("the gradient is that of the cost, rates, offsets and decays included"
 TEST_CASE("training finds a network that foretells motions it has not seen, and the same one again") {
   const std::vector<BankRecord> records = measured(example_bank_network(), 400);
   const BankTrainOptions options{.max_iterations = 80, .weight_decay = 1e-7};
-  const Records seen{&records[0], &records[2]};
+  const std::vector<const BankRecord*> seen{&records[0], &records[2]};
   BankNetwork found = start(), again = start();
   const BankTrainReport report = train(found, seen, options);
   train(again, seen, options);

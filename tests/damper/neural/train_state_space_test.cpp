@@ -1,5 +1,6 @@
 #include "dashpot/damper/neural/train_state_space.h"
 
+#include "bank_record_example.h"
 #include "state_space_example.h"
 #include "support.h"
 
@@ -7,36 +8,8 @@ using namespace dashpot;
 
 namespace {
 
-using Records = std::vector<const BankRecord*>;
-
-/// What a state space makes of two-tone motions of three sizes at a current that is switched; an offset of
-/// -100, 0, 100 N.
 std::vector<BankRecord> measured(std::size_t samples) {
-  const StateSpaceModel model("truth", {example_state_space(3)});
-  std::vector<BankRecord> records(3);
-  for (std::size_t r = 0; r < records.size(); ++r) {
-    BankRecord& record = records[r];
-    record.first = 10;
-    std::vector<double> state(model.state_size());
-    for (std::size_t k = 0; k < samples; ++k) {
-      const double t = 0.004 * static_cast<double>(k), size = 0.1 * static_cast<double>(r + 1);
-      const DamperInput input{0, size * std::sin(12 * t) + 0.05 * std::sin(31 * t), k / 40 % 2 ? 1.8 : 0.2};
-      if (k == 0)
-        model.rest(input, state);
-      else
-        model.advance(record.inputs.back(), input, t - record.time.back(), state);
-      record.inputs.push_back(input);
-      record.time.push_back(t);
-      record.force.push_back(model.force(input, state) + 100.0 * (static_cast<double>(r) - 1));
-    }
-  }
-  return records;
-}
-
-Records all_of(const std::vector<BankRecord>& records) {
-  Records all;
-  for (const BankRecord& record : records) all.push_back(&record);
-  return all;
+  return measured(StateSpaceModel("truth", {example_state_space(3)}), samples, 10);
 }
 
 /// Other rates and weights than the truth's, no feedback yet.
@@ -82,7 +55,7 @@ TEST_CASE("the gradient is that of the cost over windows, encoder included") {
 
 TEST_CASE("windows, then whole records: a state space foretells motions it has not seen") {
   const std::vector<BankRecord> records = measured(400);
-  const Records seen{&records[0], &records[2]};
+  const std::vector<const BankRecord*> seen{&records[0], &records[2]};
   const auto trained = [&] {
     StateSpaceNetwork model = start();
     train(model, seen, {.max_iterations = 15, .weight_decay = 1e-6, .window = 50});

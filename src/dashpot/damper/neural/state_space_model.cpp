@@ -87,6 +87,19 @@ double StateSpaceModel::force(const DamperInput& input, std::span<const double> 
   return sum / static_cast<double>(members_.size()) + offset_;
 }
 
+double StateSpaceModel::spread(const DamperInput& input, std::span<const double> state) const noexcept {
+  const double mean = force(input, state) - offset_;
+  std::array<double, GatedNetwork::kMaxSignals> signals;
+  double squares = 0;
+  for (const StateSpaceNetwork& member : members_) {
+    member.cell.read(input, state.first(member.cell.size()), signals.data());
+    const double apart = member.network.evaluate(signals.data()) - mean;
+    squares += apart * apart;
+    state = state.subspan(member.cell.size());
+  }
+  return is_ensemble() ? std::sqrt(squares / static_cast<double>(members_.size() - 1)) : 0;
+}
+
 std::unique_ptr<DamperModel> StateSpaceModel::with_offset(double newton) const {
   return std::make_unique<StateSpaceModel>(name_, members_, offset_ + newton);
 }

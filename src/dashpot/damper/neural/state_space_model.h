@@ -35,6 +35,8 @@ class StateSpaceModel final : public DamperModel {
   void advance(const DamperInput& from, const DamperInput& to, double dt,
                std::span<double> state) const noexcept override;
   double force(const DamperInput& input, std::span<const double> state) const noexcept override;
+  bool is_ensemble() const noexcept override { return members_.size() > 1; }
+  double spread(const DamperInput& input, std::span<const double> state) const noexcept override;
   std::unique_ptr<DamperModel> with_offset(double newton) const override;
   Value to_json() const override;
 
