@@ -21,6 +21,8 @@ class GroundMotion {
   /// Under a tyre on `track` (0 left or only, 1 right), `behind` metres behind the first axle, at t s.
   virtual FootMotion foot(double t, std::size_t track, double behind) const noexcept = 0;
   virtual double acceleration(double) const noexcept { return 0; }  ///< m/s^2, of the ground, at t s
+  /// Whether it is an acceleration, which plants without tyres ask for, and not a height.
+  virtual bool shakes() const noexcept { return false; }
   /// m/s along the road; 0: its height is one of time, and all tyres meet it at once.
   virtual double speed() const noexcept { return 0; }
   /// Instants at which a height under a tyre that far behind jumps; foot() gives what is after it.

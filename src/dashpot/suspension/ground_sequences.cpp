@@ -4,6 +4,7 @@
 
 #include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
+#include "dashpot/suspension/recorded_ground.h"
 #include "dashpot/suspension/road_profile.h"
 #include "dashpot/suspension/roads/deterministic.h"
 
@@ -123,6 +124,7 @@ const GroundSequence& find_ground(std::string_view name, const std::string& wher
     if (sequence.info.name == name) return sequence;
     known.emplace_back(sequence.info.name);
   }
+  for (const RecordedGround& kind : recorded_grounds()) known.emplace_back(kind.name);
   throw Error(where, "unknown motion of the ground '" + std::string(name) + "'", suggest(name, known));
 }
 
@@ -142,6 +144,9 @@ std::span<const GroundSequence> ground_sequences() { return kSequences; }
 
 GroundPointer make_ground(const std::string& text, std::uint64_t seed, const std::string& where) {
   std::vector<std::string> parts = split(text, ',');
+  for (const RecordedGround& kind : recorded_grounds())
+    if (kind.name == trim(parts.front()))
+      return make_recorded_ground(kind, std::span(parts).subspan(1), where);
   const GroundSequence& sequence = find_ground(trim(parts.front()), where);
   for (std::string& part : parts) part = without_class(part);
   return sequence.make(

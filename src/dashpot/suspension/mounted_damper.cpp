@@ -14,7 +14,7 @@ DamperState::DamperState(const MountedDamper& damper, const ControlLimits& limit
       driver_state_(Driver::kStates),
       inverse_state_(damper.inverse ? damper.inverse->state_size() : 0),
       command_(damper.current) {
-  const DamperInput rest{deflection, 0, damper.current};
+  const DamperInput rest = damper.at_damper({deflection, 0, damper.current});
   driver_.rest(damper.current, driver_state_);
   damper.model->rest(rest, state_);
   if (damper.inverse) damper.inverse->rest(rest, inverse_state_);
@@ -35,11 +35,13 @@ void DamperState::demand(const DamperDemand& demand, const DamperInput& now) {
   if (demand.kind == DamperDemand::Kind::Current) {
     command_ = demand.value;
   } else if (damper_->inverse) {
-    command_ = damper_->inverse->command({.wanted = wanted_force(demand, now),
-                                          .displacement = now.displacement,
-                                          .velocity = now.velocity,
-                                          .current = now.current,
-                                          .measured = force(now)},
+    const double ratio = damper_->motion_ratio;
+    const DamperInput motion = damper_->at_damper(now);
+    command_ = damper_->inverse->command({.wanted = wanted_force(demand, now) / ratio,
+                                          .displacement = motion.displacement,
+                                          .velocity = motion.velocity,
+                                          .current = motion.current,
+                                          .measured = force(now) / ratio},
                                          inverse_state_);
   } else {
     const double damping = demand.kind == DamperDemand::Kind::Damping ? demand.value
@@ -53,7 +55,7 @@ void DamperState::demand(const DamperDemand& demand, const DamperInput& now) {
 }
 
 void DamperState::advance(const DamperInput& from, const DamperInput& to, double dt) noexcept {
-  damper_->model->advance(from, to, dt, state_);
+  damper_->model->advance(damper_->at_damper(from), damper_->at_damper(to), dt, state_);
   driver_.advance(dt, driver_state_);
 }
 

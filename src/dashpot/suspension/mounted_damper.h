@@ -24,10 +24,17 @@ struct MountedDamper {
   /// a force is that damping which gives it at this speed.
   std::shared_ptr<const InverseModel> inverse;
   ForceLoop loop;
-  double current = 0;  ///< A, commanded where there is no controller
+  double current = 0;       ///< A, commanded where there is no controller
+  double motion_ratio = 1;  ///< the damper's travel over the strut's; its force counts there by as much
+
+  /// The motion of the strut as the damper has it.
+  DamperInput at_damper(const DamperInput& strut) const noexcept {
+    return {motion_ratio * strut.displacement, motion_ratio * strut.velocity, strut.current};
+  }
 };
 
-/// Its moving parts: states of model, driver, inverse and force loop. Copied to try a step.
+/// Its moving parts: states of model, driver, inverse and force loop. Motions and forces are the strut's.
+/// Copied to try a step.
 class DamperState {
  public:
   DamperState(const MountedDamper& damper, const ControlLimits& limits, double deflection);
@@ -36,7 +43,9 @@ class DamperState {
   void demand(const DamperDemand& demand, const DamperInput& now);
   /// From one instant to another one dt later.
   void advance(const DamperInput& from, const DamperInput& to, double dt) noexcept;
-  double force(const DamperInput& input) const noexcept { return damper_->model->force(input, state_); }
+  double force(const DamperInput& input) const noexcept {
+    return damper_->motion_ratio * damper_->model->force(damper_->at_damper(input), state_);
+  }
   double current() const noexcept { return driver_.current(driver_state_); }
   /// The coil's current dt s from now.
   double current_after(double dt) const noexcept;

@@ -96,8 +96,9 @@ PlantSet parse_plant_set(std::string_view text, const std::string& source, const
     set.plant = from_matrices(*matrices);
   } else {
     const Value& kind = reader.required("plant");
-    set.plant = from_parameters(find_plant_model(kind.as_string(), kind.where()),
-                                reader.required("parameters"), values);
+    set.kind = kind.as_string();
+    set.plant =
+        from_parameters(find_plant_model(set.kind, kind.where()), reader.required("parameters"), values);
   }
   if (const Value* damping = reader.optional("damping")) set.damping = read_damping(*damping);
   reader.finish();
@@ -120,7 +121,8 @@ PlantSet load_plant_set(const std::string& name, const NamedValues& values) {
               false,
               "the numbers of the table",
               make_plant(*model, values, name),
-              {}};
+              {},
+              name};
     known.emplace_back(model->name);
   }
   throw Error("", "unknown plant '" + name + "'", suggest(name, known));

@@ -21,6 +21,7 @@ struct PlantSet {
   std::string reason;     ///< how it was verified, or why it is not
   Plant plant;
   std::optional<DampingRange> damping;  ///< per strut
+  std::string kind = {};                ///< of plant, whose parameters it states; empty: matrices of its own
 };
 
 /// Names of the sets that come with Dashpot, in alphabetical order.

@@ -13,9 +13,8 @@ namespace dashpot {
 struct VehicleWords {
   std::string plant = "savaresi_spelta";  ///< a set, a kind of plant, or a file of data/plants' form
   std::vector<std::string> values;        ///< in place of the plant's: "sprung_mass=350 kg"
-  /// One per strut, or one for all: a model file; a parameter set's name; "viscous,damping=1500" (passive);
-  /// "ideal,damping_min=300,damping_max=3900" (any damping in between); a passive curve by name or CSV file.
-  /// Empty: the plant's own range as an ideal damper.
+  /// One per strut, or one for all, as choose_damper() has them. Empty: the plant's own range as an ideal
+  /// damper.
   std::vector<std::string> dampers;
   std::string controller;     ///< "mix1,crossover=1.9Hz"; empty: every damper keeps `current`
   std::string inverse;        ///< scheme or file, from a wanted force to a current; empty: damping is mapped
@@ -33,11 +32,16 @@ struct Vehicle {
   std::vector<MountedDamper> dampers;          ///< one per strut
   std::vector<std::string> damper_names;       ///< one per strut
   std::vector<std::optional<Domain>> domains;  ///< where each damper's data were
+  std::string drive_unit;                      ///< of the dampers; empty: a place between 0 and 1, or none
   ControllerPointer controller;                ///< null: none
+  std::string controller_name;                 ///< as it was named; empty: none
   ControlLimits limits;
-  std::vector<std::string> notes;  ///< "these parameters are an example: ..."
+  SensorOptions sensors;
+  std::vector<std::string> notes;  ///< "the numbers of ... are an example: ..."
 
   Setting on(const GroundMotion& ground) const { return {set.plant, dampers, ground, controller.get()}; }
+  /// The rest of what simulate() must know to run it for that long.
+  SimulateOptions options(double duration) const;
 };
 
 /// Throws Error(where, ...) at a word that nothing is known by, at a value outside its bounds, at parts that

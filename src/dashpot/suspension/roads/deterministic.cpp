@@ -88,6 +88,7 @@ class Shaking final : public GroundMotion {
   std::string description() const override { return description_; }
   double duration() const noexcept override { return step_ * static_cast<double>(a_.size() - 1); }
   FootMotion foot(double, std::size_t, double) const noexcept override { return {}; }
+  bool shakes() const noexcept override { return true; }
   double acceleration(double t) const noexcept override {
     const double place = t / step_;
     if (!(place >= 0) || place >= static_cast<double>(a_.size() - 1)) return 0;
