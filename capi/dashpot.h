@@ -165,16 +165,16 @@ DASHPOT_API size_t dashpot_recordings_count(const dashpot_recordings* recordings
 DASHPOT_API dashpot_status dashpot_recordings_describe(const dashpot_recordings* recordings, char** text);
 
 typedef struct dashpot_record_info {
-  const char* name;  ///< as all that is here: valid until the recordings change or are freed
+  const char* name;  ///< as `condition`: valid until the recordings change or are freed
   const char* condition;
-  const double* time;  ///< s, `samples` numbers
+  const double* time;  ///< s, `samples` numbers; as channels' data valid until the recordings are freed
   size_t samples;
   size_t channel_count;
   double sample_time;  ///< s; 0: not uniform
 } dashpot_record_info;
 
 typedef struct dashpot_channel {
-  const char* name;    ///< "velocity"
+  const char* name;    ///< "velocity"; as the unit valid until the recordings change or are freed
   const char* unit;    ///< SI
   const double* data;  ///< `samples` numbers
 } dashpot_channel;
@@ -231,6 +231,18 @@ DASHPOT_API void dashpot_ranking_free(dashpot_ranking** ranking);
 /// none): {"force_offset": "record", "threads": 0}.
 DASHPOT_API dashpot_status dashpot_evaluate(const dashpot_model* model, const dashpot_recordings* recordings,
                                             const char* options, char** report);
+
+// ---- Vehicles -----------------------------------------------------------------------------------------
+
+/// A vehicle or building from rest, in the words of `dashpot simulate`, with SI units: {"plant":
+/// "savaresi_spelta", "set": ["sprung_mass=350kg"], "dampers": ["model.json"], "controller":
+/// "mix1,crossover=1.9Hz", "inverse": "numeric", "current": 0, "current_max": 0, "lag_rate": -1,
+/// "sample_time": 0.001, "in_car": false, "delay": 0, "road": "iso8608,class=C", "duration": 20,
+/// "output_step": 0.001, "seed": 1}; all may be absent. `trace`: recordings that hold one, with a channel for
+/// everything that moved. The report (null: not wanted) has the road, notes, warnings and where it diverged;
+/// DASHPOT_NOT_USABLE then, with the trace up to there.
+DASHPOT_API dashpot_status dashpot_simulate(const char* options, const dashpot_monitor* monitor,
+                                            dashpot_recordings** trace, char** report);
 
 #ifdef __cplusplus
 }

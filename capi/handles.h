@@ -18,7 +18,8 @@ struct dashpot_model {
 
 struct dashpot_recordings {
   dashpot::Dataset dataset;
-  std::vector<std::string> name_rests;  ///< of records in arrays, for their conditions
+  bool takes_arrays = false;
+  std::vector<std::string> name_rests = {};  ///< of the arrays' records, for their conditions
 };
 
 struct dashpot_ranking {

@@ -93,7 +93,7 @@ Dataset usable_dataset(const dashpot_recordings* recordings) {
   require(recordings, "recordings");
   Dataset dataset = recordings->dataset;
   if (dataset.records.empty()) throw Error("recordings", "there are none", "add one at least");
-  if (!recordings->name_rests.empty()) infer_conditions(dataset.records, recordings->name_rests);
+  if (recordings->takes_arrays) infer_conditions(dataset.records, recordings->name_rests);
   return dataset;
 }
 
@@ -111,7 +111,7 @@ dashpot_status dashpot_recordings_load(const char* const* paths, size_t count, c
       all.emplace_back(paths[k]);
     }
     if (all.empty()) throw Error("paths", "there are none", "a file or folder at least");
-    *recordings = new dashpot_recordings{load_dataset(all, read_load_options(options)), {}};
+    *recordings = new dashpot_recordings{load_dataset(all, read_load_options(options))};
   });
 }
 
@@ -119,7 +119,7 @@ dashpot_status dashpot_recordings_new(dashpot_recordings** recordings) {
   return guarded([&] {
     require(recordings, "recordings");
     *recordings = nullptr;
-    *recordings = new dashpot_recordings();
+    *recordings = new dashpot_recordings{.dataset = {}, .takes_arrays = true};
     (*recordings)->dataset.name = "recordings in memory";
   });
 }
@@ -129,8 +129,8 @@ dashpot_status dashpot_recordings_add(dashpot_recordings* recordings, const dash
     require(recordings, "recordings");
     require(table, "table");
     require(table->columns, "columns");
-    if (!recordings->dataset.files.empty())
-      throw Error("recordings", "come from files",
+    if (!recordings->takes_arrays)
+      throw Error("recordings", "were not made empty",
                   "dashpot_recordings_new makes those that arrays can be added to");
     add(*recordings, *table);
   });

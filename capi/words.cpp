@@ -82,6 +82,34 @@ EvaluateOptions read_evaluate_options(const char* text) {
   return options;
 }
 
+DriveOptions read_drive_options(const char* text) {
+  const Value value = parse_options(text);
+  ObjectReader reader(value, "the options");
+  DriveOptions out;
+  VehicleWords& words = out.vehicle;
+  words.where = "options";
+  words.plant = reader.string("plant", words.plant);
+  words.values = texts(reader, "set");
+  words.dampers = texts(reader, "dampers");
+  words.controller = reader.string("controller", "");
+  words.inverse = reader.string("inverse", "");
+  words.current = reader.number("current", words.current);
+  words.current_max = reader.number("current_max", words.current_max);
+  words.lag_rate = reader.number("lag_rate", words.lag_rate);
+  words.sample_time = reader.number("sample_time", words.sample_time);
+  words.sensors.in_car = reader.boolean("in_car", words.sensors.in_car);
+  words.sensors.delay = reader.number("delay", words.sensors.delay);
+  out.road = reader.string("road", out.road);
+  out.duration = reader.number("duration", out.duration);
+  out.output_step = reader.number("output_step", out.output_step);
+  out.seed = words.sensors.seed = static_cast<std::uint64_t>(whole(reader, "seed", 1));
+  reader.finish();
+  for (const auto& [name, seconds] : {std::pair{"duration", out.duration}, {"output_step", out.output_step}})
+    if (!(seconds >= 0) || !std::isfinite(seconds))
+      throw Error(std::string("options, ") + name, "is " + format_number(seconds), "s, 0 or more");
+  return out;
+}
+
 std::vector<std::pair<std::string, double>> read_conditions(const char* text) {
   std::vector<std::pair<std::string, double>> conditions;
   if (!text) return conditions;

@@ -36,7 +36,7 @@ struct Sine {
 std::string run_message(const dashpot_model* model, const dashpot_motion& motion) {
   std::vector<double> force(motion.samples);
   const dashpot_response response = {force.data(), nullptr, nullptr, 0};
-  return MESSAGE_OF(DASHPOT_BAD_INPUT, dashpot_run(model, &motion, &response));
+  return message_of(DASHPOT_BAD_INPUT, dashpot_run(model, &motion, &response));
 }
 
 }  // namespace
@@ -160,13 +160,13 @@ TEST_CASE("wrong sizes, steps and numbers are told by name") {
   const Model model = published();
   const dashpot_input input = {};
   double state[3] = {};
-  CHECK(contains(MESSAGE_OF(DASHPOT_BAD_INPUT, dashpot_rest(model, &input, state, 3)),
+  CHECK(contains(message_of(DASHPOT_BAD_INPUT, dashpot_rest(model, &input, state, 3)),
                  "state_size: is 3; bouc_wen has 1 states"));
   for (const double dt : {0.0, -1e-3, kNaN, kInfinity})
     CHECK(
-        contains(MESSAGE_OF(DASHPOT_BAD_INPUT, dashpot_advance(model, &input, &input, dt, state, 1)), "dt"));
+        contains(message_of(DASHPOT_BAD_INPUT, dashpot_advance(model, &input, &input, dt, state, 1)), "dt"));
   const dashpot_input broken = {0, kNaN, 0};
-  CHECK(contains(MESSAGE_OF(DASHPOT_BAD_INPUT, dashpot_rest(model, &broken, state, 1)), "velocity: is nan"));
+  CHECK(contains(message_of(DASHPOT_BAD_INPUT, dashpot_rest(model, &broken, state, 1)), "velocity: is nan"));
 
   Sine sine(10);
   sine.inputs[7].current = kInfinity;
@@ -190,7 +190,7 @@ TEST_CASE("wrong sizes, steps and numbers are told by name") {
   std::vector<double> force(10);
   const dashpot_motion good = whole.motion();
   const dashpot_response banded = {force.data(), force.data(), nullptr, 0};
-  CHECK(contains(MESSAGE_OF(DASHPOT_BAD_INPUT, dashpot_run(model, &good, &banded)), "has no band"));
+  CHECK(contains(message_of(DASHPOT_BAD_INPUT, dashpot_run(model, &good, &banded)), "has no band"));
 }
 
 TEST_CASE("a state that is no number gives a status, not a force") {
@@ -199,17 +199,17 @@ TEST_CASE("a state that is no number gives a status, not a force") {
   const double state = kNaN;
   double force = 0;
   CHECK(
-      contains(MESSAGE_OF(DASHPOT_NOT_USABLE, dashpot_force(model, &input, &state, 1, &force)), "diverged"));
+      contains(message_of(DASHPOT_NOT_USABLE, dashpot_force(model, &input, &state, 1, &force)), "diverged"));
 }
 
 TEST_CASE("files that are no models, and names that nothing has, are refused with what would be right") {
   const TemporaryFolder folder;
   dashpot_model* model = nullptr;
   CHECK(
-      contains(MESSAGE_OF(DASHPOT_BAD_INPUT, dashpot_model_load("/nowhere/model.json", &model)), "nowhere"));
+      contains(message_of(DASHPOT_BAD_INPUT, dashpot_model_load("/nowhere/model.json", &model)), "nowhere"));
   for (const char* text : {"", "{", "[]", "{\"format\": \"dashpot-model\"}", "\xff\xfe"})
     CHECK(dashpot_model_parse(text, &model) == DASHPOT_BAD_INPUT);
-  CHECK(contains(MESSAGE_OF(DASHPOT_BAD_INPUT, dashpot_model_published("spenser1997", &model)),
+  CHECK(contains(message_of(DASHPOT_BAD_INPUT, dashpot_model_published("spenser1997", &model)),
                  "did you mean 'spencer1997'"));
   CHECK(model == nullptr);
   const Model good = published();

@@ -12,6 +12,7 @@ from ._core import DamperModel, Error, NotUsable, __version__
 from ._identify import Ranking, identify
 from ._learn import Identifier
 from ._recordings import Recordings
+from ._simulate import Trace, simulate
 
 load = DamperModel.load
 published = DamperModel.published
@@ -23,8 +24,10 @@ __all__ = [
     "NotUsable",
     "Ranking",
     "Recordings",
+    "Trace",
     "__version__",
     "identify",
     "load",
     "published",
+    "simulate",
 ]

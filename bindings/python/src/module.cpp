@@ -49,6 +49,15 @@ std::string evaluate(const Model& model, const Recordings& recordings, const std
   return report.take();
 }
 
+py::tuple simulate(const std::string& options, py::object progress) {
+  Recordings trace;
+  Text report;
+  Watched(std::move(progress)).run([&](const dashpot_monitor* monitor) {
+    return dashpot_simulate(options.c_str(), monitor, trace.out(), report.out());
+  });
+  return py::make_tuple(std::move(trace), report.take());
+}
+
 py::tuple understand_column(const std::string& name) {
   dashpot_column_meaning meaning = {};
   check(dashpot_understand_column(name.c_str(), &meaning));
@@ -178,5 +187,6 @@ PYBIND11_MODULE(_core, module) {
   module.def("fit", &fit);
   module.def("identify", &identify);
   module.def("evaluate", &evaluate);
+  module.def("simulate", &simulate);
   module.def("understand_column", &understand_column);
 }
