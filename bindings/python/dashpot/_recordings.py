@@ -45,11 +45,12 @@ class Recordings:
         """Copies one recording into these, and returns them.
 
         table: a DataFrame or a dict of arrays, whose names tell channel and unit: "velocity" (SI), "x [mm]",
-        "F_N". It needs a force, velocity or displacement (velocity is then derived), and current or voltage.
-        sample_time: s between samples, where no column is time. conditions: what was constant, SI:
-        {"gap": 0.001}. Raises Error at what cannot be used; nothing is added then.
+        "F_N"; others are left out. It needs a force, velocity or displacement (velocity is then derived), and
+        current or voltage. sample_time: s between samples, where no column is time. conditions: what was
+        constant, SI: {"gap": 0.001}. Raises Error at what cannot be used; nothing is added then.
         """
-        arrays = {str(column): table[column] for column in (table.columns if _frames.is_frame(table) else table)}
+        names = table.columns if _frames.is_frame(table) else table
+        arrays = {str(name): table[name] for name in names if _core.understand_column(str(name))[0]}
         stated = None if conditions is None else json.dumps(dict(conditions))
         self._core.add(arrays, name, sample_time, stated)
         return self
