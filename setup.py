@@ -36,5 +36,12 @@ class CMakeBuild(build_ext):
         subprocess.run(["cmake", "--build", folder, "--target", "dashpot_core"], check=True)
 
 
+MADE = Path("build/wheel")  # relative, as setuptools wants it
+MADE.mkdir(parents=True, exist_ok=True)
 version = re.search(r"project\(dashpot VERSION (\S+)", (ROOT / "CMakeLists.txt").read_text())[1]
-setup(version=version, ext_modules=[Extension("dashpot._core", [])], cmdclass={"build_ext": CMakeBuild})
+setup(
+    version=version,
+    ext_modules=[Extension("dashpot._core", [])],
+    cmdclass={"build_ext": CMakeBuild},
+    options={"build": {"build_base": str(MADE)}, "egg_info": {"egg_base": str(MADE)}},
+)
