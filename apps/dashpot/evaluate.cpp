@@ -8,10 +8,11 @@
 #include "dashpot/base/file.h"
 #include "dashpot/base/text.h"
 #include "dashpot/damper/family/family_model.h"
+#include "dashpot/identify/extrapolation.h"
+#include "dashpot/identify/fit_words.h"
 #include "dashpot/output/interval_table.h"
 #include "dashpot/output/report_json.h"
 #include "data.h"
-#include "extrapolation.h"
 #include "layout.h"
 #include "results.h"
 
@@ -69,29 +70,11 @@ std::string band_table(const Evaluation& evaluation, int width) {
   return table.text(static_cast<std::size_t>(width));
 }
 
-/// What of the recordings' dampers lies outside the family that the model is of, each once.
-std::vector<std::string> outside_family(const Evaluation& evaluation) {
-  std::vector<std::string> told;
-  for (const RecordResult& r : evaluation.records)
-    for (const std::string& what : r.extrapolations)
-      if (std::ranges::find(told, what) == told.end()) told.push_back(what);
-  return told;
-}
-
 /// Of models that feed their force back.
 std::string one_step_line(const Evaluation& evaluation) {
   if (!evaluation.one_step) return {};
   return "one step ahead, with the measured force fed back (flatters; no measure of the model): RMSE " +
          format_number(evaluation.one_step->rmse) + " N, ESR " + percent(evaluation.one_step->esr) + " %\n";
-}
-
-Value result_json(const ModelFile& file, const Evaluation& evaluation,
-                  const std::vector<Extrapolation>& outside) {
-  Value value = evaluation_json(evaluation);
-  value.add("model", file.model->name());
-  value.add("outside_domain", to_json(outside));
-  value.add("outside_family", Value::array(outside_family(evaluation)));
-  return value;
 }
 
 /// The report of `identify` with this model alone in it, fitted elsewhere.
@@ -113,14 +96,6 @@ void write_report(const Settings& settings, const Dataset& dataset, ModelFile fi
   console.print("\nReport  " + settings.report + '\n');
 }
 
-void require_same_drive(const ModelFile& file, const Dataset& dataset, const std::string& path) {
-  if (file.drive_unit == dataset.drive_unit) return;
-  throw Error(path,
-              "the model is driven in " + file.drive_unit + ", but the recordings are driven in " +
-                  dataset.drive_unit,
-              "a model serves recordings of its own kind of drive");
-}
-
 int run(const Settings& settings, Console& console) {
   ModelFile file = load_model(settings.model);
   if (const auto* family = dynamic_cast<const FamilyModel*>(file.model.get());
@@ -128,11 +103,10 @@ int run(const Settings& settings, Console& console) {
     file.model = family->with_outside(OutsideFamily::Refuse);
   const Dataset dataset = load_recordings(settings.data, console);
   require_same_drive(file, dataset, settings.model);
-  const EvaluateOptions options{
-      .offset = settings.force_offset == "none" ? OffsetMode::None : OffsetMode::Record,
-      .known_offsets = {},
-      .band = file.interval,
-      .threads = settings.threads};
+  const EvaluateOptions options{.offset = offset_mode(settings.force_offset, "--force-offset"),
+                                .known_offsets = {},
+                                .band = file.interval,
+                                .threads = settings.threads};
   const Evaluation evaluation = evaluate(*file.model, dataset.records, dataset.drive_unit, options);
   console.check_stop();
   const std::vector<Extrapolation> outside = extrapolations(file, dataset);
@@ -144,7 +118,7 @@ int run(const Settings& settings, Console& console) {
     console.print('\n' + paragraph(sentence, static_cast<std::size_t>(console.width())));
   for (const Extrapolation& e : outside) console.warn(describe(e));
   for (const std::string& what : outside_family(evaluation)) console.warn(what + ": it extrapolates there");
-  if (console.json) console.print_json(result_json(file, evaluation, outside));
+  if (console.json) console.print_json(evaluation_json(file, evaluation, outside));
   if (!settings.report.empty()) write_report(settings, dataset, std::move(file), evaluation, console);
   if (evaluation.diverged == 0) return kDone;
   console.error(

@@ -1,7 +1,5 @@
 #include "identify_options.h"
 
-#include <algorithm>
-
 #include "console.h"
 #include "dashpot/base/text.h"
 #include "dashpot/damper/registry.h"
@@ -9,61 +7,10 @@
 namespace dashpot::cli {
 namespace {
 
-/// What an engineer tries first: few, quick, and good on measured dampers.
-const std::vector<std::string> kUsualModels = {
-    "bingham", "tanh_kwok", "arctan", "modified_bouc_wen", "large_scale_bouc_wen", "anfis", "mlp_one_sensor"};
-
 std::vector<std::string> names_and_groups() {
   std::vector<std::string> words = model_names();
   words.insert(words.end(), {"usual", "all", "family"});
   return words;
-}
-
-/// The models that a word on the command line stands for.
-std::vector<std::string> models_of(const std::string& word) {
-  // Models of a family need what recordings of one damper do not have: each word stands for one of both.
-  if (word == "all" || word == "family") {
-    std::vector<std::string> names = model_names();
-    std::erase_if(names, [&](const std::string& name) {
-      return (model_info(name).kind == "family") != (word == "family");
-    });
-    return names;
-  }
-  return word == "usual" ? kUsualModels : std::vector{word};
-}
-
-std::vector<ParameterChoice> parameter_choices(const FitSettings& settings,
-                                               const std::vector<std::string>& models) {
-  const struct {
-    const char* option;
-    const std::vector<std::string>& texts;
-    ParameterChoice (*parse)(std::string_view, const std::string&, const ModelNames&);
-  } sources[] = {{"--form", settings.forms, parse_form_choice},
-                 {"--fix", settings.fixed, parse_fixed_choice},
-                 {"--free", settings.freed, parse_free_choice},
-                 {"--bounds", settings.bounds, parse_bounds_choice},
-                 {"--prior", settings.priors, parse_prior_choice}};
-  try {
-    std::vector<ParameterChoice> choices;
-    for (const auto& source : sources)
-      for (const std::string& text : source.texts)
-        choices.push_back(source.parse(text, source.option, models));
-    require_choices(choices, models);
-    return choices;
-  } catch (const Error& error) {
-    throw UsageError({}, error.what());
-  }
-}
-
-NetworkDesign network_design(const FitSettings& settings, const std::vector<std::string>& models) {
-  try {
-    NetworkDesign design;
-    for (const std::string& text : settings.network) parse_network_setting(text, "--network", design);
-    require_design(design, models);
-    return design;
-  } catch (const Error& error) {
-    throw UsageError({}, error.what());
-  }
 }
 
 std::string network_help() {
@@ -80,7 +27,7 @@ std::vector<Option> fit_options(FitSettings& settings) {
   return {
       {.names = "--models",
        .target = &settings.models,
-       .help = "the models to fit, separated by commas; 'usual' stands for " + join(kUsualModels, ", ") +
+       .help = "the models to fit, separated by commas; 'usual' stands for " + join(usual_models(), ", ") +
                "; 'all' for every model of one damper that 'dashpot models' lists, 'family' for those of a "
                "family of dampers",
        .value = "NAMES",
@@ -141,28 +88,22 @@ std::vector<Option> fit_options(FitSettings& settings) {
 
 std::vector<std::string> chosen_models(const FitSettings& settings, const Dataset& dataset,
                                        Console& console) {
-  const bool has_displacement =
-      std::ranges::all_of(dataset.records, [](const Record& r) { return r.find("displacement") != nullptr; });
-  std::vector<std::string> models, passed_over;
-  for (const std::string& word : settings.models)
-    for (const std::string& model : models_of(word)) {
-      const bool fits = model == word || has_displacement || !model_info(model).needs_displacement();
-      std::vector<std::string>& list = fits ? models : passed_over;
-      if (std::ranges::find(list, model) == list.end()) list.push_back(model);
-    }
-  if (!passed_over.empty())
-    console.note("not every record has a displacement, which these models need: " + join(passed_over, ", "));
-  return models;
+  ChosenModels chosen = choose_models(settings.models, dataset.records);
+  if (!chosen.passed_over.empty())
+    console.note("not every record has a displacement, which these models need: " +
+                 join(chosen.passed_over, ", "));
+  return std::move(chosen.names);
 }
 
 IdentifyOptions identify_options(const FitSettings& settings, const std::vector<std::string>& models,
                                  Console& console) {
-  IdentifyOptions options = settings.options;
-  options.offset = settings.force_offset == "none" ? OffsetMode::None : OffsetMode::Record;
-  options.choices = parameter_choices(settings, models);
-  options.network = network_design(settings, models);
-  options.monitor = console.monitor();
-  return options;
+  try {
+    IdentifyOptions options = dashpot::identify_options(settings, models, "--");
+    options.monitor = console.monitor();
+    return options;
+  } catch (const Error& error) {
+    throw UsageError({}, error.what());
+  }
 }
 
 }  // namespace dashpot::cli

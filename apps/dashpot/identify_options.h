@@ -3,18 +3,12 @@
 #include <vector>
 
 #include "command.h"
-#include "dashpot/identify/identify.h"
+#include "dashpot/identify/fit_words.h"
 
 namespace dashpot::cli {
 
 /// What `identify` and `demo` let the user say about the fits.
-struct FitSettings {
-  std::vector<std::string> models = {"usual"};
-  std::string force_offset = "record";
-  std::vector<std::string> forms, fixed, freed, bounds, priors;  ///< as "parameter=..."
-  std::vector<std::string> network;                              ///< as "setting=..."
-  IdentifyOptions options;
-};
+using FitSettings = FitWords;
 
 std::vector<Option> fit_options(FitSettings& settings);
 

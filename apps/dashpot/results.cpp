@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <ctime>
 #include <system_error>
 #include <unistd.h>
 
@@ -49,15 +48,6 @@ std::vector<Option> result_options(ResultSettings& settings) {
            .target = &settings.figures,
            .help = "also draw the figures as SVG and PDF, for a paper (needs gnuplot)"},
           {.names = "--no-report", .target = &settings.report, .help = "write the model files only"}};
-}
-
-std::string date_now() {
-  const std::time_t now = std::time(nullptr);
-  std::tm utc{};
-  gmtime_r(&now, &utc);
-  char text[32];
-  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &utc);
-  return text;
 }
 
 std::string program_id() { return DASHPOT_VERSION " " + sha256_of_file("/proc/self/exe"); }

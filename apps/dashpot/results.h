@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "command.h"
+#include "dashpot/base/date.h"
 #include "dashpot/identify/identify.h"
 #include "dashpot/output/report.h"
 
@@ -36,12 +37,6 @@ void write_results(const ReportInput& input, const ResultSettings& settings, Con
 
 /// kDone, or kNotUsable with the reason printed when no model gave a finite force.
 int exit_code_of(const Ranking& ranking, Console& console);
-
-/// This very build: a fit that another one made may differ.
-std::string program_id();
-
-/// Now, in UTC: "2026-05-01T12:00:00Z".
-std::string date_now();
 
 /// This very build: a fit that another one made may differ.
 std::string program_id();

@@ -48,21 +48,6 @@ Value parameter_json(const FittedParameter& p) {
                         {"weak", p.weak}});
 }
 
-Value fit_json(const FitReport& fit) {
-  Value parameters = Value::array(), offsets = Value::array();
-  for (const FittedParameter& parameter : fit.parameters) parameters.push_back(parameter_json(parameter));
-  for (const auto& [record, offset] : fit.offsets)
-    offsets.push_back(Value::object({{"record", record}, {"offset_N", offset}}));
-  return Value::object({{"status", status_name(fit.status)},
-                        {"message", fit.message},
-                        {"iterations", fit.iterations},
-                        {"seconds", fit.seconds},
-                        {"training_rmse_N", fit.training_rmse},
-                        {"parameters", std::move(parameters)},
-                        {"offsets", std::move(offsets)},
-                        {"warnings", Value::array(fit.warnings)}});
-}
-
 Value stress_json(const StressRun& run) {
   if (run.seconds == 0) return {};
   return Value::object({{"seconds", run.seconds},
@@ -125,6 +110,30 @@ Value evaluation_json(const Evaluation& evaluation) {
                                {"records", std::move(records)}});
   if (evaluation.one_step) value.add("one_step", to_json(*evaluation.one_step));
   return value;
+}
+
+Value evaluation_json(const ModelFile& file, const Evaluation& evaluation,
+                      const std::vector<Extrapolation>& outside) {
+  Value value = evaluation_json(evaluation);
+  value.add("model", file.model->name());
+  value.add("outside_domain", to_json(outside));
+  value.add("outside_family", Value::array(outside_family(evaluation)));
+  return value;
+}
+
+Value fit_json(const FitReport& fit) {
+  Value parameters = Value::array(), offsets = Value::array();
+  for (const FittedParameter& parameter : fit.parameters) parameters.push_back(parameter_json(parameter));
+  for (const auto& [record, offset] : fit.offsets)
+    offsets.push_back(Value::object({{"record", record}, {"offset_N", offset}}));
+  return Value::object({{"status", status_name(fit.status)},
+                        {"message", fit.message},
+                        {"iterations", fit.iterations},
+                        {"seconds", fit.seconds},
+                        {"training_rmse_N", fit.training_rmse},
+                        {"parameters", std::move(parameters)},
+                        {"offsets", std::move(offsets)},
+                        {"warnings", Value::array(fit.warnings)}});
 }
 
 Value dataset_json(const Dataset& dataset) {

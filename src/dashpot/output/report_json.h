@@ -1,4 +1,5 @@
 #pragma once
+#include "dashpot/identify/extrapolation.h"
 #include "dashpot/output/report.h"
 
 namespace dashpot {
@@ -8,6 +9,12 @@ Value dataset_json(const Dataset& dataset);
 
 /// A model's figures: pooled, by velocity band and by record.
 Value evaluation_json(const Evaluation& evaluation);
+/// And the model's name, and where it extrapolates: what `dashpot evaluate --json` prints.
+Value evaluation_json(const ModelFile& file, const Evaluation& evaluation,
+                      const std::vector<Extrapolation>& outside);
+
+/// Status, parameters with their intervals, offsets and warnings of a fit.
+Value fit_json(const FitReport& fit);
 
 /// Displayed series of all left-out records, packed, and the statistics of every residual.
 Value series_json(const Ranking& ranking);

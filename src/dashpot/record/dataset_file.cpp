@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
+#include "dashpot/base/data_folder.h"
 #include "dashpot/base/error.h"
 #include "dashpot/base/file.h"
 #include "dashpot/base/text.h"
@@ -220,19 +220,10 @@ DatasetFile load_dataset_file(const fs::path& path) {
 }
 
 std::vector<fs::path> shipped_dataset_files() {
-  std::vector<fs::path> folders;
-  if (const char* stated = std::getenv("DASHPOT_DATA")) folders.emplace_back(stated);
-  folders.emplace_back(DASHPOT_DATA_SOURCE_DIR);
-  folders.emplace_back(DASHPOT_DATA_INSTALL_DIR);
-  for (const fs::path& folder : folders) {
-    std::error_code error;
-    std::vector<fs::path> files;
-    for (const auto& entry : fs::directory_iterator(folder / "datasets", error))
-      if (entry.path().extension() == ".yaml") files.push_back(entry.path());
-    std::sort(files.begin(), files.end());
-    if (!files.empty()) return files;
-  }
-  return {};
+  std::vector<fs::path> files;
+  for (const std::string& name : data_names("datasets", ".yaml"))
+    files.push_back(data_folder("datasets") / (name + ".yaml"));
+  return files;
 }
 
 }  // namespace dashpot

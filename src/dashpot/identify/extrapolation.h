@@ -4,9 +4,9 @@
 
 #include "dashpot/base/value.h"
 #include "dashpot/damper/model_file.h"
-#include "dashpot/record/dataset.h"
+#include "dashpot/identify/evaluate.h"
 
-namespace dashpot::cli {
+namespace dashpot {
 
 /// How much of the recordings lies outside the range of one quantity that a model was fitted on.
 struct Extrapolation {
@@ -23,4 +23,10 @@ std::vector<Extrapolation> extrapolations(const ModelFile& file, const Dataset& 
 std::string describe(const Extrapolation& extrapolation);
 Value to_json(const std::vector<Extrapolation>& extrapolations);
 
-}  // namespace dashpot::cli
+/// What of the recordings' dampers lies outside the family that the model is of, each once.
+std::vector<std::string> outside_family(const Evaluation& evaluation);
+
+/// Throws Error(where, ...) where the model is driven in A and the recordings in V, or the other way round.
+void require_same_drive(const ModelFile& file, const Dataset& dataset, const std::string& where);
+
+}  // namespace dashpot

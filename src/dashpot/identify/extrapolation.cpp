@@ -1,13 +1,13 @@
-#include "extrapolation.h"
+#include "dashpot/identify/extrapolation.h"
 
 #include <algorithm>
 
 #include <fmt/core.h>
 
+#include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
-#include "dashpot/identify/evaluate.h"
 
-namespace dashpot::cli {
+namespace dashpot {
 namespace {
 
 constexpr double kMargin = 0.01;  // of the range: rounding and noise are no extrapolation
@@ -80,4 +80,20 @@ Value to_json(const std::vector<Extrapolation>& extrapolations) {
   return list;
 }
 
-}  // namespace dashpot::cli
+std::vector<std::string> outside_family(const Evaluation& evaluation) {
+  std::vector<std::string> told;
+  for (const RecordResult& r : evaluation.records)
+    for (const std::string& what : r.extrapolations)
+      if (std::ranges::find(told, what) == told.end()) told.push_back(what);
+  return told;
+}
+
+void require_same_drive(const ModelFile& file, const Dataset& dataset, const std::string& where) {
+  if (file.drive_unit == dataset.drive_unit) return;
+  throw Error(where,
+              "the model is driven in " + file.drive_unit + ", but the recordings are driven in " +
+                  dataset.drive_unit,
+              "a model serves recordings of its own kind of drive");
+}
+
+}  // namespace dashpot

@@ -1,0 +1,113 @@
+"""Identification: recordings in, ranked models out."""
+
+import json
+from typing import Callable, Iterable, Optional, Union
+
+from . import _core
+from ._recordings import Paths, Recordings, as_recordings
+
+Words = Union[str, Iterable[str]]
+Progress = Optional[Callable[[str, float], None]]
+
+
+def words(given: Words) -> list:
+    """"a,b" or ["a", "b"] as a list."""
+    return given.split(",") if isinstance(given, str) else list(given)
+
+
+def fit_options(
+    *,
+    force_offset: str = "record",
+    form: Words = (),
+    fix: Words = (),
+    free: Words = (),
+    bounds: Words = (),
+    prior: Words = (),
+    network: Words = (),
+    starts: int = 4,
+    search: int = 0,
+    seed: int = 1,
+    threads: int = 0,
+) -> dict:
+    """The options of a fit, as the C boundary takes them."""
+    lists = {"form": form, "fix": fix, "free": free, "bounds": bounds, "prior": prior, "network": network}
+    numbers = {"starts": starts, "search": search, "seed": seed, "threads": threads}
+    return {"force_offset": force_offset, **{key: words(given) for key, given in lists.items()}, **numbers}
+
+
+class Ranking:
+    """Models, the best first, each fitted on all training recordings and judged on what it has not seen."""
+
+    def __init__(self, core: _core._Ranking):
+        self._core = core
+
+    def __len__(self) -> int:
+        return len(self._core)
+
+    def __getitem__(self, place: int) -> _core.DamperModel:
+        """The model at a place; raises NotUsable where its fit failed."""
+        if not -len(self) <= place < len(self):
+            raise IndexError(f"model {place} of {len(self)}")
+        return self._core.model(place % len(self))
+
+    @property
+    def best(self) -> _core.DamperModel:
+        return self[0]
+
+    @property
+    def report(self) -> dict:
+        """All figures, as `dashpot identify --json` prints them."""
+        return json.loads(self._core.report("json"))
+
+    def frame(self):
+        """A line per model (pandas): errors on the recordings left out."""
+        import pandas
+
+        lines = [{"model": model["name"], **model["left_out"]["pooled"]} for model in self.report["models"]]
+        return pandas.DataFrame(lines).set_index("model")
+
+    def save_report(self, path: str) -> None:
+        """Writes the report page (.html), or .json, .md or .csv."""
+        formats = {"html": "html", "json": "json", "md": "markdown", "csv": "csv"}
+        ending = str(path).rsplit(".", 1)[-1]
+        if ending not in formats:
+            raise _core.Error(f"{path}: unknown ending; known: {', '.join('.' + known for known in formats)}")
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(self._core.report(formats[ending]))
+
+    def __str__(self) -> str:
+        return self._core.report("text")
+
+    def __repr__(self) -> str:
+        return f"<dashpot.Ranking of {len(self)} models>"
+
+
+def identify(
+    recordings: Union[Recordings, Paths],
+    models: Words = "usual",
+    leave_out: Optional[str] = None,
+    *,
+    progress: Progress = None,
+    **options,
+) -> Ranking:
+    """What `dashpot identify` does, with the same figures.
+
+    recordings: Recordings, or paths. models: names as `dashpot models` lists them, "usual", "all" or "family".
+    leave_out: "condition", "current=0.5", "record", "fraction=0.3", "each=gap" (None: as the dataset file says,
+    else the strictest that the recordings allow). progress: called with (stage, fraction 0 ... 1).
+    options: force_offset ("record" or "none"), form, fix, free, bounds, prior, network (lists as the command
+    line has them: ["alpha=exponential"]), starts, search, seed, threads (0: all cores).
+
+    Other Python threads run meanwhile; Ctrl-C stops it. Raises Error on what cannot be used.
+    """
+    data = as_recordings(recordings)
+    asked = {"models": words(models), "command": "dashpot.identify (Python)", **fit_options(**options)}
+    if leave_out is not None:
+        asked["leave_out"] = leave_out
+    return Ranking(_core.identify(data._core, json.dumps(asked), progress))
+
+
+def evaluate(model: _core.DamperModel, recordings, *, force_offset: str = "record", threads: int = 0) -> dict:
+    """What stands behind DamperModel.evaluate()."""
+    options = {"force_offset": force_offset, "threads": threads}
+    return json.loads(_core.evaluate(model, as_recordings(recordings)._core, json.dumps(options)))

@@ -1,0 +1,83 @@
+"""Recordings of a damper: from files, arrays or DataFrames."""
+
+import json
+import os
+from typing import Iterable, Mapping, Optional, Union
+
+from . import _core, _frames
+
+Paths = Union[str, os.PathLike, Iterable[Union[str, os.PathLike]]]
+
+
+class Recordings:
+    """Recordings to identify models from, or to judge models on.
+
+    Recordings("folder/") reads files as `dashpot inspect` does; Recordings() is empty and takes add().
+
+    paths: a file or folder, or several; dataset: a dataset file that states channels, units and conditions;
+    recognise: look among the known published recordings; velocity_cutoff: Hz, of the filter that velocity is
+    derived with (None: from the motion).
+    """
+
+    def __init__(
+        self,
+        paths: Optional[Paths] = None,
+        *,
+        dataset: str = "",
+        recognise: bool = True,
+        velocity_cutoff: Optional[float] = None,
+    ):
+        if paths is None:
+            self._core = _core._Recordings.empty()
+            return
+        one = isinstance(paths, (str, os.PathLike))
+        options = {"dataset": os.fspath(dataset), "recognise": recognise, "velocity_cutoff": velocity_cutoff or 0}
+        self._core = _core._Recordings.load([os.fspath(path) for path in ([paths] if one else paths)], json.dumps(options))
+
+    def add(
+        self,
+        table,
+        *,
+        name: Optional[str] = None,
+        sample_time: Optional[float] = None,
+        conditions: Optional[Mapping[str, float]] = None,
+    ) -> "Recordings":
+        """Copies one recording into these, and returns them.
+
+        table: a DataFrame or a dict of arrays, whose names tell channel and unit: "velocity" (SI), "x [mm]",
+        "F_N"; others are left out. It needs a force, velocity or displacement (velocity is then derived), and
+        current or voltage. sample_time: s between samples, where no column is time. conditions: what was
+        constant, SI: {"gap": 0.001}. Raises Error at what cannot be used; nothing is added then.
+        """
+        names = table.columns if _frames.is_frame(table) else table
+        arrays = {str(name): table[name] for name in names if _core.understand_column(str(name))[0]}
+        stated = None if conditions is None else json.dumps(dict(conditions))
+        self._core.add(arrays, name, sample_time, stated)
+        return self
+
+    def __len__(self) -> int:
+        return len(self._core)
+
+    def __getitem__(self, place: int) -> dict:
+        """Name, condition, sample_time (s) and columns: {"velocity [m/s]": array}, read-only views."""
+        if not -len(self) <= place < len(self):
+            raise IndexError(f"recording {place} of {len(self)}")
+        return self._core.record(place % len(self))
+
+    def frame(self, place: int):
+        """One recording as a DataFrame (pandas), its columns named with their units."""
+        import pandas
+
+        return pandas.DataFrame(self[place]["columns"], copy=False)
+
+    def describe(self) -> str:
+        """What was understood of every column, for people."""
+        return self._core.describe()
+
+    def __repr__(self) -> str:
+        return f"<dashpot.Recordings, {len(self)}>"
+
+
+def as_recordings(data) -> Recordings:
+    """Recordings as they are, or those that paths name."""
+    return data if isinstance(data, Recordings) else Recordings(data)

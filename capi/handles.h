@@ -1,0 +1,41 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "dashpot.h"
+#include "dashpot/identify/identify.h"
+
+// What stands behind the pointers of dashpot.h.
+
+struct dashpot_model {
+  explicit dashpot_model(dashpot::ModelFile model_file);
+
+  dashpot::ModelFile file;
+  const dashpot::DamperModel* damper;  ///< of the file
+  std::size_t state_size;
+  std::string name, kind, title;
+};
+
+struct dashpot_recordings {
+  dashpot::Dataset dataset;
+  bool takes_arrays = false;
+  std::vector<std::string> name_rests = {};  ///< of the arrays' records, for their conditions
+};
+
+struct dashpot_ranking {
+  dashpot::Dataset dataset;  ///< the report shows it
+  dashpot::Ranking ranking;
+  std::string command, date;
+};
+
+namespace dashpot::capi {
+
+/// Deletes what a handle points to, and clears the handle.
+template <class Handle>
+void give_back(Handle** handle) noexcept {
+  if (!handle) return;
+  delete *handle;
+  *handle = nullptr;
+}
+
+}  // namespace dashpot::capi

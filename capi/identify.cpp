@@ -1,0 +1,149 @@
+#include "dashpot/base/date.h"
+#include "dashpot/output/report_json.h"
+#include "dashpot/output/safe_text.h"
+#include "dashpot/output/words.h"
+#include "handles.h"
+#include "recordings.h"
+#include "status.h"
+#include "words.h"
+#include "work.h"
+
+using namespace dashpot;
+using namespace dashpot::capi;
+
+namespace {
+
+std::string json_text(const Value& value) { return format_json(presentable(value)); }
+
+/// The fitted model as a file that keeps where it comes from; it was judged on nothing.
+ModelFile fitted_file(FitReport fit, const Dataset& dataset, const FitOptions& options) {
+  RankedModel ranked;
+  ranked.name = fit.model->name();
+  ranked.fit = std::move(fit);
+  ranked.training = evaluate(*ranked.fit.model, dataset.records, dataset.drive_unit,
+                             {.offset = options.words.options.offset,
+                              .known_offsets = ranked.fit.offsets,
+                              .threads = options.words.options.threads});
+  ModelFile file = to_model_file(ranked, dataset, options.command);
+  file.provenance.created = date_now();
+  file.quality = Value::object({{"training", to_json(ranked.training.pooled)}});
+  return file;
+}
+
+/// Fits the only model asked for. Throws NotUsable where the fit gives none; the report is there even then.
+void fit(const Dataset& dataset, FitOptions options, const dashpot_monitor* monitor, dashpot_model** model,
+         char** report) {
+  const std::vector<std::string> names = choose_models(options.words.models, dataset.records).names;
+  if (names.size() != 1)
+    throw Error("options, models", "are " + std::to_string(names.size()) + " models",
+                "one; dashpot_identify compares several");
+  options.words.options = identify_options(options.words, names, "options, ");
+  FitReport fitted;
+  run_watched(monitor, [&](const Monitor& watched) {
+    options.words.options.monitor = watched;
+    fitted = identify(names.front(), dataset.records, dataset.drive_unit, options.words.options);
+  });
+  options.words.options.monitor = {};
+  if (report) *report = copy_text(json_text(fit_json(fitted)));
+  if (!fitted.model) throw NotUsable(names.front(), fitted.message);
+  *model = new dashpot_model(fitted_file(std::move(fitted), dataset, options));
+}
+
+Ranking rank_watched(const Dataset& dataset, FitOptions& options, const dashpot_monitor* monitor) {
+  const std::vector<std::string> names = choose_models(options.words.models, dataset.records).names;
+  IdentifyOptions asked = identify_options(options.words, names, "options, ");
+  const LeaveOut leave_out = options.leave_out ? *options.leave_out : default_leave_out(dataset);
+  Ranking ranking;
+  run_watched(monitor, [&](const Monitor& watched) {
+    asked.monitor = watched;
+    ranking = rank(names, dataset, leave_out, asked);
+  });
+  return ranking;
+}
+
+std::string report_text(const dashpot_ranking& of, const std::string& format) {
+  const ReportInput input{of.dataset, of.ranking, of.command, dashpot_version(), of.date};
+  if (format == "json") return json_text(json_report(input));
+  if (format == "html") return html_report(input);
+  if (format == "markdown") return markdown_report(input);
+  if (format == "csv") return csv_report(input);
+  if (format == "text") return ranking_table(of.ranking) + '\n' + verdict(of.ranking) + '\n';
+  throw Error("format", "is '" + format + "'", "json, html, markdown, csv or text");
+}
+
+}  // namespace
+
+dashpot_status dashpot_fit(const dashpot_recordings* recordings, const char* options,
+                           const dashpot_monitor* monitor, dashpot_model** model, char** report) {
+  return guarded([&] {
+    if (report) *report = nullptr;
+    require(model, "model");
+    *model = nullptr;
+    fit(usable_dataset(recordings), read_fit_options(options), monitor, model, report);
+  });
+}
+
+dashpot_status dashpot_identify(const dashpot_recordings* recordings, const char* options,
+                                const dashpot_monitor* monitor, dashpot_ranking** ranking) {
+  return guarded([&] {
+    require(ranking, "ranking");
+    *ranking = nullptr;
+    auto made = std::make_unique<dashpot_ranking>();
+    made->dataset = usable_dataset(recordings);
+    FitOptions asked = read_fit_options(options);
+    made->ranking = rank_watched(made->dataset, asked, monitor);
+    made->command = std::move(asked.command);
+    made->date = date_now();
+    *ranking = made.release();
+  });
+}
+
+size_t dashpot_ranking_count(const dashpot_ranking* ranking) {
+  return ranking ? ranking->ranking.models.size() : 0;
+}
+
+dashpot_status dashpot_ranking_model(const dashpot_ranking* ranking, size_t place, dashpot_model** model) {
+  return guarded([&] {
+    require(model, "model");
+    *model = nullptr;
+    require(ranking, "ranking");
+    const std::vector<RankedModel>& models = ranking->ranking.models;
+    if (place >= models.size())
+      throw Error("place", "is " + std::to_string(place), "there are " + std::to_string(models.size()));
+    if (!models[place].fit.model) throw NotUsable(models[place].name, models[place].fit.message);
+    ModelFile file = to_model_file(models[place], ranking->dataset, ranking->command);
+    file.provenance.created = ranking->date;
+    *model = new dashpot_model(std::move(file));
+  });
+}
+
+dashpot_status dashpot_ranking_report(const dashpot_ranking* ranking, const char* format, char** text) {
+  return guarded([&] {
+    require(text, "text");
+    *text = nullptr;
+    require(ranking, "ranking");
+    require(format, "format");
+    *text = copy_text(report_text(*ranking, format));
+  });
+}
+
+void dashpot_ranking_free(dashpot_ranking** ranking) { give_back(ranking); }
+
+dashpot_status dashpot_evaluate(const dashpot_model* model, const dashpot_recordings* recordings,
+                                const char* options, char** report) {
+  return guarded([&] {
+    require(report, "report");
+    *report = nullptr;
+    require(model, "model");
+    const Dataset dataset = usable_dataset(recordings);
+    require_same_drive(model->file, dataset, model->name);
+    EvaluateOptions asked = read_evaluate_options(options);
+    asked.band = model->file.interval;
+    const Evaluation evaluation = evaluate(*model->damper, dataset.records, dataset.drive_unit, asked);
+    *report =
+        copy_text(json_text(evaluation_json(model->file, evaluation, extrapolations(model->file, dataset))));
+    if (evaluation.diverged > 0)
+      throw NotUsable(model->name, "diverged on " + std::to_string(evaluation.diverged) + " of " +
+                                       counted(evaluation.records.size(), "recording"));
+  });
+}

@@ -1,0 +1,65 @@
+#include <algorithm>
+
+#include "dashpot/base/text.h"
+#include "dashpot/output/safe_text.h"
+#include "dashpot/suspension/ground_sequences.h"
+#include "handles.h"
+#include "status.h"
+#include "words.h"
+#include "work.h"
+
+using namespace dashpot;
+using namespace dashpot::capi;
+
+namespace {
+
+constexpr double kUsualDuration = 20;  // s, as the command line has it
+
+std::string report_text(const Trace& trace, const Vehicle& vehicle, const GroundMotion& ground) {
+  const Value report =
+      Value::object({{"plant", vehicle.set.name},
+                     {"dampers", Value::array(vehicle.damper_names)},
+                     {"controller", vehicle.controller_name},
+                     {"road", ground.description()},
+                     {"diverged_at", trace.diverged_at ? Value(*trace.diverged_at) : Value()},
+                     {"contact_lost", trace.contact_lost},
+                     {"steps", trace.steps},
+                     {"evaluations", trace.evaluations},
+                     {"notes", Value::array(vehicle.notes)},
+                     {"warnings", Value::array(trace.warnings)}});
+  return format_json(presentable(report));
+}
+
+void run(const DriveOptions& asked, const dashpot_monitor* monitor, dashpot_recordings** recordings,
+         char** report) {
+  const Vehicle vehicle = make_vehicle(asked.vehicle);
+  const GroundPointer ground = make_ground(asked.road, asked.seed, "options, road");
+  SimulateOptions options =
+      vehicle.options(asked.duration > 0 ? asked.duration : std::min(ground->duration(), kUsualDuration));
+  options.output_step = asked.output_step;
+  Trace trace;
+  run_watched(monitor, [&](const Monitor& watched) {
+    options.monitor = watched;
+    trace = simulate(vehicle.on(*ground), options);
+  });
+  const std::optional<double> diverged_at = trace.diverged_at;
+  if (report) *report = copy_text(report_text(trace, vehicle, *ground));
+  auto made = std::make_unique<dashpot_recordings>();
+  made->dataset.name = "simulation";
+  made->dataset.drive_unit = vehicle.drive_unit;
+  made->dataset.records.push_back(std::move(trace.record));
+  *recordings = made.release();
+  if (diverged_at) throw NotUsable(vehicle.set.name, "diverged at t = " + format_number(*diverged_at) + " s");
+}
+
+}  // namespace
+
+dashpot_status dashpot_simulate(const char* options, const dashpot_monitor* monitor,
+                                dashpot_recordings** trace, char** report) {
+  return guarded([&] {
+    if (report) *report = nullptr;
+    require(trace, "trace");
+    *trace = nullptr;
+    run(read_drive_options(options), monitor, trace, report);
+  });
+}

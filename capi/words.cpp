@@ -1,0 +1,121 @@
+#include "words.h"
+
+#include <cmath>
+
+#include "dashpot/base/error.h"
+#include "dashpot/base/text.h"
+
+namespace dashpot::capi {
+namespace {
+
+/// Largest whole number that a double holds with all those below it.
+constexpr double kLargestWhole = 9007199254740992.0;
+
+Value parse_options(const char* text) { return text ? parse_json(text, "options") : Value::object(); }
+
+std::vector<std::string> texts(ObjectReader& reader, std::string_view key) {
+  std::vector<std::string> out;
+  if (const Value* list = reader.optional(key))
+    for (const Value& item : list->items()) out.push_back(item.as_string());
+  return out;
+}
+
+/// A whole number from 0 (or `least`) on.
+double whole(ObjectReader& reader, std::string_view key, double fallback, double least = 0) {
+  const double value = reader.number(key, fallback);
+  if (!(value >= least && value <= kLargestWhole && value == std::floor(value)))
+    throw Error("options, " + std::string(key), "is " + format_number(value),
+                "a whole number, " + format_number(least) + " or more");
+  return value;
+}
+
+int whole_int(ObjectReader& reader, std::string_view key, int fallback, int least = 0) {
+  constexpr double kMost = 1e9;
+  return static_cast<int>(std::min(whole(reader, key, fallback, least), kMost));
+}
+
+}  // namespace
+
+FitOptions read_fit_options(const char* text) {
+  const Value value = parse_options(text);
+  ObjectReader reader(value, "the options");
+  FitOptions out;
+  FitWords& words = out.words;
+  if (reader.optional("models")) words.models = texts(reader, "models");
+  words.force_offset = reader.string("force_offset", words.force_offset);
+  words.forms = texts(reader, "form");
+  words.fixed = texts(reader, "fix");
+  words.freed = texts(reader, "free");
+  words.bounds = texts(reader, "bounds");
+  words.priors = texts(reader, "prior");
+  words.network = texts(reader, "network");
+  words.options.starts = whole_int(reader, "starts", words.options.starts, 1);
+  words.options.search = whole_int(reader, "search", words.options.search);
+  words.options.seed = static_cast<std::uint64_t>(whole(reader, "seed", 1));
+  words.options.threads = whole_int(reader, "threads", words.options.threads);
+  if (const Value* leave_out = reader.optional("leave_out"))
+    out.leave_out = parse_leave_out(leave_out->as_string());
+  out.command = reader.string("command", "");
+  reader.finish();
+  if (words.models.empty()) throw Error("options, models", "names no model");
+  return out;
+}
+
+LoadOptions read_load_options(const char* text) {
+  const Value value = parse_options(text);
+  ObjectReader reader(value, "the options");
+  LoadOptions options;
+  options.dataset_file = reader.string("dataset", "");
+  options.recognise = reader.boolean("recognise", options.recognise);
+  options.velocity_cutoff_hz = reader.number("velocity_cutoff", 0);
+  reader.finish();
+  return options;
+}
+
+EvaluateOptions read_evaluate_options(const char* text) {
+  const Value value = parse_options(text);
+  ObjectReader reader(value, "the options");
+  EvaluateOptions options;
+  options.offset = offset_mode(reader.string("force_offset", "record"), "options, force_offset");
+  options.threads = whole_int(reader, "threads", options.threads);
+  reader.finish();
+  return options;
+}
+
+DriveOptions read_drive_options(const char* text) {
+  const Value value = parse_options(text);
+  ObjectReader reader(value, "the options");
+  DriveOptions out;
+  VehicleWords& words = out.vehicle;
+  words.where = "options";
+  words.plant = reader.string("plant", words.plant);
+  words.values = texts(reader, "set");
+  words.dampers = texts(reader, "dampers");
+  words.controller = reader.string("controller", "");
+  words.inverse = reader.string("inverse", "");
+  words.current = reader.number("current", words.current);
+  words.current_max = reader.number("current_max", words.current_max);
+  words.lag_rate = reader.number("lag_rate", words.lag_rate);
+  words.sample_time = reader.number("sample_time", words.sample_time);
+  words.sensors.in_car = reader.boolean("in_car", words.sensors.in_car);
+  words.sensors.delay = reader.number("delay", words.sensors.delay);
+  out.road = reader.string("road", out.road);
+  out.duration = reader.number("duration", out.duration);
+  out.output_step = reader.number("output_step", out.output_step);
+  out.seed = words.sensors.seed = static_cast<std::uint64_t>(whole(reader, "seed", 1));
+  reader.finish();
+  for (const auto& [name, seconds] : {std::pair{"duration", out.duration}, {"output_step", out.output_step}})
+    if (!(seconds >= 0) || !std::isfinite(seconds))
+      throw Error(std::string("options, ") + name, "is " + format_number(seconds), "s, 0 or more");
+  return out;
+}
+
+std::vector<std::pair<std::string, double>> read_conditions(const char* text) {
+  std::vector<std::pair<std::string, double>> conditions;
+  if (!text) return conditions;
+  const Value value = parse_json(text, "conditions");
+  for (const auto& [name, number] : value.members()) conditions.emplace_back(name, number.as_number());
+  return conditions;
+}
+
+}  // namespace dashpot::capi

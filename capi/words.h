@@ -1,0 +1,35 @@
+#pragma once
+#include <optional>
+#include <string>
+
+#include "dashpot/identify/fit_words.h"
+#include "dashpot/suspension/vehicle.h"
+
+namespace dashpot::capi {
+
+/// The options of dashpot_fit and dashpot_identify.
+struct FitOptions {
+  FitWords words;
+  std::optional<LeaveOut> leave_out;
+  std::string command;
+};
+/// Throws Error naming the key on anything unknown. Null stands for {}.
+FitOptions read_fit_options(const char* text);
+
+LoadOptions read_load_options(const char* text);
+EvaluateOptions read_evaluate_options(const char* text);
+
+/// The options of dashpot_simulate.
+struct DriveOptions {
+  VehicleWords vehicle;
+  std::string road = "iso8608,class=C";
+  double duration = 0;     ///< s; 0: the road's, kUsualDuration at most
+  double output_step = 0;  ///< s; 0: as simulate() has it
+  std::uint64_t seed = 1;
+};
+DriveOptions read_drive_options(const char* text);
+
+/// {"gap": 0.001}
+std::vector<std::pair<std::string, double>> read_conditions(const char* text);
+
+}  // namespace dashpot::capi

@@ -1,0 +1,226 @@
+import ast
+import copy
+import os
+import signal
+import subprocess
+import sys
+import textwrap
+import threading
+import unittest
+
+import numpy as np
+from support import PROJECT, InFolder, bingham, recording
+
+import dashpot
+from dashpot import _core
+
+
+def bench(currents=(0.0, 0.5, 1.0)) -> dashpot.Recordings:
+    recordings = dashpot.Recordings()
+    for current in currents:
+        t, x, v, i, force = bingham(current)
+        recordings.add({"t_s": t, "x_mm": 1000 * x, "v [m/s]": v, "i [A]": i, "F_N": force}, name=f"{current} A")
+    return recordings
+
+
+class RecordingsInMemory(unittest.TestCase):
+    def test_columns_are_read_as_a_file_would_be(self):
+        recordings = bench()
+        self.assertEqual(len(recordings), 3)
+        one = recordings[-1]
+        self.assertEqual(one["name"], "1.0 A")
+        np.testing.assert_allclose(one["columns"]["displacement [m]"], bingham(1.0)[1], rtol=1e-12)
+        self.assertIn("x_mm", recordings.describe())
+        with self.assertRaises(IndexError):
+            recordings[3]
+
+    def test_views_outlive_the_recordings_and_cannot_be_written(self):
+        view = bench()[0]["columns"]["force [N]"]
+        np.testing.assert_array_equal(view, bingham(0.0)[4])
+        with self.assertRaises(ValueError):
+            view[0] = 1
+
+    def test_wrong_tables_are_refused(self):
+        t, x, v, i, force = bingham(0.0)
+        for table in ({"x": x, "F": force}, {"F": force}, {}, {"t": t, "x": x, "F": force[:-1], "i": i}):
+            with self.assertRaises(ValueError):
+                dashpot.Recordings().add(table, sample_time=0.005)
+        with self.assertRaisesRegex(dashpot.Error, "there already"):
+            bench().add({"t": t, "x": x, "F": force, "i": i}, name="0.5 A")
+        with self.assertRaisesRegex(dashpot.Error, "nowhere"):
+            dashpot.Recordings("/nowhere")
+
+
+class Identification(InFolder):
+    def test_ranking(self):
+        told = []
+        ranking = dashpot.identify(
+            bench(), "bingham,polynomial", "current", starts=1, progress=lambda stage, share: told.append((stage, share))
+        )
+        self.assertEqual(ranking.best.name, "bingham")
+        self.assertAlmostEqual(ranking.best.force(ranking.best.rest(), (0, 0.2, 0.5)), 700, places=4)
+        self.assertEqual(ranking.report["models"][0]["left_out"]["pooled"]["samples"], 400)
+        self.assertTrue(told)
+        force, half_width = ranking.best.predict(recording(0.5)[0], interval=True)
+        self.assertEqual(force.shape, half_width.shape)
+        self.assertIn("predicts the force best", str(ranking))
+        ranking.save_report(str(self.folder / "report.html"))
+        self.assertIn("<html", (self.folder / "report.html").read_text())
+        with self.assertRaises(dashpot.Error):
+            ranking.save_report("report.pdf")
+
+    def test_options_that_cannot_be(self):
+        for options in ({"models": "bingam"}, {"starts": 0}, {"fix": "alpha=1"}, {"leave_out": "everything"}):
+            with self.assertRaises(dashpot.Error):
+                dashpot.identify(bench(), **{"models": "bingham", **options})
+        with self.assertRaises(TypeError):
+            dashpot.identify(bench(), "bingham", start=1)
+
+    def test_an_exception_of_the_progress_function_stops_the_work(self):
+        def refuse(stage, share):
+            raise KeyError(stage)
+
+        with self.assertRaises(KeyError):
+            dashpot.identify(bench(), "modified_bouc_wen", starts=1000, progress=refuse)
+
+    def test_other_threads_run_meanwhile(self):
+        ticks, done = [], threading.Event()
+        ticker = threading.Thread(target=lambda: [ticks.append(1) for _ in iter(lambda: done.wait(0.002), True)])
+        ticker.start()
+        dashpot.identify(bench(), "tanh_kwok", starts=2)
+        done.set()
+        ticker.join()
+        self.assertGreater(len(ticks), 5)
+
+    def test_ctrl_c_interrupts(self):
+        script = textwrap.dedent("""
+            import sys
+            sys.path.insert(0, %r)
+            from test_identify import bench
+            import dashpot
+            try:
+                dashpot.identify(bench(), "modified_bouc_wen", starts=100000,
+                                 progress=lambda *_: print("at work", flush=True))
+            except KeyboardInterrupt:
+                print("interrupted", flush=True)
+        """) % os.path.dirname(__file__)
+        child = subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, text=True)
+        self.assertEqual(child.stdout.readline(), "at work\n")
+        child.send_signal(signal.SIGINT)
+        self.assertIn("interrupted", child.communicate(timeout=60)[0])
+        self.assertEqual(child.returncode, 0)
+
+
+class Estimator(unittest.TestCase):
+    def setUp(self):
+        self.X, self.y = zip(*(recording(current) for current in (0.0, 0.5, 1.0)))
+        self.X, self.y = list(self.X), list(self.y)
+
+    def test_fit_predict_score(self):
+        identifier = dashpot.Identifier("bingham", starts=1).fit(self.X, self.y)
+        self.assertGreater(identifier.score(self.X, self.y), 1 - 1e-12)
+        np.testing.assert_allclose(identifier.predict(self.X[1]), self.y[1], rtol=1e-6)
+        self.assertEqual(len(identifier.predict(self.X)), 3)
+        self.assertEqual(identifier.report_["status"], "converged")
+        self.assertGreater(identifier.model_.score(self.X[0], self.y[0]), 1 - 1e-12)
+
+    def test_gaps_in_time_begin_a_new_recording(self):
+        X, y = self.X[2], self.y[2]
+        kept = np.r_[0:150, 250:400]
+        data = dashpot.Identifier().recordings(X[kept], y[kept])
+        self.assertEqual([len(data[k]["columns"]["force [N]"]) for k in range(len(data))], [150, 150])
+        self.assertEqual(len(dashpot.Identifier(sample_time=0.005).recordings(X[:, 1:], y)), 1)
+
+    def test_parameters(self):
+        identifier = dashpot.Identifier("arctan", seed=3)
+        self.assertEqual(dashpot.Identifier(**identifier.get_params()).get_params(), identifier.get_params())
+        self.assertEqual(identifier.set_params(seed=4).seed, 4)
+        self.assertEqual(repr(identifier), "Identifier(model='arctan', seed=4)")
+        with self.assertRaises(ValueError):
+            identifier.set_params(seeds=4)
+
+    def test_wrong_use(self):
+        with self.assertRaisesRegex(dashpot.Error, "not fitted"):
+            dashpot.Identifier().predict(self.X[0])
+        with self.assertRaisesRegex(dashpot.Error, "samples"):
+            dashpot.Identifier().fit(self.X[0], self.y[0][:-1])
+        with self.assertRaisesRegex(dashpot.Error, "recordings"):
+            dashpot.Identifier().fit(self.X, self.y[:-1])
+
+    def test_scikit_learn(self):
+        try:
+            from sklearn.base import clone
+            from sklearn.model_selection import GridSearchCV, KFold
+        except ImportError:
+            self.skipTest("SKIPPED: scikit-learn is not here")
+        identifier = dashpot.Identifier("bingham", starts=1, threads=1)
+        copied = clone(identifier)
+        self.assertIsNot(copied, identifier)
+        self.assertEqual(copied.get_params(), identifier.get_params())
+        search = GridSearchCV(identifier, {"model": ["polynomial", "bingham"]}, cv=KFold(3), error_score="raise")
+        self.assertEqual(search.fit(self.X, self.y).best_params_, {"model": "bingham"})
+        # Rows of one array: what is cut out of the middle leaves a gap in time.
+        search.fit(self.X[2], self.y[2])
+        self.assertEqual(search.best_params_, {"model": "bingham"})
+        self.assertEqual(copy.deepcopy(search.best_estimator_).model_.name, "bingham")
+
+
+class Frames(unittest.TestCase):
+    def setUp(self):
+        try:
+            import pandas
+        except ImportError:
+            self.skipTest("SKIPPED: pandas is not here")
+        t, x, v, i, self.force = bingham(1.0)
+        self.frame = pandas.DataFrame(
+            {"t [ms]": 1000 * t, "x_mm": 1000 * x, "velocity": v, "current [A]": i, "operator": "Jo"}, index=t + 10
+        )
+        self.pandas = pandas
+
+    def test_in_and_out(self):
+        force = self.pandas.Series(self.force, index=self.frame.index)
+        identifier = dashpot.Identifier("bingham", starts=1).fit(self.frame, force)
+        predicted = identifier.predict(self.frame)
+        self.assertTrue(predicted.index.equals(self.frame.index))
+        self.assertEqual(predicted.name, "force [N]")
+        np.testing.assert_allclose(predicted, self.force, rtol=1e-6)
+        self.assertGreater(identifier.score(self.frame, force), 1 - 1e-12)
+        recordings = dashpot.Recordings().add(self.frame.assign(F_N=self.force))
+        self.assertIn("velocity [m/s]", recordings.frame(0).columns)
+
+    def test_columns_that_are_missing_are_named(self):
+        model = dashpot.published("spencer1997_bouc_wen")
+        with self.assertRaisesRegex(dashpot.Error, "no column is voltage"):
+            model.predict(self.frame)
+        with self.assertRaisesRegex(dashpot.Error, "no column is velocity"):
+            model.predict(self.frame.drop(columns="velocity"))
+
+
+class Vehicles(unittest.TestCase):
+    def test_a_model_drives(self):
+        damper = dashpot.published("vrths_mr_tanh_kwok")
+        trace = dashpot.simulate(dampers=damper, road="step,height=3cm", duration=0.5)
+        self.assertEqual(len(trace["body"]), len(trace["time"]))
+        self.assertAlmostEqual(trace["time [s]"][-1], 0.5)
+        self.assertIn("step", repr(trace))
+        with self.assertRaises(KeyError):
+            trace["wing"]
+        with self.assertRaisesRegex(dashpot.Error, "gravel"):
+            dashpot.simulate(road="gravel")
+
+
+class Stubs(unittest.TestCase):
+    def test_the_stub_file_has_every_name_of_the_compiled_module(self):
+        tree = ast.parse((PROJECT / "bindings/python/dashpot/_core.pyi").read_text())
+        stated = {node.name: node for node in tree.body if isinstance(node, (ast.ClassDef, ast.FunctionDef))}
+        for name in [name for name in dir(_core) if not name.startswith("__")]:
+            self.assertIn(name, stated)
+            if not isinstance(getattr(_core, name), type) or issubclass(getattr(_core, name), Exception):
+                continue
+            members = {node.name for node in stated[name].body if isinstance(node, ast.FunctionDef)}
+            for member in [member for member in vars(getattr(_core, name)) if not member.startswith("_")]:
+                self.assertIn(member, members, f"{name}.{member}")
+
+
+if __name__ == "__main__":
+    unittest.main()
