@@ -93,8 +93,17 @@ DocumentTable share_table(const SuspensionStudy& study, const std::string& title
   return table;
 }
 
-FigureSeries dots(const std::string& label, const std::string& colour) {
-  return {.label = label, .colour = colour, .x = {}, .y = {}, .mark = FigureSeries::Mark::Dots, .width = 6};
+/// One entry of the legend for schemes of a kind.
+FigureSeries look_of(const SuspensionScheme& scheme) {
+  const auto dots = [](const char* label, const char* colour) {
+    return FigureSeries{
+        .label = label, .colour = colour, .x = {}, .y = {}, .mark = FigureSeries::Mark::Dots, .width = 6};
+  };
+  if (scheme.key.starts_with("mix1")) return dots("Mix-1-sensor", "series-1");
+  if (scheme.key == "off" || scheme.key == "on") return dots("MR2 at 0 A, at 2.5 A", "series-3");
+  if (scheme.within_range) return dots("other controllers", "series-2");
+  return scheme.key == "ideal" ? dots("Mix-1-sensor, ideal damper", "series-4")
+                               : dots("passive dampers", "series-6");
 }
 
 /// The line below and left of which the bounds leave nothing: the envelope of all straight lines
@@ -129,7 +138,7 @@ DocumentFigure front_figure(const SuspensionStudy& study) {
   }
   panel.series.push_back(std::move(reached));
   for (std::size_t k = 0; k < study.rides.size(); ++k) {
-    FigureSeries point = dots(study.schemes[k].title, "series-" + std::to_string(k % 6 + 1));
+    FigureSeries point = look_of(study.schemes[k]);
     point.x = {std::sqrt(study.rides[k].on_road.acceleration)};
     point.y = {std::sqrt(study.rides[k].on_road.tyre_force)};
     panel.series.push_back(std::move(point));
