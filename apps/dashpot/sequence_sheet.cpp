@@ -5,14 +5,14 @@
 #include "layout.h"
 
 namespace dashpot::cli {
-namespace {
 
-constexpr std::size_t kIndent = 2;
+static constexpr std::size_t kIndent = 2;
 
 std::string sheet_text(const SequenceInfo& info, std::size_t width) {
   std::string text = '\n' + std::string(info.name) + "  " + std::string(info.title) + '\n' +
                      paragraph(info.equation, width, kIndent) + paragraph(info.remarks, width, kIndent) +
                      paragraph("source: " + std::string(info.source), width, kIndent);
+  if (info.params.empty()) return text;
   Table table({"parameter", ">default", "unit", "meaning"});
   for (const ParameterRow& param : info.params)
     table.row({std::string(param.name), format_number(param.value), std::string(param.unit),
@@ -36,6 +36,8 @@ Value sheet_json(const SequenceInfo& info) {
                         {"remarks", info.remarks},
                         {"parameters", std::move(params)}});
 }
+
+namespace {
 
 template <class Sequences>
 Value list_json(const Sequences& sequences) {

@@ -2,8 +2,13 @@
 #include <string>
 
 #include "dashpot/base/value.h"
+#include "dashpot/record/excitation.h"
 
 namespace dashpot::cli {
+
+/// What a sequence, or anything that says the same of itself, can be told.
+std::string sheet_text(const SequenceInfo& info, std::size_t width);
+Value sheet_json(const SequenceInfo& info);
 
 /// The sequences of motion and drive with their parameters, and the experiments made of them.
 std::string sequences_text(int width);

@@ -1,6 +1,7 @@
 #include "vehicle_options.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "dashpot/base/text.h"
 #include "dashpot/suspension/ground_sequences.h"
@@ -8,7 +9,8 @@
 namespace dashpot::cli {
 namespace {
 
-constexpr double kUsualDuration = 20;  // s
+constexpr double kOnRoad = 20;  // s
+constexpr double kAfter = 5;    // s, to come to rest
 
 }  // namespace
 
@@ -80,16 +82,18 @@ std::vector<Option> controlled_vehicle_options(VehicleChoice& choice) {
 }
 
 std::vector<Option> road_options(RoadChoice& choice) {
-  return {{.names = "--road",
-           .target = &choice.road,
-           .help = "road, step, sine, chirp, earthquake ... with its settings (--list roads)",
-           .value = "WORDS"},
-          {.names = "--duration",
-           .target = &choice.duration,
-           .help = "s",
-           .value = "S",
-           .minimum = 0,
-           .default_text = "the road's, 20 s at most"}};
+  return {
+      {.names = "--road",
+       .target = &choice.road,
+       .help = "road, step, sine, chirp, earthquake ... with its settings (--list roads)",
+       .value = "WORDS"},
+      {.names = "--duration",
+       .target = &choice.duration,
+       .help = "s",
+       .value = "S",
+       .minimum = 0,
+       .default_text =
+           choice.duration > 0 ? "" : "20 on a road; to the end of a bump, chirp or earthquake and 5 more"}};
 }
 
 VehicleWords words_of(const VehicleChoice& choice) {
@@ -119,7 +123,9 @@ GroundPointer ground_of(const RoadChoice& choice, std::uint64_t seed, const Plan
 }
 
 double duration_of(const RoadChoice& choice, const GroundMotion& ground) {
-  return choice.duration > 0 ? choice.duration : std::min(ground.duration(), kUsualDuration);
+  if (choice.duration > 0) return choice.duration;
+  if (ground.is_steady()) return std::min(ground.duration(), kOnRoad);
+  return std::isfinite(ground.duration()) ? ground.duration() + kAfter : kAfter;
 }
 
 }  // namespace dashpot::cli

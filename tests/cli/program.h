@@ -1,6 +1,8 @@
 #pragma once
 #include <filesystem>
+#include <sstream>
 #include <string>
+#include <vector>
 
 #include "support.h"
 
@@ -19,6 +21,30 @@ inline ProgramResult stdout_of_dashpot(const std::string& arguments) {
 
 inline bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
+}
+
+/// The lines of the ```sh blocks of a page.
+inline std::vector<std::string> shell_commands(const std::string& page) {
+  const std::string fence = "```sh\n";
+  std::vector<std::string> commands;
+  for (std::size_t at = page.find(fence); at != std::string::npos; at = page.find(fence, at)) {
+    at += fence.size();
+    std::istringstream block(page.substr(at, page.find("```", at) - at));
+    for (std::string line; std::getline(block, line);) commands.push_back(line);
+  }
+  return commands;
+}
+
+/// Runs them in an empty folder, one after the other.
+inline void check_commands_run(const std::vector<std::string>& commands, const TemporaryFolder& folder) {
+  for (const std::string& command : commands) {
+    REQUIRE(command.starts_with("dashpot "));
+    const ProgramResult result =
+        run_program("cd " + folder.path().string() + " && " + program_path() + " " + command.substr(8));
+    CAPTURE(command);
+    CAPTURE(result.output);
+    CHECK(result.exit_code == 0);
+  }
 }
 
 /// A campaign of nine short records of a known damper (the published parameters of spencer1997), made

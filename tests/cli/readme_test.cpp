@@ -1,31 +1,20 @@
 #include "dashpot/base/file.h"
-#include "dashpot/base/text.h"
 #include "program.h"
 #include "support.h"
 
-namespace {
-
-/// The lines of the first ```sh block.
-std::vector<std::string> tour_commands(const std::string& readme) {
-  const std::string fence = "```sh\n";
-  const std::size_t begin = readme.find(fence) + fence.size();
-  return dashpot::split(dashpot::trim(readme.substr(begin, readme.find("```", begin) - begin)), '\n');
-}
-
-}  // namespace
-
 TEST_CASE("the tour of the README runs in an empty folder, command by command") {
   const TemporaryFolder folder;
-  const std::string readme = dashpot::read_file(project_file("README.md"));
-  const auto commands = tour_commands(readme);
+  const auto commands = shell_commands(dashpot::read_file(project_file("README.md")));
   REQUIRE(commands.size() >= 5);
-  for (const std::string& command : commands) {
-    REQUIRE(command.starts_with("dashpot "));
-    const ProgramResult result =
-        run_program("cd " + folder.path().string() + " && " + program_path() + " " + command.substr(8));
-    CAPTURE(command);
-    CAPTURE(result.output);
-    CHECK(result.exit_code == 0);
-  }
+  check_commands_run(commands, folder);
   CHECK(std::filesystem::exists(folder.path() / "results/report.html"));
+}
+
+TEST_CASE("the commands of the guide to suspensions run in an empty folder") {
+  const TemporaryFolder folder;
+  const auto commands = shell_commands(dashpot::read_file(project_file("docs/suspension.md")));
+  REQUIRE(commands.size() >= 8);
+  check_commands_run(commands, folder);
+  for (const char* file : {"step/trace.csv", "ride/report.html"})
+    CHECK(std::filesystem::exists(folder.path() / file));
 }

@@ -2,6 +2,7 @@
 
 #include <numbers>
 
+#include "dashpot/damper/model_file.h"
 #include "dashpot/damper/parameter_set.h"
 #include "dashpot/damper/registry.h"
 #include "dashpot/suspension/damper_words.h"
@@ -38,6 +39,23 @@ TEST_CASE("dampers by words") {
   CHECK(spencer.lag_rate == 190);
   CHECK(force(spencer, 0, 0) == 0);  // no accumulator's force
   CHECK(choose_damper("suv_rear").is_passive());
+}
+
+TEST_CASE("friction that jumps is smoothed, and that is told; a speed that is stated stays") {
+  const TemporaryFolder folder;
+  const auto file = [&](double speed) {
+    const LawModel model = LawModel::constant(find_law("bingham"), {1000, 100, 0, speed});
+    const auto path = folder.path() / ("bingham" + std::to_string(speed) + ".json");
+    save_model({.model = model.with_offset(0), .domain = {-1, 1, -1, 1, 0, 1}}, path);
+    return choose_damper(path.string());
+  };
+  const ChosenDamper smooth = file(0), stated = file(0.01);
+  CHECK_CLOSE(force(smooth, 0.002, 0), 2 + 100 * std::tanh(1), 1e-9, 0);
+  CHECK_CLOSE(force(stated, 0.01, 0), 10 + 100 * std::tanh(1), 1e-9, 0);
+  REQUIRE(smooth.notes.size() == 1);
+  CHECK(smooth.notes[0] == "the friction of bingham sets in over 2 mm/s here, not at once");
+  CHECK(stated.notes.empty());
+  CHECK(smooth.drive_max == 1);
 }
 
 TEST_CASE("damper words that mean nothing are refused") {

@@ -105,25 +105,27 @@ std::size_t position_of(double P::* field) {
   return static_cast<std::size_t>(distance) / sizeof(double);
 }
 
-/// As Law::runge_kutta; a function of its own for each law, so that the derivative is compiled into it.
+/// The steps of the C text for one law, so that its functions are compiled into them.
 template <class P, auto Derivative>
-void runge_kutta(const double* const* p, const double* x, const double* v, double h, std::size_t count,
-                 double* z) {
-  const P start = from_array<P>(p[0]), middle = from_array<P>(p[1]), end = from_array<P>(p[2]);
-  double k1[kMaxStates] = {}, k2[kMaxStates] = {}, k3[kMaxStates] = {}, k4[kMaxStates] = {},
-         trial[kMaxStates];
-  const auto move = [&](const double* slope, double step) {
-    for (std::size_t s = 0; s < count; ++s) trial[s] = z[s] + step * slope[s];
-  };
-  Derivative(&start, x[0], v[0], z, k1);
-  move(k1, h / 2);
-  Derivative(&middle, x[1], v[1], trial, k2);
-  move(k2, h / 2);
-  Derivative(&middle, x[1], v[1], trial, k3);
-  move(k3, h);
-  Derivative(&end, x[2], v[2], trial, k4);
-  for (std::size_t s = 0; s < count; ++s) z[s] += h / 6 * (k1[s] + 2 * (k2[s] + k3[s]) + k4[s]);
-}
+struct ExplicitStep {
+  using LawParameters = P;
+  static constexpr auto law_derivative = Derivative;
+  enum { LAW_MOST_STATES = kMaxStates };
+#include "dashpot/damper/c_text/law_runge_kutta.h"
+  static void step(const double* const* p, const double* x, const double* v, double h, std::size_t count,
+                   double* z) {
+    const P stages[] = {from_array<P>(p[0]), from_array<P>(p[1]), from_array<P>(p[2])};
+    const P* const at[] = {&stages[0], &stages[1], &stages[2]};
+    law_runge_kutta(at, x, v, h, static_cast<int>(count), z);
+  }
+};
+
+template <class P, auto Travel>
+struct TravelStep {
+  using LawParameters = P;
+  static constexpr auto law_travel = Travel;
+#include "dashpot/damper/c_text/law_travel.h"
+};
 }  // namespace detail
 
 /// Turns a C law (a struct of doubles and its functions) into a Law. A field that the table leaves out
@@ -161,7 +163,7 @@ Law state_law(const LawTable<P>& table) {
     const P own = detail::from_array<P>(p);
     Rest(&own, x, v, z);
   };
-  law.runge_kutta = detail::runge_kutta<P, Derivative>;
+  law.runge_kutta = detail::ExplicitStep<P, Derivative>::step;
   law.rate = [](const double* p, double v) {
     const P own = detail::from_array<P>(p);
     return Rate(&own, v);
@@ -186,13 +188,7 @@ Law with_travel(Law law) {
   law.exact_step = true;
   law.step = [](const double* p, const double*, const double* v, double h, double* z) {
     const P own = detail::from_array<P>(p);
-    if (v[0] * v[1] >= 0) {
-      z[0] = Travel(&own, z[0], 0.5 * h * (v[0] + v[1]));
-    } else {
-      const double turn = h * v[0] / (v[0] - v[1]);
-      z[0] = Travel(&own, z[0], 0.5 * turn * v[0]);
-      z[0] = Travel(&own, z[0], 0.5 * (h - turn) * v[1]);
-    }
+    z[0] = detail::TravelStep<P, Travel>::law_travel_step(&own, v, h, z[0]);
     (Filter(&own, v, h, z), ...);
     return 1;
   };

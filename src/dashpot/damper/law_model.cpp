@@ -90,10 +90,7 @@ void LawModel::rest(const DamperInput& input, std::span<double> state) const noe
 
 void LawModel::advance(const DamperInput& from, const DamperInput& to, double dt,
                        std::span<double> state) const noexcept {
-  const std::size_t states = law_->states.size();
-  const InputPath path(from, to, dt, lag_rate_, lag_rate_ > 0 ? state[states] : 0);
-  if (lag_rate_ > 0) state[states] = path.current(dt);
-  if (states > 0) integrate(*this, path, dt, state.data());
+  integrate(*this, from, to, dt, state);
 }
 
 double LawModel::force(const DamperInput& input, std::span<const double> state) const noexcept {

@@ -22,7 +22,7 @@ struct DocumentTable {
 struct FigureSeries {
   enum class Mark { Line, Dashes, Dots };
   std::string label;   ///< equal labels share one entry of the legend; empty: none
-  std::string colour;  ///< of the page's palette: "measured", "modelled", "series-1" ... "series-6"
+  std::string colour;  ///< of the page's palette: "measured", "modelled", "series-1" ... "series-8"
   std::vector<double> x, y;
   Mark mark = Mark::Line;
   double width = 1.5;  ///< of a line; of dots their size

@@ -19,14 +19,16 @@ constexpr double kPanelWidth = 8, kWholeWidth = 16, kPanelHeight = 6;  // cm
 
 /// The page's palette on white (page.css).
 std::string colour_code(const std::string& name) {
-  constexpr std::array<std::pair<std::string_view, const char*>, 8> kPalette{{{"measured", "#8b949e"},
-                                                                              {"modelled", "#0b5cad"},
-                                                                              {"series-1", "#0072b2"},
-                                                                              {"series-2", "#e69f00"},
-                                                                              {"series-3", "#009e73"},
-                                                                              {"series-4", "#cc79a7"},
-                                                                              {"series-5", "#d55e00"},
-                                                                              {"series-6", "#7a828c"}}};
+  constexpr std::array<std::pair<std::string_view, const char*>, 10> kPalette{{{"measured", "#8b949e"},
+                                                                               {"modelled", "#0b5cad"},
+                                                                               {"series-1", "#0072b2"},
+                                                                               {"series-2", "#e69f00"},
+                                                                               {"series-3", "#009e73"},
+                                                                               {"series-4", "#cc79a7"},
+                                                                               {"series-5", "#d55e00"},
+                                                                               {"series-6", "#7a828c"},
+                                                                               {"series-7", "#56b4e9"},
+                                                                               {"series-8", "#7f6d00"}}};
   for (const auto& [known, code] : kPalette)
     if (known == name) return code;
   return "#1c2127";

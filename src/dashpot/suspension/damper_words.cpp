@@ -66,11 +66,28 @@ ChosenDamper make_simple(const SimpleDamper& kind, Words settings, const std::st
   return damper;
 }
 
+/// Friction that jumps where the motion turns lets no integrator meet its tolerance: it sets in over
+/// kFrictionSpeed instead, where its law has such a speed and states none.
+constexpr double kFrictionSpeed = 2e-3;  // m/s
+std::shared_ptr<const DamperModel> without_jump(const LawModel& model, std::vector<std::string>& notes) {
+  const auto& params = model.law().params;
+  const auto row = std::ranges::find(params, "v_s", &ParamInfo::name);
+  const auto k = static_cast<std::size_t>(row - params.begin());
+  Dependence parameters = model.parameters();
+  if (row == params.end() || parameters.coefficients[k] != std::vector{0.0}) return nullptr;
+  parameters.coefficients[k] = {kFrictionSpeed};
+  notes.push_back("the friction of " + model.name() + " sets in over " +
+                  format_number(1000 * kFrictionSpeed) + " mm/s here, not at once");
+  return std::make_shared<LawModel>(model.law(), parameters, model.drive_unit(), model.lag_rate());
+}
+
 /// Puts the model there, and the lag of its coil beside it.
 void take_model(ChosenDamper& damper, const DamperModel& model) {
   BareDamper bare = without_coil_lag(model);
-  damper.model = std::move(bare.model);
   damper.lag_rate = bare.lag_rate;
+  if (const auto* law = dynamic_cast<const LawModel*>(bare.model.get()))
+    damper.model = without_jump(*law, damper.notes);
+  if (!damper.model) damper.model = std::move(bare.model);
 }
 
 void require_nothing(Words settings, const std::string& name, const std::string& where) {

@@ -23,6 +23,8 @@ class GroundMotion {
   virtual double acceleration(double) const noexcept { return 0; }  ///< m/s^2, of the ground, at t s
   /// Whether it is an acceleration, which plants without tyres ask for, and not a height.
   virtual bool shakes() const noexcept { return false; }
+  /// Whether it is alike all along, a road or a sine: its begin may be left out of measures.
+  virtual bool is_steady() const noexcept { return false; }
   /// m/s along the road; 0: its height is one of time, and all tyres meet it at once.
   virtual double speed() const noexcept { return 0; }
   /// Instants at which a height under a tyre that far behind jumps; foot() gives what is after it.

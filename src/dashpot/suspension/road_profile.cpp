@@ -19,6 +19,7 @@ class DrivenRoad final : public GroundMotion {
   DrivenRoad(RoadProfile profile, double speed) : profile_(std::move(profile)), speed_(speed) {
     for (const std::vector<double>& heights : profile_.tracks) slopes_.push_back(slopes_of(heights));
   }
+  bool is_steady() const noexcept override { return true; }
   std::string description() const override {
     return profile_.description + ", at " + format_number(speed_) + " m/s";
   }

@@ -1,6 +1,7 @@
 #include "dashpot/suspension/vehicle.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "dashpot/base/error.h"
@@ -153,7 +154,12 @@ void add_controller(Vehicle& vehicle, const DriveRange& drive, const VehicleWord
 }  // namespace
 
 SimulateOptions Vehicle::options(double duration) const {
-  return {.duration = duration, .sensors = sensors, .limits = limits};
+  // The weighting of accelerations reaches to 100 Hz: every millisecond, or an even part of a sample.
+  const double parts = std::max(1.0, std::ceil(limits.sample_time / 1e-3 - 1e-9));
+  return {.duration = duration,
+          .output_step = limits.sample_time / parts,
+          .sensors = sensors,
+          .limits = limits};
 }
 
 Vehicle make_vehicle(const VehicleWords& words) {

@@ -43,6 +43,9 @@ class FamilyNetwork final : public FamilyForce {
                std::span<const double> state) const noexcept override;
   Value to_json() const override;
 
+  const std::vector<std::string>& inputs() const { return inputs_; }
+  const std::vector<Mlp>& mlps() const { return mlps_; }
+
  private:
   std::vector<std::string> inputs_;
   std::vector<FamilyInput> reads_;
@@ -89,6 +92,7 @@ class GatedFamily final : public FamilyForce {
   double force(const FamilyMember& member, const DamperInput& input,
                std::span<const double> state) const noexcept override;
   Value to_json() const override;
+  const FamilyGates& gates() const { return gates_; }
 
  private:
   FamilyGates gates_;

@@ -48,6 +48,8 @@ class FamilyModel final : public DamperModel {
 
   const Family& family() const { return *family_; }
   const FamilyMember& member() const { return member_; }
+  double offset() const { return offset_; }
+  double strength() const { return strength_; }  ///< times which the force is, by its build
   /// Another member, as specialised().
   std::shared_ptr<const FamilyModel> with_member(const FamilyMember& member) const;
   std::unique_ptr<FamilyModel> with_outside(OutsideFamily outside) const;

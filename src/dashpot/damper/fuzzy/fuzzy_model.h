@@ -37,6 +37,7 @@ class FuzzyModel final : public DamperModel {
 
   const FuzzyInputs& inputs() const { return inputs_; }
   const Sugeno& sugeno() const { return sugeno_; }
+  double offset() const { return offset_; }
 
  private:
   std::string name_;

@@ -41,6 +41,7 @@ class HysteresisNetwork final : public DamperModel {
   Value to_json() const override;
 
   const std::vector<BankNetwork>& members() const { return members_; }
+  double offset() const { return offset_; }
 
  private:
   std::string name_;

@@ -43,6 +43,7 @@ class NarxModel final : public DamperModel {
   Value to_json() const override;
 
   const Regressors& regressors() const { return regressors_; }
+  double offset() const { return offset_; }
   const std::vector<Mlp>& members() const { return members_; }
 
  private:

@@ -34,6 +34,7 @@ class NetworkModel final : public DamperModel {
 
   const std::vector<Mlp>& members() const { return members_; }
   const std::vector<std::string>& inputs() const { return inputs_; }
+  double offset() const { return offset_; }
 
  private:
   MlpEnsemble::Answer answer(const DamperInput& input) const noexcept;

@@ -41,6 +41,7 @@ class StateSpaceModel final : public DamperModel {
   Value to_json() const override;
 
   const std::vector<StateSpaceNetwork>& members() const { return members_; }
+  double offset() const { return offset_; }
 
  private:
   std::string name_;

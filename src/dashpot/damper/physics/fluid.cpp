@@ -7,6 +7,9 @@
 #include "dashpot/base/text.h"
 
 namespace dashpot {
+
+const FamilyFluid kFamily122EG = {{233.446e3, 205.765e3}, {3886, 0.039, 1.267e-8, -6.876e-15}, 2120e3};
+
 namespace {
 
 constexpr std::array kFluids{

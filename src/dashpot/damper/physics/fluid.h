@@ -8,6 +8,9 @@
 
 namespace dashpot {
 
+/// Of the same table as kFamily140CG.
+extern const FamilyFluid kFamily122EG;
+
 /// A magnetorheological fluid that is known by name.
 struct Fluid {
   std::string_view name;                ///< "140CG"

@@ -42,7 +42,6 @@ typedef struct FamilyFluid {
 
 static const FamilyFluid kFamily140CG = {
     {73.468e3, 119.684e3}, {2440.53, 0.5469, -1.42579e-6, 5.357e-13}, 218758.9};
-static const FamilyFluid kFamily122EG = {{233.446e3, 205.765e3}, {3886, 0.039, 1.267e-8, -6.876e-15}, 2120e3};
 
 static inline double family_field(const FamilyFluid* fluid, double flux_density) {
   return flux_density * (fluid->field[0] + fluid->field[1] * flux_density * flux_density);

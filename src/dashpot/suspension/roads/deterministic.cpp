@@ -28,6 +28,7 @@ class Step final : public GroundMotion {
 class Sine final : public GroundMotion {
  public:
   Sine(double amplitude, double frequency) : amplitude_(amplitude), rate_(kTurn * frequency) {}
+  bool is_steady() const noexcept override { return true; }
   std::string description() const override {
     return "sine of " + with_unit(amplitude_, "m") + ", " + with_unit(rate_ / kTurn, "Hz");
   }

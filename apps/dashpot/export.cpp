@@ -1,0 +1,134 @@
+#include <filesystem>
+#include <memory>
+
+#include <fmt/core.h>
+
+#include "commands.h"
+#include "console.h"
+#include "damper_choice.h"
+#include "dashpot/base/file.h"
+#include "dashpot/base/text.h"
+#include "dashpot/base/units.h"
+#include "dashpot/damper/model_file.h"
+#include "dashpot/damper/parameter_set.h"
+#include "dashpot/output/exporters/exporter.h"
+
+namespace dashpot::cli {
+namespace {
+
+struct Settings {
+  DamperChoice damper;
+  std::vector<std::string> formats;
+  std::string name, precision = "double", sample_time, folder = "dashpot-export";
+};
+
+constexpr std::string_view kExample =
+    "# A fitted model for an ECU: one header, one source, and a test that checks them:\n"
+    "dashpot export results/models/bouc_wen.json --to c --precision float --sample-time 1ms\n"
+    "\n"
+    "# A published damper, under a name of your own:\n"
+    "dashpot export --parameters spencer1997 --to c --name front_damper -o front";
+
+/// Where a damper that has no data of its own is known: a stroke of a car's damper.
+Domain usual_domain(const Damper& damper) {
+  return {-0.025, 0.025, -0.5, 0.5, damper.drive_min, damper.drive_max};
+}
+
+std::string origin_of(const DamperChoice& choice) {
+  if (choice.model.empty()) {
+    const ParameterSet set = load_parameter_set(choice.parameters);
+    return set.damper + ": " + set.source + (set.verified ? "" : " (an example: " + set.reason + ")");
+  }
+  const Provenance provenance = load_model(choice.model).provenance;
+  return "Identified from " + provenance.dataset + ", " + provenance.created;
+}
+
+std::vector<std::string> exporter_names() {
+  std::vector<std::string> names;
+  for (const Exporter& exporter : exporters()) names.emplace_back(exporter.name);
+  return names;
+}
+
+std::string formats_text() {
+  std::string text;
+  for (const Exporter& exporter : exporters())
+    text += fmt::format(" {}: {}, from {}; writes {}.", exporter.name, exporter.title, exporter.takes,
+                        exporter.files);
+  return text;
+}
+
+double sample_time_of(const DamperChoice& choice) {
+  return choice.model.empty() ? 0 : load_model(choice.model).sample_time;
+}
+
+int run(const Settings& settings, Console& console) {
+  if (settings.formats.empty())
+    throw UsageError("--to", "is missing", "one or more of " + join(exporter_names(), ", "));
+  if (settings.folder.empty()) throw UsageError("--output", "the name of the folder is empty");
+  const Damper damper = load_damper(settings.damper, "export", console);
+  const ExportedModel exported{.model = *damper.model,
+                               .drive_unit = damper.drive_unit,
+                               .domain = damper.domain.value_or(usual_domain(damper)),
+                               .sample_time = sample_time_of(settings.damper),
+                               .origin = origin_of(settings.damper)};
+  const ExportOptions options{
+      .name = settings.name,
+      .precision = settings.precision == "float" ? CPrecision::Single : CPrecision::Double,
+      .sample_time =
+          settings.sample_time.empty() ? 0 : parse_quantity(settings.sample_time, "s", "--sample-time"),
+      .command = console.command_line(),
+      .version = DASHPOT_VERSION};
+  std::vector<ExportedFile> files;
+  for (const std::string& format : settings.formats)
+    for (ExportedFile& file : find_exporter(format, "--to").write(exported, options))
+      files.push_back(std::move(file));
+  Value list = Value::array();
+  for (const ExportedFile& file : files) {
+    const std::string path = (std::filesystem::path(settings.folder) / file.name).string();
+    write_file(path, file.content);
+    list.push_back(path);
+    console.print(path + '\n');
+  }
+  if (console.json) console.print_json(Value::object({{"files", std::move(list)}}));
+  return kDone;
+}
+
+}  // namespace
+
+Command export_command() {
+  auto settings = std::make_shared<Settings>();
+  std::vector<Option> options = damper_options(settings->damper);
+  append(options, {{.names = "--to",
+                    .target = &settings->formats,
+                    .help = "what the model becomes",
+                    .value = "FORMAT",
+                    .choices = exporter_names(),
+                    .noun = "format"},
+                   {.names = "--name",
+                    .target = &settings->name,
+                    .help = "of the files and of the functions in them",
+                    .default_text = "the model's"},
+                   {.names = "--precision",
+                    .target = &settings->precision,
+                    .help = "of the numbers in C",
+                    .value = "TYPE",
+                    .choices = {"double", "float"}},
+                   {.names = "--sample-time",
+                    .target = &settings->sample_time,
+                    .help = "between two steps, as 1ms",
+                    .value = "S",
+                    .default_text = "that of the model's data, or 1 ms"},
+                   {.names = "-o,--output",
+                    .target = &settings->folder,
+                    .help = "folder for the files",
+                    .value = "DIR",
+                    .takes = Takes::Folder}});
+  return {.name = "export",
+          .title = "A model as code or tables for other programs",
+          .description = "Writes a model in a form that needs Dashpot no more." + formats_text(),
+          .options = std::move(options),
+          .example = std::string(kExample),
+          .run = [settings](Console& console) { return run(*settings, console); }};
+}
+
+}  // namespace dashpot::cli

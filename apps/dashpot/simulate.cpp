@@ -1,0 +1,141 @@
+#include <filesystem>
+#include <memory>
+
+#include "commands.h"
+#include "console.h"
+#include "dashpot/output/safe_text.h"
+#include "dashpot/output/simulation_document.h"
+#include "dashpot/record/record_file.h"
+#include "document_text.h"
+#include "study_results.h"
+#include "vehicle_options.h"
+#include "vehicle_sheet.h"
+
+namespace dashpot::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Settings {
+  VehicleChoice vehicle;
+  RoadChoice road;
+  StudyResults results;
+  std::string list, against;
+  double allowed_outside = 5, tolerance = 1e-6, step = 0;  // %, 1, ms
+  bool mat = false;
+};
+
+constexpr std::string_view kExample =
+    "# A quarter car over a class C road, its ideal damper ruled by one accelerometer:\n"
+    "dashpot simulate --controller mix1\n"
+    "\n"
+    "# An identified damper in the one-sensor paper's car over its step, with page and trace:\n"
+    "dashpot simulate --plant tudon_martinez2012 --damper results/models/tanh_kwok.json \\\n"
+    "    --controller skyhook --inverse numeric --road step,height=3cm --output ride\n"
+    "\n"
+    "# The three-storey building of Dyke et al. in the El Centro earthquake, damper off:\n"
+    "dashpot simulate --plant dyke_spencer1996 --damper spencer1997,x0=0 \\\n"
+    "    --road earthquake,file=el_centro_g.dat,unit=g0,time_scale=0.2 --against viscous,damping=0";
+
+Simulation simulate_choice(const Settings& settings, Console& console) {
+  const VehicleWords words = words_of(settings.vehicle);
+  const auto vehicle = std::make_shared<const Vehicle>(make_vehicle(words));
+  const GroundPointer ground = ground_of(settings.road, settings.vehicle.seed, vehicle->set.plant);
+  const RunOptions options{.duration = duration_of(settings.road, *ground),
+                           .allowed_outside = settings.allowed_outside / 100,
+                           .relative_tolerance = settings.tolerance,
+                           .step = settings.step > 0 ? std::optional(settings.step / 1000) : std::nullopt,
+                           .monitor = console.monitor()};
+  Simulation simulation{.run = run_vehicle(vehicle, *ground, options),
+                        .ground = ground->description(),
+                        .duration = options.duration,
+                        .discard = usual_discard(*ground, options.duration)};
+  if (settings.against == "none" || (settings.against.empty() && !vehicle->controller)) return simulation;
+  const auto passive = std::make_shared<const Vehicle>(make_vehicle(passive_words(words, settings.against)));
+  simulation.against = run_vehicle(passive, *ground, options);
+  return simulation;
+}
+
+void write_trace(const Settings& settings, const SimulatedRun& run, const std::string& name,
+                 Console& console) {
+  const fs::path file = fs::path(settings.results.folder) / (name + (settings.mat ? ".mat" : ".csv"));
+  (settings.mat ? save_mat : save_csv)(run.trace.record, file);
+  console.print("Trace    " + file.string() + '\n');
+}
+
+int run(const Settings& settings, Console& console) {
+  if (!settings.list.empty()) {
+    print_list(settings.list, console);
+    return kDone;
+  }
+  if (!settings.results.folder.empty()) prepare_study(settings.results);
+  const Simulation simulation = simulate_choice(settings, console);
+  const Document document = simulation_document(simulation);
+  const Value data = simulation_json(simulation);
+  if (settings.results.folder.empty()) {
+    print_document(document, console);
+    if (console.json) console.print_json(presentable(data));
+  } else {
+    write_study(document, data, settings.results, console);
+    write_trace(settings, simulation.run, "trace", console);
+    if (simulation.against) write_trace(settings, *simulation.against, "against", console);
+  }
+  return simulation.run.trace.diverged_at ? kNotUsable : kDone;
+}
+
+}  // namespace
+
+Command simulate_command() {
+  auto settings = std::make_shared<Settings>();
+  Command command{
+      .name = "simulate",
+      .title = "Drive a vehicle with a damper and a controller over a road",
+      .description =
+          "Puts a damper (a model file, a published one, a passive curve, or an ideal one) into a "
+          "vehicle or a "
+          "building, a controller with its sensors behind it and a road or an earthquake below, "
+          "and says how it rides: comfort by ISO 2631-1, tyre load, travel, force, energy; after "
+          "a step how it settles; against the same plant with a passive damper. What cannot be "
+          "trusted is said: lost contact, stops that were met, a damper asked beyond its data.",
+      .options = controlled_vehicle_options(settings->vehicle),
+      .example = std::string(kExample),
+      .run = [settings](Console& console) { return run(*settings, console); }};
+  append(command.options, road_options(settings->road));
+  append(command.options,
+         {{.names = "--against",
+           .target = &settings->against,
+           .help = "to compare with, without controller: a damper's words, current=A for the same damper "
+                   "at that current, or none",
+           .value = "WORDS",
+           .default_text = "beside a controller the plant's nominal damping, or half of the current"},
+          {.names = "--outside",
+           .target = &settings->allowed_outside,
+           .help = "share of the time that a damper may be outside its data without a warning, %",
+           .value = "%",
+           .minimum = 0},
+          {.names = "--tolerance",
+           .target = &settings->tolerance,
+           .help = "relative, of the integrator",
+           .value = "NUMBER"},
+          {.names = "--max-step",
+           .target = &settings->step,
+           .help = "of the integrator, ms, without control of its error: quicker, for dampers without "
+                   "hysteresis",
+           .value = "MS",
+           .minimum = 0,
+           .default_text = "as the tolerance asks"},
+          {.names = "-o,--output",
+           .target = &settings->results.folder,
+           .help = "folder for the page and the traces",
+           .value = "DIR",
+           .takes = Takes::Folder,
+           .default_text = "none: only the table"},
+          {.names = "--mat", .target = &settings->mat, .help = "traces as MATLAB files instead of CSV"},
+          {.names = "--figures",
+           .target = &settings->results.figures,
+           .help = "also draw the figures as SVG and PDF (needs gnuplot)"},
+          list_option(settings->list)});
+  return command;
+}
+
+}  // namespace dashpot::cli

@@ -1,0 +1,16 @@
+#pragma once
+#include <string>
+
+#include "command.h"
+
+namespace dashpot::cli {
+
+class Console;
+
+/// --list, of the commands of the suspension: what there is to choose from.
+Option list_option(std::string& kind);
+
+/// Plants, dampers, controllers or roads, with what each can be told.
+void print_list(const std::string& kind, Console& console);
+
+}  // namespace dashpot::cli

@@ -1,0 +1,191 @@
+#include "dashpot/base/error.h"
+#include "dashpot/damper/law_model.h"
+#include "dashpot/output/exporters/c_model.h"
+#include "dashpot/output/exporters/c_text.h"
+
+namespace dashpot {
+namespace {
+
+/// A parameter as an expression in `current`.
+std::string expression(const LawModel& model, std::size_t k) {
+  const std::vector<double>& c = model.parameters().coefficients[k];
+  if (model.parameters().forms[k] == Form::Exponential)
+    return c_number(c[1]) + " + (" + c_number(c[0] - c[1]) + " * exp(" + c_number(-c[2]) + " * current))";
+  std::string sum = c_number(c.back());
+  for (std::size_t power = c.size() - 1; power-- > 0;)
+    sum = c_number(c[power]) + " + (current * " + (power + 2 == c.size() ? sum : "(" + sum + ")") + ")";
+  return sum;
+}
+
+std::string parameter_function(const LawModel& model) {
+  std::string lines;
+  for (std::size_t k = 0; k < model.law().params.size(); ++k) {
+    const ParamInfo& info = model.law().params[k];
+    lines += "  p->" + std::string(info.name) + " = " + expression(model, k) + "; /* " +
+             std::string(info.unit) + ", " + std::string(info.meaning) + " */\n";
+  }
+  return "/* The parameters at a current in the coil. */\n"
+         "static inline void law_parameters(const LawModel* m, double current, LawParameters* p) {\n"
+         "  (void)m;\n" +
+         std::string(model.follows_current() ? "" : "  (void)current;\n") + lines + "}\n\n";
+}
+
+/// What the text of the integrator asks for.
+constexpr const char* kSteps = R"(static inline int law_states(const LawModel* m) {
+  (void)m;
+  return @states@;
+}
+
+static inline double law_rate(const LawModel* m, const LawParameters* p, double speed) {
+  (void)m;
+  return @law@_rate(p, speed);
+}
+
+static inline int law_has_own_step(const LawModel* m) {
+  (void)m;
+  return @has_step@;
+}
+
+static inline int law_own_step_is_exact(const LawModel* m) {
+  (void)m;
+  return @exact@;
+}
+
+static inline int law_own_step(const LawModel* m, const LawParameters* p, const double* x, const double* v,
+                               double h, double* z) {
+  (void)m;
+@own_step@}
+
+static inline void law_explicit_step(const LawModel* m, const LawParameters* const* p, const double* x,
+                                     const double* v, double h, double* z) {
+  (void)m;
+  law_runge_kutta(p, x, v, h, @states@, z);
+}
+
+)";
+
+std::string own_step(const Law& law) {
+  const std::string name(law.name);
+  if (!law.step) return "  (void)p;\n  (void)x;\n  (void)v;\n  (void)h;\n  (void)z;\n  return 0;\n";
+  if (!law.exact_step) return "  return " + name + "_step(p, x, v, h, z);\n";
+  const bool filters = c_text(name + ".h").find(' ' + name + "_filter(") != std::string_view::npos;
+  return "  (void)x;\n  z[0] = law_travel_step(p, v, h, z[0]);\n" +
+         std::string(filters ? "  " + name + "_filter(p, v, h, z);\n" : "") + "  return 1;\n";
+}
+
+/// From the law's derivative to law_advance().
+std::string integration(const Law& law) {
+  const std::string name(law.name), states = std::to_string(law.states.size());
+  std::string code =
+      "#define LAW_MOST_STATES " + states +
+      "\n\nstatic inline void law_derivative(const LawParameters* p, double x, double v, const "
+      "double* z, double* dz) {\n  " +
+      name + "_derivative(p, x, v, z, dz);\n}\n\n" + "#include \"law_runge_kutta.h\"\n";
+  if (law.exact_step)
+    code += "static inline double law_travel(const LawParameters* p, double z, double s) {\n  return " +
+            name + "_travel(p, z, s);\n}\n\n" + "#include \"law_travel.h\"\n";
+  code += filled(kSteps, {{"states", states},
+                          {"law", name},
+                          {"has_step", law.step ? "1" : "0"},
+                          {"exact", law.exact_step ? "1" : "0"},
+                          {"own_step", own_step(law)}});
+  return code + "#include \"law_path.h\"\n#include \"law_integrate.h\"\n";
+}
+
+constexpr const char* kCoilAlone =
+    R"(static void @stem@_advance(const DamperInput* from, const DamperInput* to, double dt,
+                          double* state) {
+  const LawPath path = law_path(&kLaw, from, to, dt, state[0]);
+  state[0] = law_path_current(&path, dt);
+}
+
+)";
+
+constexpr const char* kNoState =
+    R"(static void @stem@_advance(const DamperInput* from, const DamperInput* to, double dt,
+                          double* state) {
+  (void)from;
+  (void)to;
+  (void)dt;
+  (void)state;
+}
+
+)";
+
+constexpr const char* kAdvance =
+    R"(static void @stem@_advance(const DamperInput* from, const DamperInput* to, double dt,
+                          double* state) {
+  law_advance(&kLaw, from, to, dt, state);
+}
+
+)";
+
+std::string advance_function(const LawModel& model) {
+  if (!model.law().states.empty()) return kAdvance;
+  return model.lag_rate() > 0 ? kCoilAlone : kNoState;
+}
+
+std::string rest_function(const LawModel& model) {
+  std::string code = "static void @stem@_rest(const DamperInput* input, double* state) {\n";
+  if (model.law().rest)
+    code +=
+        "  LawParameters p;\n"
+        "  law_parameters(&kLaw, input->current, &p);\n"
+        "  @law@_rest(&p, input->displacement, input->velocity, state);\n";
+  if (model.lag_rate() > 0) code += "  state[@states@] = input->current; /* in the coil */\n";
+  if (model.state_size() == 0) code += "  (void)input;\n  (void)state;\n";
+  return code + "}\n\n";
+}
+
+std::string force_function(const LawModel& model) {
+  return "static double @stem@_force(const DamperInput* input, const double* state) {\n"
+         "  LawParameters p;\n"
+         "  law_parameters(&kLaw, " +
+         std::string(model.lag_rate() > 0 ? "state[@states@]" : "input->current") +
+         ", &p);\n"
+         "  return @law@_force(&p, input->displacement, input->velocity, state);\n"
+         "}\n\n";
+}
+
+std::string derivative_function(const LawModel& model) {
+  std::string code =
+      "static void @stem@_derivatives(const DamperInput* input, const double* state, double* derivatives) "
+      "{\n";
+  if (!model.law().states.empty())
+    code += "  LawParameters p;\n  law_parameters(&kLaw, " +
+            std::string(model.lag_rate() > 0 ? "state[@states@]" : "input->current") +
+            ", &p);\n"
+            "  @law@_derivative(&p, input->displacement, input->velocity, state, derivatives);\n";
+  if (model.lag_rate() > 0)
+    code += "  derivatives[@states@] = kLaw.lag_rate * (input->current - state[@states@]);\n";
+  return code + "}\n\n";
+}
+
+}  // namespace
+
+CModel c_law(const LawModel& model, const std::string& stem) {
+  const Law& law = model.law();
+  const std::string name(law.name);
+  if (!has_c_text(name + ".h")) throw Error(name, "its law has no C text in this build of Dashpot");
+  std::string code =
+      "#include \"" + name + ".h\"\n" + "typedef " + pascal_case(name) +
+      " LawParameters;\n\ntypedef struct LawModel {\n  double lag_rate; /* 1/s, of the coil; 0: "
+      "none */\n} LawModel;\n\nstatic const LawModel kLaw = {" +
+      c_number(model.lag_rate()) + "};\n\n" + parameter_function(model);
+  if (model.state_size() > 0)
+    code +=
+        "static inline double law_lag_rate(const LawModel* m) {\n  return m->lag_rate;\n}\n\n"
+        "static inline int law_follows_current(const LawModel* m) {\n  (void)m;\n  return " +
+        std::string(model.follows_current() ? "1" : "0") + ";\n}\n\n";
+  if (!law.states.empty())
+    code += integration(law);
+  else if (model.lag_rate() > 0)
+    code += "#include \"law_path.h\"\n";
+  const bool has_derivatives = model.state_size() > 0 && stem == "model";
+  code += filled(rest_function(model) + advance_function(model) + force_function(model) +
+                     (has_derivatives ? derivative_function(model) : ""),
+                 {{"stem", stem}, {"law", name}, {"states", std::to_string(law.states.size())}});
+  return {code, has_derivatives};
+}
+
+}  // namespace dashpot

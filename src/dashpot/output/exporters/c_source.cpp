@@ -1,0 +1,211 @@
+#include "dashpot/output/exporters/c_source.h"
+
+#include <algorithm>
+#include <cctype>
+
+#include "dashpot/base/error.h"
+#include "dashpot/base/text.h"
+#include "dashpot/damper/law_model.h"
+#include "dashpot/damper/registry.h"
+#include "dashpot/output/exporters/c_model.h"
+#include "dashpot/output/exporters/export_run.h"
+
+namespace dashpot {
+namespace {
+
+constexpr std::size_t kTestSteps = 200;
+
+constexpr const char* kHeader = R"(/* @title@.
+ *
+ * @what@
+ * Inputs: displacement m and velocity m/s, extension positive; command @unit@. Output: force N, positive when it
+ * resists extension. Finite inputs give finite forces. Known for displacements @x_min@ ... @x_max@ m,
+ * velocities @v_min@ ... @v_max@ m/s, commands @i_min@ ... @i_max@ @unit@; beyond, the model extrapolates.
+ *
+ *   damper_model model;
+ *   damper_reset(&model, &input);
+ *   for (;;) force = damper_step(&model, &input);
+ *
+ * C99 with math.h: no heap, no files, no variables outside a damper_model. Made by Dashpot @version@:
+ *   @command@
+ * MISRA C:2012, deviations: @deviations@
+ */
+#ifndef DAMPER_H
+#define DAMPER_H
+
+#define DAMPER_STATE_SIZE @size@ /* numbers in the state@unused@ */
+#define DAMPER_SAMPLE_TIME @sample_time@ /* s, of damper_step */
+
+)";
+
+constexpr const char* kDerivatives = R"(
+/* Time derivatives of the state, for a simulator that integrates it: the input's own slope is not needed. */
+void damper_derivatives(const damper_input* input, const double* state, double* derivatives);
+)";
+
+constexpr const char* kHeaderEnd = R"(
+#ifdef __cplusplus
+}
+#endif
+
+#endif
+)";
+
+constexpr const char* kTest =
+    R"(/* Steps through a run and compares the force with the one that Dashpot @version@ computed in double precision.
+ * Returns 0 when they agree within @tolerance@ of the force's span. */
+#include "@prefix@.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#define STEPS @steps@
+
+/* displacement m, velocity m/s, command, force N */
+static const double kRun[STEPS][4] = {
+@rows@};
+
+int main(void) {
+  damper_model model;
+  double largest = 0.0, low = kRun[0][3], high = kRun[0][3];
+  int k;
+  for (k = 0; k < STEPS; ++k) {
+    const damper_input input = {kRun[k][0], kRun[k][1], kRun[k][2]};
+    double force;
+    if (k == 0) {
+      damper_reset(&model, &input);
+      force = damper_force(&input, model.state);
+    } else {
+      force = damper_step(&model, &input);
+    }
+    largest = fmax(largest, fabs(force - kRun[k][3]));
+    low = fmin(low, kRun[k][3]);
+    high = fmax(high, kRun[k][3]);
+  }
+  printf("largest difference %g N, span of the force %g N\n", (double)largest, (double)(high - low));
+  return (largest <= @tolerance@ * (high - low)) ? 0 : 1;
+}
+)";
+
+// What cppcheck's MISRA add-on says of any kind of model; a test holds the list complete.
+constexpr const char* kDeviations =
+    "8.7, 8.9 (interface and tables of numbers stand at file scope); 10.3, 10.4,\n"
+    " * 10.6, 12.1 (equations mix reals with whole numbers, and have no more brackets than in print); 12.3 "
+    "(several\n"
+    " * variables in one declaration); 15.5, 15.6, 17.8 (in laws: early returns, single statements without "
+    "braces,\n"
+    " * arguments that change).";
+
+std::string rows_of(const ExportedModel& model, double sample_time) {
+  const std::vector<DamperInput> run = export_run(model.domain, sample_time, kTestSteps);
+  const std::vector<double> force = force_along(model.model, run, sample_time);
+  std::string rows;
+  for (std::size_t k = 0; k < run.size(); ++k)
+    rows += "    " + c_numbers(std::vector{run[k].displacement, run[k].velocity, run[k].current, force[k]}) +
+            ",\n";
+  return rows;
+}
+
+/// As the registry has it; a design of the user's has its name alone.
+std::string title_of(const DamperModel& model) {
+  for (const std::vector<std::string>& names : {model_names(), more_model_names()})
+    if (std::ranges::find(names, model.name()) != names.end())
+      return std::string(model_info(model.name()).title);
+  return model.name();
+}
+
+/// Throws Error where the interface would have names that the code has inside.
+void require_free(const std::string& prefix, const std::string& code) {
+  const auto is_word = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
+  for (const char* part :
+       {"input", "model", "init", "reset", "step", "advance", "rest", "move", "force", "derivatives"}) {
+    const std::string word = prefix + '_' + part;
+    for (std::size_t at = 0; (at = code.find(word, at)) != std::string::npos; ++at)
+      if ((at == 0 || !is_word(code[at - 1])) && !is_word(code[at + word.size()]))
+        throw Error("name", "'" + prefix + "' begins names that the code has inside",
+                    "say '" + prefix + "_damper'");
+  }
+}
+
+/// Text that ends no comment.
+std::string in_comment(std::string text) {
+  for (std::size_t at = 0; (at = text.find("*/", at)) != std::string::npos;) text.insert(at + 1, " ");
+  return text;
+}
+
+std::vector<std::pair<std::string, std::string>> facts(const ExportedModel& model,
+                                                       const ExportOptions& options, const CSource& source) {
+  const Domain& d = model.domain;
+  return {{"title", title_of(model.model)},
+          {"prefix", source.prefix},
+          {"what", in_comment(model.origin)},
+          {"unit", model.drive_unit},
+          {"x_min", format_number(d.displacement_min)},
+          {"x_max", format_number(d.displacement_max)},
+          {"v_min", format_number(d.velocity_min)},
+          {"v_max", format_number(d.velocity_max)},
+          {"i_min", format_number(d.current_min)},
+          {"i_max", format_number(d.current_max)},
+          {"version", options.version},
+          {"command", in_comment(options.command)},
+          {"deviations", kDeviations},
+          {"size", std::to_string(std::max<std::size_t>(1, source.state_size))},
+          {"unused", source.state_size == 0 ? ": one that is not used" : ""},
+          {"sample_time", c_number(source.sample_time)},
+          {"steps", std::to_string(kTestSteps)},
+          {"tolerance", options.precision == CPrecision::Double ? "1e-12" : "1e-5"}};
+}
+
+std::vector<CSource::Variable> states_of(const DamperModel& model) {
+  std::vector<CSource::Variable> states;
+  if (const auto* law = dynamic_cast<const LawModel*>(&model)) {
+    for (const StateInfo& state : law->law().states)
+      states.push_back({std::string(state.name), std::string(state.unit), "internal state of the law"});
+    if (law->lag_rate() > 0) states.push_back({"coil_current", law->drive_unit(), "current in the coil"});
+  }
+  return states;
+}
+
+}  // namespace
+
+CSource c_source(const ExportedModel& model, const ExportOptions& options) {
+  const CModel code = c_model(model.model);
+  const bool single = options.precision == CPrecision::Single;
+  CSource source{.prefix = export_name(model, options),
+                 .real = single ? "float" : "double",
+                 .state_size = model.model.state_size(),
+                 .inputs = {{"displacement", "m", "extension positive"},
+                            {"velocity", "m/s", "extension positive"},
+                            {"current", model.drive_unit, "command to the coil"}},
+                 .outputs = {{"force", "N", "positive when it resists extension"}},
+                 .states = code.has_derivatives ? states_of(model.model) : std::vector<CSource::Variable>{},
+                 .sample_time = export_sample_time(model, options),
+                 .grid = model.model.feedback_step()};
+  const std::string own = with_texts(code.code);
+  require_free(source.prefix, own);
+  const auto finished = [&](const std::string& text) {
+    return with_prefix(in_precision(text, options.precision), source.prefix);
+  };
+  std::vector<std::pair<std::string, std::string>> values = facts(model, options, source);
+  source.header = finished(filled(kHeader, values) + std::string(c_text("damper_api.h")) +
+                           (code.has_derivatives ? kDerivatives : "") + kHeaderEnd);
+  source.source = finished(
+      "#include \"" + source.prefix + ".h\"\n\n#include <math.h>\n\ntypedef damper_input DamperInput;\n\n" +
+      own + std::string(c_text("damper_api.c")) +
+      (code.has_derivatives
+           ? "\nvoid damper_derivatives(const damper_input* input, const double* state, double* "
+             "derivatives) {\n  model_derivatives(input, state, derivatives);\n}\n"
+           : ""));
+  values.emplace_back("rows", rows_of(model, source.sample_time));
+  source.test = finished(filled(kTest, values));
+  return source;
+}
+
+std::vector<ExportedFile> write_c_source(const ExportedModel& model, const ExportOptions& options) {
+  const CSource source = c_source(model, options);
+  return {{source.prefix + ".h", source.header},
+          {source.prefix + ".c", source.source},
+          {source.prefix + "_test.c", source.test}};
+}
+
+}  // namespace dashpot

@@ -1,0 +1,52 @@
+#pragma once
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "dashpot/damper/model.h"
+#include "dashpot/output/exporters/c_text.h"
+
+namespace dashpot {
+
+/// A model with what an export says of it.
+struct ExportedModel {
+  const DamperModel& model;
+  std::string drive_unit = "A";
+  Domain domain;           ///< where it was identified, or where its parameters hold
+  double sample_time = 0;  ///< s, of the training data; 0: mixed or unknown
+  std::string origin;      ///< where it comes from, in words
+};
+
+struct ExportOptions {
+  std::string name;  ///< of files and functions: a name in C
+  CPrecision precision = CPrecision::Double;
+  double sample_time = 0;  ///< s; 0: the model's own
+  std::string command, version;
+};
+
+struct ExportedFile {
+  std::string name, content;
+};
+
+/// One thing that a model can become.
+struct Exporter {
+  std::string_view name, title;
+  std::string_view takes;  ///< which models, in words
+  std::string_view files;  ///< what it writes, in words
+  /// Throws Error that says why where the model cannot become that.
+  std::vector<ExportedFile> (*write)(const ExportedModel& model, const ExportOptions& options);
+};
+
+/// All of them, in alphabetical order.
+std::span<const Exporter> exporters();
+/// Throws Error "unknown format 'x'; did you mean ...".
+const Exporter& find_exporter(std::string_view name, const std::string& where = {});
+
+/// s between two steps: as asked for, the model's own where it has one, that of its data, or 1 ms. Throws
+/// Error where it is not a positive number.
+double export_sample_time(const ExportedModel& model, const ExportOptions& options);
+/// The name, or one made of the model's. Throws Error where it is none in C.
+std::string export_name(const ExportedModel& model, const ExportOptions& options);
+
+}  // namespace dashpot

@@ -1,0 +1,39 @@
+#pragma once
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "dashpot/suspension/ride_measures.h"
+#include "dashpot/suspension/vehicle.h"
+
+namespace dashpot {
+
+/// A vehicle on its way, and what is to be said of it.
+struct SimulatedRun {
+  std::string name;  ///< "mix1", "viscous, 1500 N*s/m"
+  std::shared_ptr<const Vehicle> vehicle;
+  Trace trace;
+  std::vector<RideMeasure> measures;
+  std::vector<std::string> warnings;  ///< the trace's, and dampers that were asked beyond their data
+};
+
+struct RunOptions {
+  double duration = 10;           ///< s
+  double allowed_outside = 0.05;  ///< share of the time that a damper may be outside its data
+  double relative_tolerance = 1e-6;
+  std::optional<double> step = {};  ///< s, as in SimulateOptions
+  Monitor monitor;
+};
+
+SimulatedRun run_vehicle(const std::shared_ptr<const Vehicle>& vehicle, const GroundMotion& ground,
+                         const RunOptions& options);
+
+/// What to call it: the controller, or the dampers and what drives them.
+std::string name_of(const Vehicle& vehicle);
+
+/// The same plant without a controller, to compare with. against: a damper's words; or "current=..." for the
+/// same dampers at that current; empty: the plant's nominal damping where the dampers are ideal, else the
+/// same dampers at half of their current. Throws Error(where, ...).
+VehicleWords passive_words(const VehicleWords& words, const std::string& against);
+
+}  // namespace dashpot

@@ -1,0 +1,44 @@
+#include "dashpot/base/file.h"
+#include "dashpot/base/value.h"
+#include "program.h"
+
+using namespace dashpot;
+
+TEST_CASE("ride: two controllers against passive, with a page") {
+  const TemporaryFolder folder;
+  const std::string out = (folder.path() / "ride").string();
+  const ProgramResult result = run_dashpot(
+      "ride --controllers \"skyhook;mix1,crossover=2Hz\" --frequencies 4,8 --held 2 --duration 6 --settling "
+      "4 --chirp 5 "
+      "--threads 1 --output " +
+      out);
+  CAPTURE(result.output);
+  CHECK(result.exit_code == 0);
+  CHECK(contains(result.output, "Most comfortable is mix1,crossover=2Hz: "));
+  CHECK(contains(result.output, "below passive"));
+  CHECK(contains(read_file(out + "/report.html"), "The trade-off on the road"));
+  CHECK(contains(read_file(out + "/report.md"), "| skyhook |"));
+  CHECK(parse_json(read_file(out + "/report.json"), "report").find("held")->items().size() == 2);
+}
+
+TEST_CASE("ride: wrong command lines") {
+  const TemporaryFolder folder;
+  const struct {
+    const char *arguments, *message;
+    int exit_code;
+  } cases[] = {
+      {"--controllers skyhok", "vehicle: unknown controller 'skyhok'; did you mean 'skyhook'?", 1},
+      {"--frequencies 2,x", "--frequencies", 1},
+      {"--frequencies 2,1", "vehicle: its frequencies do not rise from above 0", 1},
+      {"--held 1", "--held: 1 is too small; give at least 2", 2},
+      {"--plant dyke_spencer1996 --damper spencer1997", "has no tyres to ride on", 1},
+  };
+  for (const auto& c : cases) {
+    CAPTURE(c.arguments);
+    const ProgramResult result =
+        run_dashpot(std::string("ride ") + c.arguments + " --output " + (folder.path() / "r").string());
+    CAPTURE(result.output);
+    CHECK(result.exit_code == c.exit_code);
+    CHECK(contains(result.output, c.message));
+  }
+}

@@ -1,0 +1,99 @@
+#include <algorithm>
+#include <cctype>
+
+#include "dashpot/base/file.h"
+#include "dashpot/base/text.h"
+#include "dashpot/output/exporters/c_source.h"
+#include "output/exporters/example_models.h"
+#include "support.h"
+
+using namespace dashpot;
+
+namespace {
+
+bool is_there(const std::string& program) {
+  if (run_program(program + " --version").exit_code == 0) return true;
+  MESSAGE("SKIPPED: no " << program << " is here");
+  return false;
+}
+
+void write_all(const TemporaryFolder& folder, CPrecision precision) {
+  for (const ExampleModel& example : example_models())
+    for (const ExportedFile& file :
+         write_c_source(exported(*example.model), {.name = example.name + "_x", .precision = precision}))
+      folder.write(file.name, file.content);
+}
+
+/// Compiles every model and its test in the folder, and runs the test. What fails is printed.
+ProgramResult compile_and_run(const TemporaryFolder& folder, const std::string& flags) {
+  folder.write(
+      "check",
+      "cc -std=c99 -pedantic -Wall -Wextra -Wshadow -Wfloat-conversion -Werror " + flags +
+          " -c $1.c -o $1.o 2> $1.out && cc -std=c99 -w $1_test.c $1.o -lm -o $1 && ./$1 > $1.out || "
+          "{ echo \"FAILED $1\"; head -5 $1.out; exit 1; }\n");
+  return run_program("cd '" + folder.path().string() +
+                     "' && ls *_test.c | sed 's/_test.c//' | xargs -P $(nproc) -I NAME sh check NAME");
+}
+
+}  // namespace
+
+TEST_CASE("exported C: every kind of model in double precision gives the library's force within 1e-12") {
+  if (!is_there("cc")) return;
+  const TemporaryFolder folder;
+  write_all(folder, CPrecision::Double);
+  const ProgramResult result = compile_and_run(folder, "");
+  CAPTURE(result.output);
+  CHECK(result.exit_code == 0);
+}
+
+TEST_CASE("exported C: every kind of model in single precision gives it within 1e-5, without a double") {
+  if (!is_there("cc")) return;
+  const TemporaryFolder folder;
+  write_all(folder, CPrecision::Single);
+  const ProgramResult result = compile_and_run(folder, "-Wdouble-promotion");
+  CAPTURE(result.output);
+  CHECK(result.exit_code == 0);
+}
+
+TEST_CASE("exported C: a test of another model's force fails") {
+  if (!is_there("cc")) return;
+  const TemporaryFolder folder;
+  const LawModel model = example_law(find_law("bouc_wen"));
+  const auto moved = model.with_offset(1e-3);
+  const CSource source = c_source(exported(model), {.name = "x"}),
+                other = c_source(exported(*moved), {.name = "x"});
+  folder.write("x.h", source.header);
+  folder.write("x.c", source.source);
+  folder.write("x_test.c", other.test);
+  CHECK(compile_and_run(folder, "").output.find("FAILED x") != std::string::npos);
+}
+
+TEST_CASE("exported C: a name that the code has inside is refused") {
+  const LawModel model = example_law(find_law("dahl"));
+  CHECK(message_of([&] { c_source(exported(model), {.name = "dahl"}); }) ==
+        "name: 'dahl' begins names that the code has inside; say 'dahl_damper'");
+  CHECK(message_of([&] { c_source(exported(model), {.name = "2nd"}); }).find("letters, digits") !=
+        std::string::npos);
+  CHECK(c_source(exported(model), {}).prefix == "dahl_damper");
+}
+
+TEST_CASE("exported C: what cppcheck's MISRA add-on says is listed in the header") {
+  if (!is_there("cppcheck")) return;
+  const TemporaryFolder folder;
+  for (const ExampleModel& example : example_models()) {
+    if (example.name != "bouc_wen" && example.name != "hysteresis_network") continue;
+    const CSource source = c_source(exported(*example.model), {.name = "x"});
+    folder.write("x.h", source.header);
+    const auto path = folder.write("x.c", source.source);
+    const ProgramResult result =
+        run_program("cppcheck --addon=misra --quiet --enable=style --std=c99 '" + path.string() + "'");
+    CHECK(result.output.find("error:") == std::string::npos);
+    for (std::size_t at = 0; (at = result.output.find("misra-c2012-", at)) != std::string::npos; ++at) {
+      std::size_t end = at + 12;
+      while (std::isdigit(static_cast<unsigned char>(result.output[end])) || result.output[end] == '.') ++end;
+      const std::string rule = result.output.substr(at + 12, end - at - 12);
+      CAPTURE(rule);
+      CHECK(source.header.find(' ' + rule) != std::string::npos);
+    }
+  }
+}
