@@ -29,7 +29,7 @@ std::vector<TextColumn> quantile_columns(const std::string& first) {
 }
 
 std::vector<std::string> quantile_row(const std::string& first, const std::string& controller,
-                                      const Spread& spread, const ShownMeasure& shown) {
+                                      const SweepSpread& spread, const ShownMeasure& shown) {
   std::vector<std::string> row{first, controller};
   for (const Quantile& q : spread.quantiles) row.push_back(shown.text(q.value));
   row.push_back(with_interval(spread.quantiles[kSweepShares.size() / 2], shown));

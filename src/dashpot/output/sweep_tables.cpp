@@ -78,7 +78,7 @@ void add_spread_columns(Rows& rows) {
   }
 }
 
-std::vector<double> figures_of(const Spread& spread) {
+std::vector<double> figures_of(const SweepSpread& spread) {
   std::vector<double> figures{static_cast<double>(spread.count), spread.mean, spread.deviation};
   for (const Quantile& q : spread.quantiles)
     figures.insert(figures.end(), {q.value, q.low.value_or(kNone), q.high.value_or(kNone)});

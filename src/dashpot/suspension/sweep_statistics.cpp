@@ -66,10 +66,10 @@ std::vector<double> sorted_finite(std::vector<double> values) {
   return values;
 }
 
-std::optional<Spread> spread_of(std::vector<double> values) {
+std::optional<SweepSpread> spread_of(std::vector<double> values) {
   const std::vector<double> sorted = sorted_finite(std::move(values));
   if (sorted.empty()) return std::nullopt;
-  Spread spread{.count = sorted.size()};
+  SweepSpread spread{.count = sorted.size()};
   for (std::size_t q = 0; q < kSweepShares.size(); ++q)
     spread.quantiles[q] = quantile_of(sorted, kSweepShares[q]);
   const auto n = static_cast<double>(sorted.size());

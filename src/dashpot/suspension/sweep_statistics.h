@@ -26,13 +26,13 @@ Quantile quantile_of(std::span<const double> sorted, double share);
 std::vector<double> sorted_finite(std::vector<double> values);
 
 /// Over the vehicles of one controller, or over their ratios to those of another.
-struct Spread {
+struct SweepSpread {
   std::size_t count = 0;  ///< finite values
   std::array<Quantile, kSweepShares.size()> quantiles{};
   double mean = 0, deviation = 0;
 };
 /// Nothing where no value is finite.
-std::optional<Spread> spread_of(std::vector<double> values);
+std::optional<SweepSpread> spread_of(std::vector<double> values);
 
 /// Spearman's: how monotonously y follows x, -1 ... 1. Pairs with a number that is not finite do not count;
 /// nothing with fewer than 3 pairs or where one of the two does not vary.
