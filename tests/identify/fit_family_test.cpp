@@ -115,4 +115,5 @@ TEST_CASE("measured dampers of geometries never seen are foretold, with interval
   CHECK(left_out.pooled.mae <= 1.15);
   CHECK(left_out.coverage.percent() >= 85);
   CHECK(left_out.coverage.percent() <= 95);
+  CHECK(ranking.models.front().band->spread > 0);  // of builds
 }
