@@ -75,7 +75,7 @@ class LaneBatch {
       start.set(lane, lanes[lane].start);
     }
     const std::vector<Biquad> weighting = weighting_filter(find_weighting("Wk"), ride_.sample_time);
-    LanePilot pilot(vehicles_);
+    LanePilot pilot(std::span<const BatchVehicle* const>(vehicles_).first(members_.size()), lanes_);
     pilot.take(ride_);
     ride_.numbers = numbers.data();
     ride_.damper = damper.data();

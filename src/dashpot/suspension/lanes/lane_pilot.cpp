@@ -17,7 +17,7 @@ struct RaisedGround final : GroundMotion {
 
 }  // namespace
 
-LanePilot::LanePilot(std::span<const BatchVehicle* const> vehicles) {
+LanePilot::LanePilot(std::span<const BatchVehicle* const> vehicles, std::size_t lanes) : lanes_(lanes) {
   for (const BatchVehicle* vehicle : vehicles) {
     const Setting& setting = vehicle->setting;
     drivers_.push_back({vehicle,
@@ -43,27 +43,28 @@ void LanePilot::take(LaneRide& ride) {
 }
 
 void LanePilot::ground(std::size_t first, std::size_t count, double* heights, double* rates) noexcept {
-  const std::size_t lanes = drivers_.size();
+  const std::size_t driven = drivers_.size();
   feet_.resize(count);
-  for (std::size_t lane = 0; lane < lanes; ++lane) {
+  for (std::size_t lane = 0; lane < driven; ++lane) {
     const BatchVehicle& vehicle = *drivers_[lane].vehicle;
     const Tyre& tyre = vehicle.setting.plant.tyres[0];
     const double half = 0.5 * sample_time_of(vehicle);
     vehicle.setting.ground.feet(half * static_cast<double>(first), half, tyre.track, tyre.behind, feet_);
-    for (std::size_t k = 0; k < count; ++k) {
-      heights[k * lanes + lane] = feet_[k].height;
-      rates[k * lanes + lane] = feet_[k].velocity;
-    }
+    for (std::size_t k = 0; k < count; ++k)
+      for (std::size_t to = lane; to < (lane + 1 == driven ? lanes_ : lane + 1); ++to) {
+        heights[k * lanes_ + to] = feet_[k].height;
+        rates[k * lanes_ + to] = feet_[k].velocity;
+      }
   }
 }
 
 void LanePilot::control(const double* signals, double* commands) {
-  const std::size_t lanes = drivers_.size();
-  for (std::size_t lane = 0; lane < lanes; ++lane) {
+  for (std::size_t lane = 0; lane < drivers_.size(); ++lane) {
     double own[kLaneSignals];
-    for (std::size_t k = 0; k < kLaneSignals; ++k) own[k] = signals[k * lanes + lane];
+    for (std::size_t k = 0; k < kLaneSignals; ++k) own[k] = signals[k * lanes_ + lane];
     commands[lane] = command(drivers_[lane], own, commands[lane]);
   }
+  std::fill(commands + drivers_.size(), commands + lanes_, commands[drivers_.size() - 1]);
 }
 
 double LanePilot::command(Driver& driver, const double (&signals)[kLaneSignals], double before) {

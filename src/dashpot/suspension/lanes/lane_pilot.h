@@ -10,8 +10,8 @@ namespace dashpot {
 /// The road under the vehicles of a ride in lanes, and who drives their dampers.
 class LanePilot {
  public:
-  /// One vehicle per lane.
-  explicit LanePilot(std::span<const BatchVehicle* const> vehicles);
+  /// One vehicle per lane; further lanes go as the last one's does.
+  LanePilot(std::span<const BatchVehicle* const> vehicles, std::size_t lanes);
   /// Makes a ride ask this pilot.
   void take(LaneRide& ride);
 
@@ -27,6 +27,7 @@ class LanePilot {
   void control(const double* signals, double* commands);
   double command(Driver& driver, const double (&signals)[kLaneSignals], double before);
 
+  std::size_t lanes_;
   std::vector<Driver> drivers_;
   std::vector<FootMotion> feet_;
 };

@@ -154,7 +154,7 @@ LaneVehicle lane_vehicle(const BatchVehicle& vehicle) {
   else
     set_law(dynamic_cast<const LawModel&>(*damper.model), lane);
   const Strut& strut = plant.struts[0];
-  lane.shape.lags = lane.numbers.driver_lag > 0 || lane.numbers.model_lag > 0;
+  lane.shape.lags = (lane.numbers.driver_lag > 0) + (lane.numbers.model_lag > 0);
   lane.shape.resists_more =
       plant.tyres_may_lift || strut.friction > 0 || strut.extension_stop > 0 || strut.compression_stop > 0;
   lane.shape.controlled = vehicle.setting.controller != nullptr;

@@ -12,7 +12,8 @@ struct LaneShape {
   LaneDamperKind kind = LaneDamperKind::Network;
   LaneNetwork network;
   std::size_t law = 0;
-  bool lags = false, resists_more = false, controlled = false;
+  std::size_t lags = 0;
+  bool resists_more = false, controlled = false;
   double sample_time = 0;
   bool operator==(const LaneShape&) const = default;
 };

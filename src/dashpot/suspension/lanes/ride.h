@@ -41,7 +41,7 @@ struct LaneRide {
   LaneDamperKind kind = LaneDamperKind::Network;
   const LaneNetwork* network = nullptr;
   std::size_t law = 0;        ///< its place in lane_law_table()
-  bool lags = false;          ///< some coil or model has a lag
+  std::size_t lags = 0;       ///< of driver and model, on the way to the current that drives the damper
   bool resists_more = false;  ///< some strut has stops or friction, some tyre may lift
   double relative_tolerance = 0, absolute_tolerance = 0;
   double sample_time = 0;

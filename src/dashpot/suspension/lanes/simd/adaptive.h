@@ -6,11 +6,11 @@ namespace {
 
 /// The method of Dormand and Prince, order 5 with an error of order 4 (J. Comput. Appl. Math. 6 (1980) 19),
 /// every lane in steps of its own length.
-template <class Damper, bool kLags>
+template <class Damper, std::size_t kLags>
 class AdaptiveSteps {
   using Car = QuarterCarLanes<Damper>;
   using State = typename Car::State;
-  static constexpr std::size_t kStates = Damper::kStates, kSize = 4 + kStates + (kLags ? 2 : 0);
+  static constexpr std::size_t kStates = Damper::kStates, kSize = 4 + kStates + kLags;
   struct Slope {
     Lane d[kSize];
     Lane force;  ///< of the damper
@@ -52,6 +52,8 @@ class AdaptiveSteps {
       done = accepted ? (last ? all(whole) : done + h) : done;
       moving = done < whole;
     } while (any(moving));
+    if constexpr (kLags == 1)
+      state.currents.coil = car_.numbers.driver_lag > 0 ? state.currents.inner : state.currents.coil;
   }
 
   LaneMask missed{};
@@ -61,10 +63,12 @@ class AdaptiveSteps {
   [[gnu::always_inline]] Slope slope(const State& s, Lane command, Lane road) {
     Slope out;
     const Lane* x = s.x;
-    if constexpr (kLags) {
-      car_.damper.set_current(car_.driving(s.currents));
-      out.d[4 + kStates] = car_.numbers.driver_lag * (command - s.currents.coil);
-      out.d[5 + kStates] = car_.numbers.model_lag * (s.currents.coil - s.currents.inner);
+    if constexpr (kLags > 0) car_.damper.set_current(s.currents.inner);
+    if constexpr (kLags == 1)
+      out.d[4 + kStates] = (car_.numbers.driver_lag + car_.numbers.model_lag) * (command - s.currents.inner);
+    if constexpr (kLags == 2) {
+      out.d[4 + kStates] = car_.numbers.model_lag * (s.currents.coil - s.currents.inner);
+      out.d[5 + kStates] = car_.numbers.driver_lag * (command - s.currents.coil);
     }
     out.force = car_.damper_force(x, s.z);
     const Lane force = out.force + car_.strut_extra(x), pushed = car_.push_on_wheel(x, road);
@@ -85,20 +89,14 @@ class AdaptiveSteps {
     for (std::size_t k = 0; k < 4; ++k) to.x[k] = change(from.x[k], k);
 #pragma GCC unroll 16
     for (std::size_t k = 0; k < kStates; ++k) to.z[k] = change(from.z[k], 4 + k);
-    if constexpr (kLags) {
-      to.currents.coil = change(from.currents.coil, 4 + kStates);
-      to.currents.inner = change(from.currents.inner, 5 + kStates);
-    } else {
-      to.currents = from.currents;
-    }
+    if constexpr (kLags > 0) to.currents.inner = change(from.currents.inner, 4 + kStates);
+    if constexpr (kLags > 1) to.currents.coil = change(from.currents.coil, 5 + kStates);
   }
   static void take(State& state, const State& end, LaneMask accepted) {
     for (std::size_t k = 0; k < 4; ++k) state.x[k] = accepted ? end.x[k] : state.x[k];
     for (std::size_t k = 0; k < kStates; ++k) state.z[k] = accepted ? end.z[k] : state.z[k];
-    if constexpr (kLags) {
-      state.currents.coil = accepted ? end.currents.coil : state.currents.coil;
-      state.currents.inner = accepted ? end.currents.inner : state.currents.inner;
-    }
+    if constexpr (kLags > 0) state.currents.inner = accepted ? end.currents.inner : state.currents.inner;
+    if constexpr (kLags > 1) state.currents.coil = accepted ? end.currents.coil : state.currents.coil;
   }
 
   /// A step of length h from `begin` (share of the sample) on; its error in tolerances.

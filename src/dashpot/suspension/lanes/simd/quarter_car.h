@@ -4,7 +4,7 @@
 namespace dashpot {
 namespace {
 
-/// A current that follows `command` through the coil's lag and then the model's own; the second one drives.
+/// The driver's current in the coil, and the one that drives the model behind one or both of their lags.
 struct Currents {
   Lane coil{}, inner{};
 };
@@ -56,9 +56,7 @@ class QuarterCarLanes {
            (numbers.by_force[k] * strut + numbers.by_push[k] * pushed);
   }
   /// The current that drives the damper.
-  Lane driving(const Currents& currents) const {
-    return ride_.lags ? (numbers.model_lag > 0 ? currents.inner : currents.coil) : currents.coil;
-  }
+  Lane driving(const Currents& currents) const { return ride_.lags > 0 ? currents.inner : currents.coil; }
 
   Damper damper;
   using Numbers = QuarterCarNumbers<Lane>;

@@ -9,10 +9,14 @@ namespace {
 
 template <class Damper>
 void run_with(const LaneRide& ride) {
-  if (ride.lags)
-    LaneRun<Damper, AdaptiveSteps<Damper, true>>(ride).run();
-  else
-    LaneRun<Damper, AdaptiveSteps<Damper, false>>(ride).run();
+  switch (ride.lags) {
+    case 0:
+      return LaneRun<Damper, AdaptiveSteps<Damper, 0>>(ride).run();
+    case 1:
+      return LaneRun<Damper, AdaptiveSteps<Damper, 1>>(ride).run();
+    default:
+      return LaneRun<Damper, AdaptiveSteps<Damper, 2>>(ride).run();
+  }
 }
 
 void run(const LaneRide& ride) noexcept {
