@@ -102,8 +102,7 @@ FigureSeries look_of(const SuspensionScheme& scheme) {
   if (scheme.key.starts_with("mix1")) return dots("Mix-1-sensor", "series-1");
   if (scheme.key == "off" || scheme.key == "on") return dots("MR2 at 0 A, at 2.5 A", "series-3");
   if (scheme.within_range) return dots("other controllers", "series-2");
-  return scheme.key == "ideal" ? dots("Mix-1-sensor, ideal damper", "series-4")
-                               : dots("passive dampers", "series-6");
+  return dots("other dampers: passive, ideal", "series-6");
 }
 
 /// The line below and left of which the bounds leave nothing: the envelope of all straight lines
