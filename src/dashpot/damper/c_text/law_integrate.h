@@ -26,12 +26,12 @@ static inline int law_own_steps(const LawModel* m, const LawPath* path, int coun
 static inline void law_explicit_steps(const LawModel* m, const LawPath* path, const LawParameters* start,
                                       int count, double* z) {
   const double h = path->dt / count;
-  LawParameters begin = *start, middle, end;
+  LawParameters middle, ends[2];
   const LawParameters* stages[3];
   int k;
-  stages[0] = &begin;
-  stages[1] = &begin;
-  stages[2] = &begin;
+  stages[0] = start;
+  stages[1] = start;
+  stages[2] = start;
   for (k = 0; k < count; ++k) {
     const double t = k * h;
     double x[3], v[3];
@@ -42,15 +42,14 @@ static inline void law_explicit_steps(const LawModel* m, const LawPath* path, co
     v[1] = path->v + path->v_slope * (t + h / 2);
     v[2] = path->v + path->v_slope * (t + h);
     if (path->varies != 0) {
+      LawParameters* end = &ends[k % 2];
       law_parameters(m, law_path_current(path, (k + 0.5) * h), &middle);
-      law_parameters(m, law_path_current(path, (k + 1) * h), &end);
+      law_parameters(m, law_path_current(path, (k + 1) * h), end);
       stages[1] = &middle;
-      stages[2] = &end;
+      stages[2] = end;
     }
     law_explicit_step(m, stages, x, v, h, z);
-    if (path->varies != 0) {
-      begin = end;
-    }
+    stages[0] = stages[2];
   }
 }
 
