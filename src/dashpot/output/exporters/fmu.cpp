@@ -89,7 +89,7 @@ void add_ports(const ExportedModel& model, double usual_force, Fmu& fmu) {
 /// A state's unit by time.
 std::string rate_unit(const std::string& unit) {
   if (unit == "1") return "1/s";
-  return unit == "m/s" ? "m/s^2" : unit.find('/') == std::string::npos ? unit + "/s" : unit + "*s^-1";
+  return unit == "m/s" ? "m/s^2" : unit + "/s";
 }
 
 void add_states(const std::vector<double>& sizes, Fmu& fmu) {
