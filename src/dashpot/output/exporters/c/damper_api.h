@@ -19,8 +19,8 @@ typedef struct damper_model {
 void damper_init(damper_model* model);
 /* Long at rest at this displacement and current. */
 void damper_reset(damper_model* model, const damper_input* input);
-/* The input DAMPER_SAMPLE_TIME after the last one; the force then, N, positive when it resists extension. Between
- * the two the input is taken as linear. */
+/* The input DAMPER_SAMPLE_TIME after the last one; the force then, N, positive when it resists extension.
+ * Between the two the input is taken as linear. */
 double damper_step(damper_model* model, const damper_input* input);
 /* The same dt seconds after the last one; where dt is not above 0 only the input is new. */
 double damper_advance(damper_model* model, const damper_input* input, double dt);

@@ -1,7 +1,7 @@
 #include "held.h"
 
-/* F = sum_j (sum_k G_jk c_k(u)) t_j with t = [1, z, tanh(W [z, u] + b)] and c = [1, u_m, u_m u_n]: motions z, then
- * currents u. Declared before: GATED_MOST_SIGNALS, GATED_MOST_GATES. */
+/* F = sum_j (sum_k G_jk c_k(u)) t_j with t = [1, z, tanh(W [z, u] + b)] and c = [1, u_m, u_m u_n]: motions z,
+ * then currents u. Declared before: GATED_MOST_SIGNALS, GATED_MOST_GATES. */
 typedef struct GatedNetwork {
   int signals, currents, hidden;
   const double* mean; /* standardised = (raw - mean) / scale, held within low ... high */
@@ -56,8 +56,8 @@ static inline double gated_evaluate(const GatedNetwork* n, const double* raw, in
   }
   for (k = 0; k < n->hidden; ++k) {
     const double* w = &n->neurons[k * (n->signals + 1)];
-    sum += tanh(gated_sum(w, inside, n->signals) + w[n->signals]) *
-           gated_sum(&n->gates[row * gates], c, gates);
+    sum +=
+        tanh(gated_sum(w, inside, n->signals) + w[n->signals]) * gated_sum(&n->gates[row * gates], c, gates);
     ++row;
   }
   return n->output_scale * sum;

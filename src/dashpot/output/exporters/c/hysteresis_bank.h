@@ -1,7 +1,7 @@
 #include "lag.h"
 
-/* States that motion and command drive: first Dahl states w' = rho (v - |v| w), then lags of the velocity, then
- * lags of the command. */
+/* States that motion and command drive: first Dahl states w' = rho (v - |v| w), then lags of the velocity,
+ * then lags of the command. */
 typedef struct HysteresisBank {
   const double* rates; /* rho 1/m, then 1/s */
   int paths, velocities, currents;
@@ -23,8 +23,8 @@ static inline double bank_slide(double w, double rate, double way) {
   return w + ((w - direction) * expm1(-rate * fabs(way)));
 }
 
-static inline void bank_advance(const HysteresisBank* b, const DamperInput* from, const DamperInput* to, double dt,
-                                double* state) {
+static inline void bank_advance(const HysteresisBank* b, const DamperInput* from, const DamperInput* to,
+                                double dt, double* state) {
   const double v0 = from->velocity, v1 = to->velocity;
   const int turns = ((v0 * v1) < 0) ? 1 : 0; /* the velocity changes its sign */
   const double turn = (turns != 0) ? (dt * (v0 / (v0 - v1))) : dt;

@@ -19,6 +19,6 @@ typedef struct damper_model {
 void damper_init(damper_model* model);
 /* Long at rest at this displacement and current. */
 void damper_reset(damper_model* model, const damper_input* input);
-/* The current to command now, DAMPER_SAMPLE_TIME after the last call, always within the limits. Where the input is not
- * finite, the present current. */
+/* The current to command now, DAMPER_SAMPLE_TIME after the last call, always within the limits. Where the
+ * input is not finite, the present current. */
 double damper_step(damper_model* model, const damper_input* input);

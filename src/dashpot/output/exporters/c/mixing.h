@@ -1,5 +1,5 @@
-/* Signals of their own out of such that tell much the same: mixed = T (raw - mean), T lower triangular, row by row
- * without its zeros. */
+/* Signals of their own out of such that tell much the same: mixed = T (raw - mean), T lower triangular, row
+ * by row without its zeros. */
 static inline void mixing_apply(const double* mean, const double* rows, int count, const double* raw,
                                 double* mixed) {
   int k, j, at = 0;

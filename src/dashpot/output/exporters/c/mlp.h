@@ -2,9 +2,9 @@
 typedef struct Mlp {
   const int* layers; /* inputs, hidden ..., 1 */
   int layer_count;
-  const int* activations;    /* behind the inputs; 0 identity, 1 rectified linear, 2 tanh, 3 sigmoid */
-  const double* parameters;  /* layer after layer: a row of weights per neuron, then the biases */
-  const double* input_mean;  /* standardised = (raw - mean) / scale */
+  const int* activations;   /* behind the inputs; 0 identity, 1 rectified linear, 2 tanh, 3 sigmoid */
+  const double* parameters; /* layer after layer: a row of weights per neuron, then the biases */
+  const double* input_mean; /* standardised = (raw - mean) / scale */
   const double* input_scale;
   double output_mean, output_scale; /* raw = mean + scale * standardised */
 } Mlp;

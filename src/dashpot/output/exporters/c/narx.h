@@ -1,8 +1,8 @@
 #include "input_value.h"
 
-/* Networks that read delayed inputs and their own past forces, on the grid of their sample time. The state: s since
- * the last instant of the grid, whether it diverged, then values at that instant and before it, the newest first: of
- * each input, of each network's force. Declared before: Mlp. */
+/* Networks that read delayed inputs and their own past forces, on the grid of their sample time. The state: s
+ * since the last instant of the grid, whether it diverged, then values at that instant and before it, the
+ * newest first: of each input, of each network's force. Declared before: Mlp. */
 typedef struct NarxInput {
   int which; /* as input_value has them */
   int first; /* in the state */

@@ -94,8 +94,8 @@ static inline void cell_rest(const StateSpaceCell* c, const DamperInput* input, 
   }
 }
 
-static inline void cell_advance(const StateSpaceCell* c, const DamperInput* from, const DamperInput* to, double dt,
-                                double* state) {
+static inline void cell_advance(const StateSpaceCell* c, const DamperInput* from, const DamperInput* to,
+                                double dt, double* state) {
   const double most_steps = 1000, almost = 1 - 1e-6;
   const double steps = held(ceil((dt / c->model_step) * almost), 1, most_steps), h = dt / steps;
   const double i0 = (from->current - c->current_mean) / c->current_scale;
@@ -109,7 +109,8 @@ static inline void cell_advance(const StateSpaceCell* c, const DamperInput* from
     for (m = 0; m < c->currents; ++m) {
       double* lagged = &state[motions + m];
       middle[m] = 0.5 * *lagged;
-      *lagged = lag_after(*lagged, i0 + ((i1 - i0) * begin), i0 + ((i1 - i0) * end), c->rates[motions + m] * h);
+      *lagged =
+          lag_after(*lagged, i0 + ((i1 - i0) * begin), i0 + ((i1 - i0) * end), c->rates[motions + m] * h);
       middle[m] += 0.5 * *lagged;
     }
     cell_step(c, h, velocity / c->velocity_scale, middle, state);

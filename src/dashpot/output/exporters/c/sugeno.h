@@ -1,7 +1,7 @@
 #include "held.h"
 
-/* Takagi-Sugeno inference of first order: rules that are linear functions of the inputs, weighted by how far each
- * holds. Declared before: SUGENO_MOST_INPUTS, SUGENO_MOST_MEMBERSHIPS, SUGENO_MOST_RULES. */
+/* Takagi-Sugeno inference of first order: rules that are linear functions of the inputs, weighted by how far
+ * each holds. Declared before: SUGENO_MOST_INPUTS, SUGENO_MOST_MEMBERSHIPS, SUGENO_MOST_RULES. */
 typedef struct Membership {
   int shape; /* 0 bell, 1 Gaussian, 2 sigmoid */
   int input;

@@ -1,5 +1,6 @@
 /* Yield stress over |current|: straight between points, held beyond them. */
-static inline double yield_stress_at(const double* currents, const double* stresses, int count, double current) {
+static inline double yield_stress_at(const double* currents, const double* stresses, int count,
+                                     double current) {
   const double i = fabs(current);
   double stress = stresses[count - 1];
   int k = 0;
