@@ -118,6 +118,7 @@ std::string gates_code(const FamilyModel& model, const FamilyGates& gates) {
   for (std::size_t k = 0; k < gates.soft_speeds.size(); ++k)
     soft += "  terms[" + number(gates.bank.signal_count() + k) + "] = tanh(input->velocity / " +
             c_number(gates.soft_speeds[k]) + ");\n";
+  soft += "  terms[FAMILY_TERMS - 1] = 1.0;\n";
   return c_banks({&gates.bank}) + "#define FAMILY_TERMS " + number(gates.term_count()) +
          "\n\n/* Per term: powers 0 to 3 of the field's share. */\n" +
          c_table("kWeights", by_power_of_field(gates, model.member())) + "\n" +
