@@ -20,6 +20,7 @@ struct Settings {
   double amplitude = 5, step = 30, allowed_outside = 5;                   // mm, mm, %
   double settling = GainOptions{}.settling, chirp = GainOptions{}.chirp;  // s
   int held = 12, threads = 0;
+  bool bound = false;
 };
 
 constexpr std::string_view kExample =
@@ -52,6 +53,7 @@ RideStudyOptions options_of(const Settings& settings, Console& console) {
           .road_duration = settings.road.duration,
           .step_height = settings.step / 1000,
           .held = static_cast<std::size_t>(settings.held),
+          .bound = settings.bound,
           .allowed_outside = settings.allowed_outside / 100,
           .seed = settings.vehicle.seed,
           .threads = settings.threads,
@@ -105,6 +107,11 @@ std::vector<Option> study_options(Settings& settings) {
        .help = "currents at which the same dampers are held, for the trade-off's line",
        .value = "N",
        .minimum = 2},
+      {.names = "--bound",
+       .target = &settings.bound,
+       .help =
+           "also what is possible on the road: a bound that no controller beats, and what the best reaches "
+           "that knew the road (quarter cars, dampers without memory)"},
       {.names = "--outside",
        .target = &settings.allowed_outside,
        .help = "share of the time that a damper may be outside its data without a warning, %",

@@ -97,6 +97,24 @@ TEST_CASE("the page of a ride has a section each for road, frequency and step") 
   CHECK(page.verdict.find("mix1: ") != std::string::npos);
 }
 
+TEST_CASE("with a bound the page tells what is possible, and no controller is beyond it") {
+  RideStudyOptions options = small_study();
+  options.frequencies = {8};
+  options.road_duration = 2;
+  options.bound = true;
+  const RideStudy study = study_ride(options);
+  const Plant& plant = study.passive.road.vehicle->set.plant;
+  REQUIRE(study.front.size() == 5);
+  for (const ClairvoyantBound& best : study.front) {
+    CHECK(best.bound <= best.optimum);
+    for (const RiddenVehicle& one : study.controlled)
+      CHECK(best.optimum <= ride_squares(one.road.trace, plant).of(best.index));
+  }
+  const Document page = ride_document(study);
+  REQUIRE(page.sections.size() == 4);
+  CHECK(page.sections[1].tables[0].rows.size() == 5);  // passive, two controllers, optimum, bound
+}
+
 TEST_CASE("rides that cannot be are refused") {
   const auto refusal = [](auto change) {
     RideStudyOptions options = small_study();
@@ -114,6 +132,10 @@ TEST_CASE("rides that cannot be are refused") {
         }) == "vehicle: dyke_spencer1996 has no tyres to ride on; a vehicle");
   CHECK(refusal([](auto& o) { o.against = "current=x"; }) ==
         "vehicle: 'current=x' states no current; current=0.5");
+  CHECK(refusal([](auto& o) {
+          o.bound = true;
+          o.vehicle.values = {"tyres_may_lift=1"};
+        }).find("savaresi_spelta: is not linear but for its damper") == 0);
 }
 
 TEST_CASE("all laws that suit a vehicle are taken, the others named with the reason") {

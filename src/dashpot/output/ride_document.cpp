@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "dashpot/base/text.h"
+#include "dashpot/output/front_parts.h"
 #include "dashpot/output/ride_figures.h"
 #include "dashpot/output/ride_parts.h"
 #include "dashpot/output/words.h"
@@ -50,6 +51,37 @@ DocumentTable road_table(const RideStudy& study) {
     row.push_back(number_text(on_road(*one, "current"), 3));
     table.rows.push_back(std::move(row));
   }
+  return table;
+}
+
+/// Bounds and optima hold for the whole of the ride, from rest on; so do the figures here.
+DocumentTable possible_table(const RideStudy& study) {
+  DocumentTable table{
+      .title = "Of what is possible",
+      .columns = {{.title = "controller"},
+                  {.title = "body rms, m/s^2", .numeric = true},
+                  {.title = "% of possible", .numeric = true},
+                  {.title = "tyre rms, N", .numeric = true},
+                  {.title = "% of possible", .numeric = true}},
+      .rows = {},
+      .note =
+          "% of possible = (passive - controller) / (passive - optimum), each aim by itself. Bound: "
+          "no controller gets below. Optimum: simulated, the road known in advance."};
+  const Plant& plant = study.passive.road.vehicle->set.plant;
+  const ClairvoyantBound &comfort = study.front.front(), &holding = study.front.back();
+  const RideSquares passive = ride_squares(study.passive.road.trace, plant);
+  for (const RiddenVehicle* one : all_of(study)) {
+    const RideSquares squares = ride_squares(one->road.trace, plant);
+    table.rows.push_back({one->name(), number_text(std::sqrt(squares.acceleration)),
+                          possible_text(comfort, passive, squares), whole_text(std::sqrt(squares.tyre_force)),
+                          possible_text(holding, passive, squares)});
+  }
+  const auto best = [&](const char* name, double ClairvoyantBound::* value) {
+    table.rows.push_back({name, number_text(std::sqrt(comfort.*value / comfort.index.comfort)), "",
+                          whole_text(std::sqrt(holding.*value / holding.index.holding)), ""});
+  };
+  best("optimum of each", &ClairvoyantBound::optimum);
+  best("proven bound of each", &ClairvoyantBound::bound);
   return table;
 }
 
@@ -220,6 +252,13 @@ Document ride_document(const RideStudy& study) {
                                .tables = {road_table(study)},
                                .figures = {trade_off_figure(study), road_figure(study)},
                                .remarks = std::move(remarks)});
+  if (!study.front.empty())
+    document.sections.push_back({.name = "possible",
+                                 .title = "What is possible",
+                                 .paragraphs = {},
+                                 .tables = {possible_table(study)},
+                                 .figures = {possible_figure(study)},
+                                 .remarks = {}});
   document.sections.push_back({.name = "gains",
                                .title = "Over frequency",
                                .paragraphs = {},
@@ -245,7 +284,8 @@ Value ride_json(const RideStudy& study) {
                         {"ground", study.ground},
                         {"passive", ridden_json(study.passive)},
                         {"controlled", std::move(controlled)},
-                        {"held", std::move(held)}});
+                        {"held", std::move(held)},
+                        {"possible", front_json(study.front)}});
 }
 
 }  // namespace dashpot

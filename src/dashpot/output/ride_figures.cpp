@@ -1,10 +1,12 @@
 #include "dashpot/output/ride_figures.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <limits>
 
 #include "dashpot/base/text.h"
+#include "dashpot/output/front_parts.h"
 #include "dashpot/output/ride_parts.h"
 
 namespace dashpot {
@@ -147,6 +149,29 @@ DocumentFigure trade_off_figure(const RideStudy& study) {
           "To the left: more comfort; down: better road holding. The grey line is what the same dampers do "
           "at any one drive, from the softest to the hardest: a controller pays where it lies below and left "
           "of it.",
+          {std::move(panel)},
+          1};
+}
+
+DocumentFigure possible_figure(const RideStudy& study) {
+  const Plant& plant = study.passive.road.vehicle->set.plant;
+  const auto roots = [&](const RiddenVehicle& one) {
+    const RideSquares squares = ride_squares(one.road.trace, plant);
+    return RideRoots{std::sqrt(squares.acceleration), std::sqrt(squares.tyre_force)};
+  };
+  const RideRoots unit = roots(study.passive);
+  FigurePanel panel{"", "body acceleration, rms, ratio to passive", "tyre force, rms, ratio to passive", {}};
+  panel.series = front_lines(study.front, unit);
+  for (const auto& [ridden, look] : drawn(study)) {
+    const RideRoots at = roots(*ridden);
+    panel.series.push_back(dot(look.label, look.colour, at.acceleration / unit.acceleration,
+                               at.tyre_force / unit.tyre_force, 5));
+  }
+  return {"possible",
+          "What is possible on this road",
+          "Below and left of the dashed line there is nothing for any controller: proven for forces within "
+          "the damper's range, however made. The line beside it was reached in simulation, by demands found "
+          "with the road known in advance.",
           {std::move(panel)},
           1};
 }

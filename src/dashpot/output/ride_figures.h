@@ -17,6 +17,8 @@ DocumentFigure gain_figure(const RideStudy& study);
 DocumentFigure chirp_figure(const RideStudy& study);
 /// Comfort against road holding, with the same dampers held at their currents as the line to beat.
 DocumentFigure trade_off_figure(const RideStudy& study);
+/// Of a study with a bound.
+DocumentFigure possible_figure(const RideStudy& study);
 DocumentFigure road_figure(const RideStudy& study);
 DocumentFigure step_figure(const RideStudy& study);
 

@@ -44,23 +44,6 @@ std::string verdict_of(const SuspensionStudy& study) {
           : "are not ruled out");
 }
 
-Value squares_json(const RideSquares& squares) {
-  return Value::object({{"body_acceleration_rms", std::sqrt(squares.acceleration)},
-                        {"tyre_force_rms", std::sqrt(squares.tyre_force)}});
-}
-
-Value front_json(const std::vector<ClairvoyantBound>& front) {
-  Value list = Value::array();
-  for (const ClairvoyantBound& best : front)
-    list.push_back(Value::object({{"comfort_weight", best.index.comfort},
-                                  {"holding_weight", best.index.holding},
-                                  {"bound", best.bound},
-                                  {"optimum", best.optimum},
-                                  {"gap", best.gap()},
-                                  {"at_optimum", squares_json(best.squares)}}));
-  return list;
-}
-
 Value step_json(const StepMeasures& step) {
   return Value::object({{"settling_time", step.settling_time},
                         {"decay_ratio", step.decay_ratio ? Value(*step.decay_ratio) : Value()},
@@ -70,8 +53,6 @@ Value step_json(const StepMeasures& step) {
 }  // namespace
 
 double less_percent(double from, double to) { return 100 * (1 - to / from); }
-
-std::string whole_text(double value) { return std::isfinite(value) ? fmt::format("{:.0f}", value) : "-"; }
 
 std::string change_words(double from, double to) {
   const double less = less_percent(from, to);

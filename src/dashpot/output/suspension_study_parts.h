@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "dashpot/output/document.h"
+#include "dashpot/output/front_parts.h"
 #include "dashpot/suspension/suspension_study.h"
 
 // The parts of the page of the suspension study.
@@ -23,8 +24,6 @@ inline constexpr StepRow kHolding{0.6, 0, -3.8}, kHoldingPassive{1.7, 0.23, -4.5
 
 /// 100 (1 - to / from): by how many % a figure falls.
 double less_percent(double from, double to);
-/// "1203": newtons and percents, which need no digits behind the point.
-std::string whole_text(double value);
 /// "falls by 12 %", "rises by 3 %".
 std::string change_words(double from, double to);
 

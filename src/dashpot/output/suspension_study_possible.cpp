@@ -15,11 +15,6 @@ using Front = std::vector<ClairvoyantBound>;
 
 constexpr std::size_t kMiddle = 2;  // of kFrontWeights: both alike
 
-/// Root of an index: as rms values are compared.
-double root(const RideSquares& squares, const ClairvoyantBound& best) {
-  return std::sqrt(squares.of(best.index));
-}
-
 std::vector<std::string> front_row(const std::string& name, const ClairvoyantBound& best, double unit) {
   const int digits = 4;
   return {name, number_text(std::sqrt(best.bound) * unit, digits),
@@ -56,11 +51,6 @@ DocumentTable bound_table(const SuspensionStudy& study) {
   return table;
 }
 
-/// "64"; below 0 where a controller is worse than passive.
-std::string share_text(double passive, double controller, double optimum) {
-  return whole_text(100 * share_of_possible(passive, controller, optimum));
-}
-
 DocumentTable share_table(const SuspensionStudy& study, const std::string& title, const Front& front,
                           RideSquares SchemeRide::* where) {
   DocumentTable table{title,
@@ -76,11 +66,11 @@ DocumentTable share_table(const SuspensionStudy& study, const std::string& title
   const ClairvoyantBound &comfort = front.front(), &both = front[kMiddle], &holding = front.back();
   const auto add = [&](const std::string& name, const RideSquares& squares, bool within) {
     const auto share = [&](const ClairvoyantBound& best) {
-      return within ? share_text(root(off, best), root(squares, best), std::sqrt(best.optimum)) : "-";
+      return within ? possible_text(best, off, squares) : "-";
     };
     table.rows.push_back({name, number_text(std::sqrt(squares.acceleration)), share(comfort),
                           whole_text(std::sqrt(squares.tyre_force)), share(holding),
-                          number_text(root(squares, both)), share(both)});
+                          number_text(root_of(both.index, squares)), share(both)});
   };
   for (std::size_t k = 0; k < study.rides.size(); ++k)
     add(study.schemes[k].title, study.rides[k].*where, study.schemes[k].within_range);
@@ -105,37 +95,12 @@ FigureSeries look_of(const SuspensionScheme& scheme) {
   return dots("other dampers: passive, ideal", "series-6");
 }
 
-/// The line below and left of which the bounds leave nothing: the envelope of all straight lines
-/// comfort a + holding w = bound, a and w being mean squares.
-FigureSeries bound_line(const Front& front) {
-  FigureSeries line{
-      .label = "proven bound", .colour = "measured", .x = {}, .y = {}, .mark = FigureSeries::Mark::Dashes};
-  double least = front.front().squares.acceleration, greatest = front.back().squares.acceleration;
-  least = std::min(least, front.front().bound / front.front().index.comfort);
-  for (int k = 0; k <= 100; ++k) {
-    const double a = least + (greatest - least) * k / 100;
-    double tyre = 0;
-    for (const ClairvoyantBound& best : front)
-      if (best.index.holding > 0)
-        tyre = std::max(tyre, (best.bound - best.index.comfort * a) / best.index.holding);
-    line.x.push_back(std::sqrt(a));
-    line.y.push_back(std::sqrt(tyre));
-  }
-  return line;
-}
-
 DocumentFigure front_figure(const SuspensionStudy& study) {
   FigurePanel panel{.title = "Road, class C",
                     .x_label = "body acceleration, rms, m/s^2",
                     .y_label = "tyre force, rms, N",
                     .series = {}};
-  panel.series.push_back(bound_line(study.road_front));
-  FigureSeries reached{.label = "optimum, knew the road", .colour = "modelled", .x = {}, .y = {}};
-  for (const ClairvoyantBound& best : study.road_front) {
-    reached.x.push_back(std::sqrt(best.squares.acceleration));
-    reached.y.push_back(std::sqrt(best.squares.tyre_force));
-  }
-  panel.series.push_back(std::move(reached));
+  panel.series = front_lines(study.road_front, {1, 1});
   for (std::size_t k = 0; k < study.rides.size(); ++k) {
     FigureSeries point = look_of(study.schemes[k]);
     point.x = {std::sqrt(study.rides[k].on_road.acceleration)};
@@ -154,7 +119,8 @@ DocumentFigure front_figure(const SuspensionStudy& study) {
 RideSquares best_within(const SuspensionStudy& study, const ClairvoyantBound& index) {
   RideSquares best = study.rides[study.place("off")].on_road;
   for (std::size_t k = 0; k < study.rides.size(); ++k)
-    if (study.schemes[k].within_range && root(study.rides[k].on_road, index) < root(best, index))
+    if (study.schemes[k].within_range &&
+        root_of(index.index, study.rides[k].on_road) < root_of(index.index, best))
       best = study.rides[k].on_road;
   return best;
 }
@@ -167,7 +133,7 @@ DocumentSection possible_section(const SuspensionStudy& study) {
                    &off = study.rides[study.place("off")];
   const ClairvoyantBound &comfort = study.road_front.front(), &holding = study.road_front.back();
   const auto reached = [&](const RideSquares& squares, const ClairvoyantBound& best) {
-    return share_text(root(off.on_road, best), root(squares, best), std::sqrt(best.optimum));
+    return possible_text(best, off.on_road, squares);
   };
   section.paragraphs.push_back(fmt::format(
       "On {} the least body acceleration that this damper could give, had it known the road, lies between {} "

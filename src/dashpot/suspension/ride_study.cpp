@@ -16,6 +16,7 @@ namespace dashpot {
 namespace {
 
 constexpr double kStepDuration = 5;  // s
+constexpr const char* kBound = "--bound";
 using SharedVehicle = std::shared_ptr<const Vehicle>;
 
 SharedVehicle shared(const VehicleWords& words) {
@@ -152,6 +153,28 @@ void require_rideable(const RideStudyOptions& options, const Vehicle& vehicle) {
     throw Error(options.vehicle.where, "its frequencies do not rise from above 0");
 }
 
+/// m/s, of the strut.
+double greatest_speed(const RideStudy& study) {
+  double greatest = 0;
+  const auto look = [&](const RiddenVehicle& one) {
+    const std::string& strut = one.road.vehicle->set.plant.struts.front().name;
+    for (const double v : one.road.trace.record.channel(strut + "_velocity").samples)
+      greatest = std::max(greatest, std::abs(v));
+  };
+  look(study.passive);
+  for (const RiddenVehicle& one : study.controlled) look(one);
+  return greatest;
+}
+
+void add_bound(RideStudy& study, const Vehicle& vehicle, const GroundMotion& road) {
+  const Plant& plant = vehicle.set.plant;
+  const RideStudyOptions& options = study.options;
+  options.monitor.report("bound what is possible", 0);
+  study.front = front_of_ride(plant, road, possible_forces(vehicle, greatest_speed(study), kBound),
+                              ride_squares(study.passive.road.trace, plant),
+                              {.duration = options.road_duration, .starts = {}, .threads = options.threads});
+}
+
 }  // namespace
 
 double comfort_integral(const RiddenVehicle& ridden) {
@@ -165,6 +188,7 @@ RideStudy study_ride(const RideStudyOptions& options) {
   RideStudy study{.options = options};
   const std::vector<SharedVehicle> vehicles = make_vehicles(options, study.left_out);
   require_rideable(options, *vehicles.front());
+  if (options.bound) possible_forces(*vehicles.back(), 1, kBound);  // refused now rather than in the end
   const std::vector<SharedVehicle> held = make_held(options, vehicles.back()->limits);
   const GroundPointer road = make_ground(options.road, options.seed, "--road");
   study.ground = road->description();
@@ -178,6 +202,7 @@ RideStudy study_ride(const RideStudyOptions& options) {
     tasks.add(held[k], study.held[k]);
   }
   tasks.run();
+  if (options.bound) add_bound(study, *vehicles.back(), *road);
   return study;
 }
 

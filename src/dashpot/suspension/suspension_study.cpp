@@ -145,10 +145,8 @@ LeastDamping with_least(double least, const SuspensionStudy& study, const PlantS
 std::vector<ClairvoyantBound> front_of(const SuspensionStudy& study, const GroundMotion& ground,
                                        const ForceRange& range, const RideSquares& reference,
                                        double duration) {
-  std::vector<RideIndex> indices;
-  for (const double weight : kFrontWeights) indices.push_back(weighted_index(weight, reference));
-  return clairvoyant_front(study.plant, ground, range, indices,
-                           {.duration = duration, .starts = {}, .threads = study.options.threads});
+  return front_of_ride(study.plant, ground, range, reference,
+                       {.duration = duration, .starts = {}, .threads = study.options.threads});
 }
 
 void add_bounds(SuspensionStudy& study, const GroundMotion& road) {

@@ -7,8 +7,8 @@
 
 #include "dashpot/base/monitor.h"
 #include "dashpot/identify/metrics.h"
-#include "dashpot/suspension/bound.h"
 #include "dashpot/suspension/gain_curves.h"
+#include "dashpot/suspension/ride_bound.h"
 #include "dashpot/suspension/vehicle.h"
 
 // The one-sensor paper's last section: its quarter car with the identified damper and Mix-1-sensor control.
@@ -71,9 +71,6 @@ struct SuspensionStudy {
 
   std::size_t place(const std::string& key) const;  ///< of a scheme; it must be known
 };
-
-/// Weights of comfort along the fronts.
-inline constexpr double kFrontWeights[] = {1, 0.8, 0.5, 0.2, 0};
 
 /// Identifies the dampers, drives every scheme over chirp, step and road, sweeps the least damping, bounds
 /// what is possible. The same bits on any number of threads.
