@@ -1,6 +1,6 @@
 // What an FMU holds and says of itself. The rules are those of FMI 2.0.5 and 3.0.2.
+#include <cctype>
 #include <cstdlib>
-#include <regex>
 #include <set>
 
 #include "dashpot/base/text.h"
@@ -30,6 +30,13 @@ struct FixedDate {
   explicit FixedDate(const char* seconds) { setenv("SOURCE_DATE_EPOCH", seconds, 1); }
   ~FixedDate() { unsetenv("SOURCE_DATE_EPOCH"); }
 };
+
+/// The text with 0 in place of each hexadecimal digit.
+std::string shape_of(std::string text) {
+  for (char& c : text)
+    if (std::isxdigit(static_cast<unsigned char>(c))) c = '0';
+  return text;
+}
 
 unsigned number(const std::string& bytes, std::size_t at, std::size_t size) {
   unsigned value = 0;
@@ -126,7 +133,7 @@ TEST_CASE("FMU: every variable and unknown of every model is declared as the sta
       const bool law = model.model->kind() == "law";
       CHECK(law == (text.find("parameter.") != std::string::npos));
       const std::string date = root.attribute("generationDateAndTime").value();
-      CHECK(std::regex_match(date, std::regex("\\d{4}-\\d\\d-\\d\\dT\\d\\d:\\d\\d:\\d\\dZ")));
+      CHECK(shape_of(date) == "0000-00-00T00:00:00Z");
     }
 }
 
@@ -245,7 +252,7 @@ TEST_CASE("FMU: the token is that of the content") {
   const ExportedModel model = exported(*example("bingham").model);
   ExportOptions options = sources_only();
   const std::string own = token(model, options);
-  CHECK(std::regex_match(own, std::regex("\\{[0-9a-f]{8}(-[0-9a-f]{4}){3}-[0-9a-f]{12}\\}")));
+  CHECK(shape_of(own) == "{00000000-0000-0000-0000-000000000000}");
   {
     const FixedDate date("1700000000");
     CHECK(token(model, options) == own);
