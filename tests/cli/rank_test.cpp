@@ -65,7 +65,8 @@ TEST_CASE("rank --markdown prints a part of a page and nothing else on stdout; -
   CHECK(parse_json(json.output, "rank --json").find("models")->items().size() == 1);
 }
 
-TEST_CASE("identify fits the usual models unless it is told otherwise; rank fits all") {
+TEST_CASE("identify fits the usual models unless it is told otherwise; rank fits all" *
+          doctest::test_suite("long")) {
   const std::string help = run_dashpot("identify --help").output;
   CHECK(contains(help, "(default: usual)"));
   CHECK(contains(run_dashpot("rank --help").output, "(default: all)"));

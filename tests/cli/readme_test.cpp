@@ -2,7 +2,8 @@
 #include "program.h"
 #include "support.h"
 
-TEST_CASE("the tour of the README runs in an empty folder, command by command") {
+TEST_CASE("the tour of the README runs in an empty folder, command by command" *
+          doctest::test_suite("long")) {
   const TemporaryFolder folder;
   const auto commands = shell_commands(dashpot::read_file(project_file("README.md")));
   REQUIRE(commands.size() >= 5);
@@ -10,7 +11,7 @@ TEST_CASE("the tour of the README runs in an empty folder, command by command") 
   CHECK(std::filesystem::exists(folder.path() / "results/report.html"));
 }
 
-TEST_CASE("the commands of the guide to suspensions run in an empty folder") {
+TEST_CASE("the commands of the guide to suspensions run in an empty folder" * doctest::test_suite("long")) {
   const TemporaryFolder folder;
   const auto commands = shell_commands(dashpot::read_file(project_file("docs/suspension.md")));
   REQUIRE(commands.size() >= 8);

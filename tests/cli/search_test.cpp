@@ -58,7 +58,8 @@ int wanted_kills() {
 
 }  // namespace
 
-TEST_CASE("search: a table, a page, a table as CSV, Markdown and JSON, and the best model as a file") {
+TEST_CASE("search: a table, a page, a table as CSV, Markdown and JSON, and the best model as a file" *
+          doctest::test_suite("long")) {
   const TemporaryFolder folder;
   const ProgramResult result = run_dashpot(search_of(
       "--over hidden=2,3,8-4 --over activation=tanh,relu --method grid --starts 1 --figures --output " +
@@ -148,7 +149,8 @@ TEST_CASE("search: an interruption says what is kept and how to go on") {
   CHECK(!rows_in(folder.path()).empty());
 }
 
-TEST_CASE("search: another search's file is refused until --fresh throws it away") {
+TEST_CASE("search: another search's file is refused until --fresh throws it away" *
+          doctest::test_suite("long")) {
   const TemporaryFolder folder;
   const std::string rest = " --method grid --starts 1 --no-report --output " + folder.path().string();
   REQUIRE(run_dashpot(search_of("--over hidden=2,3" + rest)).exit_code == 0);

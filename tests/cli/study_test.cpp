@@ -43,7 +43,8 @@ std::filesystem::path write_family(const TemporaryFolder& folder) {
 
 }  // namespace
 
-TEST_CASE("study one-sensor on recordings: tables, a page, Markdown and JSON; again from kept fits") {
+TEST_CASE("study one-sensor on recordings: tables, a page, Markdown and JSON; again from kept fits" *
+          doctest::test_suite("long")) {
   const TemporaryFolder folder;
   const std::string command = "study one-sensor " + small_campaign().string() +
                               " --models one-sensor,two-sensors,bingham --neurons 1 --output " +

@@ -45,7 +45,8 @@ TEST_CASE("sweep: a table, a page, rides as CSV and HDF5; more samples go on fro
   CHECK(run_dashpot(sweep_of("--samples 2 --seed 2 --fresh" + output)).exit_code == 0);
 }
 
-TEST_CASE("sweep: killed at random moments, it goes on, and the tables are the same to the last bit") {
+TEST_CASE("sweep: killed at random moments, it goes on, and the tables are the same to the last bit" *
+          doctest::test_suite("long")) {
   const TemporaryFolder folder;
   const fs::path whole = folder.path() / "whole", resumed = folder.path() / "resumed";
   const std::string request = "sweep comfort --duration 6 --samples 200 --threads 2 --output ";

@@ -18,7 +18,8 @@ Value track_json(const std::string& arguments) {
 
 }  // namespace
 
-TEST_CASE("track: every scheme that applies, the numeric one best and within 1 % of the span") {
+TEST_CASE("track: every scheme that applies, the numeric one best and within 1 % of the span" *
+          doctest::test_suite("long")) {
   const Value result = track_json("--parameters spencer1997");
   const std::vector<Value>& schemes = result.find("schemes")->items();
   CHECK(schemes.size() == 7);  // no closed form is known for this law

@@ -174,15 +174,21 @@ class FmuInstance {
   Callbacks2 callbacks_{};
 };
 
-/// The archive of a model, its library compiled quickly.
+/// The archive of a model, as a user gets it.
+inline std::string shipped_fmu_of(const dashpot::ExportedModel& model, int version,
+                                  const dashpot::ExportOptions& options = {}) {
+  const dashpot::Exporter& exporter = dashpot::find_exporter(version == 2 ? "fmu2" : "fmu3");
+  return exporter.write(model, options).front().content;
+}
+
+/// The archive of a model, its library compiled quickly, and with sanitizers where the tests are.
 inline std::string fmu_of(const dashpot::ExportedModel& model, int version,
                           dashpot::ExportOptions options = {}) {
   options.compiler += " -O0";
 #ifdef __SANITIZE_ADDRESS__
   options.compiler += " -fsanitize=address,undefined -fno-sanitize-recover=undefined -Wl,-z,undefs";
 #endif
-  const dashpot::Exporter& exporter = dashpot::find_exporter(version == 2 ? "fmu2" : "fmu3");
-  return exporter.write(model, options).front().content;
+  return shipped_fmu_of(model, version, options);
 }
 
 inline bool has_compiler() {

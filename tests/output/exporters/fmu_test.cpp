@@ -236,7 +236,7 @@ TEST_CASE("FMU: SOURCE_DATE_EPOCH makes it the same bytes each time") {
   if (!has_compiler()) return;
   const FixedDate date("1700000000");
   for (const int version : {2, 3}) {
-    const auto make = [&] { return fmu_of(exported(*example("bingham").model), version); };
+    const auto make = [&] { return shipped_fmu_of(exported(*example("bingham").model), version); };
     const std::string once = make();
     CHECK(once == make());
     CHECK(unzipped(once).at("modelDescription.xml").find("\"2023-11-14T22:13:20Z\"") != std::string::npos);
@@ -264,7 +264,7 @@ TEST_CASE("FMU: the token is that of the content") {
 TEST_CASE("FMU: the binary needs the C library only and exports FMI only") {
   if (!has_compiler()) return;
   for (const int version : {2, 3}) {
-    const LoadedFmu fmu(fmu_of(exported(*example("hybrid").model), version));
+    const LoadedFmu fmu(shipped_fmu_of(exported(*example("hybrid").model), version));
     const ProgramResult needs = run_program("objdump -p " + fmu.library_path());
     for (const std::string& line : split(needs.output, '\n'))
       if (line.find("NEEDED") != std::string::npos)
