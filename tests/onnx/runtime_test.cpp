@@ -53,12 +53,12 @@ TEST_CASE("ONNX Runtime: every kind of model gives the library's force within 1e
     MESSAGE("SKIPPED: no onnxruntime-node is here");
     return;
   }
-  const TemporaryFolder folder;
+  const TemporaryFolder folder; std::filesystem::create_directories("/tmp/onnxout");
   for (const ExampleModel& example : example_models()) {
     try {
       write_model(folder, example, CPrecision::Single);
     } catch (const std::exception& e) {
-      MESSAGE(e.what());
+      MESSAGE(example.name << ": " << std::string(e.what()));
     }
   }
   const ProgramResult result =

@@ -69,6 +69,7 @@ class CTrace {
   Flow run_block(const CStatement& statement);
   Flow run_if(const CStatement& statement);
   Flow run_loop(const CStatement& statement);
+  Flow run_rounds(const CStatement& statement);
   Flow run_return(const CStatement& statement);
   void run_lane_loop(const CStatement& statement);
   /// Of a loop of the graph: cells that it carries, pointers that it moves with what they point to held as a

@@ -33,16 +33,37 @@ bool has(const CStatement& statement, CStatement::Kind kind) {
          std::ranges::any_of(statement.parts, [&](const CStatement& part) { return has(part, kind); });
 }
 
-/// for (k = ...; ...) whose body does not speak of k.
+/// k of for (k = ...; ...), or nothing.
+std::string counter_of(const CStatement& loop) {
+  const bool counts = loop.start.size() == 1 && loop.start[0].kind == CExpr::Kind::Assign &&
+                      loop.start[0].parts[0].kind == CExpr::Kind::Name;
+  return counts ? loop.start[0].parts[0].text : "";
+}
+
+/// Whether the body does not speak of the counter.
 bool only_counts(const CStatement& loop) {
-  return loop.start.size() == 1 && loop.start[0].kind == CExpr::Kind::Assign &&
-         loop.start[0].parts[0].kind == CExpr::Kind::Name &&
-         !names(loop.parts[0], loop.start[0].parts[0].text);
+  const std::string counter = counter_of(loop);
+  return !counter.empty() && !names(loop.parts[0], counter);
 }
 
 }  // namespace
 
+/// A counter has no past: what it was comes back behind the loop, in the lanes that took no part in it.
 CTrace::Flow CTrace::run_loop(const CStatement& statement) {
+  const std::string counter = counter_of(statement);
+  if (counter.empty()) return run_rounds(statement);
+  const std::size_t address = find(counter).address;
+  const Cell was = memory_[address];
+  memory_[address] = {.born = active_};
+  const Flow flow = run_rounds(statement);
+  Cell& cell = memory_[address];
+  if (was.value.is_set && was.born != active_)
+    cell.value.node = graph_.where(active_, cell.value.node, was.value.node);
+  cell.born = was.born;
+  return flow;
+}
+
+CTrace::Flow CTrace::run_rounds(const CStatement& statement) {
   const Node before = active_, outer = loop_entry_;
   if (!statement.start.empty()) evaluate(statement.start[0]);
   const std::vector<Cell> begin =
