@@ -4,6 +4,7 @@
 #include <array>
 #include <numeric>
 
+#include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
 #include "dashpot/output/exporters/onnx/live_nodes.h"
 
@@ -23,6 +24,16 @@ std::string_view operator_of(Op op) {
       "Log",   "Sqrt",  "Abs",  "Tanh",        "Atan",  "Atanh", "Tan", "Cos", "Ceil",
       "Floor", "Where", "Less", "LessOrEqual", "Equal", "And",   "Or",  "Not"};
   return kNames[static_cast<std::size_t>(op)];
+}
+
+/// Throws Error where no runtime would follow.
+void require_double(const Graph& graph, const LiveNodes& live) {
+  for (Node node = 0; node < graph.size(); ++node)
+    for (const Op op : {Op::Atan, Op::Atanh, Op::Tan, Op::Cos})
+      if (live.has(node) && graph.at(node).op == op)
+        throw Error("double precision",
+                    "needs " + std::string(operator_of(op)) + ", which ONNX Runtime computes in float only",
+                    "--precision float, or --to c");
 }
 
 class Writer {
@@ -335,6 +346,7 @@ OnnxGraph onnx_graph(const Graph& graph, const std::vector<OnnxFace>& inputs,
   Nodes all;
   for (const OnnxFace& output : outputs) all.insert(all.end(), output.columns.begin(), output.columns.end());
   const LiveNodes live(graph, all);
+  if (type == OnnxType::Double) require_double(graph, live);
   return Writer(graph, live, type).write(inputs, outputs);
 }
 
