@@ -25,8 +25,11 @@ constexpr const char* kDamperInput =
 /// are the first of the state, and the rest of the state.
 class Calculation {
  public:
-  Calculation(const std::string& code, std::size_t state_size, double sample_time)
-      : program_(parse_c(code)), size_(kInputs.size() + state_size), sample_time_(sample_time) {
+  Calculation(const std::string& code, std::size_t state_size, double sample_time, bool is_single)
+      : graph(is_single),
+        program_(parse_c(code)),
+        size_(kInputs.size() + state_size),
+        sample_time_(sample_time) {
     rest_ = rest_from({graph.input(0), graph.input(1), graph.input(2)});
     fixed_ = rest_.state;
     while (!trace_step()) {
@@ -149,7 +152,7 @@ class Files {
         sample_time_(export_sample_time(model, options)),
         calculation_(in_precision(kDamperInput + with_texts(c_model(model.model).code),
                                   is_single_ ? CPrecision::Single : CPrecision::Double),
-                     model.model.state_size(), sample_time_) {}
+                     model.model.state_size(), sample_time_, is_single_) {}
 
   std::vector<ExportedFile> all() {
     const std::string name = export_name(model_, options_);

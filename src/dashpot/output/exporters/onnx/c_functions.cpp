@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numbers>
 
 namespace dashpot::trace {
 namespace {
@@ -20,11 +21,23 @@ Node log1p(Graph& g, Node x) {
                  g.where(g.less(g.constant(1e6), x), g.apply(Op::Log, more), ratio));
 }
 
+Node cosine(Graph& g, Node x) { return g.apply(Op::Sin, g.add(x, g.constant(std::numbers::pi / 2))); }
+
+/// ONNX Runtime has it in single precision only: one step of Newton's method makes that double.
+Node atan(Graph& g, Node x) {
+  const Node near = g.apply(Op::Atan, x);
+  if (g.is_single()) return near;
+  const Node s = g.apply(Op::Sin, near), c = cosine(g, near);
+  return g.add(near, g.divide(g.subtract(g.multiply(x, c), s), g.add(c, g.multiply(x, s))));
+}
+
 /// For points off the negative x axis.
 Node atan2(Graph& g, Node y, Node x) {
   const Node radius = g.apply(Op::Sqrt, g.add(g.multiply(x, x), g.multiply(y, y)));
-  return g.scaled(g.apply(Op::Atan, g.divide(y, g.add(radius, x))), 2);
+  return g.scaled(atan(g, g.divide(y, g.add(radius, x))), 2);
 }
+
+Node atanh(Graph& g, Node x) { return g.scaled(g.subtract(log1p(g, x), log1p(g, g.scaled(x, -1))), 0.5); }
 
 Node copysign(Graph& g, Node size, Node sign) {
   const Node magnitude = g.apply(Op::Abs, size);
@@ -42,12 +55,12 @@ Node of_one(Graph& graph, std::span<const Node> a) {
 }
 
 constexpr std::array kFunctions{
-    Function{"atan", of_one<Op::Atan>},
+    Function{"atan", [](Graph& g, std::span<const Node> a) { return atan(g, a[0]); }},
     Function{"atan2", [](Graph& g, std::span<const Node> a) { return atan2(g, a[0], a[1]); }},
-    Function{"atanh", of_one<Op::Atanh>},
+    Function{"atanh", [](Graph& g, std::span<const Node> a) { return atanh(g, a[0]); }},
     Function{"ceil", of_one<Op::Ceil>},
     Function{"copysign", [](Graph& g, std::span<const Node> a) { return copysign(g, a[0], a[1]); }},
-    Function{"cos", of_one<Op::Cos>},
+    Function{"cos", [](Graph& g, std::span<const Node> a) { return cosine(g, a[0]); }},
     Function{"exp", of_one<Op::Exp>},
     Function{"expm1", [](Graph& g, std::span<const Node> a) { return expm1(g, a[0]); }},
     Function{"fabs", of_one<Op::Abs>},
@@ -58,7 +71,9 @@ constexpr std::array kFunctions{
     Function{"log1p", [](Graph& g, std::span<const Node> a) { return log1p(g, a[0]); }},
     Function{"pow", [](Graph& g, std::span<const Node> a) { return g.power(a[0], a[1]); }},
     Function{"sqrt", of_one<Op::Sqrt>},
-    Function{"tan", of_one<Op::Tan>},
+    Function{
+        "tan",
+        [](Graph& g, std::span<const Node> a) { return g.divide(g.apply(Op::Sin, a[0]), cosine(g, a[0])); }},
     Function{"tanh", of_one<Op::Tanh>}};
 
 const Function* find(std::string_view name) {

@@ -40,10 +40,10 @@ std::string counter_of(const CStatement& loop) {
   return counts ? loop.start[0].parts[0].text : "";
 }
 
-/// Whether the body does not speak of the counter.
+/// Whether the body does not speak of the counter, which alone is stepped.
 bool only_counts(const CStatement& loop) {
   const std::string counter = counter_of(loop);
-  return !counter.empty() && !names(loop.parts[0], counter);
+  return !counter.empty() && loop.step[0].kind == CExpr::Kind::Unary && !names(loop.parts[0], counter);
 }
 
 }  // namespace

@@ -24,10 +24,8 @@ enum class Op {
   Sqrt,
   Abs,
   Tanh,
+  Sin,
   Atan,
-  Atanh,
-  Tan,
-  Cos,
   Ceil,
   Floor,
   Where,  ///< a truth, then the numbers where it holds and where not
@@ -61,7 +59,8 @@ struct Loop {
 /// one node, what is the same is there once.
 class Graph {
  public:
-  Graph() { loops_.emplace_back(); }
+  /// `is_single`: for numbers of 24 bits, whatever constants are folded in.
+  explicit Graph(bool is_single) : is_single_(is_single) { loops_.emplace_back(); }
 
   Node constant(double value);
   Node truth(bool value);
@@ -94,6 +93,7 @@ class Graph {
   void end_loop(std::size_t loop, std::vector<Node> ends) { loops_[loop].ends = std::move(ends); }
   Node result(std::size_t loop, std::size_t which);
 
+  bool is_single() const { return is_single_; }
   const NodeData& at(Node node) const { return nodes_[node]; }
   const Loop& loop(std::size_t which) const { return loops_[which]; }
   bool is_constant(Node node) const { return at(node).op == Op::Constant; }
@@ -110,6 +110,7 @@ class Graph {
   bool is_choice(Node node) const;
   bool implies(Node all, Node one) const;
 
+  bool is_single_;
   std::vector<NodeData> nodes_;
   std::vector<Loop> loops_;  ///< the first stands for none
   std::unordered_map<std::string, Node> known_;

@@ -4,7 +4,6 @@
 #include <array>
 #include <numeric>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
 #include "dashpot/output/exporters/onnx/live_nodes.h"
 
@@ -19,21 +18,10 @@ constexpr std::size_t kFewTerms = 3;
 constexpr const char* kBatch = "batch_shape";
 
 std::string_view operator_of(Op op) {
-  constexpr std::array<std::string_view, 26> kNames{
-      "",      "",      "",     "Mul",         "Div",   "Pow",   "Min", "Max", "Exp",
-      "Log",   "Sqrt",  "Abs",  "Tanh",        "Atan",  "Atanh", "Tan", "Cos", "Ceil",
-      "Floor", "Where", "Less", "LessOrEqual", "Equal", "And",   "Or",  "Not"};
+  constexpr std::array<std::string_view, 24> kNames{
+      "",     "",    "",     "Mul",  "Div",   "Pow",   "Min",  "Max",         "Exp",   "Log", "Sqrt", "Abs",
+      "Tanh", "Sin", "Atan", "Ceil", "Floor", "Where", "Less", "LessOrEqual", "Equal", "And", "Or",   "Not"};
   return kNames[static_cast<std::size_t>(op)];
-}
-
-/// Throws Error where no runtime would follow.
-void require_double(const Graph& graph, const LiveNodes& live) {
-  for (Node node = 0; node < graph.size(); ++node)
-    for (const Op op : {Op::Atan, Op::Atanh, Op::Tan, Op::Cos})
-      if (live.has(node) && graph.at(node).op == op)
-        throw Error("double precision",
-                    "needs " + std::string(operator_of(op)) + ", which ONNX Runtime computes in float only",
-                    "--precision float, or --to c");
 }
 
 class Writer {
@@ -218,7 +206,17 @@ class Writer {
     }
     Names operands;
     for (std::size_t k = 0; k < first.inputs.size(); ++k) operands.push_back(operand(inputs_of(group, k)));
+    if (first.op == Op::Atan) return place(group, in_single("Atan", operands[0]));
     place(group, emit(operator_of(first.op), operands));
+  }
+
+  std::string in_single(std::string_view op, const std::string& of) {
+    if (type_ == OnnxType::Float) return emit(op, {of});
+    return cast(emit(op, {cast(of, OnnxType::Float)}), type_);
+  }
+
+  std::string cast(const std::string& of, OnnxType type) {
+    return emit("Cast", {of}, {}, {{"to", static_cast<std::int64_t>(type)}});
   }
 
   Nodes inputs_of(const Nodes& group, std::size_t which) const {
@@ -283,9 +281,7 @@ class Writer {
   // Loops.
 
   std::string any(const std::string& truths) {
-    const std::string number =
-        emit("Cast", {truths}, {}, {{"to", static_cast<std::int64_t>(OnnxType::Float)}});
-    const std::string largest = emit("ReduceMax", {number}, {}, {{"keepdims", 0}});
+    const std::string largest = emit("ReduceMax", {cast(truths, OnnxType::Float)}, {}, {{"keepdims", 0}});
     return emit("Greater", {largest, constant(OnnxType::Float, {}, {0.5})});
   }
 
@@ -346,7 +342,6 @@ OnnxGraph onnx_graph(const Graph& graph, const std::vector<OnnxFace>& inputs,
   Nodes all;
   for (const OnnxFace& output : outputs) all.insert(all.end(), output.columns.begin(), output.columns.end());
   const LiveNodes live(graph, all);
-  if (type == OnnxType::Double) require_double(graph, live);
   return Writer(graph, live, type).write(inputs, outputs);
 }
 
