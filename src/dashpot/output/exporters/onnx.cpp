@@ -30,7 +30,7 @@ class Calculation {
         program_(parse_c(code)),
         size_(kInputs.size() + state_size),
         sample_time_(sample_time) {
-    rest_ = rest_from({graph.input(0), graph.input(1), graph.input(2)});
+    rest_ = rest_from({graph.input(0), graph.input(1), graph.input(2)}, false);
     fixed_ = rest_.state;
     while (!trace_step()) {
     }
@@ -50,15 +50,15 @@ class Calculation {
   std::vector<double> initial() {
     const Node zero = graph.constant(0);
     std::vector<double> values;
-    for (const Node node : rest_from({zero, zero, zero}).state) values.push_back(graph.value(node));
+    for (const Node node : rest_from({zero, zero, zero}, true).state) values.push_back(graph.value(node));
     return values;
   }
 
   Graph graph;
 
  private:
-  Outputs rest_from(const std::vector<Node>& input) {
-    CTrace trace(program_, graph);
+  Outputs rest_from(const std::vector<Node>& input, bool unrolls) {
+    CTrace trace(program_, graph, unrolls);
     const std::size_t at = trace.room(input), state = trace.room(std::vector<Node>(size_ - input.size()));
     trace.call("model_rest", {{.address = at}, {.address = state}});
     Outputs out{trace.call("model_force", {{.address = at}, {.address = state}}), input};

@@ -5,8 +5,8 @@
 
 namespace dashpot::trace {
 
-CTrace::CTrace(const CProgram& program, Graph& graph)
-    : program_(program), graph_(graph), active_(graph.truth(true)) {
+CTrace::CTrace(const CProgram& program, Graph& graph, bool unrolls)
+    : program_(program), graph_(graph), unrolls_(unrolls), active_(graph.truth(true)) {
   scopes_.emplace_back();
   for (const CDeclaration& global : program.globals) declare(global);
 }

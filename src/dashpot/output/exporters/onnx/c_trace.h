@@ -12,7 +12,8 @@ namespace dashpot::trace {
 /// the graph, which go on while any lane does. Throws Error where a pointer would depend on the data.
 class CTrace {
  public:
-  CTrace(const CProgram& program, Graph& graph);
+  /// `unrolls`: loops of many rounds, too; for constants.
+  CTrace(const CProgram& program, Graph& graph, bool unrolls = false);
 
   /// A place for numbers that the code may point to.
   std::size_t room(const std::vector<Node>& values);
@@ -101,6 +102,7 @@ class CTrace {
 
   const CProgram& program_;
   Graph& graph_;
+  const bool unrolls_;
   std::vector<Cell> memory_;
   std::vector<std::vector<std::pair<std::string, Variable>>> scopes_;  ///< the globals, then the function's
   Node active_;                                                        ///< the lanes at work

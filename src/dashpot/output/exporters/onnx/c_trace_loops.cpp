@@ -43,7 +43,7 @@ std::string counter_of(const CStatement& loop) {
 /// Whether the body does not speak of the counter, which alone is stepped.
 bool only_counts(const CStatement& loop) {
   const std::string counter = counter_of(loop);
-  return !counter.empty() && loop.step[0].kind == CExpr::Kind::Unary && !names(loop.parts[0], counter);
+  return !counter.empty() && loop.step.size() == 1 && loop.step[0].kind == CExpr::Kind::Unary && !names(loop.parts[0], counter);
 }
 
 }  // namespace
@@ -66,6 +66,7 @@ CTrace::Flow CTrace::run_loop(const CStatement& statement) {
 CTrace::Flow CTrace::run_rounds(const CStatement& statement) {
   const Node before = active_, outer = loop_entry_;
   if (!statement.start.empty()) evaluate(statement.start[0]);
+  // Where rounds were already unrolled, the loop of the graph begins behind them or takes their place.
   const std::vector<Cell> begin =
       has(statement, CStatement::Kind::Break) || only_counts(statement) ? memory_ : std::vector<Cell>{};
   loop_entry_ = before;
@@ -74,9 +75,8 @@ CTrace::Flow CTrace::run_rounds(const CStatement& statement) {
   for (double round = 0; flow == Flow::On; ++round) {
     const Node goes_on = truth(statement.exprs[0]);
     if (graph_.is(goes_on, 0)) break;
-    in_lanes = !graph_.is_constant(goes_on) || (round >= kMostUnrolled && only_counts(statement));
-    if (in_lanes && round > 0 && begin.empty())
-      throw Error("C text", "has a loop whose end begins to depend on the data");
+    in_lanes =
+        !graph_.is_constant(goes_on) || (!unrolls_ && round >= kMostUnrolled && only_counts(statement));
     if (in_lanes) break;
     flow = run(statement.parts[0]);
     in_lanes = flow == Flow::On && active_ != before;
