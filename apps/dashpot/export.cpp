@@ -21,7 +21,7 @@ namespace {
 struct Settings {
   DamperChoice damper;
   std::vector<std::string> formats;
-  std::string name, precision = "double", sample_time, folder = "dashpot-export", compiler;
+  std::string name, precision, sample_time, folder = "dashpot-export", compiler;
   bool sources_only = false;
 };
 
@@ -31,6 +31,9 @@ constexpr std::string_view kExample =
     "\n"
     "# A fitted model for a simulator, with a binary that needs nothing but the C library:\n"
     "dashpot export results/models/bouc_wen.json --to fmu3 -o results/fmu\n"
+    "\n"
+    "# A fitted model for ONNX Runtime:\n"
+    "dashpot export results/models/hysteresis_network.json --to onnx\n"
     "\n"
     "# A published damper, under a name of your own:\n"
     "dashpot export --parameters spencer1997 --to c --name front_damper -o front";
@@ -74,6 +77,11 @@ double sample_time_of(const DamperChoice& choice) {
   return choice.model.empty() ? 0 : load_model(choice.model).sample_time;
 }
 
+std::optional<CPrecision> precision_of(const Settings& settings) {
+  if (settings.precision.empty()) return {};
+  return settings.precision == "float" ? CPrecision::Single : CPrecision::Double;
+}
+
 /// As make has it: $CC, or cc.
 std::string compiler_of(const Settings& settings) {
   if (!settings.compiler.empty()) return settings.compiler;
@@ -109,7 +117,7 @@ int run(const Settings& settings, Console& console) {
   if (settings.folder.empty()) throw UsageError("--output", "the name of the folder is empty");
   const ExportOptions options{
       .name = settings.name,
-      .precision = settings.precision == "float" ? CPrecision::Single : CPrecision::Double,
+      .precision = precision_of(settings),
       .sample_time =
           settings.sample_time.empty() ? 0 : parse_quantity(settings.sample_time, "s", "--sample-time"),
       .compiler = compiler_of(settings),
@@ -147,9 +155,10 @@ Command export_command() {
                     .default_text = "the model's"},
                    {.names = "--precision",
                     .target = &settings->precision,
-                    .help = "of the numbers in C",
+                    .help = "of the numbers in C or ONNX",
                     .value = "TYPE",
-                    .choices = {"double", "float"}},
+                    .choices = {"double", "float"},
+                    .default_text = "double in C, float in ONNX"},
                    {.names = "--sample-time",
                     .target = &settings->sample_time,
                     .help = "between two steps, as 1ms",

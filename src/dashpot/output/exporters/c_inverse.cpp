@@ -123,10 +123,10 @@ std::vector<ExportedFile> write_c_inverse(const InverseFile& inverse, const Expo
       {"size", std::to_string(model.state_size())},
       {"sample_time", c_number(sample_time)},
       {"steps", std::to_string(kTestSteps)},
-      {"tolerance", options.precision == CPrecision::Double ? "1e-12" : "1e-5"},
+      {"tolerance", options.precision == CPrecision::Single ? "1e-5" : "1e-12"},
       {"rows", rows_of(model, inverse.domain)}};
   const auto finished = [&](const std::string& text) {
-    return filled(with_prefix(in_precision(filled(text, values), options.precision), prefix),
+    return filled(with_prefix(in_precision(filled(text, values), options.precision.value_or(CPrecision::Double)), prefix),
                   {{"command", in_comment(options.command)}});
   };
   return {{prefix + ".h", finished(kHeader + std::string(c_text("inverse_api.h")) + kHeaderEnd)},

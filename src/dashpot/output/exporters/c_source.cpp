@@ -135,7 +135,7 @@ std::vector<std::pair<std::string, std::string>> facts(const ExportedModel& mode
           {"unused", source.state_size == 0 ? ": one that is not used" : ""},
           {"sample_time", c_number(source.sample_time)},
           {"steps", std::to_string(kTestSteps)},
-          {"tolerance", options.precision == CPrecision::Double ? "1e-12" : "1e-5"}};
+          {"tolerance", options.precision == CPrecision::Single ? "1e-5" : "1e-12"}};
 }
 
 std::vector<CSource::Variable> states_of(const DamperModel& model) {
@@ -172,7 +172,7 @@ CSource c_source(const ExportedModel& model, const ExportOptions& options) {
   const std::string own = with_texts(code.code);
   require_free_names(source.prefix, own);
   const auto finished = [&](const std::string& text) {
-    return with_prefix(in_precision(text, options.precision), source.prefix);
+    return with_prefix(in_precision(text, single ? CPrecision::Single : CPrecision::Double), source.prefix);
   };
   std::vector<std::pair<std::string, std::string>> values = facts(model, options, source);
   source.header =

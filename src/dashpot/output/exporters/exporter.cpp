@@ -9,6 +9,7 @@
 #include "dashpot/output/exporters/c_source.h"
 #include "dashpot/output/exporters/fmu.h"
 #include "dashpot/output/exporters/force_map.h"
+#include "dashpot/output/exporters/onnx.h"
 
 namespace dashpot {
 namespace {
@@ -24,6 +25,8 @@ constexpr std::array kExporters{
     Exporter{"fmu3", "FMU of FMI 3.0 for a simulator",
              "every model; model exchange for laws and models without a state",
              "NAME_fmi3.fmu with its sources and a binary for Linux", write_fmu3},
+    Exporter{"onnx", "ONNX graphs for a runtime of networks", "every model",
+             "NAME.onnx, one step with its state, and NAME_rest.onnx, where a run begins", write_onnx},
     Exporter{"tables", "look-up tables", "every model, its states settled",
              "NAME_force.csv, NAME_current.csv (its inverse) and NAME.mat with both", write_tables}};
 

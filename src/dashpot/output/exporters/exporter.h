@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -20,7 +21,7 @@ struct ExportedModel {
 
 struct ExportOptions {
   std::string name;  ///< of files and functions: a name in C
-  CPrecision precision = CPrecision::Double;
+  std::optional<CPrecision> precision;  ///< nothing: double in C, single in ONNX
   double sample_time = 0;            ///< s; 0: the model's own
   bool settable_parameters = false;  ///< of a law in C: kept behind its state instead of in its code
   std::string compiler = "cc";       ///< of C, and more of its arguments: for what holds a binary
