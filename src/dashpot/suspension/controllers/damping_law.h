@@ -37,7 +37,8 @@ ControllerPointer make_plain(std::span<const double>, const ControlContext& cont
 
 inline DamperDemand damping(double value) noexcept { return {DamperDemand::Kind::Damping, value}; }
 inline DamperDemand hard_when(bool hard, const ControlLimits& limits) noexcept {
-  return damping(hard ? limits.damping_max : limits.damping_min);
+  const double values[] = {limits.damping_min, limits.damping_max};  // no branch: nobody would foresee it
+  return damping(values[hard]);
 }
 /// A force within what damping can give at this speed.
 inline DamperDemand dissipating_force(double force, double velocity, const ControlLimits& limits) noexcept {

@@ -59,34 +59,36 @@ void LanePilot::ground(std::size_t first, std::size_t count, double* heights, do
 }
 
 void LanePilot::control(const double* signals, double* commands) {
-  for (std::size_t lane = 0; lane < drivers_.size(); ++lane) {
-    double own[kLaneSignals];
-    for (std::size_t k = 0; k < kLaneSignals; ++k) own[k] = signals[k * lanes_ + lane];
-    commands[lane] = command(drivers_[lane], own, commands[lane]);
-  }
+  for (std::size_t lane = 0; lane < drivers_.size(); ++lane)
+    commands[lane] = command(drivers_[lane], signals + lane, commands[lane]);
   std::fill(commands + drivers_.size(), commands + lanes_, commands[drivers_.size() - 1]);
 }
 
-double LanePilot::command(Driver& driver, const double (&signals)[kLaneSignals], double before) {
-  const auto& [vehicle, sensors, path, state, resting] = driver;
-  StrutSignals strut{.body_velocity = signals[kBodyVelocity],
-                     .body_acceleration = signals[kBodyAcceleration],
-                     .wheel_velocity = signals[kWheelVelocity],
-                     .deflection = signals[kDeflection],
-                     .deflection_velocity = signals[kDeflectionVelocity],
-                     .force = signals[kForce],
-                     .current = signals[kCurrent]};
-  const std::array<double, 4> x{signals[kBody] - resting[0] * signals[kGround],
-                                signals[kWheel] - resting[1] * signals[kGround], strut.body_velocity,
-                                strut.wheel_velocity};
-  if (!sensors.ideal()) driver.sensors.measure({&strut, 1});
+double LanePilot::command(Driver& driver, const double* signals, double before) const {
+  const auto signal = [&](LaneSignal row) { return signals[row * lanes_]; };
+  const BatchVehicle& vehicle = *driver.vehicle;
+  StrutSignals strut{.body_velocity = signal(kBodyVelocity),
+                     .body_acceleration = signal(kBodyAcceleration),
+                     .wheel_velocity = signal(kWheelVelocity),
+                     .deflection = signal(kDeflection),
+                     .deflection_velocity = signal(kDeflectionVelocity),
+                     .force = signal(kForce),
+                     .current = signal(kCurrent)};
+  DamperInput seen{signal(kDeflection), signal(kDeflectionVelocity), signal(kCurrent)};
+  const std::array<double, 4> x{signal(kBody) - driver.resting[0] * signal(kGround),
+                                signal(kWheel) - driver.resting[1] * signal(kGround), signal(kBodyVelocity),
+                                signal(kWheelVelocity)};
+  const bool ideal = driver.sensors.ideal();
+  if (!ideal) {
+    driver.sensors.measure({&strut, 1});
+    seen = {strut.deflection, strut.deflection_velocity, strut.current};
+  }
   DamperDemand demand;
-  vehicle->setting.controller->step({&strut, 1},
-                                    sensors.ideal() ? std::span<const double>(x) : std::span<const double>(),
-                                    driver.state, {&demand, 1});
-  const DamperInput now{strut.deflection, strut.deflection_velocity, signals[kCurrent]};
-  const double wanted = driver.path.command(demand, now, strut.force);
-  const DriverOptions& limits = vehicle->setting.dampers[0].driver;
+  vehicle.setting.controller->step({&strut, 1},
+                                   ideal ? std::span<const double>(x) : std::span<const double>(),
+                                   driver.state, {&demand, 1});
+  const double wanted = driver.path.command(demand, seen, signal(kForce));
+  const DriverOptions& limits = vehicle.setting.dampers[0].driver;
   return std::isnan(wanted) ? before : std::clamp(wanted, limits.current_min, limits.current_max);
 }
 

@@ -25,7 +25,7 @@ class LanePilot {
   };
   void ground(std::size_t first, std::size_t count, double* heights, double* rates) noexcept;
   void control(const double* signals, double* commands);
-  double command(Driver& driver, const double (&signals)[kLaneSignals], double before);
+  double command(Driver& driver, const double* signals, double before) const;
 
   std::size_t lanes_;
   std::vector<Driver> drivers_;
