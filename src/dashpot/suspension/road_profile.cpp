@@ -22,18 +22,29 @@ struct TrackPoints {
   double last;        ///< place of the last but the mirrored one, from 0
   double per_second;  ///< how many pass
 };
+/// Places first, heights then: a place waits for conversions, and two short loops overlap more than a long
+/// one.
 void pass_over(const TrackPoints& track, double begin, double step, std::span<FootMotion> out) {
-  FootMotion* const to = out.data();
-  const auto [points, last, rate] = track;
-  for (std::ptrdiff_t n = 0; n < std::ssize(out); ++n) {
-    const double reached = begin + step * static_cast<double>(n), ahead = reached > 0 ? reached : 0;
-    const double place = ahead < last ? ahead : last, left = place < last - 1 ? place : last - 1;
-    const auto k = static_cast<int>(left);
-    const double u = place - k, *z = points + k;
-    const double rise = z[2] - z[1], slope = 0.5 * (z[2] - z[0]);
-    const double twist = slope + 0.5 * (z[3] - z[1]) - 2 * rise, bend = rise - slope - twist;
-    to[n].height = z[1] + u * (slope + u * (bend + u * twist));
-    to[n].velocity = rate * (slope + u * (2 * bend + 3 * u * twist));
+  constexpr std::size_t kChunk = 64;
+  double share[kChunk];
+  int point[kChunk];
+  for (std::size_t first = 0; first < out.size(); first += kChunk) {
+    const std::span<FootMotion> some = out.subspan(first, std::min(kChunk, out.size() - first));
+    const int count = static_cast<int>(some.size());
+    const double from = begin + step * static_cast<double>(first), last = track.last;
+    for (int n = 0; n < count; ++n) {
+      const double reached = from + step * n, ahead = reached > 0 ? reached : 0;
+      const double place = ahead < last ? ahead : last, left = place < last - 1 ? place : last - 1;
+      point[n] = static_cast<int>(left);
+      share[n] = place - point[n];
+    }
+    for (int n = 0; n < count; ++n) {
+      const double u = share[n], *z = track.z + point[n];
+      const double rise = z[2] - z[1], slope = 0.5 * (z[2] - z[0]);
+      const double twist = slope + 0.5 * (z[3] - z[1]) - 2 * rise, bend = rise - slope - twist;
+      some[n] = {z[1] + u * (slope + u * (bend + u * twist)),
+                 track.per_second * (slope + u * (2 * bend + 3 * u * twist))};
+    }
   }
 }
 

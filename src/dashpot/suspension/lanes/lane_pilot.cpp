@@ -33,34 +33,29 @@ LanePilot::LanePilot(std::span<const BatchVehicle* const> vehicles, std::size_t 
 
 void LanePilot::take(LaneRide& ride) {
   ride.pilot = this;
-  ride.ground = [](void* self, std::size_t first, std::size_t count, double* heights, double* rates) {
-    static_cast<LanePilot*>(self)->ground(first, count, heights, rates);
+  ride.ground = [](void* self, std::size_t lane, std::size_t first, double* heights, double* rates) {
+    static_cast<LanePilot*>(self)->ground(lane, first, heights, rates);
   };
   if (drivers_.front().vehicle->setting.controller)
-    ride.control = [](void* self, const double* signals, double* commands) {
-      static_cast<LanePilot*>(self)->control(signals, commands);
+    ride.control = [](void* self, const double* signals, double* commands, const std::int64_t* which) {
+      static_cast<LanePilot*>(self)->control(signals, commands, which);
     };
 }
 
-void LanePilot::ground(std::size_t first, std::size_t count, double* heights, double* rates) noexcept {
-  const std::size_t driven = drivers_.size();
-  feet_.resize(count);
-  for (std::size_t lane = 0; lane < driven; ++lane) {
-    const BatchVehicle& vehicle = *drivers_[lane].vehicle;
-    const Tyre& tyre = vehicle.setting.plant.tyres[0];
-    const double half = 0.5 * sample_time_of(vehicle);
-    vehicle.setting.ground.feet(half * static_cast<double>(first), half, tyre.track, tyre.behind, feet_);
-    for (std::size_t k = 0; k < count; ++k)
-      for (std::size_t to = lane; to < (lane + 1 == driven ? lanes_ : lane + 1); ++to) {
-        heights[k * lanes_ + to] = feet_[k].height;
-        rates[k * lanes_ + to] = feet_[k].velocity;
-      }
+void LanePilot::ground(std::size_t lane, std::size_t first, double* heights, double* rates) noexcept {
+  const BatchVehicle& vehicle = *drivers_[std::min(lane, drivers_.size() - 1)].vehicle;
+  const Tyre& tyre = vehicle.setting.plant.tyres[0];
+  const double half = 0.5 * sample_time_of(vehicle);
+  vehicle.setting.ground.feet(half * static_cast<double>(first), half, tyre.track, tyre.behind, feet_);
+  for (std::size_t k = 0; k < kLaneNodes; ++k) {
+    heights[k * lanes_ + lane] = feet_[k].height;
+    rates[k * lanes_ + lane] = feet_[k].velocity;
   }
 }
 
-void LanePilot::control(const double* signals, double* commands) {
+void LanePilot::control(const double* signals, double* commands, const std::int64_t* which) {
   for (std::size_t lane = 0; lane < drivers_.size(); ++lane)
-    commands[lane] = command(drivers_[lane], signals + lane, commands[lane]);
+    if (which[lane]) commands[lane] = command(drivers_[lane], signals + lane, commands[lane]);
   std::fill(commands + drivers_.size(), commands + lanes_, commands[drivers_.size() - 1]);
 }
 

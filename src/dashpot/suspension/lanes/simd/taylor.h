@@ -26,9 +26,9 @@ class TaylorSteps {
   Lane force() const { return force_; }
   Lane acceleration(std::size_t k) const { return acceleration_[k]; }
 
-  /// Over one sample.
-  void advance(State& state, Lane, const RoadPush& road) {
-    Lane done{}, left = all(1);
+  /// Over one sample in these lanes, all of which reach its end.
+  LaneMask step(State& state, Lane, const RoadPush& road, LaneMask riding) {
+    Lane done{}, left = riding ? all(1) : Lane{};
     do {
       Lane x[kOrder + 1][4];
       if (!expanded_) expand_damper(state.x);
@@ -46,7 +46,8 @@ class TaylorSteps {
     } while (any(left > 0));
     Lane force[1];
     car_.damper.expand(state.x[2] - state.x[3], force);
-    keep(state.x, force[0], road.node[2], all(0) == 0);
+    keep(state.x, force[0], road.node[2], riding);
+    return riding;
   }
 
   LaneMask missed{};
