@@ -1,4 +1,3 @@
-#include <cstdlib>
 #include <filesystem>
 #include <memory>
 
@@ -10,8 +9,6 @@
 #include "dashpot/base/file.h"
 #include "dashpot/base/text.h"
 #include "dashpot/base/units.h"
-#include "dashpot/damper/model_file.h"
-#include "dashpot/damper/parameter_set.h"
 #include "dashpot/output/exporters/c_inverse.h"
 #include "dashpot/output/exporters/exporter.h"
 
@@ -38,20 +35,6 @@ constexpr std::string_view kExample =
     "# A published damper, under a name of your own:\n"
     "dashpot export --parameters spencer1997 --to c --name front_damper -o front";
 
-/// Where a damper that has no data of its own is known: a stroke of a car's damper.
-Domain usual_domain(const Damper& damper) {
-  return {-0.025, 0.025, -0.5, 0.5, damper.drive_min, damper.drive_max};
-}
-
-std::string origin_of(const DamperChoice& choice) {
-  if (choice.model.empty()) {
-    const ParameterSet set = load_parameter_set(choice.parameters);
-    return set.damper + ": " + set.source + (set.verified ? "" : " (an example: " + set.reason + ")");
-  }
-  const Provenance provenance = load_model(choice.model).provenance;
-  return "Identified from " + provenance.dataset + ", " + provenance.created;
-}
-
 std::vector<std::string> exporter_names() {
   std::vector<std::string> names;
   for (const Exporter& exporter : exporters()) names.emplace_back(exporter.name);
@@ -73,34 +56,19 @@ bool is_inverse(const std::string& path) {
   return format && format->kind() == Value::Kind::String && format->as_string() == "dashpot-inverse";
 }
 
-double sample_time_of(const DamperChoice& choice) {
-  return choice.model.empty() ? 0 : load_model(choice.model).sample_time;
-}
-
 std::optional<CPrecision> precision_of(const Settings& settings) {
   if (settings.precision.empty()) return {};
   return settings.precision == "float" ? CPrecision::Single : CPrecision::Double;
 }
 
-/// As make has it: $CC, or cc.
-std::string compiler_of(const Settings& settings) {
-  if (!settings.compiler.empty()) return settings.compiler;
-  const char* usual = std::getenv("CC");
-  return usual && *usual != '\0' ? usual : "cc";
-}
-
 std::vector<ExportedFile> exported_damper(const Settings& settings, const ExportOptions& options,
                                           Console& console) {
-  const Damper damper = load_damper(settings.damper, "export", console);
-  const ExportedModel exported{.model = *damper.model,
-                               .drive_unit = damper.drive_unit,
-                               .domain = damper.domain.value_or(usual_domain(damper)),
-                               .sample_time = sample_time_of(settings.damper),
-                               .origin = origin_of(settings.damper)};
+  const ModelFile file = load_damper_file(settings.damper, "export", console);
+  const ExportedModel exported = exported_model(file);
   std::vector<ExportedFile> files;
   for (const std::string& format : settings.formats)
-    for (ExportedFile& file : find_exporter(format, "--to").write(exported, options))
-      files.push_back(std::move(file));
+    for (ExportedFile& written : find_exporter(format, "--to").write(exported, options))
+      files.push_back(std::move(written));
   return files;
 }
 
@@ -120,7 +88,7 @@ int run(const Settings& settings, Console& console) {
       .precision = precision_of(settings),
       .sample_time =
           settings.sample_time.empty() ? 0 : parse_quantity(settings.sample_time, "s", "--sample-time"),
-      .compiler = compiler_of(settings),
+      .compiler = settings.compiler.empty() ? usual_compiler() : settings.compiler,
       .sources_only = settings.sources_only,
       .command = console.command_line(),
       .version = DASHPOT_VERSION};

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 
 #include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
@@ -48,6 +49,26 @@ const Exporter& find_exporter(std::string_view name, const std::string& where) {
     known.emplace_back(exporter.name);
   }
   throw Error(where, "unknown format '" + std::string(name) + "'", suggest(name, known));
+}
+
+ExportedModel exported_model(const ModelFile& file) {
+  const Provenance& from = file.provenance;
+  ExportedModel exported{.model = *file.model,
+                         .drive_unit = file.drive_unit,
+                         .domain = file.domain,
+                         .sample_time = file.sample_time,
+                         .origin = from.created.empty()
+                                       ? from.dataset + ": " + from.citation
+                                       : "Identified from " + from.dataset + ", " + from.created};
+  Domain& domain = exported.domain;
+  if (!(domain.velocity_min < domain.velocity_max))
+    domain = {-0.025, 0.025, -0.5, 0.5, domain.current_min, domain.current_max};
+  return exported;
+}
+
+std::string usual_compiler() {
+  const char* usual = std::getenv("CC");
+  return usual && *usual != '\0' ? usual : "cc";
 }
 
 double export_sample_time(const ExportedModel& model, const ExportOptions& options) {

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "dashpot/damper/model.h"
+#include "dashpot/damper/model_file.h"
 #include "dashpot/output/exporters/c_text.h"
 
 namespace dashpot {
@@ -18,6 +18,9 @@ struct ExportedModel {
   double sample_time = 0;  ///< s, of the training data; 0: mixed or unknown
   std::string origin;      ///< where it comes from, in words
 };
+
+/// The model of a file, which must stay as long. Where its data do not tell: a stroke of a car's damper.
+ExportedModel exported_model(const ModelFile& file);
 
 struct ExportOptions {
   std::string name;  ///< of files and functions: a name in C
@@ -46,6 +49,9 @@ struct Exporter {
 std::span<const Exporter> exporters();
 /// Throws Error "unknown format 'x'; did you mean ...".
 const Exporter& find_exporter(std::string_view name, const std::string& where = {});
+
+/// As make has it: $CC, or cc.
+std::string usual_compiler();
 
 /// s between two steps: as asked for, the model's own where it has one, that of its data, or 1 ms. Throws
 /// Error where it is not a positive number.
