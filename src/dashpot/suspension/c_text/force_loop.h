@@ -6,9 +6,12 @@
 static inline double force_loop_step(const ForceLoop* loop, double wanted, double measured, double dt,
                                      double* memory) {
   const double missed = wanted - measured;
-  double rate;
-  memory[1] += missed * dt;
-  rate = (missed - memory[0]) / dt;
-  memory[0] = missed;
-  return wanted + (loop->proportional * missed) + (loop->integral * memory[1]) + (loop->derivative * rate);
+  double answer = wanted;
+  if (isfinite(missed) != 0) {
+    const double rate = (missed - memory[0]) / dt;
+    memory[0] = missed;
+    memory[1] += missed * dt;
+    answer += (loop->proportional * missed) + (loop->integral * memory[1]) + (loop->derivative * rate);
+  }
+  return answer;
 }
