@@ -90,11 +90,6 @@ int main(void) {
 }
 )";
 
-// What cppcheck's MISRA add-on says of any of them; a test holds the list complete.
-constexpr const char* kDeviations =
-    "8.7 (the interface is used elsewhere); 8.9 (tables of numbers stand at file\n"
-    " * scope); 10.4 (equations mix reals with whole numbers); 12.3 (several variables in one declaration).";
-
 std::string number(std::size_t count) { return std::to_string(count); }
 
 std::string fields_of(const CControlPath& path) {
@@ -162,7 +157,7 @@ std::vector<std::pair<std::string, std::string>> facts(const Vehicle& vehicle, c
           {"unit", vehicle.drive_unit.empty() ? "" : " " + vehicle.drive_unit},
           {"inverse", inverse_text(vehicle.dampers.front())},
           {"sensors", sensors_text(vehicle)},
-          {"deviations", kDeviations},
+          {"deviations", std::string(c_deviations())},
           {"version", options.version},
           {"struts", number(struts)},
           {"plant_states",
@@ -199,7 +194,10 @@ std::vector<ExportedFile> write_c_controller(const Vehicle& vehicle, const Expor
   require_free_names(prefix, code);
   std::vector<std::pair<std::string, std::string>> values = facts(vehicle, path, options);
   values.emplace_back("prefix", prefix);
-  values.emplace_back("rows", controller_rows(vehicle, path, kTestSteps));
+  std::string rows;
+  for (const std::vector<double>& row : controller_run(vehicle, path, kTestSteps))
+    rows += "    " + c_numbers(row) + ",\n";
+  values.emplace_back("rows", rows);
   const auto finished = [&](const std::string& text) {
     return filled(with_prefix(in_precision(filled(text, values), options.precision), prefix),
                   {{"command", in_comment(options.command)}});

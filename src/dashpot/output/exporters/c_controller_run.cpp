@@ -50,7 +50,8 @@ SensorOptions quiet(SensorOptions sensors) {
 
 }  // namespace
 
-std::string controller_rows(const Vehicle& vehicle, const CControlPath& path, std::size_t count) {
+std::vector<std::vector<double>> controller_run(const Vehicle& vehicle, const CControlPath& path,
+                                                std::size_t count) {
   const std::size_t struts = vehicle.dampers.size();
   const ControlLimits& limits = vehicle.limits;
   std::vector<std::vector<StrutSignals>> runs;
@@ -66,7 +67,7 @@ std::string controller_rows(const Vehicle& vehicle, const CControlPath& path, st
   std::vector<double> state(vehicle.controller->state_size());
   vehicle.controller->reset(state);
 
-  std::string rows;
+  std::vector<std::vector<double>> rows;
   std::vector<StrutSignals> seen(struts);
   std::vector<DamperDemand> demands(struts);
   for (std::size_t k = 0; k < count; ++k) {
@@ -83,7 +84,7 @@ std::string controller_rows(const Vehicle& vehicle, const CControlPath& path, st
       row.push_back(std::clamp(commands[s].command(demands[s], now, seen[s].force), limits.current_min,
                                limits.current_max));
     }
-    rows += "    " + c_numbers(row) + ",\n";
+    rows.push_back(std::move(row));
   }
   return rows;
 }

@@ -3,8 +3,9 @@
 
 namespace dashpot {
 
-/// A table's rows, in C: what is measured along a random run, strut by strut, the plant's state where it is
+/// Rows of what is measured along a random run, strut by strut, the plant's state where it is
 /// looked at, and the commands that the library gives.
-std::string controller_rows(const Vehicle& vehicle, const CControlPath& path, std::size_t count);
+std::vector<std::vector<double>> controller_run(const Vehicle& vehicle, const CControlPath& path,
+                                                std::size_t count);
 
 }  // namespace dashpot

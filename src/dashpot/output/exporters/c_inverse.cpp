@@ -18,6 +18,7 @@ constexpr const char* kHeader = R"(/* The current for a wanted force: @title@.
  * Displacement m and velocity m/s, extension positive; force N, positive when it resists extension; current @unit@,
  * @low@ ... @high@. C99 with math.h: no heap, no files, no variables outside a damper_model. Made by Dashpot @version@:
  *   @command@
+ * MISRA C:2012, deviations: @deviations@
  */
 #ifndef DAMPER_H
 #define DAMPER_H
@@ -154,6 +155,7 @@ std::vector<ExportedFile> write_c_inverse(const ExportedInverse& inverse, const 
       {"range", c_number(limits.current_max - limits.current_min)},
       {"version", options.version},
       {"size", std::to_string(std::max<std::size_t>(1, size))},
+      {"deviations", std::string(c_deviations())},
       {"unused", size == 0 ? ": one that is not used" : ""},
       {"sample_time", c_number(limits.sample_time)},
       {"steps", std::to_string(kTestSteps)},

@@ -7,6 +7,7 @@
 #include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
 #include "dashpot/output/exporters/c_source.h"
+#include "dashpot/output/exporters/c_wrappers.h"
 #include "dashpot/output/exporters/fmu.h"
 #include "dashpot/output/exporters/force_map.h"
 
@@ -24,6 +25,12 @@ constexpr std::array kExporters{
     Exporter{"fmu3", "FMU of FMI 3.0 for a simulator",
              "every model; model exchange for laws and models without a state",
              "NAME_fmi3.fmu with its sources and a binary for Linux", write_fmu3},
+    Exporter{"mex", "C for MATLAB and Octave", "every model",
+             "NAME.h, NAME.c and NAME_mex.c, which takes a matrix of inputs", write_mex},
+    Exporter{"modelica", "Modelica package", "every model",
+             "NAME/package.mo with a block and a force element, and its C code", write_modelica},
+    Exporter{"sfunction", "C for Simulink", "every model",
+             "NAME.h, NAME.c and NAME_sfun.c, a level-2 S-function", write_sfunction},
     Exporter{"tables", "look-up tables", "every model, its states settled",
              "NAME_force.csv, NAME_current.csv (its inverse) and NAME.mat with both", write_tables}};
 
