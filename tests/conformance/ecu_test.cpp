@@ -63,7 +63,7 @@ struct Board {
   void add(const std::string& prefix, const std::vector<double>& expected, const std::string& next) {
     includes += "#include \"" + prefix + ".h\"\n";
     list += " X(" + prefix + ")";
-    functions += table(prefix + "_expected", expected) + "static __attribute__((noinline)) double " + prefix +
+    functions += table(prefix + "_expected", expected) + "static __attribute__((noipa)) double " + prefix +
                  "_next(" + prefix + "_model* model, int k) {\n" + next + "}\n";
   }
 };
