@@ -11,12 +11,14 @@
 #include "dashpot/base/units.h"
 #include "dashpot/output/exporters/c_inverse.h"
 #include "dashpot/output/exporters/exporter.h"
+#include "export_control.h"
 
 namespace dashpot::cli {
 namespace {
 
 struct Settings {
   DamperChoice damper;
+  VehicleChoice vehicle;
   std::vector<std::string> formats;
   std::string name, precision, sample_time, folder = "dashpot-export", compiler;
   bool sources_only = false;
@@ -33,7 +35,15 @@ constexpr std::string_view kExample =
     "dashpot export results/models/hysteresis_network.json --to onnx\n"
     "\n"
     "# A published damper, under a name of your own:\n"
-    "dashpot export --parameters spencer1997 --to c --name front_damper -o front";
+    "dashpot export --parameters spencer1997 --to c --name front_damper -o front\n"
+    "\n"
+    "# A controller for an ECU with the sensors of a car, from accelerometer to current:\n"
+    "dashpot export --controller mix1,crossover=1.9Hz --in-car --to c --precision float --sample-time 2ms -o "
+    "ecu\n"
+    "\n"
+    "# The current for a wanted force, and a skyhook that drives its damper by it:\n"
+    "dashpot export --parameters spencer1997 --inverse numeric --to c -o ecu\n"
+    "dashpot export --controller skyhook_modified --damper spencer1997 --inverse numeric --to c -o ecu";
 
 std::vector<std::string> exporter_names() {
   std::vector<std::string> names;
@@ -72,29 +82,47 @@ std::vector<ExportedFile> exported_damper(const Settings& settings, const Export
   return files;
 }
 
-std::vector<ExportedFile> exported_inverse(const Settings& settings, const ExportOptions& options) {
+/// Throws Error where something that becomes C alone is to become something else.
+void require_c(const Settings& settings, const std::string& where, const std::string& what) {
   for (const std::string& format : settings.formats)
     if (find_exporter(format, "--to").name != "c")
-      throw Error(settings.damper.model, "is an inverse, which cannot become '" + format + "'", "--to c");
-  return write_c_inverse(load_inverse(settings.damper.model), options);
+      throw Error(where, "is " + what + ", which cannot become '" + format + "'", "--to c");
+}
+
+std::vector<ExportedFile> exported_files(const Settings& settings, const ExportOptions& options,
+                                         Console& console) {
+  const VehicleChoice& vehicle = settings.vehicle;
+  if (!vehicle.controller.empty()) {
+    require_c(settings, vehicle.controller, "a controller");
+    return exported_controller(vehicle, settings.damper, options, console);
+  }
+  for (const auto& [option, said] : {std::pair{"--damper", !vehicle.damper.empty()},
+                                     {"--set", !vehicle.values.empty()},
+                                     {"--in-car", vehicle.in_car}})
+    if (said) throw UsageError(option, "goes with --controller");
+  if (is_inverse(settings.damper.model)) {
+    require_c(settings, settings.damper.model, "an inverse");
+    return write_c_inverse(load_inverse(settings.damper.model), options);
+  }
+  if (vehicle.inverse.empty()) return exported_damper(settings, options, console);
+  require_c(settings, vehicle.inverse, "an inverse");
+  return exported_scheme(vehicle, settings.damper, options, console);
 }
 
 int run(const Settings& settings, Console& console) {
   if (settings.formats.empty())
     throw UsageError("--to", "is missing", "one or more of " + join(exporter_names(), ", "));
   if (settings.folder.empty()) throw UsageError("--output", "the name of the folder is empty");
-  const ExportOptions options{
-      .name = settings.name,
-      .precision = precision_of(settings),
-      .sample_time =
-          settings.sample_time.empty() ? 0 : parse_quantity(settings.sample_time, "s", "--sample-time"),
-      .compiler = settings.compiler.empty() ? usual_compiler() : settings.compiler,
-      .sources_only = settings.sources_only,
-      .command = console.command_line(),
-      .version = DASHPOT_VERSION};
-  const std::vector<ExportedFile> files = is_inverse(settings.damper.model)
-                                              ? exported_inverse(settings, options)
-                                              : exported_damper(settings, options, console);
+  const ExportOptions options{.name = settings.name,
+                              .precision = precision_of(settings),
+                              .sample_time = settings.sample_time.empty()
+                                                 ? 0
+                                                 : parse_quantity(settings.sample_time, "s", "--sample-time"),
+                              .compiler = settings.compiler.empty() ? usual_compiler() : settings.compiler,
+                              .sources_only = settings.sources_only,
+                              .command = console.command_line(),
+                              .version = DASHPOT_VERSION};
+  const std::vector<ExportedFile> files = exported_files(settings, options, console);
   Value list = Value::array();
   for (const ExportedFile& file : files) {
     const std::string path = (std::filesystem::path(settings.folder) / file.name).string();
@@ -111,6 +139,7 @@ int run(const Settings& settings, Console& console) {
 Command export_command() {
   auto settings = std::make_shared<Settings>();
   std::vector<Option> options = damper_options(settings->damper);
+  append(options, control_options(settings->vehicle));
   append(options, {{.names = "--to",
                     .target = &settings->formats,
                     .help = "what the model becomes",
@@ -146,11 +175,11 @@ Command export_command() {
                     .value = "DIR",
                     .takes = Takes::Folder}});
   return {.name = "export",
-          .title = "A model as code or tables for other programs",
+          .title = "A model or a controller as code or tables for other programs",
           .description =
-              "Writes a model in a form that needs Dashpot no more; an inverse network that 'dashpot invert' "
-              "wrote "
-              "becomes C, too." +
+              "Writes a model in a form that needs Dashpot no more. An inverse network that 'dashpot invert' "
+              "wrote, an inverse of a damper (--inverse) and a vehicle's controller (--controller) become C, "
+              "too." +
               formats_text(),
           .options = std::move(options),
           .example = std::string(kExample),

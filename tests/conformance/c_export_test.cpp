@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cctype>
 
+#include "c_compile.h"
 #include "damper/inverse/example_network.h"
 #include "dashpot/output/exporters/c_inverse.h"
 #include "dashpot/output/exporters/c_source.h"
@@ -11,28 +12,11 @@ using namespace dashpot;
 
 namespace {
 
-bool is_there(const std::string& program) {
-  if (run_program(program + " --version").exit_code == 0) return true;
-  MESSAGE("SKIPPED: no " << program << " is here");
-  return false;
-}
-
 void write_all(const TemporaryFolder& folder, CPrecision precision) {
   for (const ExampleModel& example : example_models())
     for (const ExportedFile& file :
          write_c_source(exported(*example.model), {.name = example.name + "_x", .precision = precision}))
       folder.write(file.name, file.content);
-}
-
-/// Compiles every model and its test in the folder, and runs the test. What fails is printed.
-ProgramResult compile_and_run(const TemporaryFolder& folder, const std::string& flags) {
-  folder.write(
-      "check",
-      "cc -std=c99 -pedantic -Wall -Wextra -Wshadow -Wfloat-conversion -Werror " + flags +
-          " -c $1.c -o $1.o 2> $1.out && cc -std=c99 -w $1_test.c $1.o -lm -o $1 && ./$1 > $1.out || "
-          "{ echo \"FAILED $1\"; head -5 $1.out; exit 1; }\n");
-  return run_program("cd '" + folder.path().string() +
-                     "' && ls *_test.c | sed 's/_test.c//' | xargs -P $(nproc) -I NAME sh check NAME");
 }
 
 }  // namespace

@@ -1,6 +1,8 @@
 #include <sstream>
 
 #include "dashpot/base/file.h"
+#include "dashpot/output/exporters/c_controller.h"
+#include "dashpot/output/exporters/c_controller_run.h"
 #include "dashpot/output/exporters/c_source.h"
 #include "dashpot/output/exporters/export_run.h"
 #include "output/exporters/example_models.h"
@@ -53,9 +55,74 @@ std::string table(const std::string& name, const std::vector<double>& values) {
   return "static const double " + name + "[] = " + c_numbers(values) + ";\n";
 }
 
+/// What the board's program reads.
+struct Board {
+  std::string includes, list, functions;
+
+  /// `next`: the body of a function of a model and k that returns what is expected at k.
+  void add(const std::string& prefix, const std::vector<double>& expected, const std::string& next) {
+    includes += "#include \"" + prefix + ".h\"\n";
+    list += " X(" + prefix + ")";
+    functions += table(prefix + "_expected", expected) + "static __attribute__((noipa)) double " + prefix +
+                 "_next(" + prefix + "_model* model, int k) {\n" + next + "}\n";
+  }
+};
+
+/// From an accelerometer to a command; from a demand to a current by search on a model and by a network.
+std::vector<std::pair<std::string, VehicleWords>> ecu_controllers() {
+  const VehicleWords search{.dampers = {"spencer1997"},
+                            .controller = "skyhook_modified",
+                            .inverse = "numeric",
+                            .sensors = {.in_car = true}};
+  return {{"mix1", {.controller = "mix1", .sensors = {.in_car = true}}},
+          {"lqr", {.plant = "ikenaga2000", .dampers = {"ideal"}, .controller = "clipped_lqr,force=1e-8"}},
+          {"search", search}};
+}
+
+void write_controllers(const TemporaryFolder& folder, Board& board) {
+  for (const auto& [name, words] : ecu_controllers()) {
+    const Vehicle vehicle = make_vehicle(words);
+    const std::size_t struts = vehicle.dampers.size();
+    for (const CPrecision precision : {CPrecision::Double, CPrecision::Single}) {
+      const std::string prefix = name + (precision == CPrecision::Single ? "_float" : "_double");
+      for (const ExportedFile& file : write_c_controller(vehicle, {.name = prefix, .precision = precision}))
+        if (!file.name.ends_with("_test.c")) folder.write(file.name, file.content);
+      const CControlPath path = c_control_path(vehicle, precision);
+      const std::vector<std::vector<double>> rows = controller_run(vehicle, path, kSteps);
+      std::string numbers, next;
+      std::vector<double> expected;
+      for (const std::vector<double>& row : rows) {
+        numbers += "  " + c_numbers(row) + ",\n";
+        expected.push_back(row[row.size() - struts]);
+      }
+      for (std::size_t s = 0; s < struts; ++s)
+        for (std::size_t k = 0; k < path.measured.size(); ++k)
+          next += "  input.struts[" + std::to_string(s) + "]." + std::string(path.measured[k]->name) +
+                  " = row[" + std::to_string(s * path.measured.size() + k) + "];\n";
+      for (std::size_t k = 0; k < path.plant_states; ++k)
+        next += "  input.plant_state[" + std::to_string(k) + "] = row[" +
+                std::to_string(struts * path.measured.size() + k) + "];\n";
+      board.functions += "static const double " + prefix + "_rows[][" + std::to_string(rows[0].size()) +
+                         "] = {\n" + numbers + "};\n";
+      board.add(prefix, expected,
+                filled(R"(  const double* row = @prefix@_rows[k];
+  static @prefix@_input input;
+  @real@ commands[@struts@];
+  if (k == 0) @prefix@_init(model);
+@next@  @prefix@_step(model, &input, commands);
+  return commands[0];
+)",
+                       {{"prefix", prefix},
+                        {"real", precision == CPrecision::Single ? "float" : "double"},
+                        {"struts", std::to_string(struts)},
+                        {"next", next}}));
+    }
+  }
+}
+
 /// Sources of all models in both precisions, and the header that the board's program reads.
 void write_models(const TemporaryFolder& folder) {
-  std::string includes, list, tables;
+  Board board;
   std::vector<DamperInput> run;
   for (const ExampleModel& example : ecu_models()) {
     const ExportedModel model = exported(*example.model);
@@ -65,17 +132,23 @@ void write_models(const TemporaryFolder& folder) {
       run = export_run(model.domain, source.sample_time, kSteps);
       folder.write(prefix + ".h", source.header);
       folder.write(prefix + ".c", source.source);
-      includes += "#include \"" + prefix + ".h\"\n";
-      list += " X(" + prefix + ")";
-      tables += table(prefix + "_expected", force_along(*example.model, run, source.sample_time));
+      board.add(prefix, force_along(*example.model, run, source.sample_time),
+                filled(R"(  const @prefix@_input input = {kInputs[k][0], kInputs[k][1], kInputs[k][2]};
+  if (k > 0) return @prefix@_step(model, &input);
+  @prefix@_reset(model, &input);
+  return @prefix@_force(&input, model->state);
+)",
+                       {{"prefix", prefix}}));
     }
   }
   std::string inputs;
   for (const DamperInput& input : run)
     inputs += "  " + c_numbers(std::vector{input.displacement, input.velocity, input.current}) + ",\n";
-  folder.write("models.h", includes + "\n#define STEPS " + std::to_string(kSteps) + "\n#define MODELS(X)" +
-                               list + "\n\nstatic const double kInputs[STEPS][3] = {\n" + inputs + "};\n" +
-                               tables);
+  write_controllers(folder, board);
+  folder.write("models.h", board.includes + "\n#define STEPS " + std::to_string(kSteps) +
+                               "\n#define MODELS(X)" + board.list +
+                               "\n\nstatic const double kInputs[STEPS][3] = {\n" + inputs + "};\n" +
+                               board.functions);
 }
 
 ProgramResult run_on_board(const TemporaryFolder& folder) {
@@ -89,6 +162,15 @@ ProgramResult run_on_board(const TemporaryFolder& folder) {
       // A tick of SysTick is 1/168 us; an instruction takes 32 ns of qemu's time: what counts is the ratio.
       "timeout 60 qemu-system-arm -M netduinoplus2 -nographic -monitor none -serial null -icount shift=5 "
       "-semihosting-config enable=on,target=native -kernel ecu.elf");
+}
+
+/// B, by the project's own script; it reads the program that ran.
+double stack_bound(const TemporaryFolder& folder, const std::string& function) {
+  const ProgramResult result = run_program("'" + project_file("scripts/stack_bound") + "' '" +
+                                           (folder.path() / "ecu.elf").string() + "' " + function);
+  CAPTURE(result.output);
+  REQUIRE(result.exit_code == 0);
+  return std::stod(result.output.substr(function.size()));
 }
 
 }  // namespace
@@ -106,6 +188,11 @@ TEST_CASE("exported C on a Cortex-M4F: the library's numbers, within 100 us a st
   std::size_t count = 0;
   for (; lines >> name >> difference >> instructions >> stack; ++count) {
     CAPTURE(name);
+    const double bound = stack_bound(folder, name + "_next");
+    CHECK(stack <= bound);
+    CHECK(bound <= 2 * stack + 400);  // by what may be, not by what was
+    MESSAGE(name << ": " << instructions << " instructions, stack " << stack << " B, at most "
+                 << stack_bound(folder, name + "_step"));
     const bool single = name.ends_with("_float");
     CHECK(difference <= (single ? 1e7 : 1));  // in 1e-12 of the span
     CHECK(stack > 0);
@@ -113,5 +200,5 @@ TEST_CASE("exported C on a Cortex-M4F: the library's numbers, within 100 us a st
     // An instruction takes a cycle or, loads and branches, a few; single precision divides in 14.
     if (name == "mlp_float" || name == "bank_float") CHECK(instructions < kClock * kTime);
   }
-  CHECK(count == 2 * ecu_models().size());
+  CHECK(count == 2 * (ecu_models().size() + ecu_controllers().size()));
 }

@@ -55,7 +55,7 @@ TEST_CASE("decisions of the laws: TC-7") {
     CHECK_CLOSE(demand("pdd,stiffness=20000", row.s).value, row.pdd, 1e-12, 0);
     CHECK_CLOSE(demand("sh_add,crossover=1.9", row.s).value, row.sh_add, 1e-12, 0);
     CHECK_CLOSE(demand("mix1,crossover=1.9Hz", row.s).value, row.mix1, 1e-12, 0);
-    CHECK_CLOSE(frequency_range(row.s, 1.9), row.range, 1e-7, 0);
+    CHECK_CLOSE(frequency_range(&row.s, 1.9), row.range, 1e-7, 0);
     CHECK(demand("selector(skyhook/add),crossover=1.9", row.s).value ==
           (row.range > 0 ? demand("add", row.s) : demand("skyhook", row.s)).value);
   }

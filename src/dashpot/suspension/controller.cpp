@@ -9,6 +9,8 @@
 
 namespace dashpot {
 
+#include "dashpot/suspension/c_text/selected_demand.h"
+
 extern const ControlLaw kAdd, kClippedLqr, kClippedOptimal, kConstant, kFrequencyEstimation, kGroundhook,
     kHybrid, kMix1, kPdd, kShAdd, kSkyhook, kSkyhookLinear, kSkyhookModified;
 
@@ -36,7 +38,12 @@ class Selector final : public Controller {
     low_->step(struts, plant_state, state.first(low_->state_size()), demands);
     high_->step(struts, plant_state, state.subspan(low_->state_size()), std::span(high).first(struts.size()));
     for (std::size_t k = 0; k < struts.size(); ++k)
-      if (frequency_range(struts[k], crossover_) > 0) demands[k] = high[k];
+      demands[k] = selected_demand(&struts[k], crossover_, demands[k], high[k]);
+  }
+  ControlDescription description() const override {
+    return {.law = "selector",
+            .parameters = {crossover_},
+            .choices = {low_->description(), high_->description()}};
   }
 
   static constexpr std::size_t kMostStruts = 64;

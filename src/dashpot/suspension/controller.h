@@ -35,6 +35,15 @@ struct ControlLimits {
   double sample_time = 1e-3;                     ///< s
 };
 
+/// A controller as numbers: what the C text of its law, control_<law>.h, asks for.
+struct ControlDescription {
+  std::string law;                 ///< "selector" for the two of `choices`; empty: it has no text
+  std::vector<double> parameters;  ///< of its struct, in their order; of a selector the crossover
+  std::vector<double> gain = {};   ///< of a regulator: a row over the plant's state per strut
+  std::size_t memory = 0;          ///< numbers that it keeps per strut
+  std::vector<ControlDescription> choices = {};  ///< at low and at high frequencies of the body
+};
+
 /// A discrete control law for all dampers of a plant. Immutable; the state is the caller's.
 class Controller {
  public:
@@ -45,6 +54,7 @@ class Controller {
   /// ground as it is; empty where nothing gives it. Allocates nothing.
   virtual void step(std::span<const StrutSignals> struts, std::span<const double> plant_state,
                     std::span<double> state, std::span<DamperDemand> demands) const noexcept = 0;
+  virtual ControlDescription description() const { return {}; }
 };
 using ControllerPointer = std::unique_ptr<const Controller>;
 

@@ -2,9 +2,19 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
+
+#include "dashpot/suspension/control_text.h"
 
 namespace dashpot {
+namespace {
+
+// clang-format off: the texts are taken in
+#include "dashpot/suspension/c_text/demanded_force.h"
+#include "dashpot/suspension/c_text/force_loop.h"
+#include "dashpot/suspension/c_text/straight_current.h"
+// clang-format on
+
+}  // namespace
 
 CommandPath::CommandPath(const MountedDamper& damper, const ControlLimits& limits, double deflection)
     : damper_(&damper), limits_(limits), inverse_state_(damper.inverse ? damper.inverse->state_size() : 0) {
@@ -12,14 +22,10 @@ CommandPath::CommandPath(const MountedDamper& damper, const ControlLimits& limit
 }
 
 double CommandPath::wanted_force(const DamperDemand& demand, const DamperInput& now, double force) {
-  const double wanted = demand.kind == DamperDemand::Kind::Force ? demand.value : demand.value * now.velocity;
+  const double wanted = demanded_force(&demand, now.velocity);
   const ForceLoop& loop = damper_->loop;
-  if (loop.proportional == 0 && loop.integral == 0 && loop.derivative == 0) return wanted;
-  const double missed = wanted - force, dt = limits_.sample_time;
-  missed_sum_ += missed * dt;
-  const double rate = (missed - missed_) / dt;
-  missed_ = missed;
-  return wanted + loop.proportional * missed + loop.integral * missed_sum_ + loop.derivative * rate;
+  if (!loop.is_closed()) return wanted;
+  return force_loop_step(&loop, wanted, force, limits_.sample_time, missed_.data());
 }
 
 double CommandPath::command(const DamperDemand& demand, const DamperInput& now, double force) {
@@ -34,12 +40,7 @@ double CommandPath::command(const DamperDemand& demand, const DamperInput& now, 
                                       .measured = force / ratio},
                                      inverse_state_);
   }
-  const double damping = demand.kind == DamperDemand::Kind::Damping ? demand.value
-                         : now.velocity != 0                        ? demand.value / now.velocity
-                                                                    : limits_.damping_min;
-  const double range = limits_.damping_max - limits_.damping_min;
-  const double place = range > 0 ? std::clamp((damping - limits_.damping_min) / range, 0.0, 1.0) : 0;
-  return limits_.current_min + place * (limits_.current_max - limits_.current_min);
+  return straight_current(&demand, now.velocity, &limits_);
 }
 
 DamperState::DamperState(const MountedDamper& damper, const ControlLimits& limits, double deflection)

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <memory>
 #include <span>
 
@@ -14,6 +15,7 @@ struct ForceLoop {
   double proportional = 0;  ///< 1
   double integral = 0;      ///< 1/s
   double derivative = 0;    ///< s
+  bool is_closed() const noexcept { return proportional != 0 || integral != 0 || derivative != 0; }
 };
 
 /// A damper in its strut: model, coil driver, and the way from a demand to a current.
@@ -47,7 +49,7 @@ class CommandPath {
   const MountedDamper* damper_;
   ControlLimits limits_;
   std::vector<double> inverse_state_;
-  double missed_ = 0, missed_sum_ = 0;
+  std::array<double, 2> missed_{};  // of the force loop
 };
 
 /// Its moving parts: states of model, driver, inverse and force loop. Motions and forces are the strut's.

@@ -1,6 +1,7 @@
 #include "dashpot/suspension/sensors.h"
 
 #include <cmath>
+#include <math.h>  // the C texts say isfinite, not std::isfinite
 #include <numbers>
 #include <utility>
 
@@ -9,6 +10,11 @@
 
 namespace dashpot {
 namespace {
+
+// clang-format off: the texts are taken in
+#include "dashpot/suspension/c_text/leaky_integral.h"
+#include "dashpot/suspension/c_text/filtered_slope.h"
+// clang-format on
 
 double quantised(double value, double resolution) {
   return resolution > 0 ? resolution * std::round(value / resolution) : value;
@@ -32,6 +38,9 @@ Sensors::Sensors(const SensorOptions& o, std::size_t struts, double sample_time)
   if (o.delay > 1000 * sample_time)
     throw Error("sensors", "a delay of " + format_number(o.delay) + " s", "a thousand samples at most");
   delay_ = static_cast<std::size_t>(std::lround(o.delay / sample_time));
+  constexpr double kTurn = 2 * std::numbers::pi;
+  keep_ = std::exp(-kTurn * o.integration_corner * dt_);
+  share_ = -std::expm1(-kTurn * o.derivative_corner * dt_);
   for (Memory& memory : memories_) memory.waiting.resize(delay_);
 }
 
@@ -50,7 +59,6 @@ StrutSignals Sensors::delayed(Memory& memory, const StrutSignals& now) {
 /// The body's velocity by integration that leaks; the deflection's by a filtered difference; the wheel's as
 /// what is left between them.
 void Sensors::measure(Memory& m, StrutSignals& s) {
-  constexpr double kTurn = 2 * std::numbers::pi;
   const StrutSignals seen = delayed(m, s);
   const double acceleration =
       quantised(seen.body_acceleration + options_.acceleration_noise * random_.normal(),
@@ -59,22 +67,16 @@ void Sensors::measure(Memory& m, StrutSignals& s) {
                                       options_.deflection_resolution);
   if (!m.started) {
     m.started = true;
-    m.acceleration = acceleration;
-    m.deflection = deflection;
+    m.body[1] = acceleration;
+    m.deflection[1] = deflection;
   }
-  m.body_velocity = std::exp(-kTurn * options_.integration_corner * dt_) * m.body_velocity +
-                    0.5 * dt_ * (m.acceleration + acceleration);
-  const double share = -std::expm1(-kTurn * options_.derivative_corner * dt_);
-  m.deflection_velocity += share * ((deflection - m.deflection) / dt_ - m.deflection_velocity);
-  m.acceleration = acceleration;
-  m.deflection = deflection;
-  s = {.body_velocity = m.body_velocity,
+  s = {.body_velocity = leaky_integral(acceleration, keep_, dt_, m.body),
        .body_acceleration = acceleration,
-       .wheel_velocity = m.body_velocity - m.deflection_velocity,
        .deflection = deflection,
-       .deflection_velocity = m.deflection_velocity,
+       .deflection_velocity = filtered_slope(deflection, share_, dt_, m.deflection),
        .force = s.force,
        .current = s.current};
+  s.wheel_velocity = s.body_velocity - s.deflection_velocity;
 }
 
 }  // namespace dashpot

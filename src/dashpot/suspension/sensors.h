@@ -31,10 +31,13 @@ class Sensors {
   /// One sample: the true signals become what the controller gets, in place.
   void measure(std::span<StrutSignals> signals);
   bool ideal() const { return !options_.in_car; }
+  /// What the body's velocity keeps from sample to sample, and what the deflection's takes over.
+  double keep() const { return keep_; }
+  double share() const { return share_; }
 
  private:
   struct Memory {
-    double body_velocity = 0, acceleration = 0, deflection = 0, deflection_velocity = 0;
+    double body[2] = {}, deflection[2] = {};  ///< what their filters keep
     bool started = false;
     std::vector<StrutSignals> waiting;  ///< a ring of what the delay holds back
   };
@@ -42,7 +45,7 @@ class Sensors {
   void measure(Memory& memory, StrutSignals& signals);
 
   SensorOptions options_;
-  double dt_;
+  double dt_, keep_ = 0, share_ = 0;
   std::size_t delay_, place_ = 0;
   std::vector<Memory> memories_;
   Random random_;

@@ -1,6 +1,6 @@
-/* Steps each model of models.h through the run there. Prints per model, on a line: its name, the largest
- * difference of its force from the library's in 1e-12 of the span, the instructions of the longest step, and
- * the bytes of stack that a step took. */
+/* Steps each model of models.h through the run there, by its NAME_next. Prints per model, on a line: its
+ * name, the largest difference of its force from the library's in 1e-12 of the span, the instructions of the
+ * longest step, and the bytes of stack that a step took. */
 #include "board.h"
 #include "models.h"
 
@@ -36,34 +36,28 @@ static void report(const char* name, double difference, uint32_t longest, uint32
   say("\n");
 }
 
-#define RUN(prefix)                                                                     \
-  static __attribute__((noinline)) double prefix##_next(prefix##_model* model, int k) { \
-    const prefix##_input input = {kInputs[k][0], kInputs[k][1], kInputs[k][2]};         \
-    if (k > 0) return prefix##_step(model, &input);                                     \
-    prefix##_reset(model, &input);                                                      \
-    return prefix##_force(&input, model->state);                                        \
-  }                                                                                     \
-  static void prefix##_run(void) {                                                      \
-    static prefix##_model model;                                                        \
-    double largest = 0, low = prefix##_expected[0], high = low;                         \
-    uint32_t longest = 0, stack = 0;                                                    \
-    int k;                                                                              \
-    for (k = 0; k < STEPS; ++k) {                                                       \
-      const double expected = prefix##_expected[k];                                     \
-      double difference;                                                                \
-      uint32_t start, took;                                                             \
-      if (k == 1) painted(1);                                                           \
-      start = ticks();                                                                  \
-      difference = prefix##_next(&model, k) - expected;                                 \
-      took = since(start);                                                              \
-      if (k == 1) stack = painted(0);                                                   \
-      if (k > 0 && took > longest) longest = took;                                      \
-      if (difference < 0) difference = -difference;                                     \
-      if (!(difference <= largest)) largest = difference;                               \
-      if (expected < low) low = expected;                                               \
-      if (expected > high) high = expected;                                             \
-    }                                                                                   \
-    report(#prefix, largest / (high - low), longest, stack);                            \
+#define RUN(prefix)                                             \
+  static void prefix##_run(void) {                              \
+    static prefix##_model model;                                \
+    double largest = 0, low = prefix##_expected[0], high = low; \
+    uint32_t longest = 0, stack = 0;                            \
+    int k;                                                      \
+    for (k = 0; k < STEPS; ++k) {                               \
+      const double expected = prefix##_expected[k];             \
+      double difference;                                        \
+      uint32_t start, took;                                     \
+      if (k == 1) painted(1);                                   \
+      start = ticks();                                          \
+      difference = prefix##_next(&model, k) - expected;         \
+      took = since(start);                                      \
+      if (k == 1) stack = painted(0);                           \
+      if (k > 0 && took > longest) longest = took;              \
+      if (difference < 0) difference = -difference;             \
+      if (!(difference <= largest)) largest = difference;       \
+      if (expected < low) low = expected;                       \
+      if (expected > high) high = expected;                     \
+    }                                                           \
+    report(#prefix, largest / (high - low), longest, stack);    \
   }
 MODELS(RUN)
 

@@ -1,12 +1,33 @@
 #include "dashpot/damper/inverse/inverse.h"
 
-#include <algorithm>
 #include <cmath>
+#include <math.h>  // the C text says isfinite, not std::isfinite
 
 #include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
 
 namespace dashpot {
+
+struct InverseText {
+  static double wanted(const InverseModel* m, const InverseInput& input, double* state) {
+    return m->wanted_current(input, {state, m->state_size()});
+  }
+};
+
+namespace {
+
+// What the C text asks for.
+
+inline double inverse_least(const InverseModel* m) { return m->limits().current_min; }
+inline double inverse_most(const InverseModel* m) { return m->limits().current_max; }
+inline double inverse_lead(const InverseModel* m) { return m->lead(); }
+inline double inverse_wanted(const InverseModel* m, const InverseInput* input, double* state) {
+  return InverseText::wanted(m, *input, state);
+}
+
+#include "dashpot/damper/c_text/inverse_command.h"
+
+}  // namespace
 
 InverseModel::InverseModel(const InverseLimits& limits) : limits_(limits) {
   const auto& [low, high, sample_time, lag_rate] = limits;
@@ -19,17 +40,8 @@ InverseModel::InverseModel(const InverseLimits& limits) : limits_(limits) {
   lead_ = lag_rate > 0 ? -1 / std::expm1(-lag_rate * sample_time) : 1;
 }
 
-double InverseModel::clamped(double current) const noexcept {
-  return current > limits_.current_min ? std::min(current, limits_.current_max) : limits_.current_min;
-}
-
 double InverseModel::command(const InverseInput& input, std::span<double> state) const noexcept {
-  const double held = clamped(input.current);
-  for (const double value : {input.wanted, input.displacement, input.velocity, input.current, input.measured})
-    if (!std::isfinite(value)) return held;
-  const double current = wanted_current(input, state);
-  if (std::isnan(current)) return held;
-  return clamped(held + lead_ * (clamped(current) - held));
+  return inverse_command(this, &input, state.data());
 }
 
 }  // namespace dashpot

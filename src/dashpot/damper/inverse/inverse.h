@@ -45,15 +45,17 @@ class InverseModel {
   double command(const InverseInput& input, std::span<double> state) const noexcept;
 
   const InverseLimits& limits() const { return limits_; }
+  /// How far beyond the wanted change the command goes; 1 for a coil without lag.
+  double lead() const { return lead_; }
 
  protected:
+  friend struct InverseText;
   /// Current that should flow; may leave the limits or be NaN. The input is finite.
   virtual double wanted_current(const InverseInput& input, std::span<double> state) const noexcept = 0;
-  double clamped(double current) const noexcept;  ///< NaN becomes the least current
 
  private:
   InverseLimits limits_;
-  double lead_;  // how far beyond the wanted change the command goes
+  double lead_;
 };
 
 }  // namespace dashpot

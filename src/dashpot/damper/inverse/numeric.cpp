@@ -1,17 +1,31 @@
 #include "dashpot/damper/inverse/numeric.h"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-
-#include "dashpot/damper/inverse/first_root.h"
+#include <math.h>  // the C texts say fabs, not std::fabs
 
 namespace dashpot {
 namespace {
 
-constexpr int kCells = 8;             // of the current range, each searched for a crossing
-constexpr double kTolerance = 1e-5;   // of the force's change over a bracket
-constexpr double kNegligible = 1e-6;  // of the current's largest effect
+struct SearchError {
+  const Observer* observer;
+  const InverseInput* input;
+  double* state;
+};
+
+// What the C texts ask for.
+
+using RootError = SearchError;
+inline double root_error(const RootError* e, double current) {
+  return e->observer->force(current, *e->input, {e->state, e->observer->state_size()}) - e->input->wanted;
+}
+inline void observer_follow(const Observer* m, const InverseInput* input, double* state) {
+  m->follow(*input, {state, m->state_size()});
+}
+constexpr double ROOT_NARROW = 1e-12;
+
+// clang-format off: the second builds on the first
+#include "dashpot/damper/c_text/root_search.h"
+#include "dashpot/damper/c_text/inverse_search.h"
+// clang-format on
 
 }  // namespace
 
@@ -25,27 +39,8 @@ void NumericInverse::rest(const DamperInput& input, std::span<double> state) con
 }
 
 double NumericInverse::wanted_current(const InverseInput& input, std::span<double> state) const noexcept {
-  observer_.follow(input, state);
-  double& last = state[observer_.state_size()];
-  double& trend = state[observer_.state_size() + 1];
-  const double low = limits().current_min, range = limits().current_max - low;
-  const auto error = [&](double current) { return observer_.force(current, input, state) - input.wanted; };
-
-  // Beside the last solution first, on the same side of a force that rises and falls with current.
-  if (trend != 0) {
-    Bracket near{std::max(low, last - range / (2 * kCells)),
-                 std::min(limits().current_max, last + range / (2 * kCells)), 0, 0};
-    near.f_low = error(near.low);
-    near.f_high = error(near.high);
-    if (near.holds() && (near.f_high > near.f_low) == (trend > 0))
-      return last = crossing(error, near, kTolerance);
-  }
-  std::array<double, kCells + 1> places;
-  for (int k = 0; k <= kCells; ++k) places[k] = k < kCells ? low + range * k / kCells : limits().current_max;
-  const FirstRoot found = first_root(error, places, kTolerance);
-  trend = !found.crosses ? 0 : found.rises ? 1 : -1;
-  if (!found.crosses && found.variation <= kNegligible * observer_.current_effect()) return input.current;
-  return last = found.place;
+  const SearchNumbers numbers{limits().current_min, limits().current_max, negligible()};
+  return search_wanted(&observer_, &numbers, &input, state.data(), &state[observer_.state_size()]);
 }
 
 }  // namespace dashpot

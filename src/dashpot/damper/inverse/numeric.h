@@ -14,6 +14,8 @@ class NumericInverse final : public InverseModel {
   std::size_t state_size() const noexcept override { return observer_.state_size() + kOwn; }
   void rest(const DamperInput& input, std::span<double> state) const noexcept override;
   const Observer& observer() const { return observer_; }
+  /// N, less than which no current changes anything.
+  double negligible() const { return 1e-6 * observer_.current_effect(); }
 
  protected:
   double wanted_current(const InverseInput& input, std::span<double> state) const noexcept override;

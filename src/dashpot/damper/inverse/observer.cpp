@@ -1,8 +1,8 @@
 #include "dashpot/damper/inverse/observer.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <math.h>  // the C text says isfinite, not std::isfinite
 #include <numbers>
 #include <vector>
 
@@ -13,12 +13,24 @@ namespace {
 
 constexpr int kMostSteps = 64;  // of a horizon
 
-/// Where an observer's state keeps what: the model's states, room to try, the last motion and current.
-struct Layout {
-  std::span<double> now, trial, last;
-  Layout(std::span<double> state, std::size_t n)
-      : now(state.subspan(0, n)), trial(state.subspan(n, n)), last(state.subspan(2 * n, 3)) {}
-};
+// What the C text asks for.
+
+inline int observed_states(const Observer* m) { return static_cast<int>(m->model().state_size()); }
+inline double observer_step(const Observer* m) { return m->limits().sample_time; }
+inline int observer_lags(const Observer* m) { return m->limits().lag_rate > 0; }
+inline int observer_horizon(const Observer* m) { return m->steps(); }
+inline void observed_rest(const Observer* m, const DamperInput* input, double* state) {
+  m->model().rest(*input, {state, m->model().state_size()});
+}
+inline void observed_advance(const Observer* m, const DamperInput* from, const DamperInput* to, double dt,
+                             double* state) {
+  m->model().advance(*from, *to, dt, {state, m->model().state_size()});
+}
+inline double observed_force(const Observer* m, const DamperInput* input, const double* state) {
+  return m->model().force(*input, {state, m->model().state_size()});
+}
+
+#include "dashpot/damper/c_text/inverse_observer.h"
 
 }  // namespace
 
@@ -34,7 +46,7 @@ BareDamper without_coil_lag(const DamperModel& model) {
 }
 
 Observer::Observer(const DamperModel& model, const InverseLimits& limits)
-    : model_(without_coil_lag(model).model), limits_(limits), model_states_(model_->state_size()) {
+    : model_(without_coil_lag(model).model), limits_(limits) {
   probe([&](const InverseInput& input, std::span<double> state) {
     const double low = force(limits_.current_min, input, state);
     const double high = force(limits_.current_max, input, state);
@@ -62,37 +74,18 @@ Observer::Observer(const DamperModel& model, const InverseLimits& limits)
     });
 }
 
-std::size_t Observer::state_size() const noexcept { return 2 * model_states_ + 3; }
+std::size_t Observer::state_size() const noexcept { return 2 * model_->state_size() + 3; }
 
 void Observer::rest(const DamperInput& input, std::span<double> state) const noexcept {
-  const Layout at(state, model_states_);
-  model_->rest(input, at.now);
-  std::copy_n(std::array{input.displacement, input.velocity, input.current}.data(), 3, at.last.data());
+  observer_rest(this, &input, state.data());
 }
 
 void Observer::follow(const InverseInput& input, std::span<double> state) const noexcept {
-  const Layout at(state, model_states_);
-  const DamperInput now{input.displacement, input.velocity, input.current};
-  // A coil without lag jumped to its present current at the last command.
-  const DamperInput before{at.last[0], at.last[1], limits_.lag_rate > 0 ? at.last[2] : input.current};
-  model_->advance(before, now, limits_.sample_time, at.now);
-  std::copy_n(std::array{now.displacement, now.velocity, now.current}.data(), 3, at.last.data());
-  if (!std::all_of(at.now.begin(), at.now.end(), [](double z) { return std::isfinite(z); }))
-    model_->rest(now, at.now);
+  observer_follow(this, &input, state.data());
 }
 
 double Observer::force(double current, const InverseInput& input, std::span<double> state) const noexcept {
-  const Layout at(state, model_states_);
-  DamperInput from{input.displacement, input.velocity, current};
-  if (steps_ == 0) return model_->force(from, at.now);
-  std::copy(at.now.begin(), at.now.end(), at.trial.begin());
-  for (int k = 0; k < steps_; ++k) {
-    DamperInput to = from;
-    to.displacement += to.velocity * limits_.sample_time;
-    model_->advance(from, to, limits_.sample_time, at.trial);
-    from = to;
-  }
-  return model_->force(from, at.trial);
+  return observer_force(this, current, &input, state.data());
 }
 
 void Observer::probe(const std::function<void(const InverseInput&, std::span<double>)>& visit) const {
@@ -106,7 +99,7 @@ void Observer::probe(const std::function<void(const InverseInput&, std::span<dou
   };
   rest(at(0), state);
   for (int k = 0; k < kSteps; ++k) {
-    model_->advance(at(k), at(k + 1), h, Layout(state, model_states_).now);
+    model_->advance(at(k), at(k + 1), h, std::span(state).first(model_->state_size()));
     if ((k + 1) % (kSteps / kVisits) == 0)
       visit({0, at(k + 1).displacement, at(k + 1).velocity, half, 0}, state);
   }

@@ -29,6 +29,9 @@ class Observer {
   /// Force at this current and the present motion; at the end of the horizon when there is one.
   double force(double current, const InverseInput& input, std::span<double> state) const noexcept;
 
+  const DamperModel& model() const { return *model_; }  ///< without its coil's lag
+  const InverseLimits& limits() const { return limits_; }
+  int steps() const { return steps_; }                             ///< of the horizon, each a sample long
   double horizon() const { return steps_ * limits_.sample_time; }  ///< s
   /// What the model does on a sine of 20 mm at 1 Hz, to size tolerances and gains.
   double force_max() const { return force_max_; }    ///< N, the largest |F| at any current
@@ -42,8 +45,7 @@ class Observer {
 
   std::unique_ptr<DamperModel> model_;
   InverseLimits limits_;
-  std::size_t model_states_;
-  int steps_ = 0;  // of the horizon, each a sample long
+  int steps_ = 0;
   double force_max_ = 0, effect_ = 0;
 };
 

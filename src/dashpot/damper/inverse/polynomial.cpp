@@ -1,41 +1,45 @@
 #include "dashpot/damper/inverse/polynomial.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <math.h>  // the C texts say fabs, not std::fabs
 
 #include "dashpot/base/error.h"
-#include "dashpot/damper/inverse/first_root.h"
 
 namespace dashpot {
 namespace {
 
-constexpr double kExact = 1e-8;       // of the current's effect: what rounding may do to a polynomial
-constexpr double kNegligible = 1e-6;  // of the current's largest effect
+constexpr double kExact = 1e-8;  // of the current's effect: what rounding may do to a polynomial
 
-/// Where the slope of c[0] + c[1] s + ... + c[3] s^3 vanishes within (0, 1), with 0 and 1: increasing.
-int monotone_pieces(const std::array<double, 4>& c, double* places) {
-  int count = 0;
-  places[count++] = 0;
-  const double a = 3 * c[3], b = 2 * c[2], root = b * b - 4 * a * c[1];
-  if (root >= 0) {
-    // The form that loses no digits when a is small or 0.
-    const double q = -0.5 * (b + std::copysign(std::sqrt(root), b));
-    const double first = c[1] / q, second = q / a;
-    for (const double s : {std::min(first, second), std::max(first, second)})
-      if (s > places[count - 1] && s < 1) places[count++] = s;
-  }
-  places[count++] = 1;
-  return count;
+struct PolynomialError {
+  double c[PolynomialInverse::kMaxDegree + 1];
+  double wanted;
+};
+
+// What the C texts ask for.
+
+#include "dashpot/damper/c_text/polynomial_pieces.h"
+
+using RootError = PolynomialError;
+inline double root_error(const RootError* e, double s) { return polynomial_at(e->c, s) - e->wanted; }
+inline void observer_follow(const Observer* m, const InverseInput* input, double* state) {
+  m->follow(*input, {state, m->state_size()});
+}
+inline double observer_force(const Observer* m, double current, const InverseInput* input, double* state) {
+  return m->force(current, *input, {state, m->state_size()});
+}
+constexpr double ROOT_NARROW = 1e-12, ROOT_TOLERANCE = 1e-15;
+
+// clang-format off: the second builds on the first
+#include "dashpot/damper/c_text/root_search.h"
+#include "dashpot/damper/c_text/inverse_polynomial.h"
+// clang-format on
+
+PolynomialNumbers numbers_of(const PolynomialInverse& inverse) {
+  return {inverse.degree(), inverse.limits().current_min, inverse.limits().current_max, inverse.negligible()};
 }
 
 }  // namespace
-
-/// In s = 0 ... 1 over the current range.
-struct PolynomialInverse::Polynomial {
-  std::array<double, kMaxDegree + 1> c{};
-  double at(double s) const noexcept { return c[0] + s * (c[1] + s * (c[2] + s * c[3])); }
-};
 
 PolynomialInverse::PolynomialInverse(const DamperModel& forward, const InverseLimits& limits)
     : InverseModel(limits), observer_(forward, limits) {
@@ -46,43 +50,26 @@ PolynomialInverse::PolynomialInverse(const DamperModel& forward, const InverseLi
               "take the numeric inverse");
 }
 
-PolynomialInverse::Polynomial PolynomialInverse::force_over_range(const InverseInput& input,
-                                                                  std::span<double> state) const noexcept {
-  const double low = limits().current_min, range = limits().current_max - low;
-  std::array<double, kMaxDegree + 1> f{};
-  for (int k = 0; k <= degree_; ++k) f[k] = observer_.force(low + range * k / degree_, input, state);
-  // Newton's form on equal steps, multiplied out.
-  const double n = degree_, d1 = f[1] - f[0], d2 = f[2] - 2 * f[1] + f[0];
-  const double d3 = f[3] - 3 * f[2] + 3 * f[1] - f[0];
-  if (degree_ == 1) return {{f[0], d1}};
-  if (degree_ == 2) return {{f[0], n * (d1 - d2 / 2), n * n * d2 / 2}};
-  return {{f[0], n * (d1 - d2 / 2 + d3 / 3), n * n * (d2 - d3) / 2, n * n * n * d3 / 6}};
-}
-
 /// Largest difference, N, between the force and its polynomial, between the currents that define it.
 double PolynomialInverse::misfit() const {
   constexpr int kPlaces = 13;
   double largest = 0;
+  const PolynomialNumbers numbers = numbers_of(*this);
   observer_.probe([&](const InverseInput& input, std::span<double> state) {
-    const Polynomial force = force_over_range(input, state);
+    double c[kMaxDegree + 1];
+    polynomial_force(&observer_, &numbers, &input, state.data(), c);
     for (int k = 0; k < kPlaces; ++k) {
       const double s = (k + 0.5) / kPlaces;
       const double current = limits().current_min + s * (limits().current_max - limits().current_min);
-      largest = std::max(largest, std::abs(force.at(s) - observer_.force(current, input, state)));
+      largest = std::max(largest, std::abs(polynomial_at(c, s) - observer_.force(current, input, state)));
     }
   });
   return largest;
 }
 
 double PolynomialInverse::wanted_current(const InverseInput& input, std::span<double> state) const noexcept {
-  observer_.follow(input, state);
-  const Polynomial force = force_over_range(input, state);
-  std::array<double, kMaxDegree + 1> places;
-  const int count = monotone_pieces(force.c, places.data());
-  const auto error = [&](double s) { return force.at(s) - input.wanted; };
-  const FirstRoot found = first_root(error, std::span(places).first(static_cast<std::size_t>(count)), 1e-15);
-  if (!found.crosses && found.variation <= kNegligible * observer_.current_effect()) return input.current;
-  return limits().current_min + found.place * (limits().current_max - limits().current_min);
+  const PolynomialNumbers numbers = numbers_of(*this);
+  return polynomial_wanted(&observer_, &numbers, &input, state.data());
 }
 
 }  // namespace dashpot

@@ -21,13 +21,14 @@ class PolynomialInverse final : public InverseModel {
     observer_.rest(input, state);
   }
   int degree() const { return degree_; }
+  const Observer& observer() const { return observer_; }
+  /// N, less than which no current changes anything.
+  double negligible() const { return 1e-6 * observer_.current_effect(); }
 
  protected:
   double wanted_current(const InverseInput& input, std::span<double> state) const noexcept override;
 
  private:
-  struct Polynomial;
-  Polynomial force_over_range(const InverseInput& input, std::span<double> state) const noexcept;
   double misfit() const;
 
   Observer observer_;

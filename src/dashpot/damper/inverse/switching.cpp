@@ -3,13 +3,20 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <math.h>  // the C text says fabs, not std::fabs
 
 #include "dashpot/base/error.h"
 
 namespace dashpot {
 namespace {
 
-constexpr double kSignumGain = 10;  // full current at an error of a tenth of the largest force
+// clang-format off: the texts are taken in
+#include "dashpot/damper/c_text/inverse_clipped_optimal.h"
+#include "dashpot/damper/c_text/inverse_heaviside.h"
+#include "dashpot/damper/c_text/inverse_modified_clipped_optimal.h"
+#include "dashpot/damper/c_text/inverse_signum.h"
+// clang-format on
+
 constexpr std::array kNames{"clipped_optimal", "modified_clipped_optimal", "heaviside", "signum"};
 
 }  // namespace
@@ -23,21 +30,19 @@ SwitchingInverse::SwitchingInverse(Rule rule, const InverseLimits& limits, doubl
 std::string SwitchingInverse::name() const { return kNames[static_cast<std::size_t>(rule_)]; }
 
 double SwitchingInverse::wanted_current(const InverseInput& input, std::span<double>) const noexcept {
-  const auto sign = [](double f) { return static_cast<double>((f > 0) - (f < 0)); };
-  const double missing = sign(input.measured) * (input.wanted - input.measured);
   double share = 0;  // of the current range
   switch (rule_) {
     case Rule::ClippedOptimal:
-      share = missing > 0 ? 1 : 0;
+      share = clipped_optimal_share(&input, force_max_);
       break;
     case Rule::ModifiedClippedOptimal:
-      share = missing > 0 ? std::abs(input.wanted) / force_max_ : 0;
+      share = modified_clipped_optimal_share(&input, force_max_);
       break;
     case Rule::Heaviside:
-      share = sign(input.wanted) * sign(input.velocity) > 0 ? 1 : 0;
+      share = heaviside_share(&input, force_max_);
       break;
     case Rule::Signum:
-      share = kSignumGain * missing / force_max_;
+      share = signum_share(&input, force_max_);
       break;
   }
   return limits().current_min + std::clamp(share, 0.0, 1.0) * (limits().current_max - limits().current_min);

@@ -18,6 +18,7 @@ class SwitchingInverse final : public InverseModel {
   SwitchingInverse(Rule rule, const InverseLimits& limits, double force_max);
 
   std::string name() const override;
+  double force_max() const { return force_max_; }
 
  protected:
   double wanted_current(const InverseInput& input, std::span<double> state) const noexcept override;

@@ -90,15 +90,6 @@ int main(void) {
 }
 )";
 
-// What cppcheck's MISRA add-on says of any kind of model; a test holds the list complete.
-constexpr const char* kDeviations =
-    "8.7, 8.9 (interface and tables of numbers stand at file scope); 10.3, 10.4,\n"
-    " * 10.6, 12.1 (equations mix reals with whole numbers, and have no more brackets than in print); 12.3 "
-    "(several\n"
-    " * variables in one declaration); 15.5, 15.6, 17.8 (in laws: early returns, single statements without "
-    "braces,\n"
-    " * arguments that change).";
-
 std::string rows_of(const ExportedModel& model, double sample_time) {
   const std::vector<DamperInput> run = export_run(model.domain, sample_time, kTestSteps);
   const std::vector<double> force = force_along(model.model, run, sample_time);
@@ -107,14 +98,6 @@ std::string rows_of(const ExportedModel& model, double sample_time) {
     rows += "    " + c_numbers(std::vector{run[k].displacement, run[k].velocity, run[k].current, force[k]}) +
             ",\n";
   return rows;
-}
-
-/// As the registry has it; a design of the user's has its name alone.
-std::string title_of(const DamperModel& model) {
-  for (const std::vector<std::string>& names : {model_names(), more_model_names()})
-    if (std::ranges::find(names, model.name()) != names.end())
-      return std::string(model_info(model.name()).title);
-  return model.name();
 }
 
 std::vector<std::pair<std::string, std::string>> facts(const ExportedModel& model,
@@ -130,12 +113,12 @@ std::vector<std::pair<std::string, std::string>> facts(const ExportedModel& mode
           {"i_min", format_number(d.current_min)},
           {"i_max", format_number(d.current_max)},
           {"version", options.version},
-          {"deviations", kDeviations},
+          {"deviations", std::string(c_deviations())},
           {"size", std::to_string(std::max<std::size_t>(1, source.state_size))},
           {"unused", source.state_size == 0 ? ": one that is not used" : ""},
           {"sample_time", c_number(source.sample_time)},
           {"steps", std::to_string(kTestSteps)},
-          {"tolerance", options.precision == CPrecision::Single ? "1e-5" : "1e-12"}};
+          {"tolerance", options.c_precision() == CPrecision::Single ? "1e-5" : "1e-12"}};
 }
 
 std::vector<CSource::Variable> states_of(const DamperModel& model) {
@@ -150,10 +133,17 @@ std::vector<CSource::Variable> states_of(const DamperModel& model) {
 
 }  // namespace
 
+std::string title_of(const DamperModel& model) {
+  for (const std::vector<std::string>& names : {model_names(), more_model_names()})
+    if (std::ranges::find(names, model.name()) != names.end())
+      return std::string(model_info(model.name()).title);
+  return model.name();
+}
+
 CSource c_source(const ExportedModel& model, const ExportOptions& options) {
   const auto* law = options.settable_parameters ? dynamic_cast<const LawModel*>(&model.model) : nullptr;
   const CModel code = c_model(model.model, law != nullptr);
-  const bool single = options.precision == CPrecision::Single;
+  const bool single = options.c_precision() == CPrecision::Single;
   CSource source{.prefix = export_name(model, options),
                  .real = single ? "float" : "double",
                  .state_size = model.model.state_size(),

@@ -30,6 +30,9 @@ struct CSource {
   double grid = 0;                  ///< s: the model remembers at such steps; 0: at any
 };
 
+/// As the registry has it; a design of the user's has its name alone.
+std::string title_of(const DamperModel& model);
+
 /// Throws Error where the model cannot become C.
 CSource c_source(const ExportedModel& model, const ExportOptions& options);
 

@@ -27,6 +27,8 @@ std::string with_prefix(std::string_view code, std::string_view prefix);
 
 /// Throws Error where an interface with this prefix would have names that the code has inside.
 void require_free_names(const std::string& prefix, const std::string& code);
+/// From which rules of MISRA C:2012 exported C deviates, for a comment of its header.
+std::string_view c_deviations();
 /// Text that ends no comment.
 std::string in_comment(std::string text);
 

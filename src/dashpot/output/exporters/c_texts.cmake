@@ -1,8 +1,9 @@
 # Embeds the C99 texts that the C export ships into the library as c_texts.cpp: laws, what they include, how they
-# are integrated, and the exporter's own.
+# are integrated, controllers, inverses, and the exporter's own.
 file(GLOB DASHPOT_C_TEXTS CONFIGURE_DEPENDS
   ${CMAKE_CURRENT_LIST_DIR}/c/*.h ${CMAKE_CURRENT_LIST_DIR}/c/*.c
-  ${CMAKE_CURRENT_SOURCE_DIR}/dashpot/damper/c_text/*.h ${CMAKE_CURRENT_SOURCE_DIR}/dashpot/damper/laws/*.h)
+  ${CMAKE_CURRENT_SOURCE_DIR}/dashpot/damper/c_text/*.h
+  ${CMAKE_CURRENT_SOURCE_DIR}/dashpot/suspension/c_text/*.h ${CMAKE_CURRENT_SOURCE_DIR}/dashpot/damper/laws/*.h)
 foreach(name fluid_curves magnetic_circuit plate_flow)
   list(APPEND DASHPOT_C_TEXTS ${CMAKE_CURRENT_SOURCE_DIR}/dashpot/damper/physics/${name}.h)
 endforeach()

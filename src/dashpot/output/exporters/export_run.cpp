@@ -43,9 +43,10 @@ double middle(double low, double high) { return 0.5 * (low + high); }
 
 }  // namespace
 
-std::vector<DamperInput> export_run(const Domain& domain, double sample_time, std::size_t count) {
-  Random random(20);
-  const Waves motion(random, 0.5, 6), command(random, 0.2, 3);
+std::vector<DamperInput> export_run(const Domain& domain, double sample_time, std::size_t count,
+                                    const ExportRunOptions& options) {
+  Random random(options.seed);
+  const Waves motion(random, 0.5, options.fastest), command(random, 0.2, 0.5 * options.fastest);
   const double top_speed = std::min(-domain.velocity_min, domain.velocity_max);
   const double reach = std::min(0.5 * (domain.displacement_max - domain.displacement_min),
                                 std::abs(top_speed) / motion.top_slope());

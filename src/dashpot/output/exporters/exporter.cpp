@@ -8,6 +8,7 @@
 #include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
 #include "dashpot/output/exporters/c_source.h"
+#include "dashpot/output/exporters/c_wrappers.h"
 #include "dashpot/output/exporters/fmu.h"
 #include "dashpot/output/exporters/force_map.h"
 #include "dashpot/output/exporters/onnx.h"
@@ -26,8 +27,14 @@ constexpr std::array kExporters{
     Exporter{"fmu3", "FMU of FMI 3.0 for a simulator",
              "every model; model exchange for laws and models without a state",
              "NAME_fmi3.fmu with its sources and a binary for Linux", write_fmu3},
+    Exporter{"mex", "C for MATLAB and Octave", "every model",
+             "NAME.h, NAME.c and NAME_mex.c, which takes a matrix of inputs", write_mex},
+    Exporter{"modelica", "Modelica package", "every model",
+             "NAME/package.mo with a block and a force element, and its C code", write_modelica},
     Exporter{"onnx", "ONNX graphs for a runtime of networks", "every model",
              "NAME.onnx, one step with its state, and NAME_rest.onnx, where a run begins", write_onnx},
+    Exporter{"sfunction", "C for Simulink", "every model",
+             "NAME.h, NAME.c and NAME_sfun.c, a level-2 S-function", write_sfunction},
     Exporter{"tables", "look-up tables", "every model, its states settled",
              "NAME_force.csv, NAME_current.csv (its inverse) and NAME.mat with both", write_tables}};
 
@@ -39,6 +46,10 @@ bool is_c_name(const std::string& name) {
 }
 
 }  // namespace
+
+Domain usual_domain(double current_min, double current_max) {
+  return {-0.025, 0.025, -0.5, 0.5, current_min, current_max};
+}
 
 std::span<const Exporter> exporters() { return kExporters; }
 
@@ -62,7 +73,7 @@ ExportedModel exported_model(const ModelFile& file) {
                                        : "Identified from " + from.dataset + ", " + from.created};
   Domain& domain = exported.domain;
   if (!(domain.velocity_min < domain.velocity_max))
-    domain = {-0.025, 0.025, -0.5, 0.5, domain.current_min, domain.current_max};
+    domain = usual_domain(domain.current_min, domain.current_max);
   return exported;
 }
 

@@ -19,12 +19,15 @@ struct ExportedModel {
   std::string origin;      ///< where it comes from, in words
 };
 
-/// The model of a file, which must stay as long. Where its data do not tell: a stroke of a car's damper.
+/// Where no data tell: a stroke of a car's damper.
+Domain usual_domain(double current_min, double current_max);
+/// The model of a file, which must stay as long.
 ExportedModel exported_model(const ModelFile& file);
 
 struct ExportOptions {
-  std::string name;  ///< of files and functions: a name in C
+  std::string name;                     ///< of files and functions: a name in C
   std::optional<CPrecision> precision;  ///< nothing: double in C, single in ONNX
+  CPrecision c_precision() const { return precision.value_or(CPrecision::Double); }
   double sample_time = 0;            ///< s; 0: the model's own
   bool settable_parameters = false;  ///< of a law in C: kept behind its state instead of in its code
   std::string compiler = "cc";       ///< of C, and more of its arguments: for what holds a binary

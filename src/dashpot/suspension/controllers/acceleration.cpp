@@ -1,27 +1,21 @@
 #include "dashpot/suspension/controllers/damping_law.h"
 
 namespace dashpot {
-namespace {
+// clang-format off: the texts are taken in
+#include "dashpot/suspension/c_text/control_add.h"
+#include "dashpot/suspension/c_text/control_constant.h"
+#include "dashpot/suspension/c_text/control_mix1.h"
+#include "dashpot/suspension/c_text/control_pdd.h"
+#include "dashpot/suspension/c_text/control_sh_add.h"
+// clang-format on
 
-DamperDemand acceleration_driven(const NoParameters&, const ControlLimits& limits, const StrutSignals& s) {
-  return hard_when(s.body_acceleration * s.deflection_velocity >= 0, limits);
-}
-struct PowerDriven {
-  double stiffness;
-};
-DamperDemand power_driven(const PowerDriven& p, const ControlLimits& limits, const StrutSignals& s) {
-  const double d = s.deflection_velocity, spring = p.stiffness * s.deflection;
-  if (spring * d + limits.damping_min * d * d >= 0) {
-    const bool still = d == 0 && s.deflection != 0;
-    return damping(still ? 0.5 * (limits.damping_min + limits.damping_max) : limits.damping_min);
-  }
-  if (spring * d + limits.damping_max * d * d < 0) return damping(limits.damping_max);
-  return damping(-spring / d);
-}
+extern const ControlLaw kAdd, kPdd, kShAdd, kMix1, kConstant;
+
+namespace {
 
 /// Without a stiffness of its own it takes that along each strut, which is the same for all of a kind.
 ControllerPointer make_pdd(std::span<const double> values, const ControlContext& context) {
-  PowerDriven p = values_as<PowerDriven>(values);
+  Pdd p = values_as<Pdd>(values);
   if (p.stiffness == 0 && !context.plant.struts.empty()) {
     const Plant& plant = context.plant;
     const std::vector<double>& wheel = plant.struts[0].wheel_row;
@@ -30,30 +24,10 @@ ControllerPointer make_pdd(std::span<const double> values, const ControlContext&
       for (std::size_t j = 0; j < wheel.size(); ++j)
         p.stiffness += wheel[i] * plant.stiffness[i * plant.size() + j] * wheel[j];
   }
-  return std::make_unique<StrutLaw<PowerDriven, power_driven>>(p, context.limits);
-}
-
-struct Mixed {
-  double crossover;
-};
-DamperDemand sh_add(const Mixed& p, const ControlLimits& limits, const StrutSignals& s) {
-  const double signal = frequency_range(s, p.crossover) <= 0 ? s.body_velocity : s.body_acceleration;
-  return hard_when(signal * s.deflection_velocity > 0, limits);
-}
-DamperDemand mix1(const Mixed& p, const ControlLimits& limits, const StrutSignals& s) {
-  return hard_when(frequency_range(s, p.crossover) <= 0, limits);
-}
-
-struct Constant {
-  double place;
-};
-DamperDemand constant(const Constant& p, const ControlLimits& limits, const StrutSignals&) {
-  return damping(limits.damping_min + p.place * (limits.damping_max - limits.damping_min));
+  return std::make_unique<StrutLaw<kPdd, Pdd, pdd_demand>>(p, context);
 }
 
 }  // namespace
-
-extern const ControlLaw kAdd, kPdd, kShAdd, kMix1, kConstant;
 
 const ControlLaw kAdd{
     .name = "add",
@@ -64,7 +38,7 @@ const ControlLaw kAdd{
         "Where -c_max d^2 < k x d < -c_min d^2 neither side holds: it flips at every sample, and "
         "rides as the sampling has it. pdd is what it would settle at.",
     .parameters = {},
-    .make = make_plain<acceleration_driven>};
+    .make = make_plain<kAdd, add_demand>};
 const ControlLaw kPdd{
     .name = "pdd",
     .title = "Power-driven damper",
@@ -85,7 +59,7 @@ const ControlLaw kShAdd{.name = "sh_add",
                         .source = "Savaresi and Spelta, ASME J. Dyn. Sys. Meas. Control 129 (2007) 382",
                         .remarks = "",
                         .parameters = {kCrossover},
-                        .make = make_strut_law<Mixed, sh_add>};
+                        .make = make_strut_law<kShAdd, ShAdd, sh_add_demand>};
 const ControlLaw kMix1{.name = "mix1",
                        .title = "Mix-1-sensor",
                        .equation = "c = c_max where z''^2 - (2 pi f z')^2 <= 0, else c_min",
@@ -94,13 +68,13 @@ const ControlLaw kMix1{.name = "mix1",
                            "One accelerometer on the body. Soft at the wheel's resonance: road holding is "
                            "that of the soft damper.",
                        .parameters = {kCrossover},
-                       .make = make_strut_law<Mixed, mix1>};
+                       .make = make_strut_law<kMix1, Mix1, mix1_demand>};
 const ControlLaw kConstant{.name = "constant",
                            .title = "Passive: one damping",
                            .equation = "c = c_min + place (c_max - c_min)",
                            .source = "",
                            .remarks = "",
                            .parameters = {{"place", "1", 0.5, 0, 1, "0: soft, 1: hard"}},
-                           .make = make_strut_law<Constant, constant>};
+                           .make = make_strut_law<kConstant, Constant, constant_demand>};
 
 }  // namespace dashpot

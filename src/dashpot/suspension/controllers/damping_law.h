@@ -1,55 +1,63 @@
 #pragma once
 #include <array>
-#include <cmath>
-#include <numbers>
+#include <span>
+#include <type_traits>
 
-#include "dashpot/suspension/controller.h"
+#include "dashpot/suspension/control_text.h"
 
 namespace dashpot {
 
-/// A law that looks at each strut for itself and has no memory: damping or force from its signals.
-template <class Parameters, DamperDemand (*Law)(const Parameters&, const ControlLimits&, const StrutSignals&)>
+// clang-format off: what the texts of the laws are made of, which are taken in where the laws stand
+#include "dashpot/suspension/c_text/demand.h"
+#include "dashpot/suspension/c_text/hard_when.h"
+#include "dashpot/suspension/c_text/dissipating_force.h"
+#include "dashpot/suspension/c_text/frequency_range.h"
+// clang-format on
+
+struct NoParameters {};
+
+/// A law that looks at each strut for itself. Demand: its C text, (p, limits, s, memory), without p where it
+/// has none and without memory where it keeps nothing.
+template <const ControlLaw& kLaw, class Parameters, auto Demand, std::size_t kMemory = 0>
 class StrutLaw final : public Controller {
  public:
-  StrutLaw(const Parameters& parameters, const ControlLimits& limits)
-      : parameters_(parameters), limits_(limits) {}
-  void step(std::span<const StrutSignals> struts, std::span<const double>, std::span<double>,
+  StrutLaw(const Parameters& parameters, const ControlContext& context)
+      : parameters_(parameters), limits_(context.limits), struts_(context.plant.struts.size()) {}
+  std::size_t state_size() const noexcept override { return kMemory * struts_; }
+  void reset(std::span<double> state) const noexcept override {
+    for (double& value : state) value = 0;
+  }
+  void step(std::span<const StrutSignals> struts, std::span<const double>, std::span<double> state,
             std::span<DamperDemand> demands) const noexcept override {
-    for (std::size_t k = 0; k < struts.size(); ++k) demands[k] = Law(parameters_, limits_, struts[k]);
+    for (std::size_t k = 0; k < struts.size(); ++k)
+      if constexpr (kMemory > 0)
+        demands[k] = Demand(&parameters_, &limits_, &struts[k], &state[kMemory * k]);
+      else if constexpr (std::is_empty_v<Parameters>)
+        demands[k] = Demand(&limits_, &struts[k]);
+      else
+        demands[k] = Demand(&parameters_, &limits_, &struts[k]);
+  }
+  ControlDescription description() const override {
+    std::vector<double> values(std::is_empty_v<Parameters> ? 0 : sizeof(Parameters) / sizeof(double));
+    if (!values.empty()) std::memcpy(values.data(), &parameters_, sizeof parameters_);
+    return {.law = std::string(kLaw.name), .parameters = std::move(values), .memory = kMemory};
   }
 
  private:
   Parameters parameters_;
   ControlLimits limits_;
+  std::size_t struts_;
 };
 
-template <class Parameters, DamperDemand (*Law)(const Parameters&, const ControlLimits&, const StrutSignals&)>
+template <const ControlLaw& kLaw, class Parameters, auto Demand>
 ControllerPointer make_strut_law(std::span<const double> values, const ControlContext& context) {
-  return std::make_unique<StrutLaw<Parameters, Law>>(values_as<Parameters>(values), context.limits);
+  return std::make_unique<StrutLaw<kLaw, Parameters, Demand>>(values_as<Parameters>(values), context);
 }
 
 /// The same for laws that cannot be told anything.
-struct NoParameters {};
-template <DamperDemand (*Law)(const NoParameters&, const ControlLimits&, const StrutSignals&)>
+template <const ControlLaw& kLaw, auto Demand>
 ControllerPointer make_plain(std::span<const double>, const ControlContext& context) {
-  return std::make_unique<StrutLaw<NoParameters, Law>>(NoParameters{}, context.limits);
-}
-
-inline DamperDemand damping(double value) noexcept { return {DamperDemand::Kind::Damping, value}; }
-inline DamperDemand hard_when(bool hard, const ControlLimits& limits) noexcept {
-  const double values[] = {limits.damping_min, limits.damping_max};  // no branch: nobody would foresee it
-  return damping(values[hard]);
-}
-/// A force within what damping can give at this speed.
-inline DamperDemand dissipating_force(double force, double velocity, const ControlLimits& limits) noexcept {
-  const double a = limits.damping_min * velocity, b = limits.damping_max * velocity;
-  return {DamperDemand::Kind::Force, std::fmin(std::fmax(force, std::fmin(a, b)), std::fmax(a, b))};
-}
-
-/// z''^2 - (2 pi f z')^2: above 0 the body moves faster than at f Hz.
-inline double frequency_range(const StrutSignals& s, double crossover) noexcept {
-  const double rate = 2 * std::numbers::pi * crossover;
-  return s.body_acceleration * s.body_acceleration - rate * rate * s.body_velocity * s.body_velocity;
+  return std::make_unique<StrutLaw<kLaw, NoParameters, Demand>>(NoParameters{}, context);
 }
 
 constexpr ParameterRow kCrossover{

@@ -1,49 +1,25 @@
-#include <algorithm>
-
 #include "dashpot/suspension/controllers/damping_law.h"
 
 namespace dashpot {
+
+#include "dashpot/suspension/c_text/control_feb.h"
+
+extern const ControlLaw kFrequencyEstimation;
+
 namespace {
 
 struct Parameters {
   double window, low, middle, high;
 };
 
-/// Sums of d^2 and x^2 that forget: a window without a buffer.
-class FrequencyEstimation final : public Controller {
- public:
-  FrequencyEstimation(const Parameters& parameters, const ControlContext& context)
-      : p_(parameters),
-        limits_(context.limits),
-        struts_(context.plant.struts.size()),
-        keep_(std::exp(-context.limits.sample_time / parameters.window)) {}
-  std::size_t state_size() const noexcept override { return 2 * struts_; }
-  void reset(std::span<double> state) const noexcept override { std::fill(state.begin(), state.end(), 0); }
-  void step(std::span<const StrutSignals> struts, std::span<const double>, std::span<double> state,
-            std::span<DamperDemand> demands) const noexcept override {
-    for (std::size_t k = 0; k < struts.size(); ++k) {
-      double &speeds = state[2 * k], &ways = state[2 * k + 1];
-      speeds = keep_ * speeds + struts[k].deflection_velocity * struts[k].deflection_velocity;
-      ways = keep_ * ways + struts[k].deflection * struts[k].deflection;
-      const double f = ways > 0 ? std::sqrt(speeds / ways) / (2 * std::numbers::pi) : 0;
-      demands[k] = hard_when(f < p_.low || (f >= p_.middle && f < p_.high), limits_);
-    }
-  }
-
- private:
-  Parameters p_;
-  ControlLimits limits_;
-  std::size_t struts_;
-  double keep_;
-};
-
 ControllerPointer make(std::span<const double> values, const ControlContext& context) {
-  return std::make_unique<FrequencyEstimation>(values_as<Parameters>(values), context);
+  const auto p = values_as<Parameters>(values);
+  const Feb feb{exp(-context.limits.sample_time / p.window), p.low, p.middle, p.high};
+  return std::make_unique<StrutLaw<kFrequencyEstimation, Feb, feb_demand, 2>>(feb, context);
 }
 
 }  // namespace
 
-extern const ControlLaw kFrequencyEstimation;
 const ControlLaw kFrequencyEstimation{
     .name = "feb",
     .title = "Frequency-estimation-based",

@@ -7,6 +7,14 @@
 #include "dashpot/suspension/linear.h"
 
 namespace dashpot {
+
+// clang-format off: the texts are taken in
+#include "dashpot/suspension/c_text/control_clipped_lqr.h"
+#include "dashpot/suspension/c_text/control_clipped_optimal.h"
+// clang-format on
+
+extern const ControlLaw kClippedLqr, kClippedOptimal;
+
 namespace {
 
 using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
@@ -29,45 +37,33 @@ struct Parameters {
   double deflection, tyre_deflection, force;
 };
 
-class ClippedRegulator : public Controller {
+/// Demand: its C text, (wanted force, limits, s). Where nothing gives the state, nothing is wanted.
+template <const ControlLaw& kLaw, auto Demand>
+class ClippedRegulator final : public Controller {
  public:
   ClippedRegulator(std::vector<double> gain, const ControlContext& context)
       : gain_(std::move(gain)), limits_(context.limits), states_(2 * context.plant.size()) {}
   void step(std::span<const StrutSignals> struts, std::span<const double> x, std::span<double>,
             std::span<DamperDemand> demands) const noexcept override {
-    for (std::size_t k = 0; k < struts.size(); ++k) demands[k] = demand(wanted(k, x), struts[k]);
+    const int known = static_cast<int>(x.size());
+    for (std::size_t k = 0; k < struts.size(); ++k)
+      demands[k] = Demand(regulator_force(&gain_[k * states_], x.data(), known), &limits_, &struts[k]);
+  }
+  ControlDescription description() const override {
+    return {.law = std::string(kLaw.name), .parameters = {}, .gain = gain_};
   }
 
- protected:
-  /// Where nothing gives the state, nothing is wanted.
-  double wanted(std::size_t strut, std::span<const double> x) const noexcept {
-    double force = 0;
-    for (std::size_t j = 0; j < x.size(); ++j) force += gain_[strut * states_ + j] * x[j];
-    return force;
-  }
-  virtual DamperDemand demand(double force, const StrutSignals& s) const noexcept {
-    return dissipating_force(force, s.deflection_velocity, limits_);
-  }
-
+ private:
   std::vector<double> gain_;
   ControlLimits limits_;
   std::size_t states_;
 };
 
-/// Full current while the damper's force is to grow towards the wanted one, none otherwise.
-class ClippedOptimal final : public ClippedRegulator {
-  using ClippedRegulator::ClippedRegulator;
-  DamperDemand demand(double force, const StrutSignals& s) const noexcept override {
-    const bool on = (force - s.force) * s.force > 0;
-    return {DamperDemand::Kind::Current, on ? limits_.current_max : limits_.current_min};
-  }
-};
-
-template <class Law>
+template <const ControlLaw& kLaw, auto Demand>
 ControllerPointer make(std::span<const double> values, const ControlContext& context) {
   const auto p = values_as<Parameters>(values);
-  return std::make_unique<Law>(regulator_of(context.plant, {p.deflection, p.tyre_deflection, p.force}),
-                               context);
+  return std::make_unique<ClippedRegulator<kLaw, Demand>>(
+      regulator_of(context.plant, {p.deflection, p.tyre_deflection, p.force}), context);
 }
 
 const std::vector<ParameterRow> kPrices{
@@ -113,7 +109,6 @@ std::vector<double> regulator_of(const Plant& plant, const RegulatorPrices& pric
                          values_of(q), values_of(cross), values_of(r)});
 }
 
-extern const ControlLaw kClippedLqr, kClippedOptimal;
 const ControlLaw kClippedLqr{
     .name = "clipped_lqr",
     .title = "Clipped linear-quadratic regulator",
@@ -122,7 +117,7 @@ const ControlLaw kClippedLqr{
     .remarks = "Needs the whole state of the plant.",
     .parameters = kPrices,
     .needs_plant_state = true,
-    .make = make<ClippedRegulator>};
+    .make = make<kClippedLqr, clipped_lqr_demand>};
 const ControlLaw kClippedOptimal{
     .name = "clipped_optimal",
     .title = "Clipped-optimal control",
@@ -133,6 +128,6 @@ const ControlLaw kClippedOptimal{
     .remarks = "Needs the measured force and the whole state. At a force of 0 it stays off.",
     .parameters = kPrices,
     .needs_plant_state = true,
-    .make = make<ClippedOptimal>};
+    .make = make<kClippedOptimal, clipped_optimal_demand>};
 
 }  // namespace dashpot

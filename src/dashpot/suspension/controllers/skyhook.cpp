@@ -1,6 +1,17 @@
 #include "dashpot/suspension/controllers/damping_law.h"
 
 namespace dashpot {
+
+// clang-format off: the texts are taken in
+#include "dashpot/suspension/c_text/control_groundhook.h"
+#include "dashpot/suspension/c_text/control_hybrid.h"
+#include "dashpot/suspension/c_text/control_skyhook.h"
+#include "dashpot/suspension/c_text/control_skyhook_linear.h"
+#include "dashpot/suspension/c_text/control_skyhook_modified.h"
+// clang-format on
+
+extern const ControlLaw kSkyhook, kSkyhookLinear, kSkyhookModified, kGroundhook, kHybrid;
+
 namespace {
 
 constexpr std::string_view kBook =
@@ -8,45 +19,7 @@ constexpr std::string_view kBook =
     "Semi-Active "
     "Suspension Control Design for Vehicles, 2010, recalled";
 
-DamperDemand skyhook(const NoParameters&, const ControlLimits& limits, const StrutSignals& s) {
-  return hard_when(s.body_velocity * s.deflection_velocity >= 0, limits);
-}
-
-struct Linear {
-  double share;
-};
-DamperDemand skyhook_linear(const Linear& p, const ControlLimits& limits, const StrutSignals& s) {
-  const double d = s.deflection_velocity, z = s.body_velocity;
-  if (!(z * d > 0)) return damping(limits.damping_min);
-  const double wanted = limits.damping_max * (p.share + (1 - p.share) * z / d);
-  return damping(std::fmin(std::fmax(wanted, limits.damping_min), limits.damping_max));
-}
-
-struct Modified {
-  double gain, share;
-};
-DamperDemand skyhook_modified(const Modified& p, const ControlLimits& limits, const StrutSignals& s) {
-  const double wanted = p.gain * (p.share * s.deflection_velocity + (1 - p.share) * s.body_velocity);
-  return dissipating_force(wanted, s.deflection_velocity, limits);
-}
-
-DamperDemand groundhook(const NoParameters&, const ControlLimits& limits, const StrutSignals& s) {
-  return hard_when(-s.wheel_velocity * s.deflection_velocity >= 0, limits);
-}
-
-struct Hybrid {
-  double gain, share;
-};
-DamperDemand hybrid(const Hybrid& p, const ControlLimits& limits, const StrutSignals& s) {
-  const double d = s.deflection_velocity;
-  const double sky = s.body_velocity * d > 0 ? s.body_velocity : 0;
-  const double ground = -s.wheel_velocity * d > 0 ? -s.wheel_velocity : 0;
-  return dissipating_force(p.gain * (p.share * sky + (1 - p.share) * ground), d, limits);
-}
-
 }  // namespace
-
-extern const ControlLaw kSkyhook, kSkyhookLinear, kSkyhookModified, kGroundhook, kHybrid;
 
 const ControlLaw kSkyhook{.name = "skyhook",
                           .title = "Skyhook, two states",
@@ -54,7 +27,7 @@ const ControlLaw kSkyhook{.name = "skyhook",
                           .source = kBook,
                           .remarks = "",
                           .parameters = {},
-                          .make = make_plain<skyhook>};
+                          .make = make_plain<kSkyhook, skyhook_demand>};
 const ControlLaw kSkyhookLinear{
     .name = "skyhook_linear",
     .title = "Skyhook, linear",
@@ -62,7 +35,7 @@ const ControlLaw kSkyhookLinear{
     .source = kBook,
     .remarks = "a = 1 is the hard damper wherever it may be hard.",
     .parameters = {{"share", "1", 0.5, 0, 1, "a, of the passive damper"}},
-    .make = make_strut_law<Linear, skyhook_linear>};
+    .make = make_strut_law<kSkyhookLinear, SkyhookLinear, skyhook_linear_demand>};
 const ControlLaw kSkyhookModified{
     .name = "skyhook_modified",
     .title = "Modified skyhook of Besinger, Cebon and Cole",
@@ -71,14 +44,14 @@ const ControlLaw kSkyhookModified{
     .remarks = "",
     .parameters = {{"gain", "N*s/m", 2000, 0, 1e7, "C"},
                    {"share", "1", 0.5, 0, 1, "a, of the passive damper"}},
-    .make = make_strut_law<Modified, skyhook_modified>};
+    .make = make_strut_law<kSkyhookModified, SkyhookModified, skyhook_modified_demand>};
 const ControlLaw kGroundhook{.name = "groundhook",
                              .title = "Groundhook, two states",
                              .equation = "c = c_max where -z_us' d >= 0, else c_min",
                              .source = kBook,
                              .remarks = "For road holding.",
                              .parameters = {},
-                             .make = make_plain<groundhook>};
+                             .make = make_plain<kGroundhook, groundhook_demand>};
 const ControlLaw kHybrid{
     .name = "hybrid",
     .title = "Hybrid of skyhook and groundhook",
@@ -88,6 +61,6 @@ const ControlLaw kHybrid{
     .source = "Ahmadian, recalled",
     .remarks = "",
     .parameters = {{"gain", "N*s/m", 2000, 0, 1e7, "G"}, {"share", "1", 0.5, 0, 1, "a, of the skyhook"}},
-    .make = make_strut_law<Hybrid, hybrid>};
+    .make = make_strut_law<kHybrid, Hybrid, hybrid_demand>};
 
 }  // namespace dashpot

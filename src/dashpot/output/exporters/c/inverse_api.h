@@ -8,9 +8,10 @@ typedef struct damper_input {
   double displacement; /* m, extension positive */
   double velocity;     /* m/s, extension positive */
   double current;      /* in the coil now: see above for its unit */
+  double measured;     /* N, the force now; only schemes with feedback look at it */
 } damper_input;
 
-/* An inverse at work: what it saw and commanded before, the newest first. */
+/* An inverse at work. */
 typedef struct damper_model {
   double state[DAMPER_STATE_SIZE];
 } damper_model;

@@ -43,7 +43,8 @@ std::string counter_of(const CStatement& loop) {
 /// Whether the body does not speak of the counter, which alone is stepped.
 bool only_counts(const CStatement& loop) {
   const std::string counter = counter_of(loop);
-  return !counter.empty() && loop.step.size() == 1 && loop.step[0].kind == CExpr::Kind::Unary && !names(loop.parts[0], counter);
+  return !counter.empty() && loop.step.size() == 1 && loop.step[0].kind == CExpr::Kind::Unary &&
+         !names(loop.parts[0], counter);
 }
 
 }  // namespace

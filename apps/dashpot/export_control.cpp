@@ -1,0 +1,67 @@
+#include "export_control.h"
+
+#include <algorithm>
+#include <array>
+
+#include "console.h"
+#include "dashpot/base/error.h"
+#include "dashpot/damper/inverse/registry.h"
+#include "dashpot/identify/track.h"
+#include "dashpot/output/exporters/c_controller.h"
+#include "dashpot/output/exporters/c_inverse.h"
+
+namespace dashpot::cli {
+namespace {
+
+constexpr double kUsualStep = 1e-3;  // s
+
+double sample_time(const ExportOptions& options) {
+  return options.sample_time > 0 ? options.sample_time : kUsualStep;
+}
+
+}  // namespace
+
+std::vector<Option> control_options(VehicleChoice& choice) {
+  // Of a ride, not of a controller; the sample time is the export's.
+  constexpr std::array kOthers{"--current", "--sample-time", "--delay", "--seed"};
+  std::vector<Option> options = controlled_vehicle_options(choice);
+  std::erase_if(options, [&](const Option& option) {
+    return std::ranges::find(kOthers, option.names) != kOthers.end();
+  });
+  for (Option& option : options) {
+    if (option.names == "--controller") option.default_text = "none: the damper is exported";
+    if (option.names == "--plant")
+      option.help = "with --controller, its vehicle or building (see 'simulate')";
+    if (option.names == "--damper") option.help += "; with --controller";
+  }
+  return options;
+}
+
+std::vector<ExportedFile> exported_controller(VehicleChoice choice, const DamperChoice& damper,
+                                              const ExportOptions& options, Console& console) {
+  if (choice.damper.empty())
+    choice.damper = damper.model.empty() ? damper.parameters : damper.model;
+  else if (damper.is_made())
+    throw UsageError("--damper", "there is another damper before it", "name one");
+  choice.sample_time = 1000 * sample_time(options);
+  const Vehicle vehicle = make_vehicle(words_of(choice));
+  for (const std::string& note : vehicle.notes) console.note(note);
+  return write_c_controller(vehicle, options);
+}
+
+std::vector<ExportedFile> exported_scheme(const VehicleChoice& choice, DamperChoice damper,
+                                          const ExportOptions& options, Console& console) {
+  damper.current_max = choice.current_max;
+  damper.lag_rate = choice.lag_rate;
+  const Damper loaded = load_damper(damper, "export", console);
+  const InverseLimits limits = limits_of(driver_of(loaded, damper), sample_time(options));
+  const auto inverse = find_inverse(choice.inverse, "--inverse").make(*loaded.model, limits);
+  return write_c_inverse(
+      {.model = *inverse,
+       .title = "the inverse '" + inverse->name() + "' of " + loaded.name,
+       .drive_unit = loaded.drive_unit,
+       .domain = loaded.domain.value_or(usual_domain(limits.current_min, limits.current_max))},
+      options);
+}
+
+}  // namespace dashpot::cli

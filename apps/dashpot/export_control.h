@@ -1,0 +1,21 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "damper_choice.h"
+#include "dashpot/output/exporters/exporter.h"
+#include "vehicle_options.h"
+
+namespace dashpot::cli {
+
+/// --controller and what else tells a vehicle of a controller for an ECU.
+std::vector<Option> control_options(VehicleChoice& choice);
+
+/// The vehicle's controller; `damper` is its damper where the choice names none.
+std::vector<ExportedFile> exported_controller(VehicleChoice choice, const DamperChoice& damper,
+                                              const ExportOptions& options, Console& console);
+/// The scheme's inverse of the damper.
+std::vector<ExportedFile> exported_scheme(const VehicleChoice& choice, DamperChoice damper,
+                                          const ExportOptions& options, Console& console);
+
+}  // namespace dashpot::cli

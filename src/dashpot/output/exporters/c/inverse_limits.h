@@ -1,0 +1,10 @@
+/* Limits of the command. lead: how far beyond the wanted change it goes, for a coil that lags. */
+typedef struct InverseModel {
+  double least, most, lead;
+} InverseModel;
+
+static inline double inverse_least(const InverseModel* m) { return m->least; }
+
+static inline double inverse_most(const InverseModel* m) { return m->most; }
+
+static inline double inverse_lead(const InverseModel* m) { return m->lead; }

@@ -1,0 +1,11 @@
+#ifndef DASHPOT_DISSIPATING_FORCE_H
+#define DASHPOT_DISSIPATING_FORCE_H
+#include "demand.h"
+
+/* A force within what damping can give at this speed. */
+static inline DamperDemand dissipating_force(double force, double velocity, const ControlLimits* limits) {
+  const double a = limits->damping_min * velocity, b = limits->damping_max * velocity;
+  return demand_of(kDemandForce, fmin(fmax(force, fmin(a, b)), fmax(a, b)));
+}
+
+#endif

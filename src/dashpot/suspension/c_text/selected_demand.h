@@ -1,0 +1,11 @@
+#ifndef DASHPOT_SELECTED_DEMAND_H
+#define DASHPOT_SELECTED_DEMAND_H
+#include "frequency_range.h"
+
+/* One law's demand at low frequencies of the body, another's at high ones. */
+static inline DamperDemand selected_demand(const StrutSignals* s, double crossover, DamperDemand low,
+                                           DamperDemand high) {
+  return (frequency_range(s, crossover) > 0) ? high : low;
+}
+
+#endif
