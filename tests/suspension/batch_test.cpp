@@ -123,6 +123,30 @@ TEST_CASE("lanes ride as simulate() does: networks, laws, lags, stops, tyres tha
   }
 }
 
+TEST_CASE("a network of velocity keeps the tolerance in lanes, in single precision, too") {
+  // By a series in time; the same in double precision at 1e-10 is what it is compared with.
+  for (const std::size_t neurons : {7, 10})
+    for (const std::size_t count : {1, 3}) {
+      CAPTURE(neurons);
+      CAPTURE(count);
+      const Fleet fleet(network_damper({2, neurons, 1}, {"current", "velocity"}), nullptr, count);
+      const auto ride = [&](double tolerance) {
+        return simulate_batch(fleet.vehicles, {.duration = 2,
+                                               .relative_tolerance = tolerance,
+                                               .absolute_tolerance = 1e-3 * tolerance,
+                                               .traces = true})
+            .back();
+      };
+      const BatchResult coarse = ride(1e-6), fine = ride(1e-10);
+      for (const char* channel : {"body", "wheel", "body_velocity", "wheel_velocity", "suspension_force"}) {
+        CHECK(apart(coarse.trace, fine.trace, channel) < 1e-6);
+        CHECK(apart(coarse.trace, fine.trace, channel) > 0);
+      }
+      CHECK(!coarse.missed_tolerance);
+      CHECK(coarse.evaluations < fine.evaluations);
+    }
+}
+
 TEST_CASE("measures in lanes are those of the trace by simulate()") {
   const Fleet fleet(network_damper({2, 10, 1}, {"velocity", "current"}), "skyhook", 3);
   const BatchOptions options{.duration = 3, .discard = 1};
