@@ -189,19 +189,27 @@ class Files {
     return face;
   }
 
-  std::string file(const std::vector<OnnxFace>& states, const std::vector<OnnxFace>& outputs,
-                   const std::string& what) {
-    std::vector<Node> needed;
-    for (const OnnxFace& output : outputs)
-      needed.insert(needed.end(), output.columns.begin(), output.columns.end());
+  /// Those that a step or a rest reads, and velocity: something must say how many dampers there are.
+  std::vector<OnnxFace> input_faces() {
+    std::vector<Node> needed{calculation_.step().force, calculation_.rest().force};
+    for (const std::size_t place : calculation_.used()) {
+      needed.push_back(calculation_.step().state[place]);
+      needed.push_back(calculation_.rest().state[place]);
+    }
+    const LiveNodes live(calculation_.graph, needed);
     const std::array<std::string, 3> meanings{"m, extension positive", "m/s, extension positive",
                                               model_.drive_unit + ", command to the coil"};
-    std::vector<OnnxFace> inputs;
+    std::vector<OnnxFace> faces;
     for (std::size_t k = 0; k < kInputs.size(); ++k) {
       const Node input = calculation_.graph.input(k);
-      if (k == 1 || LiveNodes(calculation_.graph, needed).has(input))
-        inputs.push_back({kInputs[k], meanings[k], {input}});
+      if (k == 1 || live.has(input)) faces.push_back({kInputs[k], meanings[k], {input}});
     }
+    return faces;
+  }
+
+  std::string file(const std::vector<OnnxFace>& states, const std::vector<OnnxFace>& outputs,
+                   const std::string& what) {
+    std::vector<OnnxFace> inputs = input_faces();
     inputs.insert(inputs.end(), states.begin(), states.end());
     const OnnxType type = is_single_ ? OnnxType::Float : OnnxType::Double;
     return onnx_bytes({.graph = onnx_graph(calculation_.graph, inputs, outputs, type),
