@@ -143,19 +143,18 @@ std::vector<std::string> state_names(const DamperModel& model, const std::vector
   return names;
 }
 
+bool is_single(const ExportOptions& options) { return options.precision != CPrecision::Double; }
+
 class Files {
  public:
-  Files(const ExportedModel& model, const ExportOptions& options)
+  Files(const ExportedModel& model, const ExportOptions& options, const std::string& code, double sample_time)
       : model_(model),
         options_(options),
-        is_single_(options.precision != CPrecision::Double),
-        sample_time_(export_sample_time(model, options)),
-        calculation_(in_precision(kDamperInput + with_texts(c_model(model.model).code),
-                                  is_single_ ? CPrecision::Single : CPrecision::Double),
-                     model.model.state_size(), sample_time_, is_single_) {}
+        is_single_(is_single(options)),
+        sample_time_(sample_time),
+        calculation_(code, model.model.state_size(), sample_time_, is_single_) {}
 
-  std::vector<ExportedFile> all() {
-    const std::string name = export_name(model_, options_);
+  std::vector<ExportedFile> all(const std::string& name) {
     std::vector<ExportedFile> files{{name + ".onnx", step()}};
     if (!calculation_.used().empty()) files.push_back({name + "_rest.onnx", rest()});
     return files;
@@ -226,18 +225,21 @@ class Files {
       for (const std::size_t place : calculation_.used())
         initial += (initial.empty() ? "" : ", ") + format_exact(values[place]);
     }
-    return {{"model", model_.model.name()},
-            {"kind", model_.model.kind()},
-            {"origin", model_.origin},
-            {"sample_time", format_exact(sample_time_) + " s"},
-            {"units", "displacement m, velocity m/s, current " + model_.drive_unit + ", force N"},
-            {"signs", "extension positive; force positive when it resists extension"},
-            {"domain_displacement", span_text(d.displacement_min, d.displacement_max, "m")},
-            {"domain_velocity", span_text(d.velocity_min, d.velocity_max, "m/s")},
-            {"domain_current", span_text(d.current_min, d.current_max, model_.drive_unit)},
-            {"state", join(state_names(model_.model, calculation_.used()), ", ")},
-            {"state_at_rest", initial},
-            {"command", options_.command}};
+    std::vector<std::pair<std::string, std::string>> rows{
+        {"model", model_.model.name()},
+        {"kind", model_.model.kind()},
+        {"origin", model_.origin},
+        {"sample_time", format_exact(sample_time_) + " s"},
+        {"units", "displacement m, velocity m/s, current " + model_.drive_unit + ", force N"},
+        {"signs", "extension positive; force positive when it resists extension"},
+        {"domain_displacement", span_text(d.displacement_min, d.displacement_max, "m")},
+        {"domain_velocity", span_text(d.velocity_min, d.velocity_max, "m/s")},
+        {"domain_current", span_text(d.current_min, d.current_max, model_.drive_unit)},
+        {"state", join(state_names(model_.model, calculation_.used()), ", ")},
+        {"state_at_rest", initial},
+        {"command", options_.command}};
+    std::erase_if(rows, [](const auto& row) { return row.second.empty(); });
+    return rows;
   }
 
   const ExportedModel& model_;
@@ -250,10 +252,13 @@ class Files {
 }  // namespace
 
 std::vector<ExportedFile> write_onnx(const ExportedModel& model, const ExportOptions& options) {
+  const std::string name = export_name(model, options);
+  const std::string code = in_precision(kDamperInput + with_texts(c_model(model.model).code),
+                                        is_single(options) ? CPrecision::Single : CPrecision::Double);
+  const double sample_time = export_sample_time(model, options);
   try {
-    return Files(model, options).all();
+    return Files(model, options, code, sample_time).all(name);
   } catch (const Error& error) {
-    if (std::string(error.what()).find("C text") == std::string::npos) throw;
     throw Error(model.model.name(), std::string("cannot become a graph: ") + error.what(), "--to c or fmu3");
   }
 }
