@@ -59,7 +59,8 @@ class Calculation {
  private:
   Outputs rest_from(const std::vector<Node>& input, bool unrolls) {
     CTrace trace(program_, graph, unrolls);
-    const std::size_t at = trace.room(input), state = trace.room(std::vector<Node>(size_ - input.size()));
+    const std::vector<Node> unknown(size_ - input.size(), graph.constant(0));
+    const std::size_t at = trace.room(input), state = trace.room(unknown);
     trace.call("model_rest", {{.address = at}, {.address = state}});
     Outputs out{trace.call("model_force", {{.address = at}, {.address = state}}), input};
     append_state(trace, state, out);
