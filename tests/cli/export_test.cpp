@@ -24,6 +24,24 @@ TEST_CASE("export writes each format of a published damper into one folder, and 
   CHECK(check.exit_code == 0);
 }
 
+TEST_CASE("export writes ONNX, in float unless told") {
+  const TemporaryFolder folder;
+  const auto exported = [&](const std::string& name, const std::string& more) {
+    const ProgramResult result =
+        run_dashpot("export --parameters spencer1997 --to onnx --sample-time 2ms --name " + name + " -o '" +
+                    folder.path().string() + "' " + more);
+    CAPTURE(result.output);
+    CHECK(result.exit_code == 0);
+    CHECK(fs::exists(folder.path() / (name + "_rest.onnx")));
+    return fs::file_size(folder.path() / (name + ".onnx"));
+  };
+  const auto usual = exported("usual", "");
+  const double few = 50;  // bytes: metadata hold the command
+  CHECK_CLOSE(static_cast<double>(exported("single", "--precision float")), static_cast<double>(usual), 0,
+              few);
+  CHECK(static_cast<double>(exported("wider", "--precision double")) > static_cast<double>(usual) + few);
+}
+
 TEST_CASE("export takes an inverse network, to C alone") {
   const TemporaryFolder folder;
   const auto preset = dashpot::inverse_network_presets().front();
@@ -35,7 +53,9 @@ TEST_CASE("export takes an inverse network, to C alone") {
   CAPTURE(result.output);
   CHECK(result.exit_code == 0);
   CHECK(fs::exists(folder.path() / "controller.c"));
-  CHECK(contains(run_dashpot(command + "dpr").output, "is an inverse, which cannot become 'dpr'"));
+  for (const std::string format : {"dpr", "onnx"})
+    CHECK(contains(run_dashpot(command + format).output,
+                   "is an inverse, which cannot become '" + format + "'"));
 }
 
 TEST_CASE("export says what is wrong") {
@@ -52,4 +72,7 @@ TEST_CASE("export says what is wrong") {
   complains(damper + "--to c --name 2x", "cannot begin names in C");
   complains(damper + "--to c --name modified_bouc_wen", "begins names that the code has inside");
   complains(damper + "--to c --sample-time=-1ms", "sample time");
+  complains(damper + "--to onnx --sample-time=soon", "--sample-time");
+  complains(damper + "--to onnx --precision half", "half");
+  complains(damper + "--to onnx -o /proc/none", "/proc/none");
 }

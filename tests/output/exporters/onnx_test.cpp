@@ -30,6 +30,11 @@ TEST_CASE("ONNX: what C does not know is refused as C does, and so is a wrong sa
         std::string::npos);
 }
 
+TEST_CASE("ONNX: a force that never changes is a graph, too") {
+  const LawModel model = LawModel::constant(find_law("bingham"), {0, 0, 5, 0});
+  CHECK(write_onnx(exported(model), {.name = "x"}).size() == 1);
+}
+
 #if defined(DASHPOT_ONNX)
 namespace {
 

@@ -59,7 +59,8 @@ class Calculation {
  private:
   Outputs rest_from(const std::vector<Node>& input, bool unrolls) {
     CTrace trace(program_, graph, unrolls);
-    const std::size_t at = trace.room(input), state = trace.room(std::vector<Node>(size_ - input.size()));
+    const std::vector<Node> unknown(size_ - input.size(), graph.constant(0));
+    const std::size_t at = trace.room(input), state = trace.room(unknown);
     trace.call("model_rest", {{.address = at}, {.address = state}});
     Outputs out{trace.call("model_force", {{.address = at}, {.address = state}}), input};
     append_state(trace, state, out);
@@ -143,19 +144,18 @@ std::vector<std::string> state_names(const DamperModel& model, const std::vector
   return names;
 }
 
+bool is_single(const ExportOptions& options) { return options.precision != CPrecision::Double; }
+
 class Files {
  public:
-  Files(const ExportedModel& model, const ExportOptions& options)
+  Files(const ExportedModel& model, const ExportOptions& options, const std::string& code, double sample_time)
       : model_(model),
         options_(options),
-        is_single_(options.precision != CPrecision::Double),
-        sample_time_(export_sample_time(model, options)),
-        calculation_(in_precision(kDamperInput + with_texts(c_model(model.model).code),
-                                  is_single_ ? CPrecision::Single : CPrecision::Double),
-                     model.model.state_size(), sample_time_, is_single_) {}
+        is_single_(is_single(options)),
+        sample_time_(sample_time),
+        calculation_(code, model.model.state_size(), sample_time_, is_single_) {}
 
-  std::vector<ExportedFile> all() {
-    const std::string name = export_name(model_, options_);
+  std::vector<ExportedFile> all(const std::string& name) {
     std::vector<ExportedFile> files{{name + ".onnx", step()}};
     if (!calculation_.used().empty()) files.push_back({name + "_rest.onnx", rest()});
     return files;
@@ -189,19 +189,27 @@ class Files {
     return face;
   }
 
-  std::string file(const std::vector<OnnxFace>& states, const std::vector<OnnxFace>& outputs,
-                   const std::string& what) {
-    std::vector<Node> needed;
-    for (const OnnxFace& output : outputs)
-      needed.insert(needed.end(), output.columns.begin(), output.columns.end());
+  /// Those that a step or a rest reads, and velocity: something must say how many dampers there are.
+  std::vector<OnnxFace> input_faces() {
+    std::vector<Node> needed{calculation_.step().force, calculation_.rest().force};
+    for (const std::size_t place : calculation_.used()) {
+      needed.push_back(calculation_.step().state[place]);
+      needed.push_back(calculation_.rest().state[place]);
+    }
+    const LiveNodes live(calculation_.graph, needed);
     const std::array<std::string, 3> meanings{"m, extension positive", "m/s, extension positive",
                                               model_.drive_unit + ", command to the coil"};
-    std::vector<OnnxFace> inputs;
+    std::vector<OnnxFace> faces;
     for (std::size_t k = 0; k < kInputs.size(); ++k) {
       const Node input = calculation_.graph.input(k);
-      if (k == 1 || LiveNodes(calculation_.graph, needed).has(input))
-        inputs.push_back({kInputs[k], meanings[k], {input}});
+      if (k == 1 || live.has(input)) faces.push_back({kInputs[k], meanings[k], {input}});
     }
+    return faces;
+  }
+
+  std::string file(const std::vector<OnnxFace>& states, const std::vector<OnnxFace>& outputs,
+                   const std::string& what) {
+    std::vector<OnnxFace> inputs = input_faces();
     inputs.insert(inputs.end(), states.begin(), states.end());
     const OnnxType type = is_single_ ? OnnxType::Float : OnnxType::Double;
     return onnx_bytes({.graph = onnx_graph(calculation_.graph, inputs, outputs, type),
@@ -218,18 +226,21 @@ class Files {
       for (const std::size_t place : calculation_.used())
         initial += (initial.empty() ? "" : ", ") + format_exact(values[place]);
     }
-    return {{"model", model_.model.name()},
-            {"kind", model_.model.kind()},
-            {"origin", model_.origin},
-            {"sample_time", format_exact(sample_time_) + " s"},
-            {"units", "displacement m, velocity m/s, current " + model_.drive_unit + ", force N"},
-            {"signs", "extension positive; force positive when it resists extension"},
-            {"domain_displacement", span_text(d.displacement_min, d.displacement_max, "m")},
-            {"domain_velocity", span_text(d.velocity_min, d.velocity_max, "m/s")},
-            {"domain_current", span_text(d.current_min, d.current_max, model_.drive_unit)},
-            {"state", join(state_names(model_.model, calculation_.used()), ", ")},
-            {"state_at_rest", initial},
-            {"command", options_.command}};
+    std::vector<std::pair<std::string, std::string>> rows{
+        {"model", model_.model.name()},
+        {"kind", model_.model.kind()},
+        {"origin", model_.origin},
+        {"sample_time", format_exact(sample_time_) + " s"},
+        {"units", "displacement m, velocity m/s, current " + model_.drive_unit + ", force N"},
+        {"signs", "extension positive; force positive when it resists extension"},
+        {"domain_displacement", span_text(d.displacement_min, d.displacement_max, "m")},
+        {"domain_velocity", span_text(d.velocity_min, d.velocity_max, "m/s")},
+        {"domain_current", span_text(d.current_min, d.current_max, model_.drive_unit)},
+        {"state", join(state_names(model_.model, calculation_.used()), ", ")},
+        {"state_at_rest", initial},
+        {"command", options_.command}};
+    std::erase_if(rows, [](const auto& row) { return row.second.empty(); });
+    return rows;
   }
 
   const ExportedModel& model_;
@@ -242,10 +253,13 @@ class Files {
 }  // namespace
 
 std::vector<ExportedFile> write_onnx(const ExportedModel& model, const ExportOptions& options) {
+  const std::string name = export_name(model, options);
+  const std::string code = in_precision(kDamperInput + with_texts(c_model(model.model).code),
+                                        is_single(options) ? CPrecision::Single : CPrecision::Double);
+  const double sample_time = export_sample_time(model, options);
   try {
-    return Files(model, options).all();
+    return Files(model, options, code, sample_time).all(name);
   } catch (const Error& error) {
-    if (std::string(error.what()).find("C text") == std::string::npos) throw;
     throw Error(model.model.name(), std::string("cannot become a graph: ") + error.what(), "--to c or fmu3");
   }
 }

@@ -9,7 +9,8 @@ namespace dashpot::trace {
 
 /// Runs C code with nodes of a graph in the place of numbers, for many runs ("lanes") at once. What a branch
 /// writes is taken where its condition holds. Loops whose end is known are unrolled; others become loops of
-/// the graph, which go on while any lane does. Throws Error where a pointer would depend on the data.
+/// the graph, which go on while any lane does. Where a pointer depends on the data, it points to a copy of
+/// what each lane means. Throws Error at what cannot be told so.
 class CTrace {
  public:
   /// `unrolls`: loops of many rounds, too; for constants.
@@ -81,7 +82,7 @@ class CTrace {
     std::size_t number = 0;
   };
   bool run_body_once(const CStatement& statement, LaneLoop& loop);
-  bool add_changed(const std::vector<Cell>& before, LaneLoop& loop);
+  bool add_changed(const std::vector<Cell>& after, LaneLoop& loop);
 
   // Expressions.
   Result evaluate(const CExpr& expr);
