@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
@@ -102,7 +103,8 @@ std::vector<ExportedFile> exported_damper(const Settings& settings, const Export
   std::vector<ExportedFile> files;
   for (const std::string& format : settings.formats)
     for (ExportedFile& file : find_exporter(format, "--to").write(exported, options))
-      files.push_back(std::move(file));
+      if (std::ranges::find(files, file.name, &ExportedFile::name) == files.end())  // several have the C code
+        files.push_back(std::move(file));
   return files;
 }
 

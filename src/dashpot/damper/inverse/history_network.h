@@ -52,9 +52,9 @@ class HistoryNetwork final : public InverseModel {
   std::size_t state_size() const noexcept override { return kSignals * rows_; }
   void rest(const DamperInput& input, std::span<double> state) const noexcept override;
   const InverseNetwork& network() const { return network_; }
-  double least() const { return low_; }                 ///< A, that it answers
-  double most() const { return high_; }                 ///< A
-  double most_change() const { return most_change_; }   ///< A, from one answer to the next; may be infinite
+  double least() const { return low_; }                ///< A, that it answers
+  double most() const { return high_; }                ///< A
+  double most_change() const { return most_change_; }  ///< A, from one answer to the next; may be infinite
   const std::vector<std::size_t>& places() const { return places_; }  ///< in the state, one per tap
 
  protected:

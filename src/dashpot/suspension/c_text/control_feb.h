@@ -12,8 +12,8 @@ static inline DamperDemand feb_demand(const Feb* p, const ControlLimits* limits,
                                       double* memory) {
   double f = 0;
   if ((isfinite(s->deflection) != 0) && (isfinite(s->deflection_velocity) != 0)) {
-  memory[0] = (p->keep * memory[0]) + (s->deflection_velocity * s->deflection_velocity);
-  memory[1] = (p->keep * memory[1]) + (s->deflection * s->deflection);
+    memory[0] = (p->keep * memory[0]) + (s->deflection_velocity * s->deflection_velocity);
+    memory[1] = (p->keep * memory[1]) + (s->deflection * s->deflection);
   }
   if (memory[1] > 0) {
     f = sqrt(memory[0] / memory[1]) / 6.283185307179586;

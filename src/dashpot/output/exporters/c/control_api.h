@@ -4,19 +4,17 @@ extern "C" {
 
 /* What is known of one strut at a sample. z up, extension positive. */
 typedef struct damper_signals {
-@signals@} damper_signals;
+  /* @signals@ */
+} damper_signals;
 
 typedef struct damper_input {
   damper_signals struts[DAMPER_STRUTS];
-@plant_state@} damper_input;
+  /* @plant_state@ */
+} damper_input;
 
 /* What a law asks of a damper: damping, N*s/m; a force, N, positive when it resists extension; the command
  * itself. */
-typedef enum damper_kind {
-  DAMPER_DAMPING,
-  DAMPER_FORCE,
-  DAMPER_CURRENT
-} damper_kind;
+typedef enum damper_kind { DAMPER_DAMPING, DAMPER_FORCE, DAMPER_CURRENT } damper_kind;
 
 typedef struct damper_demand {
   damper_kind kind;
@@ -27,7 +25,7 @@ typedef struct damper_demand {
 typedef struct damper_model {
   int started;
   damper_demand demands[DAMPER_STRUTS]; /* what the last step asked for */
-  double state[DAMPER_STATE_SIZE]; /* of filters, law and inverse */
+  double state[DAMPER_STATE_SIZE];      /* of filters, law and inverse */
 } damper_model;
 
 /* As it is switched on: the first step starts filters and inverse from what it sees. */

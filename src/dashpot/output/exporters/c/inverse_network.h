@@ -1,6 +1,6 @@
-/* An inverse network in free run on its own past answers. Declared before: MLP_MOST_WIDTH and kMlps, INVERSE_STATES,
- * INVERSE_TAPS and kPlaces of the inputs in the state, the currents kLeast ... kMost that it was taught and kMostChange
- * between two answers. */
+/* An inverse network in free run on its own past answers. Declared before: MLP_MOST_WIDTH and kMlps,
+ * INVERSE_STATES, INVERSE_TAPS and kPlaces of the inputs in the state, the currents kLeast ... kMost that it
+ * was taught and kMostChange between two answers. */
 
 /* state: rows of displacement, velocity, wanted force and current, the newest first */
 #define INVERSE_SIGNALS 4
