@@ -31,7 +31,7 @@ constexpr const char* kHeader = R"(/* @title@
 #define DAMPER_H
 
 #define DAMPER_STRUTS @struts@
-@plant_states@#define DAMPER_STATE_SIZE @size@ /* numbers in the state@unused@ */
+@plant_states@#define DAMPER_STATE_SIZE @size@ /* numbers in the state, where they are needed */
 #define DAMPER_SAMPLE_TIME @sample_time@ /* s, between two calls of damper_step */
 
 )";
@@ -173,8 +173,7 @@ std::vector<std::pair<std::string, std::string>> facts(const Vehicle& vehicle, c
           {"struts", number(struts)},
           {"plant_states",
            states ? "#define DAMPER_PLANT_STATES " + number(path.plant_states) + "\n" : std::string()},
-          {"size", number(std::max<std::size_t>(1, size))},
-          {"unused", size == 0 ? ": one that is not used" : ""},
+          {"size", number(size)},
           {"sample_time", c_number(limits.sample_time)},
           {"signals", number(path.measured.size())},
           {"states", number(path.plant_states)},
