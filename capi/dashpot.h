@@ -232,6 +232,15 @@ DASHPOT_API void dashpot_ranking_free(dashpot_ranking** ranking);
 DASHPOT_API dashpot_status dashpot_evaluate(const dashpot_model* model, const dashpot_recordings* recordings,
                                             const char* options, char** report);
 
+// ---- Export -------------------------------------------------------------------------------------------
+
+/// Writes a model as files for other programs, as `dashpot export` does: {"to": ["c", "fmu3"], "folder":
+/// "dashpot-export", "name": "front_damper", "precision": "double", "sample_time": s, "compiler": "cc",
+/// "sources_only": false, "command": "TEXT that the files keep"}; all but "to" may be absent. The report
+/// (null: not wanted) is {"files": ["dashpot-export/front_damper.c", ...]}. Nothing is written where a model
+/// cannot become one of these.
+DASHPOT_API dashpot_status dashpot_export(const dashpot_model* model, const char* options, char** report);
+
 // ---- Vehicles -----------------------------------------------------------------------------------------
 
 /// A vehicle or building from rest, in the words of `dashpot simulate`, with SI units: {"plant":
@@ -239,8 +248,9 @@ DASHPOT_API dashpot_status dashpot_evaluate(const dashpot_model* model, const da
 /// "mix1,crossover=1.9Hz", "inverse": "numeric", "current": 0, "current_max": 0, "lag_rate": -1,
 /// "sample_time": 0.001, "in_car": false, "delay": 0, "road": "iso8608,class=C", "duration": 20,
 /// "output_step": 0.001, "seed": 1}; all may be absent. `trace`: recordings that hold one, with a channel for
-/// everything that moved. The report (null: not wanted) has the road, notes, warnings and where it diverged;
-/// DASHPOT_NOT_USABLE then, with the trace up to there.
+/// everything that moved. The report (null: not wanted) has the road, the measures of `dashpot simulate`
+/// (where output_step is absent), notes, warnings and where it diverged; DASHPOT_NOT_USABLE then, with the
+/// trace up to there.
 DASHPOT_API dashpot_status dashpot_simulate(const char* options, const dashpot_monitor* monitor,
                                             dashpot_recordings** trace, char** report);
 

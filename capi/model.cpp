@@ -189,18 +189,6 @@ dashpot_status make_model(dashpot_model** model, Load&& load) noexcept {
   });
 }
 
-ModelFile published(const std::string& name) {
-  const ParameterSet set = load_parameter_set(name);
-  ModelFile file;
-  file.model = std::make_unique<LawModel>(set.model);
-  file.drive_unit = set.model.drive_unit();
-  file.domain.current_min = set.drive_min;
-  file.domain.current_max = set.drive_max;
-  file.provenance.dataset = set.damper;
-  file.provenance.citation = set.source;
-  return file;
-}
-
 }  // namespace
 
 dashpot_status dashpot_model_load(const char* path, dashpot_model** model) {
@@ -220,7 +208,7 @@ dashpot_status dashpot_model_parse(const char* text, dashpot_model** model) {
 dashpot_status dashpot_model_published(const char* name, dashpot_model** model) {
   return make_model(model, [&] {
     require(name, "name");
-    return published(name);
+    return to_model_file(load_parameter_set(name));
   });
 }
 

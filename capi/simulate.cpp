@@ -2,7 +2,10 @@
 
 #include "dashpot/base/text.h"
 #include "dashpot/output/safe_text.h"
+#include "dashpot/suspension/domain_use.h"
 #include "dashpot/suspension/ground_sequences.h"
+#include "dashpot/suspension/ride_measures.h"
+#include "dashpot/suspension/simulated_run.h"
 #include "handles.h"
 #include "status.h"
 #include "words.h"
@@ -15,7 +18,22 @@ namespace {
 
 constexpr double kUsualDuration = 20;  // s, as the command line has it
 
-std::string report_text(const Trace& trace, const Vehicle& vehicle, const GroundMotion& ground) {
+/// Those of `dashpot simulate`; none of a trace with steps of the caller's, which may be too wide for them.
+Value measures_of(const Trace& trace, const Vehicle& vehicle, const GroundMotion& ground,
+                  const SimulateOptions& options) {
+  Value list = Value::array();
+  if (options.output_step > 0) return list;
+  const double discard = usual_discard(ground, options.duration);
+  for (const RideMeasure& m : ride_measures(vehicle, ground, trace, discard))
+    list.push_back(Value::object({{"name", m.name}, {"unit", m.unit}, {"value", m.value}}));
+  return list;
+}
+
+std::string report_text(const Trace& trace, const Vehicle& vehicle, const GroundMotion& ground,
+                        const SimulateOptions& options) {
+  std::vector<std::string> warnings = trace.warnings;
+  std::ranges::move(domain_warnings(domain_use(vehicle, trace), RunOptions{}.allowed_outside),
+                    std::back_inserter(warnings));
   const Value report =
       Value::object({{"plant", vehicle.set.name},
                      {"dampers", Value::array(vehicle.damper_names)},
@@ -25,8 +43,9 @@ std::string report_text(const Trace& trace, const Vehicle& vehicle, const Ground
                      {"contact_lost", trace.contact_lost},
                      {"steps", trace.steps},
                      {"evaluations", trace.evaluations},
+                     {"measures", measures_of(trace, vehicle, ground, options)},
                      {"notes", Value::array(vehicle.notes)},
-                     {"warnings", Value::array(trace.warnings)}});
+                     {"warnings", Value::array(warnings)}});
   return format_json(presentable(report));
 }
 
@@ -43,7 +62,7 @@ void run(const DriveOptions& asked, const dashpot_monitor* monitor, dashpot_reco
     trace = simulate(vehicle.on(*ground), options);
   });
   const std::optional<double> diverged_at = trace.diverged_at;
-  if (report) *report = copy_text(report_text(trace, vehicle, *ground));
+  if (report) *report = copy_text(report_text(trace, vehicle, *ground, options));
   auto made = std::make_unique<dashpot_recordings>();
   made->dataset.name = "simulation";
   made->dataset.drive_unit = vehicle.drive_unit;

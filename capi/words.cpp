@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "dashpot.h"
 #include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
 
@@ -80,6 +81,30 @@ EvaluateOptions read_evaluate_options(const char* text) {
   options.threads = whole_int(reader, "threads", options.threads);
   reader.finish();
   return options;
+}
+
+ExportWords read_export_options(const char* text) {
+  const Value value = parse_options(text);
+  ObjectReader reader(value, "the options");
+  ExportWords out;
+  ExportOptions& options = out.options;
+  out.formats = texts(reader, "to");
+  out.folder = reader.string("folder", out.folder);
+  options.name = reader.string("name", "");
+  const std::string precision = reader.string("precision", "double");
+  options.sample_time = reader.number("sample_time", 0);
+  options.compiler = reader.string("compiler", "");
+  options.sources_only = reader.boolean("sources_only", false);
+  options.command = reader.string("command", "");
+  reader.finish();
+  if (out.formats.empty()) throw Error("options, to", "names no format", "as [\"c\", \"fmu3\"]");
+  if (out.folder.empty()) throw Error("options, folder", "is empty");
+  if (precision != "double" && precision != "float")
+    throw Error("options, precision", "is '" + precision + "'", "double or float");
+  if (precision == "float") options.precision = CPrecision::Single;
+  if (options.compiler.empty()) options.compiler = usual_compiler();
+  options.version = dashpot_version();
+  return out;
 }
 
 DriveOptions read_drive_options(const char* text) {

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "dashpot/identify/fit_words.h"
+#include "dashpot/output/exporters/exporter.h"
 #include "dashpot/suspension/vehicle.h"
 
 namespace dashpot::capi {
@@ -18,6 +19,14 @@ FitOptions read_fit_options(const char* text);
 
 LoadOptions read_load_options(const char* text);
 EvaluateOptions read_evaluate_options(const char* text);
+
+/// The options of dashpot_export.
+struct ExportWords {
+  std::vector<std::string> formats;
+  std::string folder = "dashpot-export";
+  ExportOptions options;
+};
+ExportWords read_export_options(const char* text);
 
 /// The options of dashpot_simulate.
 struct DriveOptions {

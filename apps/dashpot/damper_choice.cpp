@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "console.h"
-#include "dashpot/damper/model_file.h"
 #include "dashpot/damper/parameter_set.h"
 #include "dashpot/identify/track.h"
 
@@ -37,19 +36,27 @@ std::vector<Option> coil_options(DamperChoice& choice) {
            .default_text = "the model's own"}};
 }
 
-Damper load_damper(const DamperChoice& choice, const std::string& command, Console& console) {
+ModelFile load_damper_file(const DamperChoice& choice, const std::string& command, Console& console) {
   if (choice.model.empty() == choice.parameters.empty())
     throw UsageError(command, "needs one damper", "give a model file, or --parameters NAME");
-  if (!choice.model.empty()) {
-    ModelFile file = load_model(choice.model);
-    return {file.model->name(),      file.drive_unit,
-            std::move(file.model),   std::max(0.0, file.domain.current_min),
-            file.domain.current_max, file.domain};
-  }
+  if (!choice.model.empty()) return load_model(choice.model);
   const ParameterSet set = load_parameter_set(choice.parameters);
   if (!set.verified) console.note("these parameters are an example: " + set.reason);
-  return {set.name,      set.model.drive_unit(), set.model.with_offset(0),
-          set.drive_min, set.drive_max,          std::nullopt};
+  return to_model_file(set);
+}
+
+Damper load_damper(const DamperChoice& choice, const std::string& command, Console& console) {
+  ModelFile file = load_damper_file(choice, command, console);
+  Damper damper{.name = choice.parameters,
+                .drive_unit = file.drive_unit,
+                .model = std::move(file.model),
+                .drive_min = file.domain.current_min,
+                .drive_max = file.domain.current_max};
+  if (choice.model.empty()) return damper;
+  damper.name = damper.model->name();
+  damper.drive_min = std::max(0.0, damper.drive_min);
+  damper.domain = file.domain;
+  return damper;
 }
 
 DriverOptions driver_of(const Damper& damper, const DamperChoice& choice, DriverOptions options) {

@@ -6,7 +6,7 @@
 
 #include "command.h"
 #include "dashpot/damper/driver.h"
-#include "dashpot/damper/model.h"
+#include "dashpot/damper/model_file.h"
 
 namespace dashpot::cli {
 
@@ -21,6 +21,9 @@ struct DamperChoice {
 std::vector<Option> damper_options(DamperChoice& choice);
 std::vector<Option> coil_options(DamperChoice& choice);
 
+/// Throws UsageError where not exactly one damper was chosen.
+ModelFile load_damper_file(const DamperChoice& choice, const std::string& command, Console& console);
+
 /// A damper and the range of its current.
 struct Damper {
   std::string name, drive_unit;
@@ -29,7 +32,7 @@ struct Damper {
   std::optional<Domain> domain;  ///< of a model file
 };
 
-/// Throws UsageError where not exactly one damper was chosen.
+/// As load_damper_file().
 Damper load_damper(const DamperChoice& choice, const std::string& command, Console& console);
 
 /// The driver in front of it. Throws Error where there is no range of currents.

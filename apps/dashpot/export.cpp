@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <memory>
 
@@ -11,8 +10,6 @@
 #include "dashpot/base/file.h"
 #include "dashpot/base/text.h"
 #include "dashpot/base/units.h"
-#include "dashpot/damper/model_file.h"
-#include "dashpot/damper/parameter_set.h"
 #include "dashpot/output/exporters/c_inverse.h"
 #include "dashpot/output/exporters/exporter.h"
 #include "export_control.h"
@@ -24,7 +21,7 @@ struct Settings {
   DamperChoice damper;
   VehicleChoice vehicle;
   std::vector<std::string> formats;
-  std::string name, precision = "double", sample_time, folder = "dashpot-export", compiler;
+  std::string name, precision, sample_time, folder = "dashpot-export", compiler;
   bool sources_only = false;
 };
 
@@ -34,6 +31,9 @@ constexpr std::string_view kExample =
     "\n"
     "# A fitted model for a simulator, with a binary that needs nothing but the C library:\n"
     "dashpot export results/models/bouc_wen.json --to fmu3 -o results/fmu\n"
+    "\n"
+    "# A fitted model for ONNX Runtime:\n"
+    "dashpot export results/models/hysteresis_network.json --to onnx\n"
     "\n"
     "# A published damper, under a name of your own:\n"
     "dashpot export --parameters spencer1997 --to c --name front_damper -o front\n"
@@ -45,20 +45,6 @@ constexpr std::string_view kExample =
     "# The current for a wanted force, and a skyhook that drives its damper by it:\n"
     "dashpot export --parameters spencer1997 --inverse numeric --to c -o ecu\n"
     "dashpot export --controller skyhook_modified --damper spencer1997 --inverse numeric --to c -o ecu";
-
-/// Where a damper that has no data of its own is known: a stroke of a car's damper.
-Domain usual_domain(const Damper& damper) {
-  return {-0.025, 0.025, -0.5, 0.5, damper.drive_min, damper.drive_max};
-}
-
-std::string origin_of(const DamperChoice& choice) {
-  if (choice.model.empty()) {
-    const ParameterSet set = load_parameter_set(choice.parameters);
-    return set.damper + ": " + set.source + (set.verified ? "" : " (an example: " + set.reason + ")");
-  }
-  const Provenance provenance = load_model(choice.model).provenance;
-  return "Identified from " + provenance.dataset + ", " + provenance.created;
-}
 
 std::vector<std::string> exporter_names() {
   std::vector<std::string> names;
@@ -81,25 +67,15 @@ bool is_inverse(const std::string& path) {
   return format && format->kind() == Value::Kind::String && format->as_string() == "dashpot-inverse";
 }
 
-double sample_time_of(const DamperChoice& choice) {
-  return choice.model.empty() ? 0 : load_model(choice.model).sample_time;
-}
-
-/// As make has it: $CC, or cc.
-std::string compiler_of(const Settings& settings) {
-  if (!settings.compiler.empty()) return settings.compiler;
-  const char* usual = std::getenv("CC");
-  return usual && *usual != '\0' ? usual : "cc";
+std::optional<CPrecision> precision_of(const Settings& settings) {
+  if (settings.precision.empty()) return {};
+  return settings.precision == "float" ? CPrecision::Single : CPrecision::Double;
 }
 
 std::vector<ExportedFile> exported_damper(const Settings& settings, const ExportOptions& options,
                                           Console& console) {
-  const Damper damper = load_damper(settings.damper, "export", console);
-  const ExportedModel exported{.model = *damper.model,
-                               .drive_unit = damper.drive_unit,
-                               .domain = damper.domain.value_or(usual_domain(damper)),
-                               .sample_time = sample_time_of(settings.damper),
-                               .origin = origin_of(settings.damper)};
+  const ModelFile file = load_damper_file(settings.damper, "export", console);
+  const ExportedModel exported = exported_model(file);
   std::vector<ExportedFile> files;
   for (const std::string& format : settings.formats)
     for (ExportedFile& file : find_exporter(format, "--to").write(exported, options))
@@ -139,15 +115,15 @@ int run(const Settings& settings, Console& console) {
   if (settings.formats.empty())
     throw UsageError("--to", "is missing", "one or more of " + join(exporter_names(), ", "));
   if (settings.folder.empty()) throw UsageError("--output", "the name of the folder is empty");
-  const ExportOptions options{
-      .name = settings.name,
-      .precision = settings.precision == "float" ? CPrecision::Single : CPrecision::Double,
-      .sample_time =
-          settings.sample_time.empty() ? 0 : parse_quantity(settings.sample_time, "s", "--sample-time"),
-      .compiler = compiler_of(settings),
-      .sources_only = settings.sources_only,
-      .command = console.command_line(),
-      .version = DASHPOT_VERSION};
+  const ExportOptions options{.name = settings.name,
+                              .precision = precision_of(settings),
+                              .sample_time = settings.sample_time.empty()
+                                                 ? 0
+                                                 : parse_quantity(settings.sample_time, "s", "--sample-time"),
+                              .compiler = settings.compiler.empty() ? usual_compiler() : settings.compiler,
+                              .sources_only = settings.sources_only,
+                              .command = console.command_line(),
+                              .version = DASHPOT_VERSION};
   const std::vector<ExportedFile> files = exported_files(settings, options, console);
   Value list = Value::array();
   for (const ExportedFile& file : files) {
@@ -178,9 +154,10 @@ Command export_command() {
                     .default_text = "the model's"},
                    {.names = "--precision",
                     .target = &settings->precision,
-                    .help = "of the numbers in C",
+                    .help = "of the numbers in C or ONNX",
                     .value = "TYPE",
-                    .choices = {"double", "float"}},
+                    .choices = {"double", "float"},
+                    .default_text = "double in C, float in ONNX"},
                    {.names = "--sample-time",
                     .target = &settings->sample_time,
                     .help = "between two steps, as 1ms",

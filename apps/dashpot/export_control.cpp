@@ -56,12 +56,12 @@ std::vector<ExportedFile> exported_scheme(const VehicleChoice& choice, DamperCho
   const Damper loaded = load_damper(damper, "export", console);
   const InverseLimits limits = limits_of(driver_of(loaded, damper), sample_time(options));
   const auto inverse = find_inverse(choice.inverse, "--inverse").make(*loaded.model, limits);
-  const Domain usual{-0.025, 0.025, -0.5, 0.5, limits.current_min, limits.current_max};
-  return write_c_inverse({.model = *inverse,
-                          .title = "the inverse '" + inverse->name() + "' of " + loaded.name,
-                          .drive_unit = loaded.drive_unit,
-                          .domain = loaded.domain.value_or(usual)},
-                         options);
+  return write_c_inverse(
+      {.model = *inverse,
+       .title = "the inverse '" + inverse->name() + "' of " + loaded.name,
+       .drive_unit = loaded.drive_unit,
+       .domain = loaded.domain.value_or(usual_domain(limits.current_min, limits.current_max))},
+      options);
 }
 
 }  // namespace dashpot::cli

@@ -53,4 +53,8 @@ TEST_CASE("a force band in JSON: there and back, and what is refused") {
   CHECK(refused("[1]", "[0, 1]").find("one width per band") != std::string::npos);
   CHECK(refused("[1, 0]", "[0, 1]").find("not positive") != std::string::npos);
   CHECK(refused("[1, 2]", "[1, 1]").find("not in order") != std::string::npos);
+  std::string many = text;
+  many.replace(many.find("\"records\": 7"), 12, "\"records\": 1e300");  // no count holds it
+  CHECK(message_of([&] { read_force_band(parse_json(many, "m.json")); }).find("records is 1e+300") !=
+        std::string::npos);
 }

@@ -18,8 +18,7 @@
 #include "dashpot/damper/model_file.h"
 #include "dashpot/damper/neural/network_model.h"
 #include "dashpot/damper/parameter_set.h"
-
-// Writes small valid inputs of every fuzz target into folders below the one given: where fuzzing starts.
+#include "fuzz.h"
 
 namespace fs = std::filesystem;
 using dashpot::write_file;
@@ -150,11 +149,26 @@ files:
 notes: a note
 )";
 
+/// Files that come with Dashpot.
+void data_seeds(const fs::path& folder) {
+  struct Kind {
+    const char *target, *data, *ending;
+  };
+  for (const Kind& kind : {Kind{"design_yaml", "designs", ".yaml"},
+                           {"dataset_yaml", "datasets", ".yaml"},
+                           {"damper_yaml", "dampers", ".yaml"},
+                           {"sweep_yaml", "sweeps", ".yaml"},
+                           {"parameter_set_json", "parameters", ".json"},
+                           {"plant_set_json", "plants", ".json"},
+                           {"curve_file", "curves", ".csv"}})
+    for (const std::string& name : dashpot::data_names(kind.data, kind.ending))
+      write_file(folder / kind.target / name,
+                 dashpot::read_file(dashpot::data_folder(kind.data) / (name + kind.ending)));
+}
+
 }  // namespace
 
-int main(int argc, char** argv) {
-  if (argc != 2) return std::fputs("usage: fuzz_seeds FOLDER\n", stderr), 2;
-  const fs::path folder = argv[1];
+void write_seeds(const fs::path& folder) {
   csv_seeds(folder / "csv");
   mat_seed(folder / "mat/4", MAT_FT_MAT4, MAT_COMPRESSION_NONE);
   mat_seed(folder / "mat/5", MAT_FT_MAT5, MAT_COMPRESSION_NONE);
@@ -163,9 +177,6 @@ int main(int argc, char** argv) {
   write_file(folder / "daq_text/log", daq_seed());
   write_file(folder / "family_json/pair", kFamily);
   write_file(folder / "dataset_yaml/all", kDataset);
-  for (const std::string& name : dashpot::data_names("designs", ".yaml"))
-    write_file(folder / "design_yaml" / name,
-               dashpot::read_file(dashpot::data_folder("designs") / (name + ".yaml")));
   model_seeds(folder / "model_json");
   for (const dashpot::InverseNetworkPreset& preset : dashpot::inverse_network_presets())
     write_file(folder / "inverse_json" / preset.name,
@@ -173,8 +184,7 @@ int main(int argc, char** argv) {
                                         .domain = {.current_max = 1},
                                         .provenance = {},
                                         .quality = {}}));
-  for (const char* unit : {"mm", "N*s/m", "kN", "cm^-2", "degC", "displacement [mm]", "m/s\u00b2"})
-    write_file(folder / "units" / std::to_string(std::hash<std::string>{}(unit)), unit);
-  for (const char* text : {"current=0.87,1.98", "fraction=0.3", "record=a,b", "roles", "condition"})
-    write_file(folder / "leave_out" / std::to_string(std::hash<std::string>{}(text)), text);
+  data_seeds(folder);
+  write_word_seeds(folder);
+  write_store_seeds(folder);
 }

@@ -1,7 +1,9 @@
 import json
 import re
+import sys
 import timeit
 import unittest
+from pathlib import Path
 
 import numpy as np
 from support import PROJECT, InFolder, program, python
@@ -50,10 +52,49 @@ class Examples(InFolder):
 
     def test_suspension(self):
         printed = python(EXAMPLES / "suspension.py", "campaign", cwd=self.folder)
-        comfort = [float(value) for value in re.findall(r"body (\S+) m/s\^2 rms", printed)]
-        self.assertEqual(len(comfort), 3)
+        rides = re.findall(r"^(.*): body (\S+) m/s\^2 rms, tyre load (\S+) %", printed, re.M)
+        low, high = dashpot.load(str(self.folder / "damper.json")).domain["current"]
+        settings = {"least current": ("--current", low), "most current": ("--current", high),
+                    "controlled (SH-ADD)": ("--controller", "sh_add")}
+        self.assertEqual([name for name, *_ in rides], list(settings))
+        for name, *figures in rides:
+            told = program("simulate", "--damper", "damper.json", "--road", "iso8608,class=C,speed=72km/h", "--duration",
+                           "3", "--current-max", high, "--against", "none", *settings[name], "--json", "--quiet",
+                           cwd=self.folder)
+            measures = {one["name"]: one["value"] for one in json.loads(told)["run"]["measures"]}
+            self.assertEqual([float(figure) for figure in figures], [measures["body_acceleration"], measures["tyre_load"]])
         # What the textbooks say: the hardest damper is worst for comfort on a rough road.
+        comfort = [float(body) for _, body, _ in rides]
         self.assertEqual(max(comfort), comfort[1])
+
+    def test_run_fmu(self):
+        """Another tool, which knows nothing of Dashpot, gives the library's force."""
+        model = dashpot.published("vrths_mr_tanh_kwok")
+        [fmu] = model.export("fmu3", self.folder, name="damper")
+        printed = python(EXAMPLES / "run_fmu.py", fmu, "--amplitude", "0.008", "--command", "0.7", cwd=self.folder)
+        names, *lines = printed.splitlines()
+        self.assertEqual(names, "time [s],displacement [m],velocity [m/s],force [N]")
+        t, x, v, force = np.array([line.split(",") for line in lines], float).T
+        expected = model.run(v, 0.7, x, time=t)
+        np.testing.assert_allclose(force, expected, rtol=1e-6, atol=1e-6 * np.ptp(expected))  # printed: 9 digits
+        # In memory, where no digit is lost.
+        sys.path.insert(0, str(EXAMPLES))
+        self.addCleanup(sys.path.remove, str(EXAMPLES))
+        import run_fmu
+
+        i = np.linspace(0, 1, len(t))
+        drive = "u" if model.drive_unit == "V" else "i"
+        force = run_fmu.run(fmu, list(t), {"s": list(x), "v": list(v), drive: list(i)})
+        expected = model.run(v, i, x, time=t)
+        np.testing.assert_allclose(force, expected, rtol=0, atol=1e-12 * np.ptp(expected))
+
+    def test_run_fmu_refuses(self):
+        whole = Path(dashpot.published("vrths_mr_bingham").export("fmu3", self.folder)[0]).read_bytes()
+        cut = self.folder / "cut.fmu"
+        for share in (0, 0.3, 0.9):
+            cut.write_bytes(whole[: int(share * len(whole))])
+            with self.assertRaisesRegex(AssertionError, "BadZipFile"):
+                python(EXAMPLES / "run_fmu.py", cut)
 
 
 class Speed(unittest.TestCase):

@@ -1,9 +1,12 @@
 import copy
 import pickle
+import threading
 import unittest
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
 
 import numpy as np
-from support import InFolder, recording
+from support import InFolder, program, recording
 
 import dashpot
 
@@ -97,6 +100,55 @@ class Keeping(InFolder):
         self.assertEqual((model.name, model.kind, model.drive_unit), ("modified_bouc_wen", "law", "V"))
         self.assertEqual(model.domain["current"], (0.0, 2.25))
         self.assertIn("modified_bouc_wen", repr(model))
+
+    def test_exports_are_the_program_s(self):
+        model = dashpot.published("vrths_mr_tanh_kwok")
+        model.save(str(self.folder / "model.json"))
+        files = model.export(["c", "dpr"], self.folder / "ours", name="front", precision="float", sample_time=0.002)
+        program("export", "model.json", "--to", "c,dpr", "--name", "front", "--precision", "float", "--sample-time", "2ms",
+                "-o", "theirs", cwd=self.folder)
+        self.assertEqual({Path(file).name for file in files}, {file.name for file in (self.folder / "theirs").iterdir()})
+        for file in map(Path, files):
+            ours, theirs = (
+                [line for line in path.read_text().splitlines() if "export" not in line]  # the command differs
+                for path in (file, self.folder / "theirs" / file.name)
+            )
+            self.assertEqual(ours, theirs)
+
+    def test_exports_that_cannot_be_write_nothing(self):
+        model = dashpot.published("vrths_mr_bingham")
+        for options in ({"to": "fmu4"}, {"to": []}, {"to": "c", "name": "2fast"}, {"to": "c", "precision": "half"},
+                        {"to": "c", "sample_time": -1}, {"to": ["c", "fmu3"], "compiler": "no-such-compiler"}):
+            with self.assertRaises(dashpot.Error):
+                model.export(folder=self.folder / "out", **options)
+        with self.assertRaises(TypeError):
+            model.export("c", speed=1)
+        self.assertFalse((self.folder / "out").exists())
+
+
+class Threads(unittest.TestCase):
+    def test_others_run_during_a_long_prediction(self):
+        """A thread counts while the library computes: with the lock held it could not."""
+        model = dashpot.published("spencer1997_bouc_wen")
+        X = np.tile([[0.01, 0.1, 1.0]], (2_000_000, 1))
+        ticks, done = [], threading.Event()
+        ticker = threading.Thread(target=lambda: [ticks.append(1) for _ in iter(lambda: done.wait(0.002), True)])
+        ticker.start()
+        before = len(ticks)
+        model.predict(X, 0.001)
+        during = len(ticks) - before
+        done.set()
+        ticker.join()
+        self.assertGreater(during, 3)
+
+    def test_a_model_serves_several_threads(self):
+        model = dashpot.published("spencer1997")
+        t = 1e-3 * np.arange(5000)
+        X = np.column_stack([0.01 * np.sin(20 * t), 0.2 * np.cos(20 * t), 1 + np.sin(3 * t)])
+        expected = model.predict(X, 0.001)
+        with ThreadPoolExecutor(4) as pool:
+            for force in pool.map(lambda _: model.predict(X, 0.001), range(8)):
+                np.testing.assert_array_equal(force, expected)
 
 
 if __name__ == "__main__":

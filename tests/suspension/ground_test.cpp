@@ -173,4 +173,9 @@ TEST_CASE("ground that cannot be made is refused, with what would be right") {
   write_file(folder.path() / "back.csv", "s (m),z (m)\n0,0\n1,0\n0.5,0\n");
   CHECK(message_of([&] { load_road(folder.path() / "back.csv"); }).find("does not rise in row 3") !=
         std::string::npos);
+  write_file(folder.path() / "quake.csv", "time,a\n0,0\n0.02,0.1\n0.04,20.1kilo\n0.06,0\n");
+  CHECK(message_of([&] { load_earthquake(folder.path() / "quake.csv"); }).find("row 3 of 'a' is no number") !=
+        std::string::npos);
+  write_file(folder.path() / "far.csv", "s (m),z (m)\n0,0\n1,1e200\n2,0\n");
+  CHECK(message_of([&] { load_road(folder.path() / "far.csv"); }).find(" is 1e+200") != std::string::npos);
 }

@@ -25,6 +25,12 @@ class Trace:
                 return samples
         raise KeyError(f"{name!r}; known: {', '.join(self.columns)}")
 
+    @property
+    def measures(self) -> dict:
+        """Figures of `dashpot simulate` by name, in its units: "body_acceleration" m/s^2, "tyre_load" %, "travel" mm
+        ...; report["measures"] has the units. None with an output_step of one's own."""
+        return {measure["name"]: measure["value"] for measure in self.report["measures"]}
+
     def frame(self):
         """As a DataFrame (pandas)."""
         import pandas

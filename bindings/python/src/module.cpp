@@ -49,6 +49,17 @@ std::string evaluate(const Model& model, const Recordings& recordings, const std
   return report.take();
 }
 
+std::string export_files(const Model& model, const std::string& options) {
+  Text report;
+  dashpot_status status = DASHPOT_OK;
+  {
+    const py::gil_scoped_release others_may_run;
+    status = dashpot_export(model.get(), options.c_str(), report.out());
+  }
+  check(status);
+  return report.take();
+}
+
 py::tuple simulate(const std::string& options, py::object progress) {
   Recordings trace;
   Text report;
@@ -152,6 +163,21 @@ void bind_model(py::module_& module) {
           arg("recordings"),
           "The figures of `dashpot evaluate --json`, as a dict. recordings: Recordings, or paths.\n"
           "force_offset: \"record\" (each recording has a free force zero) or \"none\"; threads: 0 for all.")
+      .def(
+          "export",
+          [](const py::object& self, const py::object& to, const py::object& folder,
+             const py::kwargs& options) {
+            return py::module_::import("dashpot._export").attr("export")(self, to, folder, **options);
+          },
+          arg("to"), arg("folder") = "dashpot-export",
+          "Writes the model as files for other programs, as `dashpot export` does; returns their paths.\n\n"
+          "to: \"c\", \"fmu2\", \"fmu3\", \"tables\" ..., one or a list; `dashpot export --help` has all.\n"
+          "name: of the files and of the functions in them (\"\": the model's). precision: \"double\" or\n"
+          "\"float\", of numbers in C. sample_time: s between two steps (0: that of the model's data, or 1 "
+          "ms).\n"
+          "compiler: of C, for the binary in an FMU (\"\": $CC, or cc). sources_only: an FMU without a "
+          "binary.\n"
+          "Raises Error where the model cannot become that; then nothing is written.")
       .def("__repr__",
            [](const Model& model) {
              return "<dashpot.DamperModel " + std::string(model.info().name) + ", " + model.info().kind +
@@ -187,6 +213,7 @@ PYBIND11_MODULE(_core, module) {
   module.def("fit", &fit);
   module.def("identify", &identify);
   module.def("evaluate", &evaluate);
+  module.def("export", &export_files);
   module.def("simulate", &simulate);
   module.def("understand_column", &understand_column);
 }

@@ -4,11 +4,13 @@
 #include <cmath>
 
 #include "dashpot/base/error.h"
+#include "dashpot/base/text.h"
 
 namespace dashpot {
 namespace {
 
 constexpr int kVersion = 1;
+constexpr double kMostRecords = 1e9;
 
 std::vector<double> read_ascending(const Value& value) {
   std::vector<double> numbers = value.as_numbers();
@@ -59,7 +61,10 @@ ForceBand read_force_band(const Value& value) {
     throw Error(version.where(), "is another version of the interval", "write 1");
   ForceBand band;
   band.level = reader.number("level");
-  band.records = static_cast<std::size_t>(std::max(0.0, reader.number("records")));
+  const double records = reader.number("records");
+  if (!(records >= 0 && records <= kMostRecords))
+    throw Error(value.where(), "records is " + format_number(records), "a number of recordings");
+  band.records = static_cast<std::size_t>(records);
   band.speeds = read_ascending(reader.required("speeds"));
   band.drives = read_ascending(reader.required("drives"));
   const Value& widths = reader.required("half_width_N");

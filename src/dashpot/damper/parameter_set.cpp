@@ -57,6 +57,17 @@ ParameterSet load_parameter_set(const std::string& name) {
   return parse_parameter_set(read_file(path), path.string(), name);
 }
 
+ModelFile to_model_file(const ParameterSet& set) {
+  ModelFile file;
+  file.model = std::make_unique<LawModel>(set.model);
+  file.drive_unit = set.model.drive_unit();
+  file.domain.current_min = set.drive_min;
+  file.domain.current_max = set.drive_max;
+  file.provenance.dataset = set.damper;
+  file.provenance.citation = set.source + (set.verified ? "" : " (an example: " + set.reason + ")");
+  return file;
+}
+
 LawModel load_parameters(const std::string& name) { return load_parameter_set(name).model; }
 
 }  // namespace dashpot

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "dashpot/damper/law_model.h"
+#include "dashpot/damper/model_file.h"
 
 namespace dashpot {
 
@@ -25,6 +26,9 @@ std::vector<std::string> parameter_set_names();
 ParameterSet load_parameter_set(const std::string& name);
 /// As load_parameter_set, but only the model.
 LawModel load_parameters(const std::string& name);
+
+/// As a model file, which says where its numbers come from and whether they are an example.
+ModelFile to_model_file(const ParameterSet& set);
 
 /// The text of such a file. `source` stands in messages.
 ParameterSet parse_parameter_set(std::string_view text, const std::string& source, const std::string& name);

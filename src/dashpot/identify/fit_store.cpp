@@ -1,5 +1,6 @@
 #include "dashpot/identify/fit_store.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -72,7 +73,7 @@ FitReport read_fit(const Value& value, const std::vector<Record>& training) {
   read_offsets(reader.required("offsets"), training, fit);
   for (const Value& warning : reader.required("warnings").items())
     fit.warnings.push_back(warning.as_string());
-  fit.iterations = static_cast<int>(reader.number("iterations"));
+  fit.iterations = static_cast<int>(std::clamp(reader.number("iterations"), 0.0, 1e9));
   fit.seconds = reader.number("seconds");
   const Value* rmse = reader.optional("training_rmse");
   fit.training_rmse = rmse ? number(*rmse) : number(Value());

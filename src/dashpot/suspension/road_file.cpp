@@ -22,16 +22,26 @@ std::string unit_text(const RawColumn& column, std::string_view stated) {
   return "m";
 }
 
+/// Throws Error where a cell is no number, or one that no road and no earthquake has.
+const std::vector<double>& numbers_of(const RawColumn& column, const std::string& file) {
+  constexpr double kGreatest = 1e9;
+  const auto refused = [&](std::size_t row, const std::string& what) {
+    return Error(file, "row " + std::to_string(row + 1) + " of '" + column.name + "' is " + what);
+  };
+  if (column.bad) throw refused(column.bad->row, "no number");
+  for (std::size_t k = 0; k < column.values.size(); ++k)
+    if (!(std::abs(column.values[k]) <= kGreatest)) throw refused(k, format_number(column.values[k]));
+  return column.values;
+}
+
 std::vector<double> in_metres(const RawColumn& column, std::string_view stated, const std::string& file) {
-  if (column.bad)
-    throw Error(file,
-                "row " + std::to_string(column.bad->row + 1) + " of '" + column.name + "' is no number");
+  const std::vector<double>& numbers = numbers_of(column, file);
   const Unit unit = require_unit(unit_text(column, stated), file);
   if (unit.dimension != require_unit("m", file).dimension)
     throw Error(file, "'" + column.name + "' is counted in " + unit_text(column, stated),
                 "a length, as m, ft or in");
   std::vector<double> values;
-  for (const double value : column.values) values.push_back(unit.factor * value);
+  for (const double value : numbers) values.push_back(unit.factor * value);
   return values;
 }
 
@@ -87,13 +97,13 @@ GroundPointer load_earthquake(const std::filesystem::path& path, std::string_vie
   const RawTable table = read_tables(path).front();
   if (table.columns.size() < 2)
     throw Error(file, "has " + std::to_string(table.columns.size()) + " columns", "time and acceleration");
-  const std::vector<double>& time = table.columns[0].values;
+  const std::vector<double>& time = numbers_of(table.columns[0], file);
   require_rising(time, file, "the time");
   const Unit unit = require_unit(unit_stated.empty() ? "m/s^2" : unit_stated, file);
   if (unit.dimension != require_unit("m/s^2", file).dimension)
     throw Error(file, "'" + std::string(unit_stated) + "' does not count an acceleration", "m/s^2 or g0");
   std::vector<double> acceleration;
-  for (const double a : table.columns[1].values) acceleration.push_back(unit.factor * a);
+  for (const double a : numbers_of(table.columns[1], file)) acceleration.push_back(unit.factor * a);
   const double step = (time.back() - time.front()) / static_cast<double>(time.size() - 1);
   for (std::size_t k = 1; k < time.size(); ++k)
     if (std::abs(time[k] - time[0] - step * static_cast<double>(k)) > 0.1 * step)

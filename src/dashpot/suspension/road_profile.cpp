@@ -15,10 +15,44 @@ namespace {
 
 constexpr double kTurn = 2 * std::numbers::pi;
 
+/// Heights at points, a cubic between each two with central slopes. One more at each end mirrors the track
+/// there, so that it is level where the road goes on level.
+struct TrackPoints {
+  const double* z;
+  double last;        ///< place of the last but the mirrored one, from 0
+  double per_second;  ///< how many pass
+};
+/// Places first, heights then: a place waits for conversions, and two short loops overlap more than a long
+/// one.
+void pass_over(const TrackPoints& track, double begin, double step, std::span<FootMotion> out) {
+  constexpr std::size_t kChunk = 64;
+  double share[kChunk];
+  int point[kChunk];
+  for (std::size_t first = 0; first < out.size(); first += kChunk) {
+    const std::span<FootMotion> some = out.subspan(first, std::min(kChunk, out.size() - first));
+    const int count = static_cast<int>(some.size());
+    const double from = begin + step * static_cast<double>(first), last = track.last;
+    for (int n = 0; n < count; ++n) {
+      const double reached = from + step * n, ahead = reached > 0 ? reached : 0;
+      const double place = ahead < last ? ahead : last, left = place < last - 1 ? place : last - 1;
+      point[n] = static_cast<int>(left);
+      share[n] = place - point[n];
+    }
+    for (int n = 0; n < count; ++n) {
+      const double u = share[n], *z = track.z + point[n];
+      const double rise = z[2] - z[1], slope = 0.5 * (z[2] - z[0]);
+      const double twist = slope + 0.5 * (z[3] - z[1]) - 2 * rise, bend = rise - slope - twist;
+      some[n] = {z[1] + u * (slope + u * (bend + u * twist)),
+                 track.per_second * (slope + u * (2 * bend + 3 * u * twist))};
+    }
+  }
+}
+
 class DrivenRoad final : public GroundMotion {
  public:
-  DrivenRoad(RoadProfile profile, double speed) : profile_(std::move(profile)), speed_(speed) {
-    for (const std::vector<double>& heights : profile_.tracks) slopes_.push_back(slopes_of(heights));
+  DrivenRoad(RoadProfile profile, double speed)
+      : profile_(std::move(profile)), speed_(speed), points_per_second_(speed / profile_.spacing) {
+    for (const std::vector<double>& heights : profile_.tracks) points_.push_back(mirrored_at_ends(heights));
   }
   bool is_steady() const noexcept override { return true; }
   std::string description() const override {
@@ -27,37 +61,29 @@ class DrivenRoad final : public GroundMotion {
   double duration() const noexcept override { return profile_.length() / speed_; }
   double speed() const noexcept override { return speed_; }
   FootMotion foot(double t, std::size_t track, double behind) const noexcept override {
-    return at(t, track, behind);
+    FootMotion one;
+    feet(t, 0, track, behind, {&one, 1});
+    return one;
   }
   void feet(double t, double step, std::size_t track, double behind,
             std::span<FootMotion> out) const noexcept override {
-    for (std::size_t k = 0; k < out.size(); ++k)
-      out[k] = at(t + step * static_cast<double>(k), track, behind);
+    const std::size_t which = std::min(track, profile_.tracks.size() - 1);
+    const std::vector<double>& points = points_[which];
+    pass_over({points.data(), static_cast<double>(points.size() - 3), points_per_second_},
+              points_per_second_ * t - behind / profile_.spacing, points_per_second_ * step, out);
   }
 
  private:
-  FootMotion at(double t, std::size_t track, double behind) const noexcept {
-    const std::size_t which = std::min(track, profile_.tracks.size() - 1);
-    const std::vector<double>&z = profile_.tracks[which], &slope = slopes_[which];
-    const double place = (speed_ * t - behind) / profile_.spacing;
-    if (!(place > 0)) return {z.front(), 0};
-    if (place >= static_cast<double>(z.size() - 1)) return {z.back(), 0};
-    const auto k = static_cast<std::size_t>(place);
-    const double u = place - static_cast<double>(k), w = 1 - u, rise = z[k + 1] - z[k];
-    return {z[k] + u * (rise * u * (3 - 2 * u) + w * (w * slope[k] - u * slope[k + 1])),
-            speed_ / profile_.spacing *
-                (6 * u * w * rise + w * (w - 2 * u) * slope[k] + u * (u - 2 * w) * slope[k + 1])};
-  }
-  /// Per spacing, central; level at both ends, where the road goes on level.
-  static std::vector<double> slopes_of(const std::vector<double>& z) {
-    std::vector<double> slopes(z.size());
-    for (std::size_t k = 1; k + 1 < z.size(); ++k) slopes[k] = 0.5 * (z[k + 1] - z[k - 1]);
-    return slopes;
+  static std::vector<double> mirrored_at_ends(const std::vector<double>& z) {
+    std::vector<double> points{z[1]};
+    points.insert(points.end(), z.begin(), z.end());
+    points.push_back(z[z.size() - 2]);
+    return points;
   }
 
   RoadProfile profile_;
-  double speed_;
-  std::vector<std::vector<double>> slopes_;
+  double speed_, points_per_second_;
+  std::vector<std::vector<double>> points_;  ///< of each track
 };
 
 /// Begins level and at 0, over a twentieth of a second's way at most: a car does not fall onto the road.

@@ -92,11 +92,13 @@ TEST_CASE("without current the dynamic range is 1, with it more; the force chang
 }
 
 TEST_CASE("a description is read with its units, written and read again") {
-  const DamperDescription damper =
+  DamperDescription damper =
       parse_description("name: mine\nfluid: 140CG\ngap: 0.8 mm\nbore_diameter: 4cm\nturns: 200\n", "my.yaml");
   CHECK_CLOSE(damper.gap, 8e-4, 1e-15, 0);
   CHECK_CLOSE(damper.bore_diameter, 0.04, 1e-15, 0);
+  damper.name = "two\nlines, \"quoted\", a \\ and a \xc3\xa9";
   const DamperDescription again = parse_description(format_description(damper), "again.yaml");
+  CHECK(again.name == damper.name);
   for (const DescriptionField& field : description_fields()) CHECK(again.*field.field == damper.*field.field);
   CHECK(again.fluid == damper.fluid);
   CHECK(description_names().size() >= 2);

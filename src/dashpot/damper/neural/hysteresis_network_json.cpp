@@ -4,14 +4,6 @@
 namespace dashpot {
 namespace {
 
-Value to_json(const BankNetwork& member) {
-  Value out = Value::object({{"path_rates", Value::array(member.bank.path_rates)},
-                             {"velocity_rates", Value::array(member.bank.velocity_rates)},
-                             {"current_rates", Value::array(member.bank.current_rates)}});
-  add_network(out, member.network);
-  return out;
-}
-
 BankNetwork read_member(const Value& value) {
   ObjectReader reader(value, "a member");
   BankNetwork member;
@@ -25,20 +17,16 @@ BankNetwork read_member(const Value& value) {
 
 }  // namespace
 
-Value HysteresisNetwork::to_json() const {
-  Value members = Value::array();
-  for (const BankNetwork& member : members_) members.push_back(dashpot::to_json(member));
-  return Value::object({{"name", name_}, {"members", std::move(members)}, {"offset", offset_}});
+Value BankNetwork::to_json() const {
+  Value out = Value::object({{"path_rates", Value::array(bank.path_rates)},
+                             {"velocity_rates", Value::array(bank.velocity_rates)},
+                             {"current_rates", Value::array(bank.current_rates)}});
+  add_network(out, network);
+  return out;
 }
 
 std::unique_ptr<HysteresisNetwork> hysteresis_network_from_json(const Value& value) {
-  ObjectReader reader(value, "a state network");
-  std::string name = reader.string("name");
-  std::vector<BankNetwork> members;
-  for (const Value& item : reader.required("members").items()) members.push_back(read_member(item));
-  const double offset = reader.number("offset");
-  reader.finish();
-  return std::make_unique<HysteresisNetwork>(std::move(name), std::move(members), offset, value.where());
+  return state_network_from_json<HysteresisNetwork>(value, "a state network", read_member);
 }
 
 }  // namespace dashpot

@@ -1,10 +1,6 @@
 #include "dashpot/damper/neural/state_space_model.h"
 
-#include <algorithm>
-#include <array>
 #include <cmath>
-
-#include "dashpot/base/error.h"
 
 namespace dashpot {
 namespace {
@@ -43,65 +39,9 @@ void require_sound(const StateSpaceCell& cell, const std::string& where) {
 
 }  // namespace
 
-StateSpaceModel::StateSpaceModel(std::string name, std::vector<StateSpaceNetwork> members, double offset,
-                                 const std::string& where)
-    : name_(std::move(name)), members_(std::move(members)), offset_(offset) {
-  const std::string& place = where.empty() ? name_ : where;
-  if (members_.empty()) throw Error(place, "has no members", "a cell and its network at least");
-  for (const StateSpaceNetwork& member : members_) {
-    require_sound(member.cell, place);
-    member.network.require_sound(member.cell.signal_count(), place);
-    state_size_ += member.cell.size();
-  }
-}
-
-std::size_t StateSpaceModel::parameter_count() const noexcept {
-  std::size_t count = 0;
-  for (const StateSpaceNetwork& member : members_) count += member.parameter_count();
-  return count;
-}
-
-void StateSpaceModel::rest(const DamperInput& input, std::span<double> state) const noexcept {
-  for (const StateSpaceNetwork& member : members_) {
-    member.cell.rest(input, state.first(member.cell.size()));
-    state = state.subspan(member.cell.size());
-  }
-}
-
-void StateSpaceModel::advance(const DamperInput& from, const DamperInput& to, double dt,
-                              std::span<double> state) const noexcept {
-  for (const StateSpaceNetwork& member : members_) {
-    member.cell.advance(from, to, dt, state.first(member.cell.size()));
-    state = state.subspan(member.cell.size());
-  }
-}
-
-double StateSpaceModel::force(const DamperInput& input, std::span<const double> state) const noexcept {
-  std::array<double, GatedNetwork::kMaxSignals> signals;
-  double sum = 0;
-  for (const StateSpaceNetwork& member : members_) {
-    member.cell.read(input, state.first(member.cell.size()), signals.data());
-    sum += member.network.evaluate(signals.data());
-    state = state.subspan(member.cell.size());
-  }
-  return sum / static_cast<double>(members_.size()) + offset_;
-}
-
-double StateSpaceModel::spread(const DamperInput& input, std::span<const double> state) const noexcept {
-  const double mean = force(input, state) - offset_;
-  std::array<double, GatedNetwork::kMaxSignals> signals;
-  double squares = 0;
-  for (const StateSpaceNetwork& member : members_) {
-    member.cell.read(input, state.first(member.cell.size()), signals.data());
-    const double apart = member.network.evaluate(signals.data()) - mean;
-    squares += apart * apart;
-    state = state.subspan(member.cell.size());
-  }
-  return is_ensemble() ? std::sqrt(squares / static_cast<double>(members_.size() - 1)) : 0;
-}
-
-std::unique_ptr<DamperModel> StateSpaceModel::with_offset(double newton) const {
-  return std::make_unique<StateSpaceModel>(name_, members_, offset_ + newton);
+void StateSpaceNetwork::require_sound(const std::string& where) const {
+  dashpot::require_sound(cell, where);
+  network.require_sound(cell.signal_count(), where);
 }
 
 }  // namespace dashpot

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "dashpot/damper/model.h"
 #include "dashpot/damper/neural/gated_network.h"
+#include "dashpot/damper/neural/state_network.h"
 #include "dashpot/damper/neural/state_space_cell.h"
 
 namespace dashpot {
@@ -14,40 +14,26 @@ struct StateSpaceNetwork {
   StateSpaceCell cell;
   GatedNetwork network;
 
+  const StateSpaceCell& states() const noexcept { return cell; }
   /// Rates, weights of neurons and feedback; weights of the reading network.
   std::size_t parameter_count() const noexcept { return cell.parameter_count() + network.parameter_count(); }
+  Value to_json() const;
+  void require_sound(const std::string& where) const;
 };
 
-/// Velocity and current -> force through states that act back on themselves: the mean of a few such
-/// networks. Bounded by construction for bounded inputs: the states are.
-class StateSpaceModel final : public DamperModel {
+/// Velocity and current -> force through states that act back on themselves. Bounded by construction for
+/// bounded inputs: the states are.
+class StateSpaceModel final : public StateNetwork<StateSpaceNetwork> {
  public:
   /// Throws Error, beginning with `where` (the name when empty), when the parts do not fit together.
   StateSpaceModel(std::string name, std::vector<StateSpaceNetwork> members, double offset = 0,
-                  const std::string& where = {});
+                  const std::string& where = {})
+      : StateNetwork(std::move(name), std::move(members), offset, where) {}
 
   std::string kind() const override { return "state_space"; }
-  std::string name() const override { return name_; }
-  bool needs_displacement() const noexcept override { return false; }
-  std::size_t parameter_count() const noexcept override;
-  std::size_t state_size() const noexcept override { return state_size_; }
-  void rest(const DamperInput& input, std::span<double> state) const noexcept override;
-  void advance(const DamperInput& from, const DamperInput& to, double dt,
-               std::span<double> state) const noexcept override;
-  double force(const DamperInput& input, std::span<const double> state) const noexcept override;
-  bool is_ensemble() const noexcept override { return members_.size() > 1; }
-  double spread(const DamperInput& input, std::span<const double> state) const noexcept override;
-  std::unique_ptr<DamperModel> with_offset(double newton) const override;
-  Value to_json() const override;
-
-  const std::vector<StateSpaceNetwork>& members() const { return members_; }
-  double offset() const { return offset_; }
-
- private:
-  std::string name_;
-  std::vector<StateSpaceNetwork> members_;
-  double offset_;
-  std::size_t state_size_ = 0;
+  std::unique_ptr<DamperModel> with_offset(double newton) const override {
+    return std::make_unique<StateSpaceModel>(name(), members(), offset() + newton);
+  }
 };
 
 std::unique_ptr<StateSpaceModel> state_space_model_from_json(const Value& value);

@@ -46,12 +46,6 @@ StateSpaceCell read_cell(const Value& value) {
   return cell;
 }
 
-Value to_json(const StateSpaceNetwork& member) {
-  Value out = Value::object({{"cell", to_json(member.cell)}});
-  add_network(out, member.network);
-  return out;
-}
-
 StateSpaceNetwork read_member(const Value& value) {
   ObjectReader reader(value, "a member");
   StateSpaceNetwork member;
@@ -63,20 +57,14 @@ StateSpaceNetwork read_member(const Value& value) {
 
 }  // namespace
 
-Value StateSpaceModel::to_json() const {
-  Value members = Value::array();
-  for (const StateSpaceNetwork& member : members_) members.push_back(dashpot::to_json(member));
-  return Value::object({{"name", name_}, {"members", std::move(members)}, {"offset", offset_}});
+Value StateSpaceNetwork::to_json() const {
+  Value out = Value::object({{"cell", dashpot::to_json(cell)}});
+  add_network(out, network);
+  return out;
 }
 
 std::unique_ptr<StateSpaceModel> state_space_model_from_json(const Value& value) {
-  ObjectReader reader(value, "a state-space model");
-  std::string name = reader.string("name");
-  std::vector<StateSpaceNetwork> members;
-  for (const Value& item : reader.required("members").items()) members.push_back(read_member(item));
-  const double offset = reader.number("offset");
-  reader.finish();
-  return std::make_unique<StateSpaceModel>(std::move(name), std::move(members), offset, value.where());
+  return state_network_from_json<StateSpaceModel>(value, "a state-space model", read_member);
 }
 
 }  // namespace dashpot

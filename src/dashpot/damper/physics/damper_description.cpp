@@ -179,7 +179,8 @@ DamperDescription named_description(const std::string& name) {
 std::vector<std::string> description_names() { return data_names("dampers", ".yaml"); }
 
 std::string format_description(const DamperDescription& d) {
-  std::string text = "name: \"" + d.name + "\"\nfluid: " + std::string(d.fluid->name) +
+  // What JSON quotes, YAML reads.
+  std::string text = "name: " + format_json(Value(d.name), false) + "\nfluid: " + std::string(d.fluid->name) +
                      "\nyield: " + std::string(word_of(kYieldLaws, d.yield_law)) +
                      "\ncircuit: " + std::string(word_of(kCircuitLaws, d.circuit_law)) +
                      "\nflow: " + std::string(word_of(kFlowLaws, d.flow_law)) + '\n';

@@ -185,14 +185,14 @@ std::vector<std::pair<std::string, std::string>> facts(const Vehicle& vehicle, c
           {"reads", reads_of(path)},
           {"range", c_number(limits.current_max - limits.current_min)},
           {"steps", number(kTestSteps)},
-          {"tolerance", tolerance_of(vehicle, path, options.precision)}};
+          {"tolerance", tolerance_of(vehicle, path, options.c_precision())}};
 }
 
 }  // namespace
 
 std::vector<ExportedFile> write_c_controller(const Vehicle& vehicle, const ExportOptions& options) {
   if (!vehicle.controller) throw Error("export", "the vehicle has no controller");
-  const CControlPath path = c_control_path(vehicle, options.precision);
+  const CControlPath path = c_control_path(vehicle, options.c_precision());
   const std::string prefix =
       c_name(options.name.empty() ? without_marks(split(vehicle.controller_name, ',').front()) + "_controller"
                                   : options.name);
@@ -205,7 +205,7 @@ std::vector<ExportedFile> write_c_controller(const Vehicle& vehicle, const Expor
     rows += "    " + c_numbers(row) + ",\n";
   values.emplace_back("rows", rows);
   const auto finished = [&](const std::string& text) {
-    return filled(with_prefix(in_precision(filled(text, values), options.precision), prefix),
+    return filled(with_prefix(in_precision(filled(text, values), options.c_precision()), prefix),
                   {{"command", in_comment(options.command)}});
   };
   const std::string interface =

@@ -143,7 +143,7 @@ std::vector<ExportedFile> write_c_inverse(const ExportedInverse& inverse, const 
   const std::string code = with_texts(
       "typedef struct DamperInput {\n  double displacement, velocity, current;\n} DamperInput;\n"
       "typedef damper_input InverseInput;\n\n" +
-      c_inverse(inverse.model, options.precision).code);
+      c_inverse(inverse.model, options.c_precision()).code);
   require_free_names(prefix, code);
   const std::size_t size = inverse.model.state_size();
   const std::vector<std::pair<std::string, std::string>> values{
@@ -159,10 +159,10 @@ std::vector<ExportedFile> write_c_inverse(const ExportedInverse& inverse, const 
       {"unused", size == 0 ? ": one that is not used" : ""},
       {"sample_time", c_number(limits.sample_time)},
       {"steps", std::to_string(kTestSteps)},
-      {"tolerance", options.precision == CPrecision::Double ? "1e-12" : "1e-5"},
+      {"tolerance", options.c_precision() == CPrecision::Double ? "1e-12" : "1e-5"},
       {"rows", rows_of(inverse)}};
   const auto finished = [&](const std::string& text) {
-    return filled(with_prefix(in_precision(filled(text, values), options.precision), prefix),
+    return filled(with_prefix(in_precision(filled(text, values), options.c_precision()), prefix),
                   {{"command", in_comment(options.command)}});
   };
   return {{prefix + ".h", finished(kHeader + std::string(c_text("inverse_api.h")) + kHeaderEnd)},

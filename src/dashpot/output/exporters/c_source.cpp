@@ -118,7 +118,7 @@ std::vector<std::pair<std::string, std::string>> facts(const ExportedModel& mode
           {"unused", source.state_size == 0 ? ": one that is not used" : ""},
           {"sample_time", c_number(source.sample_time)},
           {"steps", std::to_string(kTestSteps)},
-          {"tolerance", options.precision == CPrecision::Double ? "1e-12" : "1e-5"}};
+          {"tolerance", options.c_precision() == CPrecision::Single ? "1e-5" : "1e-12"}};
 }
 
 std::vector<CSource::Variable> states_of(const DamperModel& model) {
@@ -143,7 +143,7 @@ std::string title_of(const DamperModel& model) {
 CSource c_source(const ExportedModel& model, const ExportOptions& options) {
   const auto* law = options.settable_parameters ? dynamic_cast<const LawModel*>(&model.model) : nullptr;
   const CModel code = c_model(model.model, law != nullptr);
-  const bool single = options.precision == CPrecision::Single;
+  const bool single = options.c_precision() == CPrecision::Single;
   CSource source{.prefix = export_name(model, options),
                  .real = single ? "float" : "double",
                  .state_size = model.model.state_size(),
@@ -162,7 +162,7 @@ CSource c_source(const ExportedModel& model, const ExportOptions& options) {
   const std::string own = with_texts(code.code);
   require_free_names(source.prefix, own);
   const auto finished = [&](const std::string& text) {
-    return with_prefix(in_precision(text, options.precision), source.prefix);
+    return with_prefix(in_precision(text, single ? CPrecision::Single : CPrecision::Double), source.prefix);
   };
   std::vector<std::pair<std::string, std::string>> values = facts(model, options, source);
   source.header =

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 
 #include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
@@ -10,6 +11,7 @@
 #include "dashpot/output/exporters/c_wrappers.h"
 #include "dashpot/output/exporters/fmu.h"
 #include "dashpot/output/exporters/force_map.h"
+#include "dashpot/output/exporters/onnx.h"
 
 namespace dashpot {
 namespace {
@@ -29,6 +31,8 @@ constexpr std::array kExporters{
              "NAME.h, NAME.c and NAME_mex.c, which takes a matrix of inputs", write_mex},
     Exporter{"modelica", "Modelica package", "every model",
              "NAME/package.mo with a block and a force element, and its C code", write_modelica},
+    Exporter{"onnx", "ONNX graphs for a runtime of networks", "every model",
+             "NAME.onnx, one step with its state, and NAME_rest.onnx, where a run begins", write_onnx},
     Exporter{"sfunction", "C for Simulink", "every model",
              "NAME.h, NAME.c and NAME_sfun.c, a level-2 S-function", write_sfunction},
     Exporter{"tables", "look-up tables", "every model, its states settled",
@@ -43,6 +47,10 @@ bool is_c_name(const std::string& name) {
 
 }  // namespace
 
+Domain usual_domain(double current_min, double current_max) {
+  return {-0.025, 0.025, -0.5, 0.5, current_min, current_max};
+}
+
 std::span<const Exporter> exporters() { return kExporters; }
 
 const Exporter& find_exporter(std::string_view name, const std::string& where) {
@@ -52,6 +60,26 @@ const Exporter& find_exporter(std::string_view name, const std::string& where) {
     known.emplace_back(exporter.name);
   }
   throw Error(where, "unknown format '" + std::string(name) + "'", suggest(name, known));
+}
+
+ExportedModel exported_model(const ModelFile& file) {
+  const Provenance& from = file.provenance;
+  ExportedModel exported{.model = *file.model,
+                         .drive_unit = file.drive_unit,
+                         .domain = file.domain,
+                         .sample_time = file.sample_time,
+                         .origin = from.created.empty()
+                                       ? from.dataset + ": " + from.citation
+                                       : "Identified from " + from.dataset + ", " + from.created};
+  Domain& domain = exported.domain;
+  if (!(domain.velocity_min < domain.velocity_max))
+    domain = usual_domain(domain.current_min, domain.current_max);
+  return exported;
+}
+
+std::string usual_compiler() {
+  const char* usual = std::getenv("CC");
+  return usual && *usual != '\0' ? usual : "cc";
 }
 
 double export_sample_time(const ExportedModel& model, const ExportOptions& options) {

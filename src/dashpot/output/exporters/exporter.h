@@ -1,10 +1,11 @@
 #pragma once
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "dashpot/damper/model.h"
+#include "dashpot/damper/model_file.h"
 #include "dashpot/output/exporters/c_text.h"
 
 namespace dashpot {
@@ -18,9 +19,15 @@ struct ExportedModel {
   std::string origin;      ///< where it comes from, in words
 };
 
+/// Where no data tell: a stroke of a car's damper.
+Domain usual_domain(double current_min, double current_max);
+/// The model of a file, which must stay as long.
+ExportedModel exported_model(const ModelFile& file);
+
 struct ExportOptions {
-  std::string name;  ///< of files and functions: a name in C
-  CPrecision precision = CPrecision::Double;
+  std::string name;                     ///< of files and functions: a name in C
+  std::optional<CPrecision> precision;  ///< nothing: double in C, single in ONNX
+  CPrecision c_precision() const { return precision.value_or(CPrecision::Double); }
   double sample_time = 0;            ///< s; 0: the model's own
   bool settable_parameters = false;  ///< of a law in C: kept behind its state instead of in its code
   std::string compiler = "cc";       ///< of C, and more of its arguments: for what holds a binary
@@ -45,6 +52,9 @@ struct Exporter {
 std::span<const Exporter> exporters();
 /// Throws Error "unknown format 'x'; did you mean ...".
 const Exporter& find_exporter(std::string_view name, const std::string& where = {});
+
+/// As make has it: $CC, or cc.
+std::string usual_compiler();
 
 /// s between two steps: as asked for, the model's own where it has one, that of its data, or 1 ms. Throws
 /// Error where it is not a positive number.

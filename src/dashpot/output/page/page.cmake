@@ -5,13 +5,13 @@ set(DASHPOT_UPLOT_DIR ${PROJECT_SOURCE_DIR}/node_modules/uplot)
 if(NOT EXISTS ${DASHPOT_UPLOT_DIR}/dist/uPlot.iife.min.js)
   find_program(NPM npm)
   if(NOT NPM)
-    message(FATAL_ERROR "uPlot is not in node_modules and npm is missing; install npm, or run 'npm ci --ignore-scripts' elsewhere")
+    message(FATAL_ERROR "uPlot is not in node_modules and npm is missing; install npm, or run 'npm ci --ignore-scripts --omit=dev' elsewhere")
   endif()
-  message(STATUS "Getting uPlot: npm ci --ignore-scripts")
-  execute_process(COMMAND ${NPM} ci --ignore-scripts WORKING_DIRECTORY ${PROJECT_SOURCE_DIR}
+  message(STATUS "Getting uPlot: npm ci --ignore-scripts --omit=dev")
+  execute_process(COMMAND ${NPM} ci --ignore-scripts --omit=dev WORKING_DIRECTORY ${PROJECT_SOURCE_DIR}
     RESULT_VARIABLE npm_status OUTPUT_QUIET ERROR_VARIABLE npm_error)
   if(NOT npm_status EQUAL 0)
-    message(FATAL_ERROR "'npm ci --ignore-scripts' failed: ${npm_error}")
+    message(FATAL_ERROR "'npm ci' failed: ${npm_error}")
   endif()
 endif()
 

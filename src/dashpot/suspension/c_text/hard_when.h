@@ -4,7 +4,9 @@
 
 /* The most damping where `hard` is not 0, else the least. */
 static inline DamperDemand hard_when(int hard, const ControlLimits* limits) {
-  return demand_of(kDemandDamping, (hard != 0) ? limits->damping_max : limits->damping_min);
+  const double values[2] = {limits->damping_min,
+                            limits->damping_max}; /* no branch: nobody would foresee it */
+  return demand_of(kDemandDamping, values[hard != 0]);
 }
 
 #endif

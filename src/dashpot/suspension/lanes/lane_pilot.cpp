@@ -33,60 +33,57 @@ LanePilot::LanePilot(std::span<const BatchVehicle* const> vehicles, std::size_t 
 
 void LanePilot::take(LaneRide& ride) {
   ride.pilot = this;
-  ride.ground = [](void* self, std::size_t first, std::size_t count, double* heights, double* rates) {
-    static_cast<LanePilot*>(self)->ground(first, count, heights, rates);
+  ride.ground = [](void* self, std::size_t lane, std::size_t first, double* heights, double* rates) {
+    static_cast<LanePilot*>(self)->ground(lane, first, heights, rates);
   };
   if (drivers_.front().vehicle->setting.controller)
-    ride.control = [](void* self, const double* signals, double* commands) {
-      static_cast<LanePilot*>(self)->control(signals, commands);
+    ride.control = [](void* self, const double* signals, double* commands, const std::int64_t* which) {
+      static_cast<LanePilot*>(self)->control(signals, commands, which);
     };
 }
 
-void LanePilot::ground(std::size_t first, std::size_t count, double* heights, double* rates) noexcept {
-  const std::size_t driven = drivers_.size();
-  feet_.resize(count);
-  for (std::size_t lane = 0; lane < driven; ++lane) {
-    const BatchVehicle& vehicle = *drivers_[lane].vehicle;
-    const Tyre& tyre = vehicle.setting.plant.tyres[0];
-    const double half = 0.5 * sample_time_of(vehicle);
-    vehicle.setting.ground.feet(half * static_cast<double>(first), half, tyre.track, tyre.behind, feet_);
-    for (std::size_t k = 0; k < count; ++k)
-      for (std::size_t to = lane; to < (lane + 1 == driven ? lanes_ : lane + 1); ++to) {
-        heights[k * lanes_ + to] = feet_[k].height;
-        rates[k * lanes_ + to] = feet_[k].velocity;
-      }
+void LanePilot::ground(std::size_t lane, std::size_t first, double* heights, double* rates) noexcept {
+  const BatchVehicle& vehicle = *drivers_[std::min(lane, drivers_.size() - 1)].vehicle;
+  const Tyre& tyre = vehicle.setting.plant.tyres[0];
+  const double half = 0.5 * sample_time_of(vehicle);
+  vehicle.setting.ground.feet(half * static_cast<double>(first), half, tyre.track, tyre.behind, feet_);
+  for (std::size_t k = 0; k < kLaneNodes; ++k) {
+    heights[k * lanes_ + lane] = feet_[k].height;
+    rates[k * lanes_ + lane] = feet_[k].velocity;
   }
 }
 
-void LanePilot::control(const double* signals, double* commands) {
-  for (std::size_t lane = 0; lane < drivers_.size(); ++lane) {
-    double own[kLaneSignals];
-    for (std::size_t k = 0; k < kLaneSignals; ++k) own[k] = signals[k * lanes_ + lane];
-    commands[lane] = command(drivers_[lane], own, commands[lane]);
-  }
+void LanePilot::control(const double* signals, double* commands, const std::int64_t* which) {
+  for (std::size_t lane = 0; lane < drivers_.size(); ++lane)
+    if (which[lane]) commands[lane] = command(drivers_[lane], signals + lane, commands[lane]);
   std::fill(commands + drivers_.size(), commands + lanes_, commands[drivers_.size() - 1]);
 }
 
-double LanePilot::command(Driver& driver, const double (&signals)[kLaneSignals], double before) {
-  const auto& [vehicle, sensors, path, state, resting] = driver;
-  StrutSignals strut{.body_velocity = signals[kBodyVelocity],
-                     .body_acceleration = signals[kBodyAcceleration],
-                     .wheel_velocity = signals[kWheelVelocity],
-                     .deflection = signals[kDeflection],
-                     .deflection_velocity = signals[kDeflectionVelocity],
-                     .force = signals[kForce],
-                     .current = signals[kCurrent]};
-  const std::array<double, 4> x{signals[kBody] - resting[0] * signals[kGround],
-                                signals[kWheel] - resting[1] * signals[kGround], strut.body_velocity,
-                                strut.wheel_velocity};
-  if (!sensors.ideal()) driver.sensors.measure({&strut, 1});
+double LanePilot::command(Driver& driver, const double* signals, double before) const {
+  const auto signal = [&](LaneSignal row) { return signals[row * lanes_]; };
+  const BatchVehicle& vehicle = *driver.vehicle;
+  StrutSignals strut{.body_velocity = signal(kBodyVelocity),
+                     .body_acceleration = signal(kBodyAcceleration),
+                     .wheel_velocity = signal(kWheelVelocity),
+                     .deflection = signal(kDeflection),
+                     .deflection_velocity = signal(kDeflectionVelocity),
+                     .force = signal(kForce),
+                     .current = signal(kCurrent)};
+  DamperInput seen{signal(kDeflection), signal(kDeflectionVelocity), signal(kCurrent)};
+  const std::array<double, 4> x{signal(kBody) - driver.resting[0] * signal(kGround),
+                                signal(kWheel) - driver.resting[1] * signal(kGround), signal(kBodyVelocity),
+                                signal(kWheelVelocity)};
+  const bool ideal = driver.sensors.ideal();
+  if (!ideal) {
+    driver.sensors.measure({&strut, 1});
+    seen = {strut.deflection, strut.deflection_velocity, strut.current};
+  }
   DamperDemand demand;
-  vehicle->setting.controller->step({&strut, 1},
-                                    sensors.ideal() ? std::span<const double>(x) : std::span<const double>(),
-                                    driver.state, {&demand, 1});
-  const DamperInput now{strut.deflection, strut.deflection_velocity, signals[kCurrent]};
-  const double wanted = driver.path.command(demand, now, strut.force);
-  const DriverOptions& limits = vehicle->setting.dampers[0].driver;
+  vehicle.setting.controller->step({&strut, 1},
+                                   ideal ? std::span<const double>(x) : std::span<const double>(),
+                                   driver.state, {&demand, 1});
+  const double wanted = driver.path.command(demand, seen, signal(kForce));
+  const DriverOptions& limits = vehicle.setting.dampers[0].driver;
   return std::isnan(wanted) ? before : std::clamp(wanted, limits.current_min, limits.current_max);
 }
 

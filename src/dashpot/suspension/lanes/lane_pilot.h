@@ -23,13 +23,13 @@ class LanePilot {
     std::vector<double> state;
     double resting[2];  ///< where the plant rests on ground that is 1 m higher
   };
-  void ground(std::size_t first, std::size_t count, double* heights, double* rates) noexcept;
-  void control(const double* signals, double* commands);
-  double command(Driver& driver, const double (&signals)[kLaneSignals], double before);
+  void ground(std::size_t lane, std::size_t first, double* heights, double* rates) noexcept;
+  void control(const double* signals, double* commands, const std::int64_t* which);
+  double command(Driver& driver, const double* signals, double before) const;
 
   std::size_t lanes_;
   std::vector<Driver> drivers_;
-  std::vector<FootMotion> feet_;
+  FootMotion feet_[kLaneNodes];
 };
 
 }  // namespace dashpot

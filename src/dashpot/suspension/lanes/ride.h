@@ -1,5 +1,6 @@
 #pragma once
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <string_view>
 
@@ -52,16 +53,19 @@ struct LaneRide {
   const double* weighting = nullptr;  ///< b0, b1, b2, a1, a2 of each of kWeightingSections
 
   void* pilot = nullptr;
-  /// Height and rate at `count` half samples from number `first` on: rows of heights, then of rates.
-  void (*ground)(void* pilot, std::size_t first, std::size_t count, double* heights, double* rates) = nullptr;
-  /// LaneSignal rows in, commands out: what the driver's limits leave of them. Null: the commands stay.
-  void (*control)(void* pilot, const double* signals, double* commands) = nullptr;
+  /// Height and rate under a lane at kLaneNodes half samples from number `first` on, into rows.
+  void (*ground)(void* pilot, std::size_t lane, std::size_t first, double* heights, double* rates) = nullptr;
+  /// LaneSignal rows in, commands out: what the driver's limits leave of them. Only lanes of which `which` is
+  /// not 0. Null: the commands stay.
+  void (*control)(void* pilot, const double* signals, double* commands, const std::int64_t* which) = nullptr;
 
   double* results = nullptr;  ///< LaneResult rows
   double* trace = nullptr;    ///< samples + 1 times LaneTrace rows; or null
 };
 
 constexpr std::size_t kWeightingSections = 4;
+constexpr std::size_t kLaneAhead = 64;  ///< samples of road at once: a power of 2
+constexpr std::size_t kLaneNodes = 2 * kLaneAhead + 1;
 enum LaneSignal : std::size_t {
   kBodyVelocity,
   kBodyAcceleration,

@@ -20,40 +20,37 @@ class AdaptiveSteps {
   AdaptiveSteps(const LaneRide& ride, Car& car) : ride_(ride), car_(car), next_(all(ride.sample_time)) {}
 
   /// Forces at the begin of a sample, after the command has changed in some lanes.
-  void refresh(const State& state, Lane command, LaneMask changed, Lane road) {
+  [[gnu::noinline, gnu::flatten]] void refresh(const State& state, Lane command, LaneMask changed,
+                                               Lane road) {
     keep(slope(state, command, road), changed);
   }
   /// At the present state: the damper's force, N, and the acceleration of coordinate k, m/s^2.
   Lane force() const { return first_.force; }
   Lane acceleration(std::size_t k) const { return first_.d[2 + k]; }
 
-  /// Over one sample.
-  void advance(State& state, Lane command, const RoadPush& road) {
+  /// Tries one step in these lanes. Those that have reached the end of their sample.
+  LaneMask step(State& state, Lane command, const RoadPush& road, LaneMask riding) {
     const double whole = ride_.sample_time, least = whole / 256;
-    Lane done{};
-    LaneMask moving = done < whole;
-    do {
-      const Lane left = whole - done;
-      const LaneMask last = next_ >= left;
-      const Lane h = moving ? (last ? left : next_) : Lane{};
-      State end;
-      Slope ending;
-      const Lane error = attempt(state, h, command, road, done / whole, end, ending);
-      ++evaluations_;
-      const LaneMask small = h <= least;
-      const LaneMask accepted = moving & ((error <= 1) | small | (error != error));
-      missed = missed | (accepted & !(error <= 1));
-      take(state, end, accepted);
-      keep(ending, accepted);
-      steps += accepted ? all(1) : Lane{};
-      const Lane factor = fmin(fmax(0.9 * about_fifth_root_below(fmax(error, 1e-5)), 0.2), 5);
-      const Lane proposed = fmin(fmax(h * factor, least), whole);
-      next_ = moving ? (accepted & last ? fmax(next_, proposed) : proposed) : next_;
-      done = accepted ? (last ? all(whole) : done + h) : done;
-      moving = done < whole;
-    } while (any(moving));
+    const Lane left = whole - done_;
+    const LaneMask last = next_ >= left;
+    const Lane h = last ? left : next_;
+    State end;
+    Slope ending;
+    const Lane error = attempt(state, h, command, road, done_ / whole, end, ending);
+    const LaneMask accepted = riding & ((error <= 1) | (h <= least) | (error != error));
+    missed |= accepted & !(error <= 1);
+    take(state, end, accepted);
+    keep(ending, accepted);
+    steps += accepted ? all(1) : Lane{};
+    const Lane factor = fmin(fmax(0.9 * about_fifth_root_below(fmax(error, 1e-5)), 0.2), 5);
+    const Lane proposed = fmin(fmax(h * factor, least), whole);
+    next_ = riding ? (accepted & last ? fmax(next_, proposed) : proposed) : next_;
+    done_ = accepted ? (last ? Lane{} : done_ + h) : done_;
+    const LaneMask arrived = accepted & last;
     if constexpr (kLags == 1)
-      state.currents.coil = car_.numbers.driver_lag > 0 ? state.currents.inner : state.currents.coil;
+      state.currents.coil =
+          arrived & (car_.numbers.driver_lag > 0) ? state.currents.inner : state.currents.coil;
+    return arrived;
   }
 
   LaneMask missed{};
@@ -100,8 +97,8 @@ class AdaptiveSteps {
   }
 
   /// A step of length h from `begin` (share of the sample) on; its error in tolerances.
-  Lane attempt(const State& from, Lane h, Lane command, const RoadPush& road, Lane begin, State& end,
-               Slope& k7) {
+  [[gnu::noinline, gnu::flatten]] Lane attempt(const State& from, Lane h, Lane command, const RoadPush& road,
+                                               Lane begin, State& end, Slope& k7) {
     const Lane share = h / ride_.sample_time;
     const Slope& k1 = first_;
     const auto at = [&](double c) { return road.at(begin + c * share); };
@@ -156,9 +153,8 @@ class AdaptiveSteps {
 
   const LaneRide& ride_;
   Car& car_;
-  Lane next_;
+  Lane next_, done_{};  ///< s, of the sample
   Slope first_{};
-  std::size_t evaluations_ = 0;
 };
 
 }  // namespace

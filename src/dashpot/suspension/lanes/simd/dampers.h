@@ -93,10 +93,10 @@ class NetworkLanes {
     Lane fractions{};
     std::size_t n = 0;
     for (; n + 2 <= count; n += 2) {
-      const Lane a = 1 + exp_of_twice(first(n)), b = 1 + exp_of_twice(first(n + 1));
+      const Lane a = 1 + exp_of_twice<double>(first(n)), b = 1 + exp_of_twice<double>(first(n + 1));
       fractions += (load(out + n * kWidth) * b + load(out + (n + 1) * kWidth) * a) / (a * b);
     }
-    if (n < count) fractions += load(out + n * kWidth) / (1 + exp_of_twice(first(n)));
+    if (n < count) fractions += load(out + n * kWidth) / (1 + exp_of_twice<double>(first(n)));
     return all_ones_ - 2 * fractions;
   }
   static Lane ended(const LaneNetwork::Layer& last, Lane sum, const double* weights) {

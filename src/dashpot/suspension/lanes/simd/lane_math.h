@@ -29,12 +29,18 @@ inline bool any(LaneMask mask) {
 /// a < b ? a : b, so b where one of them is a NaN.
 #if DASHPOT_LANE_BYTES == 64
 inline Lane smaller(Lane a, Lane b) { return _mm512_maskz_min_pd(0xFF, a, b); }
+inline Lanes<float> smaller(Lanes<float> a, Lanes<float> b) { return _mm512_maskz_min_ps(0xFFFF, a, b); }
 #elif DASHPOT_LANE_BYTES == 32
 inline Lane smaller(Lane a, Lane b) { return _mm256_min_pd(a, b); }
+inline Lanes<float> smaller(Lanes<float> a, Lanes<float> b) { return _mm256_min_ps(a, b); }
 #elif defined(__SSE2__)
 inline Lane smaller(Lane a, Lane b) { return _mm_min_pd(a, b); }
+inline Lanes<float> smaller(Lanes<float> a, Lanes<float> b) { return _mm_min_ps(a, b); }
 #else
-inline Lane smaller(Lane a, Lane b) { return a < b ? a : b; }
+template <class V>
+inline V smaller(V a, V b) {
+  return a < b ? a : b;
+}
 #endif
 inline Lane fmax(Lane a, Lane b) { return larger(a, b); }
 inline Lane fmax(Lane a, double b) { return larger(a, all(b)); }
@@ -64,16 +70,9 @@ inline Lane pow(Lane base, Lane power) {
   return base;
 }
 
-/// exp(2x) within 3e-14 of itself, |x| at most 20: 2^k times a polynomial that meets 2^r where Chebyshev's
-/// has zeros.
-[[gnu::always_inline]] inline Lane exp_of_twice(Lane x) {
-  using A = Arithmetic<double>;
-  constexpr double kTwoLog2E = 2.88539008177792681472, kRound = A::kRound + A::kBias;
-  const Lane y = larger(all(-A::kTanhOne), smaller(all(A::kTanhOne), x));  // a NaN passes
-  const Lane shifted = y * kTwoLog2E + kRound;
-  const Lane r = y * kTwoLog2E - (shifted - kRound);
-  const Lane power = __builtin_bit_cast(Lane, __builtin_bit_cast(LaneMask, shifted) << A::kMantissa);
-  // Even and odd powers by themselves: what counts is how long one takes.
+/// 2^r, |r| at most 1/2: a polynomial that meets it where Chebyshev's has zeros. Even and odd powers by
+/// themselves: what counts is how long one takes.
+inline Lane power_of_two(Lane r) {
   const Lane square = r * r;
   const Lane even =
       (((1.325964524488711e-06 * square + 0.0001540343375125101) * square + 0.009618129193934313) * square +
@@ -86,7 +85,25 @@ inline Lane pow(Lane base, Lane power) {
        0.05550410866465167) *
           square +
       0.6931471805599462;
-  return (odd * r + even) * power;
+  return odd * r + even;
+}
+inline Lanes<float> power_of_two(Lanes<float> r) {
+  const Lanes<float> square = r * r;
+  const Lanes<float> even =
+      ((0.0001545316294F * square + 0.009618082557F) * square + 0.2402265076F) * square + 1;
+  return ((0.001339086336F * square + 0.05550357114F) * square + 0.693147188F) * r + even;
+}
+
+/// exp(2x), |x| at most kTanhOne: within 3e-14 of itself, of floats to their last digit.
+template <class Real>
+[[gnu::always_inline]] inline Lanes<Real> exp_of_twice(Lanes<Real> x) {
+  using A = Arithmetic<Real>;
+  using V = Lanes<Real>;
+  constexpr Real kTwoLog2E = static_cast<Real>(2.88539008177792681472), kRound = A::kRound + A::kBias;
+  const V y = larger(V{} - A::kTanhOne, smaller(V{} + A::kTanhOne, x));  // a NaN passes
+  const V shifted = y * kTwoLog2E + kRound;
+  const auto bits = __builtin_bit_cast(typename LaneTypes<Real>::Integers, shifted) << A::kMantissa;
+  return power_of_two(y * kTwoLog2E - (shifted - kRound)) * __builtin_bit_cast(V, bits);
 }
 
 /// x^(-1/5) within a tenth, from the exponent's bits: for the length of a step.

@@ -74,6 +74,15 @@ struct RoadPush {
     const Lane slope = 4 * node[1] - 3 * node[0] - node[2], bend = 2 * (node[0] + node[2]) - 4 * node[1];
     return node[0] + u * (slope + u * bend + (u - 0.5) * (u - 1) * twist);
   }
+  /// Terms of its series around u.
+  void expand(Lane u, Lane* terms) const {
+    const Lane slope = 4 * node[1] - 3 * node[0] - node[2] + 0.5 * twist,
+               bend = 2 * (node[0] + node[2]) - 4 * node[1] - 1.5 * twist;
+    terms[0] = node[0] + u * (slope + u * (bend + u * twist));
+    terms[1] = slope + u * (2 * bend + 3 * u * twist);
+    terms[2] = bend + 3 * u * twist;
+    terms[3] = twist;
+  }
 };
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include "dashpot/suspension/lanes/simd/laws.h"
 #include "dashpot/suspension/lanes/simd/run.h"
 #include "dashpot/suspension/lanes/simd/tables.h"
+#include "dashpot/suspension/lanes/simd/taylor.h"
 
 namespace dashpot {
 namespace {
@@ -19,7 +20,30 @@ void run_with(const LaneRide& ride) {
   }
 }
 
+constexpr double kFinestOfFloats = 5e-7;  ///< the tolerance above which a force may be of single precision
+
+/// Whether a network's force is a function of velocity alone that TanhNeurons have, and all else is smooth.
+bool has_series(const LaneRide& ride) {
+  const LaneNetwork& network = *ride.network;
+  bool by_velocity = false, by_displacement = false;
+  for (std::size_t i = 0; i < network.layers[0].inputs; ++i) {
+    by_velocity = by_velocity || network.inputs[i] == 1;
+    by_displacement = by_displacement || network.inputs[i] == 0;
+  }
+  return by_velocity && !by_displacement && ride.lags == 0 && !ride.resists_more && network.count == 2 &&
+         network.layers[0].activation == Activation::Tanh &&
+         network.layers[1].activation == Activation::Identity;
+}
+
+void run_series(const LaneRide& ride) {
+  if (ride.relative_tolerance < kFinestOfFloats)
+    LaneRun<TanhNeurons<double>, TaylorSteps<TanhNeurons<double>>>(ride).run();
+  else
+    LaneRun<TanhNeurons<float>, TaylorSteps<TanhNeurons<float>>>(ride).run();
+}
+
 void run(const LaneRide& ride) noexcept {
+  if (ride.kind == LaneDamperKind::Network && has_series(ride)) return run_series(ride);
   if (ride.kind == LaneDamperKind::Network) return run_with<NetworkLanes>(ride);
   with_law(ride.law, [&]<class Damper>() { run_with<Damper>(ride); });
 }

@@ -1,62 +1,17 @@
 #pragma once
 #include "dashpot/suspension/lanes/simd/quarter_car.h"
+#include "dashpot/suspension/lanes/simd/tally.h"
 
 namespace dashpot {
 namespace {
 
-/// What is kept of a ride while it goes on.
-class Tally {
- public:
-  explicit Tally(const LaneRide& ride) : ride_(ride) {}
-
-  struct Sample {
-    Lane acceleration, load, load_at_rest, tyre_deflection, deflection, speed, force, current;
-  };
-  void add(const Sample& s, LaneMask alive, bool counts) {
-    const Lane weighted = weigh(alive ? s.acceleration : Lane{});
-    if (!counts) return;
-    const auto put = [&](LaneResult row, Lane value) { sums_[row] += alive ? value : Lane{}; };
-    const Lane more = s.load - s.load_at_rest;
-    put(kAcceleration2, s.acceleration * s.acceleration);
-    put(kWeighted2, weighted * weighted);
-    put(kWeighted4, weighted * weighted * weighted * weighted);
-    put(kLoad2, more * more);
-    put(kTyreDeflection2, s.tyre_deflection * s.tyre_deflection);
-    put(kDeflection2, s.deflection * s.deflection);
-    put(kContactLost, s.load <= 0 ? all(1) : Lane{});
-    put(kPower, s.force * s.speed);
-    put(kCurrentSum, s.current);
-    sums_[kGreatestDeflection] =
-        alive ? fmax(fabs(s.deflection), sums_[kGreatestDeflection]) : sums_[kGreatestDeflection];
-  }
-  Lane& row(LaneResult row) { return sums_[row]; }
-  void store_all() const {
-    for (std::size_t k = 0; k < kLaneResults; ++k) store(ride_.results + k * kWidth, sums_[k]);
-  }
-
- private:
-  Lane weigh(Lane in) {
-    const double* b = ride_.weighting;
-    for (Lane(&s)[2] : memory_) {
-      const Lane out = b[0] * in + s[0];
-      s[0] = b[1] * in - b[3] * out + s[1];
-      s[1] = b[2] * in - b[4] * out;
-      in = out;
-      b += 5;
-    }
-    return in;
-  }
-
-  const LaneRide& ride_;
-  Lane sums_[kLaneResults]{};
-  Lane memory_[kWeightingSections][2]{};
-};
-
-/// From rest, sample by sample.
+/// From rest, sample by sample. Each lane goes on as soon as it has reached the end of a sample: none waits
+/// for another that takes more steps.
 template <class Damper, class Steps>
 class LaneRun {
  public:
-  explicit LaneRun(const LaneRide& ride) : ride_(ride), car_(ride), steps_(ride, car_), tally_(ride) {
+  explicit LaneRun(const LaneRide& ride)
+      : ride_(ride), car_(ride), steps_(ride, car_), tally_(ride, car_.numbers.static_load) {
     command_ = load(ride.start);
     state_.currents = {load(ride.start + kWidth), load(ride.start + 2 * kWidth)};
     for (std::size_t k = 0; k < Damper::kStates; ++k) state_.z[k] = load(ride.start + (3 + k) * kWidth);
@@ -64,38 +19,59 @@ class LaneRun {
   }
 
   void run() {
-    for (std::size_t k = 0;; ++k) {
-      meet_ground(k);
-      if (k == 0) steps_.refresh(state_, command_, all(0) == 0, road_.node[0]);
-      if (ride_.control) control();
-      sample(k);
-      if (k == ride_.samples) break;
-      steps_.advance(state_, command_, road_);
-      check(k + 1);
+    LaneMask riding = all(0) == 0;
+    meet_ground(riding);
+    steps_.refresh(state_, command_, riding, road_.node[0]);
+    take_sample(riding);
+    while (any(riding &= place_ < static_cast<std::int64_t>(ride_.samples))) {
+      const LaneMask arrived = steps_.step(state_, command_, road_, riding);
+      if (!any(arrived)) continue;
+      place_ -= arrived;  // true is -1
+      riding &= ~lost(arrived);
+      meet_ground(arrived & riding);
+      take_sample(arrived & riding);
     }
+    tally_.row(kDivergedAt) = lost_at_;
     tally_.row(kMissed) = steps_.missed ? all(1) : Lane{};
     tally_.row(kEvaluations) = steps_.steps;
     tally_.store_all();
   }
 
  private:
-  static constexpr std::size_t kAhead = 64;  // samples of road at once
+  void take_sample(LaneMask which) {
+    if (ride_.control) control(which);
+    record(which);
+  }
 
-  void meet_ground(std::size_t k) {
-    const std::size_t place = k % kAhead;
-    if (place == 0) ride_.ground(ride_.pilot, 2 * k, 2 * kAhead + 1, heights_, rates_);
+  /// Those that have come to a sample.
+  void meet_ground(LaneMask which) {
+    const LaneMask ends = which & ((place_ & (kLaneAhead - 1)) == 0);
+    if (any(ends))
+      for (std::size_t lane = 0; lane < kWidth; ++lane)
+        if (ends[lane])
+          ride_.ground(ride_.pilot, lane, 2 * static_cast<std::size_t>(place_[lane]), heights_, rates_);
+    together_ = !any(place_ != place_[0]);
     Lane height[3], rate[3];
     for (std::size_t node = 0; node < 3; ++node) {
-      const std::size_t at = (2 * place + node) * kWidth;
-      height[node] = load(heights_ + at);
-      rate[node] = load(rates_ + at);
+      height[node] = at_node(heights_, node);
+      rate[node] = at_node(rates_, node);
       road_.node[node] = car_.push(height[node], rate[node]);
     }
     road_.twist =
         car_.numbers.tyre_stiffness * (ride_.sample_time * (rate[0] + rate[2]) - 2 * (height[2] - height[0]));
     height_ = height[0];
   }
-  void control() {
+  Lane at_node(const double* of, std::size_t node) const {
+    const auto row = [&](std::int64_t place) {
+      return of + (2 * (static_cast<std::size_t>(place) % kLaneAhead) + node) * kWidth;
+    };
+    if (together_) return load(row(place_[0]));
+    Lane lanes;
+    for (std::size_t lane = 0; lane < kWidth; ++lane) lanes[lane] = row(place_[lane])[lane];
+    return lanes;
+  }
+
+  void control(LaneMask which) {
     const Lane* x = state_.x;
     Lane signals[kLaneSignals];
     signals[kBodyVelocity] = x[2];
@@ -109,21 +85,21 @@ class LaneRun {
     signals[kWheel] = x[1];
     signals[kGround] = height_;
     const Lane before = command_;
-    ride_.control(ride_.pilot, reinterpret_cast<const double*>(signals),
-                  reinterpret_cast<double*>(&command_));
-    state_.currents.coil = car_.numbers.driver_lag > 0 ? state_.currents.coil : command_;
+    ride_.control(ride_.pilot, reinterpret_cast<const double*>(signals), reinterpret_cast<double*>(&command_),
+                  reinterpret_cast<const std::int64_t*>(&which));
     const LaneMask changed = command_ != before;
     if (!any(changed)) return;
+    state_.currents.coil = changed & !(car_.numbers.driver_lag > 0) ? command_ : state_.currents.coil;
     car_.damper.set_current(car_.driving(state_.currents));
     steps_.refresh(state_, command_, changed, road_.node[0]);
   }
 
-  void sample(std::size_t k) {
+  void record(LaneMask which) {
     const Lane* x = state_.x;
     const Lane load_here = car_.tyre_load(x, car_.push_on_wheel(x, road_.node[0]));
-    tally_.add({steps_.acceleration(0), load_here, car_.numbers.static_load, x[1] - height_, x[0] - x[1],
-                x[2] - x[3], steps_.force(), state_.currents.coil},
-               alive_, k >= ride_.discarded);
+    tally_.add({steps_.acceleration(0), load_here, x[1] - height_, x[0] - x[1], x[2] - x[3], steps_.force(),
+                state_.currents.coil},
+               which, place_ >= static_cast<std::int64_t>(ride_.discarded));
     if (!ride_.trace) return;
     const Lane rows[kLaneTraces] = {x[0],
                                     x[2],
@@ -137,17 +113,18 @@ class LaneRun {
                                     state_.currents.coil,
                                     height_,
                                     load_here};
-    for (std::size_t row = 0; row < kLaneTraces; ++row)
-      store(ride_.trace + (k * kLaneTraces + row) * kWidth, rows[row]);
+    for (std::size_t lane = 0; lane < kWidth; ++lane)
+      for (std::size_t row = 0; which[lane] && row < kLaneTraces; ++row)
+        ride_.trace[(static_cast<std::size_t>(place_[lane]) * kLaneTraces + row) * kWidth + lane] =
+            rows[row][lane];
   }
 
-  /// A lane that is no longer finite stands still from there on.
-  void check(std::size_t k) {
+  /// Those of which something is no longer finite. They stand still from there on.
+  LaneMask lost(LaneMask arrived) {
     const Lane sum = (state_.x[0] + state_.x[1]) + (state_.x[2] + state_.x[3]);
-    const LaneMask lost = alive_ & !(fabs(sum) < 1e100);
-    if (!any(lost)) return;
-    tally_.row(kDivergedAt) = lost ? all(static_cast<double>(k)) : tally_.row(kDivergedAt);
-    alive_ = alive_ & ~lost;
+    const LaneMask gone = arrived & !(fabs(sum) < 1e100);
+    lost_at_ = gone ? __builtin_convertvector(place_, Lane) : lost_at_;
+    return gone;
   }
 
   const LaneRide& ride_;
@@ -157,9 +134,12 @@ class LaneRun {
   Moving<Damper::kStates> state_;
   Lane command_{}, height_{};
   RoadPush road_;
-  LaneMask alive_ = all(0) == 0;
-  alignas(64) double heights_[(2 * kAhead + 1) * kWidth];
-  alignas(64) double rates_[(2 * kAhead + 1) * kWidth];
+  LaneMask place_{};      ///< the sample in which each lane is
+  bool together_ = true;  ///< in the same one
+  Lane lost_at_{};        ///< sample; 0: not
+  // at the nodes, half a sample apart, from the last sample on whose number is a multiple of kLaneAhead
+  alignas(64) double heights_[kLaneNodes * kWidth];
+  alignas(64) double rates_[kLaneNodes * kWidth];
 };
 
 }  // namespace

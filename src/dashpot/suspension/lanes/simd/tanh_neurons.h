@@ -1,0 +1,119 @@
+#pragma once
+#include "dashpot/suspension/lanes/ride.h"
+#include "dashpot/suspension/lanes/simd/lane_math.h"
+
+namespace dashpot {
+namespace {
+
+/// A network of one layer of tanh neurons, of velocity and perhaps current, as the function of velocity that
+/// it is near a point: its Taylor polynomial. An exponential and half a division per neuron give all
+/// coefficients, since the derivatives of tanh are polynomials of tanh. Real: what the neurons calculate in;
+/// of float, a vector holds two neurons of all vehicles.
+template <class Real>
+class TanhNeurons {
+ public:
+  static constexpr std::size_t kStates = 0, kTerms = 6;
+  using Polynomial = Lane[kTerms];
+
+  explicit TanhNeurons(const LaneRide& ride) {
+    const LaneNetwork::Layer& layer = ride.network->layers[0];
+    const double *biases = ride.damper + layer.inputs * layer.outputs * kWidth,
+                 *out = biases + layer.outputs * kWidth, *scale = out + (layer.outputs + 1) * kWidth;
+    for (std::size_t n = 0; n < layer.outputs; ++n) {
+      Neurons& to = neurons_[n / kTogether];
+      const std::size_t place = n % kTogether * kWidth;
+      put(load(biases + n * kWidth), to.bias, place);
+      Lane by_velocity{}, power = load(scale) * load(out + n * kWidth);
+      for (std::size_t i = 0; i < layer.inputs; ++i) {
+        const Lane weight = load(ride.damper + (n * layer.inputs + i) * kWidth);
+        if (ride.network->inputs[i] == 2)
+          put(weight, to.by_current, place);
+        else
+          put(by_velocity = weight, to.by_velocity, place);
+      }
+      for (std::size_t k = 0; k < kTerms; ++k, power *= by_velocity) put(power, to.out[k], place);
+    }
+    const std::size_t pair = 2 * kTogether;  // neurons of no weight fill the last one
+    end_ = neurons_ + (layer.outputs + pair - 1) / pair * 2;
+    mean_ = load(scale) * load(out + layer.outputs * kWidth) + load(scale + kWidth);
+  }
+
+  void set_current(Lane current) {
+    const Vector i = spread(current);
+    for (Neurons* n = neurons_; n < end_; ++n) n->at_rest = n->bias + n->by_current * i;
+  }
+  /// The force around a velocity, N, or its first terms. Two sums share a division, which takes longer than
+  /// all else.
+  template <std::size_t kCount>
+  void expand(Lane velocity, Lane (&force)[kCount]) const {
+    Vector sum[kCount]{};
+    const Vector v = spread(velocity);
+    for (const Neurons* n = neurons_; n < end_; n += 2) {
+      const Vector a = 1 + exp_of_twice<Real>(n[0].at_rest + n[0].by_velocity * v),
+                   b = 1 + exp_of_twice<Real>(n[1].at_rest + n[1].by_velocity * v), less = 2 / (a * b);
+      add(n[0], 1 - less * b, sum);
+      add(n[1], 1 - less * a, sum);
+    }
+    for (std::size_t k = 0; k < kCount; ++k) force[k] = gathered(sum[k]);
+    force[0] += mean_;
+  }
+
+ private:
+  using Vector = Lanes<Real>;
+  static constexpr std::size_t kTogether = kLanes<Real> / kWidth;
+  struct Neurons {
+    Vector bias{}, by_current{}, by_velocity{}, at_rest{};
+    Vector out[kTerms]{};  ///< times powers of by_velocity
+  };
+
+  static void put(Lane from, Vector& to, std::size_t place) {
+    for (std::size_t k = 0; k < kWidth; ++k) to[place + k] = static_cast<Real>(from[k]);
+  }
+  static Vector spread(Lane x) {
+    if constexpr (kTogether == 1)
+      return x;
+    else
+      return twice(x, std::make_integer_sequence<int, kWidth>());
+  }
+  static Lane gathered(Vector sum) {
+    if constexpr (kTogether == 1)
+      return sum;
+    else
+      return halves(sum, std::make_integer_sequence<int, kWidth>());
+  }
+  typedef Real Half __attribute__((vector_size(kWidth * sizeof(Real))));
+  template <int... kLane>
+  static Vector twice(Lane x, std::integer_sequence<int, kLane...>) {
+    const Half half = __builtin_convertvector(x, Half);
+    return __builtin_shufflevector(half, half, kLane..., kLane...);
+  }
+  template <int... kLane>
+  static Lane halves(Vector sum, std::integer_sequence<int, kLane...>) {
+    constexpr int kCount = sizeof...(kLane);
+    return __builtin_convertvector(__builtin_shufflevector(sum, sum, kLane...), Lane) +
+           __builtin_convertvector(__builtin_shufflevector(sum, sum, (kLane + kCount)...), Lane);
+  }
+
+  /// Adds the k-th derivative of tanh over k!, times the neurons' weights; t is their tanh.
+  template <std::size_t kCount>
+  [[gnu::always_inline]] static void add(const Neurons& neurons, Vector t, Vector (&sum)[kCount]) {
+    constexpr Real kThird = Real(1) / 3;
+    const Vector(&out)[kTerms] = neurons.out;
+    sum[0] += out[0] * t;
+    if constexpr (kCount == kTerms) {
+      const Vector square = t * t, slope = 1 - square, bent = t * slope;
+      sum[1] += out[1] * slope;
+      sum[2] -= out[2] * bent;
+      sum[3] += out[3] * (slope * (square - kThird));
+      sum[4] -= out[4] * (bent * (square - 2 * kThird));
+      sum[5] += out[5] * (slope * (square * (square - 1) + Real(0.4) * kThird));
+    }
+  }
+
+  Lane mean_;
+  Neurons neurons_[kMaxWidth / kTogether];
+  const Neurons* end_;
+};
+
+}  // namespace
+}  // namespace dashpot

@@ -1,0 +1,135 @@
+#pragma once
+#include "dashpot/suspension/lanes/simd/quarter_car.h"
+#include "dashpot/suspension/lanes/simd/tanh_neurons.h"
+
+namespace dashpot {
+namespace {
+
+/// Taylor's series of the motion in time, for what is smooth all along a sample. A step costs one expansion
+/// of the damper, and its length follows before it is taken from the last term, as in A. Jorba, M. Zou, Exp.
+/// Math. 14 (2005) 99.
+template <class Damper>
+class TaylorSteps {
+  using Car = QuarterCarLanes<Damper>;
+  using State = typename Car::State;
+  static constexpr std::size_t kOrder = Damper::kTerms;  ///< of the speeds; heights have one more
+
+ public:
+  TaylorSteps(const LaneRide& ride, Car& car) : ride_(ride), car_(car) {}
+
+  /// Forces at the begin of a sample, after the command has changed in some lanes.
+  void refresh(const State& state, Lane, LaneMask changed, Lane road) {
+    expand_damper(state.x);
+    keep(state.x, damper_[0], road, changed);
+  }
+  /// At the present state: the damper's force, N, and the acceleration of coordinate k, m/s^2.
+  Lane force() const { return force_; }
+  Lane acceleration(std::size_t k) const { return acceleration_[k]; }
+
+  /// Over one sample in these lanes, all of which reach its end.
+  LaneMask step(State& state, Lane, const RoadPush& road, LaneMask riding) {
+    Lane done{}, left = riding ? all(1) : Lane{};
+    do {
+      Lane x[kOrder + 1][4];
+      if (!expanded_) expand_damper(state.x);
+      expand(state.x, road, done, x);
+      const Lane share = length(x, left);
+      for (std::size_t i = 0; i < 4; ++i) {
+        Lane sum = x[kOrder][i];
+        for (std::size_t k = kOrder; k-- > 0;) sum = x[k][i] + share * sum;
+        state.x[i] = sum;
+      }
+      expanded_ = false;
+      steps += left > 0 ? all(1) : Lane{};
+      left = share < left ? left - share : Lane{};
+      done += share;
+    } while (any(left > 0));
+    Lane force[1];
+    car_.damper.expand(state.x[2] - state.x[3], force);
+    keep(state.x, force[0], road.node[2], riding);
+    return riding;
+  }
+
+  LaneMask missed{};
+  Lane steps{};
+
+ private:
+  /// One copy of the code, so that a lane's bits do not hang on when it is called.
+  [[gnu::noinline]] void expand_damper(const Lane* x) {
+    car_.damper.expand(x[2] - x[3], damper_);
+    expanded_ = true;
+  }
+  void keep(const Lane* x, Lane force, Lane road, LaneMask which) {
+    force_ = which ? force : force_;
+    for (std::size_t k = 0; k < 2; ++k)
+      acceleration_[k] = which ? car_.acceleration(k, x, force, road) : acceleration_[k];
+  }
+  /// Terms of the series in shares of a sample.
+  void expand(const Lane* from, const RoadPush& road, Lane begin, Lane (&x)[kOrder + 1][4]) const {
+    const double dt = ride_.sample_time;
+    Lane push[kOrder]{}, moved[kOrder], force[kOrder];
+    road.expand(begin, push);
+    for (std::size_t i = 0; i < 4; ++i) x[0][i] = from[i];
+#pragma GCC unroll 8
+    for (std::size_t k = 0; k < kOrder; ++k) {
+      moved[k] = x[k][2] - x[k][3];
+      force[k] = composed(k, moved);
+      const double share = dt / static_cast<double>(k + 1);
+      for (std::size_t i = 0; i < 2; ++i) {
+        x[k + 1][i] = share * x[k][2 + i];
+        x[k + 1][2 + i] = share * car_.acceleration(i, x[k], force[k], push[k]);
+      }
+    }
+  }
+  /// Term k of the force where the velocity goes as `m`.
+  [[gnu::always_inline]] Lane composed(std::size_t k, const Lane* m) const {
+    const Lane* f = damper_;
+    switch (k) {
+      case 0:
+        return f[0];
+      case 1:
+        return f[1] * m[1];
+      case 2:
+        return f[1] * m[2] + f[2] * (m[1] * m[1]);
+      case 3:
+        return f[1] * m[3] + m[1] * (2 * f[2] * m[2] + f[3] * (m[1] * m[1]));
+      case 4: {
+        const Lane square = m[1] * m[1];
+        return f[1] * m[4] + f[2] * (2 * m[1] * m[3] + m[2] * m[2]) +
+               square * (3 * f[3] * m[2] + f[4] * square);
+      }
+      default: {
+        const Lane square = m[1] * m[1];
+        return f[1] * m[5] + 2 * f[2] * (m[1] * m[4] + m[2] * m[3]) +
+               3 * f[3] * m[1] * (m[1] * m[3] + m[2] * m[2]) +
+               square * m[1] * (4 * f[4] * m[2] + f[5] * square);
+      }
+    }
+  }
+  /// Share of the sample after which the last term is within the tolerance.
+  Lane length(const Lane (&x)[kOrder + 1][4], Lane left) {
+    constexpr double kLeast = 1.0 / 256;
+    const auto greatest = [&](std::size_t k, std::size_t i) {
+      return fmax(fabs(x[k][i]), fabs(x[k][i + 1]));
+    };
+    const auto error = [&](std::size_t i) {
+      return greatest(kOrder, i) /
+             (ride_.absolute_tolerance + ride_.relative_tolerance * (greatest(0, i) + greatest(1, i)));
+    };
+    const Lane off = fmax(error(0), error(2)), square = left * left, here = off * (square * square) * square;
+    const LaneMask whole = here <= 1;
+    if (!any(~whole)) return left;
+    const Lane shorter = fmin(fmax(0.9 * about_fifth_root_below(off), kLeast), left);
+    missed = missed | (~whole & (shorter <= kLeast) & (left > kLeast));
+    return whole ? left : shorter;
+  }
+
+  const LaneRide& ride_;
+  Car& car_;
+  typename Damper::Polynomial damper_;  ///< around the velocity at which it was expanded
+  bool expanded_ = false;               ///< it is the present velocity
+  Lane force_{}, acceleration_[2]{};
+};
+
+}  // namespace
+}  // namespace dashpot

@@ -1,0 +1,66 @@
+#include "dashpot/base/file.h"
+#include "dashpot/base/value.h"
+#include "handles.h"
+
+using dashpot::parse_json;
+using dashpot::read_file;
+using dashpot::Value;
+
+namespace {
+
+/// The files as the program wrote them, but for the line that tells the command.
+void check_same_but_command(const std::string& ours, const std::string& theirs) {
+  const auto without = [](std::string text) {
+    for (std::size_t at = text.find("dashpot export"); at != std::string::npos;
+         at = text.find("dashpot export"))
+      text.erase(text.rfind('\n', at), text.find('\n', at) - text.rfind('\n', at));
+    return text;
+  };
+  CHECK(without(ours) == without(theirs));
+}
+
+}  // namespace
+
+TEST_CASE("a model is exported as the program does it") {
+  const TemporaryFolder folder;
+  const std::string here = (folder.path() / "here").string(), there = (folder.path() / "there").string();
+  const Model model = published("spencer1997");
+  const Value options = Value::object({{"to", Value::array(std::vector<std::string>{"c", "dpr"})},
+                                       {"folder", here},
+                                       {"name", "front"},
+                                       {"command", "dashpot export of a test"}});
+  Text report;
+  REQUIRE(dashpot_export(model, dashpot::format_json(options).c_str(), &report) == DASHPOT_OK);
+  const ProgramResult told =
+      run_program(program_path() + " export --parameters spencer1997 --to c,dpr --name front -o " + there);
+  REQUIRE(told.exit_code == 0);
+  const std::vector<Value>& files = parse_json(report.handle, "report").find("files")->items();
+  REQUIRE(files.size() > 4);
+  for (const Value& file : files) {
+    const std::filesystem::path path = file.as_string();
+    CAPTURE(path.string());
+    check_same_but_command(read_file(path), read_file(std::filesystem::path(there) / path.filename()));
+  }
+}
+
+TEST_CASE("an export that cannot be says why, and writes nothing") {
+  const TemporaryFolder folder;
+  const std::string into = (folder.path() / "out").string();
+  const Model model = published("spencer1997");
+  const auto refusal = [&](const std::string& options) {
+    return message_of(
+        DASHPOT_BAD_INPUT,
+        dashpot_export(model, ("{\"folder\": \"" + into + "\", " + options + "}").c_str(), nullptr));
+  };
+  CHECK(contains(refusal(R"("name": "x")"), "names no format"));
+  CHECK(contains(refusal(R"("to": ["fmu4"])"), "unknown format 'fmu4'; did you mean 'fmu"));
+  CHECK(contains(refusal(R"("to": ["c", "fmu3"], "compiler": "no-such-compiler")"), "no-such-compiler"));
+  CHECK(contains(refusal(R"("to": ["c"], "precision": "half")"), "double or float"));
+  CHECK(contains(refusal(R"("to": ["c"], "name": "2fast")"), "2fast"));
+  CHECK(contains(refusal(R"("to": ["c"], "sample_time": -1)"), "sample time"));
+  CHECK(contains(refusal(R"("to": ["c"], "step": 1)"), "unknown key 'step'"));
+  CHECK(!std::filesystem::exists(into));
+  CHECK(contains(message_of(DASHPOT_BAD_INPUT,
+                            dashpot_export(model, R"({"to": ["c"], "folder": "/dev/null/x"})", nullptr)),
+                 "/dev/null/x"));
+}
