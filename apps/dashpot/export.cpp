@@ -78,9 +78,9 @@ std::vector<ExportedFile> exported_damper(const Settings& settings, const Export
   const ExportedModel exported = exported_model(file);
   std::vector<ExportedFile> files;
   for (const std::string& format : settings.formats)
-    for (ExportedFile& file : find_exporter(format, "--to").write(exported, options))
-      if (std::ranges::find(files, file.name, &ExportedFile::name) == files.end())  // several have the C code
-        files.push_back(std::move(file));
+    for (ExportedFile& written : find_exporter(format, "--to").write(exported, options))
+      if (std::ranges::find(files, written.name, &ExportedFile::name) == files.end())  // several have C code
+        files.push_back(std::move(written));
   return files;
 }
 
