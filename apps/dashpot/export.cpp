@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 
@@ -78,7 +79,8 @@ std::vector<ExportedFile> exported_damper(const Settings& settings, const Export
   std::vector<ExportedFile> files;
   for (const std::string& format : settings.formats)
     for (ExportedFile& written : find_exporter(format, "--to").write(exported, options))
-      files.push_back(std::move(written));
+      if (std::ranges::find(files, written.name, &ExportedFile::name) == files.end())  // several have C code
+        files.push_back(std::move(written));
   return files;
 }
 

@@ -58,6 +58,25 @@ TEST_CASE("export takes an inverse network, to C alone") {
                    "is an inverse, which cannot become '" + format + "'"));
 }
 
+TEST_CASE("export takes a vehicle's controller and a damper's inverse, to C alone") {
+  const TemporaryFolder folder;
+  const std::string out = " -o '" + folder.path().string() + "'";
+  CHECK(run_dashpot("export --controller mix1,crossover=2Hz --in-car --sample-time 2ms --to c" + out)
+            .exit_code == 0);
+  CHECK(
+      run_dashpot("export --parameters spencer1997 --inverse heaviside --to c --name rule" + out).exit_code ==
+      0);
+  for (const char* name : {"mix1_controller.h", "mix1_controller.c", "mix1_controller_test.c", "rule.c"})
+    CHECK(fs::exists(folder.path() / name));
+  CHECK(contains(run_dashpot("export --controller mix1 --to fmu3" + out).output,
+                 "is a controller, which cannot become 'fmu3'"));
+  CHECK(contains(run_dashpot("export --controller mix2 --to c" + out).output, "did you mean 'mix1'"));
+  CHECK(contains(run_dashpot("export --parameters spencer1997 --in-car --to c" + out).output,
+                 "--in-car: goes with --controller"));
+  CHECK(contains(run_dashpot("export spencer.json --controller mix1 --damper ideal --to c" + out).output,
+                 "another damper"));
+}
+
 TEST_CASE("export says what is wrong") {
   const auto complains = [](const std::string& arguments, const std::string& of) {
     const ProgramResult result = run_dashpot("export " + arguments);
@@ -66,7 +85,8 @@ TEST_CASE("export says what is wrong") {
     CHECK(contains(result.output, of));
   };
   const std::string damper = "--parameters spencer1997 ";
-  complains(damper, "--to: is missing; one or more of c, dpr, fmu2, fmu3, onnx, tables");
+  complains(damper,
+            "--to: is missing; one or more of c, dpr, fmu2, fmu3, mex, modelica, onnx, sfunction, tables");
   complains("--to c", "needs one damper");
   complains(damper + "--to d", "unknown format 'd'");
   complains(damper + "--to c --name 2x", "cannot begin names in C");

@@ -1,4 +1,6 @@
 #pragma once
+#include <cctype>
+
 #include "support.h"
 
 inline bool is_there(const std::string& program) {
@@ -16,4 +18,19 @@ inline ProgramResult compile_and_run(const TemporaryFolder& folder, const std::s
           "{ echo \"FAILED $1\"; head -5 $1.out; exit 1; }\n");
   return run_program("cd '" + folder.path().string() +
                      "' && ls *_test.c | sed 's/_test.c//' | xargs -P $(nproc) -I NAME sh check NAME");
+}
+
+/// What cppcheck's MISRA add-on says of a source is listed in its header.
+inline void check_misra(const std::filesystem::path& source, const std::string& header) {
+  const ProgramResult result =
+      run_program("cppcheck --addon=misra --quiet --enable=style --std=c99 '" + source.string() + "'");
+  CAPTURE(result.output);
+  CHECK(result.output.find("error:") == std::string::npos);
+  for (std::size_t at = 0; (at = result.output.find("misra-c2012-", at)) != std::string::npos; ++at) {
+    std::size_t end = at + 12;
+    while (std::isdigit(static_cast<unsigned char>(result.output[end])) || result.output[end] == '.') ++end;
+    const std::string rule = result.output.substr(at + 12, end - at - 12);
+    CAPTURE(rule);
+    CHECK(header.find(' ' + rule) != std::string::npos);
+  }
 }

@@ -167,3 +167,46 @@ int main(void) {
     CHECK(result.exit_code == 0);
   }
 }
+
+TEST_CASE("exported controllers: what cppcheck's MISRA add-on says is listed in the header") {
+  if (!is_there("cppcheck")) return;
+  const TemporaryFolder folder;
+  for (const Case& one : cases()) {
+    if (one.name != "selector_q" && one.name != "full_car" && one.name != "spencer_numeric") continue;
+    CAPTURE(one.name);
+    const std::vector<ExportedFile> files = write_c_controller(vehicle_of(one), {.name = "x"});
+    folder.write("x.h", files[0].content);
+    check_misra(folder.write("x.c", files[1].content), files[0].content);
+  }
+}
+
+TEST_CASE("exported controllers run without a finding of sanitizers") {
+  if (!is_there("cc")) return;
+  const TemporaryFolder folder;
+  for (const Case& one : cases())
+    if (one.name == "selector_q" || one.name == "full_car" || one.name == "spencer_numeric")
+      for (const ExportedFile& file : write_c_controller(vehicle_of(one), {.name = one.name}))
+        folder.write(file.name, file.content);
+  const ProgramResult result = run_program(
+      "cd '" + folder.path().string() +
+      "' && for x in *_test.c; do cc -std=c99 -g -fsanitize=address,undefined -fno-sanitize-recover=all $x "
+      "${x%_test.c}.c -lm -o run && ./run || exit 1; done");
+  CAPTURE(result.output);
+  CHECK(result.exit_code == 0);
+}
+
+TEST_CASE("a vehicle that cannot become C is refused, with what would be right") {
+  CHECK(message_of([] { write_c_controller(make_vehicle({}), {}); }).find("no controller") !=
+        std::string::npos);
+  const Vehicle vehicle = make_vehicle({.controller = "mix1"});
+  CHECK(message_of([&] { write_c_controller(vehicle, {.name = "mix1"}); }).empty());
+  CHECK(message_of([&] { write_c_controller(vehicle, {.name = "1x"}); }).find("letters") !=
+        std::string::npos);
+  const VehicleWords four{
+      .plant = "ikenaga2000",
+      .dampers = {"spencer1997", "spencer1997,motion_ratio=0.9", "spencer1997", "spencer1997"},
+      .controller = "skyhook_modified",
+      .inverse = "heaviside"};
+  CHECK(message_of([&] { write_c_controller(make_vehicle(four), {}); }).find("one damper for all") !=
+        std::string::npos);
+}

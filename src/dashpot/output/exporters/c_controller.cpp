@@ -31,7 +31,7 @@ constexpr const char* kHeader = R"(/* @title@
 #define DAMPER_H
 
 #define DAMPER_STRUTS @struts@
-@plant_states@#define DAMPER_STATE_SIZE @size@ /* numbers in the state@unused@ */
+@plant_states@#define DAMPER_STATE_SIZE @size@ /* numbers in the state, where they are needed */
 #define DAMPER_SAMPLE_TIME @sample_time@ /* s, between two calls of damper_step */
 
 )";
@@ -89,6 +89,17 @@ int main(void) {
   return (largest <= @tolerance@ * @range@) ? 0 : 1;
 }
 )";
+
+constexpr const char* kPlantState =
+    "  double plant_state[DAMPER_PLANT_STATES]; /* heights and angles from where the plant would rest on "
+    "this\n"
+    "                                            * ground, then their rates */\n";
+
+/// Lines in place of the comment that stands for them.
+std::string with_lines(std::string text, const std::string& name, const std::string& lines) {
+  const std::string place = "  /* @" + name + "@ */\n";
+  return text.replace(text.find(place), place.size(), lines);
+}
 
 std::string number(std::size_t count) { return std::to_string(count); }
 
@@ -162,12 +173,7 @@ std::vector<std::pair<std::string, std::string>> facts(const Vehicle& vehicle, c
           {"struts", number(struts)},
           {"plant_states",
            states ? "#define DAMPER_PLANT_STATES " + number(path.plant_states) + "\n" : std::string()},
-          {"plant_state",
-           states ? "  double plant_state[DAMPER_PLANT_STATES]; /* heights and angles from where the plant "
-                    "would rest on this ground, then their rates */\n"
-                  : std::string()},
-          {"size", number(std::max<std::size_t>(1, size))},
-          {"unused", size == 0 ? ": one that is not used" : ""},
+          {"size", number(size)},
           {"sample_time", c_number(limits.sample_time)},
           {"signals", number(path.measured.size())},
           {"states", number(path.plant_states)},
@@ -202,7 +208,9 @@ std::vector<ExportedFile> write_c_controller(const Vehicle& vehicle, const Expor
     return filled(with_prefix(in_precision(filled(text, values), options.c_precision()), prefix),
                   {{"command", in_comment(options.command)}});
   };
-  const std::string interface = filled(std::string(c_text("control_api.h")), {{"signals", fields_of(path)}});
+  const std::string interface =
+      with_lines(with_lines(std::string(c_text("control_api.h")), "signals", fields_of(path)), "plant_state",
+                 path.plant_states > 0 ? kPlantState : "");
   return {{prefix + ".h", finished(kHeader + interface + kHeaderEnd)},
           {prefix + ".c",
            finished("#include \"@prefix@.h\"\n\n#include <math.h>\n\n#define STRUT_STATE " +

@@ -58,7 +58,17 @@ std::string observer_code(const Observer& observer) {
   const auto* law = dynamic_cast<const LawModel*>(&observer.model());
   const std::string stem = law ? "damped" : "model";
   return (law ? c_law(*law, stem) : c_model(observer.model())).code +
-         filled(std::string(c_text("observed.h")) + "\n#include \"inverse_observer.h\"\n",
+         filled(R"(#define OBSERVED_STATES @states@
+#define OBSERVED_REST @stem@_rest
+#define OBSERVED_ADVANCE @stem@_advance
+#define OBSERVED_FORCE @stem@_force
+#define OBSERVER_STEP @step@
+#define OBSERVER_LAGS @lags@
+#define OBSERVER_HORIZON @horizon@
+
+#include "observed.h"
+#include "inverse_observer.h"
+)",
                 {{"stem", stem},
                  {"states", std::to_string(observer.model().state_size())},
                  {"step", c_number(observer.limits().sample_time)},

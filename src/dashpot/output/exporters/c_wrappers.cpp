@@ -112,10 +112,8 @@ std::string in_line(std::string text) {
 std::vector<std::pair<std::string, std::string>> facts(const ExportedModel& model,
                                                        const ExportOptions& options, const CSource& source) {
   const Domain& d = model.domain;
-  return {{"prefix", source.prefix},
-          {"name", source.prefix},
+  return {{"name", source.prefix},
           {"title", in_markup(title_of(model.model))},
-          {"real", source.real},
           {"unit", model.drive_unit.empty() ? "1" : model.drive_unit},
           {"sample_time", c_number(source.sample_time)},
           {"x_min", format_number(d.displacement_min)},
@@ -132,10 +130,15 @@ std::vector<std::pair<std::string, std::string>> facts(const ExportedModel& mode
 std::vector<ExportedFile> with_wrapper(const ExportedModel& model, const ExportOptions& options,
                                        const std::string& text, const std::string& ending) {
   const CSource source = c_source(model, options);
-  const auto values = facts(model, options, source);
+  std::string wrapper = with_prefix(c_text(text), source.prefix);
+  const std::string sources = source.prefix + "_model.c", header = "\"damper.h\"";
+  for (std::size_t at = 0; (at = wrapper.find(sources, at)) != std::string::npos;)
+    wrapper.replace(at, sources.size(), source.prefix + ".c");
+  if (const std::size_t at = wrapper.find(header); at != std::string::npos)
+    wrapper.replace(at, header.size(), '"' + source.prefix + ".h\"");
   return {{source.prefix + ".h", source.header},
           {source.prefix + ".c", source.source},
-          {source.prefix + ending, filled(with_prefix(c_text(text), source.prefix), values)}};
+          {source.prefix + ending, wrapper}};
 }
 
 }  // namespace

@@ -4,12 +4,12 @@ extern "C" {
 
 /* What is known of one strut at a sample. z up, extension positive. */
 typedef struct damper_signals {
-  @signals @
+  /* @signals@ */
 } damper_signals;
 
 typedef struct damper_input {
   damper_signals struts[DAMPER_STRUTS];
-  @plant_state @
+  /* @plant_state@ */
 } damper_input;
 
 /* What a law asks of a damper: damping, N*s/m; a force, N, positive when it resists extension; the command

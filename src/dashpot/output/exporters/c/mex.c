@@ -1,19 +1,18 @@
-/* force = @prefix@_mex(input): the force, N, along the rows [displacement m, velocity m/s, command @unit@] of
- * a matrix,
- * @sample_time@ s apart, from rest at the first. For MATLAB and Octave:
+/* force = damper_mex(input): the force, N, along the rows [displacement m, velocity m/s, command] of a
+ * matrix, DAMPER_SAMPLE_TIME apart, from rest at the first. For MATLAB and Octave:
  *
- *   mex @prefix@_mex.c @prefix@.c              (MATLAB)
- *   mkoctfile --mex @prefix@_mex.c @prefix@.c  (Octave)
+ *   mex damper_mex.c damper_model.c              (MATLAB)
+ *   mkoctfile --mex damper_mex.c damper_model.c  (Octave)
  */
 #include <mex.h>
 
-#include "@prefix@.h"
+#include "damper.h"
 
 static damper_input row_of(const double* input, mwSize count, mwSize k) {
   damper_input row;
-  row.displacement = (@real @)input[k];
-  row.velocity = (@real @)input[count + k];
-  row.current = (@real @)input[(2 * count) + k];
+  row.displacement = input[k];
+  row.velocity = input[count + k];
+  row.current = input[(2 * count) + k];
   return row;
 }
 
@@ -22,10 +21,10 @@ void mexFunction(int outputs, mxArray* output[], int inputs, const mxArray* inpu
   double* force;
   mwSize count, k;
   if ((inputs != 1) || !mxIsDouble(input[0]) || mxIsComplex(input[0]) || (mxGetN(input[0]) != 3)) {
-    mexErrMsgTxt("@prefix@_mex takes one matrix with the columns displacement, velocity, command");
+    mexErrMsgTxt("it takes one matrix with the columns displacement, velocity, command");
   }
   if (outputs > 1) {
-    mexErrMsgTxt("@prefix@_mex gives one column, the force");
+    mexErrMsgTxt("it gives one column, the force");
   }
   count = mxGetM(input[0]);
   output[0] = mxCreateDoubleMatrix(count, 1, mxREAL);

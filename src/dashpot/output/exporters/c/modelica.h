@@ -1,10 +1,10 @@
-/* What the Modelica package @prefix@ calls: a model in memory of its own, started by its first input. */
+/* What the Modelica package calls: a model in memory of its own, started by its first input. */
 #ifndef DAMPER_MODELICA_H
 #define DAMPER_MODELICA_H
 
 #include <stdlib.h>
 
-#include "@prefix@.h"
+#include "damper.h"
 
 typedef struct damper_object {
   damper_model model;
@@ -19,9 +19,9 @@ static inline void damper_destroy(void* object) { free(object); }
 static inline double damper_sample(void* object, double s, double v, double i) {
   damper_object* damper = (damper_object*)object;
   damper_input input;
-  input.displacement = (@real @)s;
-  input.velocity = (@real @)v;
-  input.current = (@real @)i;
+  input.displacement = s;
+  input.velocity = v;
+  input.current = i;
   if (damper->started) {
     return damper_step(&damper->model, &input);
   }

@@ -1,16 +1,15 @@
-/* A level-2 S-function for Simulink: input [displacement m, velocity m/s, command @unit@], output the force,
- * N, every
- * @sample_time@ s, from rest at the first. In MATLAB:
+/* A level-2 S-function for Simulink: input [displacement m, velocity m/s, command], output the force, N,
+ * every DAMPER_SAMPLE_TIME, from rest at the first. In MATLAB:
  *
- *   mex @prefix@_sfun.c @prefix@.c
+ *   mex damper_sfun.c damper_model.c
  *
- * then an S-Function block with the name @prefix@_sfun.
+ * then an S-Function block with the name damper_sfun.
  */
-#define S_FUNCTION_NAME @prefix @_sfun
+#define S_FUNCTION_NAME damper_sfun
 #define S_FUNCTION_LEVEL 2
 #include <simstruc.h>
 
-#include "@prefix@.h"
+#include "damper.h"
 
 /* The model is kept in numbers of Simulink's, so that it is saved with the state of a simulation. */
 #define MODEL_NUMBERS ((sizeof(damper_model) + sizeof(real_T) - 1) / sizeof(real_T))
@@ -19,14 +18,14 @@ enum { MODEL, STARTED, WORKS };
 static damper_input input_of(SimStruct* S) {
   InputRealPtrsType u = ssGetInputPortRealSignalPtrs(S, 0);
   damper_input input;
-  input.displacement = (@real @) * u[0];
-  input.velocity = (@real @) * u[1];
-  input.current = (@real @) * u[2];
+  input.displacement = *u[0];
+  input.velocity = *u[1];
+  input.current = *u[2];
   return input;
 }
 
 /* The force at this input, the model then being the one after it. */
-static @real @force_of(damper_model* model, int started, const damper_input* input) {
+static double force_of(damper_model* model, int started, const damper_input* input) {
   if (started) {
     return damper_step(model, input);
   }
@@ -51,7 +50,7 @@ static void mdlInitializeSizes(SimStruct* S) {
 }
 
 static void mdlInitializeSampleTimes(SimStruct* S) {
-  ssSetSampleTime(S, 0, @sample_time @);
+  ssSetSampleTime(S, 0, DAMPER_SAMPLE_TIME);
   ssSetOffsetTime(S, 0, 0.0);
 }
 
