@@ -65,6 +65,17 @@ double HysteresisNetwork::force(const DamperInput& input, std::span<const double
   return sum / static_cast<double>(members_.size()) + offset_;
 }
 
+double HysteresisNetwork::flow(const DamperInput& input, std::span<const double> state,
+                               std::span<double> rates) const noexcept {
+  std::size_t place = 0;
+  for (const BankNetwork& member : members_) {
+    const std::size_t size = member.bank.size();
+    member.bank.flow(input, state.subspan(place, size), rates.subspan(place, size));
+    place += size;
+  }
+  return force(input, state);
+}
+
 double HysteresisNetwork::spread(const DamperInput& input, std::span<const double> state) const noexcept {
   const double mean = force(input, state) - offset_;
   std::array<double, GatedNetwork::kMaxSignals> signals;

@@ -87,6 +87,17 @@ double StateSpaceModel::force(const DamperInput& input, std::span<const double> 
   return sum / static_cast<double>(members_.size()) + offset_;
 }
 
+double StateSpaceModel::flow(const DamperInput& input, std::span<const double> state,
+                             std::span<double> rates) const noexcept {
+  std::size_t place = 0;
+  for (const StateSpaceNetwork& member : members_) {
+    const std::size_t size = member.cell.size();
+    member.cell.flow(input, state.subspan(place, size), rates.subspan(place, size));
+    place += size;
+  }
+  return force(input, state);
+}
+
 double StateSpaceModel::spread(const DamperInput& input, std::span<const double> state) const noexcept {
   const double mean = force(input, state) - offset_;
   std::array<double, GatedNetwork::kMaxSignals> signals;
