@@ -10,7 +10,7 @@ namespace dashpot::cli {
 
 /// The vehicle that a command works with.
 struct VehicleChoice {
-  std::string plant = VehicleWords{}.plant, damper, controller, inverse;
+  std::string plant = VehicleWords{}.plant, damper, controller, inverse, force_loop;
   std::vector<std::string> values;
   double current = 0, current_max = 0, lag_rate = -1;  ///< A, A, 1/s; 0 and below 0: the damper's own
   double sample_time = 1, delay = 0;                   ///< ms
@@ -24,7 +24,8 @@ struct RoadChoice {
   double duration = 0;  ///< s; 0: as the ground has it, 20 s at most
 };
 
-/// --plant, --set, --damper, --controller, --inverse, --current, --current-max, --lag-rate, --sample-time,
+/// --plant, --set, --damper, --controller, --inverse, --force-loop, --current, --current-max, --lag-rate,
+/// --sample-time,
 /// --in-car, --delay, --seed. A command of several controllers has its own row for them.
 std::vector<Option> vehicle_options(VehicleChoice& choice);
 std::vector<Option> controlled_vehicle_options(VehicleChoice& choice);

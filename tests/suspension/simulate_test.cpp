@@ -80,10 +80,7 @@ TEST_CASE("energy is kept without damping: every plant, 100 s, to 1e-9") {
     const GroundPointer still = make_ground("step,height=0", 1);
     const PlantForces forces(plant, *still);
     const std::vector<MountedDamper> dampers(plant.struts.size(), linear_damper(0, 0));
-    PlantState state{.x = std::vector<double>(2 * plant.size()),
-                     .strut_forces = std::vector<double>(plant.struts.size()),
-                     .g = std::vector<double>(plant.size())};
-    for (const MountedDamper& damper : dampers) state.dampers.emplace_back(damper, ControlLimits{}, 0.0);
+    PlantState state = PlantState::at_rest(plant, dampers, {});
     for (std::size_t k = 0; k < plant.size(); ++k)
       state.x[plant.size() + k] = 0.1 * (1 + static_cast<double>(k));
     const auto energy = [&] {
@@ -194,6 +191,55 @@ TEST_CASE("a modified Bouc-Wen damper costs no short steps, and the tolerance is
     apart = std::max(
         apart, std::abs(fine.record.channel("body").samples[k] - usual.record.channel("body").samples[k]));
   CHECK(apart < 1e-6 * 10 * greatest(fine, "body"));
+}
+
+TEST_CASE("corners of a coil's current are met: a driver that samples, limits its rate and lags") {
+  const Plant plant = load_plant_set("savaresi_spelta").plant;
+  std::vector<MountedDamper> dampers{linear_damper(300, 3900, 300)};
+  dampers[0].driver.rate_max = 40;
+  dampers[0].driver.period = 0.7e-3;
+  const GroundPointer sine = make_ground("sine,amplitude=1cm,frequency=3", 1);
+  const ControlLimits limits{300, 3900, 0, 1, 5e-3};
+  const ControllerPointer law = make_controller("skyhook", {limits, plant});
+  const auto run = [&](double tolerance, std::optional<double> step) {
+    return simulate({plant, dampers, *sine, law.get()},
+                    {.duration = 2, .relative_tolerance = tolerance, .step = step, .limits = limits});
+  };
+  const Trace fine = run(1e-10, {}), usual = run(1e-6, {}), fixed = run(1e-6, 1e-4);
+  const double top = greatest(fine, "body");
+  for (const double t : {0.3, 0.9, 1.5, 2.0}) {
+    CHECK_CLOSE(at(usual, "body", t), at(fine, "body", t), 0, 1e-6 * top);
+    CHECK_CLOSE(at(fixed, "body", t), at(fine, "body", t), 0, 1e-6 * top);
+    CHECK_CLOSE(at(usual, "suspension_current", t), at(fine, "suspension_current", t), 0, 1e-9);
+  }
+  CHECK(usual.warnings.empty());
+  CHECK(usual.steps < 10000);
+}
+
+TEST_CASE("a force that jumps costs an error that is told, not hours") {
+  const Plant plant = load_plant_set("savaresi_spelta").plant;
+  const LawModel friction = LawModel::constant(find_law("bingham"), {500, 300, 0, 0});
+  const std::vector<MountedDamper> dampers{{.model = std::make_shared<LawModel>(friction)}};
+  const GroundPointer road =
+      make_ground("sine,amplitude=1mm,frequency=1", 1);  // the friction holds most of it
+  const Trace trace = simulate({plant, dampers, *road}, {.duration = 1});
+  CHECK(trace.evaluations < 3000000);
+  REQUIRE(trace.warnings.size() == 1);
+  CHECK(trace.warnings[0].find("the tolerance could not be met in ") == 0);
+  // Held: what the soft spring of the tyre lets through, body and wheel as one.
+  CHECK(greatest(trace, "suspension_deflection") < 1e-5);
+}
+
+TEST_CASE("what is without load at the begin alone does not count where the begin is left out") {
+  PlantSet set = load_plant_set("tudon_martinez2012", {{"tyres_may_lift", 1}});
+  const std::vector<MountedDamper> dampers{linear_damper(900, 900)};
+  const GroundPointer bump = make_ground("bump,height=20cm", 1);
+  const Trace all = simulate({set.plant, dampers, *bump}, {.duration = 6}),
+              rest = simulate({set.plant, dampers, *bump}, {.duration = 6, .discard = 4});
+  CHECK(all.contact_lost > 0);
+  CHECK(!all.warnings.empty());
+  CHECK(rest.contact_lost == 0);
+  CHECK(rest.warnings.empty());
 }
 
 TEST_CASE("a tyre that may lift has no load below 0, and it is told") {

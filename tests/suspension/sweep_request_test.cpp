@@ -2,6 +2,9 @@
 
 #include <set>
 
+#include "dashpot/damper/law_model.h"
+#include "dashpot/damper/model_file.h"
+#include "dashpot/damper/registry.h"
 #include "dashpot/suspension/sweep_inputs.h"
 #include "support.h"
 
@@ -61,6 +64,27 @@ TEST_CASE("a request's words become vehicles and roads") {
   CHECK(mix1.sensors.delay == 0.002);
   CHECK(road_words(request, draw) == "iso8608_fft,class=C,class=B,speed=20,length=630");
   CHECK(make_vehicle(mix1).set.plant.mass[0] == 350);
+}
+
+TEST_CASE("the force of a model file scatters as it is built, and so does the lag of its coil") {
+  const TemporaryFolder folder;
+  const LawModel model = LawModel::constant(find_law("tanh_kwok"), {2000, 1000, 500, 20, 0, 0});
+  save_model({.model = model.with_offset(0), .domain = {-0.1, 0.1, -1, 1, 0, 1}},
+             folder.path() / "damper.json");
+  const SweepRequest request = parse_sweep(
+      "plant: savaresi_spelta\ndampers: \"./damper.json,motion_ratio=0.8\"\nroad: iso8608_fft\nsamples: 50\n"
+      "vary:\n  damper.force_factor: {lognormal: 1, sd: 8 %}\n  lag_rate: {normal: 200, sd: 10 %}\n",
+      "test.yaml", folder.path());
+  std::set<double> factors;
+  for (std::size_t k = 0; k < 50; ++k) {
+    const Vehicle vehicle = make_vehicle(vehicle_words(request, 0, draw_vehicle(request, k)));
+    factors.insert(vehicle.dampers[0].force_factor);
+    CHECK(vehicle.dampers[0].motion_ratio == 0.8);
+    CHECK_CLOSE(vehicle.dampers[0].driver.lag_rate, 200, 0.4, 0);
+  }
+  CHECK(factors.size() == 50);
+  CHECK_CLOSE(*std::next(factors.begin(), 25), 1, 0.03, 0);  // the median
+  CHECK_CLOSE(*factors.begin(), 1 / *factors.rbegin(), 0.1, 0);
 }
 
 TEST_CASE("a vehicle depends on the seed and its number alone") {

@@ -53,6 +53,25 @@ void Driver::advance(double dt, std::span<double> state) const noexcept {
   state[kWait] = is_instant ? 0 : options_.period - since;
 }
 
+double Driver::next_corner(std::span<const double> state) const noexcept {
+  constexpr double kNever = std::numeric_limits<double>::infinity();
+  const double sampled = state[kAsked] != state[kHeld] ? state[kWait] : kNever;
+  const double way = std::abs(state[kHeld] - state[kRamp]);
+  return std::min(sampled, way > 0 && std::isfinite(options_.rate_max) ? way / options_.rate_max : kNever);
+}
+
+void Driver::meet_corner(std::span<double> state) const noexcept {
+  if (state[kWait] < kInstant && state[kAsked] != state[kHeld]) {
+    state[kWait] = 0;
+    command(state[kAsked], state);
+  }
+  if (std::abs(state[kHeld] - state[kRamp]) < kInstant * options_.rate_max) state[kRamp] = state[kHeld];
+}
+
+bool Driver::is_steady(std::span<const double> state) const noexcept {
+  return state[kCoil] == state[kHeld] && state[kRamp] == state[kHeld] && state[kAsked] == state[kHeld];
+}
+
 void Driver::follow(double dt, std::span<double> state) const noexcept {
   const double r = options_.lag_rate;
   const double way = state[kHeld] - state[kRamp];

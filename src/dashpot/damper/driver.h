@@ -20,12 +20,20 @@ class Driver {
   explicit Driver(const DriverOptions& options);
 
   static constexpr std::size_t kStates = 5;
+  static constexpr double kInstant = 1e-10;  ///< s: a corner that is nearer than this is met
   /// After a long rest at this current; the next command is a sampling instant.
   void rest(double current, std::span<double> state) const noexcept;
   /// Takes a new command. A coil without lag and rate limit answers at once. NaN keeps the last command.
   void command(double current, std::span<double> state) const noexcept;
   /// Brings the coil's current dt seconds further.
   void advance(double dt, std::span<double> state) const noexcept;
+  /// s until the current's course has a corner by itself, at an instant of its own sampling or where a
+  /// limited rate ends; infinite where none comes.
+  double next_corner(std::span<const double> state) const noexcept;
+  /// There: what it takes at a sampling instant.
+  void meet_corner(std::span<double> state) const noexcept;
+  /// Whether the current stays as it is without another command.
+  bool is_steady(std::span<const double> state) const noexcept;
   /// In the coil, A.
   double current(std::span<const double> state) const noexcept { return state[kCoil]; }
 

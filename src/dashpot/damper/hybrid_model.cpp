@@ -95,6 +95,14 @@ double HybridModel::force(const DamperInput& input, std::span<const double> stat
   return raw[source_.force_place()] + network_.evaluate_held(mixed.data()) + offset_;
 }
 
+double HybridModel::flow(const DamperInput& input, std::span<const double> state,
+                         std::span<double> rates) const noexcept {
+  const std::size_t of_law = law().state_size();
+  law().flow(input, state.first(of_law), rates.first(of_law));
+  source_.bank.flow(input, state.subspan(of_law), rates.subspan(of_law));
+  return force(input, state);
+}
+
 std::unique_ptr<DamperModel> HybridModel::with_offset(double newton) const {
   return std::make_unique<HybridModel>(source_, mixing_, network_, offset_ + newton);
 }

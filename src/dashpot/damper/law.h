@@ -53,6 +53,8 @@ struct Law {
   void (*rest)(const double* p, double x, double v, double* z) = nullptr;
   void (*derivative)(const double* p, double x, double v, const double* z, double* dz) = nullptr;
   double (*force)(const double* p, double x, double v, const double* z) = nullptr;
+  /// Both at once; null without states.
+  double (*flow)(const double* p, double x, double v, const double* z, double* dz) = nullptr;
   /// One classical Runge-Kutta step of length h of `count` states, with p, x and v at its start, middle and
   /// end.
   void (*runge_kutta)(const double* const* p, const double* x, const double* v, double h, std::size_t count,
@@ -158,6 +160,11 @@ Law state_law(const LawTable<P>& table) {
   law.derivative = [](const double* p, double x, double v, const double* z, double* dz) {
     const P own = detail::from_array<P>(p);
     Derivative(&own, x, v, z, dz);
+  };
+  law.flow = [](const double* p, double x, double v, const double* z, double* dz) {
+    const P own = detail::from_array<P>(p);
+    Derivative(&own, x, v, z, dz);
+    return Force(&own, x, v, z);
   };
   law.rest = [](const double* p, double x, double v, double* z) {
     const P own = detail::from_array<P>(p);

@@ -99,6 +99,15 @@ double LawModel::force(const DamperInput& input, std::span<const double> state) 
   return law_->force(p.data(), input.displacement, input.velocity, state.data());
 }
 
+double LawModel::flow(const DamperInput& input, std::span<const double> state,
+                      std::span<double> rates) const noexcept {
+  if (lag_rate_ > 0) rates[law_->states.size()] = lag_rate_ * (input.current - state[law_->states.size()]);
+  if (!law_->flow) return force(input, state);
+  Params p;
+  parameters_at(coil_current(input, state), p.data());
+  return law_->flow(p.data(), input.displacement, input.velocity, state.data(), rates.data());
+}
+
 std::unique_ptr<DamperModel> LawModel::with_offset(double newton) const {
   Dependence moved = parameters_;
   const auto bias = std::find_if(law_->params.begin(), law_->params.end(),

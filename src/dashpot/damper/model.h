@@ -46,6 +46,15 @@ class DamperModel {
   /// Force at this instant, N, positive when it resists extension.
   virtual double force(const DamperInput& input, std::span<const double> state) const noexcept = 0;
 
+  /// Whether its states follow z' = f(x, v, i, z), as flow() has it, so that an integrator may step them with
+  /// the rest of a vehicle.
+  virtual bool flows() const noexcept { return state_size() == 0; }
+  /// Of a model that flows: its force at this instant, N, and the rates of its states.
+  virtual double flow(const DamperInput& input, std::span<const double> state,
+                      std::span<double> /*rates*/) const noexcept {
+    return force(input, state);
+  }
+
   /// Whether this is the mean of several models, which tell by their spread where they have learnt little.
   virtual bool is_ensemble() const noexcept { return false; }
   /// Standard deviation of their forces at this instant, N; 0 for a single model.

@@ -199,6 +199,7 @@ BatchResult alone(const BatchVehicle& vehicle, const BatchOptions& options) {
   const double dt = sample_time_of(vehicle);
   Trace trace = simulate(vehicle.setting, {.duration = options.duration,
                                            .output_step = dt,
+                                           .discard = options.discard,
                                            .relative_tolerance = options.relative_tolerance,
                                            .absolute_tolerance = options.absolute_tolerance,
                                            .sensors = vehicle.sensors,

@@ -14,12 +14,15 @@
 #include "dashpot/damper/parameter_set.h"
 #include "dashpot/damper/registry.h"
 #include "dashpot/suspension/passive_curve.h"
+#include "dashpot/suspension/soft_friction.h"
 
 namespace dashpot {
 namespace {
 
-constexpr std::string_view kRatio = "motion_ratio";
-constexpr ParameterRow kRatioRow{kRatio, "1", 1, 0.01, 100, "damper's travel over the strut's"};
+enum Mounting { kMotionRatio, kForceFactor };
+constexpr std::array kMounting{
+    ParameterRow{"motion_ratio", "1", 1, 0.01, 100, "damper's travel over the strut's"},
+    ParameterRow{"force_factor", "1", 1, 0.01, 100, "this piece's force over its model's, as built"}};
 
 const std::array kSimple{
     SimpleDamper{"ideal",
@@ -66,9 +69,12 @@ ChosenDamper make_simple(const SimpleDamper& kind, Words settings, const std::st
   return damper;
 }
 
-/// Friction that jumps where the motion turns lets no integrator meet its tolerance: it sets in over
-/// kFrictionSpeed instead, where its law has such a speed and states none.
-constexpr double kFrictionSpeed = 2e-3;  // m/s
+std::string friction_note(const DamperModel& model) {
+  return "the friction of " + model.name() + " sets in over " + format_number(1000 * kFrictionSpeed) +
+         " mm/s here, not at once";
+}
+
+/// With a law's own speed over which friction sets in, where it has such a one and states none.
 std::shared_ptr<const DamperModel> without_jump(const LawModel& model, std::vector<std::string>& notes) {
   const auto& params = model.law().params;
   const auto row = std::ranges::find(params, "v_s", &ParamInfo::name);
@@ -76,8 +82,7 @@ std::shared_ptr<const DamperModel> without_jump(const LawModel& model, std::vect
   Dependence parameters = model.parameters();
   if (row == params.end() || parameters.coefficients[k] != std::vector{0.0}) return nullptr;
   parameters.coefficients[k] = {kFrictionSpeed};
-  notes.push_back("the friction of " + model.name() + " sets in over " +
-                  format_number(1000 * kFrictionSpeed) + " mm/s here, not at once");
+  notes.push_back(friction_note(model));
   return std::make_shared<LawModel>(model.law(), parameters, model.drive_unit(), model.lag_rate());
 }
 
@@ -92,7 +97,8 @@ void take_model(ChosenDamper& damper, const DamperModel& model) {
 
 void require_nothing(Words settings, const std::string& name, const std::string& where) {
   if (!settings.empty())
-    throw Error(where, "'" + settings.front() + "' says nothing to " + name, std::string(kRatio) + "=...");
+    throw Error(where, "'" + settings.front() + "' says nothing to " + name,
+                "motion_ratio=... or force_factor=...");
 }
 
 ChosenDamper from_file(const std::filesystem::path& path) {
@@ -161,34 +167,45 @@ ChosenDamper by_name(const std::string& name, Words settings, const std::string&
   throw Error(where, "unknown damper '" + name + "'", suggest(name, known) + "; or a file");
 }
 
-/// Takes motion_ratio out of the settings.
-double take_ratio(std::vector<std::string>& parts, const std::string& where) {
-  double ratio = 1;
-  std::erase_if(parts, [&](const std::string& part) {
-    const std::size_t equals = part.find('=');
-    if (equals == std::string::npos || trim(part.substr(0, equals)) != kRatio) return false;
-    ratio = parse_value(kRatioRow, part.substr(equals + 1), where);
-    return true;
-  });
-  return ratio;
+/// Takes the settings of kMounting out; their values in its order.
+std::array<double, kMounting.size()> take_mounting(std::vector<std::string>& parts,
+                                                   const std::string& where) {
+  std::array<double, kMounting.size()> values;
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    values[k] = kMounting[k].value;
+    std::erase_if(parts, [&](const std::string& part) {
+      const std::size_t equals = part.find('=');
+      if (equals == std::string::npos || trim(part.substr(0, equals)) != kMounting[k].name) return false;
+      values[k] = parse_value(kMounting[k], part.substr(equals + 1), where);
+      return true;
+    });
+  }
+  return values;
 }
 
 }  // namespace
 
 std::span<const SimpleDamper> simple_dampers() { return kSimple; }
+std::span<const ParameterRow> mounting_settings() { return kMounting; }
 
 ChosenDamper choose_damper(const std::string& text, const std::string& where) {
   std::vector<std::string> parts = split(text, ',');
   for (std::string& part : parts) part = trim(part);
-  const double ratio = take_ratio(parts, where);
+  const auto mounting = take_mounting(parts, where);
   if (parts.empty()) throw Error(where, "'" + text + "' names no damper");
   const std::string name = parts.front();
   const Words settings = Words(parts).subspan(1);
   const bool is_file = name.find_first_of("./") != std::string::npos;
   if (is_file) require_nothing(settings, name, where);
   ChosenDamper damper = is_file ? from_file(name) : by_name(name, settings, where);
-  damper.motion_ratio = ratio;
-  if (ratio != 1) damper.name += ", motion ratio " + format_number(ratio);
+  if (jumps_at_rest(*damper.model, damper.drive_min, damper.drive_max)) {
+    damper.notes.push_back(friction_note(*damper.model));
+    damper.model = with_soft_friction(damper.model);
+  }
+  damper.motion_ratio = mounting[kMotionRatio];
+  damper.force_factor = mounting[kForceFactor];
+  if (damper.motion_ratio != 1) damper.name += ", motion ratio " + format_number(damper.motion_ratio);
+  if (damper.force_factor != 1) damper.name += ", force factor " + format_number(damper.force_factor);
   return damper;
 }
 

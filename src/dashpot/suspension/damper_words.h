@@ -18,6 +18,11 @@ struct SimpleDamper {
 };
 std::span<const SimpleDamper> simple_dampers();
 
+/// What may be said of any damper: motion_ratio, where it moves i times as far as the strut and pushes there
+/// with i times its force; force_factor, where this piece is built stronger or weaker than its model, which
+/// no controller knows.
+std::span<const ParameterRow> mounting_settings();
+
 /// A damper that was named for a strut.
 struct ChosenDamper {
   std::string name;                          ///< "viscous, 1500 N*s/m", "spencer1997"
@@ -26,6 +31,7 @@ struct ChosenDamper {
   double drive_min = 0, drive_max = 0;       ///< of its data; equal: passive, nothing drives it
   double lag_rate = 0;                       ///< 1/s, of its coil; 0: none
   double motion_ratio = 1;                   ///< how far it moves as the strut moves by one
+  double force_factor = 1;                   ///< its force over its model's, as built
   std::optional<Domain> domain;              ///< where its data were
   std::optional<DampingRange> damping;       ///< at the strut, where it is stated
   std::vector<std::string> notes;
@@ -36,8 +42,7 @@ struct ChosenDamper {
 /// From a text: a model file; a parameter set's name, with parameters of its law replaced
 /// ("spencer1997,x0=0"); "viscous,damping=1500"; "ideal,damping_min=300,damping_max=3900": any damping in
 /// between, the drive from 0 to 1 being the place; a passive curve by name or as a file with velocity and
-/// force. Each takes motion_ratio=... : where the damper moves i times as far as the strut, it pushes there
-/// with i times its force. Throws Error(where, ...).
+/// force. Each takes mounting_settings(). Throws Error(where, ...).
 ChosenDamper choose_damper(const std::string& text, const std::string& where = "damper");
 
 /// What damps alike over a cycle of a sine: energy per cycle / (pi w A^2), of the damper's third cycle,

@@ -25,8 +25,21 @@ PlantForces::PlantForces(const Plant& plant, const GroundMotion& ground)
       linear_(linear_plant(plant)),
       resting_(plant.size() * plant.tyres.size()) {
   const RowMajor mass = matrix_of(plant.mass, plant.size());
-  const RowMajor inverse = mass.inverse();
-  inverse_mass_.assign(inverse.data(), inverse.data() + inverse.size());
+  const auto n = static_cast<Eigen::Index>(plant.size());
+  const Eigen::PartialPivLU<RowMajor> masses(mass);
+  const auto put = [&](const RowMajor& forces, std::vector<double>& rows) {
+    const RowMajor solved = masses.solve(forces);
+    rows.assign(solved.data(), solved.data() + solved.size());
+  };
+  RowMajor by_state(n, 2 * n), by_strut(n, plant.struts.size()), by_tyre(n, plant.tyres.size());
+  by_state << -matrix_of(linear_.stiffness, plant.size()), -matrix_of(linear_.damping, plant.size());
+  for (std::size_t s = 0; s < plant.struts.size(); ++s)
+    by_strut.col(static_cast<Eigen::Index>(s)) = -vector_of(plant.struts[s].row);
+  for (std::size_t w = 0; w < plant.tyres.size(); ++w)
+    by_tyre.col(static_cast<Eigen::Index>(w)) = vector_of(plant.tyres[w].row);
+  put(by_state, by_state_);
+  put(by_strut, by_strut_);
+  put(by_tyre, by_tyre_);
   if (!plant.ground.empty()) {
     const Eigen::VectorXd shaken = mass * vector_of(plant.ground);
     shaken_.assign(shaken.begin(), shaken.end());
@@ -79,30 +92,39 @@ void PlantForces::add_up(double t, std::span<const double> x, std::span<const do
   for (std::size_t s = 0; s < plant_.struts.size(); ++s)
     for (std::size_t k = 0; k < g.size(); ++k) g[k] -= plant_.struts[s].row[k] * strut_forces[s];
   for (std::size_t w = 0; w < plant_.tyres.size(); ++w) {
-    const Tyre& tyre = plant_.tyres[w];
-    const FootMotion ground = foot(w, t);
-    double push = tyre.stiffness * ground.height + tyre.damping * ground.velocity;
-    if (plant_.tyres_may_lift) {
-      const double load = tyre.static_load + push - tyre.stiffness * along(tyre.row, x.data()) -
-                          tyre.damping * along(tyre.row, x.data() + g.size());
-      push -= std::fmin(load, 0);
-    }
-    for (std::size_t k = 0; k < g.size(); ++k) g[k] += tyre.row[k] * push;
+    const double pushed = push(w, t, x);
+    for (std::size_t k = 0; k < g.size(); ++k) g[k] += plant_.tyres[w].row[k] * pushed;
   }
   if (shaken_.empty()) return;
   const double a = ground_.acceleration(t);
   for (std::size_t k = 0; k < g.size(); ++k) g[k] -= shaken_[k] * a;
 }
 
-void PlantForces::acceleration(std::span<const double> x, std::span<const double> g,
-                               std::span<double> out) const noexcept {
-  const std::size_t n = plant_.size();
-  for (double& value : out) value = 0;
-  for (std::size_t j = 0; j < n; ++j) {
-    double force = g[j];
-    for (std::size_t k = 0; k < n; ++k)
-      force -= linear_.stiffness[j * n + k] * x[k] + linear_.damping[j * n + k] * x[n + k];
-    for (std::size_t i = 0; i < n; ++i) out[i] += inverse_mass_[i * n + j] * force;
+double PlantForces::push(std::size_t which, double t, std::span<const double> x) const noexcept {
+  const Tyre& tyre = plant_.tyres[which];
+  const FootMotion ground = foot(which, t);
+  const double push = tyre.stiffness * ground.height + tyre.damping * ground.velocity;
+  if (!plant_.tyres_may_lift) return push;
+  const double load = tyre.static_load + push - tyre.stiffness * along(tyre.row, x.data()) -
+                      tyre.damping * along(tyre.row, x.data() + plant_.size());
+  return push - std::fmin(load, 0);
+}
+
+void PlantForces::accelerate(double t, std::span<const double> x, std::span<const double> strut_forces,
+                             std::span<double> out) const noexcept {
+  const double shake = shaken_.empty() ? 0 : ground_.acceleration(t);
+  const double* a = by_state_.data();
+  const double* b = by_strut_.data();
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    double sum = shaken_.empty() ? 0 : -plant_.ground[i] * shake;
+    for (const double value : x) sum += *a++ * value;
+    for (const double force : strut_forces) sum += *b++ * force;
+    out[i] = sum;
+  }
+  const std::size_t tyres = plant_.tyres.size();
+  for (std::size_t w = 0; w < tyres; ++w) {
+    const double pushed = push(w, t, x);
+    for (std::size_t i = 0; i < out.size(); ++i) out[i] += by_tyre_[i * tyres + w] * pushed;
   }
 }
 

@@ -26,8 +26,9 @@ class PlantForces {
   /// g of M q'' + C q' + K q = g: all that is not linear in x, with these damper forces.
   void add_up(double t, std::span<const double> x, std::span<const double> strut_forces,
               std::span<double> g) const noexcept;
-  void acceleration(std::span<const double> x, std::span<const double> g,
-                    std::span<double> out) const noexcept;
+  /// q'' with these forces of struts.
+  void accelerate(double t, std::span<const double> x, std::span<const double> strut_forces,
+                  std::span<double> out) const noexcept;
   /// Where the plant would rest on the ground as it is, q.
   void resting_place(double t, std::span<double> q) const noexcept;
 
@@ -37,8 +38,12 @@ class PlantForces {
   const Plant& plant_;
   const GroundMotion& ground_;
   LinearPlant linear_;
-  std::vector<double> inverse_mass_, shaken_;  ///< shaken_: M e
-  std::vector<double> resting_;                ///< size x tyres: K^-1 row k
+  /// How a tyre pushes by the road alone, and by how much less it pulls where it lets go.
+  double push(std::size_t tyre, double t, std::span<const double> x) const noexcept;
+
+  std::vector<double> by_state_, by_strut_, by_tyre_;  ///< q'' row by row: by x, strut forces, tyres' pushes
+  std::vector<double> shaken_;                         ///< M e
+  std::vector<double> resting_;                        ///< size x tyres: K^-1 row k
 };
 
 }  // namespace dashpot

@@ -16,6 +16,15 @@ namespace {
 
 }  // namespace
 
+ParameterTable force_loop_settings() {
+  static constexpr std::array kRows{
+      ParameterRow{"proportional", "1", 0, 0, 100, "of the force that is missed, added to the wanted one"},
+      ParameterRow{"integral", "1/s", 0, 0, 1e5,
+                   "of its integral, which stands still at a limit of the current"},
+      ParameterRow{"derivative", "s", 0, 0, 1, "of its change"}};
+  return kRows;
+}
+
 CommandPath::CommandPath(const MountedDamper& damper, const ControlLimits& limits, double deflection)
     : damper_(&damper), limits_(limits), inverse_state_(damper.inverse ? damper.inverse->state_size() : 0) {
   if (damper.inverse) damper.inverse->rest(damper.at_damper({deflection, 0, damper.current}), inverse_state_);
@@ -28,17 +37,25 @@ double CommandPath::wanted_force(const DamperDemand& demand, const DamperInput& 
   return force_loop_step(&loop, wanted, force, limits_.sample_time, missed_.data());
 }
 
+double CommandPath::by_inverse(double wanted, const DamperInput& now, double force) {
+  const double ratio = damper_->motion_ratio;
+  const DamperInput motion = damper_->at_damper(now);
+  return damper_->inverse->command({.wanted = wanted / ratio,
+                                    .displacement = motion.displacement,
+                                    .velocity = motion.velocity,
+                                    .current = motion.current,
+                                    .measured = force / ratio},
+                                   inverse_state_);
+}
+
 double CommandPath::command(const DamperDemand& demand, const DamperInput& now, double force) {
   if (demand.kind == DamperDemand::Kind::Current) return demand.value;
   if (damper_->inverse) {
-    const double ratio = damper_->motion_ratio;
-    const DamperInput motion = damper_->at_damper(now);
-    return damper_->inverse->command({.wanted = wanted_force(demand, now, force) / ratio,
-                                      .displacement = motion.displacement,
-                                      .velocity = motion.velocity,
-                                      .current = motion.current,
-                                      .measured = force / ratio},
-                                     inverse_state_);
+    const double sum = missed_sum_;
+    const double current = by_inverse(wanted_force(demand, now, force), now, force);
+    const DriverOptions& range = damper_->driver;
+    if (!(current > range.current_min && current < range.current_max)) missed_sum_ = sum;
+    return current;
   }
   return straight_current(&demand, now.velocity, &limits_);
 }
@@ -54,9 +71,11 @@ DamperState::DamperState(const MountedDamper& damper, const ControlLimits& limit
   damper.model->rest(damper.at_damper({deflection, 0, damper.current}), state_);
 }
 
-void DamperState::demand(const DamperDemand& demand, const DamperInput& now, double force) {
+bool DamperState::demand(const DamperDemand& demand, const DamperInput& now, double force) {
+  const double before = command_;
   command_ = path_.command(demand, now, force);
   driver_.command(command_, driver_state_);
+  return command_ != before;
 }
 
 void DamperState::advance(const DamperInput& from, const DamperInput& to, double dt) noexcept {

@@ -1,8 +1,10 @@
 #pragma once
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <span>
 
+#include "dashpot/base/parameter_table.h"
 #include "dashpot/damper/driver.h"
 #include "dashpot/damper/inverse/inverse.h"
 #include "dashpot/damper/model.h"
@@ -10,13 +12,15 @@
 
 namespace dashpot {
 
-/// Corrects a wanted force by what the measured one misses.
+/// Corrects a wanted force by what the measured one misses. Its integral stands still while the current is at
+/// one of its limits.
 struct ForceLoop {
   double proportional = 0;  ///< 1
   double integral = 0;      ///< 1/s
   double derivative = 0;    ///< s
   bool is_closed() const noexcept { return proportional != 0 || integral != 0 || derivative != 0; }
 };
+ParameterTable force_loop_settings();
 
 /// A damper in its strut: model, coil driver, and the way from a demand to a current.
 struct MountedDamper {
@@ -28,7 +32,11 @@ struct MountedDamper {
   ForceLoop loop;
   double current = 0;       ///< A, commanded where there is no controller
   double motion_ratio = 1;  ///< the damper's travel over the strut's; its force counts there by as much
+  /// This piece's force over its model's, as built: neither inverse nor controller knows of it.
+  double force_factor = 1;
 
+  /// What a force of the model comes to at the strut.
+  double at_strut(double force) const noexcept { return motion_ratio * (force_factor * force); }
   /// The motion of the strut as the damper has it.
   DamperInput at_damper(const DamperInput& strut) const noexcept {
     return {motion_ratio * strut.displacement, motion_ratio * strut.velocity, strut.current};
@@ -45,6 +53,7 @@ class CommandPath {
 
  private:
   double wanted_force(const DamperDemand& demand, const DamperInput& now, double force);
+  double by_inverse(double wanted, const DamperInput& now, double force);
 
   const MountedDamper* damper_;
   ControlLimits limits_;
@@ -59,12 +68,28 @@ class DamperState {
   DamperState(const MountedDamper& damper, const ControlLimits& limits, double deflection);
 
   /// A new demand at this deflection and velocity, with this measured force: sets the driver's command.
-  void demand(const DamperDemand& demand, const DamperInput& now, double force);
+  /// Whether that is another one than before.
+  bool demand(const DamperDemand& demand, const DamperInput& now, double force);
   /// From one instant to another one dt later.
   void advance(const DamperInput& from, const DamperInput& to, double dt) noexcept;
   double force(const DamperInput& input) const noexcept {
-    return damper_->motion_ratio * damper_->model->force(damper_->at_damper(input), state_);
+    return damper_->at_strut(damper_->model->force(damper_->at_damper(input), state_));
   }
+  /// The same from these states of the model, whose rates it gives (DamperModel::flow).
+  double flow(const DamperInput& input, std::span<const double> state,
+              std::span<double> rates) const noexcept {
+    return damper_->at_strut(damper_->model->flow(damper_->at_damper(input), state, rates));
+  }
+  const DamperModel& model() const noexcept { return *damper_->model; }
+  std::span<const double> model_state() const noexcept { return state_; }
+  void put_model_state(const double* state) noexcept { std::copy_n(state, state_.size(), state_.begin()); }
+  /// Without the model.
+  void advance_coil(double dt) noexcept { driver_.advance(dt, driver_state_); }
+  /// Whether the coil's current stays as it is while no command comes.
+  bool is_steady() const noexcept { return driver_.is_steady(driver_state_); }
+  /// s until the current's course has a corner by itself: infinite where none comes.
+  double next_corner() const noexcept { return driver_.next_corner(driver_state_); }
+  void meet_corner() noexcept { driver_.meet_corner(driver_state_); }
   double current() const noexcept { return driver_.current(driver_state_); }
   /// The coil's current dt s from now.
   double current_after(double dt) const noexcept;

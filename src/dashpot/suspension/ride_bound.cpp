@@ -20,7 +20,7 @@ ForceRange possible_forces(const Vehicle& vehicle, double speed, const std::stri
   ForceRange range = model_range(*damper.model, least, greatest, speed * ratio);
   for (double& velocity : range.velocity) velocity /= ratio;
   for (std::vector<double>* forces : {&range.soft, &range.hard})
-    for (double& force : *forces) force *= ratio;
+    for (double& force : *forces) force = damper.at_strut(force);
   return range;
 }
 

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "dashpot/suspension/ride.h"
+#include "dashpot/suspension/trace.h"
 #include "dashpot/suspension/weighting.h"
 
 namespace dashpot {
@@ -81,23 +82,18 @@ class Reading {
 
   void add_tyres() {
     double load = 0, peak = 0, deflection = 0;
-    std::size_t lost = 0, count = 0;
     for (const Tyre& tyre : vehicle_.set.plant.tyres) {
       std::vector<double> dynamic;
-      for (const double value : samples(tyre.name + "_load")) {
-        dynamic.push_back(value - tyre.static_load);
-        lost += value <= 0;
-        ++count;
-      }
+      for (const double value : samples(tyre.name + "_load")) dynamic.push_back(value - tyre.static_load);
       load = std::max(load, root_mean_square(dynamic) / tyre.static_load);
       peak = std::max(peak, greatest(dynamic) / tyre.static_load);
       deflection = std::max(deflection, greatest(samples(tyre.name + "_deflection")));
     }
-    const double share = count > 0 ? static_cast<double>(lost) / static_cast<double>(count) : 0;
     add("tyre_load", "dynamic over static tyre load, rms", "%", 100 * load);
     add("tyre_load_peak", "dynamic over static tyre load, greatest", "%", 100 * peak);
     add("tyre_deflection", "tyre deflection, greatest", "mm", 1000 * deflection);
-    add("contact_lost", "tyre without load, of the time", "%", 100 * share);
+    add("contact_lost", "tyre without load, of the time", "%",
+        100 * contact_lost(trace_.record, vehicle_.set.plant, first_));
   }
 
   void add_struts() {

@@ -35,7 +35,7 @@ class Simulation {
         options_(options),
         output_step_(output_step(setting, options)),
         forces_(setting.plant, setting.ground),
-        state_(at_rest()),
+        state_(PlantState::at_rest(setting.plant, setting.dampers, options.limits)),
         integrator_(
             forces_,
             {options.relative_tolerance, options.absolute_tolerance, options.step.value_or(0), !options.step},
@@ -45,7 +45,6 @@ class Simulation {
                 static_cast<std::size_t>(options.duration / output_step_) + 2),
         signals_(setting.plant.struts.size()),
         demands_(signals_.size()),
-        acceleration_(setting.plant.size()),
         controller_state_(setting.controller ? setting.controller->state_size() : 0) {
     if (setting.controller) setting.controller->reset(controller_state_);
     for (const Tyre& tyre : setting.plant.tyres)
@@ -80,16 +79,6 @@ class Simulation {
     return setting.controller ? options.limits.sample_time : 1e-3;
   }
 
-  PlantState at_rest() const {
-    const Plant& plant = setting_.plant;
-    PlantState state{.x = std::vector<double>(2 * plant.size()),
-                     .strut_forces = std::vector<double>(plant.struts.size()),
-                     .g = std::vector<double>(plant.size())};
-    for (const MountedDamper& damper : setting_.dampers)
-      state.dampers.emplace_back(damper, options_.limits, 0.0);
-    return state;
-  }
-
   double next_jump() const { return jump_ < jumps_.size() ? jumps_[jump_] : INFINITY; }
   void meet_jumps() {
     const std::size_t before = jump_;
@@ -100,7 +89,6 @@ class Simulation {
   void control() {
     const Plant& plant = setting_.plant;
     const std::size_t n = plant.size();
-    forces_.acceleration(state_.x, state_.g, acceleration_);
     for (std::size_t s = 0; s < signals_.size(); ++s) signals_[s] = signals_of(s);
     sensors_.measure(signals_);
     std::vector<double>& x = plant_state_;
@@ -112,11 +100,12 @@ class Simulation {
       for (std::size_t k = 0; k < n; ++k) x[k] -= resting_[k];
     }
     setting_.controller->step(signals_, x, controller_state_, demands_);
+    bool changed = false;
     for (std::size_t s = 0; s < signals_.size(); ++s)
-      state_.dampers[s].demand(
+      changed |= state_.dampers[s].demand(
           demands_[s], {signals_[s].deflection, signals_[s].deflection_velocity, state_.dampers[s].current()},
           signals_[s].force);
-    integrator_.refresh(state_);
+    if (changed) integrator_.refresh(state_);
   }
 
   StrutSignals signals_of(std::size_t s) const {
@@ -125,47 +114,39 @@ class Simulation {
     const double current = state_.dampers[s].current();
     const DamperInput motion = forces_.strut_motion(s, state_.time, state_.x, current);
     return {.body_velocity = along(strut.body_row, state_.x.data() + n),
-            .body_acceleration = along(strut.body_row, acceleration_.data()),
+            .body_acceleration = along(strut.body_row, state_.acceleration.data()),
             .wheel_velocity = along(strut.body_row, state_.x.data() + n) - motion.velocity,
             .deflection = motion.displacement,
             .deflection_velocity = motion.velocity,
-            .force = state_.dampers[s].force(motion),
+            .force = state_.damper_forces[s],
             .current = current};
   }
 
   void write() {
     options_.monitor.check();
     writer_.write(state_);
-    bool lost = false;
-    for (std::size_t w = 0; w < setting_.plant.tyres.size(); ++w)
-      lost = lost || forces_.tyre_load(w, state_.time, state_.x) <= 0;
-    for (std::size_t s = 0; s < setting_.plant.struts.size(); ++s) {
-      const Strut& strut = setting_.plant.struts[s];
-      const double x = forces_.strut_motion(s, state_.time, state_.x, 0).displacement;
-      stops_met_ += (strut.extension_stop > 0 && x > strut.extension_stop) ||
-                    (strut.compression_stop > 0 && x < -strut.compression_stop);
-    }
-    lost_ += lost;
-    ++written_;
   }
 
   void finish(Trace& trace) {
-    const auto share = [&](std::size_t count) {
-      return format_number(100 * static_cast<double>(count) / static_cast<double>(written_), 3) +
-             " % of the time";
-    };
+    const Plant& plant = setting_.plant;
+    const auto share = [](double of) { return format_number(100 * of, 3) + " % of the time"; };
     trace.record = writer_.take();
-    trace.steps = integrator_.steps();
-    trace.evaluations = integrator_.evaluations();
-    trace.contact_lost = static_cast<double>(lost_) / static_cast<double>(written_);
-    if (lost_ > 0)
-      trace.warnings.push_back((setting_.plant.tyres_may_lift
-                                    ? "a tyre has no contact in "
-                                    : "a tyre pulls at the road, which none can, in ") +
-                               share(lost_));
-    if (stops_met_ > 0) trace.warnings.push_back("a stop is met in " + share(stops_met_));
-    if (integrator_.missed_tolerance())
-      trace.warnings.push_back("the tolerance could not be met at some instants");
+    trace.steps = integrator_.counts().steps;
+    trace.evaluations = integrator_.counts().evaluations;
+    const auto first = trace.diverged_at ? 0
+                                         : std::ranges::lower_bound(trace.record.time, options_.discard) -
+                                               trace.record.time.begin();
+    trace.contact_lost = contact_lost(trace.record, plant, static_cast<std::size_t>(first));
+    const double stopped = stops_met(trace.record, plant, static_cast<std::size_t>(first));
+    if (trace.contact_lost > 0)
+      trace.warnings.push_back((plant.tyres_may_lift ? "a tyre has no contact in "
+                                                     : "a tyre pulls at the road, which none can, in ") +
+                               share(trace.contact_lost));
+    if (stopped > 0) trace.warnings.push_back("a stop is met in " + share(stopped));
+    if (integrator_.counts().missed > 0)
+      trace.warnings.push_back("the tolerance could not be met in " +
+                               std::to_string(integrator_.counts().missed) + " of " +
+                               std::to_string(trace.steps) + " steps, short as they were");
     if (trace.diverged_at)
       trace.warnings.push_back("diverged at " + format_number(*trace.diverged_at) + " s");
   }
@@ -180,8 +161,8 @@ class Simulation {
   TraceWriter writer_;
   std::vector<StrutSignals> signals_;
   std::vector<DamperDemand> demands_;
-  std::vector<double> acceleration_, controller_state_, plant_state_, resting_, jumps_;
-  std::size_t jump_ = 0, written_ = 0, lost_ = 0, stops_met_ = 0;
+  std::vector<double> controller_state_, plant_state_, resting_, jumps_;
+  std::size_t jump_ = 0;
 };
 
 }  // namespace

@@ -16,6 +16,7 @@ namespace dashpot {
 struct SimulateOptions {
   double duration = 10;    ///< s
   double output_step = 0;  ///< s, of the trace; 0: the controller's sample time, or 1 ms
+  double discard = 0;      ///< s at the begin, which the shares of the time leave out
   double relative_tolerance = 1e-6, absolute_tolerance = 1e-9;
   std::optional<double> step;  ///< s, at most, without control of the error; none: as the tolerances ask
   SensorOptions sensors;
@@ -38,7 +39,7 @@ struct Trace {
   Record record;
   std::optional<double> diverged_at;  ///< s; the record ends there
   std::vector<std::string> warnings;
-  double contact_lost = 0;  ///< share of the time in which some tyre has no load
+  double contact_lost = 0;  ///< share of the time in which some tyre has no load (contact_lost())
   std::size_t steps = 0;    ///< of the integrator, and how often it asked for all forces
   std::size_t evaluations = 0;
 };

@@ -27,12 +27,13 @@ SimulatedRun run_vehicle(const std::shared_ptr<const Vehicle>& vehicle, const Gr
   settings.relative_tolerance = options.relative_tolerance;
   settings.step = options.step;
   settings.monitor = options.monitor;
+  settings.discard = usual_discard(ground, options.duration);
   SimulatedRun run{.name = name_of(*vehicle),
                    .vehicle = vehicle,
                    .trace = simulate(vehicle->on(ground), settings),
                    .measures = {},
                    .warnings = {}};
-  run.measures = ride_measures(*vehicle, ground, run.trace, usual_discard(ground, options.duration));
+  run.measures = ride_measures(*vehicle, ground, run.trace, settings.discard);
   run.warnings = run.trace.warnings;
   for (std::string& warning : domain_warnings(domain_use(*vehicle, run.trace), options.allowed_outside))
     run.warnings.push_back(std::move(warning));
@@ -44,6 +45,7 @@ VehicleWords passive_words(const VehicleWords& words, const std::string& against
   VehicleWords passive = words;
   passive.controller.clear();
   passive.inverse.clear();
+  passive.force_loop.clear();
   if (against.starts_with(kCurrent)) {
     const std::optional<double> current = parse_number(against.substr(kCurrent.size()));
     if (!current) throw Error(words.where, "'" + against + "' states no current", "current=0.5");

@@ -25,7 +25,6 @@ constexpr ParameterRow kSeedRow{"road.seed", "1", 1, 0, kMostSeed, "of the road'
 constexpr ParameterRow kCurrentRow{"current", "A", 0, -100, 100, "where there is no controller"};
 constexpr ParameterRow kLagRow{"lag_rate", "1/s", 0, 0, 1e6, "of the coil; 0: none"};
 constexpr ParameterRow kSpeedRow{"speed", "m/s", 20, 0.1, 200, "of the vehicle"};
-constexpr ParameterRow kRatioRow{"motion_ratio", "1", 1, 0.01, 100, "damper's travel over the strut's"};
 
 std::string first_word(const std::string& text) { return std::string(trim(split(text, ',').front())); }
 
@@ -46,7 +45,7 @@ std::vector<ParameterRow> damper_rows(const std::string& text) {
     rows = simple->parameters;
   else if (std::ranges::find(sets, name) != sets.end())
     rows = law_rows(load_parameter_set(name).model.law());
-  rows.push_back(kRatioRow);
+  rows.insert(rows.end(), mounting_settings().begin(), mounting_settings().end());
   return rows;
 }
 
@@ -81,7 +80,7 @@ ParameterRow plant_row(const VehicleWords& words, const std::string& name, const
     known.emplace_back(row.name);
   }
   known.insert(known.end(),
-               {"road.class", "road.speed", "road.seed", "damper.damping", "current", "lag_rate"});
+               {"road.class", "road.speed", "road.seed", "damper.force_factor", "current", "lag_rate"});
   throw Error(where, "nothing of a vehicle is known as '" + name + "'", suggest(name, known));
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "dashpot/suspension/domain_use.h"
+#include "dashpot/suspension/trace.h"
 
 namespace dashpot {
 namespace {
@@ -55,17 +56,6 @@ double tyre_load_index(const Plant& plant, const Trace& trace, std::size_t first
   return greatest;
 }
 
-double share_at_stops(const Plant& plant, const Trace& trace, std::size_t first) {
-  std::vector<char> met(trace.record.size() - first);
-  for (const Strut& strut : plant.struts) {
-    const std::span x = kept(trace, strut.name + "_deflection", first);
-    for (std::size_t k = 0; k < met.size(); ++k)
-      met[k] |= (strut.extension_stop > 0 && x[k] > strut.extension_stop) ||
-                (strut.compression_stop > 0 && x[k] < -strut.compression_stop);
-  }
-  return static_cast<double>(std::ranges::count(met, 1)) / static_cast<double>(met.size());
-}
-
 bool has_stops(const Plant& plant) {
   return std::ranges::any_of(plant.struts,
                              [](const Strut& s) { return s.extension_stop > 0 || s.compression_stop > 0; });
@@ -101,7 +91,7 @@ RideMeasures measure_ride(const Vehicle& vehicle, const BatchResult& result, dou
   const std::vector<double>& time = trace.record.time;
   const auto first = static_cast<std::size_t>(std::ranges::lower_bound(time, discard) - time.begin());
   if (plant.tyres.size() > 1) measures.tyre_load_index = tyre_load_index(plant, trace, first);
-  measures.stops_met = share_at_stops(plant, trace, first);
+  measures.stops_met = stops_met(trace.record, plant, first);
   for (const DomainUse& use : domain_use(vehicle, trace))
     measures.outside_data = std::max(measures.outside_data, use.any());
   return measures;

@@ -91,6 +91,7 @@ void read_words(ObjectReader& reader, VehicleWords& words, const fs::path& folde
   }
   words.controller = reader.string("controller", words.controller);
   words.inverse = found_file(reader.string("inverse", words.inverse), folder);
+  words.force_loop = reader.string("force_loop", words.force_loop);
   read_into(reader, kCurrent, words.current);
   read_into(reader, kCurrentMax, words.current_max);
   read_into(reader, kLagRate, words.lag_rate);

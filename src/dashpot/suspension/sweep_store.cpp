@@ -36,6 +36,7 @@ std::string key_of(const VehicleWords& words) {
   for (const std::string& damper : words.dampers) parts.push_back(with_files(damper));
   parts.push_back("controller " + words.controller);
   parts.push_back("inverse " + with_files(words.inverse));
+  if (!words.force_loop.empty()) parts.push_back("force loop " + words.force_loop);
   for (const double figure : {words.current, words.current_max, words.lag_rate, words.sample_time})
     parts.push_back(format_exact(figure));
   parts.push_back(sensor_text(words.sensors));

@@ -1,15 +1,30 @@
 #include "dashpot/suspension/trace.h"
 
+#include <algorithm>
+
 namespace dashpot {
 namespace {
 
 std::string per_time(const std::string& unit, const char* time) { return unit + "/" + time; }
 
+/// Of the samples from `first` on that some part marks: is_marked(part, its channel's value).
+template <class Part, class Mark>
+double share_marked(const Record& trace, const std::vector<Part>& parts, const char* channel,
+                    std::size_t first, Mark is_marked) {
+  if (first >= trace.size()) return 0;
+  std::vector<char> marked(trace.size() - first);
+  for (const Part& part : parts) {
+    const std::vector<double>& values = trace.channel(part.name + channel).samples;
+    for (std::size_t k = 0; k < marked.size(); ++k) marked[k] |= is_marked(part, values[first + k]);
+  }
+  return static_cast<double>(std::ranges::count(marked, 1)) / static_cast<double>(marked.size());
+}
+
 }  // namespace
 
 TraceWriter::TraceWriter(const Plant& plant, const PlantForces& forces, const GroundMotion& ground,
                          std::size_t samples)
-    : plant_(plant), forces_(forces), ground_(ground), acceleration_(plant.size()) {
+    : plant_(plant), forces_(forces), ground_(ground) {
   const auto channel = [&](const std::string& name, const std::string& unit) {
     record_.channels.push_back({.name = name, .unit = unit, .origin = "simulated"});
     record_.channels.back().samples.reserve(samples);
@@ -42,27 +57,37 @@ TraceWriter::TraceWriter(const Plant& plant, const PlantForces& forces, const Gr
   record_.source = "simulation";
 }
 
+double contact_lost(const Record& trace, const Plant& plant, std::size_t first) {
+  return share_marked(trace, plant.tyres, "_load", first, [](const Tyre&, double load) { return load <= 0; });
+}
+
+double stops_met(const Record& trace, const Plant& plant, std::size_t first) {
+  return share_marked(trace, plant.struts, "_deflection", first, [](const Strut& strut, double x) {
+    return (strut.extension_stop > 0 && x > strut.extension_stop) ||
+           (strut.compression_stop > 0 && x < -strut.compression_stop);
+  });
+}
+
 void TraceWriter::write(const PlantState& state) {
   const std::size_t n = plant_.size();
   const double *q = state.x.data(), *v = q + n;
-  forces_.acceleration(state.x, state.g, acceleration_);
   record_.time.push_back(state.time);
   place_ = 0;
   for (std::size_t k = 0; k < n; ++k) {
     add(q[k]);
     add(v[k]);
-    add(acceleration_[k]);
+    add(state.acceleration[k]);
   }
   for (const PlantPoint& point : plant_.points) {
     add(along(point.row, q));
-    add(along(point.row, acceleration_.data()));
+    add(along(point.row, state.acceleration.data()));
   }
   for (std::size_t s = 0; s < plant_.struts.size(); ++s) {
     const DamperState& damper = state.dampers[s];
     const DamperInput motion = forces_.strut_motion(s, state.time, state.x, damper.current());
     add(motion.displacement);
     add(motion.velocity);
-    add(damper.force(motion));
+    add(state.damper_forces[s]);
     add(damper.current());
     add(damper.command());
   }

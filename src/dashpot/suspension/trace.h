@@ -2,8 +2,8 @@
 #include <span>
 #include <vector>
 
-#include "dashpot/suspension/integrator.h"
 #include "dashpot/suspension/simulate.h"
+#include "dashpot/suspension/step_method.h"
 
 namespace dashpot {
 
@@ -21,8 +21,11 @@ class TraceWriter {
   const PlantForces& forces_;
   const GroundMotion& ground_;
   Record record_;
-  std::vector<double> acceleration_;
   std::size_t place_ = 0;
 };
+
+/// Shares of the samples from `first` on: in which some tyre has no load or pulls; in which some stop is met.
+double contact_lost(const Record& trace, const Plant& plant, std::size_t first);
+double stops_met(const Record& trace, const Plant& plant, std::size_t first);
 
 }  // namespace dashpot

@@ -132,12 +132,21 @@ std::shared_ptr<const InverseModel> make_inverse(const ChosenDamper& damper, con
 }
 
 MountedDamper mount(const ChosenDamper& damper, const DriveRange& drive, const VehicleWords& words) {
-  MountedDamper mounted{.model = damper.model, .motion_ratio = damper.motion_ratio};
+  MountedDamper mounted{
+      .model = damper.model, .motion_ratio = damper.motion_ratio, .force_factor = damper.force_factor};
   if (damper.is_passive()) return mounted;
   mounted.driver = {.current_min = drive.low,
                     .current_max = drive.high,
                     .lag_rate = words.lag_rate >= 0 ? words.lag_rate : damper.lag_rate};
   if (!words.inverse.empty()) mounted.inverse = make_inverse(damper, mounted.driver, words);
+  if (!words.force_loop.empty()) {
+    if (words.inverse.empty())
+      throw Error(words.where, "a force loop needs an inverse, which turns its force into a current",
+                  "numeric");
+    const std::vector<double> gains =
+        parse_values(force_loop_settings(), split(words.force_loop, ','), "the force loop", words.where);
+    mounted.loop = {gains[0], gains[1], gains[2]};
+  }
   mounted.current = words.controller.empty() ? std::max(words.current, drive.low) : drive.low;
   return mounted;
 }

@@ -18,6 +18,7 @@ struct VehicleWords {
   std::vector<std::string> dampers;
   std::string controller;     ///< "mix1,crossover=1.9Hz"; empty: every damper keeps `current`
   std::string inverse;        ///< scheme or file, from a wanted force to a current; empty: damping is mapped
+  std::string force_loop;     ///< about the inverse: "proportional=0.5,integral=20"; empty: none
   double current = 0;         ///< A (or V), where there is no controller
   double current_max = 0;     ///< A (or V); 0: that of the damper's data
   double lag_rate = -1;       ///< 1/s, of the coil; below 0: the damper's own

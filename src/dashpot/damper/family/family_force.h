@@ -23,6 +23,8 @@ class FamilyForce {
   virtual void advance(const DamperInput&, const DamperInput&, double, std::span<double>) const noexcept {}
   virtual double force(const FamilyMember& member, const DamperInput& input,
                        std::span<const double> state) const noexcept = 0;
+  /// The states' derivatives by time.
+  virtual void flow(const DamperInput&, std::span<const double>, std::span<double>) const noexcept {}
   /// As DamperModel has them.
   virtual bool is_ensemble() const noexcept { return false; }
   virtual double spread(const FamilyMember&, const DamperInput&) const noexcept { return 0; }
@@ -100,6 +102,10 @@ class GatedFamily final : public FamilyForce {
   double force(const FamilyMember& member, const DamperInput& input,
                std::span<const double> state) const noexcept override;
   Value to_json() const override;
+  void flow(const DamperInput& input, std::span<const double> state,
+            std::span<double> rates) const noexcept override {
+    gates_.bank.flow(input, state, rates);
+  }
   const FamilyGates& gates() const { return gates_; }
 
  private:

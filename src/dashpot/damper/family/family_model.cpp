@@ -40,6 +40,12 @@ bool FamilyModel::is_ensemble() const noexcept {
   return family_->build_spread > 0 || family_->force->is_ensemble();
 }
 
+double FamilyModel::flow(const DamperInput& input, std::span<const double> state,
+                         std::span<double> rates) const noexcept {
+  family_->force->flow(input, state, rates);
+  return force(input, state);
+}
+
 double FamilyModel::spread(const DamperInput& input, std::span<const double> state) const noexcept {
   return std::hypot(family_->build_spread * told(input, state),
                     strength_ * family_->force->spread(member_, input));

@@ -42,6 +42,9 @@ class FamilyModel final : public DamperModel {
   void advance(const DamperInput& from, const DamperInput& to, double dt,
                std::span<double> state) const noexcept override;
   double force(const DamperInput& input, std::span<const double> state) const noexcept override;
+  bool flows() const noexcept override { return true; }
+  double flow(const DamperInput& input, std::span<const double> state,
+              std::span<double> rates) const noexcept override;
   /// By how much a new damper of this design differs from their mean, and networks from theirs.
   bool is_ensemble() const noexcept override;
   double spread(const DamperInput& input, std::span<const double> state) const noexcept override;

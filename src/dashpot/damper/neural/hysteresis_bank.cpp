@@ -76,6 +76,15 @@ void HysteresisBank::advance(const DamperInput& from, const DamperInput& to, dou
   for (const double rate : current_rates) advance_lag(from.current, to.current, rate * dt, *at++, next());
 }
 
+void HysteresisBank::flow(const DamperInput& input, std::span<const double> state,
+                          std::span<double> rates) const noexcept {
+  const double *at = state.data(), v = input.velocity;
+  double* out = rates.data();
+  for (const double rate : path_rates) *out++ = rate * (v - std::abs(v) * *at++);
+  for (const double rate : velocity_rates) *out++ = rate * (v - *at++);
+  for (const double rate : current_rates) *out++ = rate * (input.current - *at++);
+}
+
 void HysteresisBank::read(const DamperInput& input, std::span<const double> state,
                           double* signals) const noexcept {
   const auto lags = state.subspan(path_rates.size(), velocity_rates.size());

@@ -31,6 +31,9 @@ struct HysteresisBank {
   void advance(const DamperInput& from, const DamperInput& to, double dt, std::span<double> state,
                std::span<double> slopes = {}) const noexcept;
 
+  /// The states' derivatives by time.
+  void flow(const DamperInput& input, std::span<const double> state, std::span<double> rates) const noexcept;
+
   /// What a network reads: v, v - y of each velocity lag, w of each Dahl state, u of each current lag.
   std::size_t signal_count() const noexcept { return 1 + size(); }
   void read(const DamperInput& input, std::span<const double> state, double* signals) const noexcept;

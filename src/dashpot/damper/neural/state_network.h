@@ -39,6 +39,16 @@ class StateNetwork : public DamperModel {
     for (const Member& member : members_) sum += read(member, input, own(member, state));
     return sum / static_cast<double>(members_.size()) + offset_;
   }
+  bool flows() const noexcept override { return true; }
+  double flow(const DamperInput& input, std::span<const double> state,
+              std::span<double> rates) const noexcept override {
+    std::span<const double> now = state;
+    for (const Member& member : members_) {
+      const auto part = own(member, now);
+      member.states().flow(input, part, own(member, rates));
+    }
+    return force(input, state);
+  }
   bool is_ensemble() const noexcept override { return members_.size() > 1; }
   double spread(const DamperInput& input, std::span<const double> state) const noexcept override {
     if (!is_ensemble()) return 0;

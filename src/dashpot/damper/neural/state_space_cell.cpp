@@ -174,6 +174,19 @@ void StateSpaceCell::advance(const DamperInput& from, const DamperInput& to, dou
   }
 }
 
+void StateSpaceCell::flow(const DamperInput& input, std::span<const double> state,
+                          std::span<double> rates) const noexcept {
+  const std::size_t paths = path_rates.size(), n = motions();
+  Point at;
+  look(input.velocity / velocity_scale, &state[n], state.data(), at);
+  for (std::size_t k = 0; k < n; ++k) {
+    const double rate = (k < paths ? path_rates[k] : lag_rates[k - paths]) * std::exp(kBend * at.bend[k]);
+    rates[k] = rate * (at.speed[k] - (k < paths ? std::abs(at.speed[k]) : 1) * state[k]);
+  }
+  for (std::size_t m = 0; m < currents(); ++m)
+    rates[n + m] = current_rates[m] * ((input.current - current_mean) / current_scale - state[n + m]);
+}
+
 void StateSpaceCell::rest(const DamperInput& input, std::span<double> state, Slopes* slopes) const noexcept {
   constexpr int kSteps = 32;
   constexpr double kGrowth = 1.5;  // to some 10^6 model steps in all

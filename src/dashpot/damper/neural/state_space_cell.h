@@ -56,6 +56,9 @@ struct StateSpaceCell {
   void advance(const DamperInput& from, const DamperInput& to, double dt, std::span<double> state,
                Slopes* slopes = nullptr) const noexcept;
 
+  /// The states' derivatives by time, as they are for steps without length.
+  void flow(const DamperInput& input, std::span<const double> state, std::span<double> rates) const noexcept;
+
   /// What a network reads: v m/s, x, v - y, u (standardised but for v).
   std::size_t signal_count() const noexcept { return 1 + size(); }
   void read(const DamperInput& input, std::span<const double> state, double* signals) const noexcept;

@@ -34,7 +34,7 @@ struct Output {
 };
 
 struct Parameters {
-  double deflection, tyre_deflection, force;
+  double deflection, tyre_deflection, force, top_acceleration;
 };
 
 /// Demand: its C text, (wanted force, limits, s). Where nothing gives the state, nothing is wanted.
@@ -63,14 +63,16 @@ template <const ControlLaw& kLaw, auto Demand>
 ControllerPointer make(std::span<const double> values, const ControlContext& context) {
   const auto p = values_as<Parameters>(values);
   return std::make_unique<ClippedRegulator<kLaw, Demand>>(
-      regulator_of(context.plant, {p.deflection, p.tyre_deflection, p.force}), context);
+      regulator_of(context.plant, {p.deflection, p.tyre_deflection, p.force, p.top_acceleration}), context);
 }
 
 const std::vector<ParameterRow> kPrices{
     {"deflection", "1/s^4", 1e3, 0, 1e12,
      "price of a strut's deflection squared, where body acceleration costs 1"},
     {"tyre_deflection", "1/s^4", 1e4, 0, 1e12, "price of a tyre's deflection squared"},
-    {"force", "1/kg^2", 0, 0, 1e6, "price of a damper's force squared; needed where forces move no body"}};
+    {"force", "1/kg^2", 0, 0, 1e6, "price of a damper's force squared; needed where forces move no body"},
+    {"top_acceleration", "1", 0, 0, 1e12,
+     "price of the last coordinate's acceleration squared: a building's top floor"}};
 
 }  // namespace
 
@@ -97,6 +99,7 @@ std::vector<double> regulator_of(const Plant& plant, const RegulatorPrices& pric
     of_heights(strut.row, prices.deflection);
   }
   for (const Tyre& tyre : plant.tyres) of_heights(tyre.row, prices.tyre_deflection);
+  outputs.push_back({a.row(2 * n - 1), b.row(2 * n - 1), prices.top_acceleration});
 
   Matrix q = Matrix::Zero(2 * n, 2 * n), cross = Matrix::Zero(2 * n, m),
          r = prices.force * Matrix::Identity(m, m);

@@ -41,6 +41,7 @@ std::string against_damper(const MountedDamper& damper) {
   if (!std::isinf(damper.driver.rate_max) || damper.driver.period > 0)
     return "its driver limits the current's rate or samples";
   if (damper.motion_ratio != 1) return "its damper moves otherwise than its strut";
+  if (damper.force_factor != 1) return "its damper is built otherwise than its model";
   if (const auto* network = dynamic_cast<const NetworkModel*>(damper.model.get()))
     return against_network(*network);
   if (const auto* law = dynamic_cast<const LawModel*>(damper.model.get())) return against_law(*law);
