@@ -174,7 +174,7 @@ TEST_CASE("a motion that cannot be run") {
   refused("time that stands still", [&](auto& motion, auto&) { motion.time = values; });
   refused("no place for the force", [](auto&, auto& to) { to.force = nullptr; });
   refused("a band that the model has not", [&](auto&, auto& to) { to.half_width = force; });
-  refused("a state of another size", [&](auto&, auto& to) { to.state = force, to.state_size = 1; });
+  refused("a state of another size", [&](auto&, auto& to) { to.state = force, to.state_size = 3; });
   zeros[2] = kNaN;
   refused("not a number", [](auto&, auto&) {});
 }

@@ -282,7 +282,7 @@ class Caller {
 /// A vehicle in words: understood or refused; short rides are driven.
 void drive_options(const std::string& input) {
   const dashpot::capi::DriveOptions options = dashpot::capi::read_drive_options(input.c_str());
-  if (input.find('/') != std::string::npos) return;  // words may name files
+  if (names_a_device(input)) return;
   (void)dashpot::make_vehicle(options.vehicle);
 }
 

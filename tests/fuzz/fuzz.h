@@ -38,5 +38,10 @@ inline void require_true(bool holds) {
   if (!holds) std::abort();
 }
 
+/// Words may name files: none that never end.
+inline bool names_a_device(const std::string& words) {
+  return words.find("/dev") != std::string::npos || words.find("/proc") != std::string::npos;
+}
+
 /// A file with this content in a folder of this process, in memory where there is room for it.
 std::filesystem::path fuzz_file(const std::string& name, const std::string& content);

@@ -46,11 +46,8 @@ void curve_file(const std::string& input) {
     require_true(std::isfinite(curve.force({0, velocity, 0}, {})));
 }
 
-/// Words may name files: none beyond those of this process.
-bool names_a_path(const std::string& words) { return words.find("/") != std::string::npos; }
-
 void ground_words(const std::string& input) {
-  if (!names_a_path(input)) require_ground(*dashpot::make_ground(input, 1));
+  if (!names_a_device(input)) require_ground(*dashpot::make_ground(input, 1));
 }
 
 void controller_words(const std::string& input) {
@@ -68,7 +65,7 @@ void controller_words(const std::string& input) {
 }
 
 void damper_words(const std::string& input) {
-  if (names_a_path(input)) return;
+  if (names_a_device(input)) return;
   const dashpot::ChosenDamper damper = dashpot::choose_damper(input);
   std::vector<double> state(damper.model->state_size());
   damper.model->rest({}, state);
@@ -77,7 +74,7 @@ void damper_words(const std::string& input) {
 
 /// What is understood can be drawn.
 void sweep_yaml(const std::string& input) {
-  if (names_a_path(input)) return;
+  if (names_a_device(input)) return;
   const dashpot::SweepRequest request = dashpot::parse_sweep(input, "fuzz.yaml", "nowhere");
   const dashpot::SweepDraw draw = dashpot::draw_vehicle(request, 0);
   require_true(draw.values.size() == request.inputs.size());
