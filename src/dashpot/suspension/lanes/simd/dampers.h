@@ -32,7 +32,7 @@ class NetworkLanes {
   }
   void derivative(Lane, Lane, const Lane*, Lane*) const {}
 
-  Lane force(Lane x, Lane v, const Lane*) const {
+  [[gnu::noinline]] Lane force(Lane x, Lane v, const Lane*) const {  // too long to have six times in a step
     if (by_displacement_ == kNone)
       return respond([&](std::size_t n) { return biases_[n] + weight(n, by_velocity_) * v; });
     if (by_velocity_ == kNone)
