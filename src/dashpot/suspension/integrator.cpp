@@ -23,7 +23,7 @@ Integrator::Integrator(const PlantForces& forces, const IntegratorOptions& optio
 }
 
 bool Integrator::advance(PlantState& state, double end) {
-  while (state.time < end) {
+  while (end - state.time > Driver::kInstant) {
     double wait = INFINITY;
     for (const DamperState& damper : state.dampers) wait = std::min(wait, damper.next_corner());
     const bool corner = state.time + wait < end;
@@ -33,6 +33,7 @@ bool Integrator::advance(PlantState& state, double end) {
     for (DamperState& damper : state.dampers) damper.meet_corner();
     method_->refresh(state);
   }
+  state.time = end;
   return true;
 }
 
