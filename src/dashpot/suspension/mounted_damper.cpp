@@ -51,10 +51,9 @@ double CommandPath::by_inverse(double wanted, const DamperInput& now, double for
 double CommandPath::command(const DamperDemand& demand, const DamperInput& now, double force) {
   if (demand.kind == DamperDemand::Kind::Current) return demand.value;
   if (damper_->inverse) {
-    const double sum = missed_sum_;
     const double current = by_inverse(wanted_force(demand, now, force), now, force);
     const DriverOptions& range = damper_->driver;
-    if (!(current > range.current_min && current < range.current_max)) missed_sum_ = sum;
+    force_loop_limit(current, range.current_min, range.current_max, missed_.data());
     return current;
   }
   return straight_current(&demand, now.velocity, &limits_);

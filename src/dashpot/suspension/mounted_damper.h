@@ -58,7 +58,7 @@ class CommandPath {
   const MountedDamper* damper_;
   ControlLimits limits_;
   std::vector<double> inverse_state_;
-  std::array<double, 2> missed_{};  // of the force loop
+  std::array<double, 3> missed_{};  // of the force loop
 };
 
 /// Its moving parts: states of model, driver, inverse and force loop. Motions and forces are the strut's.

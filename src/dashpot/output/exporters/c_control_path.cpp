@@ -47,7 +47,7 @@ constexpr const char* kInverse = R"(  if (demand->kind != kDemandCurrent) {
     input.current = s->current;
     input.measured = @measured@;
     command = inverse_command(&kInverse, &input, &state[@inverse@]);
-  }
+@limit@  }
 )";
 
 constexpr const char* kInverseTypes = R"(typedef struct DamperInput {
@@ -114,6 +114,9 @@ std::string command_code(const MountedDamper& damper, const CControlLaw& law, co
                       ? "    wanted = force_loop_step(&kLoop, wanted, s->force, DAMPER_SAMPLE_TIME, &state[" +
                             number(at.loop) + "]);\n"
                       : ""},
+         {"limit", loops ? "    force_loop_limit(command, " + c_number(damper.driver.current_min) + ", " +
+                               c_number(damper.driver.current_max) + ", &state[" + number(at.loop) + "]);\n"
+                         : ""},
          {"measured", c_inverse(*damper.inverse, precision).needs_force ? "s->force / ratio" : "0"},
          {"inverse", number(at.inverse)}});
   }
@@ -223,7 +226,7 @@ CControlPath c_control_path(const Vehicle& vehicle, CPrecision precision) {
   at.memory = at.slope_at() + (at.slope ? 2 : 0);
   law = c_control_law(description, vehicle.dampers.size(), at.memory);
   at.loop = at.memory + law.memory;
-  at.inverse = at.loop + (inverts && damper.loop.is_closed() ? 2 : 0);
+  at.inverse = at.loop + (inverts && damper.loop.is_closed() ? 3 : 0);
   at.end = at.inverse + (inverts ? damper.inverse->state_size() : 0);
 
   const ControlLimits& limits = vehicle.limits;
