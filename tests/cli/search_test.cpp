@@ -161,7 +161,8 @@ TEST_CASE("search: another search's file is refused until --fresh throws it away
   CHECK(rows_in(folder.path()).size() == 6);
 }
 
-TEST_CASE("search: on a terminal the best so far stand in a table that redraws itself") {
+TEST_CASE("search: on a terminal the best so far stand in a table that redraws itself" *
+          doctest::test_suite("long")) {
   const TemporaryFolder folder;
   const ProgramResult result = run_program(
       "script -qec '" + program_path() + " " +

@@ -70,7 +70,7 @@ TEST_CASE("sweep: killed at random moments, it goes on, and the tables are the s
     CHECK_MESSAGE(read_file(resumed / table) == read_file(whole / table), table);
 }
 
-TEST_CASE("sweep: an interruption says what is kept and how to go on") {
+TEST_CASE("sweep: an interruption says what is kept and how to go on" * doctest::test_suite("long")) {
   const TemporaryFolder folder;
   const std::string log = (folder.path() / "log").string();
   const ProgramResult result = run_program(

@@ -175,7 +175,8 @@ double stack_bound(const TemporaryFolder& folder, const std::string& function) {
 
 }  // namespace
 
-TEST_CASE("exported C on a Cortex-M4F: the library's numbers, within 100 us a step") {
+TEST_CASE("exported C on a Cortex-M4F: the library's numbers, within 100 us a step" *
+          doctest::test_suite("long")) {
   if (!are_there({"arm-none-eabi-gcc", "qemu-system-arm"})) return;
   const TemporaryFolder folder;
   write_models(folder);

@@ -74,7 +74,8 @@ const std::vector<std::vector<std::string>> kTrainers = {{"trainer=lm"},
 
 }  // namespace
 
-TEST_CASE("every trainer learns the damper, whatever the force zeros of the records") {
+TEST_CASE("every trainer learns the damper, whatever the force zeros of the records" *
+          doctest::test_suite("long")) {
   for (const std::vector<std::string>& trainer : kTrainers) {
     CAPTURE(trainer.front());
     const FitReport fit = fitted(trainer, campaign());

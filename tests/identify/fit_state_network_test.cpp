@@ -5,7 +5,8 @@
 
 using namespace dashpot;
 
-TEST_CASE("a hysteresis network learns a damper, with the same bits on any number of threads") {
+TEST_CASE("a hysteresis network learns a damper, with the same bits on any number of threads" *
+          doctest::test_suite("long")) {
   const std::vector<Record> training = small_campaign({{0.01, 1}, {0.005, 3}}).records;
   const FitReport one = identify("hysteresis_network", training, "A", {.threads = 1});
   const FitReport three = identify("hysteresis_network", training, "A", {.threads = 3});

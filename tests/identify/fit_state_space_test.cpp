@@ -5,7 +5,8 @@
 
 using namespace dashpot;
 
-TEST_CASE("a neural state space learns a damper, with the same bits on any number of threads") {
+TEST_CASE("a neural state space learns a damper, with the same bits on any number of threads" *
+          doctest::test_suite("long")) {
   const std::vector<Record> training = small_campaign({{0.01, 1}, {0.005, 3}}).records;
   IdentifyOptions options{.threads = 1};
   options.network = {.epochs = 8, .members = 2};

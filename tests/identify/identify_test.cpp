@@ -54,7 +54,7 @@ TEST_CASE("offsets of the records are found") {
   CHECK_CLOSE(sum, 0, 0, 1e-6);  // the mean is the model's own bias
 }
 
-TEST_CASE("the same bits on any number of threads") {
+TEST_CASE("the same bits on any number of threads" * doctest::test_suite("long")) {
   const Dataset data = small_campaign();
   LeaveOut by_condition;
   const auto run = [&](int threads) {

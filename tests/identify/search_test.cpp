@@ -91,7 +91,8 @@ TEST_CASE("an interruption keeps what is finished, and the search goes on from t
   CHECK(csv_search(report) == whole);
 }
 
-TEST_CASE("more trials go on with those that are there; what changes results is another search") {
+TEST_CASE("more trials go on with those that are there; what changes results is another search" *
+          doctest::test_suite("long")) {
   SearchOptions options = grid({"hidden=1:30"});
   options.method = SearchMethod::Random;
   options.trials = 3;

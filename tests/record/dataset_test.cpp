@@ -143,6 +143,7 @@ TEST_CASE("mistakes in a dataset file are refused at their line") {
   CHECK(has(message("channels: {force: {column: F_N, unit: mm}}"), "dataset.yaml:3"));
   CHECK(has(message("channels: {force: {column: F_N, sign: 2}}"), "'sign' is neither 1 nor -1"));
   CHECK(has(message("time: {sample_rate: -1}"), "must be positive"));
+  CHECK(has(message("level: nan"), "the drive level is not a finite number"));
   CHECK(has(message("condition: '{amp}'"), "'{amp}' in '{amp}' is unknown"));
   CHECK(has(message("cut: {from: 7}"), "leaves nothing"));
 }

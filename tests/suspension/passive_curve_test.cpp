@@ -36,6 +36,9 @@ TEST_CASE("a curve's file may have other units, and what is wrong in it is said"
   const auto back = folder.write("back.csv", "velocity [m/s],force [N]\n0,0\n-1,-300\n1,500\n");
   CHECK(message_of([&] { load_passive_curve(back.string()); }) ==
         "back: the velocity does not rise at point 2; one force per velocity, the least velocity first");
+  const auto leap = folder.write("leap.csv", "velocity [m/s],force [N]\n-1,-300\n0,0\n1e-320,500\n");
+  CHECK(message_of([&] { load_passive_curve(leap.string()); }) ==
+        "leap: the force leaps at point 3; points further apart, or one of the two");
   const auto other = folder.write("other.csv", "force [N],current [A]\n0,0\n-1,-300\n1,500\n");
   CHECK(message_of([&] { load_passive_curve(other.string()); }).find("has no column 'velocity'") !=
         std::string::npos);

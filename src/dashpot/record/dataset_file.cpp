@@ -16,13 +16,16 @@ namespace fs = std::filesystem;
 namespace dashpot {
 namespace {
 
+double finite_number(const Value& value, std::string_view what) {
+  const double number = value.as_number();
+  if (!std::isfinite(number)) throw Error(value.where(), std::string(what) + " is not a finite number");
+  return number;
+}
+
 std::optional<double> optional_number(ObjectReader& reader, std::string_view key) {
   const Value* value = reader.optional(key);
   if (!value) return std::nullopt;
-  const double number = value->as_number();
-  if (!std::isfinite(number))
-    throw Error(value->where(), "'" + std::string(key) + "' is not a finite number");
-  return number;
+  return finite_number(*value, "'" + std::string(key) + "'");
 }
 
 std::optional<double> positive_number(ObjectReader& reader, std::string_view key) {
@@ -117,8 +120,12 @@ void read_cut(const Value& value, FileStatement& out) {
 }
 
 LevelStatement read_level(const Value& value) {
-  if (value.kind() == Value::Kind::Number) return value.as_number();
-  if (value.kind() == Value::Kind::Array) return value.as_numbers();
+  if (value.kind() == Value::Kind::Number) return finite_number(value, "the drive level");
+  if (value.kind() == Value::Kind::Array) {
+    std::vector<double> levels;
+    for (const Value& item : value.items()) levels.push_back(finite_number(item, "a drive level"));
+    return levels;
+  }
   ObjectReader reader(value, "a drive level");
   LevelStatement level = reader.string("manifest");
   reader.finish();
@@ -127,7 +134,7 @@ LevelStatement read_level(const Value& value) {
 
 /// "1.0 mm", "25 degC" or a plain number in SI.
 double read_condition(const Value& value) {
-  if (value.kind() == Value::Kind::Number) return value.as_number();
+  if (value.kind() == Value::Kind::Number) return finite_number(value, "the condition");
   const std::string& text = value.as_string();
   const std::size_t space = text.find(' ');
   const auto number = parse_number(text.substr(0, space));

@@ -12,6 +12,8 @@
 namespace dashpot {
 namespace {
 
+constexpr double kSteepest = 1e12;  // N*s/m
+
 void require_curve(const std::string& name, const std::vector<double>& v, const std::vector<double>& f) {
   if (v.size() < 2 || f.size() != v.size())
     throw Error(name, "a curve of " + std::to_string(std::min(v.size(), f.size())) + " points",
@@ -22,6 +24,9 @@ void require_curve(const std::string& name, const std::vector<double>& v, const 
     if (k > 0 && !(v[k] > v[k - 1]))
       throw Error(name, "the velocity does not rise at point " + std::to_string(k + 1),
                   "one force per velocity, the least velocity first");
+    if (k > 0 && !(std::abs(f[k] - f[k - 1]) <= kSteepest * (v[k] - v[k - 1])))
+      throw Error(name, "the force leaps at point " + std::to_string(k + 1),
+                  "points further apart, or one of the two");
   }
 }
 
