@@ -20,6 +20,12 @@ inline ProgramResult compile_and_run(const TemporaryFolder& folder, const std::s
                      "' && ls *_test.c | sed 's/_test.c//' | xargs -P $(nproc) -I NAME sh check NAME");
 }
 
+inline void check_that_it_runs(const TemporaryFolder& folder, const std::string& flags) {
+  const ProgramResult result = compile_and_run(folder, flags);
+  CAPTURE(result.output);
+  CHECK(result.exit_code == 0);
+}
+
 /// What cppcheck's MISRA add-on says of a source is listed in its header.
 inline void check_misra(const std::filesystem::path& source, const std::string& header) {
   const ProgramResult result =

@@ -60,18 +60,14 @@ TEST_CASE("exported controllers: every law gives the library's commands within 1
   if (!is_there("cc")) return;
   const TemporaryFolder folder;
   write_all(folder, CPrecision::Double);
-  const ProgramResult result = compile_and_run(folder, "");
-  CAPTURE(result.output);
-  CHECK(result.exit_code == 0);
+  check_that_it_runs(folder, "");
 }
 
 TEST_CASE("exported controllers: in single precision within 1e-5, without a double") {
   if (!is_there("cc")) return;
   const TemporaryFolder folder;
   write_all(folder, CPrecision::Single);
-  const ProgramResult result = compile_and_run(folder, "-Wdouble-promotion");
-  CAPTURE(result.output);
-  CHECK(result.exit_code == 0);
+  check_that_it_runs(folder, "-Wdouble-promotion");
 }
 
 TEST_CASE(
@@ -96,9 +92,7 @@ TEST_CASE(
         }
       }
     }
-  const ProgramResult result = compile_and_run(folder, "");
-  CAPTURE(result.output);
-  CHECK(result.exit_code == 0);
+  check_that_it_runs(folder, "");
 }
 
 TEST_CASE("exported C ships nothing that only the library needs") {
@@ -159,9 +153,7 @@ int main(void) {
 }
 )");
     CAPTURE(law);
-    const ProgramResult result = compile_and_run(folder, "");
-    CAPTURE(result.output);
-    CHECK(result.exit_code == 0);
+    check_that_it_runs(folder, "");
   }
 }
 

@@ -24,18 +24,14 @@ TEST_CASE("exported C: every kind of model in double precision gives the library
   if (!is_there("cc")) return;
   const TemporaryFolder folder;
   write_all(folder, CPrecision::Double);
-  const ProgramResult result = compile_and_run(folder, "");
-  CAPTURE(result.output);
-  CHECK(result.exit_code == 0);
+  check_that_it_runs(folder, "");
 }
 
 TEST_CASE("exported C: every kind of model in single precision gives it within 1e-5, without a double") {
   if (!is_there("cc")) return;
   const TemporaryFolder folder;
   write_all(folder, CPrecision::Single);
-  const ProgramResult result = compile_and_run(folder, "-Wdouble-promotion");
-  CAPTURE(result.output);
-  CHECK(result.exit_code == 0);
+  check_that_it_runs(folder, "-Wdouble-promotion");
 }
 
 TEST_CASE("exported C: every inverse network gives the library's currents, in both precisions") {
@@ -50,9 +46,7 @@ TEST_CASE("exported C: every inverse network gives the library's currents, in bo
            write_c_inverse(inverse, {.name = name, .precision = precision, .sample_time = 2.5e-3}))
         folder.write(file.name, file.content);
     }
-  const ProgramResult result = compile_and_run(folder, "");
-  CAPTURE(result.output);
-  CHECK(result.exit_code == 0);
+  check_that_it_runs(folder, "");
 }
 
 TEST_CASE("exported C: a test of another model's force fails") {

@@ -36,14 +36,6 @@ constexpr const char* kHeader = R"(/* @title@
 
 )";
 
-constexpr const char* kHeaderEnd = R"(
-#ifdef __cplusplus
-}
-#endif
-
-#endif
-)";
-
 constexpr const char* kTest =
     R"(/* Steps through a run and compares the commands with those that Dashpot @version@ computed in double precision.
  * Returns 0 when they agree within @tolerance@ of their range. */
@@ -211,7 +203,7 @@ std::vector<ExportedFile> write_c_controller(const Vehicle& vehicle, const Expor
   const std::string interface =
       with_lines(with_lines(std::string(c_text("control_api.h")), "signals", fields_of(path)), "plant_state",
                  path.plant_states > 0 ? kPlantState : "");
-  return {{prefix + ".h", finished(kHeader + interface + kHeaderEnd)},
+  return {{prefix + ".h", finished(kHeader + interface + kCHeaderEnd)},
           {prefix + ".c",
            finished("#include \"@prefix@.h\"\n\n#include <math.h>\n\n#define STRUT_STATE " +
                     number(path.strut_state) + "\n\n" + code + std::string(c_text("control_api.c")))},

@@ -28,14 +28,6 @@ constexpr const char* kHeader = R"(/* The current for a wanted force: @title@.
 
 )";
 
-constexpr const char* kHeaderEnd = R"(
-#ifdef __cplusplus
-}
-#endif
-
-#endif
-)";
-
 constexpr const char* kTest =
     R"(/* Steps through a run and compares the current with the one that Dashpot @version@ computed in double precision.
  * Returns 0 when they agree within @tolerance@ of the range of currents wherever the current makes a difference. */
@@ -165,7 +157,7 @@ std::vector<ExportedFile> write_c_inverse(const ExportedInverse& inverse, const 
     return filled(with_prefix(in_precision(filled(text, values), options.c_precision()), prefix),
                   {{"command", in_comment(options.command)}});
   };
-  return {{prefix + ".h", finished(kHeader + std::string(c_text("inverse_api.h")) + kHeaderEnd)},
+  return {{prefix + ".h", finished(kHeader + std::string(c_text("inverse_api.h")) + kCHeaderEnd)},
           {prefix + ".c", finished("#include \"@prefix@.h\"\n\n#include <math.h>\n\n" + code +
                                    std::string(c_text("inverse_api.c")))},
           {prefix + "_test.c", finished(kTest)}};

@@ -46,14 +46,6 @@ constexpr const char* kDefaults = R"(
 void damper_defaults(double* state);
 )";
 
-constexpr const char* kHeaderEnd = R"(
-#ifdef __cplusplus
-}
-#endif
-
-#endif
-)";
-
 constexpr const char* kTest =
     R"(/* Steps through a run and compares the force with the one that Dashpot @version@ computed in double precision.
  * Returns 0 when they agree within @tolerance@ of the force's span. */
@@ -167,7 +159,7 @@ CSource c_source(const ExportedModel& model, const ExportOptions& options) {
   std::vector<std::pair<std::string, std::string>> values = facts(model, options, source);
   source.header =
       filled(finished(filled(kHeader, values) + std::string(c_text("damper_api.h")) +
-                      (code.has_derivatives ? kDerivatives : "") + (law ? kDefaults : "") + kHeaderEnd),
+                      (code.has_derivatives ? kDerivatives : "") + (law ? kDefaults : "") + kCHeaderEnd),
              {{"what", in_comment(model.origin)}, {"command", in_comment(options.command)}});
   source.source = finished(
       "#include \"" + source.prefix + ".h\"\n\n#include <math.h>\n\ntypedef damper_input DamperInput;\n\n" +
