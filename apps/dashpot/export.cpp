@@ -72,43 +72,63 @@ std::optional<CPrecision> precision_of(const Settings& settings) {
   return settings.precision == "float" ? CPrecision::Single : CPrecision::Double;
 }
 
-std::vector<ExportedFile> exported_damper(const Settings& settings, const ExportOptions& options,
-                                          Console& console) {
+/// Adds files but those that are there: several formats have C code.
+void add(std::vector<ExportedFile> written, std::vector<ExportedFile>& files) {
+  for (ExportedFile& file : written)
+    if (std::ranges::find(files, file.name, &ExportedFile::name) == files.end())
+      files.push_back(std::move(file));
+}
+
+std::vector<ExportedFile> damper_files(const Settings& settings, const ExportOptions& options,
+                                       Console& console) {
   const ModelFile file = load_damper_file(settings.damper, "export", console);
-  const ExportedModel exported = exported_model(file);
   std::vector<ExportedFile> files;
   for (const std::string& format : settings.formats)
-    for (ExportedFile& written : find_exporter(format, "--to").write(exported, options))
-      if (std::ranges::find(files, written.name, &ExportedFile::name) == files.end())  // several have C code
-        files.push_back(std::move(written));
+    add(find_exporter(format, "--to").write(exported_model(file), options), files);
   return files;
 }
 
-/// Throws Error where something that becomes C alone is to become something else.
-void require_c(const Settings& settings, const std::string& where, const std::string& what) {
+/// Throws Error where one of the formats is of models alone; `what` was to become it.
+void require_blocks(const Settings& settings, const std::string& where, const std::string& what) {
+  std::vector<std::string> possible;
+  for (const Exporter& exporter : exporters())
+    if (exporter.write_block) possible.emplace_back(exporter.name);
   for (const std::string& format : settings.formats)
-    if (find_exporter(format, "--to").name != "c")
-      throw Error(where, "is " + what + ", which cannot become '" + format + "'", "--to c");
+    if (!find_exporter(format, "--to").write_block)
+      throw Error(where, "is " + what + ", which cannot become '" + format + "'",
+                  "--to " + join(possible, ", "));
 }
 
-std::vector<ExportedFile> exported_files(const Settings& settings, const ExportOptions& options,
-                                         Console& console) {
+/// Null: what is named is a damper.
+CBlockMaker chosen_block(const Settings& settings, const ExportOptions& options, Console& console) {
   const VehicleChoice& vehicle = settings.vehicle;
   if (!vehicle.controller.empty()) {
-    require_c(settings, vehicle.controller, "a controller");
-    return exported_controller(vehicle, settings.damper, options, console);
+    require_blocks(settings, vehicle.controller, "a controller");
+    return controller_block(vehicle, settings.damper, options, console);
   }
   for (const auto& [option, said] : {std::pair{"--damper", !vehicle.damper.empty()},
                                      {"--set", !vehicle.values.empty()},
                                      {"--in-car", vehicle.in_car}})
     if (said) throw UsageError(option, "goes with --controller");
   if (is_inverse(settings.damper.model)) {
-    require_c(settings, settings.damper.model, "an inverse");
-    return write_c_inverse(load_inverse(settings.damper.model), options);
+    require_blocks(settings, settings.damper.model, "an inverse");
+    return [file = load_inverse(settings.damper.model)](const ExportOptions& own) {
+      return c_inverse_block(file, own);
+    };
   }
-  if (vehicle.inverse.empty()) return exported_damper(settings, options, console);
-  require_c(settings, vehicle.inverse, "an inverse");
-  return exported_scheme(vehicle, settings.damper, options, console);
+  if (vehicle.inverse.empty()) return nullptr;
+  require_blocks(settings, vehicle.inverse, "an inverse");
+  return scheme_block(vehicle, settings.damper, options, console);
+}
+
+std::vector<ExportedFile> exported_files(const Settings& settings, const ExportOptions& options,
+                                         Console& console) {
+  const CBlockMaker block = chosen_block(settings, options, console);
+  if (!block) return damper_files(settings, options, console);
+  std::vector<ExportedFile> files;
+  for (const std::string& format : settings.formats)
+    add(find_exporter(format, "--to").write_block(block, options), files);
+  return files;
 }
 
 int run(const Settings& settings, Console& console) {

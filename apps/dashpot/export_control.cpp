@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <memory>
 
 #include "console.h"
 #include "dashpot/base/error.h"
@@ -37,31 +38,34 @@ std::vector<Option> control_options(VehicleChoice& choice) {
   return options;
 }
 
-std::vector<ExportedFile> exported_controller(VehicleChoice choice, const DamperChoice& damper,
-                                              const ExportOptions& options, Console& console) {
+CBlockMaker controller_block(VehicleChoice choice, const DamperChoice& damper, const ExportOptions& options,
+                             Console& console) {
   if (choice.damper.empty())
     choice.damper = damper.model.empty() ? damper.parameters : damper.model;
   else if (damper.is_made())
     throw UsageError("--damper", "there is another damper before it", "name one");
   choice.sample_time = 1000 * sample_time(options);
-  const Vehicle vehicle = make_vehicle(words_of(choice));
-  for (const std::string& note : vehicle.notes) console.note(note);
-  return write_c_controller(vehicle, options);
+  auto vehicle = std::make_shared<const Vehicle>(make_vehicle(words_of(choice)));
+  for (const std::string& note : vehicle->notes) console.note(note);
+  return [vehicle](const ExportOptions& own) { return c_controller_block(*vehicle, own); };
 }
 
-std::vector<ExportedFile> exported_scheme(const VehicleChoice& choice, DamperChoice damper,
-                                          const ExportOptions& options, Console& console) {
+CBlockMaker scheme_block(const VehicleChoice& choice, DamperChoice damper, const ExportOptions& options,
+                         Console& console) {
   damper.current_max = choice.current_max;
   damper.lag_rate = choice.lag_rate;
-  const Damper loaded = load_damper(damper, "export", console);
-  const InverseLimits limits = limits_of(driver_of(loaded, damper), sample_time(options));
-  const auto inverse = find_inverse(choice.inverse, "--inverse").make(*loaded.model, limits);
-  return write_c_inverse(
-      {.model = *inverse,
-       .title = "the inverse '" + inverse->name() + "' of " + loaded.name,
-       .drive_unit = loaded.drive_unit,
-       .domain = loaded.domain.value_or(usual_domain(limits.current_min, limits.current_max))},
-      options);
+  const auto loaded = std::make_shared<const Damper>(load_damper(damper, "export", console));
+  const InverseLimits limits = limits_of(driver_of(*loaded, damper), sample_time(options));
+  const std::shared_ptr<const InverseModel> inverse =
+      find_inverse(choice.inverse, "--inverse").make(*loaded->model, limits);
+  return [loaded, inverse, limits](const ExportOptions& own) {
+    return c_inverse_block(
+        {.model = *inverse,
+         .title = "the inverse '" + inverse->name() + "' of " + loaded->name,
+         .drive_unit = loaded->drive_unit,
+         .domain = loaded->domain.value_or(usual_domain(limits.current_min, limits.current_max))},
+        own);
+  };
 }
 
 }  // namespace dashpot::cli

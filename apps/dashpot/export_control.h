@@ -12,10 +12,10 @@ namespace dashpot::cli {
 std::vector<Option> control_options(VehicleChoice& choice);
 
 /// The vehicle's controller; `damper` is its damper where the choice names none.
-std::vector<ExportedFile> exported_controller(VehicleChoice choice, const DamperChoice& damper,
-                                              const ExportOptions& options, Console& console);
+CBlockMaker controller_block(VehicleChoice choice, const DamperChoice& damper, const ExportOptions& options,
+                             Console& console);
 /// The scheme's inverse of the damper.
-std::vector<ExportedFile> exported_scheme(const VehicleChoice& choice, DamperChoice damper,
-                                          const ExportOptions& options, Console& console);
+CBlockMaker scheme_block(const VehicleChoice& choice, DamperChoice damper, const ExportOptions& options,
+                         Console& console);
 
 }  // namespace dashpot::cli

@@ -47,10 +47,18 @@ std::vector<Case> cases() {
   return all;
 }
 
+std::vector<ExportedFile> exported_controller(const Vehicle& vehicle, const ExportOptions& options) {
+  return write_c_block(c_controller_block(vehicle, options), "");
+}
+
+std::vector<ExportedFile> exported_inverse(const ExportedInverse& inverse, const ExportOptions& options) {
+  return write_c_block(c_inverse_block(inverse, options), "");
+}
+
 void write_all(const TemporaryFolder& folder, CPrecision precision) {
   for (const Case& one : cases())
     for (const ExportedFile& file :
-         write_c_controller(make_vehicle(one.words), {.name = one.name, .precision = precision}))
+         exported_controller(make_vehicle(one.words), {.name = one.name, .precision = precision}))
       folder.write(file.name, file.content);
 }
 
@@ -86,8 +94,8 @@ TEST_CASE(
           const std::string name = std::string(damper) + "_" + std::string(scheme.name) +
                                    (lag > 0 ? "_lag" : "") + (precision == CPrecision::Double ? "_d" : "_s");
           for (const ExportedFile& file :
-               write_c_inverse({.model = *inverse, .title = name, .domain = {-0.02, 0.02, -0.3, 0.3, 0, 2}},
-                               {.name = name, .precision = precision}))
+               exported_inverse({.model = *inverse, .title = name, .domain = {-0.02, 0.02, -0.3, 0.3, 0, 2}},
+                                {.name = name, .precision = precision}))
             folder.write(file.name, file.content);
         }
       }
@@ -98,12 +106,12 @@ TEST_CASE(
 TEST_CASE("exported C ships nothing that only the library needs") {
   std::string all;
   for (const Case& one : cases())
-    for (const ExportedFile& file : write_c_controller(make_vehicle(one.words), {.name = one.name}))
+    for (const ExportedFile& file : exported_controller(make_vehicle(one.words), {.name = one.name}))
       all += file.content;
   const LawModel model = example_law(find_law("bouc_wen"));
   const auto inverse = find_inverse("numeric").make(model, {});
   for (const ExportedFile& file :
-       write_c_inverse({.model = *inverse, .domain = {-0.02, 0.02, -0.3, 0.3, 0, 2}}, {}))
+       exported_inverse({.model = *inverse, .domain = {-0.02, 0.02, -0.3, 0.3, 0, 2}}, {}))
     all += file.content;
   for (const char* inside : {"DASHPOT_", "Declared before", "the library takes in", "\n\n\n", "@"})
     CHECK(all.find(inside) == std::string::npos);
@@ -111,7 +119,7 @@ TEST_CASE("exported C ships nothing that only the library needs") {
 
 TEST_CASE("exported controllers: an accelerometer is all that mix1 asks for") {
   const Vehicle vehicle = make_vehicle({.controller = "mix1", .sensors = {.in_car = true}});
-  const std::vector<ExportedFile> files = write_c_controller(vehicle, {});
+  const std::vector<ExportedFile> files = exported_controller(vehicle, {});
   CHECK(files[0].name == "mix1_controller.h");
   CHECK(files[0].content.find("double body_acceleration;") != std::string::npos);
   CHECK(files[0].content.find("double deflection") == std::string::npos);
@@ -122,7 +130,7 @@ TEST_CASE("exported controllers: after a sample that is no number they go on as 
   const TemporaryFolder folder;
   for (const char* law : {"sh_add", "feb"}) {
     const Vehicle vehicle = make_vehicle({.controller = law, .sensors = {.in_car = true}});
-    for (const ExportedFile& file : write_c_controller(vehicle, {.name = "x"}))
+    for (const ExportedFile& file : exported_controller(vehicle, {.name = "x"}))
       folder.write(file.name, file.content);
     folder.write(
         "x_test.c",
@@ -163,7 +171,7 @@ TEST_CASE("exported controllers: what cppcheck's MISRA add-on says is listed in 
   for (const Case& one : cases()) {
     if (one.name != "selector_q" && one.name != "full_car" && one.name != "spencer_numeric") continue;
     CAPTURE(one.name);
-    const std::vector<ExportedFile> files = write_c_controller(make_vehicle(one.words), {.name = "x"});
+    const std::vector<ExportedFile> files = exported_controller(make_vehicle(one.words), {.name = "x"});
     folder.write("x.h", files[0].content);
     check_misra(folder.write("x.c", files[1].content), files[0].content);
   }
@@ -174,7 +182,7 @@ TEST_CASE("exported controllers run without a finding of sanitizers") {
   const TemporaryFolder folder;
   for (const Case& one : cases())
     if (one.name == "selector_q" || one.name == "full_car" || one.name == "spencer_numeric")
-      for (const ExportedFile& file : write_c_controller(make_vehicle(one.words), {.name = one.name}))
+      for (const ExportedFile& file : exported_controller(make_vehicle(one.words), {.name = one.name}))
         folder.write(file.name, file.content);
   const ProgramResult result = run_program(
       "cd '" + folder.path().string() +
@@ -185,17 +193,17 @@ TEST_CASE("exported controllers run without a finding of sanitizers") {
 }
 
 TEST_CASE("a vehicle that cannot become C is refused, with what would be right") {
-  CHECK(message_of([] { write_c_controller(make_vehicle({}), {}); }).find("no controller") !=
+  CHECK(message_of([] { exported_controller(make_vehicle({}), {}); }).find("no controller") !=
         std::string::npos);
   const Vehicle vehicle = make_vehicle({.controller = "mix1"});
-  CHECK(message_of([&] { write_c_controller(vehicle, {.name = "mix1"}); }).empty());
-  CHECK(message_of([&] { write_c_controller(vehicle, {.name = "1x"}); }).find("letters") !=
+  CHECK(message_of([&] { exported_controller(vehicle, {.name = "mix1"}); }).empty());
+  CHECK(message_of([&] { exported_controller(vehicle, {.name = "1x"}); }).find("letters") !=
         std::string::npos);
   const VehicleWords four{
       .plant = "ikenaga2000",
       .dampers = {"spencer1997", "spencer1997,motion_ratio=0.9", "spencer1997", "spencer1997"},
       .controller = "skyhook_modified",
       .inverse = "heaviside"};
-  CHECK(message_of([&] { write_c_controller(make_vehicle(four), {}); }).find("one damper for all") !=
+  CHECK(message_of([&] { exported_controller(make_vehicle(four), {}); }).find("one damper for all") !=
         std::string::npos);
 }

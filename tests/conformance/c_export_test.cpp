@@ -42,8 +42,8 @@ TEST_CASE("exported C: every inverse network gives the library's currents, in bo
       InverseFile inverse{.network = example_network(preset), .domain = {-0.02, 0.02, -0.3, 0.3, 0, 1}};
       inverse.network.rate_max = 30;
       const std::string name = std::string(preset.name) + (precision == CPrecision::Double ? "_d" : "_s");
-      for (const ExportedFile& file :
-           write_c_inverse(inverse, {.name = name, .precision = precision, .sample_time = 2.5e-3}))
+      for (const ExportedFile& file : write_c_block(
+               c_inverse_block(inverse, {.name = name, .precision = precision, .sample_time = 2.5e-3}), ""))
         folder.write(file.name, file.content);
     }
   check_that_it_runs(folder, "");

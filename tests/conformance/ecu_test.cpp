@@ -1,8 +1,6 @@
 #include <sstream>
 
 #include "dashpot/base/file.h"
-#include "dashpot/output/exporters/c_controller.h"
-#include "dashpot/output/exporters/c_controller_run.h"
 #include "dashpot/output/exporters/c_source.h"
 #include "dashpot/output/exporters/export_run.h"
 #include "output/exporters/example_models.h"
@@ -82,28 +80,23 @@ std::vector<std::pair<std::string, VehicleWords>> ecu_controllers() {
 void write_controllers(const TemporaryFolder& folder, Board& board) {
   for (const auto& [name, words] : ecu_controllers()) {
     const Vehicle vehicle = make_vehicle(words);
-    const std::size_t struts = vehicle.dampers.size();
     for (const CPrecision precision : {CPrecision::Double, CPrecision::Single}) {
       const std::string prefix = name + (precision == CPrecision::Single ? "_float" : "_double");
-      for (const ExportedFile& file : write_c_controller(vehicle, {.name = prefix, .precision = precision}))
-        if (!file.name.ends_with("_test.c")) folder.write(file.name, file.content);
-      const CControlPath path = c_control_path(vehicle, precision);
-      const std::vector<std::vector<double>> rows = controller_run(vehicle, path, kSteps);
+      const CBlock block = c_controller_block(vehicle, {.name = prefix, .precision = precision});
+      for (const ExportedFile& file : c_block_sources(block, prefix, ""))
+        folder.write(file.name, file.content);
       std::string numbers, next;
       std::vector<double> expected;
-      for (const std::vector<double>& row : rows) {
-        numbers += "  " + c_numbers(row) + ",\n";
-        expected.push_back(row[row.size() - struts]);
+      for (std::size_t k = 0; k < kSteps; ++k) {
+        numbers += "  " + c_numbers(block.samples[k].inputs) + ",\n";
+        expected.push_back(block.samples[k].commands[0]);
       }
-      for (std::size_t s = 0; s < struts; ++s)
-        for (std::size_t k = 0; k < path.measured.size(); ++k)
-          next += "  input.struts[" + std::to_string(s) + "]." + std::string(path.measured[k]->name) +
-                  " = row[" + std::to_string(s * path.measured.size() + k) + "];\n";
-      for (std::size_t k = 0; k < path.plant_states; ++k)
-        next += "  input.plant_state[" + std::to_string(k) + "] = row[" +
-                std::to_string(struts * path.measured.size() + k) + "];\n";
-      board.functions += "static const double " + prefix + "_rows[][" + std::to_string(rows[0].size()) +
-                         "] = {\n" + numbers + "};\n";
+      std::size_t place = 0;
+      for (const CPort& port : block.inputs)
+        for (std::size_t k = 0; k < port.count; ++k)
+          next += "  input." + port.at(k) + " = row[" + std::to_string(place++) + "];\n";
+      board.functions +=
+          "static const double " + prefix + "_rows[][" + std::to_string(place) + "] = {\n" + numbers + "};\n";
       board.add(prefix, expected,
                 filled(R"(  const double* row = @prefix@_rows[k];
   static @prefix@_input input;
@@ -114,7 +107,7 @@ void write_controllers(const TemporaryFolder& folder, Board& board) {
 )",
                        {{"prefix", prefix},
                         {"real", precision == CPrecision::Single ? "float" : "double"},
-                        {"struts", std::to_string(struts)},
+                        {"struts", std::to_string(vehicle.dampers.size())},
                         {"next", next}}));
     }
   }

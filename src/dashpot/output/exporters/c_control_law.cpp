@@ -12,14 +12,15 @@ namespace dashpot {
 namespace {
 
 constexpr std::array kSignals{
-    StrutSignal{"body_velocity", "m/s, of the strut's upper end", &StrutSignals::body_velocity},
-    StrutSignal{"body_acceleration", "m/s^2, of the strut's upper end", &StrutSignals::body_acceleration},
-    StrutSignal{"wheel_velocity", "m/s, of the strut's lower end", &StrutSignals::wheel_velocity},
-    StrutSignal{"deflection", "m", &StrutSignals::deflection},
-    StrutSignal{"deflection_velocity", "m/s", &StrutSignals::deflection_velocity},
-    StrutSignal{"force", "N, of the damper at the strut, positive when it resists extension",
+    StrutSignal{"body_velocity", "m/s", "of the strut's upper end", &StrutSignals::body_velocity},
+    StrutSignal{"body_acceleration", "m/s^2", "of the strut's upper end", &StrutSignals::body_acceleration},
+    StrutSignal{"wheel_velocity", "m/s", "of the strut's lower end", &StrutSignals::wheel_velocity},
+    StrutSignal{"deflection", "m", "of the strut, extension positive", &StrutSignals::deflection},
+    StrutSignal{"deflection_velocity", "m/s", "of the strut, extension positive",
+                &StrutSignals::deflection_velocity},
+    StrutSignal{"force", "N", "of the damper at the strut, positive when it resists extension",
                 &StrutSignals::force},
-    StrutSignal{"current", "in the coil now: see above for its unit", &StrutSignals::current}};
+    StrutSignal{"current", "", "in the coil now", &StrutSignals::current}};
 
 bool contains(const std::string& text, std::string_view part) { return text.find(part) != std::string::npos; }
 

@@ -20,7 +20,7 @@ CControlLaw c_control_law(const ControlDescription& controller, std::size_t stru
 
 /// The fields of StrutSignals, in their order.
 struct StrutSignal {
-  std::string_view name, meaning;
+  std::string_view name, unit, meaning;  ///< `unit`: empty where it is the drive's
   double StrutSignals::* value;
 };
 std::span<const StrutSignal> strut_signals();

@@ -36,52 +36,6 @@ constexpr const char* kHeader = R"(/* @title@
 
 )";
 
-constexpr const char* kTest =
-    R"(/* Steps through a run and compares the commands with those that Dashpot @version@ computed in double precision.
- * Returns 0 when they agree within @tolerance@ of their range. */
-#include "@prefix@.h"
-
-#include <math.h>
-#include <stdio.h>
-
-#define STEPS @steps@
-#define SIGNALS @signals@
-#define STATES @states@
-#define INPUTS ((DAMPER_STRUTS * SIGNALS) + STATES)
-
-/* what is measured, strut by strut@and_states@; the commands */
-static const double kRun[STEPS][INPUTS + DAMPER_STRUTS] = {
-@rows@};
-
-static void read_input(const double* row, damper_input* input) {
-  int k;
-  for (k = 0; k < DAMPER_STRUTS; ++k) {
-@reads@  }
-@read_states@}
-
-int main(void) {
-  damper_model model;
-  double largest = 0.0;
-  int k, j;
-  damper_init(&model);
-  for (k = 0; k < STEPS; ++k) {
-    damper_input input;
-    double commands[DAMPER_STRUTS];
-    read_input(kRun[k], &input);
-    damper_step(&model, &input, commands);
-    for (j = 0; j < DAMPER_STRUTS; ++j) {
-      const double difference = fabs(commands[j] - kRun[k][INPUTS + j]);
-      if (!(difference <= @range@)) {
-        return 2;
-      }
-      largest = fmax(largest, difference);
-    }
-  }
-  printf("largest difference %g, range %g\n", (double)largest, (double)@range@);
-  return (largest <= @tolerance@ * @range@) ? 0 : 1;
-}
-)";
-
 constexpr const char* kPlantState =
     "  double plant_state[DAMPER_PLANT_STATES]; /* heights and angles from where the plant would rest on "
     "this\n"
@@ -98,16 +52,10 @@ std::string number(std::size_t count) { return std::to_string(count); }
 std::string fields_of(const CControlPath& path) {
   std::string fields;
   for (const StrutSignal* signal : path.measured)
-    fields += "  double " + std::string(signal->name) + "; /* " + std::string(signal->meaning) + " */\n";
+    fields += "  double " + std::string(signal->name) + "; /* " +
+              (signal->unit.empty() ? "" : std::string(signal->unit) + ", ") + std::string(signal->meaning) +
+              " */\n";
   return fields;
-}
-
-std::string reads_of(const CControlPath& path) {
-  std::string lines;
-  for (std::size_t k = 0; k < path.measured.size(); ++k)
-    lines += "    input->struts[k]." + std::string(path.measured[k]->name) + " = row[(k * SIGNALS) + " +
-             number(k) + "];\n";
-  return lines;
 }
 
 std::string sensors_text(const Vehicle& vehicle) {
@@ -138,9 +86,9 @@ std::string without_marks(std::string text) {
 
 /// Deflections in single precision are 2 nm apart, and so are their differences: that over the sample time
 /// beside a speed of 10 mm/s is what a damping F / d may be off.
-std::string tolerance_of(const Vehicle& vehicle, const CControlPath& path, CPrecision precision) {
-  if (precision == CPrecision::Double) return "1e-12";
-  return c_number(path.has_slopes ? std::max(1e-5, 2e-7 / vehicle.limits.sample_time) : 1e-5);
+double tolerance_of(const Vehicle& vehicle, const CControlPath& path, CPrecision precision) {
+  if (precision == CPrecision::Double) return 1e-12;
+  return path.has_slopes ? std::max(1e-5, 2e-7 / vehicle.limits.sample_time) : 1e-5;
 }
 
 std::vector<std::pair<std::string, std::string>> facts(const Vehicle& vehicle, const CControlPath& path,
@@ -166,48 +114,50 @@ std::vector<std::pair<std::string, std::string>> facts(const Vehicle& vehicle, c
           {"plant_states",
            states ? "#define DAMPER_PLANT_STATES " + number(path.plant_states) + "\n" : std::string()},
           {"size", number(size)},
-          {"sample_time", c_number(limits.sample_time)},
-          {"signals", number(path.measured.size())},
-          {"states", number(path.plant_states)},
-          {"and_states", states ? "; the plant's state" : ""},
-          {"read_states",
-           states ? "  for (k = 0; k < STATES; ++k) {\n    input->plant_state[k] = row[(DAMPER_STRUTS * "
-                    "SIGNALS) + k];\n  }\n"
-                  : std::string()},
-          {"reads", reads_of(path)},
-          {"range", c_number(limits.current_max - limits.current_min)},
-          {"steps", number(kTestSteps)},
-          {"tolerance", tolerance_of(vehicle, path, options.c_precision())}};
+          {"sample_time", c_number(limits.sample_time)}};
+}
+
+std::vector<CPort> ports_of(const Vehicle& vehicle, const CControlPath& path) {
+  std::vector<CPort> ports;
+  for (const StrutSignal* signal : path.measured)
+    ports.push_back(
+        {std::string(signal->name), std::string(signal->unit.empty() ? vehicle.drive_unit : signal->unit),
+         std::string(signal->meaning), "struts[#]." + std::string(signal->name), vehicle.dampers.size()});
+  if (path.plant_states > 0)
+    ports.push_back({"plant_state", "",
+                     "heights and angles of the plant from where it would rest, then their rates",
+                     "plant_state[#]", path.plant_states});
+  return ports;
 }
 
 }  // namespace
 
-std::vector<ExportedFile> write_c_controller(const Vehicle& vehicle, const ExportOptions& options) {
+CBlock c_controller_block(const Vehicle& vehicle, const ExportOptions& options) {
   if (!vehicle.controller) throw Error("export", "the vehicle has no controller");
   const CControlPath path = c_control_path(vehicle, options.c_precision());
-  const std::string prefix =
-      c_name(options.name.empty() ? without_marks(split(vehicle.controller_name, ',').front()) + "_controller"
-                                  : options.name);
-  const std::string code = with_texts(path.code);
-  require_free_names(prefix, code);
-  std::vector<std::pair<std::string, std::string>> values = facts(vehicle, path, options);
-  values.emplace_back("prefix", prefix);
-  std::string rows;
-  for (const std::vector<double>& row : controller_run(vehicle, path, kTestSteps))
-    rows += "    " + c_numbers(row) + ",\n";
-  values.emplace_back("rows", rows);
-  const auto finished = [&](const std::string& text) {
-    return filled(with_prefix(in_precision(filled(text, values), options.c_precision()), prefix),
-                  {{"command", in_comment(options.command)}});
-  };
+  const auto values = facts(vehicle, path, options);
   const std::string interface =
       with_lines(with_lines(std::string(c_text("control_api.h")), "signals", fields_of(path)), "plant_state",
                  path.plant_states > 0 ? kPlantState : "");
-  return {{prefix + ".h", finished(kHeader + interface + kCHeaderEnd)},
-          {prefix + ".c",
-           finished("#include \"@prefix@.h\"\n\n#include <math.h>\n\n#define STRUT_STATE " +
-                    number(path.strut_state) + "\n\n" + code + std::string(c_text("control_api.c")))},
-          {prefix + "_test.c", finished(kTest)}};
+  const ControlLimits& limits = vehicle.limits;
+  const std::string usual = without_marks(split(vehicle.controller_name, ',').front()) + "_controller";
+  return {
+      .name = c_name(options.name.empty() ? usual : options.name),
+      .title = "the controller " + vehicle.controller_name + " for " + vehicle.set.name,
+      .precision = options.c_precision(),
+      .header = filled(kHeader + interface + kCHeaderEnd, values),
+      .source = "#include \"@prefix@.h\"\n\n#include <math.h>\n\n#define STRUT_STATE " +
+                number(path.strut_state) + "\n\n" + with_texts(path.code) +
+                std::string(c_text("control_api.c")),
+      .step = "damper_step(&model, &input, commands);",
+      .inputs = ports_of(vehicle, path),
+      .commands = {{"command", vehicle.drive_unit, "to the damper", "commands[#]", vehicle.dampers.size()}},
+      .state_size = vehicle.dampers.size() * path.strut_state,
+      .sample_time = limits.sample_time,
+      .range = limits.current_max - limits.current_min,
+      .tolerance = tolerance_of(vehicle, path, options.c_precision()),
+      .samples = controller_run(vehicle, path, kTestSteps),
+      .version = options.version};
 }
 
 }  // namespace dashpot

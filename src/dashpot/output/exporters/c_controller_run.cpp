@@ -50,8 +50,8 @@ SensorOptions quiet(SensorOptions sensors) {
 
 }  // namespace
 
-std::vector<std::vector<double>> controller_run(const Vehicle& vehicle, const CControlPath& path,
-                                                std::size_t count) {
+std::vector<CBlock::Sample> controller_run(const Vehicle& vehicle, const CControlPath& path,
+                                           std::size_t count) {
   const std::size_t struts = vehicle.dampers.size();
   const ControlLimits& limits = vehicle.limits;
   std::vector<std::vector<StrutSignals>> runs;
@@ -67,26 +67,24 @@ std::vector<std::vector<double>> controller_run(const Vehicle& vehicle, const CC
   std::vector<double> state(vehicle.controller->state_size());
   vehicle.controller->reset(state);
 
-  std::vector<std::vector<double>> rows;
+  std::vector<CBlock::Sample> samples(count);
   std::vector<StrutSignals> seen(struts);
   std::vector<DamperDemand> demands(struts);
   for (std::size_t k = 0; k < count; ++k) {
-    std::vector<double> row;
-    for (std::size_t s = 0; s < struts; ++s) {
-      seen[s] = runs[s][k];
-      for (const StrutSignal* signal : path.measured) row.push_back(seen[s].*signal->value);
-    }
-    row.insert(row.end(), states[k].begin(), states[k].end());
+    auto& [inputs, given, matters] = samples[k];
+    for (std::size_t s = 0; s < struts; ++s) seen[s] = runs[s][k];
+    for (const StrutSignal* signal : path.measured)
+      for (const StrutSignals& strut : seen) inputs.push_back(strut.*signal->value);
+    inputs.insert(inputs.end(), states[k].begin(), states[k].end());
     sensors.measure(seen);
     vehicle.controller->step(seen, states[k], state, demands);
     for (std::size_t s = 0; s < struts; ++s) {
       const DamperInput now{seen[s].deflection, seen[s].deflection_velocity, seen[s].current};
-      row.push_back(std::clamp(commands[s].command(demands[s], now, seen[s].force), limits.current_min,
-                               limits.current_max));
+      given.push_back(std::clamp(commands[s].command(demands[s], now, seen[s].force), limits.current_min,
+                                 limits.current_max));
     }
-    rows.push_back(std::move(row));
   }
-  return rows;
+  return samples;
 }
 
 }  // namespace dashpot

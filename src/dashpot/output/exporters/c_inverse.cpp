@@ -28,38 +28,15 @@ constexpr const char* kHeader = R"(/* The current for a wanted force: @title@.
 
 )";
 
-constexpr const char* kTest =
-    R"(/* Steps through a run and compares the current with the one that Dashpot @version@ computed in double precision.
- * Returns 0 when they agree within @tolerance@ of the range of currents wherever the current makes a difference. */
-#include "@prefix@.h"
+constexpr const char* kBegin = R"(#include "@prefix@.h"
 
 #include <math.h>
-#include <stdio.h>
 
-#define STEPS @steps@
+typedef struct DamperInput {
+  double displacement, velocity, current;
+} DamperInput;
+typedef damper_input InverseInput;
 
-/* wanted force N, displacement m, velocity m/s, present current, measured force N; current to command; 1 where the
- * current makes a difference */
-static const double kRun[STEPS][7] = {
-@rows@};
-
-int main(void) {
-  damper_model model;
-  const damper_input start = {kRun[0][0], kRun[0][1], kRun[0][2], kRun[0][3], kRun[0][4]};
-  double largest = 0.0;
-  int k;
-  damper_reset(&model, &start);
-  for (k = 0; k < STEPS; ++k) {
-    const damper_input input = {kRun[k][0], kRun[k][1], kRun[k][2], kRun[k][3], kRun[k][4]};
-    const double difference = fabs(damper_step(&model, &input) - kRun[k][5]);
-    if (!(difference <= @range@)) {
-      return 2;
-    }
-    largest = fmax(largest, difference * kRun[k][6]);
-  }
-  printf("largest difference %g, range %g\n", (double)largest, (double)@range@);
-  return (largest <= @tolerance@ * @range@) ? 0 : 1;
-}
 )";
 
 /// Forces that are wanted and measured along a run.
@@ -106,68 +83,68 @@ bool matters(const InverseModel& inverse, const InverseInput& input, std::span<d
   return effect > 0.1 * observer->current_effect();
 }
 
-std::string rows_of(const ExportedInverse& exported) {
+std::vector<CBlock::Sample> run_of(const ExportedInverse& exported) {
   const InverseModel& inverse = exported.model;
   const std::vector<DamperInput> run = export_run(exported.domain, inverse.limits().sample_time, kTestSteps);
   const Wishes wishes = wishes_along(inverse, run);
   std::vector<double> state(inverse.state_size());
-  std::string rows;
+  std::vector<CBlock::Sample> samples;
   double current = run[0].current;  // in the coil
   for (std::size_t k = 0; k < run.size(); ++k) {
     const DamperInput& now = run[k];
     if (k == 0) inverse.rest({now.displacement, 0, current}, state);
     const InverseInput input{wishes.wanted[k], now.displacement, now.velocity, current, wishes.measured[k]};
     const double command = inverse.command(input, state);
-    rows += "    " +
-            c_numbers(std::vector{input.wanted, input.displacement, input.velocity, input.current,
-                                  input.measured, command, matters(inverse, input, state) ? 1.0 : 0.0}) +
-            ",\n";
+    samples.push_back({{input.wanted, input.displacement, input.velocity, input.current, input.measured},
+                       {command},
+                       matters(inverse, input, state)});
     current += (inverse.limits().lag_rate > 0 ? 0.2 : 1) * (command - current);
   }
-  return rows;
+  return samples;
 }
 
 }  // namespace
 
-std::vector<ExportedFile> write_c_inverse(const ExportedInverse& inverse, const ExportOptions& options) {
+CBlock c_inverse_block(const ExportedInverse& inverse, const ExportOptions& options) {
   const InverseLimits& limits = inverse.model.limits();
-  const std::string prefix = c_name(options.name.empty() ? inverse.model.name() + "_inverse" : options.name);
-  const std::string code = with_texts(
-      "typedef struct DamperInput {\n  double displacement, velocity, current;\n} DamperInput;\n"
-      "typedef damper_input InverseInput;\n\n" +
-      c_inverse(inverse.model, options.c_precision()).code);
-  require_free_names(prefix, code);
-  const std::size_t size = inverse.model.state_size();
+  const std::string& unit = inverse.drive_unit;
+  const std::size_t size = std::max<std::size_t>(1, inverse.model.state_size());
   const std::vector<std::pair<std::string, std::string>> values{
-      {"prefix", prefix},
       {"title", inverse.title},
-      {"unit", inverse.drive_unit},
+      {"unit", unit},
       {"low", format_number(limits.current_min)},
       {"high", format_number(limits.current_max)},
-      {"range", c_number(limits.current_max - limits.current_min)},
       {"version", options.version},
-      {"size", std::to_string(std::max<std::size_t>(1, size))},
+      {"size", std::to_string(size)},
       {"deviations", std::string(c_deviations())},
-      {"unused", size == 0 ? ": one that is not used" : ""},
-      {"sample_time", c_number(limits.sample_time)},
-      {"steps", std::to_string(kTestSteps)},
-      {"tolerance", options.c_precision() == CPrecision::Double ? "1e-12" : "1e-5"},
-      {"rows", rows_of(inverse)}};
-  const auto finished = [&](const std::string& text) {
-    return filled(with_prefix(in_precision(filled(text, values), options.c_precision()), prefix),
-                  {{"command", in_comment(options.command)}});
-  };
-  return {{prefix + ".h", finished(kHeader + std::string(c_text("inverse_api.h")) + kCHeaderEnd)},
-          {prefix + ".c", finished("#include \"@prefix@.h\"\n\n#include <math.h>\n\n" + code +
-                                   std::string(c_text("inverse_api.c")))},
-          {prefix + "_test.c", finished(kTest)}};
+      {"unused", inverse.model.state_size() == 0 ? ": one that is not used" : ""},
+      {"sample_time", c_number(limits.sample_time)}};
+  return {.name = c_name(options.name.empty() ? inverse.model.name() + "_inverse" : options.name),
+          .title = inverse.title,
+          .precision = options.c_precision(),
+          .header = filled(kHeader + std::string(c_text("inverse_api.h")) + kCHeaderEnd, values),
+          .source = kBegin + with_texts(c_inverse(inverse.model, options.c_precision()).code) +
+                    std::string(c_text("inverse_api.c")),
+          .step = "commands[0] = damper_step(&model, &input);",
+          .inputs = {{"wanted", "N", "force wanted, positive when it resists extension", "wanted"},
+                     {"displacement", "m", "of the damper, extension positive", "displacement"},
+                     {"velocity", "m/s", "of the damper, extension positive", "velocity"},
+                     {"current", unit, "in the coil now", "current"},
+                     {"measured", "N", "force now; only schemes with feedback look at it", "measured"}},
+          .commands = {{"command", unit, "to the coil", "commands[0]"}},
+          .state_size = size,
+          .sample_time = limits.sample_time,
+          .range = limits.current_max - limits.current_min,
+          .tolerance = options.c_precision() == CPrecision::Double ? 1e-12 : 1e-5,
+          .samples = run_of(inverse),
+          .version = options.version};
 }
 
-std::vector<ExportedFile> write_c_inverse(const InverseFile& inverse, const ExportOptions& options) {
+CBlock c_inverse_block(const InverseFile& inverse, const ExportOptions& options) {
   const InverseNetwork& network = inverse.network;
   const double sample_time = options.sample_time > 0 ? options.sample_time : network.spacing;
   const HistoryNetwork model(network, {network.current_min, network.current_max, sample_time, 0});
-  return write_c_inverse({.model = model,
+  return c_inverse_block({.model = model,
                           .title = "the inverse network " + network.name,
                           .drive_unit = inverse.drive_unit,
                           .domain = inverse.domain},

@@ -1,7 +1,7 @@
 #pragma once
 #include "dashpot/damper/inverse/inverse_file.h"
 #include "dashpot/damper/inverse/observer.h"
-#include "dashpot/output/exporters/exporter.h"
+#include "dashpot/output/exporters/c_block.h"
 
 namespace dashpot {
 
@@ -28,11 +28,9 @@ struct ExportedInverse {
   Domain domain;  ///< of the motions along which it is checked
 };
 
-/// As C99: <prefix>_init, _reset and _step give the current for a wanted force; a header, a source and a main
-/// that checks them, as of c_source().
-std::vector<ExportedFile> write_c_inverse(const ExportedInverse& inverse, const ExportOptions& options);
+CBlock c_inverse_block(const ExportedInverse& inverse, const ExportOptions& options);
 /// The same for an inverse network; the coil's lag is the driver's affair. Throws Error where the sample time
 /// cannot serve its delays.
-std::vector<ExportedFile> write_c_inverse(const InverseFile& inverse, const ExportOptions& options);
+CBlock c_inverse_block(const InverseFile& inverse, const ExportOptions& options);
 
 }  // namespace dashpot

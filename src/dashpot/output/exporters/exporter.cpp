@@ -7,6 +7,7 @@
 
 #include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
+#include "dashpot/output/exporters/c_block.h"
 #include "dashpot/output/exporters/c_source.h"
 #include "dashpot/output/exporters/c_wrappers.h"
 #include "dashpot/output/exporters/fmu.h"
@@ -16,9 +17,13 @@
 namespace dashpot {
 namespace {
 
+std::vector<ExportedFile> write_c(const CBlockMaker& block, const ExportOptions& options) {
+  return write_c_block(block(options), options.command);
+}
+
 constexpr std::array kExporters{
-    Exporter{"c", "C99 for an ECU or a simulator", "every model and inverse network",
-             "NAME.h, NAME.c and NAME_test.c, a main that checks them along a run", write_c_source},
+    Exporter{"c", "C99 for an ECU or a simulator", "every model, inverse and controller",
+             "NAME.h, NAME.c and NAME_test.c, a main that checks them along a run", write_c_source, write_c},
     Exporter{"dpr", "TeimOrbit damper curves of multibody programs", "every model, its states settled",
              "NAME_00.dpr ..., one curve of settled force over velocity per current", write_dpr},
     Exporter{"fmu2", "FMU of FMI 2.0 for a simulator",

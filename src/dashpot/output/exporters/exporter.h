@@ -1,4 +1,5 @@
 #pragma once
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -39,6 +40,10 @@ struct ExportedFile {
   std::string name, content;
 };
 
+struct CBlock;
+/// An inverse or a controller, for options of an exporter's own.
+using CBlockMaker = std::function<CBlock(const ExportOptions&)>;
+
 /// One thing that a model can become.
 struct Exporter {
   std::string_view name, title;
@@ -46,6 +51,8 @@ struct Exporter {
   std::string_view files;  ///< what it writes, in words
   /// Throws Error that says why where the model cannot become that.
   std::vector<ExportedFile> (*write)(const ExportedModel& model, const ExportOptions& options);
+  /// Null: inverses and controllers cannot.
+  std::vector<ExportedFile> (*write_block)(const CBlockMaker& block, const ExportOptions& options) = nullptr;
 };
 
 /// All of them, in alphabetical order.
