@@ -26,6 +26,7 @@ struct CBlock {
   };
   std::string name;   ///< of files, and of functions in place of "damper"
   std::string title;  ///< what it is, in a line
+  std::string about;  ///< what it was made for, in sentences
   CPrecision precision = CPrecision::Double;
   std::string header, source;  ///< in double precision, names with damper_; @prefix@ and @command@ are open
   std::string step;            ///< a statement: input to commands[]
@@ -38,6 +39,8 @@ struct CBlock {
   std::string version;
 };
 
+/// Statements that write the fields of `input`, a damper_input*, from `row`, the inputs port by port.
+std::string c_block_reads(const CBlock& block);
 /// NAME.h, NAME.c and NAME_test.c, a main that checks them along the run. Throws Error where the code has
 /// inside what a name would begin with.
 std::vector<ExportedFile> write_c_block(const CBlock& block, const std::string& command);

@@ -13,11 +13,14 @@ namespace {
 
 constexpr std::size_t kTestSteps = 200;
 
+constexpr const char* kAbout =
+    R"(For @plant@. Dampers: @dampers@.
+Damping from @damping_min@ to @damping_max@ N*s/m over commands from @low@ to @high@@unit@.@inverse@
+@sensors@)";
+
 constexpr const char* kHeader = R"(/* @title@
  *
- * For @plant@. Dampers: @dampers@.
- * Damping from @damping_min@ to @damping_max@ N*s/m over commands from @low@ to @high@@unit@.@inverse@
- * @sensors@
+ * @about@
  *
  *   damper_model model;
  *   damper_init(&model);
@@ -69,7 +72,7 @@ std::string sensors_text(const Vehicle& vehicle) {
 std::string inverse_text(const MountedDamper& damper) {
   std::string text;
   if (damper.inverse)
-    text = "\n * A wanted force becomes a current by the inverse '" + damper.inverse->name() + "'";
+    text = "\nA wanted force becomes a current by the inverse '" + damper.inverse->name() + "'";
   const ForceLoop& loop = damper.loop;
   if (damper.inverse && loop.is_closed())
     text += ", corrected by " + format_number(loop.proportional) + ", " + format_number(loop.integral) +
@@ -135,7 +138,9 @@ std::vector<CPort> ports_of(const Vehicle& vehicle, const CControlPath& path) {
 CBlock c_controller_block(const Vehicle& vehicle, const ExportOptions& options) {
   if (!vehicle.controller) throw Error("export", "the vehicle has no controller");
   const CControlPath path = c_control_path(vehicle, options.c_precision());
-  const auto values = facts(vehicle, path, options);
+  auto values = facts(vehicle, path, options);
+  const std::vector<std::string> about = split(filled(kAbout, values), '\n');
+  values.emplace_back("about", join(about, "\n * "));
   const std::string interface =
       with_lines(with_lines(std::string(c_text("control_api.h")), "signals", fields_of(path)), "plant_state",
                  path.plant_states > 0 ? kPlantState : "");
@@ -144,6 +149,7 @@ CBlock c_controller_block(const Vehicle& vehicle, const ExportOptions& options) 
   return {
       .name = c_name(options.name.empty() ? usual : options.name),
       .title = "the controller " + vehicle.controller_name + " for " + vehicle.set.name,
+      .about = join(about, " "),
       .precision = options.c_precision(),
       .header = filled(kHeader + interface + kCHeaderEnd, values),
       .source = "#include \"@prefix@.h\"\n\n#include <math.h>\n\n#define STRUT_STATE " +

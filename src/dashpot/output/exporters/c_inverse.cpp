@@ -13,10 +13,14 @@ namespace {
 
 constexpr std::size_t kTestSteps = 200;
 
+constexpr const char* kAbout =
+    "Displacement m and velocity m/s, extension positive; force N, positive when it resists extension; "
+    "current @unit@, @low@ ... @high@.";
+
 constexpr const char* kHeader = R"(/* The current for a wanted force: @title@.
  *
- * Displacement m and velocity m/s, extension positive; force N, positive when it resists extension; current @unit@,
- * @low@ ... @high@. C99 with math.h: no heap, no files, no variables outside a damper_model. Made by Dashpot @version@:
+ * @about@
+ * C99 with math.h: no heap, no files, no variables outside a damper_model. Made by Dashpot @version@:
  *   @command@
  * MISRA C:2012, deviations: @deviations@
  */
@@ -109,11 +113,12 @@ CBlock c_inverse_block(const ExportedInverse& inverse, const ExportOptions& opti
   const InverseLimits& limits = inverse.model.limits();
   const std::string& unit = inverse.drive_unit;
   const std::size_t size = std::max<std::size_t>(1, inverse.model.state_size());
+  const std::string about = filled(kAbout, {{"unit", unit},
+                                            {"low", format_number(limits.current_min)},
+                                            {"high", format_number(limits.current_max)}});
   const std::vector<std::pair<std::string, std::string>> values{
       {"title", inverse.title},
-      {"unit", unit},
-      {"low", format_number(limits.current_min)},
-      {"high", format_number(limits.current_max)},
+      {"about", about},
       {"version", options.version},
       {"size", std::to_string(size)},
       {"deviations", std::string(c_deviations())},
@@ -121,6 +126,7 @@ CBlock c_inverse_block(const ExportedInverse& inverse, const ExportOptions& opti
       {"sample_time", c_number(limits.sample_time)}};
   return {.name = c_name(options.name.empty() ? inverse.model.name() + "_inverse" : options.name),
           .title = inverse.title,
+          .about = about,
           .precision = options.c_precision(),
           .header = filled(kHeader + std::string(c_text("inverse_api.h")) + kCHeaderEnd, values),
           .source = kBegin + with_texts(c_inverse(inverse.model, options.c_precision()).code) +

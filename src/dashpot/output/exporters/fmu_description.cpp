@@ -33,7 +33,8 @@ Node begin(pugi::xml_document& document, const char* root) {
 void add_units(const Fmu& fmu, Node root) {
   Node units = root.append_child("UnitDefinitions");
   std::set<std::string> names;
-  for (const FmuVariable& variable : fmu.variables) names.insert(variable.unit);
+  for (const FmuVariable& variable : fmu.variables)
+    if (!variable.unit.empty()) names.insert(variable.unit);
   for (const std::string& name : names) {
     const Unit unit = require_unit(name, "unit");
     Node node = units.append_child("Unit");
@@ -51,7 +52,7 @@ void add_experiment(const Fmu& fmu, Node root) {
   Node node = root.append_child("DefaultExperiment");
   set(node, "startTime", "0");
   set(node, "stopTime", format_exact(fmu.stop_time()));
-  set(node, "stepSize", format_exact(fmu.source.sample_time));
+  set(node, "stepSize", format_exact(fmu.sample_time));
 }
 
 void add_log_categories(Node root) {
@@ -61,11 +62,12 @@ void add_log_categories(Node root) {
 }
 
 /// What both versions say of a variable in the same words.
-void describe_kind(const FmuVariable& variable, Node node) {
+void describe_kind(const Fmu& fmu, const FmuVariable& variable, Node node) {
   constexpr const char* kCausalities[] = {"independent", "input", "output", "local", "local", "parameter"};
   set(node, "causality", kCausalities[static_cast<std::size_t>(variable.role)]);
-  const bool parameter = variable.role == Role::Parameter;
-  set(node, "variability", parameter ? "tunable" : "continuous");
+  const bool parameter = variable.role == Role::Parameter,
+             discrete = variable.role == Role::Output && fmu.sampled;
+  set(node, "variability", parameter ? "tunable" : discrete ? "discrete" : "continuous");
   if (parameter)
     set(node, "initial", "exact");
   else if (variable.role != Role::Time && variable.role != Role::Input)
@@ -73,7 +75,7 @@ void describe_kind(const FmuVariable& variable, Node node) {
 }
 
 void describe_values(const FmuVariable& variable, Node node) {
-  set(node, "unit", variable.unit);
+  if (!variable.unit.empty()) set(node, "unit", variable.unit);
   if (std::isfinite(variable.lower)) set(node, "min", format_exact(variable.lower));
   if (std::isfinite(variable.upper)) set(node, "max", format_exact(variable.upper));
   if (variable.role != Role::Time && variable.nominal != 1)
@@ -92,12 +94,18 @@ void for_each_unknown(const Fmu& fmu, Add add) {
 
 std::string about(const Fmu& fmu) { return fmu.title + ". " + fmu.origin; }
 
+/// What both versions can; those names end in different ways.
+void add_capabilities(const Fmu& fmu, const char* state, const char* derivatives, Node node) {
+  set(node, (std::string("canGetAndSet") + state).c_str(), "true");
+  set(node, (std::string("canSerialize") + state).c_str(), "true");
+  if (!fmu.sampled) set(node, derivatives, "true");
+}
+
 void add_fmi2_interface(const Fmu& fmu, const char* kind, Node root) {
   Node node = root.append_child(kind);
   set(node, "modelIdentifier", fmu.name);
   if (kind == std::string_view("CoSimulation")) set(node, "canHandleVariableCommunicationStepSize", "true");
-  for (const char* can : {"canGetAndSetFMUstate", "canSerializeFMUstate", "providesDirectionalDerivative"})
-    set(node, can, "true");
+  add_capabilities(fmu, "FMUstate", "providesDirectionalDerivative", node);
   Node files = node.append_child("SourceFiles");
   for (const std::string& unit : fmu_translation_units(fmu)) set(files.append_child("File"), "name", unit);
 }
@@ -105,11 +113,10 @@ void add_fmi2_interface(const Fmu& fmu, const char* kind, Node root) {
 void add_fmi3_interface(const Fmu& fmu, const char* kind, Node root) {
   Node node = root.append_child(kind);
   set(node, "modelIdentifier", fmu.name);
-  for (const char* can : {"canGetAndSetFMUState", "canSerializeFMUState", "providesDirectionalDerivatives"})
-    set(node, can, "true");
+  add_capabilities(fmu, "FMUState", "providesDirectionalDerivatives", node);
   if (kind != std::string_view("CoSimulation")) return;
   set(node, "canHandleVariableCommunicationStepSize", "true");
-  if (fmu.source.grid > 0) set(node, "fixedInternalStepSize", format_exact(fmu.source.grid));
+  if (fmu.grid > 0) set(node, "fixedInternalStepSize", format_exact(fmu.grid));
 }
 
 void add_fmi2_variables(const Fmu& fmu, Node root) {
@@ -120,7 +127,7 @@ void add_fmi2_variables(const Fmu& fmu, Node root) {
     set(node, "name", variable.name);
     set(node, "valueReference", std::to_string(k));
     set(node, "description", variable.meaning);
-    describe_kind(variable, node);
+    describe_kind(fmu, variable, node);
     Node real = node.append_child("Real");
     describe_values(variable, real);
     if (variable.role == Role::Derivative)
@@ -134,7 +141,7 @@ void add_fmi2_structure(const Fmu& fmu, Node root) {
     set(list.append_child("Unknown"), "index", std::to_string(k + 1));
   };
   Node outputs = structure.append_child("Outputs");
-  Node derivatives = fmu.source.states.empty() ? Node() : structure.append_child("Derivatives");
+  Node derivatives = fmu.count(Role::State) == 0 ? Node() : structure.append_child("Derivatives");
   for (std::size_t k = 0; k < fmu.variables.size(); ++k) {
     if (fmu.variables[k].role == Role::Output) add(outputs, k);
     if (fmu.variables[k].role == Role::Derivative) add(derivatives, k);
@@ -156,7 +163,7 @@ std::string fmi2_description(const Fmu& fmu) {
   set(root, "generationDateAndTime", fmu.date);
   set(root, "variableNamingConvention", "structured");
   set(root, "numberOfEventIndicators", "0");
-  if (fmu.exchanges()) add_fmi2_interface(fmu, "ModelExchange", root);
+  if (fmu.exchanges) add_fmi2_interface(fmu, "ModelExchange", root);
   add_fmi2_interface(fmu, "CoSimulation", root);
   add_units(fmu, root);
   add_log_categories(root);
@@ -176,7 +183,7 @@ std::string fmi3_description(const Fmu& fmu) {
   set(root, "generationTool", fmu.tool);
   set(root, "generationDateAndTime", fmu.date);
   set(root, "variableNamingConvention", "structured");
-  if (fmu.exchanges()) add_fmi3_interface(fmu, "ModelExchange", root);
+  if (fmu.exchanges) add_fmi3_interface(fmu, "ModelExchange", root);
   add_fmi3_interface(fmu, "CoSimulation", root);
   add_units(fmu, root);
   add_log_categories(root);
@@ -189,7 +196,7 @@ std::string fmi3_description(const Fmu& fmu) {
     set(node, "name", variable.name);
     set(node, "valueReference", std::to_string(k));
     set(node, "description", variable.meaning);
-    describe_kind(variable, node);
+    describe_kind(fmu, variable, node);
     describe_values(variable, node);
     if (variable.role == Role::Derivative) set(node, "derivative", std::to_string(variable.derivative_of));
   }
@@ -233,7 +240,7 @@ std::string fmu_reference_manifest(const Fmu& fmu) {
   set(file, "type", "text/csv");
   set(file, "source", fmu.name + "_out.csv");
   set(file, "role", "result");
-  set(file, "description", "inputs and the force at the same instants, by Dashpot itself");
+  set(file, "description", "inputs and outputs at the same instants, by Dashpot itself");
   return text_of(document);
 }
 

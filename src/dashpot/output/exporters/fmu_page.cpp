@@ -15,22 +15,6 @@ constexpr const char* kStyle =
     "table { border-collapse: collapse; } td, th { text-align: left; padding: 0.2rem 0.8rem 0.2rem 0; "
     "border-bottom: 1px solid #ddd; }\npre { background: #f4f5f6; padding: 0.8rem; overflow-x: auto; }\n";
 
-constexpr const char* kCoSimulation =
-    "Any communication step is accepted. Between communication points the inputs are taken as linear, and "
-    "steps "
-    "longer than the sample time are made of several. A step ends with the inputs that are set after "
-    "fmi2DoStep or "
-    "fmi3DoStep and before the force is read; when none are set, with those of its start. So an importer "
-    "that sets "
-    "the inputs of an instant before it reads the force of that instant gets exactly the force of Dashpot, "
-    "and one "
-    "that reads first gets the force for inputs held over the step.";
-
-constexpr const char* kExchange =
-    "For model exchange the states and their slopes are exposed; there are no events. The model starts as "
-    "after "
-    "a long rest at the inputs' start values. Some laws are stiff: prefer an implicit solver.";
-
 Node add(Node parent, const char* element, const std::string& text) {
   Node node = parent.append_child(element);
   node.append_child(pugi::node_pcdata).set_value(text.c_str());
@@ -56,16 +40,6 @@ void add_variables(const Fmu& fmu, Node body) {
   }
 }
 
-std::string domain_text(const Fmu& fmu) {
-  const Domain& d = fmu.domain;
-  const auto span = [](double low, double high, const std::string& unit) {
-    return format_number(low) + " ... " + format_number(high) + " " + unit;
-  };
-  return "Known for displacements " + span(d.displacement_min, d.displacement_max, "m") + ", velocities " +
-         span(d.velocity_min, d.velocity_max, "m/s") + " and commands " +
-         span(d.current_min, d.current_max, fmu.variables[3].unit) + "; beyond, it extrapolates.";
-}
-
 }  // namespace
 
 std::string fmu_page(const Fmu& fmu) {
@@ -80,19 +54,13 @@ std::string fmu_page(const Fmu& fmu) {
   Node body = html.append_child("body");
   add(body, "h1", fmu.name + ": " + fmu.title);
   add(body, "p", fmu.origin);
-  add(body, "pre", fmu.equation);
-  add(body, "p", "Source: " + fmu.literature + ".");
-  if (!fmu.remarks.empty()) add(body, "p", fmu.remarks);
-  add(body, "p", domain_text(fmu));
+  if (!fmu.equation.empty()) add(body, "pre", fmu.equation);
+  for (const std::string& remark : fmu.remarks)
+    if (!remark.empty()) add(body, "p", remark);
   add(body, "h2", "Variables");
   add_variables(fmu, body);
   add(body, "h2", "Steps");
-  add(body, "p", kCoSimulation);
-  if (fmu.source.grid > 0)
-    add(body, "p",
-        "The model remembers at steps of " + format_number(fmu.source.grid) +
-            " s; in between its memory is held. Communication points on that grid are the exact ones.");
-  if (fmu.exchanges()) add(body, "p", kExchange);
+  for (const std::string& paragraph : fmu.steps) add(body, "p", paragraph);
   add(body, "h2", "Made by");
   add(body, "pre", fmu.tool + ":\n" + fmu.command);
   std::ostringstream out;
@@ -102,13 +70,11 @@ std::string fmu_page(const Fmu& fmu) {
 
 std::string fmu_reference_run(const Fmu& fmu) {
   std::string rows = "time";
-  for (std::size_t k = 1; k <= 4; ++k) rows += ',' + fmu.variables[k].name;
+  for (std::size_t k = 1; k <= fmu.run[0].size(); ++k) rows += ',' + fmu.variables[k].name;
   rows += '\n';
   for (std::size_t k = 0; k < fmu.run.size(); ++k) {
-    const DamperInput& input = fmu.run[k];
-    rows += format_exact(static_cast<double>(k) * fmu.source.sample_time);
-    for (const double value : {input.displacement, input.velocity, input.current, fmu.force[k]})
-      rows += ',' + format_exact(value);
+    rows += format_exact(static_cast<double>(k) * fmu.sample_time);
+    for (const double value : fmu.run[k]) rows += ',' + format_exact(value);
     rows += '\n';
   }
   return rows;

@@ -1,27 +1,25 @@
-#include <algorithm>
-
-#include "dashpot/output/exporters/c_text.h"
+#include "dashpot/output/exporters/c_model.h"
 #include "dashpot/output/exporters/fmu.h"
 
 namespace dashpot {
 namespace {
 
-/// What c/fmu.h asks of a damper.
-constexpr const char* kHeader = R"(/* The damper of this FMU. Made by @tool@. */
+/// What c/fmu.h asks of whatever is at work.
+constexpr const char* kHeader = R"(/* What is at work in this FMU. Made by @tool@. */
 #ifndef FMU_MODEL_H
 #define FMU_MODEL_H
 
-#include "@name@.h"
+#include "damper.h"
 
 #define FMU_TOKEN "@token@"
 #define FMU_EXCHANGES @exchanges@ /* whether model exchange is possible */
+#define FMU_DIFFERENTIABLE @differentiable@
+#define FMU_INPUTS @inputs@
+#define FMU_OUTPUTS @outputs@
 #define FMU_STATES @states@ /* continuous ones, the first of the state */
-#define FMU_STATE_SIZE @size@
 #define FMU_PARAMETERS @parameters@
 #define FMU_FIRST_PARAMETER @first_parameter@ /* in the state */
 #define FMU_SAMPLE_TIME @sample_time@ /* s */
-
-typedef @name@_input FmuInput;
 
 /* By value reference. */
 static const char* const fmu_names[] = {
@@ -32,24 +30,11 @@ static const double fmu_nominals[] = @nominals@;
 static const double fmu_ranges[][2] = {
 @ranges@    {0.0, 0.0}};
 
-static void fmu_defaults(double* state) { @defaults@; }
-
-static void fmu_rest(const FmuInput* input, double* state) { @name@_rest(input, state); }
-
-static void fmu_move(const FmuInput* from, const FmuInput* to, double dt, double* state) {
-  @name@_move(from, to, dt, state);
-}
-
-static double fmu_force(const FmuInput* input, const double* state) { return @name@_force(input, state); }
-
-static void fmu_derivatives(const FmuInput* input, const double* state, double* derivatives) {
-  @derivatives@;
-}
+@definitions@
+#include "@interface@"
 
 #endif
 )";
-
-constexpr const char* kNoDerivatives = "(void)input;\n  (void)state;\n  (void)derivatives";
 
 /// C has no number for infinity.
 std::string bound(double value) {
@@ -57,41 +42,40 @@ std::string bound(double value) {
 }
 
 std::string model_header(const Fmu& fmu) {
-  const std::string& name = fmu.source.prefix;
-  const std::size_t parameters = fmu.source.parameters.size();
+  using Role = FmuVariable::Role;
   std::string names, ranges;
   std::vector<double> nominals;
   for (const FmuVariable& variable : fmu.variables) {
     names += "    \"" + variable.name + "\",\n";
     nominals.push_back(variable.nominal);
-    if (variable.role == FmuVariable::Role::Parameter)
+    if (variable.role == Role::Parameter)
       ranges += "    {" + bound(variable.lower) + ", " + bound(variable.upper) + "},\n";
   }
+  const auto count = [&](Role role) { return std::to_string(fmu.count(role)); };
   return filled(kHeader, {{"tool", fmu.tool},
-                          {"name", name},
                           {"token", fmu.token},
-                          {"exchanges", fmu.exchanges() ? "1" : "0"},
-                          {"states", std::to_string(fmu.source.states.size())},
-                          {"size", std::to_string(std::max<std::size_t>(1, fmu.source.state_size))},
-                          {"parameters", std::to_string(parameters)},
-                          {"first_parameter", std::to_string(fmu.source.first_parameter)},
-                          {"sample_time", c_number(fmu.source.sample_time)},
+                          {"exchanges", fmu.exchanges ? "1" : "0"},
+                          {"differentiable", fmu.sampled ? "0" : "1"},
+                          {"inputs", count(Role::Input)},
+                          {"outputs", count(Role::Output)},
+                          {"states", count(Role::State)},
+                          {"parameters", count(Role::Parameter)},
+                          {"first_parameter", std::to_string(fmu.first_parameter)},
+                          {"sample_time", c_number(fmu.sample_time)},
                           {"names", names},
                           {"nominals", c_numbers(nominals)},
                           {"ranges", ranges},
-                          {"defaults", parameters > 0 ? name + "_defaults(state)" : "(void)state"},
-                          {"derivatives", fmu.source.states.empty()
-                                              ? kNoDerivatives
-                                              : name + "_derivatives(input, state, derivatives)"}});
+                          {"definitions", fmu.definitions},
+                          {"interface", fmu.interface}});
 }
 
 }  // namespace
 
 std::vector<ExportedFile> fmu_sources(const Fmu& fmu) {
-  std::vector<ExportedFile> files{{fmu.source.prefix + ".h", fmu.source.header},
-                                  {fmu.source.prefix + ".c", fmu.source.source},
-                                  {"fmu_model.h", model_header(fmu)}};
-  std::vector<std::string> texts{"fmu.h", "fmu_run.h", "fmu_snapshot.h", "fmu_derivative.h"};
+  std::vector<ExportedFile> files = fmu.code;
+  files.push_back({"fmu_model.h", model_header(fmu)});
+  std::vector<std::string> texts{"fmu.h",     "fmu_between.h",  fmu.interface,
+                                 "fmu_run.h", "fmu_snapshot.h", "fmu_derivative.h"};
   if (fmu.version == 2)
     texts.emplace_back("fmi2.c");
   else
@@ -101,7 +85,7 @@ std::vector<ExportedFile> fmu_sources(const Fmu& fmu) {
 }
 
 std::vector<std::string> fmu_translation_units(const Fmu& fmu) {
-  return {fmu.source.prefix + ".c", fmu.version == 2 ? "fmi2.c" : "fmi3.c"};
+  return {"damper.c", fmu.version == 2 ? "fmi2.c" : "fmi3.c"};
 }
 
 }  // namespace dashpot

@@ -1,4 +1,4 @@
-/* FMI 2.0 for a damper: the functions of the standard, declared here as it describes them. */
+/* FMI 2.0 for what fmu_model.h names: the functions of the standard, declared here as it describes them. */
 #include "fmu_derivative.h"
 #include "fmu_run.h"
 #include "fmu_snapshot.h"
@@ -52,7 +52,7 @@ static void report(const FmuInstance* f, const char* message) {
   }
 }
 
-/* What no damper can: an error once the caller has an instance. */
+/* What is not there: an error once the caller has an instance. */
 static fmi2Status unsupported(fmi2Component c, const char* function) {
   return fmu_may(c, function, FMU_ANY) ? (fmi2Status)fmu_fail(c, function, "is not supported") : fmi2Error;
 }

@@ -1,4 +1,4 @@
-/* FMI 3.0 for a damper: the functions of the standard, declared here as it describes them. */
+/* FMI 3.0 for what fmu_model.h names: the functions of the standard, declared here as it describes them. */
 #include "fmi3_absent.h"
 #include "fmu_derivative.h"
 #include "fmu_run.h"

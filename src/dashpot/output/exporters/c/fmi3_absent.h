@@ -1,9 +1,9 @@
-/* The functions of FMI 3.0 that have nothing to do for a damper. */
+/* The functions of FMI 3.0 that have nothing to do here. */
 #ifndef FMI3_ABSENT_H
 #define FMI3_ABSENT_H
 #include "fmi3_types.h"
 
-/* What no damper can: an error once the caller has an instance. */
+/* What is not there: an error once the caller has an instance. */
 static fmi3Status unsupported(fmi3Instance i, const char* function) {
   return fmu_may(i, function, FMU_ANY) ? (fmi3Status)fmu_fail(i, function, "is not supported") : fmi3Error;
 }

@@ -1,10 +1,10 @@
-/* What the FMUs of FMI 2 and FMI 3 share: a damper's variables, its state as one block of plain data, and
- * what may be asked of it when. fmu_model.h says which damper it is.
+/* What the FMUs of FMI 2 and FMI 3 share: variables, the state as one block of plain data, and what may be
+ * asked of it when. fmu_model.h says what is at work here, a damper, a controller or an inverse.
  *
  * Co-simulation: between communication points the inputs are linear, as between the samples of a record. A
  * step is computed when its end is asked for: with the inputs that were set since, or, when none were, those
- * of its start held. So whoever sets the inputs of a communication point before reading the force gets the
- * force of that point.
+ * of its start held. So whoever sets the inputs of a communication point before reading the outputs gets the
+ * outputs of that point.
  */
 #ifndef FMU_H
 #define FMU_H
@@ -20,11 +20,9 @@
 /* Value references. */
 enum {
   FMU_TIME = 0,
-  FMU_DISPLACEMENT = 1,
-  FMU_VELOCITY = 2,
-  FMU_CURRENT = 3,
-  FMU_FORCE = 4,
-  FMU_STATE = 5,
+  FMU_INPUT = 1,
+  FMU_OUTPUT = FMU_INPUT + FMU_INPUTS,
+  FMU_STATE = FMU_OUTPUT + FMU_OUTPUTS,
   FMU_DERIVATIVE = FMU_STATE + FMU_STATES,
   FMU_PARAMETER = FMU_DERIVATIVE + FMU_STATES,
   FMU_VARIABLES = FMU_PARAMETER + FMU_PARAMETERS
@@ -48,12 +46,13 @@ typedef struct FmuData {
   char token[sizeof FMU_TOKEN];
   int exchanges; /* model exchange; 0: co-simulation */
   int mode;
-  int stale;                    /* `state` waits to be computed */
-  double time, stop;            /* s */
-  double since;                 /* s, from `past` to `time` */
-  FmuInput from, input;         /* at `past`, at `time` */
-  double past[FMU_STATE_SIZE];  /* the state at the last but one communication point */
-  double state[FMU_STATE_SIZE]; /* at `time` */
+  int stale;                /* `state` waits to be computed */
+  double time, stop;        /* s */
+  double since;             /* s, from `past` to `time` */
+  double from[FMU_INPUTS];  /* at `past` */
+  double input[FMU_INPUTS]; /* at `time` */
+  FmuState past;            /* at the last but one communication point */
+  FmuState state;           /* at `time` */
 } FmuData;
 
 typedef struct FmuInstance {
@@ -103,43 +102,24 @@ static int fmu_may(const FmuInstance* f, const char* function, int modes) {
   return 1;
 }
 
-/* From one communication point to the next, in pieces of the sample time at most. */
-static void fmu_bring(const FmuInput* from, const FmuInput* to, double dt, double* state) {
-  const double most_pieces = 1e6, pieces = ceil((dt / FMU_SAMPLE_TIME) * (1.0 - 1e-9));
-  const int count = (pieces > 1) ? (int)fmin(pieces, most_pieces) : 1;
-  FmuInput begin = *from;
-  int k;
-  for (k = 1; k <= count; ++k) {
-    const double share = (double)k / count;
-    FmuInput end = *to;
-    if (k < count) {
-      end.displacement = from->displacement + share * (to->displacement - from->displacement);
-      end.velocity = from->velocity + share * (to->velocity - from->velocity);
-      end.current = from->current + share * (to->current - from->current);
-    }
-    fmu_move(&begin, &end, dt / count, state);
-    begin = end;
-  }
-}
-
 static void fmu_update(FmuData* d) {
   if (d->stale == 0) {
     return;
   }
   d->stale = 0;
   if ((d->mode & (FMU_INSTANTIATED | FMU_INITIALIZATION)) != 0) {
-    fmu_rest(&d->input, d->state);
+    fmu_rest(d->input, &d->state);
   } else if (d->since > 0) {
-    memcpy(d->state, d->past, sizeof d->state);
-    fmu_bring(&d->from, &d->input, d->since, d->state);
+    d->state = d->past;
+    fmu_move(d->from, d->input, d->since, &d->state);
   }
 }
 
 /* What has been computed stays, whatever is set from now on. */
 static void fmu_settle(FmuData* d) {
   fmu_update(d);
-  memcpy(d->past, d->state, sizeof d->past);
-  d->from = d->input;
+  d->past = d->state;
+  memcpy(d->from, d->input, sizeof d->from);
   d->since = 0;
 }
 
@@ -150,44 +130,39 @@ static void fmu_start(FmuInstance* f, int exchanges) {
   f->data.mode = FMU_INSTANTIATED;
   f->data.stop = HUGE_VAL;
   f->data.stale = 1;
-  fmu_defaults(f->data.state);
+  fmu_defaults(&f->data.state);
 }
 
 /* Where a variable that others follow from is kept; NULL for the others. */
 static double* fmu_place(FmuData* d, unsigned reference) {
-  switch (reference) {
-    case FMU_TIME:
-      return &d->time;
-    case FMU_DISPLACEMENT:
-      return &d->input.displacement;
-    case FMU_VELOCITY:
-      return &d->input.velocity;
-    case FMU_CURRENT:
-      return &d->input.current;
-    default:
-      break;
+  if (reference == FMU_TIME) {
+    return &d->time;
+  }
+  if (reference < FMU_OUTPUT) {
+    return &d->input[reference - FMU_INPUT];
   }
   if (reference >= FMU_PARAMETER) {
-    return &d->state[FMU_FIRST_PARAMETER + (reference - FMU_PARAMETER)];
+    return &fmu_numbers(&d->state)[FMU_FIRST_PARAMETER + (reference - FMU_PARAMETER)];
   }
   if ((reference >= FMU_STATE) && (reference < FMU_DERIVATIVE)) {
-    return &d->state[reference - FMU_STATE];
+    return &fmu_numbers(&d->state)[reference - FMU_STATE];
   }
   return NULL;
 }
 
 static double fmu_value(FmuData* d, unsigned reference) {
   const double* place = fmu_place(d, reference);
-  double slopes[FMU_STATE_SIZE] = {0};
+  double outputs[FMU_OUTPUTS], derivatives[FMU_STATES + 1] = {0};
   fmu_update(d);
   if (place != NULL) {
     return *place;
   }
-  if (reference == FMU_FORCE) {
-    return fmu_force(&d->input, d->state);
+  if (reference < FMU_STATE) {
+    fmu_outputs(d->input, &d->state, outputs);
+    return outputs[reference - FMU_OUTPUT];
   }
-  fmu_derivatives(&d->input, d->state, slopes);
-  return slopes[reference - FMU_DERIVATIVE];
+  fmu_derivatives(d->input, &d->state, derivatives);
+  return derivatives[reference - FMU_DERIVATIVE];
 }
 
 /* Whether an array can be read or written and has the size that it must have. */
@@ -238,7 +213,7 @@ static int fmu_check_new_value(const FmuInstance* f, const char* function, unsig
   if (reference >= FMU_VARIABLES) {
     return fmu_fail(f, function, "there is no variable with value reference %u", reference);
   }
-  if ((reference == FMU_TIME) || ((reference >= FMU_FORCE) && (reference < FMU_PARAMETER))) {
+  if ((reference == FMU_TIME) || ((reference >= FMU_OUTPUT) && (reference < FMU_PARAMETER))) {
     return fmu_fail(f, function, "%s is neither an input nor a parameter", fmu_names[reference]);
   }
   if (!isfinite(value)) {
@@ -281,7 +256,7 @@ static int fmu_set(FmuInstance* f, const char* function, const unsigned* referen
     *fmu_place(d, references[k]) = values[k];
   }
   if (parameters) {
-    memcpy(d->past, d->state, sizeof d->past);
+    d->past = d->state;
   }
   if ((count > 0) && ((d->mode & (FMU_INSTANTIATED | FMU_INITIALIZATION | FMU_STEP)) != 0)) {
     d->stale = 1;

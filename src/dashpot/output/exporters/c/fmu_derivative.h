@@ -12,7 +12,7 @@ typedef struct FmuDirection {
 
 static int fmu_is_known(const FmuData* d, unsigned reference) {
   const int begins = (d->mode & (FMU_INSTANTIATED | FMU_INITIALIZATION)) != 0;
-  return ((reference >= FMU_DISPLACEMENT) && (reference <= FMU_CURRENT)) ||
+  return ((reference >= FMU_INPUT) && (reference < FMU_OUTPUT)) ||
          ((reference >= FMU_STATE) && (reference < FMU_DERIVATIVE) && (d->exchanges != 0) && !begins) ||
          ((reference >= FMU_PARAMETER) && (reference < FMU_VARIABLES) && begins);
 }
@@ -40,6 +40,9 @@ static int fmu_differentiate(FmuInstance* f, const char* function, const FmuDire
       !fmu_all_finite(f, function, way->seed, way->known_count)) {
     return FMU_ERROR;
   }
+  if (!FMU_DIFFERENTIABLE) {
+    return fmu_fail(f, function, "is not supported: the outputs change at samples only");
+  }
   for (k = 0; k < way->known_count; ++k) {
     if (!fmu_is_known(&f->data, way->knowns[k])) {
       return fmu_fail(f, function, "value reference %u is not a known", way->knowns[k]);
@@ -47,7 +50,7 @@ static int fmu_differentiate(FmuInstance* f, const char* function, const FmuDire
     reach = fmax(reach, fabs(way->seed[k]) / fmu_nominals[way->knowns[k]]);
   }
   for (k = 0; k < way->unknown_count; ++k) {
-    if ((way->unknowns[k] < FMU_FORCE) || (way->unknowns[k] >= FMU_PARAMETER)) {
+    if ((way->unknowns[k] < FMU_OUTPUT) || (way->unknowns[k] >= FMU_PARAMETER)) {
       return fmu_fail(f, function, "value reference %u is not an unknown", way->unknowns[k]);
     }
   }

@@ -49,7 +49,7 @@ static int fmu_do_step(FmuInstance* f, const char* function, double point, doubl
     return FMU_ERROR;
   }
   d = &f->data;
-  if (!(step >= 0) || !isfinite(step)) {
+  if (!((step >= 0) && (step <= FMU_LONGEST_STEP)) || !isfinite(step)) {
     return fmu_fail(f, function, "a step of %g s is impossible", step);
   }
   if (!(fabs(point - d->time) <= 1e-9 * (1 + fabs(d->time)))) {
@@ -82,7 +82,7 @@ static int fmu_set_states(FmuInstance* f, const char* function, const double* st
     return FMU_ERROR;
   }
   if (count > 0) {
-    memcpy(f->data.state, states, count * sizeof *states);
+    memcpy(fmu_numbers(&f->data.state), states, count * sizeof *states);
   }
   return FMU_OK;
 }
