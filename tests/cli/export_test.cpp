@@ -68,8 +68,8 @@ TEST_CASE("export takes a vehicle's controller and a damper's inverse, to C alon
       0);
   for (const char* name : {"mix1_controller.h", "mix1_controller.c", "mix1_controller_test.c", "rule.c"})
     CHECK(fs::exists(folder.path() / name));
-  CHECK(contains(run_dashpot("export --controller mix1 --to fmu3" + out).output,
-                 "is a controller, which cannot become 'fmu3'"));
+  CHECK(contains(run_dashpot("export --controller mix1 --to dpr" + out).output,
+                 "is a controller, which cannot become 'dpr'"));
   CHECK(contains(run_dashpot("export --controller mix2 --to c" + out).output, "did you mean 'mix1'"));
   CHECK(contains(run_dashpot("export --parameters spencer1997 --in-car --to c" + out).output,
                  "--in-car: goes with --controller"));

@@ -2,50 +2,12 @@
 #include "dashpot/base/text.h"
 #include "dashpot/damper/inverse/registry.h"
 #include "dashpot/damper/parameter_set.h"
-#include "dashpot/output/exporters/c_controller.h"
-#include "dashpot/output/exporters/c_inverse.h"
-#include "output/exporters/example_models.h"
+#include "output/exporters/control_cases.h"
 #include "support.h"
 
 using namespace dashpot;
 
 namespace {
-
-/// A controller on a vehicle, with a name in C.
-struct Case {
-  std::string name;
-  VehicleWords words;
-};
-
-/// Every law on a quarter car, with true signals and with a car's sensors; laws of the whole plant on a full
-/// car; the ways from a force to a current.
-std::vector<Case> cases() {
-  std::vector<Case> all;
-  const auto add = [&](std::string name, VehicleWords words) {
-    words.sample_time = 2e-3;
-    all.push_back({std::move(name), std::move(words)});
-  };
-  for (const ControlLaw* law : control_laws()) {
-    add(std::string(law->name) + "_q", {.controller = std::string(law->name)});
-    if (law->needs_plant_state) continue;
-    add(std::string(law->name) + "_car", {.controller = std::string(law->name), .sensors = {.in_car = true}});
-  }
-  add("selector_q",
-      {.controller = "selector(skyhook_modified/feb),crossover=3Hz", .sensors = {.in_car = true}});
-  add("twice_q", {.controller = "selector(feb/feb)"});
-  add("full_car", {.plant = "ikenaga2000", .dampers = {"ideal"}, .controller = "clipped_lqr,force=1e-8"});
-  add("full_skyhook",
-      {.plant = "ikenaga2000", .dampers = {"ideal"}, .controller = "feb", .sensors = {.in_car = true}});
-  for (const char* inverse :
-       {"numeric", "heaviside", "signum", "modified_clipped_optimal", "clipped_optimal"})
-    add(std::string("spencer_") + inverse,
-        {.dampers = {"spencer1997,motion_ratio=0.8"}, .controller = "skyhook_modified", .inverse = inverse});
-  add("spencer_loop", {.dampers = {"spencer1997,motion_ratio=0.8"},
-                       .controller = "skyhook_modified",
-                       .inverse = "numeric",
-                       .force_loop = "proportional=0.2,integral=5,derivative=1e-4"});
-  return all;
-}
 
 std::vector<ExportedFile> exported_controller(const Vehicle& vehicle, const ExportOptions& options) {
   return write_c_block(c_controller_block(vehicle, options), "");
@@ -56,7 +18,7 @@ std::vector<ExportedFile> exported_inverse(const ExportedInverse& inverse, const
 }
 
 void write_all(const TemporaryFolder& folder, CPrecision precision) {
-  for (const Case& one : cases())
+  for (const ControlCase& one : control_cases())
     for (const ExportedFile& file :
          exported_controller(make_vehicle(one.words), {.name = one.name, .precision = precision}))
       folder.write(file.name, file.content);
@@ -83,29 +45,19 @@ TEST_CASE(
     "precisions") {
   if (!is_there("cc")) return;
   const TemporaryFolder folder;
-  for (const char* damper : {"bingham", "bouc_wen"})
-    for (const InverseScheme& scheme : inverse_schemes()) {
-      if (scheme.name == "polynomial" && std::string(damper) == "bouc_wen") continue;
-      for (const double lag : {0.0, 60.0}) {
-        if (scheme.name.starts_with("neural") && (lag > 0 || std::string(damper) == "bouc_wen")) continue;
-        const LawModel model = example_law(find_law(damper));
-        const auto inverse = scheme.make(model, {0, 2, 1e-3, lag});
-        for (const CPrecision precision : {CPrecision::Double, CPrecision::Single}) {
-          const std::string name = std::string(damper) + "_" + std::string(scheme.name) +
-                                   (lag > 0 ? "_lag" : "") + (precision == CPrecision::Double ? "_d" : "_s");
-          for (const ExportedFile& file :
-               exported_inverse({.model = *inverse, .title = name, .domain = {-0.02, 0.02, -0.3, 0.3, 0, 2}},
-                                {.name = name, .precision = precision}))
-            folder.write(file.name, file.content);
-        }
-      }
+  for (const InverseCase& one : inverse_cases())
+    for (const CPrecision precision : {CPrecision::Double, CPrecision::Single}) {
+      const std::string name = one.name + (precision == CPrecision::Double ? "_d" : "_s");
+      for (const ExportedFile& file :
+           exported_inverse(one.exported(), {.name = name, .precision = precision}))
+        folder.write(file.name, file.content);
     }
   check_that_it_runs(folder, "");
 }
 
 TEST_CASE("exported C ships nothing that only the library needs") {
   std::string all;
-  for (const Case& one : cases())
+  for (const ControlCase& one : control_cases())
     for (const ExportedFile& file : exported_controller(make_vehicle(one.words), {.name = one.name}))
       all += file.content;
   const LawModel model = example_law(find_law("bouc_wen"));
@@ -168,7 +120,7 @@ int main(void) {
 TEST_CASE("exported controllers: what cppcheck's MISRA add-on says is listed in the header") {
   if (!is_there("cppcheck")) return;
   const TemporaryFolder folder;
-  for (const Case& one : cases()) {
+  for (const ControlCase& one : control_cases()) {
     if (one.name != "selector_q" && one.name != "full_car" && one.name != "spencer_numeric") continue;
     CAPTURE(one.name);
     const std::vector<ExportedFile> files = exported_controller(make_vehicle(one.words), {.name = "x"});
@@ -180,7 +132,7 @@ TEST_CASE("exported controllers: what cppcheck's MISRA add-on says is listed in 
 TEST_CASE("exported controllers run without a finding of sanitizers") {
   if (!is_there("cc")) return;
   const TemporaryFolder folder;
-  for (const Case& one : cases())
+  for (const ControlCase& one : control_cases())
     if (one.name == "selector_q" || one.name == "full_car" || one.name == "spencer_numeric")
       for (const ExportedFile& file : exported_controller(make_vehicle(one.words), {.name = one.name}))
         folder.write(file.name, file.content);

@@ -5,12 +5,14 @@
 #include <dlfcn.h>
 #include <map>
 #include <memory>
+#include <numeric>
 #include <string>
 #include <vector>
 #include <zip.h>
 
 #include <pugixml.hpp>
 
+#include "dashpot/output/exporters/c_block.h"
 #include "output/exporters/example_models.h"
 #include "support.h"
 
@@ -140,8 +142,13 @@ class FmuInstance {
                ? fmu_.call("GetReal", handle, vr, references.size(), values.data())
                : fmu_.call("GetFloat64", handle, vr, references.size(), values.data(), values.size());
   }
+  int set_inputs(const std::vector<double>& inputs) {
+    std::vector<unsigned> references(inputs.size());
+    std::iota(references.begin(), references.end(), 1U);
+    return set(references, inputs);
+  }
   int set(const dashpot::DamperInput& input) {
-    return set({1, 2, 3}, {input.displacement, input.velocity, input.current});
+    return set_inputs({input.displacement, input.velocity, input.current});
   }
   double get(const std::string& name) {
     std::vector<double> value;
@@ -154,10 +161,13 @@ class FmuInstance {
     return status ? status : fmu_.call("EnterInitializationMode", handle);
   }
   int exit_initialization() { return fmu_.call("ExitInitializationMode", handle); }
-  void initialize(const dashpot::DamperInput& input) {
+  void initialize_at(const std::vector<double>& inputs) {
     CHECK(enter_initialization() == 0);
-    CHECK(set(input) == 0);
+    CHECK(set_inputs(inputs) == 0);
     CHECK(exit_initialization() == 0);
+  }
+  void initialize(const dashpot::DamperInput& input) {
+    initialize_at({input.displacement, input.velocity, input.current});
   }
   int step(double time, double length) {
     if (fmu_.version == 2) return fmu_.call("DoStep", handle, time, length, 0);
@@ -181,14 +191,24 @@ inline std::string shipped_fmu_of(const dashpot::ExportedModel& model, int versi
   return exporter.write(model, options).front().content;
 }
 
-/// The archive of a model, its library compiled quickly, and with sanitizers where the tests are.
-inline std::string fmu_of(const dashpot::ExportedModel& model, int version,
-                          dashpot::ExportOptions options = {}) {
+/// Its library compiled quickly, and with sanitizers where the tests are.
+inline dashpot::ExportOptions compiled_quickly(dashpot::ExportOptions options) {
   options.compiler += " -O0";
 #ifdef __SANITIZE_ADDRESS__
   options.compiler += " -fsanitize=address,undefined -fno-sanitize-recover=undefined -Wl,-z,undefs";
 #endif
-  return shipped_fmu_of(model, version, options);
+  return options;
+}
+
+inline std::string fmu_of(const dashpot::ExportedModel& model, int version,
+                          const dashpot::ExportOptions& options = {}) {
+  return shipped_fmu_of(model, version, compiled_quickly(options));
+}
+
+inline std::string fmu_of(const dashpot::CBlockMaker& block, int version,
+                          const dashpot::ExportOptions& options = {}) {
+  const dashpot::Exporter& exporter = dashpot::find_exporter(version == 2 ? "fmu2" : "fmu3");
+  return exporter.write_block(block, compiled_quickly(options)).front().content;
 }
 
 inline bool has_compiler() {

@@ -215,6 +215,8 @@ TEST_CASE("FMU: what lies inside") {
                  "sources/damper.c",
                  "sources/fmu_model.h",
                  "sources/fmu.h",
+                 "sources/fmu_between.h",
+                 "sources/fmu_damper.h",
                  "sources/fmu_run.h",
                  "sources/fmu_snapshot.h",
                  "sources/fmu_derivative.h"};

@@ -8,9 +8,13 @@ namespace dashpot {
 
 /// A field of a block's damper_input, or of its commands; one of a kind, or an array of them.
 struct CPort {
+  struct Part {
+    std::string name, unit;
+  };
   std::string name, unit, meaning;  ///< `unit`: empty where none is known
   std::string place;                ///< in C: "struts[#].deflection", # being which of them
   std::size_t count = 1;
+  std::vector<Part> parts = {};  ///< what each of several is of: a strut, a coordinate
 
   /// The place of one of them.
   std::string at(std::size_t which) const;

@@ -14,13 +14,13 @@ namespace {
 constexpr std::size_t kTestSteps = 200;
 
 constexpr const char* kAbout =
-    R"(For @plant@. Dampers: @dampers@.
+    R"(Dampers: @dampers@.
 Damping from @damping_min@ to @damping_max@ N*s/m over commands from @low@ to @high@@unit@.@inverse@
 @sensors@)";
 
 constexpr const char* kHeader = R"(/* @title@
  *
- * @about@
+ * For @plant@. @about@
  *
  *   damper_model model;
  *   damper_init(&model);
@@ -120,16 +120,28 @@ std::vector<std::pair<std::string, std::string>> facts(const Vehicle& vehicle, c
           {"sample_time", c_number(limits.sample_time)}};
 }
 
+/// One per strut, of this unit.
+std::vector<CPort::Part> strut_parts(const Vehicle& vehicle, const std::string& unit) {
+  std::vector<CPort::Part> parts;
+  for (const Strut& strut : vehicle.set.plant.struts) parts.push_back({strut.name, unit});
+  return parts;
+}
+
 std::vector<CPort> ports_of(const Vehicle& vehicle, const CControlPath& path) {
   std::vector<CPort> ports;
-  for (const StrutSignal* signal : path.measured)
-    ports.push_back(
-        {std::string(signal->name), std::string(signal->unit.empty() ? vehicle.drive_unit : signal->unit),
-         std::string(signal->meaning), "struts[#]." + std::string(signal->name), vehicle.dampers.size()});
-  if (path.plant_states > 0)
-    ports.push_back({"plant_state", "",
-                     "heights and angles of the plant from where it would rest, then their rates",
-                     "plant_state[#]", path.plant_states});
+  for (const StrutSignal* signal : path.measured) {
+    const std::string name(signal->name), unit(signal->unit.empty() ? vehicle.drive_unit : signal->unit);
+    ports.push_back({name, unit, std::string(signal->meaning), "struts[#]." + name, vehicle.dampers.size(),
+                     strut_parts(vehicle, unit)});
+  }
+  if (path.plant_states == 0) return ports;
+  std::vector<CPort::Part> parts;
+  for (const char* rate : {"", "/s"})
+    for (const Coordinate& coordinate : vehicle.set.plant.coordinates)
+      parts.push_back({coordinate.name, coordinate.unit + rate});
+  ports.push_back({"plant_state", "",
+                   "heights and angles of the plant from where it would rest, then their rates",
+                   "plant_state[#]", path.plant_states, std::move(parts)});
   return ports;
 }
 
@@ -146,24 +158,24 @@ CBlock c_controller_block(const Vehicle& vehicle, const ExportOptions& options) 
                  path.plant_states > 0 ? kPlantState : "");
   const ControlLimits& limits = vehicle.limits;
   const std::string usual = without_marks(split(vehicle.controller_name, ',').front()) + "_controller";
-  return {
-      .name = c_name(options.name.empty() ? usual : options.name),
-      .title = "the controller " + vehicle.controller_name + " for " + vehicle.set.name,
-      .about = join(about, " "),
-      .precision = options.c_precision(),
-      .header = filled(kHeader + interface + kCHeaderEnd, values),
-      .source = "#include \"@prefix@.h\"\n\n#include <math.h>\n\n#define STRUT_STATE " +
-                number(path.strut_state) + "\n\n" + with_texts(path.code) +
-                std::string(c_text("control_api.c")),
-      .step = "damper_step(&model, &input, commands);",
-      .inputs = ports_of(vehicle, path),
-      .commands = {{"command", vehicle.drive_unit, "to the damper", "commands[#]", vehicle.dampers.size()}},
-      .state_size = vehicle.dampers.size() * path.strut_state,
-      .sample_time = limits.sample_time,
-      .range = limits.current_max - limits.current_min,
-      .tolerance = tolerance_of(vehicle, path, options.c_precision()),
-      .samples = controller_run(vehicle, path, kTestSteps),
-      .version = options.version};
+  return {.name = c_name(options.name.empty() ? usual : options.name),
+          .title = "the controller " + vehicle.controller_name + " for " + vehicle.set.name,
+          .about = join(about, " "),
+          .precision = options.c_precision(),
+          .header = filled(kHeader + interface + kCHeaderEnd, values),
+          .source = "#include \"@prefix@.h\"\n\n#include <math.h>\n\n#define STRUT_STATE " +
+                    number(path.strut_state) + "\n\n" + with_texts(path.code) +
+                    std::string(c_text("control_api.c")),
+          .step = "damper_step(&model, &input, commands);",
+          .inputs = ports_of(vehicle, path),
+          .commands = {{"command", vehicle.drive_unit, "to the damper", "commands[#]", vehicle.dampers.size(),
+                        strut_parts(vehicle, vehicle.drive_unit)}},
+          .state_size = vehicle.dampers.size() * path.strut_state,
+          .sample_time = limits.sample_time,
+          .range = limits.current_max - limits.current_min,
+          .tolerance = tolerance_of(vehicle, path, options.c_precision()),
+          .samples = controller_run(vehicle, path, kTestSteps),
+          .version = options.version};
 }
 
 }  // namespace dashpot

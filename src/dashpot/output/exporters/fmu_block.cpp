@@ -31,12 +31,14 @@ constexpr const char* kSteps =
 /// One variable for each of a port: "deflection", or "deflection[1]", "deflection[2]".
 void add_variables(const std::vector<CPort>& ports, Role role, Fmu& fmu) {
   for (const CPort& port : ports)
-    for (std::size_t k = 1; k <= port.count; ++k)
-      fmu.variables.push_back(
-          {.role = role,
-           .name = port.count == 1 ? port.name : port.name + '[' + std::to_string(k) + ']',
-           .unit = port.unit,
-           .meaning = port.meaning});
+    if (port.count == 1)
+      fmu.variables.push_back({.role = role, .name = port.name, .unit = port.unit, .meaning = port.meaning});
+    else
+      for (std::size_t k = 0; k < port.count; ++k)
+        fmu.variables.push_back({.role = role,
+                                 .name = port.name + '[' + std::to_string(k + 1) + ']',
+                                 .unit = port.parts[k].unit,
+                                 .meaning = port.parts[k].name + ": " + port.meaning});
 }
 
 }  // namespace
