@@ -20,13 +20,13 @@ TEST_CASE("export writes controllers and inverses as FMUs") {
   const TemporaryFolder folder;
   const auto preset = dashpot::inverse_network_presets().front();
   const fs::path file = folder.path() / "inverse.json";
-  save_inverse({.network = example_network(preset), .domain = {-0.02, 0.02, -0.3, 0.3, 0, 1}}, file);
+  dashpot::save_inverse({.network = example_network(preset), .domain = {-0.02, 0.02, -0.3, 0.3, 0, 1}}, file);
   for (const auto& [words, name] :
        {std::pair{std::string("--controller mix1 --in-car"), "mix1_controller_fmi3.fmu"},
         {"--parameters spencer1997 --inverse numeric", "numeric_inverse_fmi3.fmu"},
         {"'" + file.string() + "' --name current", "current_fmi3.fmu"}}) {
-    const ProgramResult result = run_dashpot("export " + words + " --to fmu3 --sources-only -o '" +
-                                             folder.path().string() + "'");
+    const ProgramResult result =
+        run_dashpot("export " + words + " --to fmu3 --sources-only -o '" + folder.path().string() + "'");
     CAPTURE(result.output);
     CHECK(result.exit_code == 0);
     CHECK(fs::exists(folder.path() / name));
