@@ -6,6 +6,7 @@
 #include "dashpot/base/text.h"
 #include "dashpot/base/units.h"
 #include "dashpot/damper/registry.h"
+#include "dashpot/output/exporters/c_controller.h"
 #include "output/exporters/fmu_importer.h"
 
 using namespace dashpot;
@@ -17,6 +18,15 @@ const ExampleModel& example(const std::string& name) {
   for (const ExampleModel& model : models)
     if (model.name == name) return model;
   throw std::runtime_error("no example " + name);
+}
+
+/// A controller of four dampers with a command between 0 and 1.
+CBlockMaker full_car() {
+  return [](const ExportOptions& options) {
+    return c_controller_block(
+        make_vehicle({.plant = "ikenaga2000", .dampers = {"ideal"}, .controller = "clipped_lqr,force=1e-8"}),
+        options);
+  };
 }
 
 ExportOptions sources_only() { return {.sources_only = true, .command = "dashpot export", .version = "9.9"}; }
@@ -68,7 +78,7 @@ Set listed(pugi::xml_node parent, const char* element, const char* attribute) {
   return found;
 }
 
-void check_structure(pugi::xml_node root) {
+void check_structure(pugi::xml_node root, std::size_t output_count = 1) {
   const bool fmi2 = !root.attribute("guid").empty();
   const pugi::xml_node structure = root.child("ModelStructure");
   const Set outputs = variables(root, "output", false), slopes = variables(root, "local", true),
@@ -76,7 +86,7 @@ void check_structure(pugi::xml_node root) {
   Set unknowns = outputs;
   unknowns.insert(slopes.begin(), slopes.end());
   unknowns.insert(states.begin(), states.end());
-  CHECK(outputs.size() == 1);
+  CHECK(outputs.size() == output_count);
   CHECK(slopes.size() == states.size());
   if (fmi2) {
     CHECK(listed(structure.child("Outputs"), "Unknown", "index") == outputs);
@@ -89,9 +99,10 @@ void check_structure(pugi::xml_node root) {
   }
 }
 
-void check_variables(pugi::xml_node root) {
+/// `units`: what is no unit but may stand for one.
+void check_variables(pugi::xml_node root, Set units = {}) {
   const bool fmi2 = !root.attribute("guid").empty();
-  Set names, references, units;
+  Set names, references;
   for (const pugi::xml_node unit : root.child("UnitDefinitions"))
     units.insert(unit.attribute("name").value());
   int independent = 0;
@@ -137,6 +148,16 @@ TEST_CASE("FMU: every variable and unknown of every model is declared as the sta
     }
 }
 
+TEST_CASE(
+    "FMU: every variable and unknown of a controller of four dampers is declared as the standard asks") {
+  for (const int version : {2, 3}) {
+    CAPTURE(version);
+    const LoadedFmu fmu(fmu_of(full_car(), version, sources_only()));
+    check_variables(fmu.root(), {""});
+    check_structure(fmu.root(), 4);
+  }
+}
+
 TEST_CASE("FMU: units have their SI factors") {
   pugi::xml_document document;
   document.load_string(description_of("bouc_wen", 3).c_str());
@@ -166,16 +187,17 @@ TEST_CASE("FMU: well-formed for another parser") {
   }
   const TemporaryFolder folder;
   for (const int version : {2, 3})
-    for (const auto& [name, content] :
-         unzipped(fmu_of(exported(*example("hybrid").model), version, sources_only()))) {
-      if (!name.ends_with(".xml") && !name.ends_with(".html")) continue;
-      const auto path = folder.write("file", content);
-      const ProgramResult result = run_program(
-          (name.ends_with(".html") ? "xmllint --noout --html " : "xmllint --noout ") + path.string());
-      CAPTURE(result.output);
-      CHECK(result.exit_code == 0);
-      CHECK(result.output == "");
-    }
+    for (const std::string& archive : {fmu_of(exported(*example("hybrid").model), version, sources_only()),
+                                       fmu_of(full_car(), version, sources_only())})
+      for (const auto& [name, content] : unzipped(archive)) {
+        if (!name.ends_with(".xml") && !name.ends_with(".html")) continue;
+        const auto path = folder.write("file", content);
+        const ProgramResult result = run_program(
+            (name.ends_with(".html") ? "xmllint --noout --html " : "xmllint --noout ") + path.string());
+        CAPTURE(result.output);
+        CHECK(result.exit_code == 0);
+        CHECK(result.output == "");
+      }
 }
 
 TEST_CASE("FMU: the archive keeps to what importers read") {
