@@ -1,8 +1,5 @@
 #include "c_compile.h"
-#include "dashpot/base/text.h"
-#include "dashpot/damper/inverse/registry.h"
-#include "dashpot/damper/parameter_set.h"
-#include "output/exporters/control_cases.h"
+#include "control_cases.h"
 #include "support.h"
 
 using namespace dashpot;
@@ -13,14 +10,9 @@ std::vector<ExportedFile> exported_controller(const Vehicle& vehicle, const Expo
   return write_c_block(c_controller_block(vehicle, options), "");
 }
 
-std::vector<ExportedFile> exported_inverse(const ExportedInverse& inverse, const ExportOptions& options) {
-  return write_c_block(c_inverse_block(inverse, options), "");
-}
-
 void write_all(const TemporaryFolder& folder, CPrecision precision) {
-  for (const ControlCase& one : control_cases())
-    for (const ExportedFile& file :
-         exported_controller(make_vehicle(one.words), {.name = one.name, .precision = precision}))
+  for (const BlockCase& one : controller_cases())
+    for (const ExportedFile& file : write_c_block(one.block({.precision = precision}), ""))
       folder.write(file.name, file.content);
 }
 
@@ -45,26 +37,19 @@ TEST_CASE(
     "precisions") {
   if (!is_there("cc")) return;
   const TemporaryFolder folder;
-  for (const InverseCase& one : inverse_cases())
+  for (const BlockCase& one : inverse_cases())
     for (const CPrecision precision : {CPrecision::Double, CPrecision::Single}) {
-      const std::string name = one.name + (precision == CPrecision::Double ? "_d" : "_s");
-      for (const ExportedFile& file :
-           exported_inverse(one.exported(), {.name = name, .precision = precision}))
-        folder.write(file.name, file.content);
+      CBlock block = one.block({.precision = precision});
+      block.name += precision == CPrecision::Double ? "_d" : "_s";
+      for (const ExportedFile& file : write_c_block(block, "")) folder.write(file.name, file.content);
     }
   check_that_it_runs(folder, "");
 }
 
 TEST_CASE("exported C ships nothing that only the library needs") {
   std::string all;
-  for (const ControlCase& one : control_cases())
-    for (const ExportedFile& file : exported_controller(make_vehicle(one.words), {.name = one.name}))
-      all += file.content;
-  const LawModel model = example_law(find_law("bouc_wen"));
-  const auto inverse = find_inverse("numeric").make(model, {});
-  for (const ExportedFile& file :
-       exported_inverse({.model = *inverse, .domain = {-0.02, 0.02, -0.3, 0.3, 0, 2}}, {}))
-    all += file.content;
+  for (const BlockCase& one : block_cases())
+    for (const ExportedFile& file : write_c_block(one.block({}), "")) all += file.content;
   for (const char* inside : {"DASHPOT_", "Declared before", "the library takes in", "\n\n\n", "@"})
     CHECK(all.find(inside) == std::string::npos);
 }
@@ -120,22 +105,21 @@ int main(void) {
 TEST_CASE("exported controllers: what cppcheck's MISRA add-on says is listed in the header") {
   if (!is_there("cppcheck")) return;
   const TemporaryFolder folder;
-  for (const ControlCase& one : control_cases()) {
+  for (const BlockCase& one : controller_cases()) {
     if (one.name != "selector_q" && one.name != "full_car" && one.name != "spencer_numeric") continue;
     CAPTURE(one.name);
-    const std::vector<ExportedFile> files = exported_controller(make_vehicle(one.words), {.name = "x"});
-    folder.write("x.h", files[0].content);
-    check_misra(folder.write("x.c", files[1].content), files[0].content);
+    const std::vector<ExportedFile> files = write_c_block(one.block({}), "");
+    folder.write(files[0].name, files[0].content);
+    check_misra(folder.write(files[1].name, files[1].content), files[0].content);
   }
 }
 
 TEST_CASE("exported controllers run without a finding of sanitizers") {
   if (!is_there("cc")) return;
   const TemporaryFolder folder;
-  for (const ControlCase& one : control_cases())
+  for (const BlockCase& one : controller_cases())
     if (one.name == "selector_q" || one.name == "full_car" || one.name == "spencer_numeric")
-      for (const ExportedFile& file : exported_controller(make_vehicle(one.words), {.name = one.name}))
-        folder.write(file.name, file.content);
+      for (const ExportedFile& file : write_c_block(one.block({}), "")) folder.write(file.name, file.content);
   const ProgramResult result = run_program(
       "cd '" + folder.path().string() +
       "' && for x in *_test.c; do cc -std=c99 -g -fsanitize=address,undefined -fno-sanitize-recover=all $x "

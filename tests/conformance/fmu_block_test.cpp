@@ -1,33 +1,11 @@
 // FMUs of controllers and inverses, driven along the runs that their C is checked along.
+#include "control_cases.h"
 #include "dashpot/base/parallel.h"
-#include "output/exporters/control_cases.h"
 #include "output/exporters/fmu_importer.h"
 
 using namespace dashpot;
 
 namespace {
-
-struct Task {
-  std::string name;
-  CBlockMaker block;
-  int version = 2;
-  std::string archive = {};
-};
-
-/// FMI 2 and FMI 3 in turn.
-std::vector<Task> tasks() {
-  std::vector<Task> all;
-  const auto add = [&](const std::string& name, CBlockMaker block) {
-    all.push_back({name, std::move(block), all.size() % 2 == 0 ? 2 : 3});
-  };
-  for (const ControlCase& one : control_cases())
-    add(one.name, [vehicle = std::make_shared<const Vehicle>(make_vehicle(one.words))](
-                      const ExportOptions& options) { return c_controller_block(*vehicle, options); });
-  for (const InverseCase& one : inverse_cases())
-    if (!one.name.ends_with("_lag"))  // the same but for the C, which is run without an FMU
-      add(one.name, [one](const ExportOptions& options) { return c_inverse_block(one.exported(), options); });
-  return all;
-}
 
 /// Sets what is known at each sample, then reads the commands there.
 void check_commands(const LoadedFmu& fmu, const CBlock& block) {
@@ -56,12 +34,16 @@ void check_commands(const LoadedFmu& fmu, const CBlock& block) {
 
 TEST_CASE("FMUs of every controller and inverse give the library's commands") {
   if (!has_compiler()) return;
-  std::vector<Task> all = tasks();
-  parallel_for(all.size(), 0, [&](std::size_t k) { all[k].archive = fmu_of(all[k].block, all[k].version); });
-  for (const Task& task : all) {
-    CAPTURE(task.name);
-    const LoadedFmu fmu(task.archive);
+  std::vector<BlockCase> cases = block_cases();
+  // Coils that lag make the same FMUs but for the C, which is run without an FMU.
+  std::erase_if(cases, [](const BlockCase& one) { return one.name.ends_with("_lag"); });
+  std::vector<std::string> archives(cases.size());
+  parallel_for(cases.size(), 0,
+               [&](std::size_t k) { archives[k] = fmu_of(cases[k].block, k % 2 == 0 ? 2 : 3); });
+  for (std::size_t k = 0; k < cases.size(); ++k) {
+    CAPTURE(cases[k].name);
+    const LoadedFmu fmu(archives[k]);
     CHECK(!fmu.exchanges());
-    check_commands(fmu, task.block({}));
+    check_commands(fmu, cases[k].block({}));
   }
 }

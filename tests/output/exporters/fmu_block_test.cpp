@@ -1,7 +1,9 @@
 // When an FMU of a controller or of an inverse takes its samples, and what else it answers.
 #include <limits>
 
-#include "output/exporters/control_cases.h"
+#include "dashpot/damper/inverse/registry.h"
+#include "dashpot/output/exporters/c_controller.h"
+#include "dashpot/output/exporters/c_inverse.h"
 #include "output/exporters/fmu_importer.h"
 
 using namespace dashpot;
