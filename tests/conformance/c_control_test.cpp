@@ -1,64 +1,18 @@
 #include "c_compile.h"
-#include "dashpot/base/text.h"
-#include "dashpot/damper/inverse/registry.h"
-#include "dashpot/damper/parameter_set.h"
-#include "dashpot/output/exporters/c_controller.h"
-#include "dashpot/output/exporters/c_inverse.h"
-#include "output/exporters/example_models.h"
+#include "control_cases.h"
 #include "support.h"
 
 using namespace dashpot;
 
 namespace {
 
-/// A controller on a vehicle, with a name in C.
-struct Case {
-  std::string name;
-  VehicleWords words;
-};
-
-/// Every law on a quarter car, with true signals and with a car's sensors; laws of the whole plant on a full
-/// car; the ways from a force to a current.
-std::vector<Case> cases() {
-  std::vector<Case> all;
-  const auto add = [&](std::string name, VehicleWords words) {
-    words.sample_time = 2e-3;
-    all.push_back({std::move(name), std::move(words)});
-  };
-  for (const ControlLaw* law : control_laws()) {
-    add(std::string(law->name) + "_q", {.controller = std::string(law->name)});
-    if (law->needs_plant_state) continue;
-    add(std::string(law->name) + "_car", {.controller = std::string(law->name), .sensors = {.in_car = true}});
-  }
-  add("selector_q",
-      {.controller = "selector(skyhook_modified/feb),crossover=3Hz", .sensors = {.in_car = true}});
-  add("twice_q", {.controller = "selector(feb/feb)"});
-  add("full_car", {.plant = "ikenaga2000", .dampers = {"ideal"}, .controller = "clipped_lqr,force=1e-8"});
-  add("full_skyhook",
-      {.plant = "ikenaga2000", .dampers = {"ideal"}, .controller = "feb", .sensors = {.in_car = true}});
-  for (const char* inverse :
-       {"numeric", "heaviside", "signum", "modified_clipped_optimal", "clipped_optimal"})
-    add(std::string("spencer_") + inverse,
-        {.dampers = {"spencer1997,motion_ratio=0.8"}, .controller = "skyhook_modified", .inverse = inverse});
-  add("spencer_loop", {.dampers = {"spencer1997,motion_ratio=0.8"},
-                       .controller = "skyhook_modified",
-                       .inverse = "numeric",
-                       .force_loop = "proportional=0.2,integral=5,derivative=1e-4"});
-  return all;
-}
-
 std::vector<ExportedFile> exported_controller(const Vehicle& vehicle, const ExportOptions& options) {
   return write_c_block(c_controller_block(vehicle, options), "");
 }
 
-std::vector<ExportedFile> exported_inverse(const ExportedInverse& inverse, const ExportOptions& options) {
-  return write_c_block(c_inverse_block(inverse, options), "");
-}
-
 void write_all(const TemporaryFolder& folder, CPrecision precision) {
-  for (const Case& one : cases())
-    for (const ExportedFile& file :
-         exported_controller(make_vehicle(one.words), {.name = one.name, .precision = precision}))
+  for (const BlockCase& one : controller_cases())
+    for (const ExportedFile& file : write_c_block(one.block({.precision = precision}), ""))
       folder.write(file.name, file.content);
 }
 
@@ -83,36 +37,19 @@ TEST_CASE(
     "precisions") {
   if (!is_there("cc")) return;
   const TemporaryFolder folder;
-  for (const char* damper : {"bingham", "bouc_wen"})
-    for (const InverseScheme& scheme : inverse_schemes()) {
-      if (scheme.name == "polynomial" && std::string(damper) == "bouc_wen") continue;
-      for (const double lag : {0.0, 60.0}) {
-        if (scheme.name.starts_with("neural") && (lag > 0 || std::string(damper) == "bouc_wen")) continue;
-        const LawModel model = example_law(find_law(damper));
-        const auto inverse = scheme.make(model, {0, 2, 1e-3, lag});
-        for (const CPrecision precision : {CPrecision::Double, CPrecision::Single}) {
-          const std::string name = std::string(damper) + "_" + std::string(scheme.name) +
-                                   (lag > 0 ? "_lag" : "") + (precision == CPrecision::Double ? "_d" : "_s");
-          for (const ExportedFile& file :
-               exported_inverse({.model = *inverse, .title = name, .domain = {-0.02, 0.02, -0.3, 0.3, 0, 2}},
-                                {.name = name, .precision = precision}))
-            folder.write(file.name, file.content);
-        }
-      }
+  for (const BlockCase& one : inverse_cases())
+    for (const CPrecision precision : {CPrecision::Double, CPrecision::Single}) {
+      CBlock block = one.block({.precision = precision});
+      block.name += precision == CPrecision::Double ? "_d" : "_s";
+      for (const ExportedFile& file : write_c_block(block, "")) folder.write(file.name, file.content);
     }
   check_that_it_runs(folder, "");
 }
 
 TEST_CASE("exported C ships nothing that only the library needs") {
   std::string all;
-  for (const Case& one : cases())
-    for (const ExportedFile& file : exported_controller(make_vehicle(one.words), {.name = one.name}))
-      all += file.content;
-  const LawModel model = example_law(find_law("bouc_wen"));
-  const auto inverse = find_inverse("numeric").make(model, {});
-  for (const ExportedFile& file :
-       exported_inverse({.model = *inverse, .domain = {-0.02, 0.02, -0.3, 0.3, 0, 2}}, {}))
-    all += file.content;
+  for (const BlockCase& one : block_cases())
+    for (const ExportedFile& file : write_c_block(one.block({}), "")) all += file.content;
   for (const char* inside : {"DASHPOT_", "Declared before", "the library takes in", "\n\n\n", "@"})
     CHECK(all.find(inside) == std::string::npos);
 }
@@ -168,21 +105,21 @@ int main(void) {
 TEST_CASE("exported controllers: what cppcheck's MISRA add-on says is listed in the header") {
   if (!is_there("cppcheck")) return;
   const TemporaryFolder folder;
-  for (const Case& one : cases()) {
+  for (const BlockCase& one : controller_cases()) {
     if (one.name != "selector_q" && one.name != "full_car" && one.name != "spencer_numeric") continue;
     CAPTURE(one.name);
-    const std::vector<ExportedFile> files = exported_controller(make_vehicle(one.words), {.name = "x"});
-    folder.write("x.h", files[0].content);
-    check_misra(folder.write("x.c", files[1].content), files[0].content);
+    const std::vector<ExportedFile> files = write_c_block(one.block({}), "");
+    folder.write(files[0].name, files[0].content);
+    check_misra(folder.write(files[1].name, files[1].content), files[0].content);
   }
 }
 
 TEST_CASE("exported controllers run without a finding of sanitizers") {
   if (!is_there("cc")) return;
   const TemporaryFolder folder;
-  for (const Case& one : cases())
+  for (const BlockCase& one : controller_cases())
     if (one.name == "selector_q" || one.name == "full_car" || one.name == "spencer_numeric")
-      for (const ExportedFile& file : exported_controller(make_vehicle(one.words), {.name = one.name}))
+      for (const ExportedFile& file : write_c_block(one.block({}), ""))
         folder.write(file.name, file.content);
   const ProgramResult result = run_program(
       "cd '" + folder.path().string() +

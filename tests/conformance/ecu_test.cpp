@@ -1,6 +1,7 @@
 #include <sstream>
 
 #include "dashpot/base/file.h"
+#include "dashpot/output/exporters/c_controller.h"
 #include "dashpot/output/exporters/c_source.h"
 #include "dashpot/output/exporters/export_run.h"
 #include "output/exporters/example_models.h"

@@ -49,15 +49,6 @@ int main(void) {
 }
 )";
 
-std::string reads_of(const CBlock& block) {
-  std::string lines;
-  std::size_t place = 0;
-  for (const CPort& port : block.inputs)
-    for (std::size_t k = 0; k < port.count; ++k)
-      lines += "  input->" + port.at(k) + " = row[" + std::to_string(place++) + "];\n";
-  return lines;
-}
-
 std::string rows_of(const CBlock& block) {
   std::string rows;
   for (const CBlock::Sample& sample : block.samples) {
@@ -82,6 +73,15 @@ std::string CPort::at(std::size_t which) const {
   return mark == std::string::npos ? place : std::string(place).replace(mark, 1, std::to_string(which));
 }
 
+std::string c_block_reads(const CBlock& block) {
+  std::string lines;
+  std::size_t place = 0;
+  for (const CPort& port : block.inputs)
+    for (std::size_t k = 0; k < port.count; ++k)
+      lines += "  input->" + port.at(k) + " = row[" + std::to_string(place++) + "];\n";
+  return lines;
+}
+
 std::vector<ExportedFile> c_block_sources(const CBlock& block, const std::string& name,
                                           const std::string& command) {
   if (name != "damper") require_free_names(name, block.source);
@@ -95,7 +95,7 @@ std::vector<ExportedFile> write_c_block(const CBlock& block, const std::string& 
                                           {"steps", std::to_string(block.samples.size())},
                                           {"inputs", std::to_string(block.samples.front().inputs.size())},
                                           {"commands", std::to_string(block.samples.front().commands.size())},
-                                          {"reads", reads_of(block)},
+                                          {"reads", c_block_reads(block)},
                                           {"step", block.step},
                                           {"range", c_number(block.range)},
                                           {"tolerance", c_number(block.tolerance)},

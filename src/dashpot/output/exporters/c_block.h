@@ -38,6 +38,8 @@ struct CBlock {
   std::string version;
 };
 
+/// Statements that write the fields of `input`, a damper_input*, from `row`, the inputs port by port.
+std::string c_block_reads(const CBlock& block);
 /// NAME.h, NAME.c and NAME_test.c, a main that checks them along the run. Throws Error where the code has
 /// inside what a name would begin with.
 std::vector<ExportedFile> write_c_block(const CBlock& block, const std::string& command);

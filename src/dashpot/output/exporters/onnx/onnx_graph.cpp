@@ -37,7 +37,7 @@ class Writer {
           {input.name, type_, static_cast<std::int64_t>(input.columns.size()), input.meaning});
     }
     open(out);
-    emit("Shape", {inputs.at(0).name}, kBatch);
+    first_input_ = inputs.at(0).name;
     write_region(0);
     for (const OnnxFace& output : outputs) {
       emit("Identity", {packed(output.columns)}, output.name);
@@ -45,7 +45,6 @@ class Writer {
           {output.name, type_, static_cast<std::int64_t>(output.columns.size()), output.meaning});
     }
     close();
-    if (!needs_batch_) out.nodes.erase(out.nodes.begin());
     out.constants = std::move(constants_);
     return out;
   }
@@ -155,8 +154,22 @@ class Writer {
     for (const Node node : nodes) values.push_back(graph_.value(node));
     const auto width = static_cast<std::int64_t>(nodes.size());
     const OnnxType type = graph_.at(nodes[0]).is_truth ? OnnxType::Bool : type_;
-    needs_batch_ = true;
-    return emit("Expand", {constant(type, {1, width}, std::move(values)), kBatch});
+    return emit("Expand", {constant(type, {1, width}, std::move(values)), batch_shape()});
+  }
+
+  /// [batch, 1]: made before all else, once, where it is needed.
+  std::string batch_shape() {
+    if (has_batch_shape_) return kBatch;
+    has_batch_shape_ = true;
+    std::vector<OnnxNode> made{{"Shape", {first_input_}, {kBatch}, {}, {}}};
+    if (widths_.at(first_input_) > 1) {
+      const std::string first = constant(OnnxType::Int64, {1}, {0});
+      made[0].inputs = {"first_column"};
+      made.insert(made.begin(), {"Gather", {first_input_, first}, {"first_column"}, {{"axis", 1}}, {}});
+    }
+    std::vector<OnnxNode>& nodes = scopes_.front().graph->nodes;
+    nodes.insert(nodes.begin(), made.begin(), made.end());
+    return kBatch;
   }
 
   // Groups of nodes.
@@ -332,7 +345,8 @@ class Writer {
   std::map<std::string, std::string> constant_names_;
   std::vector<OnnxTensor> constants_;
   std::size_t count_ = 0;
-  bool needs_batch_ = false;
+  std::string first_input_;
+  bool has_batch_shape_ = false;
 };
 
 }  // namespace
