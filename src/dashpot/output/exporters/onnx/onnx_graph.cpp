@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <numeric>
+#include <set>
 
 #include "dashpot/base/text.h"
 #include "dashpot/output/exporters/onnx/live_nodes.h"
@@ -130,16 +131,34 @@ class Writer {
 
   /// [batch, nodes], wherever they stand.
   std::string packed(const Nodes& nodes) {
-    Names parts;
-    for (std::size_t begin = 0, end; begin < nodes.size(); begin = end) {
-      const std::string tensor = source(nodes[begin]);
-      for (end = begin; end < nodes.size() && source(nodes[end]) == tensor; ++end) {
-      }
-      const Nodes run(nodes.begin() + static_cast<std::ptrdiff_t>(begin),
-                      nodes.begin() + static_cast<std::ptrdiff_t>(end));
-      parts.push_back(tensor == "#" ? spread(run) : columns_of(tensor, run));
+    std::vector<Nodes> runs;  // of nodes that stand in the same tensor
+    std::set<std::string> tensors;
+    for (const Node node : nodes) {
+      if (runs.empty() || source(node) != source(runs.back().back())) runs.emplace_back();
+      runs.back().push_back(node);
+      tensors.insert(source(node));
     }
+    if (runs.size() > tensors.size() + 1) return reordered(nodes);
+    Names parts;
+    for (const Nodes& run : runs)
+      parts.push_back(is_constant(run[0]) ? spread(run) : columns_of(source(run[0]), run));
     return parts.size() == 1 ? parts[0] : emit("Concat", parts, {}, {{"axis", 1}});
+  }
+
+  /// The same: put together tensor by tensor first.
+  std::string reordered(const Nodes& nodes) {
+    std::vector<std::size_t> order(nodes.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::ranges::stable_sort(order, {}, [&](std::size_t k) { return source(nodes[k]); });
+    Nodes sorted;
+    std::vector<double> columns(nodes.size());
+    for (std::size_t k = 0; k < order.size(); ++k) {
+      sorted.push_back(nodes[order[k]]);
+      columns[order[k]] = static_cast<double>(k);
+    }
+    const auto count = static_cast<std::int64_t>(nodes.size());
+    return emit("Gather", {packed(sorted), constant(OnnxType::Int64, {count}, std::move(columns))}, {},
+                {{"axis", 1}});
   }
 
   std::string columns_of(const std::string& tensor, const Nodes& nodes) {
