@@ -54,7 +54,8 @@ TEST_CASE("export takes an inverse network, to what runs sample by sample") {
   CHECK(result.exit_code == 0);
   CHECK(fs::exists(folder.path() / "controller.c"));
   CHECK(run_dashpot(command + "onnx --name controller").exit_code == 0);
-  for (const char* name : {"controller.onnx", "controller_rest.onnx"}) CHECK(fs::exists(folder.path() / name));
+  for (const char* name : {"controller.onnx", "controller_rest.onnx"})
+    CHECK(fs::exists(folder.path() / name));
   CHECK(contains(run_dashpot(command + "dpr").output, "is an inverse, which cannot become 'dpr'"));
 }
 

@@ -119,8 +119,7 @@ TEST_CASE("exported controllers run without a finding of sanitizers") {
   const TemporaryFolder folder;
   for (const BlockCase& one : controller_cases())
     if (one.name == "selector_q" || one.name == "full_car" || one.name == "spencer_numeric")
-      for (const ExportedFile& file : write_c_block(one.block({}), ""))
-        folder.write(file.name, file.content);
+      for (const ExportedFile& file : write_c_block(one.block({}), "")) folder.write(file.name, file.content);
   const ProgramResult result = run_program(
       "cd '" + folder.path().string() +
       "' && for x in *_test.c; do cc -std=c99 -g -fsanitize=address,undefined -fno-sanitize-recover=all $x "

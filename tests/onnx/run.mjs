@@ -2,7 +2,7 @@
 //   node run.mjs FOLDER: every NAME.onnx there, along the runs in NAME.json
 // step by step: the second of its three runs alone, then all three at once. Where answers are not given, those of
 // the run alone stand for them. `inputs` says which columns of a run are which input.
-import { readFileSync, readdirSync } from 'node:fs';
+import { readFileSync, readdirSync, statSync } from 'node:fs';
 import * as ort from 'onnxruntime-node';
 
 const folder = process.argv[2];
@@ -53,7 +53,7 @@ for (const name of names) {
     const errors = (await answersOf(model, runs.map((run) => run.inputs))).map((one, k) => largest(one, runs[k]) / span);
     const passes = error <= tolerance && errors.every((one) => one <= tolerance);
     bad += passes ? 0 : 1;
-    console.log(`${passes ? 'ok' : 'FAILED'} ${name} ${error.toExponential(1)} ${Math.max(...errors).toExponential(1)} of the span, ${((user + system) / alone.length).toFixed(0)} us a step`);
+    console.log(`${passes ? 'ok' : 'FAILED'} ${name} ${error.toExponential(1)} ${Math.max(...errors).toExponential(1)} of the span, ${((user + system) / alone.length).toFixed(0)} us a step, ${statSync(`${folder}/${name}.onnx`).size} bytes`);
   } catch (error) {
     bad += 1;
     console.log(`FAILED ${name}: ${error.message}`);

@@ -12,9 +12,9 @@ using Rows = std::vector<std::vector<double>>;
 /// What run.mjs is told of a model.
 struct RuntimeCheck {
   struct Run {
-    Rows inputs;    ///< at each step, port by port
-    Rows answers;   ///< or none
-    Rows matters;   ///< at each step whether the answer does, 1 or 0; or none
+    Rows inputs;   ///< at each step, port by port
+    Rows answers;  ///< or none
+    Rows matters;  ///< at each step whether the answer does, 1 or 0; or none
   };
   std::vector<dashpot::CPort> inputs;
   std::string output;
@@ -30,9 +30,9 @@ inline dashpot::Value json_rows(const Rows& rows) {
   for (const std::vector<double>& row : rows) {
     Value numbers = Value::array();
     for (const double number : row)
-      numbers.push_back(std::isfinite(number)  ? Value(number)
-                        : std::isnan(number) ? Value("NaN")
-                                             : Value(number > 0 ? "Infinity" : "-Infinity"));
+      numbers.push_back(std::isfinite(number) ? Value(number)
+                        : std::isnan(number)  ? Value("NaN")
+                                              : Value(number > 0 ? "Infinity" : "-Infinity"));
     out.push_back(std::move(numbers));
   }
   return out;

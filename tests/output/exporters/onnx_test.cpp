@@ -96,9 +96,9 @@ TEST_CASE("ONNX: a block has a tensor per port, of a column per strut; what is n
                                     .controller = "feb",
                                     .sample_time = 2e-3,
                                     .sensors = {.in_car = true}});
-  const std::vector<ExportedFile> files = write_onnx_block(
-      [&](const ExportOptions& options) { return c_controller_block(car, options); },
-      {.name = "x", .command = "dashpot export x", .version = "1"});
+  const std::vector<ExportedFile> files =
+      write_onnx_block([&](const ExportOptions& options) { return c_controller_block(car, options); },
+                       {.name = "x", .command = "dashpot export x", .version = "1"});
   REQUIRE(files.size() == 2);
   CHECK(files[1].name == "x_rest.onnx");
   const onnx::ModelProto step = parsed(files[0].content), rest = parsed(files[1].content);

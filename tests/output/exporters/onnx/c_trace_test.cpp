@@ -116,8 +116,7 @@ TRACED(
     })
 
 TRACED(
-    blocks, typedef enum Kind{Least, Most} Kind; typedef Kind Choice;
-    typedef struct Wish {
+    blocks, typedef enum Kind{Least, Most} Kind; typedef Kind Choice; typedef struct Wish {
       Choice kind;
       double value;
     } Wish;
@@ -125,8 +124,7 @@ TRACED(
       Wish each[1 + 2];
       const double* from;
     } Wishes;
-    static Wish wish_of(Choice kind, double value);
-    static double granted(Wish wish, double held) {
+    static Wish wish_of(Choice kind, double value); static double granted(Wish wish, double held) {
       wish.value = wish.kind == Most ? fmax(wish.value, held) : fmin(wish.value, held);
       return wish.value;
     } static Wish wish_of(Choice kind, double value) {

@@ -358,7 +358,8 @@ std::size_t CProgram::size_of(const CType& type) const {
 std::size_t CProgram::size_of_struct(std::string_view name) const {
   const auto found = std::ranges::find(structs, name, &CStruct::name);
   if (found == structs.end()) throw Error("C text", "has no struct '" + std::string(name) + "'");
-  return size_of({.kind = CType::Kind::Struct, .structure = static_cast<std::size_t>(found - structs.begin())});
+  return size_of(
+      {.kind = CType::Kind::Struct, .structure = static_cast<std::size_t>(found - structs.begin())});
 }
 
 CProgram parse_c(std::string_view code) { return Parser(code).program(); }

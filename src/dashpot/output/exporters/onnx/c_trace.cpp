@@ -78,7 +78,8 @@ CTrace::Value CTrace::load(const Result& result) {
 
 Node CTrace::number_of(const Result& result) {
   const Value value = load(result);
-  if (value.is_pointer || result.type.is_struct()) throw Error("C text", "has a pointer or struct where a number should stand");
+  if (value.is_pointer || result.type.is_struct())
+    throw Error("C text", "has a pointer or struct where a number should stand");
   return value.node;
 }
 

@@ -57,8 +57,7 @@ Calculation::Calculation(const CBlock& block, const std::string& first)
       input_size_(width(block.inputs)),
       command_size_(width(block.commands)),
       state_size_(program_.size_of_struct("damper_model")) {
-  first_ =
-      called({"reset_call", "first_call"}, inputs(), std::vector<Node>(state_size_, graph.constant(0)));
+  first_ = called({"reset_call", "first_call"}, inputs(), std::vector<Node>(state_size_, graph.constant(0)));
   fixed_ = first_.state;
   while (!trace_step()) {
   }
