@@ -200,8 +200,8 @@ Command export_command() {
           .title = "A model or a controller as code or tables for other programs",
           .description =
               "Writes a model in a form that needs Dashpot no more. An inverse network that 'dashpot invert' "
-              "wrote, an inverse of a damper (--inverse) and a vehicle's controller (--controller) become C, "
-              "too." +
+              "wrote, an inverse of a damper (--inverse) and a vehicle's controller (--controller) are "
+              "exported, too, where a format takes them." +
               formats_text(),
           .options = std::move(options),
           .example = std::string(kExample),

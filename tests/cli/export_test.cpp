@@ -42,7 +42,7 @@ TEST_CASE("export writes ONNX, in float unless told") {
   CHECK(static_cast<double>(exported("wider", "--precision double")) > static_cast<double>(usual) + few);
 }
 
-TEST_CASE("export takes an inverse network, to C alone") {
+TEST_CASE("export takes an inverse network, to what runs sample by sample") {
   const TemporaryFolder folder;
   const auto preset = dashpot::inverse_network_presets().front();
   dashpot::InverseFile inverse{.network = example_network(preset), .domain = {-0.02, 0.02, -0.3, 0.3, 0, 1}};
@@ -53,20 +53,21 @@ TEST_CASE("export takes an inverse network, to C alone") {
   CAPTURE(result.output);
   CHECK(result.exit_code == 0);
   CHECK(fs::exists(folder.path() / "controller.c"));
-  for (const std::string format : {"dpr", "onnx"})
-    CHECK(contains(run_dashpot(command + format).output,
-                   "is an inverse, which cannot become '" + format + "'"));
+  CHECK(run_dashpot(command + "onnx --name controller").exit_code == 0);
+  for (const char* name : {"controller.onnx", "controller_rest.onnx"})
+    CHECK(fs::exists(folder.path() / name));
+  CHECK(contains(run_dashpot(command + "dpr").output, "is an inverse, which cannot become 'dpr'"));
 }
 
-TEST_CASE("export takes a vehicle's controller and a damper's inverse, to C alone") {
+TEST_CASE("export takes a vehicle's controller and a damper's inverse, to what runs sample by sample") {
   const TemporaryFolder folder;
   const std::string out = " -o '" + folder.path().string() + "'";
-  CHECK(run_dashpot("export --controller mix1,crossover=2Hz --in-car --sample-time 2ms --to c" + out)
+  CHECK(run_dashpot("export --controller mix1,crossover=2Hz --in-car --sample-time 2ms --to c,onnx" + out)
             .exit_code == 0);
-  CHECK(
-      run_dashpot("export --parameters spencer1997 --inverse heaviside --to c --name rule" + out).exit_code ==
-      0);
-  for (const char* name : {"mix1_controller.h", "mix1_controller.c", "mix1_controller_test.c", "rule.c"})
+  CHECK(run_dashpot("export --parameters spencer1997 --inverse heaviside --to c,onnx --name rule" + out)
+            .exit_code == 0);
+  for (const char* name : {"mix1_controller.h", "mix1_controller.c", "mix1_controller_test.c",
+                           "mix1_controller.onnx", "mix1_controller_rest.onnx", "rule.c", "rule.onnx"})
     CHECK(fs::exists(folder.path() / name));
   CHECK(contains(run_dashpot("export --controller mix1 --to dpr" + out).output,
                  "is a controller, which cannot become 'dpr'"));

@@ -5,9 +5,9 @@
 #include <onnx/shape_inference/implementation.h>
 #endif
 
+#include "conformance/control_cases.h"
 #include "dashpot/base/text.h"
 #include "dashpot/output/exporters/onnx.h"
-#include "output/exporters/example_models.h"
 #include "support.h"
 
 using namespace dashpot;
@@ -61,28 +61,76 @@ std::string faces(const google::protobuf::RepeatedPtrField<onnx::ValueInfoProto>
   return out;
 }
 
+void check_files(const std::vector<ExportedFile>& files, const std::string& of, CPrecision precision) {
+  CAPTURE(of);
+  for (const ExportedFile& file : files) {
+    CAPTURE(file.name);
+    onnx::ModelProto model = parsed(file.content);
+    CHECK(message_of([&] {
+            onnx::checker::check_model(model);
+            onnx::shape_inference::InferShapes(model, onnx::OpSchemaRegistry::Instance(), {true, 1, true});
+          }) == "");
+    CHECK(model.ir_version() <= 8);
+    REQUIRE(model.opset_import_size() == 1);
+    CHECK(model.opset_import(0).version() <= 17);
+    const int type = precision == CPrecision::Single ? onnx::TensorProto::FLOAT : onnx::TensorProto::DOUBLE;
+    for (const auto& input : model.graph().input()) CHECK(input.type().tensor_type().elem_type() == type);
+  }
+}
+
 }  // namespace
 
-TEST_CASE("ONNX: Debian's checker, with the shapes that it infers, finds nothing in any kind of model") {
-  for (const ExampleModel& example : example_models())
-    for (const CPrecision precision : {CPrecision::Single, CPrecision::Double})
-      for (const ExportedFile& file :
-           write_onnx(exported(*example.model), {.name = "x", .precision = precision})) {
-        CAPTURE(example.name);
-        CAPTURE(file.name);
-        onnx::ModelProto model = parsed(file.content);
-        CHECK(message_of([&] {
-                onnx::checker::check_model(model);
-                onnx::shape_inference::InferShapes(model, onnx::OpSchemaRegistry::Instance(),
-                                                   {true, 1, true});
-              }) == "");
-        CHECK(model.ir_version() <= 8);
-        REQUIRE(model.opset_import_size() == 1);
-        CHECK(model.opset_import(0).version() <= 17);
-        const int type =
-            precision == CPrecision::Single ? onnx::TensorProto::FLOAT : onnx::TensorProto::DOUBLE;
-        for (const auto& input : model.graph().input()) CHECK(input.type().tensor_type().elem_type() == type);
-      }
+TEST_CASE("ONNX: Debian's checker, with the shapes that it infers, finds nothing in any model or block") {
+  for (const CPrecision precision : {CPrecision::Single, CPrecision::Double}) {
+    const ExportOptions options{.name = "x", .precision = precision};
+    for (const ExampleModel& example : example_models())
+      check_files(write_onnx(exported(*example.model), options), example.name, precision);
+    for (const BlockCase& one : block_cases())
+      check_files(write_onnx_block(one.block, options), one.name, precision);
+  }
+}
+
+TEST_CASE("ONNX: a block has a tensor per port, of a column per strut; what is not read is left out") {
+  const Vehicle car = make_vehicle({.plant = "ikenaga2000",
+                                    .dampers = {"ideal"},
+                                    .controller = "feb",
+                                    .sample_time = 2e-3,
+                                    .sensors = {.in_car = true}});
+  const std::vector<ExportedFile> files =
+      write_onnx_block([&](const ExportOptions& options) { return c_controller_block(car, options); },
+                       {.name = "x", .command = "dashpot export x", .version = "1"});
+  REQUIRE(files.size() == 2);
+  CHECK(files[1].name == "x_rest.onnx");
+  const onnx::ModelProto step = parsed(files[0].content), rest = parsed(files[1].content);
+  CHECK(faces(step.graph().input()) == "deflection[batch,4] state[batch,16]");
+  CHECK(faces(step.graph().output()) == "command[batch,4] next_state[batch,16]");
+  CHECK(faces(rest.graph().input()) == "deflection[batch,4]");
+  CHECK(faces(rest.graph().output()) == "command[batch,4] state[batch,16]");
+  CHECK(step.graph().input(0).doc_string() == "m, of the strut, extension positive");
+  CHECK(step.doc_string() == "One step of 0.002 s of the controller feb for ikenaga2000");
+  CHECK(metadata(step, "model") == "the controller feb for ikenaga2000");
+  CHECK(metadata(step, "sample_time") == "0.002 s");
+  CHECK(metadata(step, "units") == "deflection m");
+  CHECK(metadata(step, "state").find("state_0, state_1") == 0);
+  CHECK(metadata(step, "state_at_rest").find("0, 0") == 0);
+  CHECK(metadata(step, "command") == "dashpot export x");
+}
+
+TEST_CASE("ONNX: a block without a state is one file, in single precision if nothing else is said") {
+  const LawModel law = example_law(find_law("bingham"));
+  const auto rule = find_inverse("heaviside").make(law, {0, 2, 1e-3, 0});
+  const std::vector<ExportedFile> files = write_onnx_block(
+      [&](const ExportOptions& options) {
+        return c_inverse_block({.model = *rule, .domain = exported(law).domain}, options);
+      },
+      {});
+  REQUIRE(files.size() == 1);
+  CHECK(files[0].name == "heaviside_inverse.onnx");
+  const onnx::ModelProto model = parsed(files[0].content);
+  CHECK(faces(model.graph().input()) ==
+        "wanted[batch,1] displacement[batch,1] velocity[batch,1] current[batch,1] measured[batch,1]");
+  CHECK(faces(model.graph().output()) == "command[batch,1]");
+  CHECK(model.graph().input(0).type().tensor_type().elem_type() == onnx::TensorProto::FLOAT);
 }
 
 TEST_CASE("ONNX: inputs and outputs have names and a batch, metadata say what they are") {

@@ -71,17 +71,19 @@ static inline FirstRoot first_root(const RootError* f, const double* places, int
     if (bracket_holds(&b) != 0) {
       found.crosses = 1;
       found.rises = b.f_high > b.f_low;
-      found.place = root_crossing(f, &b, tolerance);
-    } else if (fabs(b.f_high) < nearest) {
-      nearest = fabs(b.f_high);
-      found.place = b.high;
     } else {
-      /* it comes no nearer */
+      if (fabs(b.f_high) < nearest) {
+        nearest = fabs(b.f_high);
+        found.place = b.high;
+      }
+      b.low = b.high;
+      b.f_low = b.f_high;
     }
     least = fmin(least, b.f_high);
     greatest = fmax(greatest, b.f_high);
-    b.low = b.high;
-    b.f_low = b.f_high;
+  }
+  if (found.crosses != 0) {
+    found.place = root_crossing(f, &b, tolerance);
   }
   found.variation = greatest - least;
   return found;

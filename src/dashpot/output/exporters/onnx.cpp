@@ -1,13 +1,12 @@
 #include "dashpot/output/exporters/onnx.h"
 
-#include <array>
-#include <optional>
+#include <algorithm>
 
 #include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
 #include "dashpot/damper/law_model.h"
 #include "dashpot/output/exporters/c_model.h"
-#include "dashpot/output/exporters/onnx/c_trace.h"
+#include "dashpot/output/exporters/onnx/calculation.h"
 #include "dashpot/output/exporters/onnx/live_nodes.h"
 #include "dashpot/output/exporters/onnx/onnx_graph.h"
 
@@ -15,253 +14,207 @@ namespace dashpot {
 namespace {
 
 using namespace trace;
+using Rows = std::vector<std::pair<std::string, std::string>>;
 
-constexpr std::array<const char*, 3> kInputs{"displacement", "velocity", "current"};
-constexpr const char* kDamperInput =
-    "typedef struct DamperInput {\n  double displacement;\n  double velocity;\n  double current;\n} "
-    "DamperInput;\n\n";
+/// What becomes a graph.
+struct Subject {
+  CBlock block;
+  std::string first;                ///< in place of block.step where a run begins
+  std::vector<std::string> states;  ///< names of block.state_size numbers, or none
+  Rows facts;                       ///< metadata of its own
+  std::string signs, command;
+};
 
-/// What a step and a rest of a model compute. A step reads the inputs at its end, those at its start, which
-/// are the first of the state, and the rest of the state.
-class Calculation {
+std::string in_words(const CPort& port) { return (port.unit.empty() ? "" : port.unit + ", ") + port.meaning; }
+
+class Files {
  public:
-  Calculation(const std::string& code, std::size_t state_size, double sample_time, bool is_single)
-      : graph(is_single),
-        program_(parse_c(code)),
-        size_(kInputs.size() + state_size),
-        sample_time_(sample_time) {
-    rest_ = rest_from({graph.input(0), graph.input(1), graph.input(2)}, false);
-    fixed_ = rest_.state;
-    while (!trace_step()) {
-    }
-    find_used();
-  }
+  explicit Files(const Subject& subject)
+      : subject_(subject), block_(subject.block), calculation_(block_, subject.first) {}
 
-  struct Outputs {
-    Node force = 0;
-    std::vector<Node> state;
-  };
-  const Outputs& step() const { return step_; }
-  const Outputs& rest() const { return rest_; }
-  /// What the force depends on, now or later: places in the state.
-  const std::vector<std::size_t>& used() const { return used_; }
-  Node state_input(std::size_t place) { return graph.input(kInputs.size() + place); }
-  /// The state at rest where displacement and current are zero.
-  std::vector<double> initial() {
-    const Node zero = graph.constant(0);
-    std::vector<double> values;
-    for (const Node node : rest_from({zero, zero, zero}, true).state) values.push_back(graph.value(node));
-    return values;
+  std::vector<ExportedFile> all() {
+    std::vector<ExportedFile> files{{block_.name + ".onnx", step()}};
+    if (has_state()) files.push_back({block_.name + "_rest.onnx", first()});
+    return files;
   }
-
-  Graph graph;
 
  private:
-  Outputs rest_from(const std::vector<Node>& input, bool unrolls) {
-    CTrace trace(program_, graph, unrolls);
-    const std::vector<Node> unknown(size_ - input.size(), graph.constant(0));
-    const std::size_t at = trace.room(input), state = trace.room(unknown);
-    trace.call("model_rest", {{.address = at}, {.address = state}});
-    Outputs out{trace.call("model_force", {{.address = at}, {.address = state}}), input};
-    append_state(trace, state, out);
-    return out;
-  }
+  bool has_state() const { return !calculation_.used().empty(); }
 
-  void append_state(const CTrace& trace, std::size_t address, Outputs& out) const {
-    for (std::size_t k = kInputs.size(); k < size_; ++k)
-      out.state.push_back(trace.number(address + k - kInputs.size()));
-  }
-
-  /// Holds what a rest leaves constant for constant. False where a step does not: then that is no longer.
-  bool trace_step() {
-    std::vector<Node> now, before;
-    for (std::size_t k = 0; k < size_; ++k)
-      before.push_back(graph.is_constant(fixed_[k]) ? fixed_[k] : state_input(k));
-    for (std::size_t k = 0; k < kInputs.size(); ++k) now.push_back(graph.input(k));
-    const std::vector<Node> from(before.begin(), before.begin() + kInputs.size());
-    CTrace trace(program_, graph);
-    const std::size_t start = trace.room(from), end = trace.room(now);
-    const std::size_t state = trace.room({before.begin() + kInputs.size(), before.end()});
-    trace.call("model_advance", {{.address = start},
-                                 {.address = end},
-                                 {.is_pointer = false, .number = graph.constant(sample_time_)},
-                                 {.address = state}});
-    step_ = {trace.call("model_force", {{.address = end}, {.address = state}}), now};
-    append_state(trace, state, step_);
-    bool is_so = true;
-    for (std::size_t k = 0; k < size_; ++k) {
-      if (!graph.is_constant(fixed_[k]) || step_.state[k] == fixed_[k]) continue;
-      fixed_[k] = state_input(k);
-      is_so = false;
+  std::string step() {
+    std::vector<OnnxFace> inputs = input_faces(), outputs = command_faces(calculation_.step());
+    if (has_state()) {
+      inputs.push_back({"state", "what is remembered: NAME_rest.onnx gives the first one", {}});
+      outputs.push_back(state_face("next_state", calculation_.step()));
+      for (const std::size_t place : calculation_.used())
+        inputs.back().columns.push_back(calculation_.state_input(place));
     }
-    return is_so;
+    return file(inputs, outputs, "One step of " + format_number(block_.sample_time) + " s of ");
   }
 
-  void find_used() {
-    std::vector<bool> is_used(size_);
-    std::vector<Node> needed{step_.force};
-    for (bool grows = true; grows;) {
-      grows = false;
-      const LiveNodes live(graph, needed);
-      for (std::size_t k = 0; k < size_; ++k) {
-        const Node input = state_input(k);
-        if (is_used[k] || !live.has(input)) continue;
-        is_used[k] = grows = true;
-        needed.push_back(step_.state[k]);
+  std::string first() {
+    std::vector<OnnxFace> outputs = command_faces(calculation_.first());
+    outputs.push_back(state_face("state", calculation_.first()));
+    return file(input_faces(), outputs, "How a run begins, after a long rest, of ");
+  }
+
+  std::vector<OnnxFace> command_faces(const Calculation::Outputs& outputs) const {
+    std::vector<OnnxFace> faces;
+    auto next = outputs.commands.begin();
+    for (const CPort& port : block_.commands) {
+      faces.push_back({port.name, in_words(port), {next, next + static_cast<std::ptrdiff_t>(port.count)}});
+      next += static_cast<std::ptrdiff_t>(port.count);
+    }
+    return faces;
+  }
+
+  OnnxFace state_face(const std::string& name, const Calculation::Outputs& outputs) const {
+    OnnxFace face{name, "what is remembered, for the next step", {}};
+    for (const std::size_t place : calculation_.used()) face.columns.push_back(outputs.state[place]);
+    return face;
+  }
+
+  /// Those that something reads, or the first: something must say how many there are beside each other.
+  std::vector<OnnxFace> input_faces() {
+    std::vector<Node> needed;
+    for (const Calculation::Outputs* outputs : {&calculation_.step(), &calculation_.first()}) {
+      needed.insert(needed.end(), outputs->commands.begin(), outputs->commands.end());
+      for (const std::size_t place : calculation_.used()) needed.push_back(outputs->state[place]);
+    }
+    const LiveNodes live(calculation_.graph, needed);
+    std::vector<OnnxFace> faces, unread;
+    std::size_t place = 0;
+    for (const CPort& port : block_.inputs) {
+      OnnxFace face{port.name, in_words(port), {}};
+      for (std::size_t k = 0; k < port.count; ++k) face.columns.push_back(calculation_.input(place++));
+      const bool is_read = std::ranges::any_of(face.columns, [&](Node node) { return live.has(node); });
+      (is_read ? faces : unread).push_back(std::move(face));
+    }
+    return faces.empty() ? std::vector{unread.front()} : faces;
+  }
+
+  std::string file(const std::vector<OnnxFace>& inputs, const std::vector<OnnxFace>& outputs,
+                   const std::string& what) {
+    const OnnxType type = calculation_.graph.is_single() ? OnnxType::Float : OnnxType::Double;
+    return onnx_bytes({.graph = onnx_graph(calculation_.graph, inputs, outputs, type),
+                       .producer_version = block_.version,
+                       .description = what + block_.title,
+                       .metadata = metadata()});
+  }
+
+  /// Behind the state of the C code, which comes last in its struct, a damper has its last inputs.
+  std::string state_name(std::size_t place) const {
+    const std::size_t before = calculation_.state_size() - block_.state_size;
+    if (place < before) return "previous_" + block_.inputs[place].name;
+    return subject_.states.empty() ? "state_" + std::to_string(place - before)
+                                   : subject_.states[place - before];
+  }
+
+  Rows metadata() {
+    std::vector<std::string> units, names, initial;
+    for (const auto* ports : {&block_.inputs, &block_.commands})
+      for (const CPort& port : *ports)
+        if (!port.unit.empty()) units.push_back(port.name + ' ' + port.unit);
+    if (has_state())
+      for (const std::vector<double> at_rest = calculation_.at_rest();
+           const std::size_t place : calculation_.used()) {
+        names.push_back(state_name(place));
+        initial.push_back(format_exact(at_rest[place]));
       }
-    }
-    for (std::size_t k = 0; k < size_; ++k)
-      if (is_used[k]) used_.push_back(k);
+    Rows rows = subject_.facts;
+    rows.insert(rows.end(), {{"sample_time", format_exact(block_.sample_time) + " s"},
+                             {"units", join(units, ", ")},
+                             {"signs", subject_.signs},
+                             {"state", join(names, ", ")},
+                             {"state_at_rest", join(initial, ", ")},
+                             {"command", subject_.command}});
+    std::erase_if(rows, [](const auto& row) { return row.second.empty(); });
+    return rows;
   }
 
-  const CProgram program_;
-  const std::size_t size_;
-  const double sample_time_;
-  Outputs rest_, step_;
-  std::vector<Node> fixed_;
-  std::vector<std::size_t> used_;
+  const Subject& subject_;
+  const CBlock& block_;
+  Calculation calculation_;
 };
+
+std::vector<ExportedFile> files_of(const Subject& subject) {
+  try {
+    return Files(subject).all();
+  } catch (const Error& error) {
+    throw Error(subject.facts.front().second, std::string("cannot become a graph: ") + error.what(),
+                "--to c");
+  }
+}
+
+CPrecision precision_of(const ExportOptions& options) {
+  return options.precision.value_or(CPrecision::Single);
+}
 
 std::string span_text(double low, double high, const std::string& unit) {
   return format_exact(low) + " ... " + format_exact(high) + ' ' + unit;
 }
 
-/// Of the places in the state that are used.
-std::vector<std::string> state_names(const DamperModel& model, const std::vector<std::size_t>& used) {
+Rows facts_of(const ExportedModel& model) {
+  const Domain& d = model.domain;
+  return {{"model", model.model.name()},
+          {"kind", model.model.kind()},
+          {"origin", model.origin},
+          {"domain_displacement", span_text(d.displacement_min, d.displacement_max, "m")},
+          {"domain_velocity", span_text(d.velocity_min, d.velocity_max, "m/s")},
+          {"domain_current", span_text(d.current_min, d.current_max, model.drive_unit)}};
+}
+
+std::vector<std::string> state_names(const DamperModel& model) {
   const auto* law = dynamic_cast<const LawModel*>(&model);
   std::vector<std::string> names;
-  for (const std::size_t place : used) {
-    if (place < kInputs.size()) {
-      names.push_back(std::string("previous_") + kInputs[place]);
-      continue;
-    }
-    const std::size_t k = place - kInputs.size();
-    if (!law)
-      names.push_back("state_" + std::to_string(k));
-    else
-      names.emplace_back(k < law->law().states.size() ? law->law().states[k].name : "coil_current");
-  }
+  if (!law) return names;
+  for (const StateInfo& state : law->law().states) names.emplace_back(state.name);
+  names.resize(std::max<std::size_t>(1, model.state_size()), "coil_current");
   return names;
 }
 
-bool is_single(const ExportOptions& options) { return options.precision != CPrecision::Double; }
-
-class Files {
- public:
-  Files(const ExportedModel& model, const ExportOptions& options, const std::string& code, double sample_time)
-      : model_(model),
-        options_(options),
-        is_single_(is_single(options)),
-        sample_time_(sample_time),
-        calculation_(code, model.model.state_size(), sample_time_, is_single_) {}
-
-  std::vector<ExportedFile> all(const std::string& name) {
-    std::vector<ExportedFile> files{{name + ".onnx", step()}};
-    if (!calculation_.used().empty()) files.push_back({name + "_rest.onnx", rest()});
-    return files;
-  }
-
- private:
-  std::string step() {
-    std::vector<OnnxFace> outputs{force_face(calculation_.step())};
-    std::vector<OnnxFace> states;
-    if (!calculation_.used().empty()) {
-      states.push_back({"state", "what the damper remembers: NAME_rest.onnx gives the first one", {}});
-      outputs.push_back(state_face("next_state", calculation_.step()));
-      for (const std::size_t place : calculation_.used())
-        states[0].columns.push_back(calculation_.state_input(place));
-    }
-    return file(states, outputs, "One step of " + format_number(sample_time_) + " s of a damper: ");
-  }
-
-  std::string rest() {
-    return file({}, {force_face(calculation_.rest()), state_face("state", calculation_.rest())},
-                "Where a run begins, a damper after a long rest: ");
-  }
-
-  static OnnxFace force_face(const Calculation::Outputs& outputs) {
-    return {"force", "N, positive when it resists extension", {outputs.force}};
-  }
-
-  OnnxFace state_face(const std::string& name, const Calculation::Outputs& outputs) const {
-    OnnxFace face{name, "what the damper remembers, for the next step", {}};
-    for (const std::size_t place : calculation_.used()) face.columns.push_back(outputs.state[place]);
-    return face;
-  }
-
-  /// Those that a step or a rest reads, and velocity: something must say how many dampers there are.
-  std::vector<OnnxFace> input_faces() {
-    std::vector<Node> needed{calculation_.step().force, calculation_.rest().force};
-    for (const std::size_t place : calculation_.used()) {
-      needed.push_back(calculation_.step().state[place]);
-      needed.push_back(calculation_.rest().state[place]);
-    }
-    const LiveNodes live(calculation_.graph, needed);
-    const std::array<std::string, 3> meanings{"m, extension positive", "m/s, extension positive",
-                                              model_.drive_unit + ", command to the coil"};
-    std::vector<OnnxFace> faces;
-    for (std::size_t k = 0; k < kInputs.size(); ++k) {
-      const Node input = calculation_.graph.input(k);
-      if (k == 1 || live.has(input)) faces.push_back({kInputs[k], meanings[k], {input}});
-    }
-    return faces;
-  }
-
-  std::string file(const std::vector<OnnxFace>& states, const std::vector<OnnxFace>& outputs,
-                   const std::string& what) {
-    std::vector<OnnxFace> inputs = input_faces();
-    inputs.insert(inputs.end(), states.begin(), states.end());
-    const OnnxType type = is_single_ ? OnnxType::Float : OnnxType::Double;
-    return onnx_bytes({.graph = onnx_graph(calculation_.graph, inputs, outputs, type),
-                       .producer_version = options_.version,
-                       .description = what + model_.model.name() + ". " + model_.origin,
-                       .metadata = metadata()});
-  }
-
-  std::vector<std::pair<std::string, std::string>> metadata() {
-    const Domain& d = model_.domain;
-    std::string initial;
-    if (!calculation_.used().empty()) {
-      const std::vector<double> values = calculation_.initial();
-      for (const std::size_t place : calculation_.used())
-        initial += (initial.empty() ? "" : ", ") + format_exact(values[place]);
-    }
-    std::vector<std::pair<std::string, std::string>> rows{
-        {"model", model_.model.name()},
-        {"kind", model_.model.kind()},
-        {"origin", model_.origin},
-        {"sample_time", format_exact(sample_time_) + " s"},
-        {"units", "displacement m, velocity m/s, current " + model_.drive_unit + ", force N"},
-        {"signs", "extension positive; force positive when it resists extension"},
-        {"domain_displacement", span_text(d.displacement_min, d.displacement_max, "m")},
-        {"domain_velocity", span_text(d.velocity_min, d.velocity_max, "m/s")},
-        {"domain_current", span_text(d.current_min, d.current_max, model_.drive_unit)},
-        {"state", join(state_names(model_.model, calculation_.used()), ", ")},
-        {"state_at_rest", initial},
-        {"command", options_.command}};
-    std::erase_if(rows, [](const auto& row) { return row.second.empty(); });
-    return rows;
-  }
-
-  const ExportedModel& model_;
-  const ExportOptions& options_;
-  const bool is_single_;
-  const double sample_time_;
-  Calculation calculation_;
-};
+/// A damper as a block whose command is its force.
+CBlock damper_block(const ExportedModel& model, const ExportOptions& options) {
+  const std::size_t size = std::max<std::size_t>(1, model.model.state_size());
+  const double sample_time = export_sample_time(model, options);
+  return {.name = export_name(model, options),
+          .title = "a damper: " + model.model.name() + ". " + model.origin,
+          .precision = precision_of(options),
+          .header = "#define DAMPER_STATE_SIZE " + std::to_string(size) + "\n#define DAMPER_SAMPLE_TIME " +
+                    c_number(sample_time) + "\n" + std::string(c_text("damper_api.h")),
+          .source = "\ntypedef damper_input DamperInput;\n" + with_texts(c_model(model.model).code) +
+                    std::string(c_text("damper_api.c")),
+          .step = "commands[0] = damper_step(&model, &input);",
+          .inputs = {{"displacement", "m", "extension positive", "displacement"},
+                     {"velocity", "m/s", "extension positive", "velocity"},
+                     {"current", model.drive_unit, "command to the coil", "current"}},
+          .commands = {{"force", "N", "positive when it resists extension", "commands[0]"}},
+          .state_size = size,
+          .sample_time = sample_time,
+          .version = options.version};
+}
 
 }  // namespace
 
 std::vector<ExportedFile> write_onnx(const ExportedModel& model, const ExportOptions& options) {
-  const std::string name = export_name(model, options);
-  const std::string code = in_precision(kDamperInput + with_texts(c_model(model.model).code),
-                                        is_single(options) ? CPrecision::Single : CPrecision::Double);
-  const double sample_time = export_sample_time(model, options);
-  try {
-    return Files(model, options, code, sample_time).all(name);
-  } catch (const Error& error) {
-    throw Error(model.model.name(), std::string("cannot become a graph: ") + error.what(), "--to c or fmu3");
-  }
+  return files_of({.block = damper_block(model, options),
+                   .first = "commands[0] = damper_force(&input, model.state);",
+                   .states = state_names(model.model),
+                   .facts = facts_of(model),
+                   .signs = "extension positive; force positive when it resists extension",
+                   .command = options.command});
+}
+
+std::vector<ExportedFile> write_onnx_block(const CBlockMaker& block, const ExportOptions& options) {
+  ExportOptions own = options;
+  own.precision = precision_of(options);
+  const CBlock made = block(own);
+  return files_of({.block = made,
+                   .first = made.step,
+                   .states = {},
+                   .facts = {{"model", made.title}},
+                   .signs = "z up, extension positive; forces positive when they resist extension",
+                   .command = options.command});
 }
 
 }  // namespace dashpot

@@ -5,7 +5,9 @@
 /* A force within what damping can give at this speed. */
 static inline DamperDemand dissipating_force(double force, double velocity, const ControlLimits* limits) {
   const double a = limits->damping_min * velocity, b = limits->damping_max * velocity;
-  return demand_of(kDemandForce, fmin(fmax(force, fmin(a, b)), fmax(a, b)));
+  const double low = (a < b) ? a : b, high = (a < b) ? b : a;
+  const double least = (force > low) ? force : low; /* nor a number */
+  return demand_of(kDemandForce, (least < high) ? least : high);
 }
 
 #endif

@@ -5,7 +5,11 @@
 /* One law's demand at low frequencies of the body, another's at high ones. */
 static inline DamperDemand selected_demand(const StrutSignals* s, double crossover, DamperDemand low,
                                            DamperDemand high) {
-  return (frequency_range(s, crossover) > 0) ? high : low;
+  DamperDemand demand = low;
+  if (frequency_range(s, crossover) > 0) {
+    demand = high;
+  }
+  return demand;
 }
 
 #endif

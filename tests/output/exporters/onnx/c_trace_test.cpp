@@ -115,6 +115,39 @@ TRACED(
              atanh(0.4 * y) + tan(0.5 * x) + cos(x) + pow(u, 1.5) + ceil(x) + floor(y) + sqrt(u) + tanh(x);
     })
 
+TRACED(
+    blocks, typedef enum Kind{Least, Most} Kind; typedef Kind Choice; typedef struct Wish {
+      Choice kind;
+      double value;
+    } Wish;
+    typedef struct Wishes {
+      Wish each[1 + 2];
+      const double* from;
+    } Wishes;
+    static Wish wish_of(Choice kind, double value); static double granted(Wish wish, double held) {
+      wish.value = wish.kind == Most ? fmax(wish.value, held) : fmin(wish.value, held);
+      return wish.value;
+    } static Wish wish_of(Choice kind, double value) {
+      Wish wish;
+      wish.kind = kind;
+      wish.value = value;
+      return wish;
+    } static double f(double x, double y) {
+      const double values[2] = {x, y};
+      Wishes all;
+      Wish last;
+      double sum = 0;
+      int k;
+      all.from = values;
+      for (k = 0; k < 2; ++k) {
+        all.each[k] = wish_of(k == 0 ? Most : Least, all.from[k]);
+        last = all.each[k];
+        sum += granted(last, 0.5) + last.value;
+      }
+      if ((isfinite(1 / (x - x)) != 0) || (isnan(x) != 0)) sum = 0;
+      return sum + ((isfinite(y) != 0) ? 1 : 0);
+    })
+
 using Calculation = double (*)(double x, double y);
 
 /// The text in a graph, for inputs that only its evaluation knows, against the compiled text.
@@ -148,6 +181,7 @@ TEST_CASE("tracing C: branches, returns, loops, pointers and functions give what
   check_traced(counts_text, counts::f, 1e-14);
   check_traced(pointers_text, pointers::f, 1e-14);
   check_traced(functions_text, functions::f, 1e-12);
+  check_traced(blocks_text, blocks::f, 1e-14);
 }
 
 TEST_CASE("tracing C: the same is computed once, sums of multiples become one, what is known is folded") {
@@ -163,6 +197,17 @@ TEST_CASE("tracing C: the same is computed once, sums of multiples become one, w
   CHECK(graph.at(sum).numbers == std::vector<double>{5, 0.5, 1});
 }
 
+TEST_CASE("tracing C: what is no number is told from what is") {
+  const CProgram program = parse_c(
+      "#ifdef __cplusplus\nextern \"C\" {\n#endif\n"
+      "double f(double x) { return 2 * (isfinite(x) != 0) + (isnan(x) != 0); }");
+  Graph graph(false);
+  CTrace trace(program, graph);
+  const Node kind = trace.call("f", {{.is_pointer = false, .number = graph.input(0)}});
+  for (const auto& [x, expected] : {std::pair{1e300, 2.}, {NAN, 1.}, {HUGE_VAL, 0.}, {-HUGE_VAL, 0.}})
+    CHECK(GraphEvaluator(graph, {x})(kind) == expected);
+}
+
 TEST_CASE("tracing C: what no graph has is refused") {
   const auto traced = [](const char* text) {
     return message_of([&] {
@@ -175,6 +220,11 @@ TEST_CASE("tracing C: what no graph has is refused") {
   CHECK(traced("double f(double x) { return gamma(x); }").find("calls 'gamma', which no graph has") !=
         std::string::npos);
   CHECK(traced("double f(double x) { do { x = 1; } while (x > 2); return x; }").find("C text: ") == 0);
+  CHECK(traced("typedef struct P { double a; } P; double f(double x) { P p = {1}; P q = {2}; p = x > 0 ? p : "
+               "q; return p.a; }")
+            .find("has a pointer or struct where") != std::string::npos);
+  CHECK(traced("double f(double x) { double a[2 - 1]; return x; }").find("a constant is expected") !=
+        std::string::npos);
   CHECK(traced("double f(double x) { return y; }").find("without a declaration: 'y'") != std::string::npos);
   CHECK(traced("double f(double x) { while (x > 2) { return 1; } return x; }").find("by a return") !=
         std::string::npos);

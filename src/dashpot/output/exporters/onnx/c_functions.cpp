@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <numbers>
 
 namespace dashpot::trace {
@@ -67,6 +68,11 @@ constexpr std::array kFunctions{
     Function{"floor", of_one<Op::Floor>},
     Function{"fmax", [](Graph& g, std::span<const Node> a) { return g.most(a[0], a[1]); }},
     Function{"fmin", [](Graph& g, std::span<const Node> a) { return g.least(a[0], a[1]); }},
+    Function{"isfinite",
+             [](Graph& g, std::span<const Node> a) {
+               return g.less(g.apply(Op::Abs, a[0]), g.constant(std::numeric_limits<double>::infinity()));
+             }},
+    Function{"isnan", [](Graph& g, std::span<const Node> a) { return g.opposite(g.equal(a[0], a[0])); }},
     Function{"log", of_one<Op::Log>},
     Function{"log1p", [](Graph& g, std::span<const Node> a) { return log1p(g, a[0]); }},
     Function{"pow", [](Graph& g, std::span<const Node> a) { return g.power(a[0], a[1]); }},

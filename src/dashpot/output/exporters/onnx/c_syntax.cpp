@@ -85,10 +85,18 @@ class Parser {
     out.name = word();
     if (take("[")) {
       out.type.is_array = true;
-      if (!is("]")) out.type.count = static_cast<std::size_t>(expression().number);
+      if (!is("]")) out.type.count = static_cast<std::size_t>(constant(expression()));
       need("]");
     }
     return out;
+  }
+
+  /// A size of an array.
+  double constant(const CExpr& expr) const {
+    if (expr.kind == CExpr::Kind::Number) return expr.number;
+    if (expr.kind != CExpr::Kind::Binary || (expr.text != "+" && expr.text != "*")) fail("a constant");
+    const double a = constant(expr.parts[0]), b = constant(expr.parts[1]);
+    return expr.text == "+" ? a + b : a * b;
   }
 
   CInitialiser initialiser() {
@@ -118,7 +126,26 @@ class Parser {
     return out;
   }
 
+  /// Its names are constants, counted from 0.
+  CType enumeration() {
+    const CType type{.kind = CType::Kind::Int};
+    word();
+    need("{");
+    for (double value = 0; !take("}"); ++value) {
+      CExpr number{.number = value, .is_integer = true};
+      program_.globals.push_back({word(), type, {{.value = {std::move(number)}}}});
+      if (!is("}")) need(",");
+    }
+    return type;
+  }
+
   void type_definition() {
+    if (take("enum")) {
+      const CType type = enumeration();
+      types_[word()] = type;
+      need(";");
+      return;
+    }
     if (!take("struct")) {
       const CType type = base_type_of_alias();
       types_[word()] = type;
@@ -157,6 +184,7 @@ class Parser {
       function.parameters.push_back(declarator(base_type()));
       if (!is(")")) need(",");
     }
+    if (take(";")) return;  // it comes later
     function.body.push_back(statement());
     program_.functions[name] = std::move(function);
   }
@@ -325,6 +353,13 @@ std::size_t CProgram::size_of(const CType& type) const {
     for (const CDeclaration& field : structs[type.structure].fields) one += size_of(field.type);
   }
   return type.is_array ? type.count * one : one;
+}
+
+std::size_t CProgram::size_of_struct(std::string_view name) const {
+  const auto found = std::ranges::find(structs, name, &CStruct::name);
+  if (found == structs.end()) throw Error("C text", "has no struct '" + std::string(name) + "'");
+  return size_of(
+      {.kind = CType::Kind::Struct, .structure = static_cast<std::size_t>(found - structs.begin())});
 }
 
 CProgram parse_c(std::string_view code) { return Parser(code).program(); }

@@ -67,6 +67,7 @@ struct CProgram {
 
   /// Numbers and pointers in it.
   std::size_t size_of(const CType& type) const;
+  std::size_t size_of_struct(std::string_view name) const;
 };
 
 /// The part of C99 in which the texts of exported models are written: structs, functions, tables, if, for,

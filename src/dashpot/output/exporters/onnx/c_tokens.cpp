@@ -29,7 +29,11 @@ std::string without_comments(std::string_view code) {
 class Scanner {
  public:
   std::vector<CToken> all(const std::string& code) {
+    bool is_foreign = false;
     for (const std::string& line : split(code, '\n')) {
+      if (line.starts_with("#ifdef ")) is_foreign = true;  // of C++
+      if (line.starts_with("#endif")) is_foreign = false;
+      if (is_foreign) continue;
       if (line.starts_with("#define ")) define(line.substr(8));
       if (!line.starts_with("#")) scan(line, tokens_);
     }

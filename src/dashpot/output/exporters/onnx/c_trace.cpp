@@ -57,9 +57,10 @@ void CTrace::store_pointer(std::size_t address, const Value& value) {
   memory_[address].value = {true, true, 0, copy_at, memory_.size(), value.size};
 }
 
-void CTrace::copy(std::size_t from, std::size_t to, std::size_t count) {
-  for (std::size_t k = 0; k < count; ++k)
-    if (memory_[from + k].value.is_set) store(to + k, Value(memory_[from + k].value));
+void CTrace::give(const Result& from, const CType& type, std::size_t to) {
+  if (!type.is_struct()) return store(to, load(from));
+  for (std::size_t k = 0; k < program_.size_of(type); ++k)
+    if (const Value value = memory_[from.address + k].value; value.is_set) store(to + k, value);
 }
 
 CTrace::Value CTrace::load(const Result& result) {
@@ -77,7 +78,8 @@ CTrace::Value CTrace::load(const Result& result) {
 
 Node CTrace::number_of(const Result& result) {
   const Value value = load(result);
-  if (value.is_pointer) throw Error("C text", "has a pointer where a number should stand");
+  if (value.is_pointer || result.type.is_struct())
+    throw Error("C text", "has a pointer or struct where a number should stand");
   return value.node;
 }
 
@@ -104,12 +106,7 @@ void CTrace::clear(const CType& type, std::size_t address) {
 
 void CTrace::initialise(const CType& type, std::size_t address, const CInitialiser& initialiser) {
   if (!initialiser.value.empty()) {
-    const Result value = evaluate(initialiser.value[0]);
-    if (type.is_struct())
-      copy(value.address, address, program_.size_of(type));
-    else
-      store(address, load(value));
-    return;
+    return give(evaluate(initialiser.value[0]), type, address);
   }
   clear(type, address);
   CType element = type;
@@ -173,13 +170,7 @@ CTrace::Flow CTrace::run_if(const CStatement& statement) {
 }
 
 CTrace::Flow CTrace::run_return(const CStatement& statement) {
-  if (!statement.exprs.empty()) {
-    const Result value = evaluate(statement.exprs[0]);
-    if (returned_.type.is_struct())
-      copy(value.address, returned_.address, program_.size_of(returned_.type));
-    else
-      store(returned_.address, load(value));
-  }
+  if (!statement.exprs.empty()) give(evaluate(statement.exprs[0]), returned_.type, returned_.address);
   if (active_ == function_entry_) return Flow::Returned;
   active_ = graph_.truth(false);
   return Flow::On;
@@ -191,14 +182,12 @@ CTrace::Result CTrace::call_function(const CFunction& function, const std::vecto
   const std::size_t mark = memory_.size();
   const Variable caller = returned_;
   const Node caller_entry = function_entry_;
-  std::vector<Value> values;
-  for (const Result& argument : arguments) values.push_back(load(argument));
   returned_ = {function.result, allocate(function.result)};
   scopes_.emplace_back();
-  for (std::size_t k = 0; k < values.size(); ++k) {
+  for (std::size_t k = 0; k < arguments.size(); ++k) {
     const CDeclaration& parameter = function.parameters.at(k);
     declare({.name = parameter.name, .type = parameter.type});
-    store(find(parameter.name).address, values[k]);
+    give(arguments[k], parameter.type, find(parameter.name).address);
   }
   function_entry_ = active_;
   run(function.body[0]);

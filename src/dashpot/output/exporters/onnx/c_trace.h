@@ -58,7 +58,8 @@ class CTrace {
   std::size_t allocate(const CType& type);
   void store(std::size_t address, const Value& value);
   void store_pointer(std::size_t address, const Value& value);
-  void copy(std::size_t from, std::size_t to, std::size_t count);
+  /// Writes a value of this type, a struct field by field.
+  void give(const Result& from, const CType& type, std::size_t to);
   Value load(const Result& result);
   Node number_of(const Result& result);
   const Variable& find(std::string_view name) const;

@@ -123,12 +123,8 @@ CTrace::Result CTrace::arithmetic(std::string_view mark, const Result& a, const 
 CTrace::Result CTrace::assign(const CExpr& expr) {
   const Result to = evaluate(expr.parts[0]);
   Result from = evaluate(expr.parts[1]);
-  if (to.type.is_struct()) {
-    copy(from.address, to.address, program_.size_of(to.type));
-    return to;
-  }
   if (!expr.text.empty()) from = arithmetic(expr.text, to, from);
-  store(to.address, load(from));
+  give(from, to.type, to.address);
   return to;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <numeric>
+#include <set>
 
 #include "dashpot/base/text.h"
 #include "dashpot/output/exporters/onnx/live_nodes.h"
@@ -37,7 +38,7 @@ class Writer {
           {input.name, type_, static_cast<std::int64_t>(input.columns.size()), input.meaning});
     }
     open(out);
-    emit("Shape", {inputs.at(0).name}, kBatch);
+    first_input_ = inputs.at(0).name;
     write_region(0);
     for (const OnnxFace& output : outputs) {
       emit("Identity", {packed(output.columns)}, output.name);
@@ -45,7 +46,6 @@ class Writer {
           {output.name, type_, static_cast<std::int64_t>(output.columns.size()), output.meaning});
     }
     close();
-    if (!needs_batch_) out.nodes.erase(out.nodes.begin());
     out.constants = std::move(constants_);
     return out;
   }
@@ -131,16 +131,34 @@ class Writer {
 
   /// [batch, nodes], wherever they stand.
   std::string packed(const Nodes& nodes) {
-    Names parts;
-    for (std::size_t begin = 0, end; begin < nodes.size(); begin = end) {
-      const std::string tensor = source(nodes[begin]);
-      for (end = begin; end < nodes.size() && source(nodes[end]) == tensor; ++end) {
-      }
-      const Nodes run(nodes.begin() + static_cast<std::ptrdiff_t>(begin),
-                      nodes.begin() + static_cast<std::ptrdiff_t>(end));
-      parts.push_back(tensor == "#" ? spread(run) : columns_of(tensor, run));
+    std::vector<Nodes> runs;  // of nodes that stand in the same tensor
+    std::set<std::string> tensors;
+    for (const Node node : nodes) {
+      if (runs.empty() || source(node) != source(runs.back().back())) runs.emplace_back();
+      runs.back().push_back(node);
+      tensors.insert(source(node));
     }
+    if (runs.size() > tensors.size() + 1) return reordered(nodes);
+    Names parts;
+    for (const Nodes& run : runs)
+      parts.push_back(is_constant(run[0]) ? spread(run) : columns_of(source(run[0]), run));
     return parts.size() == 1 ? parts[0] : emit("Concat", parts, {}, {{"axis", 1}});
+  }
+
+  /// The same: put together tensor by tensor first.
+  std::string reordered(const Nodes& nodes) {
+    std::vector<std::size_t> order(nodes.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::ranges::stable_sort(order, {}, [&](std::size_t k) { return source(nodes[k]); });
+    Nodes sorted;
+    std::vector<double> columns(nodes.size());
+    for (std::size_t k = 0; k < order.size(); ++k) {
+      sorted.push_back(nodes[order[k]]);
+      columns[order[k]] = static_cast<double>(k);
+    }
+    const auto count = static_cast<std::int64_t>(nodes.size());
+    return emit("Gather", {packed(sorted), constant(OnnxType::Int64, {count}, std::move(columns))}, {},
+                {{"axis", 1}});
   }
 
   std::string columns_of(const std::string& tensor, const Nodes& nodes) {
@@ -155,8 +173,22 @@ class Writer {
     for (const Node node : nodes) values.push_back(graph_.value(node));
     const auto width = static_cast<std::int64_t>(nodes.size());
     const OnnxType type = graph_.at(nodes[0]).is_truth ? OnnxType::Bool : type_;
-    needs_batch_ = true;
-    return emit("Expand", {constant(type, {1, width}, std::move(values)), kBatch});
+    return emit("Expand", {constant(type, {1, width}, std::move(values)), batch_shape()});
+  }
+
+  /// [batch, 1]: made before all else, once, where it is needed.
+  std::string batch_shape() {
+    if (has_batch_shape_) return kBatch;
+    has_batch_shape_ = true;
+    std::vector<OnnxNode> made{{"Shape", {first_input_}, {kBatch}, {}, {}}};
+    if (widths_.at(first_input_) > 1) {
+      const std::string first = constant(OnnxType::Int64, {1}, {0});
+      made[0].inputs = {"first_column"};
+      made.insert(made.begin(), {"Gather", {first_input_, first}, {"first_column"}, {{"axis", 1}}, {}});
+    }
+    std::vector<OnnxNode>& nodes = scopes_.front().graph->nodes;
+    nodes.insert(nodes.begin(), made.begin(), made.end());
+    return kBatch;
   }
 
   // Groups of nodes.
@@ -332,7 +364,8 @@ class Writer {
   std::map<std::string, std::string> constant_names_;
   std::vector<OnnxTensor> constants_;
   std::size_t count_ = 0;
-  bool needs_batch_ = false;
+  std::string first_input_;
+  bool has_batch_shape_ = false;
 };
 
 }  // namespace
