@@ -25,7 +25,8 @@ struct Fmu {
   std::vector<ExportedFile> code;  ///< damper.h, damper.c: names begin with "damper", whatever the FMU's name
   std::string interface;           ///< the text that makes of it what c/fmu.h asks for: its name
   std::string definitions;         ///< what that text needs, C
-  std::vector<FmuVariable> variables;
+  std::vector<FmuVariable> variables{
+      {.role = FmuVariable::Role::Time, .name = "time", .unit = "s", .meaning = "simulation time"}};
   std::size_t first_parameter = 0;       ///< where in the state
   bool sampled = false;                  ///< outputs change at samples only
   bool exchanges = false;                ///< an integrator can bring it on: all continuous states are known

@@ -48,7 +48,6 @@ Fmu block_fmu(const CBlock& block, const ExportOptions& options) {
           .code = c_block_sources(block, "damper", options.command),
           .interface = "fmu_block.h",
           .definitions = filled(kDefinitions, {{"reads", c_block_reads(block)}, {"step", block.step}}),
-          .variables = {{.role = Role::Time, .name = "time", .unit = "s", .meaning = "simulation time"}},
           .sampled = true,
           .sample_time = block.sample_time,
           .grid = block.sample_time,

@@ -134,7 +134,6 @@ Fmu model_fmu(const ExportedModel& model, const ExportOptions& options) {
           .code = {{"damper.h", source.header}, {"damper.c", source.source}},
           .interface = "fmu_damper.h",
           .definitions = "#define FMU_STATE_SIZE " + std::to_string(size) + "\n",
-          .variables = {{.role = Role::Time, .name = "time", .unit = "s", .meaning = "simulation time"}},
           .first_parameter = source.first_parameter,
           .exchanges = source.state_size == 0 || !source.states.empty() || !source.parameters.empty(),
           .sample_time = source.sample_time,
