@@ -25,7 +25,8 @@ TEST_CASE("exported controllers: every law gives the library's commands within 1
   check_that_it_runs(folder, "");
 }
 
-TEST_CASE("exported controllers: in single precision within 1e-5, without a double") {
+TEST_CASE("exported controllers: in single precision within 1e-5, without a double" *
+          doctest::test_suite("long")) {
   if (!is_there("cc")) return;
   const TemporaryFolder folder;
   write_all(folder, CPrecision::Single);
@@ -102,7 +103,8 @@ int main(void) {
   }
 }
 
-TEST_CASE("exported controllers: what cppcheck's MISRA add-on says is listed in the header") {
+TEST_CASE("exported controllers: what cppcheck's MISRA add-on says is listed in the header" *
+          doctest::test_suite("long")) {
   if (!is_there("cppcheck")) return;
   const TemporaryFolder folder;
   for (const BlockCase& one : controller_cases()) {

@@ -27,7 +27,8 @@ TEST_CASE("exported C: every kind of model in double precision gives the library
   check_that_it_runs(folder, "");
 }
 
-TEST_CASE("exported C: every kind of model in single precision gives it within 1e-5, without a double") {
+TEST_CASE("exported C: every kind of model in single precision gives it within 1e-5, without a double" *
+          doctest::test_suite("long")) {
   if (!is_there("cc")) return;
   const TemporaryFolder folder;
   write_all(folder, CPrecision::Single);
@@ -71,7 +72,8 @@ TEST_CASE("exported C: a name that the code has inside is refused") {
   CHECK(c_source(exported(model), {}).prefix == "dahl_damper");
 }
 
-TEST_CASE("exported C: what cppcheck's MISRA add-on says is listed in the header") {
+TEST_CASE("exported C: what cppcheck's MISRA add-on says is listed in the header" *
+          doctest::test_suite("long")) {
   if (!is_there("cppcheck")) return;
   const TemporaryFolder folder;
   for (const ExampleModel& example : example_models()) {

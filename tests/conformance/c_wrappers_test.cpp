@@ -58,7 +58,8 @@ void for_each_kind(const std::function<void(const ExampleModel&)>& check) {
 
 }  // namespace
 
-TEST_CASE("exported S-function: it steps as Simulink steps it, and gives the library's force") {
+TEST_CASE("exported S-function: it steps as Simulink steps it, and gives the library's force" *
+          doctest::test_suite("long")) {
   if (!is_there("cc")) return;
   for_each_kind([](const ExampleModel& example) {
     CAPTURE(example.name);
@@ -73,7 +74,8 @@ TEST_CASE("exported S-function: it steps as Simulink steps it, and gives the lib
   });
 }
 
-TEST_CASE("exported Modelica package: its library builds as it says, its C part gives the library's force") {
+TEST_CASE("exported Modelica package: its library builds as it says, its C part gives the library's force" *
+          doctest::test_suite("long")) {
   if (!is_there("cc")) return;
   for_each_kind([](const ExampleModel& example) {
     CAPTURE(example.name);
@@ -130,7 +132,7 @@ TEST_CASE("exported Modelica package: what begins ends, and what is called is th
   CHECK(text.find("&lt;x&gt;") != std::string::npos);
 }
 
-TEST_CASE("exported MEX: Octave builds it and gets the library's force") {
+TEST_CASE("exported MEX: Octave builds it and gets the library's force" * doctest::test_suite("long")) {
   if (!is_there("mkoctfile") || !is_there("octave-cli")) return;
   const TemporaryFolder folder;
   std::string commands, checks;

@@ -1,4 +1,5 @@
 #include <array>
+#include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
@@ -13,16 +14,16 @@
 #include "dashpot/base/random.h"
 #include "fuzz.h"
 
-// Every target for some seconds with seeds changed by chance: what ./test runs, since libFuzzer would want
-// another build of the library. What it finds it keeps in a file.
+// A target for some seconds with seeds changed by chance: what ./test runs (tests/fuzz/attack), since
+// libFuzzer would want another build of the library. What it finds it keeps in a file.
 
 namespace {
 
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-constexpr unsigned kMostSeconds = 20;      // of one input, with sanitizers on a busy machine
-constexpr std::size_t kMostInputs = 5000;  // of a target, so that a quicker machine tries nothing new
+constexpr unsigned kMostSeconds = 20;  // of one input, with sanitizers on a busy machine
+constexpr double kMostInputs = 5000;   // in a second, so that a quicker machine tries nothing new
 
 /// What is being tried, for the moment of death.
 struct {
@@ -33,8 +34,9 @@ struct {
 void keep_finding() {
   if (!now.target) return;
   std::ofstream(now.finding, std::ios::binary) << now.input;
-  std::fprintf(stderr, "FINDING in %s: kept in %s\n", std::string(now.target->name()).c_str(),
-               now.finding.c_str());
+  const std::string name(now.target->name());
+  std::fprintf(stderr, "FINDING in %s: kept in %s\nto repeat it: %s %s %s\n", name.c_str(),
+               now.finding.c_str(), program_invocation_name, name.c_str(), now.finding.c_str());
 }
 
 /// From an assertion, an exception that nobody caught, or too long a run.
@@ -137,14 +139,15 @@ std::vector<std::string> seeds_of(const fs::path& folder) {
 
 /// The same inputs in the same order every time, as far as time or number reach.
 void attack(const FuzzTarget& target, const fs::path& seed_folder, double seconds) {
-  now.finding = "finding-" + std::string(target.name());
+  now.finding = fs::absolute("finding-" + std::string(target.name()));
   const std::vector<std::string> seeds = seeds_of(seed_folder);
   for (const std::string& seed : seeds) try_input(target, seed);
   Mutator mutator(seeds, 1);
   const Clock::time_point end =
       Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
   std::size_t tried = 0;
-  for (; tried < kMostInputs && Clock::now() < end; ++tried) try_input(target, mutator.next());
+  for (; static_cast<double>(tried) < kMostInputs * seconds && Clock::now() < end; ++tried)
+    try_input(target, mutator.next());
   std::printf("%-20s %8zu inputs\n", std::string(target.name()).c_str(), tried);
   std::fflush(stdout);
 }
@@ -156,19 +159,22 @@ extern "C" const char* __asan_default_options() {
   return "max_allocation_size_mb=2048:allocator_may_return_null=1";
 }
 
-/// fuzz_attack SECONDS [TARGET...]; fuzz_attack TARGET FILE tries what was found.
+/// fuzz_attack SECONDS TARGET; fuzz_attack TARGET FILE tries what was found; fuzz_attack alone names the
+/// targets.
 int main(int argc, char** argv) {
-  const std::vector<std::string> words(argv + 1, argv + argc);
-  if (words.empty()) return std::fputs("usage: fuzz_attack SECONDS [TARGET...] | TARGET FILE\n", stderr), 2;
+  if (argc != 3) {
+    for (const FuzzTarget* target : fuzz_targets()) std::printf("%s\n", std::string(target->name()).c_str());
+    return argc == 1 ? 0 : 2;
+  }
   __sanitizer_set_death_callback(keep_finding);
   for (const int signal : {SIGABRT, SIGALRM}) std::signal(signal, die_of_signal);
-  if (const FuzzTarget* target = find_fuzz_target(words[0]); target && words.size() == 2) {
-    now.finding = "finding-again";
-    return try_input(*target, dashpot::read_file(words[1])), 0;
+  if (const FuzzTarget* target = find_fuzz_target(argv[1])) {
+    now.finding = fs::absolute("finding-again");
+    return try_input(*target, dashpot::read_file(argv[2])), 0;
   }
+  const FuzzTarget* target = find_fuzz_target(argv[2]);
+  if (!target) return std::fprintf(stderr, "fuzz_attack: no target '%s'\n", argv[2]), 2;
   const fs::path seeds = fuzz_file("seeds.made", "").parent_path() / "seeds";
   write_seeds(seeds);
-  for (const FuzzTarget* target : fuzz_targets())
-    if (words.size() == 1 || std::find(words.begin() + 1, words.end(), target->name()) != words.end())
-      attack(*target, seeds / target->name(), std::stod(words[0]));
+  attack(*target, seeds / target->name(), std::stod(argv[1]));
 }

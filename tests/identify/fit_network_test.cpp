@@ -99,20 +99,25 @@ TEST_CASE("without offsets a trainer leaves those of the records in the force") 
 
 TEST_CASE("settings reach the trainer") {
   const std::vector<Record> records = campaign();
-  const auto differs = [&](std::vector<std::string> settings, const std::string& more) {
-    const std::string before = format_json(fitted(settings, records).model->to_json());
-    settings.push_back(more);
-    return format_json(fitted(settings, records).model->to_json()) != before;
+  using Settings = std::vector<std::string>;
+  const auto model_of = [&](const Settings& settings) {
+    return format_json(fitted(settings, records).model->to_json());
   };
-  for (const char* more : {"rate=0.01", "schedule=constant", "schedule=step", "batch=50", "epochs=3",
-                           "l1=1e-3", "l2=1e-3", "patience=1", "activation=relu", "hidden=4-3"}) {
-    CAPTURE(more);
-    CHECK(differs({"trainer=adam", "epochs=10"}, more));
-  }
-  for (const char* more : {"epochs=2", "l2=0.1", "patience=1"}) {
-    CAPTURE(more);
-    CHECK(differs({"trainer=lm", "hidden=3", "l2=1e-3", "epochs=20"}, more));
-    CHECK(differs({"trainer=lbfgs", "hidden=3", "l2=1e-3", "epochs=20"}, more));
+  const auto check_each = [&](const Settings& settings, const Settings& changes) {
+    const std::string before = model_of(settings);
+    for (const std::string& change : changes) {
+      Settings changed = settings;
+      changed.push_back(change);
+      CAPTURE(change);
+      CHECK(model_of(changed) != before);
+    }
+  };
+  check_each({"trainer=adam", "epochs=10"},
+             {"rate=0.01", "schedule=constant", "schedule=step", "batch=50", "epochs=3", "l1=1e-3", "l2=1e-3",
+              "patience=1", "activation=relu", "hidden=4-3"});
+  for (const char* trainer : {"trainer=lm", "trainer=lbfgs"}) {
+    CAPTURE(trainer);
+    check_each({trainer, "hidden=3", "l2=1e-3", "epochs=20"}, {"epochs=2", "l2=0.1", "patience=1"});
   }
   CHECK(fitted({"epochs=3"}, records).iterations == 3);
   CHECK(message_of([&] { fitted({"rate=0.1"}, records); }).find("trainer=lm, the usual one, has none") !=

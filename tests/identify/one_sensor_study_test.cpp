@@ -85,7 +85,8 @@ TEST_CASE("half the span is that of all forces a damper is judged on") {
   CHECK_CLOSE(damper.half_span(), (high - low) / 2, 1e-12, 0);
 }
 
-TEST_CASE("with one sensor, a network that remembers beats one that does not where there is hysteresis") {
+TEST_CASE("with one sensor, a network that remembers beats one that does not where there is hysteresis" *
+          doctest::test_suite("long")) {
   StudiedDamper damper = small_damper();
   damper.experiments.erase(damper.experiments.begin());
   damper.example = {};

@@ -70,7 +70,8 @@ TEST_CASE("a class C road as a sum of cosines: TC-9.2") {
   CHECK_CLOSE(kTurn * 0.1 * std::sqrt(256e-6 * 20), 4.4958814e-2, 1e-8, 0);
 }
 
-TEST_CASE("roads of all classes are within 1 dB of their density, by all generators") {
+TEST_CASE("roads of all classes are within 1 dB of their density, by all generators" *
+          doctest::test_suite("long")) {
   for (char letter = 'A'; letter <= 'H'; ++letter) {
     CAPTURE(letter);
     const RoadOptions options{.roughness = road_roughness(letter),

@@ -69,7 +69,7 @@ TEST_CASE("step of the one-sensor paper's quarter car with a linear damper: TC-3
   CHECK(trace.warnings.empty());
 }
 
-TEST_CASE("energy is kept without damping: every plant, 100 s, to 1e-9") {
+TEST_CASE("energy is kept without damping: every plant, 100 s, to 1e-9" * doctest::test_suite("long")) {
   for (const char* name :
        {"tudon_martinez2012", "half_car_a", "ikenaga2000", "boileau_rakheja1998", "dyke_spencer1996"}) {
     CAPTURE(name);
@@ -149,7 +149,7 @@ double controlled_gain(const char* law, double f, double sample_time) {
       .fundamental;
 }
 
-TEST_CASE("controlled quarter car on sines: reference table 7.13 within 3 %") {
+TEST_CASE("controlled quarter car on sines: reference table 7.13 within 3 %" * doctest::test_suite("long")) {
   const double f[] = {1, 1.25, 2, 4, 8, 12, 20};
   const struct {
     const char* law;
