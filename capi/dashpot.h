@@ -115,7 +115,7 @@ DASHPOT_API dashpot_status dashpot_advance(const dashpot_model* model, const das
 DASHPOT_API dashpot_status dashpot_force(const dashpot_model* model, const dashpot_input* input,
                                          const double* state, size_t state_size, double* force);
 
-/// Where dashpot_run writes.
+/// Where dashpot_run writes: not into the motion's columns.
 typedef struct dashpot_response {
   double* force;       ///< N, one per sample
   double* half_width;  ///< N: force +- half_width is the model's band; null: not wanted

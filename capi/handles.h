@@ -1,9 +1,11 @@
 #pragma once
+#include <span>
 #include <string>
 #include <vector>
 
 #include "dashpot.h"
 #include "dashpot/identify/identify.h"
+#include "status.h"
 
 // What stands behind the pointers of dashpot.h.
 
@@ -29,6 +31,16 @@ struct dashpot_ranking {
 };
 
 namespace dashpot::capi {
+
+/// The caller's state array. Throws Error where its size is not the model's.
+template <class Number>
+std::span<Number> state_of(const dashpot_model& model, Number* state, std::size_t size) {
+  if (size != model.state_size)
+    throw Error("state_size", "is " + std::to_string(size),
+                model.name + " has " + std::to_string(model.state_size) + " states");
+  if (size > 0) require(state, "state");
+  return {state, size};
+}
 
 /// Deletes what a handle points to, and clears the handle.
 template <class Handle>

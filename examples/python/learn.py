@@ -23,17 +23,16 @@ for k in range(len(recordings)):
 left_out = recordings[0]["condition"]
 seen = [k for k in range(len(X)) if recordings[k]["condition"] != left_out]
 unseen = [k for k in range(len(X)) if recordings[k]["condition"] == left_out]
-best = None
+estimators = []
 for name in ["bingham", "tanh_kwok"]:
     estimator = dashpot.Identifier(model=name, starts=2)
     estimator.fit([X[k] for k in seen], [y[k] for k in seen])
     score = estimator.score([X[k] for k in unseen], [y[k] for k in unseen])
     print(f"{name}: R2 {score:.4f} on {left_out}, which it has not seen")
-    if best is None or score > best[0]:
-        best = score, estimator
+    estimators.append((score, estimator))
 
 # %% What it predicts, sample by sample; and step by step, as a simulation would ask
-model = best[1].model_
+model = max(estimators, key=lambda judged: judged[0])[1].model_
 force = model.predict(X[0])
 state = model.rest(displacement=X[0][0, 1], current=X[0][0, 3])
 for before, now in zip(X[0][:10], X[0][1:11]):

@@ -15,7 +15,7 @@ print(damper, "currents", damper.domain["current"])
 
 # %% Three seconds of a road of class C at 72 km/h: what the passengers feel, what the tyres lose
 low, high = damper.domain["current"]
-settings = {
+settings: dict = {
     "least current": {"current": low},
     "most current": {"current": high},
     "controlled (SH-ADD)": {"controller": "sh_add"},

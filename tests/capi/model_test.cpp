@@ -1,5 +1,6 @@
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "dashpot/damper/parameter_set.h"
 #include "dashpot/identify/evaluate.h"
@@ -57,6 +58,21 @@ TEST_CASE("a whole motion gives the library's free run, bit for bit, from column
   motion.current = {&current, 0};
   REQUIRE(dashpot_run(model, &motion, &response) == DASHPOT_OK);
   CHECK(force == expected.force);
+}
+
+TEST_CASE("a long motion is refused at the sample that cannot be, wherever that lies") {
+  const Model model = published();
+  for (const std::size_t bad : {1, 254, 255, 256, 510, 511, 599}) {
+    Sine sine(600);
+    dashpot_motion motion = sine.motion();
+    motion.time = {sine.time.data(), 1};
+    const std::string at = '[' + std::to_string(bad) + ']';
+    const double time = std::exchange(sine.time[bad], sine.time[bad - 1]);
+    CHECK(contains(run_message(model, motion), "time" + at));
+    sine.time[bad] = time;
+    sine.inputs[bad].velocity = kNaN;
+    CHECK(contains(run_message(model, motion), "velocity" + at + ": is nan"));
+  }
 }
 
 TEST_CASE("steps one by one and a motion in two parts give the same as the whole") {

@@ -1,5 +1,6 @@
 #pragma once
 #include <cctype>
+#include <cstdlib>
 
 #include "support.h"
 
@@ -9,19 +10,33 @@ inline bool is_there(const std::string& program) {
   return false;
 }
 
+/// Of a compiler: looks for the mistakes that the build of the tests looks for.
+#ifdef __SANITIZE_ADDRESS__
+inline const std::string kAsTheTests = "-fsanitize=address,undefined -fno-sanitize-recover=undefined";
+#else
+inline const std::string kAsTheTests;
+#endif
+
+/// What runs programs of exported C: themselves, or valgrind and the like by DASHPOT_RUN_WITH.
+inline std::string chosen_runner() {
+  const char* runner = std::getenv("DASHPOT_RUN_WITH");
+  return runner ? runner : "";
+}
+
 /// Compiles all C in the folder, NAME.c with NAME_test.c, and runs the tests. What fails is printed.
-inline ProgramResult compile_and_run(const TemporaryFolder& folder, const std::string& flags) {
-  folder.write(
-      "check",
-      "cc -std=c99 -pedantic -Wall -Wextra -Wshadow -Wfloat-conversion -Werror " + flags +
-          " -c $1.c -o $1.o 2> $1.out && cc -std=c99 -w $1_test.c $1.o -lm -o $1 && ./$1 > $1.out || "
-          "{ echo \"FAILED $1\"; head -5 $1.out; exit 1; }\n");
+inline ProgramResult compile_and_run(const TemporaryFolder& folder, const std::string& flags,
+                                     const std::string& runner = chosen_runner()) {
+  folder.write("check", "cc -std=c99 -pedantic -Wall -Wextra -Wshadow -Wfloat-conversion -Werror " + flags +
+                            " -c $1.c -o $1.o 2> $1.out && cc -std=c99 -w " + flags +
+                            " $1_test.c $1.o -lm -o $1 && " + runner + " ./$1 > $1.out 2>&1 || " +
+                            "{ echo \"FAILED $1\"; head -5 $1.out; exit 1; }\n");
   return run_program("cd '" + folder.path().string() +
                      "' && ls *_test.c | sed 's/_test.c//' | xargs -P $(nproc) -I NAME sh check NAME");
 }
 
-inline void check_that_it_runs(const TemporaryFolder& folder, const std::string& flags) {
-  const ProgramResult result = compile_and_run(folder, flags);
+inline void check_that_it_runs(const TemporaryFolder& folder, const std::string& flags,
+                               const std::string& runner = chosen_runner()) {
+  const ProgramResult result = compile_and_run(folder, flags, runner);
   CAPTURE(result.output);
   CHECK(result.exit_code == 0);
 }

@@ -24,7 +24,7 @@ TEST_CASE("exported C: every kind of model in double precision gives the library
   if (!is_there("cc")) return;
   const TemporaryFolder folder;
   write_all(folder, CPrecision::Double);
-  check_that_it_runs(folder, "");
+  check_that_it_runs(folder, kAsTheTests);
 }
 
 TEST_CASE("exported C: every kind of model in single precision gives it within 1e-5, without a double" *
@@ -47,7 +47,7 @@ TEST_CASE("exported C: every inverse network gives the library's currents, in bo
                c_inverse_block(inverse, {.name = name, .precision = precision, .sample_time = 2.5e-3}), ""))
         folder.write(file.name, file.content);
     }
-  check_that_it_runs(folder, "");
+  check_that_it_runs(folder, kAsTheTests);
 }
 
 TEST_CASE("exported C: a test of another model's force fails") {

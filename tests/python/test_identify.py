@@ -1,12 +1,14 @@
 import ast
 import copy
 import os
+import shutil
 import signal
 import subprocess
 import sys
 import textwrap
 import threading
 import unittest
+from pathlib import Path
 
 import numpy as np
 from support import PROJECT, InFolder, bingham, recording
@@ -209,7 +211,7 @@ class Vehicles(unittest.TestCase):
             dashpot.simulate(road="gravel")
 
 
-class Stubs(unittest.TestCase):
+class Stubs(InFolder):
     def test_the_stub_file_has_every_name_of_the_compiled_module(self):
         tree = ast.parse((PROJECT / "bindings/python/dashpot/_core.pyi").read_text())
         stated = {node.name: node for node in tree.body if isinstance(node, (ast.ClassDef, ast.FunctionDef))}
@@ -220,6 +222,27 @@ class Stubs(unittest.TestCase):
             members = {node.name for node in stated[name].body if isinstance(node, ast.FunctionDef)}
             for member in [member for member in vars(getattr(_core, name)) if not member.startswith("_")]:
                 self.assertIn(member, members, f"{name}.{member}")
+
+    def test_types(self):
+        """mypy reads the package and the examples without a finding, and finds what is wrong."""
+        if not shutil.which("mypy"):
+            self.skipTest("SKIPPED: mypy is not here")
+        wrong = self.folder / "wrong.py"
+        wrong.write_text(textwrap.dedent("""
+            import dashpot
+            model = dashpot.published("spencer1997")
+            force, half_width = model.predict([[0.0, 1.0]], interval=True)
+            model.predict([[0.0, 1.0]], intervals=True)
+            width: str = force.size
+        """))
+        examples = [*(PROJECT / "examples/python").glob("*.py")]
+        checked = subprocess.run(
+            ["mypy", "--cache-dir", os.devnull, "--ignore-missing-imports", *examples, wrong], capture_output=True,
+            text=True, env={**os.environ, "MYPYPATH": str(Path(dashpot.__file__).parents[1])})
+        found = [line for line in checked.stdout.splitlines() if "error:" in line]
+        self.assertEqual(len(found), 2, checked.stdout + checked.stderr)
+        self.assertRegex(found[0], "wrong.py:5.*No overload variant")
+        self.assertRegex(found[1], "wrong.py:6.*Incompatible types in assignment")
 
 
 if __name__ == "__main__":

@@ -1,7 +1,7 @@
 """The compiled part: see the docstrings of the classes for units and shapes."""
 
 import os
-from typing import Any, Callable, Dict, Iterable, List, Literal, Optional, Tuple, Union, overload
+from typing import Any, Callable, Dict, Iterable, List, Literal, Optional, Sequence, Tuple, Union, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -10,7 +10,7 @@ __version__: str
 
 Array = npt.NDArray[np.float64]
 Values = Union[float, npt.ArrayLike]
-Input = Tuple[float, float, float]
+Input = Union[Sequence[float], Array]  # displacement m, velocity m/s, current A
 Progress = Optional[Callable[[str, float], None]]
 
 class Error(ValueError): ...
@@ -48,7 +48,7 @@ class DamperModel:
     @overload
     def predict(self, X: Any, sample_time: Optional[float] = None, interval: Literal[False] = False) -> Array: ...
     @overload
-    def predict(self, X: Any, sample_time: Optional[float], interval: Literal[True]) -> Tuple[Array, Array]: ...
+    def predict(self, X: Any, sample_time: Optional[float] = None, *, interval: Literal[True]) -> Tuple[Array, Array]: ...
     def run(
         self,
         velocity: Values,

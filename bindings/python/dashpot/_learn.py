@@ -3,7 +3,6 @@
 import inspect
 import json
 
-
 import numpy as np
 
 from . import _core, _frames
@@ -29,11 +28,9 @@ def parts(X, y):
 
 def score(model, X, y, sample_time=None) -> float:
     """R2 over all samples of all recordings."""
-    measured, modelled = [], []
-    for x, force in parts(X, y):
-        measured.append(np.asarray(force, float))
-        modelled.append(np.asarray(model.predict(x, sample_time)))
-    measured, modelled = np.concatenate(measured), np.concatenate(modelled)
+    recordings = parts(X, y)
+    measured = np.concatenate([np.asarray(force, float) for _, force in recordings])
+    modelled = np.concatenate([np.asarray(model.predict(x, sample_time)) for x, _ in recordings])
     if measured.shape != modelled.shape:
         raise _core.Error(f"y has {len(measured)} samples, X {len(modelled)}")
     return 1 - float(np.sum((measured - modelled) ** 2) / np.sum((measured - np.mean(measured)) ** 2))

@@ -30,9 +30,9 @@ class Recordings:
         if paths is None:
             self._core = _core._Recordings.empty()
             return
-        one = isinstance(paths, (str, os.PathLike))
+        several = [paths] if isinstance(paths, (str, os.PathLike)) else paths
         options = {"dataset": os.fspath(dataset), "recognise": recognise, "velocity_cutoff": velocity_cutoff or 0}
-        self._core = _core._Recordings.load([os.fspath(path) for path in ([paths] if one else paths)], json.dumps(options))
+        self._core = _core._Recordings.load([os.fspath(path) for path in several], json.dumps(options))
 
     def add(
         self,

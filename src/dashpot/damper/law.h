@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "dashpot/damper/dependence.h"
+#include "dashpot/damper/input.h"
 
 namespace dashpot {
 
@@ -53,7 +54,9 @@ struct Law {
   void (*rest)(const double* p, double x, double v, double* z) = nullptr;
   void (*derivative)(const double* p, double x, double v, const double* z, double* dz) = nullptr;
   double (*force)(const double* p, double x, double v, const double* z) = nullptr;
-  /// Both at once; null without states.
+  /// Of many samples with the same parameters; null with states.
+  void (*forces)(const double* p, std::span<const DamperInput> inputs, double* force) = nullptr;
+  /// Force and derivative at once; null without states.
   double (*flow)(const double* p, double x, double v, const double* z, double* dz) = nullptr;
   /// One classical Runge-Kutta step of length h of `count` states, with p, x and v at its start, middle and
   /// end.
@@ -151,12 +154,17 @@ Law static_law(const LawTable<P>& table) {
     const P own = detail::from_array<P>(p);
     return Force(&own, x, v, z);
   };
+  law.forces = [](const double* p, std::span<const DamperInput> inputs, double* force) {
+    const P own = detail::from_array<P>(p);
+    for (const DamperInput& at : inputs) *force++ = Force(&own, at.displacement, at.velocity, nullptr);
+  };
   return law;
 }
 
 template <class P, auto Force, auto Derivative, auto Rest, auto Rate>
 Law state_law(const LawTable<P>& table) {
   Law law = static_law<P, Force>(table);
+  law.forces = nullptr;
   law.derivative = [](const double* p, double x, double v, const double* z, double* dz) {
     const P own = detail::from_array<P>(p);
     Derivative(&own, x, v, z, dz);

@@ -99,6 +99,24 @@ double LawModel::force(const DamperInput& input, std::span<const double> state) 
   return law_->force(p.data(), input.displacement, input.velocity, state.data());
 }
 
+std::size_t LawModel::run(std::span<const DamperInput> inputs, Steps steps, std::span<double> state,
+                          Response to) const noexcept {
+  if (!law_->forces || lag_rate_ > 0) return DamperModel::run(inputs, steps, state, to);
+  if (to.spread) std::fill_n(to.spread, inputs.size(), 0);
+  constexpr std::size_t kBlock = 256;  // of forces that the cache still holds when they are checked
+  Params p;
+  for (std::size_t first = 0, end = 0; first < inputs.size(); first = end) {
+    const double current = inputs[first].current;
+    const std::size_t last = std::min(first + kBlock, inputs.size());
+    for (end = first + 1; end < last && (!follows_current_ || inputs[end].current == current);) ++end;
+    parameters_at(current, p.data());
+    law_->forces(p.data(), inputs.subspan(first, end - first), to.force + first);
+    for (std::size_t k = first; k < end; ++k)
+      if (!std::isfinite(to.force[k])) return k;
+  }
+  return inputs.size();
+}
+
 double LawModel::flow(const DamperInput& input, std::span<const double> state,
                       std::span<double> rates) const noexcept {
   if (lag_rate_ > 0) rates[law_->states.size()] = lag_rate_ * (input.current - state[law_->states.size()]);

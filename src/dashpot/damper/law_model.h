@@ -32,6 +32,8 @@ class LawModel final : public DamperModel {
   void advance(const DamperInput& from, const DamperInput& to, double dt,
                std::span<double> state) const noexcept override;
   double force(const DamperInput& input, std::span<const double> state) const noexcept override;
+  std::size_t run(std::span<const DamperInput> inputs, Steps steps, std::span<double> state,
+                  Response to) const noexcept override;
   bool flows() const noexcept override { return true; }
   double flow(const DamperInput& input, std::span<const double> state,
               std::span<double> rates) const noexcept override;

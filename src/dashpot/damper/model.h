@@ -6,15 +6,9 @@
 #include <vector>
 
 #include "dashpot/base/value.h"
+#include "dashpot/damper/input.h"
 
 namespace dashpot {
-
-/// What a damper sees at one instant.
-struct DamperInput {
-  double displacement = 0;  ///< m, extension positive
-  double velocity = 0;      ///< m/s, extension positive
-  double current = 0;       ///< A commanded to the coil (V where the model is voltage-driven)
-};
 
 /// What was constant in a test, SI: {"gap", 1e-3} ...
 using Conditions = std::vector<std::pair<std::string, double>>;
@@ -24,6 +18,12 @@ struct Domain {
   double displacement_min = 0, displacement_max = 0;  ///< m
   double velocity_min = 0, velocity_max = 0;          ///< m/s
   double current_min = 0, current_max = 0;            ///< A or V; spikes at switching left out
+};
+
+/// Where a series of forces is written.
+struct Response {
+  double* force;             ///< N, one per sample
+  double* spread = nullptr;  ///< N, as DamperModel::spread; null: not asked for
 };
 
 /// What a simulation steps. The description is immutable; the state is a flat array of the caller's.
@@ -45,6 +45,11 @@ class DamperModel {
                        std::span<double> state) const noexcept = 0;
   /// Force at this instant, N, positive when it resists extension.
   virtual double force(const DamperInput& input, std::span<const double> state) const noexcept = 0;
+  /// The force, N, and, of an ensemble, the spread at every sample of a series. The state is that of the
+  /// first sample before and that of the last one after. Returns how many forces can be used: all, or those
+  /// before the sample where the model diverged; the rest is then without meaning, as is the state.
+  virtual std::size_t run(std::span<const DamperInput> inputs, Steps steps, std::span<double> state,
+                          Response to) const noexcept;
 
   /// Whether its states follow z' = f(x, v, i, z), as flow() has it, so that an integrator may step them with
   /// the rest of a vehicle.

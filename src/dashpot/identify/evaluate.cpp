@@ -279,21 +279,18 @@ Domain domain_of(const std::vector<Record>& records, std::string_view drive_unit
 FreeRun free_run(const DamperModel& model, const std::vector<DamperInput>& inputs,
                  const std::vector<double>& time) {
   FreeRun run;
-  run.force.resize(inputs.size(), kNaN);
-  const bool is_ensemble = model.is_ensemble();
-  if (is_ensemble) run.spread.resize(inputs.size(), kNaN);
+  if (inputs.empty()) return run;
+  run.force.resize(inputs.size());
+  if (model.is_ensemble()) run.spread.resize(inputs.size());
   std::vector<double> state(model.state_size());
-  if (!inputs.empty()) model.rest(inputs.front(), state);
-  for (std::size_t k = 0; k < inputs.size(); ++k) {
-    if (k > 0) model.advance(inputs[k - 1], inputs[k], time[k] - time[k - 1], state);
-    run.force[k] = model.force(inputs[k], state);
-    if (is_ensemble) run.spread[k] = model.spread(inputs[k], state);
-    if (!std::isfinite(run.force[k]) || model.has_diverged(state)) {
-      run.diverged_at = time[k];
-      run.force[k] = kNaN;
-      break;
-    }
-  }
+  model.rest(inputs.front(), state);
+  const std::size_t usable = model.run(inputs, {.time = time.data()}, state,
+                                       {run.force.data(), run.spread.empty() ? nullptr : run.spread.data()});
+  if (usable == inputs.size()) return run;
+  run.diverged_at = time[usable];
+  for (std::vector<double>* values : {&run.force, &run.spread})
+    std::fill(values->begin() + static_cast<std::ptrdiff_t>(std::min(usable, values->size())), values->end(),
+              kNaN);
   return run;
 }
 

@@ -1,0 +1,64 @@
+// What is exported, under valgrind. DASHPOT_RUN_WITH=... of c_compile.h does the same to any other test of
+// exported C.
+#include <filesystem>
+
+#include "conformance/c_compile.h"
+#include "dashpot/damper/inverse/registry.h"
+#include "dashpot/output/exporters/c_controller.h"
+#include "dashpot/output/exporters/c_inverse.h"
+#include "dashpot/output/exporters/c_source.h"
+#include "output/exporters/example_models.h"
+#include "support.h"
+
+using namespace dashpot;
+
+namespace {
+
+const std::string kMemcheck = "valgrind --quiet --error-exitcode=9 --leak-check=full";
+
+void write(const TemporaryFolder& folder, const std::vector<ExportedFile>& files) {
+  for (const ExportedFile& file : files) folder.write(file.name, file.content);
+}
+
+}  // namespace
+
+TEST_CASE("valgrind finds nothing in exported C: a model of each kind, an inverse and a controller") {
+  if (!is_there("cc") || !is_there("valgrind")) return;
+  const TemporaryFolder folder;
+  for (const ExampleModel& example : example_models())
+    for (const char* name : {"bouc_wen", "narx", "hysteresis_network", "state_space", "hybrid"})
+      if (example.name == name)
+        write(folder, write_c_source(exported(*example.model), {.name = example.name + "_x"}));
+  const LawModel damper = example_law(find_law("bouc_wen"));
+  const auto inverse = find_inverse("numeric").make(damper, {0, 2, 1e-3, 60});
+  write(folder,
+        write_c_inverse({.model = *inverse, .title = "inverse", .domain = {-0.02, 0.02, -0.3, 0.3, 0, 2}},
+                        {.name = "inverse"}));
+  const Vehicle vehicle = make_vehicle({.dampers = {"spencer1997,motion_ratio=0.8"},
+                                        .controller = "skyhook_modified",
+                                        .sensors = {.in_car = true},
+                                        .inverse = "numeric"});
+  write(folder, write_c_controller(vehicle, {.name = "controller"}));
+  check_that_it_runs(folder, "-O1 -g", kMemcheck);
+}
+
+TEST_CASE("valgrind finds nothing where the test importer takes FMUs of FMI 2 and 3 through their lives") {
+  if (!is_there("cc") || !is_there("valgrind")) return;
+  const ProgramResult result =
+      run_program(kMemcheck + " --child-silent-after-fork=yes '" +
+                  std::filesystem::read_symlink("/proc/self/exe").string() + "' --test-case='FMU: *'");
+  CAPTURE(result.output);
+  CHECK(result.exit_code == 0);
+  CHECK(result.output.find("Status: SUCCESS") != std::string::npos);
+}
+
+TEST_CASE("valgrind's findings reach the test") {
+  if (!is_there("cc") || !is_there("valgrind")) return;
+  const TemporaryFolder folder;
+  folder.write("x.c", "void x(void);\nvoid x(void) {}\n");
+  folder.write("x_test.c",
+               "#include <stdlib.h>\nint main(void) { char* a = malloc(1); return a[1] == 7; }\n");
+  const ProgramResult result = compile_and_run(folder, "", kMemcheck);
+  CHECK(result.exit_code != 0);
+  CHECK(result.output.find("Invalid read") != std::string::npos);
+}
