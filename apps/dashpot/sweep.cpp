@@ -1,4 +1,4 @@
-#include "dashpot/suspension/sweep.h"
+#include "dashpot/suspension/sweep/sweep.h"
 
 #include <filesystem>
 #include <memory>

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "dashpot/base/text.h"
-#include "dashpot/suspension/ground_sequences.h"
+#include "dashpot/suspension/ground/ground_sequences.h"
 
 namespace dashpot::cli {
 namespace {

@@ -1,5 +1,5 @@
 #include "dashpot/base/value.h"
-#include "dashpot/suspension/ground_sequences.h"
+#include "dashpot/suspension/ground/ground_sequences.h"
 #include "dashpot/suspension/vehicle.h"
 #include "handles.h"
 

@@ -5,8 +5,8 @@
 #include "dashpot/identify/fit_store.h"
 #include "dashpot/identify/training_store.h"
 #include "dashpot/identify/trial_store.h"
-#include "dashpot/suspension/sweep_request.h"
-#include "dashpot/suspension/sweep_store.h"
+#include "dashpot/suspension/sweep/request.h"
+#include "dashpot/suspension/sweep/store.h"
 #include "fuzz.h"
 
 // Files that Dashpot keeps for itself and reads again after an interruption, whatever became of them since.

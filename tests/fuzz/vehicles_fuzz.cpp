@@ -1,13 +1,13 @@
 #include "dashpot/suspension/controller.h"
 #include "dashpot/suspension/damper_words.h"
-#include "dashpot/suspension/earthquake.h"
-#include "dashpot/suspension/ground_sequences.h"
+#include "dashpot/suspension/ground/earthquake.h"
+#include "dashpot/suspension/ground/ground_sequences.h"
+#include "dashpot/suspension/ground/road_profile.h"
 #include "dashpot/suspension/linear.h"
 #include "dashpot/suspension/passive_curve.h"
 #include "dashpot/suspension/plant_set.h"
-#include "dashpot/suspension/road_profile.h"
-#include "dashpot/suspension/sweep_inputs.h"
-#include "dashpot/suspension/sweep_request.h"
+#include "dashpot/suspension/sweep/inputs.h"
+#include "dashpot/suspension/sweep/request.h"
 #include "fuzz.h"
 
 // Files and words of vehicles, roads and controllers.

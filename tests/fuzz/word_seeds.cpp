@@ -4,7 +4,7 @@
 #include "dashpot/base/file.h"
 #include "dashpot/record/excitation.h"
 #include "dashpot/suspension/controller.h"
-#include "dashpot/suspension/ground_sequences.h"
+#include "dashpot/suspension/ground/ground_sequences.h"
 #include "fuzz.h"
 
 namespace {

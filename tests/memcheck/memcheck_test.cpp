@@ -3,9 +3,7 @@
 #include <filesystem>
 
 #include "conformance/c_compile.h"
-#include "dashpot/damper/inverse/registry.h"
-#include "dashpot/output/exporters/c_controller.h"
-#include "dashpot/output/exporters/c_inverse.h"
+#include "conformance/control_cases.h"
 #include "dashpot/output/exporters/c_source.h"
 #include "output/exporters/example_models.h"
 #include "support.h"
@@ -29,16 +27,14 @@ TEST_CASE("valgrind finds nothing in exported C: a model of each kind, an invers
     for (const char* name : {"bouc_wen", "narx", "hysteresis_network", "state_space", "hybrid"})
       if (example.name == name)
         write(folder, write_c_source(exported(*example.model), {.name = example.name + "_x"}));
-  const LawModel damper = example_law(find_law("bouc_wen"));
-  const auto inverse = find_inverse("numeric").make(damper, {0, 2, 1e-3, 60});
-  write(folder,
-        write_c_inverse({.model = *inverse, .title = "inverse", .domain = {-0.02, 0.02, -0.3, 0.3, 0, 2}},
-                        {.name = "inverse"}));
-  const Vehicle vehicle = make_vehicle({.dampers = {"spencer1997,motion_ratio=0.8"},
-                                        .controller = "skyhook_modified",
-                                        .sensors = {.in_car = true},
-                                        .inverse = "numeric"});
-  write(folder, write_c_controller(vehicle, {.name = "controller"}));
+  int blocks = 0;
+  for (const std::vector<BlockCase>& cases : {controller_cases(), inverse_cases()})
+    for (const BlockCase& one : cases)
+      if (one.name == "spencer_numeric" || one.name == "bouc_wen_numeric_lag") {
+        write(folder, write_c_block(one.block({}), ""));
+        ++blocks;
+      }
+  CHECK(blocks == 2);
   check_that_it_runs(folder, "-O1 -g", kMemcheck);
 }
 

@@ -3,7 +3,7 @@
 #include "dashpot/damper/neural/network_model.h"
 #include "dashpot/damper/parameter_set.h"
 #include "dashpot/damper/registry.h"
-#include "dashpot/suspension/ground_sequences.h"
+#include "dashpot/suspension/ground/ground_sequences.h"
 #include "dashpot/suspension/plant_set.h"
 #include "support.h"
 

@@ -6,7 +6,7 @@
 #include "dashpot/numerics/riccati.h"
 #include "dashpot/suspension/bound/optimum.h"
 #include "dashpot/suspension/bound/relaxation.h"
-#include "dashpot/suspension/ground_sequences.h"
+#include "dashpot/suspension/ground/ground_sequences.h"
 #include "dashpot/suspension/plant_set.h"
 #include "support.h"
 

@@ -5,11 +5,11 @@
 
 #include "dashpot/damper/parameter_set.h"
 #include "dashpot/damper/registry.h"
-#include "dashpot/suspension/ground_sequences.h"
-#include "dashpot/suspension/integrator.h"
+#include "dashpot/suspension/ground/deterministic.h"
+#include "dashpot/suspension/ground/ground_sequences.h"
 #include "dashpot/suspension/plant_set.h"
-#include "dashpot/suspension/ride.h"
-#include "dashpot/suspension/roads/deterministic.h"
+#include "dashpot/suspension/ride/ride.h"
+#include "dashpot/suspension/steps/integrator.h"
 #include "support.h"
 
 using namespace dashpot;

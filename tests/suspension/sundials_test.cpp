@@ -12,7 +12,7 @@
 #include "dashpot/damper/neural/network_model.h"
 #include "dashpot/damper/parameter_set.h"
 #include "dashpot/suspension/batch.h"
-#include "dashpot/suspension/ground_sequences.h"
+#include "dashpot/suspension/ground/ground_sequences.h"
 #include "dashpot/suspension/plant_set.h"
 #include "support.h"
 

@@ -7,8 +7,8 @@
 #include "dashpot/damper/registry.h"
 #include "dashpot/suspension/damper_words.h"
 #include "dashpot/suspension/domain_use.h"
-#include "dashpot/suspension/ground_sequences.h"
-#include "dashpot/suspension/ride.h"
+#include "dashpot/suspension/ground/ground_sequences.h"
+#include "dashpot/suspension/ride/ride.h"
 #include "support.h"
 
 using namespace dashpot;

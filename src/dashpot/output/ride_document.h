@@ -1,6 +1,6 @@
 #pragma once
 #include "dashpot/output/document.h"
-#include "dashpot/suspension/ride_study.h"
+#include "dashpot/suspension/ride/ride_study.h"
 
 namespace dashpot {
 

@@ -6,7 +6,7 @@
 #include "dashpot/base/text.h"
 #include "dashpot/output/ride_parts.h"
 #include "dashpot/output/words.h"
-#include "dashpot/suspension/weighting.h"
+#include "dashpot/suspension/ride/weighting.h"
 
 namespace dashpot {
 namespace {

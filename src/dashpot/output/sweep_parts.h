@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "dashpot/output/document.h"
-#include "dashpot/suspension/sweep_statistics.h"
+#include "dashpot/suspension/sweep/statistics.h"
 
 // What the sections of a sweep's page share.
 namespace dashpot {

@@ -3,7 +3,7 @@
 
 #include "dashpot/output/column_table.h"
 #include "dashpot/output/document.h"
-#include "dashpot/suspension/sweep.h"
+#include "dashpot/suspension/sweep/sweep.h"
 
 namespace dashpot {
 

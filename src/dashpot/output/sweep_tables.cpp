@@ -5,7 +5,7 @@
 
 #include "dashpot/base/text.h"
 #include "dashpot/output/sweep_report.h"
-#include "dashpot/suspension/sweep_statistics.h"
+#include "dashpot/suspension/sweep/statistics.h"
 
 namespace dashpot {
 namespace {

@@ -8,8 +8,8 @@
 #include "dashpot/damper/neural/aligned.h"
 #include "dashpot/suspension/lanes/lane_pilot.h"
 #include "dashpot/suspension/lanes/lane_vehicle.h"
-#include "dashpot/suspension/ride.h"
-#include "dashpot/suspension/weighting.h"
+#include "dashpot/suspension/ride/ride.h"
+#include "dashpot/suspension/ride/weighting.h"
 
 namespace dashpot {
 namespace {

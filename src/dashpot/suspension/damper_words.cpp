@@ -14,7 +14,7 @@
 #include "dashpot/damper/parameter_set.h"
 #include "dashpot/damper/registry.h"
 #include "dashpot/suspension/passive_curve.h"
-#include "dashpot/suspension/soft_friction.h"
+#include "dashpot/suspension/steps/soft_friction.h"
 
 namespace dashpot {
 namespace {

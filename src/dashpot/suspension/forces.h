@@ -2,7 +2,7 @@
 #include <span>
 #include <vector>
 
-#include "dashpot/suspension/ground_motion.h"
+#include "dashpot/suspension/ground/ground_motion.h"
 #include "dashpot/suspension/linear.h"
 #include "dashpot/suspension/mounted_damper.h"
 #include "dashpot/suspension/plant.h"

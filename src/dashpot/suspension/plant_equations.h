@@ -1,5 +1,5 @@
 #pragma once
-#include "dashpot/suspension/step_method.h"
+#include "dashpot/suspension/steps/step_method.h"
 
 namespace dashpot {
 

@@ -5,7 +5,7 @@
 
 #include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
-#include "dashpot/suspension/integrator.h"
+#include "dashpot/suspension/steps/integrator.h"
 #include "dashpot/suspension/trace.h"
 
 namespace dashpot {

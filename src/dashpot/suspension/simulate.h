@@ -6,7 +6,7 @@
 #include "dashpot/base/monitor.h"
 #include "dashpot/record/record.h"
 #include "dashpot/suspension/controller.h"
-#include "dashpot/suspension/ground_motion.h"
+#include "dashpot/suspension/ground/ground_motion.h"
 #include "dashpot/suspension/mounted_damper.h"
 #include "dashpot/suspension/plant.h"
 #include "dashpot/suspension/sensors.h"

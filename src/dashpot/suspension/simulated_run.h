@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "dashpot/suspension/ride_measures.h"
+#include "dashpot/suspension/ride/ride_measures.h"
 #include "dashpot/suspension/vehicle.h"
 
 namespace dashpot {

@@ -8,7 +8,7 @@
 #include "dashpot/base/text.h"
 #include "dashpot/damper/parameter_set.h"
 #include "dashpot/suspension/damper_words.h"
-#include "dashpot/suspension/ground_sequences.h"
+#include "dashpot/suspension/ground/ground_sequences.h"
 #include "dashpot/suspension/linear.h"
 #include "dashpot/suspension/study_dampers.h"
 

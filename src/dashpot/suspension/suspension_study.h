@@ -7,8 +7,8 @@
 
 #include "dashpot/base/monitor.h"
 #include "dashpot/identify/metrics.h"
-#include "dashpot/suspension/gain_curves.h"
-#include "dashpot/suspension/ride_bound.h"
+#include "dashpot/suspension/ride/gain_curves.h"
+#include "dashpot/suspension/ride/ride_bound.h"
 #include "dashpot/suspension/vehicle.h"
 
 // The one-sensor paper's last section: its quarter car with the identified damper and Mix-1-sensor control.

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "dashpot/suspension/simulate.h"
-#include "dashpot/suspension/step_method.h"
+#include "dashpot/suspension/steps/step_method.h"
 
 namespace dashpot {
 

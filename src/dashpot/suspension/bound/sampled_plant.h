@@ -2,7 +2,7 @@
 #include <vector>
 
 #include "dashpot/numerics/small_matrix.h"
-#include "dashpot/suspension/ground_motion.h"
+#include "dashpot/suspension/ground/ground_motion.h"
 #include "dashpot/suspension/plant.h"
 
 namespace dashpot {

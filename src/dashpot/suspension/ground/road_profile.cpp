@@ -1,0 +1,249 @@
+#include "dashpot/suspension/ground/road_profile.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numbers>
+
+#include "dashpot/base/error.h"
+#include "dashpot/base/random.h"
+#include "dashpot/base/text.h"
+#include "dashpot/numerics/spectrum.h"
+
+namespace dashpot {
+namespace {
+
+constexpr double kTurn = 2 * std::numbers::pi;
+
+/// Heights at points, a cubic between each two with central slopes. One more at each end mirrors the track
+/// there, so that it is level where the road goes on level.
+struct TrackPoints {
+  const double* z;
+  double last;        ///< place of the last but the mirrored one, from 0
+  double per_second;  ///< how many pass
+};
+/// Places first, heights then: a place waits for conversions, and two short loops overlap more than a long
+/// one.
+void pass_over(const TrackPoints& track, double begin, double step, std::span<FootMotion> out) {
+  constexpr std::size_t kChunk = 64;
+  double share[kChunk];
+  int point[kChunk];
+  for (std::size_t first = 0; first < out.size(); first += kChunk) {
+    const std::span<FootMotion> some = out.subspan(first, std::min(kChunk, out.size() - first));
+    const int count = static_cast<int>(some.size());
+    const double from = begin + step * static_cast<double>(first), last = track.last;
+    for (int n = 0; n < count; ++n) {
+      const double reached = from + step * n, ahead = reached > 0 ? reached : 0;
+      const double place = ahead < last ? ahead : last, left = place < last - 1 ? place : last - 1;
+      point[n] = static_cast<int>(left);
+      share[n] = place - point[n];
+    }
+    for (int n = 0; n < count; ++n) {
+      const double u = share[n], *z = track.z + point[n];
+      const double rise = z[2] - z[1], slope = 0.5 * (z[2] - z[0]);
+      const double twist = slope + 0.5 * (z[3] - z[1]) - 2 * rise, bend = rise - slope - twist;
+      some[n] = {z[1] + u * (slope + u * (bend + u * twist)),
+                 track.per_second * (slope + u * (2 * bend + 3 * u * twist))};
+    }
+  }
+}
+
+class DrivenRoad final : public GroundMotion {
+ public:
+  DrivenRoad(RoadProfile profile, double speed)
+      : profile_(std::move(profile)), speed_(speed), points_per_second_(speed / profile_.spacing) {
+    for (const std::vector<double>& heights : profile_.tracks) points_.push_back(mirrored_at_ends(heights));
+  }
+  bool is_steady() const noexcept override { return true; }
+  std::string description() const override {
+    return profile_.description + ", at " + format_number(speed_) + " m/s";
+  }
+  double duration() const noexcept override { return profile_.length() / speed_; }
+  double speed() const noexcept override { return speed_; }
+  FootMotion foot(double t, std::size_t track, double behind) const noexcept override {
+    FootMotion one;
+    feet(t, 0, track, behind, {&one, 1});
+    return one;
+  }
+  void feet(double t, double step, std::size_t track, double behind,
+            std::span<FootMotion> out) const noexcept override {
+    const std::size_t which = std::min(track, profile_.tracks.size() - 1);
+    const std::vector<double>& points = points_[which];
+    pass_over({points.data(), static_cast<double>(points.size() - 3), points_per_second_},
+              points_per_second_ * t - behind / profile_.spacing, points_per_second_ * step, out);
+  }
+
+ private:
+  static std::vector<double> mirrored_at_ends(const std::vector<double>& z) {
+    std::vector<double> points{z[1]};
+    points.insert(points.end(), z.begin(), z.end());
+    points.push_back(z[z.size() - 2]);
+    return points;
+  }
+
+  RoadProfile profile_;
+  double speed_, points_per_second_;
+  std::vector<std::vector<double>> points_;  ///< of each track
+};
+
+/// Begins level and at 0, over a twentieth of a second's way at most: a car does not fall onto the road.
+void begin_level(RoadProfile& road) {
+  constexpr double kRamp = 5;  // m
+  const auto count = static_cast<std::size_t>(std::min(kRamp, 0.1 * road.length()) / road.spacing);
+  for (std::vector<double>& z : road.tracks)
+    for (std::size_t k = 0; k < count; ++k) {
+      const double u = static_cast<double>(k) / static_cast<double>(count);
+      z[k] *= u * u * (3 - 2 * u);
+    }
+}
+
+/// Each cosine turns by a constant angle from point to point; several points at once, since each turn waits
+/// for the one before.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
+[[gnu::target_clones("default", "avx2", "avx512f")]]  // the same sums, side by side
+#endif
+void add_wave(std::vector<double>& heights, double spacing, const RoadWave& wave) {
+  constexpr std::size_t kPoints = 8;
+  const double angle = kTurn * wave.wave_number * spacing;
+  const double c = std::cos(kPoints * angle), s = std::sin(kPoints * angle);
+  double re[kPoints], im[kPoints];
+  for (std::size_t j = 0; j < kPoints; ++j) {
+    re[j] = wave.amplitude * std::cos(wave.phase + angle * static_cast<double>(j));
+    im[j] = wave.amplitude * std::sin(wave.phase + angle * static_cast<double>(j));
+  }
+  std::size_t k = 0;
+  for (double* at = heights.data(); k + kPoints <= heights.size(); k += kPoints, at += kPoints)
+    for (std::size_t j = 0; j < kPoints; ++j) {
+      at[j] += re[j];
+      const double turned = c * re[j] - s * im[j];
+      im[j] = s * re[j] + c * im[j];
+      re[j] = turned;
+    }
+  for (std::size_t j = 0; k < heights.size(); ++j, ++k) heights[k] += re[j];
+}
+
+double shared_part(double wave_number, double width) {
+  const double x = kTurn * wave_number * width;
+  return std::min(1.0, x * std::cyl_bessel_k(1.0, x));
+}
+
+void require_usable(const RoadOptions& o) {
+  if (!(o.spacing > 0 && o.length > 2 * o.spacing))
+    throw Error(
+        "road",
+        "a length of " + format_number(o.length) + " m in steps of " + format_number(o.spacing) + " m",
+        "more than two steps");
+  if (!(o.wave_number_min > 0 && o.wave_number_min < o.wave_number_max))
+    throw Error("road",
+                "wave numbers from " + format_number(o.wave_number_min) + " to " +
+                    format_number(o.wave_number_max) + " cycle/m",
+                "rising, above 0");
+  if (!(o.roughness > 0)) throw Error("road", "the roughness is not above 0");
+}
+
+std::string described(const char* generator, const RoadOptions& o) {
+  std::string text = std::string(generator) + ": G_d(n0) " + format_number(1e6 * o.roughness) +
+                     "e-6 m^3, seed " + std::to_string(o.seed);
+  if (o.track_width > 0) text += ", tracks " + format_number(o.track_width) + " m apart";
+  return text;
+}
+
+RoadProfile empty_road(const char* generator, const RoadOptions& o) {
+  require_usable(o);
+  const auto count = static_cast<std::size_t>(std::ceil(o.length / o.spacing)) + 1;
+  return {described(generator, o), o.spacing,
+          std::vector(o.track_width > 0 ? 2 : 1, std::vector<double>(count))};
+}
+
+}  // namespace
+
+GroundPointer drive_over(RoadProfile profile, double speed) {
+  if (profile.tracks.empty() || profile.tracks.front().size() < 2 || !(profile.spacing > 0))
+    throw Error("road", "has less than two points");
+  if (!(speed > 0)) throw Error("road", "a speed of " + format_number(speed) + " m/s", "above 0");
+  return std::make_unique<DrivenRoad>(std::move(profile), speed);
+}
+
+double road_roughness(char road_class) {
+  if (road_class < 'A' || road_class > 'H')
+    throw Error("road", std::string("unknown class '") + road_class + "'", "A (smooth) to H");
+  return 16e-6 * std::pow(4.0, road_class - 'A');
+}
+
+double road_density(double roughness, double wave_number) {
+  const double ratio = kReferenceWaveNumber / wave_number;
+  return roughness * ratio * ratio;
+}
+
+double wave_amplitude(double roughness, double wave_number, double step) {
+  return std::sqrt(2 * road_density(roughness, wave_number) * step);
+}
+
+double height_at(const std::vector<RoadWave>& waves, double distance) {
+  double height = 0;
+  for (const RoadWave& wave : waves)
+    height += wave.amplitude * std::cos(kTurn * wave.wave_number * distance + wave.phase);
+  return height;
+}
+
+RoadProfile cosine_road(const RoadOptions& o) {
+  RoadProfile road = empty_road("ISO 8608, sum of cosines", o);
+  Random random(o.seed);
+  const double step = (o.wave_number_max - o.wave_number_min) / static_cast<double>(o.waves);
+  for (std::size_t k = 0; k < o.waves; ++k) {
+    // Anywhere within its step: whole multiples of one step would make the road repeat itself.
+    const double n = o.wave_number_min + step * (static_cast<double>(k) + random.uniform());
+    const double amplitude = wave_amplitude(o.roughness, n, step);
+    const double phase = random.uniform(0, kTurn), own_phase = random.uniform(0, kTurn);
+    add_wave(road.tracks[0], o.spacing, {amplitude, n, phase});
+    if (road.tracks.size() < 2) continue;
+    const double shared = shared_part(n, o.track_width);
+    add_wave(road.tracks[1], o.spacing, {shared * amplitude, n, phase});
+    add_wave(road.tracks[1], o.spacing, {std::sqrt(1 - shared * shared) * amplitude, n, own_phase});
+  }
+  begin_level(road);
+  return road;
+}
+
+RoadProfile harmonic_road(const RoadOptions& o) {
+  RoadProfile road = empty_road("ISO 8608, sum of harmonics", o);
+  const std::size_t points = std::bit_ceil(road.tracks[0].size());
+  const double step = 1 / (o.spacing * static_cast<double>(points));
+  std::vector<std::vector<std::complex<double>>> lines(road.tracks.size());
+  for (auto& track : lines) track.resize(points / 2);
+  Random random(o.seed);
+  const auto first = static_cast<std::size_t>(std::ceil(o.wave_number_min / step));
+  for (std::size_t k = first; k < points / 2 && step * static_cast<double>(k) <= o.wave_number_max; ++k) {
+    const double n = step * static_cast<double>(k), amplitude = wave_amplitude(o.roughness, n, step);
+    lines[0][k] = std::polar(amplitude, random.uniform(0, kTurn));
+    if (lines.size() < 2) continue;
+    const double shared = shared_part(n, o.track_width);
+    lines[1][k] = shared * lines[0][k] +
+                  std::polar(std::sqrt(1 - shared * shared) * amplitude, random.uniform(0, kTurn));
+  }
+  for (std::size_t t = 0; t < lines.size(); ++t) {
+    const std::vector<double> heights = sum_of_harmonics(lines[t], points);
+    std::copy_n(heights.begin(), road.tracks[t].size(), road.tracks[t].begin());
+  }
+  begin_level(road);
+  return road;
+}
+
+RoadProfile filtered_road(const RoadOptions& o) {
+  if (o.track_width > 0)
+    throw Error("road", "filtered noise makes one track", "the sum of cosines makes two");
+  RoadProfile road = empty_road("ISO 8608, filtered noise", o);
+  Random random(o.seed);
+  const double rate = kTurn * o.wave_number_min, keep = std::exp(-rate * o.spacing);
+  // One-sided density 1 needs a variance of 1 / (2 ds).
+  const double gain =
+      kTurn * kReferenceWaveNumber * std::sqrt(o.roughness / (2 * o.spacing)) * (1 - keep) / rate;
+  double height = 0;
+  for (double& z : road.tracks[0]) {
+    z = height;
+    height = keep * height + gain * random.normal();
+  }
+  return road;
+}
+
+}  // namespace dashpot

@@ -1,0 +1,151 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <Eigen/Dense>
+
+#include "dashpot/suspension/plant_equations.h"
+#include "dashpot/suspension/steps/step_control.h"
+
+namespace dashpot {
+namespace {
+
+// RODAS: Hairer, Wanner, Solving Ordinary Differential Equations II (1996), section IV.7.
+constexpr std::size_t kStages = 6;
+constexpr double kGamma = 0.25;
+constexpr double kAt[kStages] = {0, 0.386, 0.21, 0.63, 1, 1};
+constexpr double kByTime[kStages] = {0.25, -0.1043, 0.1035, -0.0362, 0, 0};
+constexpr double kFrom[kStages][kStages - 1] = {
+    {},
+    {1.544},
+    {0.9466785280815826, 0.2557011698983284},
+    {3.314825187068521, 2.896124015972201, 0.9986419139977817},
+    {1.221224509226641, 6.019134481288629, 12.53708332932087, -0.6878860361058950},
+    {1.221224509226641, 6.019134481288629, 12.53708332932087, -0.6878860361058950, 1}};
+constexpr double kSlopes[kStages][kStages - 1] = {
+    {},
+    {-5.6688},
+    {-2.430093356833875, -0.2063599157091915},
+    {-0.1073529058151375, -9.594562251023355, -20.47028614809616},
+    {7.496443313967647, -10.24680431464352, -33.99990352819905, 11.70890893206160},
+    {8.083246795921522, -7.981132988064893, -31.52159432874371, 16.31930543123136, -6.058818238834054}};
+
+using Vector = Eigen::VectorXd;
+using Matrix = Eigen::MatrixXd;
+using Index = Eigen::Index;
+
+class ImplicitSteps final : public StepMethod {
+ public:
+  ImplicitSteps(const PlantForces& forces, const IntegratorOptions& options, const PlantState& start)
+      : equations_(forces, start), options_(options), size_(static_cast<Index>(equations_.size())) {
+    for (Vector* vector : {&y_, &f_, &trial_, &slope_, &by_time_, &error_}) *vector = Vector::Zero(size_);
+    for (Vector& u : u_) u = Vector::Zero(size_);
+    jacobian_ = Matrix::Zero(size_, size_);
+  }
+
+  void refresh(PlantState& state) override {
+    equations_.read(state, y_.data());
+    rates(0, y_, f_);
+    equations_.write_forces(f_.data(), state);
+  }
+
+  bool advance(PlantState& state, double end) override {
+    const double length = end - state.time;
+    if (!(length > 0)) return true;
+    next_ = next_ > 0 ? next_ : length;
+    equations_.read(state, y_.data());
+    rates(0, y_, f_);
+    Allowance least(length);
+    for (double done = 0; done < length;) {
+      differentiate(done, length);
+      for (bool taken = false; !taken;) {
+        const bool last = done + next_ >= length * (1 - 1e-12);
+        const double h = last ? length - done : next_;
+        attempt(done, h);
+        const double error = distance();
+        const bool bad = !(error <= 1);
+        const double wanted = h * step_factor(error, 0.25);
+        next_ = std::max(last && !bad ? std::max(next_, wanted) : wanted, least.shortest());
+        if (bad && h > least.shortest()) continue;
+        if (!std::isfinite(error)) return false;
+        if (bad) {
+          ++counts_.missed;
+          least.miss();
+        }
+        ++counts_.steps;
+        taken = true;
+        y_ = trial_;
+        done = last ? length : done + h;
+        rates(done, y_, f_);
+      }
+    }
+    equations_.write(y_.data(), f_.data(), end, state);
+    return true;
+  }
+
+ private:
+  void rates(double after, const Vector& y, Vector& dy) {
+    ++counts_.evaluations;
+    equations_.rates(after, y.data(), dy.data());
+  }
+
+  /// f by y and by t where y is, by differences; t forwards within the stretch.
+  void differentiate(double done, double length) {
+    constexpr double kLeast = 1e-5;
+    for (Index j = 0; j < size_; ++j) {
+      const double kept = y_[j];
+      const double change =
+          std::sqrt(std::numeric_limits<double>::epsilon() * std::max(kLeast, std::abs(kept)));
+      y_[j] = kept + change;
+      rates(done, y_, slope_);
+      y_[j] = kept;
+      jacobian_.col(j) = (slope_ - f_) / change;
+    }
+    const double later = 1e-4 * length, sign = done + later <= length ? 1 : -1;
+    rates(done + sign * later, y_, by_time_);
+    by_time_ = (by_time_ - f_) * (sign / later);
+  }
+
+  /// trial_ becomes the end of a step, error_ its error.
+  void attempt(double done, double h) {
+    solver_.compute(Matrix::Identity(size_, size_) / (kGamma * h) - jacobian_);
+    for (std::size_t s = 0; s < kStages; ++s) {
+      trial_ = y_;
+      for (std::size_t j = 0; j < s; ++j) trial_ += kFrom[s][j] * u_[j];
+      if (s == 0)
+        slope_ = f_;
+      else
+        rates(done + kAt[s] * h, trial_, slope_);
+      slope_ += (h * kByTime[s]) * by_time_;
+      for (std::size_t j = 0; j < s; ++j) slope_ += (kSlopes[s][j] / h) * u_[j];
+      u_[s] = solver_.solve(slope_);
+    }
+    error_ = u_[kStages - 1];
+    trial_ += error_;
+  }
+
+  double distance() const {
+    return error_in_tolerances(
+        {equations_.coordinates(), {y_.data(), equations_.size()}, {trial_.data(), equations_.size()}},
+        options_, [&](std::size_t k) { return std::abs(error_[static_cast<Index>(k)]); },
+        [](std::size_t) { return 0.0; });
+  }
+
+  PlantEquations equations_;
+  IntegratorOptions options_;
+  Index size_;
+  Vector y_, f_, trial_, slope_, by_time_, error_;
+  Vector u_[kStages];
+  Matrix jacobian_;
+  Eigen::PartialPivLU<Matrix> solver_;
+  double next_ = 0;  ///< s
+};
+
+}  // namespace
+
+std::unique_ptr<StepMethod> make_implicit_steps(const PlantForces& forces, const IntegratorOptions& options,
+                                                const PlantState& start) {
+  return std::make_unique<ImplicitSteps>(forces, options, start);
+}
+
+}  // namespace dashpot

@@ -1,0 +1,91 @@
+#include "dashpot/suspension/sweep/rides.h"
+
+#include <algorithm>
+#include <map>
+#include <span>
+
+#include "dashpot/base/error.h"
+#include "dashpot/suspension/batch.h"
+#include "dashpot/suspension/ground/ground_sequences.h"
+
+namespace dashpot {
+namespace {
+
+constexpr std::size_t kMostTraces = 16;
+
+void require_ground(const GroundMotion& ground, const Plant& plant, const SweepRequest& request) {
+  if (plant.tyres.empty() && !ground.shakes())
+    throw Error(request.source, "'" + request.road + "' moves no building", "earthquake,file=...");
+  if (plant.ground.empty() && ground.shakes())
+    throw Error(request.source, "'" + request.road + "' shakes buildings, not the " + plant.name, "a road");
+}
+
+GroundPointer make_road(const SweepRequest& request, const SweepDraw& draw) {
+  return make_ground(road_words(request, draw), draw.road_seed, request.source);
+}
+
+}  // namespace
+
+SweepRider::SweepRider(const SweepRequest& request) : request_(request) {
+  const SweepDraw first = draw_vehicle(request, 0);
+  for (std::size_t c = 0; c < request.controllers.size(); ++c) {
+    VehicleWords words = vehicle_words(request, c, first);
+    words.where = request.source + ", " + request.controllers[c].name;
+    examples_.push_back(make_vehicle(words));
+    for (const std::string& note : examples_.back().notes)
+      if (std::ranges::find(notes_, note) == notes_.end()) notes_.push_back(note);
+  }
+  require_ground(*make_road(request, first), examples_.front().set.plant, request);
+}
+
+/// Dampers that are those of every vehicle are shared: their models are large, and their limits take work.
+Vehicle SweepRider::make(const Task& task, const SweepDraw& draw) const {
+  const VehicleWords words = vehicle_words(request_, task.controller, draw);
+  if (varies_dampers(request_, task.controller)) return make_vehicle(words);
+  const Vehicle& example = examples_[task.controller];
+  Vehicle vehicle{.set = load_plant(words),
+                  .dampers = example.dampers,
+                  .damper_names = example.damper_names,
+                  .domains = example.domains,
+                  .drive_unit = example.drive_unit,
+                  .controller_name = words.controller,
+                  .limits = example.limits,
+                  .sensors = words.sensors};
+  if (example.controller)
+    vehicle.controller = make_controller(words.controller, {vehicle.limits, vehicle.set.plant}, words.where);
+  return vehicle;
+}
+
+std::vector<SweepStore::Ride> SweepRider::ride(const std::vector<Task>& tasks, const Monitor& monitor) const {
+  std::map<std::size_t, GroundPointer> grounds;  // a vehicle's controllers meet the same road
+  std::vector<Vehicle> vehicles;
+  vehicles.reserve(tasks.size());
+  std::vector<BatchVehicle> batch;
+  for (const Task& task : tasks) {
+    const SweepDraw draw = draw_vehicle(request_, task.vehicle);
+    GroundPointer& ground = grounds[task.vehicle];
+    if (!ground) ground = make_road(request_, draw);
+    const Vehicle& vehicle = vehicles.emplace_back(make(task, draw));
+    batch.push_back({vehicle.on(*ground), vehicle.limits, vehicle.sensors});
+  }
+  BatchOptions options{.duration = request_.duration,
+                       .discard = request_.discard,
+                       .relative_tolerance = request_.relative_tolerance,
+                       .monitor = {.stop = monitor.stop}};
+  options.traces = std::ranges::any_of(vehicles, needs_trace);
+  // Traces take memory: some at a time. A result does not depend on its neighbours.
+  const std::size_t most = options.traces ? kMostTraces : tasks.size();
+  std::vector<SweepStore::Ride> rides;
+  for (std::size_t first = 0; first < tasks.size(); first += most) {
+    const std::size_t count = std::min(most, tasks.size() - first);
+    const std::vector<BatchResult> results = simulate_batch(std::span(batch).subspan(first, count), options);
+    for (std::size_t k = 0; k < count; ++k) {
+      const Task& task = tasks[first + k];
+      rides.push_back(
+          {task.controller, task.vehicle, measure_ride(vehicles[first + k], results[k], request_.discard)});
+    }
+  }
+  return rides;
+}
+
+}  // namespace dashpot

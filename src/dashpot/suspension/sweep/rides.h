@@ -1,0 +1,35 @@
+#pragma once
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "dashpot/suspension/sweep/inputs.h"
+#include "dashpot/suspension/sweep/store.h"
+
+namespace dashpot {
+
+/// Makes vehicles of a request and drives them over their roads, some at a time. Immutable once made.
+class SweepRider {
+ public:
+  /// Tries every controller with the first vehicle. Throws Error on words that nothing is known by and on
+  /// parts that do not fit together.
+  explicit SweepRider(const SweepRequest& request);
+
+  /// Which vehicle under which controller.
+  struct Task {
+    std::size_t controller, vehicle;
+  };
+  /// One result per task. What comes of one does not depend on the others.
+  std::vector<SweepStore::Ride> ride(const std::vector<Task>& tasks, const Monitor& monitor) const;
+
+  const std::vector<std::string>& notes() const { return notes_; }
+
+ private:
+  Vehicle make(const Task& task, const SweepDraw& draw) const;
+
+  const SweepRequest& request_;
+  std::vector<Vehicle> examples_;  ///< one per controller: the first vehicle
+  std::vector<std::string> notes_;
+};
+
+}  // namespace dashpot

@@ -1,0 +1,34 @@
+#pragma once
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "dashpot/base/monitor.h"
+#include "dashpot/suspension/sweep/inputs.h"
+#include "dashpot/suspension/sweep/store.h"
+
+namespace dashpot {
+
+struct SweepOptions {
+  int threads = 0;
+  Monitor monitor;
+};
+
+/// Every vehicle under every controller.
+struct Sweep {
+  SweepRequest request;
+  std::vector<SweepDraw> vehicles;
+  std::vector<std::vector<RideMeasures>> rides;  ///< by controller, then by vehicle
+  std::vector<std::string> notes;                ///< "the numbers of ... are an example: ..."
+  std::size_t kept = 0;                          ///< rides that were in the store before
+  double wall_seconds = 0;
+
+  std::size_t ride_count() const { return vehicles.size() * rides.size(); }
+};
+
+/// Rides that are not in the store, in blocks that go into it as they end. The result is the same bit for bit
+/// for any number of threads and interruptions. Throws Error naming the vehicle that cannot be made,
+/// Interrupted where the monitor stops it.
+Sweep sweep(const SweepRequest& request, SweepStore& store, const SweepOptions& options);
+
+}  // namespace dashpot

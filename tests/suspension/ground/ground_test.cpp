@@ -1,0 +1,182 @@
+#include <cmath>
+#include <numbers>
+
+#include "dashpot/base/file.h"
+#include "dashpot/suspension/ground/deterministic.h"
+#include "dashpot/suspension/ground/earthquake.h"
+#include "dashpot/suspension/ground/ground_sequences.h"
+#include "dashpot/suspension/ground/road_profile.h"
+#include "support.h"
+
+using namespace dashpot;
+
+namespace {
+
+constexpr double kTurn = 2 * std::numbers::pi;
+
+/// One-sided density of x at n cycle/m: power of its Fourier sum over lines around n, Hann windows that
+/// overlap by half (Welch).
+double density_at(const std::vector<double>& x, double spacing, double n, std::size_t window) {
+  double power = 0, squares = 0;
+  int windows = 0;
+  for (std::size_t k = 0; k < window; ++k)
+    squares +=
+        std::pow(0.5 - 0.5 * std::cos(kTurn * static_cast<double>(k) / static_cast<double>(window)), 2);
+  for (std::size_t first = 0; first + window <= x.size(); first += window / 2, ++windows) {
+    double re = 0, im = 0;
+    for (std::size_t k = 0; k < window; ++k) {
+      const double at = static_cast<double>(k);
+      const double w = 0.5 - 0.5 * std::cos(kTurn * at / static_cast<double>(window));
+      re += w * x[first + k] * std::cos(kTurn * n * spacing * at);
+      im += w * x[first + k] * std::sin(kTurn * n * spacing * at);
+    }
+    power += re * re + im * im;
+  }
+  return 2 * spacing * power / (squares * windows);
+}
+
+/// Density over the class's own, mean of its logarithm over wave numbers, dB.
+double deviation_db(const std::vector<double>& z, double spacing, double roughness) {
+  double sum = 0;
+  int lines = 0;
+  for (double n = 0.05; n < 1; n *= 1.1, ++lines)
+    sum += 10 * std::log10(density_at(z, spacing, n, 2048) / road_density(roughness, n));
+  return sum / lines;
+}
+
+double height(const GroundMotion& ground, double t) { return ground.foot(t, 0, 0).height; }
+
+/// The rate is the derivative of the height.
+void check_rate(const GroundMotion& ground, double t) {
+  const double h = 1e-5, slope = (height(ground, t + h) - height(ground, t - h)) / (2 * h);
+  CHECK_CLOSE(ground.foot(t, 0, 0).velocity, slope, 1e-5, 1e-8);
+}
+
+}  // namespace
+
+TEST_CASE("a class C road as a sum of cosines: TC-9.2") {
+  std::vector<RoadWave> waves;
+  const double step = (10 - 0.01) / 1000;
+  double power = 0;
+  for (int i = 0; i < 1000; ++i) {
+    const double n = 0.01 + step * (i + 0.5), golden = 0.6180339887498949 * i;
+    waves.push_back({wave_amplitude(256e-6, n, step), n, kTurn * (golden - std::floor(golden))});
+    power += 0.5 * waves.back().amplitude * waves.back().amplitude;
+  }
+  CHECK_CLOSE(height_at(waves, 0), 9.9247617e-3, 1e-8, 0);
+  CHECK_CLOSE(height_at(waves, 1), 1.0179912e-2, 1e-8, 0);
+  CHECK_CLOSE(height_at(waves, 12.34), 9.6087041e-3, 1e-8, 0);
+  CHECK_CLOSE(std::sqrt(power), 1.5462228e-2, 1e-8, 0);
+  CHECK_CLOSE(kTurn * 0.1 * std::sqrt(256e-6 * 20), 4.4958814e-2, 1e-8, 0);
+}
+
+TEST_CASE("roads of all classes are within 1 dB of their density, by all generators" *
+          doctest::test_suite("long")) {
+  for (char letter = 'A'; letter <= 'H'; ++letter) {
+    CAPTURE(letter);
+    const RoadOptions options{.roughness = road_roughness(letter),
+                              .length = 1200,
+                              .spacing = 0.05,
+                              .waves = 1000,
+                              .seed = static_cast<std::uint64_t>(letter)};
+    CHECK_CLOSE(deviation_db(cosine_road(options).tracks[0], 0.05, options.roughness), 0, 0, 1);
+    CHECK_CLOSE(deviation_db(harmonic_road(options).tracks[0], 0.05, options.roughness), 0, 0, 1);
+    CHECK_CLOSE(deviation_db(filtered_road(options).tracks[0], 0.05, options.roughness), 0, 0, 1);
+  }
+  CHECK(road_roughness('A') == 16e-6);
+  CHECK(road_roughness('C') == 256e-6);
+  CHECK_CLOSE(road_roughness('H'), 262144e-6, 1e-12, 0);
+}
+
+TEST_CASE("left and right agree in long waves, not in short ones, and are as rough") {
+  const RoadOptions options{.length = 3000, .spacing = 0.05, .waves = 1500, .track_width = 1.5};
+  RoadProfile road;
+  SUBCASE("sum of cosines") { road = cosine_road(options); }
+  SUBCASE("sum of harmonics") { road = harmonic_road(options); }
+  REQUIRE(road.tracks.size() == 2);
+  std::vector<double> apart;
+  for (std::size_t k = 0; k < road.tracks[0].size(); ++k)
+    apart.push_back(road.tracks[0][k] - road.tracks[1][k]);
+  CHECK_CLOSE(deviation_db(road.tracks[1], 0.05, options.roughness), 0, 0, 1);
+  // Density of the difference over twice that of a track: 1 - coherence, 1 - x K_1(x) with x = 2 pi n t:
+  // 0.0158 at n = 0.012, and all but 1 at n = 1.
+  CHECK(density_at(apart, 0.05, 0.02, 4096) < 0.2 * road_density(256e-6, 0.02));
+  CHECK_CLOSE(density_at(apart, 0.05, 1, 4096) / (2 * road_density(256e-6, 1)), 1, 0.35, 0);
+}
+
+TEST_CASE("the same seed gives the same road, another one another") {
+  const RoadOptions options{.length = 100};
+  RoadOptions other = options;
+  other.seed = 2;
+  CHECK(cosine_road(options).tracks == cosine_road(options).tracks);
+  CHECK(cosine_road(options).tracks != cosine_road(other).tracks);
+  CHECK(filtered_road(options).tracks != filtered_road(other).tracks);
+}
+
+TEST_CASE("chirps and bump: TC-9.3") {
+  const GroundPointer linear = make_ground("chirp", 1), exponential = make_ground("exponential_chirp", 1);
+  const double t[] = {1, 7.3, 29.9};
+  const double expected[] = {-0.01782013, -0.0038401627, -4.0837866e-4};
+  const double expected_exponential[] = {-0.0039991681, -0.01056263, -0.011447506};
+  for (int k = 0; k < 3; ++k) {
+    CHECK_CLOSE(height(*linear, t[k]), expected[k], 1e-7, 0);
+    CHECK_CLOSE(height(*exponential, t[k]), expected_exponential[k], 1e-7, 0);
+    check_rate(*linear, t[k]);
+    check_rate(*exponential, t[k]);
+  }
+  const GroundPointer bump = make_ground("bump,height=8cm,length=3m,speed=10,at=0", 1);
+  CHECK_CLOSE(height(*bump, 0.05), 0.02, 1e-12, 0);
+  CHECK_CLOSE(height(*bump, 0.15), 0.08, 1e-12, 0);
+  CHECK_CLOSE(height(*bump, 0.25), 0.02, 1e-12, 0);
+  CHECK(height(*bump, 0.31) == 0);
+  check_rate(*bump, 0.07);
+  CHECK_CLOSE(bump->foot(0.25, 0, 1).height, height(*bump, 0.15), 1e-12, 0);
+}
+
+TEST_CASE("a road driven over begins level, comes later to the rear, and its rate is its height's") {
+  const GroundPointer road = make_ground("iso8608,class=d,speed=36km/h,length=200,track_width=1.5", 3);
+  CHECK(height(*road, 0) == 0);
+  CHECK_CLOSE(road->foot(5.27, 0, 2.7).height, road->foot(5, 0, 0).height, 0, 1e-12);
+  CHECK(road->foot(5, 1, 0).height != road->foot(5, 0, 0).height);
+  for (const double t : {0.3, 3.001, 12.34}) check_rate(*road, t);
+  CHECK(road->duration() > 19.9);
+  CHECK(make_ground("step,height=3cm,at=1", 1)->jumps(0) == std::vector<double>{1});
+}
+
+TEST_CASE("the measured road and the earthquakes can be read") {
+  const auto folder = shared_data("road");
+  if (folder.empty()) return;
+  const RoadProfile road = load_road(folder / "i76_eastbound_left.txt", "ft", "in");
+  CHECK(road.tracks.size() == 2);
+  CHECK_CLOSE(road.length(), 760, 0.05, 0);
+  CHECK_CLOSE(road.spacing, 0.025, 0.01, 0);
+  double top = 0;
+  for (const double z : road.tracks[0]) top = std::max(top, std::abs(z));
+  CHECK(top < 1);
+  const auto shaking = shared_data("earthquake");
+  const GroundPointer quake = load_earthquake(shaking / "el_centro_g.dat", "g0", 0.2);
+  double peak = 0;
+  for (double t = 0; t < quake->duration(); t += 0.002)
+    peak = std::max(peak, std::abs(quake->acceleration(t)));
+  CHECK_CLOSE(peak / 9.80665, 0.348737, 1e-3, 0);
+  CHECK(load_earthquake(shaking / "kobe.mat")->duration() > 10);
+}
+
+TEST_CASE("ground that cannot be made is refused, with what would be right") {
+  const auto refusal = [](const std::string& text) { return message_of([&] { make_ground(text, 1); }); };
+  CHECK(refusal("iso8606").find("did you mean 'iso8608'") != std::string::npos);
+  CHECK(refusal("iso8608,class=Z").find("A (smooth) to H") != std::string::npos);
+  CHECK(refusal("iso8608,speed=3kg").find("not a unit of it") != std::string::npos);
+  CHECK(refusal("step,hight=3cm").find("did you mean 'height'") != std::string::npos);
+  const TemporaryFolder folder;
+  write_file(folder.path() / "road.csv", "s (m),z (m),q\n0,0,0\n1,0,0\n2,0,0\n");
+  CHECK(message_of([&] { load_road(folder.path() / "road.csv"); }).find("in pairs") != std::string::npos);
+  write_file(folder.path() / "back.csv", "s (m),z (m)\n0,0\n1,0\n0.5,0\n");
+  CHECK(message_of([&] { load_road(folder.path() / "back.csv"); }).find("does not rise in row 3") !=
+        std::string::npos);
+  write_file(folder.path() / "quake.csv", "time,a\n0,0\n0.02,0.1\n0.04,20.1kilo\n0.06,0\n");
+  CHECK(message_of([&] { load_earthquake(folder.path() / "quake.csv"); }).find("row 3 of 'a' is no number") !=
+        std::string::npos);
+  write_file(folder.path() / "far.csv", "s (m),z (m)\n0,0\n1,1e200\n2,0\n");
+  CHECK(message_of([&] { load_road(folder.path() / "far.csv"); }).find(" is 1e+200") != std::string::npos);
+}

@@ -1,0 +1,153 @@
+#include "dashpot/suspension/ride/ride_study.h"
+
+#include <numbers>
+
+#include "dashpot/output/ride_document.h"
+#include "dashpot/suspension/ground/ground_sequences.h"
+#include "dashpot/suspension/linear.h"
+#include "support.h"
+
+using namespace dashpot;
+
+namespace {
+
+/// Gains of the Savaresi-Spelta quarter car with a linear damper, by its frequency response.
+struct LinearGains {
+  double body_acceleration, tyre_deflection;
+};
+LinearGains linear_gains(double damping, double f) {
+  const Plant plant = load_plant_set("savaresi_spelta").plant;
+  const auto q = frequency_response(plant, {damping}, f);
+  const double rate = 2 * std::numbers::pi * f;
+  return {rate * rate * std::abs(q[0]), std::abs(q[1] - 1.0)};
+}
+
+RideStudyOptions small_study() {
+  RideStudyOptions options;
+  options.controllers = {"skyhook", "sh_add"};
+  options.frequencies = {4, 8};
+  options.gains = {.settling = 4, .counted = 1, .chirp = 3};
+  options.road_duration = 6;
+  options.held = 2;
+  options.threads = 1;
+  return options;
+}
+
+}  // namespace
+
+TEST_CASE("gains by a sine and by a chirp are those of the frequency response, where all is linear") {
+  const Vehicle vehicle = make_vehicle({.dampers = {"viscous,damping=1500"}});
+  const double f = 4;
+  const LinearGains exact = linear_gains(1500, f);
+  const GainPoint sine = gain_by_sine(vehicle, f, {.settling = 6});
+  CHECK_CLOSE(sine.body_acceleration.fundamental, exact.body_acceleration, 1e-4, 0);
+  CHECK_CLOSE(sine.body_acceleration.variance, exact.body_acceleration, 1e-4, 0);
+  CHECK_CLOSE(sine.tyre_deflection.fundamental, exact.tyre_deflection, 1e-4, 0);
+  for (const GainPoint& point : gains_by_chirp(vehicle, {2, 4, 8}, {.chirp = 60})) {
+    // A chirp is read while it moves on: a few per cent.
+    const LinearGains there = linear_gains(1500, point.frequency);
+    CHECK_CLOSE(point.body_acceleration.fundamental, there.body_acceleration, 0.03, 0);
+    CHECK_CLOSE(point.tyre_deflection.fundamental, there.tyre_deflection, 0.03, 0);
+  }
+}
+
+TEST_CASE("the integrals over the usual frequencies are those of MODELS 7.13 for passive dampers") {
+  const std::vector<double> f = usual_frequencies();
+  CHECK(f.size() == 18);
+  const auto integrals = [&](double damping) {
+    std::vector<double> comfort, holding;
+    for (const double one : f) {
+      comfort.push_back(linear_gains(damping, one).body_acceleration);
+      holding.push_back(linear_gains(damping, one).tyre_deflection);
+    }
+    return std::pair{gain_integral(f, comfort), gain_integral(f, holding)};
+  };
+  const auto nominal = integrals(1500), soft = integrals(300), hard = integrals(3900);
+  CHECK_CLOSE(soft.first / nominal.first, 0.646, 0.005, 0);
+  CHECK_CLOSE(soft.second / nominal.second, 2.083, 0.005, 0);
+  CHECK_CLOSE(hard.first / nominal.first, 1.322, 0.005, 0);
+  CHECK_CLOSE(hard.second / nominal.second, 0.735, 0.005, 0);
+}
+
+TEST_CASE("a small study: MODELS 7.13 within 3 %, and the same bits for any number of threads") {
+  RideStudyOptions options = small_study();
+  const RideStudy study = study_ride(options);
+  CHECK(study.passive.name() == "viscous, 1500 N*s/m");
+  CHECK_CLOSE(study.passive.sines[0].body_acceleration.fundamental, 120.6, 0.03, 0);
+  CHECK_CLOSE(study.controlled[0].sines[0].body_acceleration.fundamental, 70.2, 0.03, 0);
+  CHECK_CLOSE(study.controlled[1].sines[0].body_acceleration.fundamental, 49.6, 0.03, 0);
+  CHECK_CLOSE(study.controlled[1].sines[1].body_acceleration.fundamental, 109.0, 0.03, 0);
+  // Variance counts what the law adds at other frequencies.
+  CHECK(study.controlled[0].sines[0].body_acceleration.variance >
+        1.1 * study.controlled[0].sines[0].body_acceleration.fundamental);
+  CHECK(study.held.front().tyre > study.held.back().tyre);
+  options.threads = 3;
+  CHECK(format_json(ride_json(study_ride(options))) == format_json(ride_json(study)));
+}
+
+TEST_CASE("the page of a ride has a section each for road, frequency and step") {
+  RideStudyOptions options = small_study();
+  options.controllers = {"mix1"};
+  options.frequencies = {8};
+  const Document page = ride_document(study_ride(options));
+  REQUIRE(page.sections.size() == 3);
+  CHECK(page.sections[0].tables[0].rows.size() == 2);
+  CHECK(page.sections[0].figures[0].panels[0].series.size() == 4);  // line, its dots, passive, mix1
+  CHECK(page.sections[1].figures[0].panels.size() == 6);
+  CHECK(page.verdict.find("mix1: ") != std::string::npos);
+}
+
+TEST_CASE("with a bound the page tells what is possible, and no controller is beyond it" *
+          doctest::test_suite("long")) {
+  RideStudyOptions options = small_study();
+  options.frequencies = {8};
+  options.road_duration = 2;
+  options.bound = true;
+  const RideStudy study = study_ride(options);
+  const Plant& plant = study.passive.road.vehicle->set.plant;
+  REQUIRE(study.front.size() == 5);
+  for (const ClairvoyantBound& best : study.front) {
+    CHECK(best.bound <= best.optimum);
+    for (const RiddenVehicle& one : study.controlled)
+      CHECK(best.optimum <= ride_squares(one.road.trace, plant).of(best.index));
+  }
+  const Document page = ride_document(study);
+  REQUIRE(page.sections.size() == 4);
+  CHECK(page.sections[1].tables[0].rows.size() == 5);  // passive, two controllers, optimum, bound
+}
+
+TEST_CASE("rides that cannot be are refused") {
+  const auto refusal = [](auto change) {
+    RideStudyOptions options = small_study();
+    change(options);
+    return message_of([&] { study_ride(options); });
+  };
+  CHECK(refusal([](auto& o) {
+          o.controllers = {"skyhok"};
+        }).find("vehicle: unknown controller 'skyhok'; did you mean 'skyhook'?") == 0);
+  CHECK(refusal([](auto& o) { o.frequencies = {4, 2}; }) ==
+        "vehicle: its frequencies do not rise from above 0");
+  CHECK(refusal([](auto& o) {
+          o.vehicle.plant = "dyke_spencer1996";
+          o.vehicle.dampers = {"spencer1997"};
+        }) == "vehicle: dyke_spencer1996 has no tyres to ride on; a vehicle");
+  CHECK(refusal([](auto& o) { o.against = "current=x"; }) ==
+        "vehicle: 'current=x' states no current; current=0.5");
+  CHECK(refusal([](auto& o) {
+          o.bound = true;
+          o.vehicle.values = {"tyres_may_lift=1"};
+        }).find("savaresi_spelta: is not linear but for its damper") == 0);
+}
+
+TEST_CASE("all laws that suit a vehicle are taken, the others named with the reason") {
+  RideStudyOptions options = small_study();
+  options.controllers = {"all"};
+  options.vehicle.sensors.in_car = true;
+  options.frequencies = {20};
+  options.gains = {.settling = 0.5, .counted = 0.5, .chirp = 1};
+  options.road_duration = 0.5;
+  const RideStudy study = study_ride(options);
+  CHECK(study.controlled.size() >= 9);
+  REQUIRE(!study.left_out.empty());
+  CHECK(study.left_out[0].find("is left out: vehicle: 'clipped_lqr' feeds back") != std::string::npos);
+}
