@@ -21,7 +21,7 @@ struct Subject {
   CBlock block;
   std::string first;                ///< in place of block.step where a run begins
   std::vector<std::string> states;  ///< names of block.state_size numbers, or none
-  Rows facts;                       ///< metadata of its own
+  Rows facts;                       ///< metadata of its own, the first of which names it
   std::string signs, command;
 };
 
@@ -102,7 +102,7 @@ class Files {
                        .metadata = metadata()});
   }
 
-  /// Behind the state of the C code, which comes last in its struct, a damper has its last inputs.
+  /// damper_model ends with the state of the C code; that of a damper begins with the last inputs.
   std::string state_name(std::size_t place) const {
     const std::size_t before = calculation_.state_size() - block_.state_size;
     if (place < before) return "previous_" + block_.inputs[place].name;

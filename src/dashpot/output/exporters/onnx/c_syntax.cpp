@@ -139,25 +139,18 @@ class Parser {
     return type;
   }
 
-  void type_definition() {
-    if (take("enum")) {
-      const CType type = enumeration();
-      types_[word()] = type;
-      need(";");
-      return;
-    }
-    if (!take("struct")) {
-      const CType type = base_type_of_alias();
-      types_[word()] = type;
-      need(";");
-      return;
-    }
+  CType structure() {
     CStruct out{.name = word()};
     need("{");
     while (!take("}"))
       for (CDeclaration& field : declarations(base_type())) out.fields.push_back(std::move(field));
-    types_[word()] = {.kind = CType::Kind::Struct, .structure = program_.structs.size()};
     program_.structs.push_back(std::move(out));
+    return {.kind = CType::Kind::Struct, .structure = program_.structs.size() - 1};
+  }
+
+  void type_definition() {
+    const CType type = take("enum") ? enumeration() : take("struct") ? structure() : base_type_of_alias();
+    types_[word()] = type;
     need(";");
   }
 

@@ -9,30 +9,13 @@
 namespace dashpot::trace {
 namespace {
 
-/// What is called, behind the code of a block.
-constexpr const char* kCalls = R"(
-static void read_input(const double* row, damper_input* input) {
-@reads@}
-
-static void reset_call(const double* row, damper_model* state, double* commands) {
-  damper_input input;
-  read_input(row, &input);
-  damper_reset(state, &input);
-}
-
-static void first_call(const double* row, damper_model* state, double* commands) {
+/// How one of a block's statements is called.
+constexpr const char* kCall = R"(
+static void @name@(const double* row, damper_model* state, double* commands) {
   damper_model model = *state;
   damper_input input;
   read_input(row, &input);
-  @first@
-  *state = model;
-}
-
-static void step_call(const double* row, damper_model* state, double* commands) {
-  damper_model model = *state;
-  damper_input input;
-  read_input(row, &input);
-  @step@
+  @statement@
   *state = model;
 }
 )";
@@ -40,7 +23,14 @@ static void step_call(const double* row, damper_model* state, double* commands) 
 std::string code_of(const CBlock& block, const std::string& first) {
   std::string code;
   for (const ExportedFile& file : c_block_sources(block, "damper", "")) code += file.content;
-  return code + filled(kCalls, {{"reads", c_block_reads(block)}, {"first", first}, {"step", block.step}});
+  code +=
+      "\nstatic void read_input(const double* row, damper_input* input) {\n" + c_block_reads(block) + "}\n";
+  for (const auto& [name, statement] :
+       {std::pair<std::string, std::string>{"reset_call", "damper_reset(&model, &input);"},
+        {"first_call", first},
+        {"step_call", block.step}})
+    code += filled(kCall, {{"name", name}, {"statement", statement}});
+  return code;
 }
 
 std::size_t width(const std::vector<CPort>& ports) {
