@@ -71,10 +71,10 @@ TEST_CASE("identify fits the usual models unless it is told otherwise; rank fits
   CHECK(contains(help, "(default: usual)"));
   CHECK(contains(run_dashpot("rank --help").output, "(default: all)"));
   const TemporaryFolder folder;
-  const ProgramResult result =
-      run_dashpot("identify " + small_campaign().string() +
-                  " --models bingham,usual --starts 1 --leave-out fraction=0.3 --no-report --output " +
-                  folder.path().string());
+  const ProgramResult result = run_dashpot("identify " + small_campaign().string() +
+                                           " --models bingham,usual --network members=1,epochs=3 --starts 1 "
+                                           "--leave-out fraction=0.3 --no-report --output " +
+                                           folder.path().string());
   CHECK(result.exit_code == 0);
   for (const char* model : {"bingham", "tanh_kwok", "arctan", "modified_bouc_wen", "large_scale_bouc_wen",
                             "anfis", "mlp_one_sensor"})
