@@ -15,6 +15,8 @@ using namespace dashpot;
 namespace {
 
 const std::string kMemcheck = "valgrind --quiet --error-exitcode=9 --leak-check=full";
+// allocation_test.cpp replaces some operators of the test program, which valgrind takes for a mismatch.
+const std::string kOfTests = kMemcheck + " --show-mismatched-frees=no --child-silent-after-fork=yes";
 
 void write(const TemporaryFolder& folder, const std::vector<ExportedFile>& files) {
   for (const ExportedFile& file : files) folder.write(file.name, file.content);
@@ -33,11 +35,11 @@ TEST_CASE("valgrind finds nothing in exported C: a model of each kind, an invers
   const auto inverse = find_inverse("numeric").make(damper, {0, 2, 1e-3, 60});
   write(folder,
         write_c_inverse({.model = *inverse, .title = "inverse", .domain = {-0.02, 0.02, -0.3, 0.3, 0, 2}},
-                        {.name = "inverse"}));
+                        {.name = "numeric_inverse"}));
   const Vehicle vehicle = make_vehicle({.dampers = {"spencer1997,motion_ratio=0.8"},
                                         .controller = "skyhook_modified",
-                                        .sensors = {.in_car = true},
-                                        .inverse = "numeric"});
+                                        .inverse = "numeric",
+                                        .sensors = {.in_car = true}});
   write(folder, write_c_controller(vehicle, {.name = "controller"}));
   check_that_it_runs(folder, "-O1 -g", kMemcheck);
 }
@@ -45,8 +47,8 @@ TEST_CASE("valgrind finds nothing in exported C: a model of each kind, an invers
 TEST_CASE("valgrind finds nothing where the test importer takes FMUs of FMI 2 and 3 through their lives") {
   if (!is_there("cc") || !is_there("valgrind")) return;
   const ProgramResult result =
-      run_program(kMemcheck + " --child-silent-after-fork=yes '" +
-                  std::filesystem::read_symlink("/proc/self/exe").string() + "' --test-case='FMU: *'");
+      run_program(kOfTests + " '" + std::filesystem::read_symlink("/proc/self/exe").string() +
+                  "' --source-file=*fmu_use_test.cpp");
   CAPTURE(result.output);
   CHECK(result.exit_code == 0);
   CHECK(result.output.find("Status: SUCCESS") != std::string::npos);
