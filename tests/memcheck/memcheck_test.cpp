@@ -13,6 +13,8 @@ using namespace dashpot;
 namespace {
 
 const std::string kMemcheck = "valgrind --quiet --error-exitcode=9 --leak-check=full";
+// allocation_test.cpp replaces some operators of the test program, which valgrind takes for a mismatch.
+const std::string kOfTests = kMemcheck + " --show-mismatched-frees=no --child-silent-after-fork=yes";
 
 void write(const TemporaryFolder& folder, const std::vector<ExportedFile>& files) {
   for (const ExportedFile& file : files) folder.write(file.name, file.content);
@@ -41,8 +43,8 @@ TEST_CASE("valgrind finds nothing in exported C: a model of each kind, an invers
 TEST_CASE("valgrind finds nothing where the test importer takes FMUs of FMI 2 and 3 through their lives") {
   if (!is_there("cc") || !is_there("valgrind")) return;
   const ProgramResult result =
-      run_program(kMemcheck + " --child-silent-after-fork=yes '" +
-                  std::filesystem::read_symlink("/proc/self/exe").string() + "' --test-case='FMU: *'");
+      run_program(kOfTests + " '" + std::filesystem::read_symlink("/proc/self/exe").string() +
+                  "' --source-file=*fmu_use_test.cpp");
   CAPTURE(result.output);
   CHECK(result.exit_code == 0);
   CHECK(result.output.find("Status: SUCCESS") != std::string::npos);

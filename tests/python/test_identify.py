@@ -152,7 +152,7 @@ class Estimator(unittest.TestCase):
     def test_scikit_learn(self):
         try:
             from sklearn.base import clone
-            from sklearn.model_selection import GridSearchCV, KFold
+            from sklearn.model_selection import GridSearchCV, KFold, cross_val_score
         except ImportError:
             self.skipTest("SKIPPED: scikit-learn is not here")
         identifier = dashpot.Identifier("bingham", starts=1, threads=1)
@@ -161,6 +161,7 @@ class Estimator(unittest.TestCase):
         self.assertEqual(copied.get_params(), identifier.get_params())
         search = GridSearchCV(identifier, {"model": ["polynomial", "bingham"]}, cv=KFold(3), error_score="raise")
         self.assertEqual(search.fit(self.X, self.y).best_params_, {"model": "bingham"})
+        self.assertGreater(min(cross_val_score(identifier, self.X, self.y, cv=KFold(3))), 0.9)
         # Rows of one array: what is cut out of the middle leaves a gap in time.
         search.fit(self.X[2], self.y[2])
         self.assertEqual(search.best_params_, {"model": "bingham"})
@@ -222,6 +223,12 @@ class Stubs(InFolder):
             members = {node.name for node in stated[name].body if isinstance(node, ast.FunctionDef)}
             for member in [member for member in vars(getattr(_core, name)) if not member.startswith("_")]:
                 self.assertIn(member, members, f"{name}.{member}")
+
+    def test_docstrings(self):
+        for owner in [dashpot, *(one for one in vars(dashpot).values() if isinstance(one, type))]:
+            for name, member in vars(owner).items():
+                if not name.startswith("_") and callable(member) or isinstance(member, property):
+                    self.assertTrue(member.__doc__, f"{owner.__name__}.{name}")
 
     def test_types(self):
         """mypy reads the package and the examples without a finding, and finds what is wrong."""

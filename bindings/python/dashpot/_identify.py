@@ -52,6 +52,7 @@ class Ranking:
 
     @property
     def best(self) -> _core.DamperModel:
+        """The first; raises NotUsable where no fit succeeded."""
         return self[0]
 
     @property
