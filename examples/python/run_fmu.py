@@ -119,6 +119,8 @@ def main():
     asked = words.parse_args()
     with Fmu(asked.fmu) as fmu:
         step, drive = fmu.step, "u" if "u" in fmu.variables else "i"
+        if not {"s", "v", "f"} <= set(fmu.variables):
+            raise ValueError(f"{asked.fmu} is no damper's: it has {', '.join(fmu.variables)}")
     rate, a = 2 * math.pi * asked.frequency, asked.amplitude
     t = [k * step for k in range(round(2 / asked.frequency / step) + 1)]
     s, v = [a * math.sin(rate * time) for time in t], [a * rate * math.cos(rate * time) for time in t]
@@ -133,4 +135,7 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    try:
+        main()
+    except (OSError, RuntimeError, ValueError, zipfile.BadZipFile) as error:
+        sys.exit(f"run_fmu.py: {error}")

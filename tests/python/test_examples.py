@@ -93,8 +93,11 @@ class Examples(InFolder):
         cut = self.folder / "cut.fmu"
         for share in (0, 0.3, 0.9):
             cut.write_bytes(whole[: int(share * len(whole))])
-            with self.assertRaisesRegex(AssertionError, "BadZipFile"):
+            with self.assertRaisesRegex(AssertionError, "not a zip file"):
                 python(EXAMPLES / "run_fmu.py", cut)
+        program("export", "--controller", "mix1", "--in-car", "--to", "fmu3", "--output", ".", cwd=self.folder)
+        with self.assertRaisesRegex(AssertionError, "no damper's: it has time, body_acceleration, command"):
+            python(EXAMPLES / "run_fmu.py", self.folder / "mix1_controller_fmi3.fmu")
 
 
 class Speed(unittest.TestCase):
