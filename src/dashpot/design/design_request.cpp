@@ -6,29 +6,12 @@
 #include "dashpot/base/data_folder.h"
 #include "dashpot/base/error.h"
 #include "dashpot/base/file.h"
+#include "dashpot/base/read_quantity.h"
 #include "dashpot/base/text.h"
-#include "dashpot/base/units.h"
 #include "dashpot/base/value.h"
 
 namespace dashpot {
 namespace {
-
-double read_number(const Value& value, std::string_view unit) {
-  const double number = value.kind() == Value::Kind::Number
-                            ? value.as_number()
-                            : parse_quantity(value.as_string(), unit, value.where());
-  if (!std::isfinite(number)) throw Error(value.where(), "is not finite", "a number");
-  return number;
-}
-
-/// In the field's unit and within its bounds.
-double read_field(const Value& value, const DescriptionField& field) {
-  const double number = read_number(value, field.unit);
-  if (number >= field.lower && number <= field.upper) return number;
-  const std::string unit = ' ' + std::string(field.unit);
-  throw Error(value.where(), std::string(field.name) + " is " + format_number(number) + unit,
-              format_number(field.lower) + " ... " + format_number(field.upper) + unit);
-}
 
 double positive(double value, const Value& at, const std::string& what) {
   if (value > 0) return value;
@@ -49,7 +32,7 @@ void read_range(const Value& value, DesignVariable& variable) {
   variable.from = read_field(reader.required("from"), *variable.field);
   variable.to = read_field(reader.required("to"), *variable.field);
   if (const Value* step = reader.optional("step"))
-    variable.step = positive(read_number(*step, variable.field->unit), *step, "the step");
+    variable.step = positive(read_quantity(*step, variable.field->unit), *step, "the step");
   reader.finish();
   const auto shown = [&](double number) {
     return format_number(number) + ' ' + std::string(variable.field->unit);
@@ -79,7 +62,7 @@ DesignVariable read_variable(const std::string& name, const Value& value) {
 
 void read_operation(ObjectReader& reader, DamperOperation& operation) {
   const auto read = [&](std::string_view key, std::string_view unit, double& target) {
-    if (const Value* value = reader.optional(key)) target = read_number(*value, unit);
+    if (const Value* value = reader.optional(key)) target = read_quantity(*value, unit);
   };
   read("current", "A", operation.current);
   read("velocity", "m/s", operation.velocity);
@@ -111,7 +94,7 @@ void read_constraint(const Value& value, const DamperOperation& at, DesignReques
       if (!bound) continue;
       constraint.by = by;
       constraint.at_least = bound == least;
-      constraint.bound = read_number(*bound, constraint.quantity->unit);
+      constraint.bound = read_quantity(*bound, constraint.quantity->unit);
       request.constraints.push_back(constraint);
     }
   const std::size_t count = request.constraints.size();
@@ -140,7 +123,7 @@ FollowingField read_following(const std::string& name, const Value& value) {
   following.field = &find_description_field(name, value.where());
   for (const auto& [key, factor] : value.members())
     if (key == "constant")
-      following.constant = read_number(factor, following.field->unit);
+      following.constant = read_quantity(factor, following.field->unit);
     else
       following.terms.emplace_back(&find_description_field(key, factor.where()), factor.as_number());
   return following;
@@ -244,7 +227,8 @@ DesignRequest parse_request(std::string_view text, const std::string& source,
   });
   each_member(reader, "tolerances", [&](const std::string& name, const Value& value) {
     const DescriptionField& field = find_description_field(name, value.where());
-    request.tolerances.push_back({&field, positive(read_number(value, field.unit), value, "the tolerance")});
+    request.tolerances.push_back(
+        {&field, positive(read_quantity(value, field.unit), value, "the tolerance")});
   });
   if (const Value* robust = reader.optional("robust")) read_robust(*robust, request);
   if (const Value* list = reader.optional("constraints"))

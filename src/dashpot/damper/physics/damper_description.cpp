@@ -6,8 +6,8 @@
 #include "dashpot/base/data_folder.h"
 #include "dashpot/base/error.h"
 #include "dashpot/base/file.h"
+#include "dashpot/base/read_quantity.h"
 #include "dashpot/base/text.h"
-#include "dashpot/base/units.h"
 #include "dashpot/base/value.h"
 
 namespace dashpot {
@@ -99,11 +99,6 @@ std::string_view word_of(const Words& words, Law law) {
   return {};
 }
 
-double read_quantity(const Value& value, const DescriptionField& field) {
-  if (value.kind() == Value::Kind::Number) return value.as_number();
-  return parse_quantity(value.as_string(), field.unit, value.where());
-}
-
 void require_within(double value, const DescriptionField& field, const std::string& where) {
   if (value >= field.lower && value <= field.upper) return;
   throw Error(
@@ -118,6 +113,12 @@ DamperDescription::DamperDescription() : fluid(&find_fluid("132DG")) {
 }
 
 std::span<const DescriptionField> description_fields() { return kFields; }
+
+double read_field(const Value& value, const DescriptionField& field) {
+  const double number = read_quantity(value, field.unit);
+  require_within(number, field, value.where());
+  return number;
+}
 
 const DescriptionField& find_description_field(std::string_view name, const std::string& where) {
   std::vector<std::string> known;
@@ -156,10 +157,8 @@ DamperDescription parse_description(std::string_view text, const std::string& so
   read_law(reader, "circuit", kCircuitLaws, description.circuit_law);
   read_law(reader, "flow", kFlowLaws, description.flow_law);
   for (const DescriptionField& field : kFields)
-    if (const Value* value = reader.optional(field.name)) {
-      description.*field.field = read_quantity(*value, field);
-      require_within(description.*field.field, field, value->where());
-    }
+    if (const Value* value = reader.optional(field.name))
+      description.*field.field = read_field(*value, field);
   reader.finish();
   require_possible(description, source);
   return description;

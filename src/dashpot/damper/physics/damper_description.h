@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "dashpot/base/value.h"
 #include "dashpot/damper/physics/fluid.h"
 
 namespace dashpot {
@@ -54,6 +55,8 @@ struct DescriptionField {
   std::string_view meaning;
 };
 std::span<const DescriptionField> description_fields();
+/// In the field's unit and within its bounds. Throws Error.
+double read_field(const Value& value, const DescriptionField& field);
 /// Throws Error(where, "unknown field ...").
 const DescriptionField& find_description_field(std::string_view name, const std::string& where);
 

@@ -6,6 +6,7 @@
 #include <boost/math/special_functions/erf.hpp>
 
 #include "dashpot/base/error.h"
+#include "dashpot/base/read_quantity.h"
 #include "dashpot/base/text.h"
 #include "dashpot/base/units.h"
 
@@ -27,14 +28,6 @@ double normal_between(double low, double high, double u) {
 
 std::string with_unit(double value, const std::string& unit) {
   return format_number(value) + (unit == "1" ? "" : " " + unit);
-}
-
-double read_quantity(const Value& value, std::string_view unit) {
-  const double number = value.kind() == Value::Kind::Number
-                            ? value.as_number()
-                            : parse_quantity(value.as_string(), unit, value.where());
-  if (!std::isfinite(number)) throw Error(value.where(), "is not finite", "a number");
-  return number;
 }
 
 double read_within(const Value& value, const ParameterRow& row) {

@@ -1,27 +1,18 @@
 #include "dashpot/suspension/sweep/request.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "dashpot/base/data_folder.h"
 #include "dashpot/base/error.h"
 #include "dashpot/base/file.h"
+#include "dashpot/base/read_quantity.h"
 #include "dashpot/base/text.h"
-#include "dashpot/base/units.h"
 #include "dashpot/suspension/sweep/inputs.h"
 
 namespace dashpot {
 namespace {
 
 namespace fs = std::filesystem;
-
-double read_quantity(const Value& value, std::string_view unit) {
-  const double number = value.kind() == Value::Kind::Number
-                            ? value.as_number()
-                            : parse_quantity(value.as_string(), unit, value.where());
-  if (!std::isfinite(number)) throw Error(value.where(), "is not finite", "a number");
-  return number;
-}
 
 /// The quantity under a key, within bounds.
 void read_into(ObjectReader& reader, const ParameterRow& row, double& target) {
