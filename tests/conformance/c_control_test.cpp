@@ -47,7 +47,7 @@ TEST_CASE(
   check_that_it_runs(folder, kAsTheTests);
 }
 
-TEST_CASE("exported C ships nothing that only the library needs") {
+TEST_CASE("exported C ships nothing that only the library needs" * doctest::test_suite("long")) {
   std::string all;
   for (const BlockCase& one : block_cases())
     for (const ExportedFile& file : write_c_block(one.block({}), "")) all += file.content;

@@ -32,7 +32,7 @@ void check_commands(const LoadedFmu& fmu, const CBlock& block) {
 
 }  // namespace
 
-TEST_CASE("FMUs of every controller and inverse give the library's commands") {
+TEST_CASE("FMUs of every controller and inverse give the library's commands" * doctest::test_suite("long")) {
   if (!has_compiler()) return;
   std::vector<BlockCase> cases = block_cases();
   // Coils that lag make the same FMUs but for the C, which is run without an FMU.

@@ -80,7 +80,8 @@ void check_files(const std::vector<ExportedFile>& files, const std::string& of, 
 
 }  // namespace
 
-TEST_CASE("ONNX: Debian's checker, with the shapes that it infers, finds nothing in any model or block") {
+TEST_CASE("ONNX: Debian's checker, with the shapes that it infers, finds nothing in any model or block" *
+          doctest::test_suite("long")) {
   for (const CPrecision precision : {CPrecision::Single, CPrecision::Double}) {
     const ExportOptions options{.name = "x", .precision = precision};
     for (const ExampleModel& example : example_models())
