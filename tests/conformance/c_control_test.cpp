@@ -61,6 +61,8 @@ TEST_CASE("exported controllers: an accelerometer is all that mix1 asks for") {
   CHECK(files[0].name == "mix1_controller.h");
   CHECK(files[0].content.find("double body_acceleration;") != std::string::npos);
   CHECK(files[0].content.find("double deflection") == std::string::npos);
+  CHECK(files[0].content.find("the deflection's by differences") == std::string::npos);
+  CHECK(files[0].content.find("the body's by integration") != std::string::npos);
 }
 
 TEST_CASE("exported controllers: after a sample that is no number they go on as before") {

@@ -236,7 +236,10 @@ CControlPath c_control_path(const Vehicle& vehicle, CPrecision precision) {
   return {types + (in_car ? filters_function(vehicle, used, at) : kMeasured) + law.code +
               command_code(damper, law, at, precision) + rest_function(damper, at, inverts) +
               demand_function(law),
-          signals_named(in_car ? sensors_for(used) : used), std::max<std::size_t>(1, at.end), law.states,
+          signals_named(in_car ? sensors_for(used) : used),
+          std::max<std::size_t>(1, at.end),
+          law.states,
+          at.body,
           at.slope};
 }
 

@@ -13,7 +13,8 @@ struct CControlPath {
   std::vector<const StrutSignal*> measured;  ///< the fields of damper_signals
   std::size_t strut_state = 0;               ///< numbers of the state per strut
   std::size_t plant_states = 0;
-  bool has_slopes = false;  ///< makes velocities by differences
+  bool has_integrals = false;  ///< makes velocities by integration
+  bool has_slopes = false;     ///< makes velocities by differences
 };
 /// Throws Error where it cannot become C.
 CControlPath c_control_path(const Vehicle& vehicle, CPrecision precision);

@@ -61,12 +61,16 @@ std::string fields_of(const CControlPath& path) {
   return fields;
 }
 
-std::string sensors_text(const Vehicle& vehicle) {
-  const SensorOptions& sensors = vehicle.sensors;
-  if (!sensors.in_car) return "Signals are as they are, from wherever they come.";
-  return "Velocities are made here: the body's by integration that forgets below " +
-         format_number(sensors.integration_corner) + " Hz, the deflection's by differences up to " +
-         format_number(sensors.derivative_corner) + " Hz.";
+std::string sensors_text(const Vehicle& vehicle, const CControlPath& path) {
+  std::vector<std::string> made;
+  if (path.has_integrals)
+    made.push_back("the body's by integration that forgets below " +
+                   format_number(vehicle.sensors.integration_corner) + " Hz");
+  if (path.has_slopes)
+    made.push_back("the deflection's by differences up to " +
+                   format_number(vehicle.sensors.derivative_corner) + " Hz");
+  return made.empty() ? "Signals are as they are, from wherever they come."
+                      : "Velocities are made here: " + join(made, ", ") + ".";
 }
 
 std::string inverse_text(const MountedDamper& damper) {
@@ -110,7 +114,7 @@ std::vector<std::pair<std::string, std::string>> facts(const Vehicle& vehicle, c
           {"high", format_number(limits.current_max)},
           {"unit", vehicle.drive_unit.empty() ? "" : " " + vehicle.drive_unit},
           {"inverse", inverse_text(vehicle.dampers.front())},
-          {"sensors", sensors_text(vehicle)},
+          {"sensors", sensors_text(vehicle, path)},
           {"deviations", std::string(c_deviations())},
           {"version", options.version},
           {"struts", number(struts)},
