@@ -8,7 +8,7 @@
 #include "dashpot.h"
 #include "dashpot/base/parallel.h"
 #include "dashpot/damper/model_file.h"
-#include "dashpot/identify/evaluate.h"
+#include "dashpot/identify/judge/evaluate.h"
 
 namespace {
 

@@ -3,17 +3,17 @@
 
 // Dashpot for other languages: C99, and the only boundary that Python and other programs see.
 //
-// Units are SI: m, m/s, A (V where a model is driven in V), N, s. Extension is positive; a force is positive
-// when it resists extension. Text is UTF-8; options and reports are JSON.
+// Units are SI: m, m/s, A (V where a model is driven in V), N, s. Extension is positive; a force is
+// positive when it resists extension. Text is UTF-8; options and reports are JSON.
 //
-// Every function but the few that return a plain value returns a status, and leaves a message for people in
-// dashpot_last_error() unless it is DASHPOT_OK. Null pointers, wrong sizes, numbers that are not finite and
-// unknown names give DASHPOT_BAD_INPUT. What a function makes is written through its last pointers, null
-// when it failed, and belongs to the caller, who gives it back to the _free function of its kind; that sets
-// the caller's pointer to null, so giving back twice does nothing.
+// Every function but the few that return a plain value returns a status, and leaves a message for
+// people in dashpot_last_error() unless it is DASHPOT_OK. Null pointers, wrong sizes, numbers that
+// are not finite and unknown names give DASHPOT_BAD_INPUT. What a function makes is written through
+// its last pointers, null when it failed, and belongs to the caller, who gives it back to the _free
+// function of its kind; that sets the caller's pointer to null, so giving back twice does nothing.
 //
-// Models and rankings never change: any number of threads may use one. Recordings may be used so once the
-// last one is added. A state array belongs to one thread at a time.
+// Models and rankings never change: any number of threads may use one. Recordings may be used so
+// once the last one is added. A state array belongs to one thread at a time.
 
 #include <stddef.h>
 
@@ -37,16 +37,17 @@ typedef enum dashpot_status {
 
 /// "0.1.0"; never to be freed.
 DASHPOT_API const char* dashpot_version(void);
-/// Why the last call of this thread that did not give DASHPOT_OK did not: "where: what; what would be
-/// right". Empty before; valid until the thread's next failing call; never null.
+/// Why the last call of this thread that did not give DASHPOT_OK did not: "where: what; what would
+/// be right". Empty before; valid until the thread's next failing call; never null.
 DASHPOT_API const char* dashpot_last_error(void);
 /// For every char** that a function filled.
 DASHPOT_API void dashpot_text_free(char** text);
 
-// ---- Arrays -------------------------------------------------------------------------------------------
+// ---- Arrays
+// -------------------------------------------------------------------------------------------
 
-/// Samples where they lie in the caller's memory: sample k is data[k * stride]. Stride 1: one behind the
-/// other. Stride 0: one value that holds for every sample. Null data: there is none.
+/// Samples where they lie in the caller's memory: sample k is data[k * stride]. Stride 1: one
+/// behind the other. Stride 0: one value that holds for every sample. Null data: there is none.
 typedef struct dashpot_column {
   const double* data;
   ptrdiff_t stride;
@@ -69,7 +70,8 @@ typedef struct dashpot_motion {
   dashpot_column current;       ///< A or V
 } dashpot_motion;
 
-// ---- Models -------------------------------------------------------------------------------------------
+// ---- Models
+// -------------------------------------------------------------------------------------------
 
 typedef struct dashpot_model dashpot_model;
 
@@ -86,28 +88,31 @@ typedef struct dashpot_model_info {
   double displacement_min, displacement_max;  ///< m
   double velocity_min, velocity_max;          ///< m/s
   double current_min, current_max;            ///< A or V
-  double interval_level;  ///< share of left-out samples that its band claims to hold, 0.9; 0: it has no band
+  double interval_level;  ///< share of left-out samples that its band claims to hold, 0.9; 0: it
+                          ///< has no band
 } dashpot_model_info;
 
 /// A model file as `dashpot identify` or dashpot_model_save wrote it.
 DASHPOT_API dashpot_status dashpot_model_load(const char* path, dashpot_model** model);
 /// The text of such a file.
 DASHPOT_API dashpot_status dashpot_model_parse(const char* text, dashpot_model** model);
-/// A set of parameters from the literature, by the name that `dashpot models` knows it by: "spencer1997".
+/// A set of parameters from the literature, by the name that `dashpot models` knows it by:
+/// "spencer1997".
 DASHPOT_API dashpot_status dashpot_model_published(const char* name, dashpot_model** model);
 DASHPOT_API dashpot_status dashpot_model_save(const dashpot_model* model, const char* path);
 DASHPOT_API dashpot_status dashpot_model_text(const dashpot_model* model, char** text);
-DASHPOT_API dashpot_status dashpot_model_get_info(const dashpot_model* model, dashpot_model_info* info);
+DASHPOT_API dashpot_status dashpot_model_get_info(const dashpot_model* model,
+                                                  dashpot_model_info* info);
 DASHPOT_API void dashpot_model_free(dashpot_model** model);
 
-// Stepping. A state array has info.state_size numbers, given as `state_size` for safety; null where that is
-// 0. Allocates nothing.
+// Stepping. A state array has info.state_size numbers, given as `state_size` for safety; null where
+// that is 0. Allocates nothing.
 
 /// The state after a long rest at the input's displacement and current.
-DASHPOT_API dashpot_status dashpot_rest(const dashpot_model* model, const dashpot_input* input, double* state,
-                                        size_t state_size);
-/// Brings the state from the instant of `from` to that of `to`, `dt` > 0 s later; inputs are linear between.
-/// Any step will do: a model with a sample time of its own keeps its grid inside.
+DASHPOT_API dashpot_status dashpot_rest(const dashpot_model* model, const dashpot_input* input,
+                                        double* state, size_t state_size);
+/// Brings the state from the instant of `from` to that of `to`, `dt` > 0 s later; inputs are linear
+/// between. Any step will do: a model with a sample time of its own keeps its grid inside.
 DASHPOT_API dashpot_status dashpot_advance(const dashpot_model* model, const dashpot_input* from,
                                            const dashpot_input* to, double dt, double* state,
                                            size_t state_size);
@@ -119,33 +124,36 @@ DASHPOT_API dashpot_status dashpot_force(const dashpot_model* model, const dashp
 typedef struct dashpot_response {
   double* force;       ///< N, one per sample
   double* half_width;  ///< N: force +- half_width is the model's band; null: not wanted
-  double* state;       ///< at the first sample before, at the last one after; null: from rest, not kept
+  double* state;  ///< at the first sample before, at the last one after; null: from rest, not kept
   size_t state_size;
 } dashpot_response;
 
-/// The force over a whole motion in free run. To go on with another motion in the same state, let it begin
-/// with the last sample of this one. DASHPOT_NOT_USABLE where the model diverges: force from there on is NaN.
+/// The force over a whole motion in free run. To go on with another motion in the same state, let
+/// it begin with the last sample of this one. DASHPOT_NOT_USABLE where the model diverges: force
+/// from there on is NaN.
 DASHPOT_API dashpot_status dashpot_run(const dashpot_model* model, const dashpot_motion* motion,
                                        const dashpot_response* response);
 
-// ---- Recordings ---------------------------------------------------------------------------------------
+// ---- Recordings
+// ---------------------------------------------------------------------------------------
 
 typedef struct dashpot_recordings dashpot_recordings;
 
-/// Files, folders or a dataset file, as `dashpot inspect` reads them. Options (null: none): {"dataset":
-/// "FILE", "recognise": true, "velocity_cutoff": Hz}.
+/// Files, folders or a dataset file, as `dashpot inspect` reads them. Options (null: none):
+/// {"dataset": "FILE", "recognise": true, "velocity_cutoff": Hz}.
 DASHPOT_API dashpot_status dashpot_recordings_load(const char* const* paths, size_t count,
-                                                   const char* options, dashpot_recordings** recordings);
+                                                   const char* options,
+                                                   dashpot_recordings** recordings);
 
-/// A column with its name, which tells channel and unit as a CSV file's header does: "velocity" (SI),
-/// "x [mm]", "F_N".
+/// A column with its name, which tells channel and unit as a CSV file's header does: "velocity"
+/// (SI), "x [mm]", "F_N".
 typedef struct dashpot_named_column {
   const char* name;
   dashpot_column column;
 } dashpot_named_column;
 
-/// One recording in the caller's arrays. It needs force, velocity or displacement (velocity is then derived
-/// as for files) and current or voltage.
+/// One recording in the caller's arrays. It needs force, velocity or displacement (velocity is then
+/// derived as for files) and current or voltage.
 typedef struct dashpot_table {
   const char* name;  ///< of the recording, for reports; null: numbered
   size_t samples;
@@ -157,17 +165,20 @@ typedef struct dashpot_table {
 
 /// Recordings that dashpot_recordings_add fills.
 DASHPOT_API dashpot_status dashpot_recordings_new(dashpot_recordings** recordings);
-/// Copies the samples. The force's sign is taken as it is, resisting extension positive. On failure nothing
-/// is added.
-DASHPOT_API dashpot_status dashpot_recordings_add(dashpot_recordings* recordings, const dashpot_table* table);
+/// Copies the samples. The force's sign is taken as it is, resisting extension positive. On failure
+/// nothing is added.
+DASHPOT_API dashpot_status dashpot_recordings_add(dashpot_recordings* recordings,
+                                                  const dashpot_table* table);
 DASHPOT_API size_t dashpot_recordings_count(const dashpot_recordings* recordings);
 /// What was understood of every column, for people.
-DASHPOT_API dashpot_status dashpot_recordings_describe(const dashpot_recordings* recordings, char** text);
+DASHPOT_API dashpot_status dashpot_recordings_describe(const dashpot_recordings* recordings,
+                                                       char** text);
 
 typedef struct dashpot_record_info {
   const char* name;  ///< as `condition`: valid until the recordings change or are freed
   const char* condition;
-  const double* time;  ///< s, `samples` numbers; as channels' data valid until the recordings are freed
+  const double*
+      time;  ///< s, `samples` numbers; as channels' data valid until the recordings are freed
   size_t samples;
   size_t channel_count;
   double sample_time;  ///< s; 0: not uniform
@@ -179,78 +190,90 @@ typedef struct dashpot_channel {
   const double* data;  ///< `samples` numbers
 } dashpot_channel;
 
-DASHPOT_API dashpot_status dashpot_recordings_get_info(const dashpot_recordings* recordings, size_t record,
-                                                       dashpot_record_info* info);
-DASHPOT_API dashpot_status dashpot_recordings_channel(const dashpot_recordings* recordings, size_t record,
-                                                      size_t channel, dashpot_channel* view);
+DASHPOT_API dashpot_status dashpot_recordings_get_info(const dashpot_recordings* recordings,
+                                                       size_t record, dashpot_record_info* info);
+DASHPOT_API dashpot_status dashpot_recordings_channel(const dashpot_recordings* recordings,
+                                                      size_t record, size_t channel,
+                                                      dashpot_channel* view);
 DASHPOT_API void dashpot_recordings_free(dashpot_recordings** recordings);
 
-/// What a column is by its name: `channel` becomes "velocity", "time" ... or "" when the name is not known;
-/// SI = factor * value + shift.
+/// What a column is by its name: `channel` becomes "velocity", "time" ... or "" when the name is
+/// not known; SI = factor * value + shift.
 typedef struct dashpot_column_meaning {
   char channel[32];
   double factor, shift;
 } dashpot_column_meaning;
-DASHPOT_API dashpot_status dashpot_understand_column(const char* name, dashpot_column_meaning* meaning);
+DASHPOT_API dashpot_status dashpot_understand_column(const char* name,
+                                                     dashpot_column_meaning* meaning);
 
-// ---- Identification -----------------------------------------------------------------------------------
+// ---- Identification
+// -----------------------------------------------------------------------------------
 
-/// What long work talks to. Both functions are called, some twenty times a second, on the thread that called
-/// Dashpot; either may be null. They must return normally.
+/// What long work talks to. Both functions are called, some twenty times a second, on the thread
+/// that called Dashpot; either may be null. They must return normally.
 typedef struct dashpot_monitor {
   int (*is_cancelled)(void* context);  ///< not 0: stop soon, with DASHPOT_CANCELLED
   void (*on_progress)(const char* stage, double fraction, void* context);  ///< fraction: 0 ... 1
   void* context;
 } dashpot_monitor;
 
-/// One model on all recordings in free run, without judging it. Options in the words of `dashpot identify`:
-/// {"models": ["bingham"], "force_offset": "record", "form": ["alpha=exponential"], "fix": [...], "free":
+/// One model on all recordings in free run, without judging it. Options in the words of `dashpot
+/// identify`:
+/// {"models": ["bingham"], "force_offset": "record", "form": ["alpha=exponential"], "fix": [...],
+/// "free":
 /// [...], "bounds": [...], "prior": [...], "network": [...], "starts": 4, "search": 0, "seed": 1,
-/// "threads": 0, "command": "TEXT that the model file keeps"}; "models" has one here, the others may be
-/// absent. The report (null: not wanted) has status, parameters with 95 % intervals, offsets and warnings.
+/// "threads": 0, "command": "TEXT that the model file keeps"}; "models" has one here, the others
+/// may be absent. The report (null: not wanted) has status, parameters with 95 % intervals, offsets
+/// and warnings.
 DASHPOT_API dashpot_status dashpot_fit(const dashpot_recordings* recordings, const char* options,
-                                       const dashpot_monitor* monitor, dashpot_model** model, char** report);
+                                       const dashpot_monitor* monitor, dashpot_model** model,
+                                       char** report);
 
 typedef struct dashpot_ranking dashpot_ranking;
 
-/// What `dashpot identify` does: fits every model, judges each on recordings that it has not seen, ranks
-/// them. Options as for dashpot_fit, and "leave_out": "condition", "current=0.5", "fraction=0.3" ...;
-/// "models" may hold the groups "usual" (when absent), "all" and "family".
-DASHPOT_API dashpot_status dashpot_identify(const dashpot_recordings* recordings, const char* options,
-                                            const dashpot_monitor* monitor, dashpot_ranking** ranking);
+/// What `dashpot identify` does: fits every model, judges each on recordings that it has not seen,
+/// ranks them. Options as for dashpot_fit, and "leave_out": "condition", "current=0.5",
+/// "fraction=0.3" ...; "models" may hold the groups "usual" (when absent), "all" and "family".
+DASHPOT_API dashpot_status dashpot_identify(const dashpot_recordings* recordings,
+                                            const char* options, const dashpot_monitor* monitor,
+                                            dashpot_ranking** ranking);
 DASHPOT_API size_t dashpot_ranking_count(const dashpot_ranking* ranking);
 /// The model at a place, 0 being the best, fitted on all training recordings.
 DASHPOT_API dashpot_status dashpot_ranking_model(const dashpot_ranking* ranking, size_t place,
                                                  dashpot_model** model);
 /// Its report as "json", "html", "markdown", "csv" or "text" (a table for a terminal).
-DASHPOT_API dashpot_status dashpot_ranking_report(const dashpot_ranking* ranking, const char* format,
-                                                  char** text);
+DASHPOT_API dashpot_status dashpot_ranking_report(const dashpot_ranking* ranking,
+                                                  const char* format, char** text);
 DASHPOT_API void dashpot_ranking_free(dashpot_ranking** ranking);
 
-/// A model on recordings in free run, without fitting: what `dashpot evaluate --json` prints. Options (null:
-/// none): {"force_offset": "record", "threads": 0}.
-DASHPOT_API dashpot_status dashpot_evaluate(const dashpot_model* model, const dashpot_recordings* recordings,
+/// A model on recordings in free run, without fitting: what `dashpot evaluate --json` prints.
+/// Options (null: none): {"force_offset": "record", "threads": 0}.
+DASHPOT_API dashpot_status dashpot_evaluate(const dashpot_model* model,
+                                            const dashpot_recordings* recordings,
                                             const char* options, char** report);
 
-// ---- Export -------------------------------------------------------------------------------------------
+// ---- Export
+// -------------------------------------------------------------------------------------------
 
-/// Writes a model as files for other programs, as `dashpot export` does: {"to": ["c", "fmu3"], "folder":
-/// "dashpot-export", "name": "front_damper", "precision": "double", "sample_time": s, "compiler": "cc",
-/// "sources_only": false, "command": "TEXT that the files keep"}; all but "to" may be absent. The report
-/// (null: not wanted) is {"files": ["dashpot-export/front_damper.c", ...]}. Nothing is written where a model
-/// cannot become one of these.
-DASHPOT_API dashpot_status dashpot_export(const dashpot_model* model, const char* options, char** report);
+/// Writes a model as files for other programs, as `dashpot export` does: {"to": ["c", "fmu3"],
+/// "folder": "dashpot-export", "name": "front_damper", "precision": "double", "sample_time": s,
+/// "compiler": "cc", "sources_only": false, "command": "TEXT that the files keep"}; all but "to"
+/// may be absent. The report (null: not wanted) is {"files": ["dashpot-export/front_damper.c",
+/// ...]}. Nothing is written where a model cannot become one of these.
+DASHPOT_API dashpot_status dashpot_export(const dashpot_model* model, const char* options,
+                                          char** report);
 
-// ---- Vehicles -----------------------------------------------------------------------------------------
+// ---- Vehicles
+// -----------------------------------------------------------------------------------------
 
 /// A vehicle or building from rest, in the words of `dashpot simulate`, with SI units: {"plant":
 /// "savaresi_spelta", "set": ["sprung_mass=350kg"], "dampers": ["model.json"], "controller":
 /// "mix1,crossover=1.9Hz", "inverse": "numeric", "current": 0, "current_max": 0, "lag_rate": -1,
 /// "sample_time": 0.001, "in_car": false, "delay": 0, "road": "iso8608,class=C", "duration": 20,
-/// "output_step": 0.001, "seed": 1}; all may be absent. `trace`: recordings that hold one, with a channel for
-/// everything that moved. The report (null: not wanted) has the road, the measures of `dashpot simulate`
-/// (where output_step is absent), notes, warnings and where it diverged; DASHPOT_NOT_USABLE then, with the
-/// trace up to there.
+/// "output_step": 0.001, "seed": 1}; all may be absent. `trace`: recordings that hold one, with a
+/// channel for everything that moved. The report (null: not wanted) has the road, the measures of
+/// `dashpot simulate` (where output_step is absent), notes, warnings and where it diverged;
+/// DASHPOT_NOT_USABLE then, with the trace up to there.
 DASHPOT_API dashpot_status dashpot_simulate(const char* options, const dashpot_monitor* monitor,
                                             dashpot_recordings** trace, char** report);
 

@@ -1,5 +1,5 @@
 #include "dashpot/base/file.h"
-#include "dashpot/output/exporters/exporter.h"
+#include "dashpot/export/exporter.h"
 #include "handles.h"
 #include "status.h"
 #include "words.h"

@@ -1,7 +1,7 @@
 #include "dashpot/base/date.h"
-#include "dashpot/output/report_json.h"
-#include "dashpot/output/safe_text.h"
-#include "dashpot/output/words.h"
+#include "dashpot/report/report_json.h"
+#include "dashpot/report/safe_text.h"
+#include "dashpot/report/words.h"
 #include "handles.h"
 #include "recordings.h"
 #include "status.h"
@@ -30,9 +30,10 @@ ModelFile fitted_file(FitReport fit, const Dataset& dataset, const FitOptions& o
   return file;
 }
 
-/// Fits the only model asked for. Throws NotUsable where the fit gives none; the report is there even then.
-void fit(const Dataset& dataset, FitOptions options, const dashpot_monitor* monitor, dashpot_model** model,
-         char** report) {
+/// Fits the only model asked for. Throws NotUsable where the fit gives none; the report is there
+/// even then.
+void fit(const Dataset& dataset, FitOptions options, const dashpot_monitor* monitor,
+         dashpot_model** model, char** report) {
   const std::vector<std::string> names = choose_models(options.words.models, dataset.records).names;
   if (names.size() != 1)
     throw Error("options, models", "are " + std::to_string(names.size()) + " models",
@@ -102,14 +103,16 @@ size_t dashpot_ranking_count(const dashpot_ranking* ranking) {
   return ranking ? ranking->ranking.models.size() : 0;
 }
 
-dashpot_status dashpot_ranking_model(const dashpot_ranking* ranking, size_t place, dashpot_model** model) {
+dashpot_status dashpot_ranking_model(const dashpot_ranking* ranking, size_t place,
+                                     dashpot_model** model) {
   return guarded([&] {
     require(model, "model");
     *model = nullptr;
     require(ranking, "ranking");
     const std::vector<RankedModel>& models = ranking->ranking.models;
     if (place >= models.size())
-      throw Error("place", "is " + std::to_string(place), "there are " + std::to_string(models.size()));
+      throw Error("place", "is " + std::to_string(place),
+                  "there are " + std::to_string(models.size()));
     if (!models[place].fit.model) throw NotUsable(models[place].name, models[place].fit.message);
     ModelFile file = to_model_file(models[place], ranking->dataset, ranking->command);
     file.provenance.created = ranking->date;
@@ -117,7 +120,8 @@ dashpot_status dashpot_ranking_model(const dashpot_ranking* ranking, size_t plac
   });
 }
 
-dashpot_status dashpot_ranking_report(const dashpot_ranking* ranking, const char* format, char** text) {
+dashpot_status dashpot_ranking_report(const dashpot_ranking* ranking, const char* format,
+                                      char** text) {
   return guarded([&] {
     require(text, "text");
     *text = nullptr;
@@ -139,9 +143,10 @@ dashpot_status dashpot_evaluate(const dashpot_model* model, const dashpot_record
     require_same_drive(model->file, dataset, model->name);
     EvaluateOptions asked = read_evaluate_options(options);
     asked.band = model->file.interval;
-    const Evaluation evaluation = evaluate(*model->damper, dataset.records, dataset.drive_unit, asked);
-    *report =
-        copy_text(json_text(evaluation_json(model->file, evaluation, extrapolations(model->file, dataset))));
+    const Evaluation evaluation =
+        evaluate(*model->damper, dataset.records, dataset.drive_unit, asked);
+    *report = copy_text(
+        json_text(evaluation_json(model->file, evaluation, extrapolations(model->file, dataset))));
     if (evaluation.diverged > 0)
       throw NotUsable(model->name, "diverged on " + std::to_string(evaluation.diverged) + " of " +
                                        counted(evaluation.records.size(), "recording"));

@@ -114,8 +114,9 @@ dashpot_status dashpot_rest(const dashpot_model* model, const dashpot_input* inp
   });
 }
 
-dashpot_status dashpot_advance(const dashpot_model* model, const dashpot_input* from, const dashpot_input* to,
-                               double dt, double* state, size_t state_size) {
+dashpot_status dashpot_advance(const dashpot_model* model, const dashpot_input* from,
+                               const dashpot_input* to, double dt, double* state,
+                               size_t state_size) {
   return guarded([&] {
     require(model, "model");
     require_input(from, "from");
@@ -125,8 +126,8 @@ dashpot_status dashpot_advance(const dashpot_model* model, const dashpot_input* 
   });
 }
 
-dashpot_status dashpot_force(const dashpot_model* model, const dashpot_input* input, const double* state,
-                             size_t state_size, double* force) {
+dashpot_status dashpot_force(const dashpot_model* model, const dashpot_input* input,
+                             const double* state, size_t state_size, double* force) {
   return guarded([&] {
     require(model, "model");
     require(force, "force");

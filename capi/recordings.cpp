@@ -24,7 +24,8 @@ RawColumn copy_column(const dashpot_named_column& named, std::size_t samples) {
   for (std::size_t k = 0; k < samples; ++k) {
     const double value = named.column.data[static_cast<std::ptrdiff_t>(k) * named.column.stride];
     column.values.push_back(value);
-    if (!column.bad && !std::isfinite(value)) column.bad = BadCell{k, std::isnan(value) ? "nan" : "inf"};
+    if (!column.bad && !std::isfinite(value))
+      column.bad = BadCell{k, std::isnan(value) ? "nan" : "inf"};
   }
   return column;
 }
@@ -56,13 +57,14 @@ FileStatement statement_of(const RawTable& raw, const char* conditions) {
 
 void add(dashpot_recordings& recordings, const dashpot_table& table) {
   std::vector<Record>& records = recordings.dataset.records;
-  const std::string name = table.name ? table.name : "recording " + std::to_string(records.size() + 1);
+  const std::string name =
+      table.name ? table.name : "recording " + std::to_string(records.size() + 1);
   if (std::ranges::find(records, name, &Record::name) != records.end())
     throw Error(name, "is there already", "a name of its own for every recording");
   RawTable raw = copy_table(table, name);
   const FileStatement statement = statement_of(raw, table.conditions);
-  BuiltRecord built =
-      build_record(std::move(raw), {.statement = &statement, .stated_in = "the arrays", .name = name});
+  BuiltRecord built = build_record(
+      std::move(raw), {.statement = &statement, .stated_in = "the arrays", .name = name});
   if (!built.refusal.empty()) throw Error(name, built.refusal);
   const bool is_current = built.record.find("current") != nullptr;
   if (!is_current && !built.record.find("voltage"))
@@ -81,7 +83,8 @@ const Record& record_at(const dashpot_recordings* recordings, std::size_t place)
   require(recordings, "recordings");
   const std::vector<Record>& records = recordings->dataset.records;
   if (place >= records.size())
-    throw Error("record", "is " + std::to_string(place), "there are " + std::to_string(records.size()));
+    throw Error("record", "is " + std::to_string(place),
+                "there are " + std::to_string(records.size()));
   return records[place];
 }
 
@@ -162,8 +165,8 @@ dashpot_status dashpot_recordings_get_info(const dashpot_recordings* recordings,
   });
 }
 
-dashpot_status dashpot_recordings_channel(const dashpot_recordings* recordings, size_t record, size_t channel,
-                                          dashpot_channel* view) {
+dashpot_status dashpot_recordings_channel(const dashpot_recordings* recordings, size_t record,
+                                          size_t channel, dashpot_channel* view) {
   return guarded([&] {
     require(view, "view");
     const Record& found = record_at(recordings, record);

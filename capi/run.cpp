@@ -36,14 +36,14 @@ class MotionReader {
                   "without a column of time it is the s between samples, above 0");
   }
 
-  /// Samples that stay until the next call. Throws Error where one holds a number that is not finite, or time
-  /// does not increase.
+  /// Samples that stay until the next call. Throws Error where one holds a number that is not
+  /// finite, or time does not increase.
   std::span<const DamperInput> read(std::size_t first, std::size_t count) {
     bool usable = true;
     for (std::size_t k = 0; k < count; ++k) {
       const auto at = static_cast<std::ptrdiff_t>(first + k);
-      inputs_[k] = {displacement_.data[at * displacement_.stride], velocity_.data[at * velocity_.stride],
-                    current_.data[at * current_.stride]};
+      inputs_[k] = {displacement_.data[at * displacement_.stride],
+                    velocity_.data[at * velocity_.stride], current_.data[at * current_.stride]};
       usable &= has_numbers(k);
     }
     for (std::size_t k = 0; k < (time_.data ? count : 0); ++k) {
@@ -70,7 +70,8 @@ class MotionReader {
     require_finite(inputs_[k].velocity, ("velocity" + at).c_str());
     require_finite(inputs_[k].current, ("current" + at).c_str());
     if (!has_numbers(k)) throw Error("sample" + at, "holds numbers too large for any damper");
-    if (time_.data && !has_time(k)) throw Error("time" + at, "does not lie behind the sample before");
+    if (time_.data && !has_time(k))
+      throw Error("time" + at, "does not lie behind the sample before");
   }
 
   dashpot_column displacement_, velocity_, current_, time_;
@@ -79,7 +80,8 @@ class MotionReader {
   std::vector<double> times_;
 };
 
-/// A model on its way through a motion, block by block: each begins with the last sample of the one before.
+/// A model on its way through a motion, block by block: each begins with the last sample of the one
+/// before.
 class Run {
  public:
   Run(const dashpot_model& model, const dashpot_motion& motion, const dashpot_response& response)
@@ -102,15 +104,17 @@ class Run {
  private:
   void respond(std::size_t first, std::span<const DamperInput> inputs) {
     if (first == 0 && !to_.state) model_.damper->rest(inputs.front(), state_);
-    const std::size_t usable = model_.damper->run(
-        inputs, reader_.steps(), state_, {to_.force + first, spread_.empty() ? nullptr : spread_.data()});
+    const std::size_t usable =
+        model_.damper->run(inputs, reader_.steps(), state_,
+                           {to_.force + first, spread_.empty() ? nullptr : spread_.data()});
     for (std::size_t k = 0; k < (to_.half_width ? usable : 0); ++k)
       to_.half_width[first + k] =
           model_.file.interval->half_width_at(inputs[k], spread_.empty() ? 0 : spread_[k]);
     if (usable == inputs.size()) return;
     for (double* values : {to_.force, to_.half_width})
       if (values)
-        std::fill(values + first + usable, values + samples_, std::numeric_limits<double>::quiet_NaN());
+        std::fill(values + first + usable, values + samples_,
+                  std::numeric_limits<double>::quiet_NaN());
     throw NotUsable(model_.name, "diverged at sample " + std::to_string(first + usable));
   }
 
@@ -133,7 +137,8 @@ dashpot_status dashpot_run(const dashpot_model* model, const dashpot_motion* mot
     if (motion->samples == 0) return;
     require(response->force, "force");
     if (response->half_width && !model->file.interval)
-      throw Error("half_width", model->name + " has no band", "identify it with recordings left out");
+      throw Error("half_width", model->name + " has no band",
+                  "identify it with recordings left out");
     Run(*model, *motion, *response).run();
   });
 }

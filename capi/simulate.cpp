@@ -1,7 +1,7 @@
 #include <algorithm>
 
 #include "dashpot/base/text.h"
-#include "dashpot/output/safe_text.h"
+#include "dashpot/report/safe_text.h"
 #include "dashpot/suspension/domain_use.h"
 #include "dashpot/suspension/ground/ground_sequences.h"
 #include "dashpot/suspension/ride/ride_measures.h"
@@ -18,7 +18,8 @@ namespace {
 
 constexpr double kUsualDuration = 20;  // s, as the command line has it
 
-/// Those of `dashpot simulate`; none of a trace with steps of the caller's, which may be too wide for them.
+/// Those of `dashpot simulate`; none of a trace with steps of the caller's, which may be too wide
+/// for them.
 Value measures_of(const Trace& trace, const Vehicle& vehicle, const GroundMotion& ground,
                   const SimulateOptions& options) {
   Value list = Value::array();
@@ -53,8 +54,8 @@ void run(const DriveOptions& asked, const dashpot_monitor* monitor, dashpot_reco
          char** report) {
   const Vehicle vehicle = make_vehicle(asked.vehicle);
   const GroundPointer ground = make_ground(asked.road, asked.seed, "options, road");
-  SimulateOptions options =
-      vehicle.options(asked.duration > 0 ? asked.duration : std::min(ground->duration(), kUsualDuration));
+  SimulateOptions options = vehicle.options(
+      asked.duration > 0 ? asked.duration : std::min(ground->duration(), kUsualDuration));
   options.output_step = asked.output_step;
   Trace trace;
   run_watched(monitor, [&](const Monitor& watched) {
@@ -68,7 +69,8 @@ void run(const DriveOptions& asked, const dashpot_monitor* monitor, dashpot_reco
   made->dataset.drive_unit = vehicle.drive_unit;
   made->dataset.records.push_back(std::move(trace.record));
   *recordings = made.release();
-  if (diverged_at) throw NotUsable(vehicle.set.name, "diverged at t = " + format_number(*diverged_at) + " s");
+  if (diverged_at)
+    throw NotUsable(vehicle.set.name, "diverged at t = " + format_number(*diverged_at) + " s");
 }
 
 }  // namespace

@@ -42,7 +42,8 @@ dashpot_status keep_error() noexcept {
 }
 
 void require_finite(double value, const char* name) {
-  if (!std::isfinite(value)) throw Error(name, "is " + format_exact(value) + ", not a finite number");
+  if (!std::isfinite(value))
+    throw Error(name, "is " + format_exact(value) + ", not a finite number");
 }
 
 char* copy_text(const std::string& text) {

@@ -12,7 +12,9 @@ namespace {
 /// Largest whole number that a double holds with all those below it.
 constexpr double kLargestWhole = 9007199254740992.0;
 
-Value parse_options(const char* text) { return text ? parse_json(text, "options") : Value::object(); }
+Value parse_options(const char* text) {
+  return text ? parse_json(text, "options") : Value::object();
+}
 
 std::vector<std::string> texts(ObjectReader& reader, std::string_view key) {
   std::vector<std::string> out;
@@ -129,7 +131,8 @@ DriveOptions read_drive_options(const char* text) {
   out.output_step = reader.number("output_step", out.output_step);
   out.seed = words.sensors.seed = static_cast<std::uint64_t>(whole(reader, "seed", 1));
   reader.finish();
-  for (const auto& [name, seconds] : {std::pair{"duration", out.duration}, {"output_step", out.output_step}})
+  for (const auto& [name, seconds] :
+       {std::pair{"duration", out.duration}, {"output_step", out.output_step}})
     if (!(seconds >= 0) || !std::isfinite(seconds))
       throw Error(std::string("options, ") + name, "is " + format_number(seconds), "s, 0 or more");
   return out;
@@ -139,7 +142,8 @@ std::vector<std::pair<std::string, double>> read_conditions(const char* text) {
   std::vector<std::pair<std::string, double>> conditions;
   if (!text) return conditions;
   const Value value = parse_json(text, "conditions");
-  for (const auto& [name, number] : value.members()) conditions.emplace_back(name, number.as_number());
+  for (const auto& [name, number] : value.members())
+    conditions.emplace_back(name, number.as_number());
   return conditions;
 }
 

@@ -2,8 +2,8 @@
 #include <optional>
 #include <string>
 
-#include "dashpot/identify/fit_words.h"
-#include "dashpot/output/exporters/exporter.h"
+#include "dashpot/export/exporter.h"
+#include "dashpot/identify/fit/fit_words.h"
 #include "dashpot/suspension/vehicle.h"
 
 namespace dashpot::capi {

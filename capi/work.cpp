@@ -16,7 +16,8 @@ class Watch {
  public:
   explicit Watch(const dashpot_monitor& caller) : caller_(caller) {
     monitor_.stop = &stop_;
-    if (caller.on_progress) monitor_.on_progress = [this](const Progress& progress) { keep(progress); };
+    if (caller.on_progress)
+      monitor_.on_progress = [this](const Progress& progress) { keep(progress); };
   }
 
   const Monitor& monitor() const { return monitor_; }

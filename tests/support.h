@@ -6,15 +6,17 @@
 #include <doctest/doctest.h>
 
 /// |actual - expected| <= rel |expected| + abs, with both numbers in the message.
-#define CHECK_CLOSE(actual, expected, relative, absolute)                                                 \
-  do {                                                                                                    \
-    const double check_actual = (actual), check_expected = (expected);                                    \
-    CAPTURE(check_actual);                                                                                \
-    CAPTURE(check_expected);                                                                              \
-    CHECK(std::abs(check_actual - check_expected) <= (relative) * std::abs(check_expected) + (absolute)); \
+#define CHECK_CLOSE(actual, expected, relative, absolute)              \
+  do {                                                                 \
+    const double check_actual = (actual), check_expected = (expected); \
+    CAPTURE(check_actual);                                             \
+    CAPTURE(check_expected);                                           \
+    CHECK(std::abs(check_actual - check_expected) <=                   \
+          (relative) * std::abs(check_expected) + (absolute));         \
   } while (false)
 
-/// The message of the dashpot::Error (or other exception) that `code` throws; "" when it throws none.
+/// The message of the dashpot::Error (or other exception) that `code` throws; "" when it throws
+/// none.
 template <class Code>
 std::string message_of(Code code) {
   try {

@@ -13,7 +13,8 @@ namespace {
 double number_in(const std::string& text, const Option& option, bool whole) {
   const std::optional<double> value = parse_number(text);
   if (!value || !std::isfinite(*value) || (whole && *value != std::floor(*value)))
-    throw UsageError(option.long_name(), "'" + text + "' is not a " + (whole ? "whole number" : "number"),
+    throw UsageError(option.long_name(),
+                     "'" + text + "' is not a " + (whole ? "whole number" : "number"),
                      whole ? "write it as 4" : "write it as 0.25");
   if (option.minimum && *value < *option.minimum)
     throw UsageError(option.long_name(), text + " is too small",
@@ -28,7 +29,8 @@ Integer integer_in(const std::string& text, const Option& option) {
   const double largest =
       std::min(static_cast<double>(std::numeric_limits<Integer>::max()), 9007199254740992.0);
   if (value > largest || value < static_cast<double>(std::numeric_limits<Integer>::min()))
-    throw UsageError(option.long_name(), text + " is too large", "give at most " + format_exact(largest));
+    throw UsageError(option.long_name(), text + " is too large",
+                     "give at most " + format_exact(largest));
   return static_cast<Integer>(value);
 }
 
@@ -50,7 +52,9 @@ struct Store {
 
   void operator()(bool*) const {}  // a switch has no words
   void operator()(int* target) const { *target = integer_in<int>(words.back(), option); }
-  void operator()(std::uint64_t* target) const { *target = integer_in<std::uint64_t>(words.back(), option); }
+  void operator()(std::uint64_t* target) const {
+    *target = integer_in<std::uint64_t>(words.back(), option);
+  }
   void operator()(double* target) const { *target = number_in(words.back(), option, false); }
   void operator()(std::string* target) const {
     check_choice(words.back(), option);
@@ -91,12 +95,14 @@ void refuse_leftovers(const std::string& command, const std::vector<Option>& opt
   if (leftovers.empty()) return;
   const std::string word = leftovers.front().substr(0, leftovers.front().find('='));
   if (word.front() != '-')
-    throw UsageError(command, "'" + word + "' is one argument too many", "give options as --name value");
+    throw UsageError(command, "'" + word + "' is one argument too many",
+                     "give options as --name value");
   std::vector<std::string> known = {"--help"};
   for (const Option& option : options)
     if (!option.is_positional()) known.push_back(option.long_name());
   const std::optional<std::string> near = closest(word, known);
-  throw UsageError(command, "unknown option '" + word + "'", near ? "did you mean '" + *near + "'?" : "");
+  throw UsageError(command, "unknown option '" + word + "'",
+                   near ? "did you mean '" + *near + "'?" : "");
 }
 
 }  // namespace

@@ -45,8 +45,8 @@ int run(const Settings& settings, Console& console) {
   console.talk(damper.damper + "; " + damper.source + '\n');
   if (!damper.verified) console.note("these parameters are an example: " + damper.reason);
   console.print(summary(campaign) + "\n\nRecordings  " + settings.folder + "/*.csv\nConditions  " +
-                statement.string() + "\nNext        dashpot identify " + shell_quoted(settings.folder) +
-                '\n');
+                statement.string() + "\nNext        dashpot identify " +
+                shell_quoted(settings.folder) + '\n');
   if (console.json)
     console.print_json(Value::object({{"folder", settings.folder},
                                       {"dataset", statement.string()},
@@ -63,11 +63,14 @@ Command bench_command() {
       .name = "bench",
       .title = "Record a virtual damper on a virtual test bench",
       .description =
-          "Drives a damper with known parameters through sines and constant currents, or through the "
+          "Drives a damper with known parameters through sines and constant currents, or through "
+          "the "
           "sequences of a system identification (chirps, stepped frequencies, a rough road; random "
-          "currents), measures it with imperfect sensors (noise, resolution, zero drift) and writes the "
+          "currents), measures it with imperfect sensors (noise, resolution, zero drift) and "
+          "writes the "
           "recordings as CSV files with a "
-          "dataset file beside them: to try Dashpot out, to test a method on a known truth, to plan a "
+          "dataset file beside them: to try Dashpot out, to test a method on a known truth, to "
+          "plan a "
           "campaign before the real bench is booked.",
       .options = campaign_options(settings->campaign),
       .example = std::string(kExample),
@@ -77,9 +80,10 @@ Command bench_command() {
                              .help = "folder for the recordings",
                              .value = "DIR",
                              .takes = Takes::Folder});
-  command.options.push_back({.names = "--sequences",
-                             .target = &settings->list_sequences,
-                             .help = "list sequences, their parameters and the experiments; record nothing"});
+  command.options.push_back(
+      {.names = "--sequences",
+       .target = &settings->list_sequences,
+       .help = "list sequences, their parameters and the experiments; record nothing"});
   return command;
 }
 

@@ -82,21 +82,25 @@ std::string public_notes(const Dataset& campaign) {
   std::vector<std::string> notes{"simulated, not measured"};
   for (const Record& record : campaign.records)
     for (const std::string& note : record.notes)
-      if (!note.starts_with("true ") && std::ranges::find(notes, note) == notes.end()) notes.push_back(note);
+      if (!note.starts_with("true ") && std::ranges::find(notes, note) == notes.end())
+        notes.push_back(note);
   if (notes.size() == 1) return notes.front();
   std::string list;
   for (const std::string& note : notes) list += "\n  - " + quoted(note);
   return list;
 }
 
-std::string dataset_yaml(const Dataset& campaign, const ParameterSet& damper, const std::string& command) {
-  std::string text = "# Written by " + quoted(command) + "\n# True model (" + damper.source + "):\n#   " +
-                     format_json(damper.model.to_json(), false) + "\nname: " + quoted(campaign.name) +
-                     "\ncitation: " + quoted(campaign.citation) + "\ndrive: " + campaign.drive_unit +
-                     "\nnotes: " + public_notes(campaign) + "\nfiles:\n";
+std::string dataset_yaml(const Dataset& campaign, const ParameterSet& damper,
+                         const std::string& command) {
+  std::string text =
+      "# Written by " + quoted(command) + "\n# True model (" + damper.source + "):\n#   " +
+      format_json(damper.model.to_json(), false) + "\nname: " + quoted(campaign.name) +
+      "\ncitation: " + quoted(campaign.citation) + "\ndrive: " + campaign.drive_unit +
+      "\nnotes: " + public_notes(campaign) + "\nfiles:\n";
   for (const Record& record : campaign.records) {
-    text += fmt::format("  - match: {}  # {}\n    name: {}\n    condition: {}\n", quoted(file_name(record)),
-                        record.notes.front(), quoted(record.name), quoted(record.condition));
+    text += fmt::format("  - match: {}  # {}\n    name: {}\n    condition: {}\n",
+                        quoted(file_name(record)), record.notes.front(), quoted(record.name),
+                        quoted(record.condition));
     if (record.drive_level) text += "    level: " + format_exact(*record.drive_level) + '\n';
   }
   return text;
@@ -107,7 +111,8 @@ void require_consistent(const CampaignSettings& settings) {
   const bool experiment = !settings.experiment.empty();
   const bool motions = settings.motions != CampaignSettings().motions;
   if (experiment && !(settings.motion.empty() && settings.drive.empty()))
-    throw UsageError("--experiment", "states motion and drive itself", "leave --motion and --drive out");
+    throw UsageError("--experiment", "states motion and drive itself",
+                     "leave --motion and --drive out");
   if (motions && (experiment || !settings.motion.empty()))
     throw UsageError("--motions", "are not run beside another motion", "leave one of them out");
   if (!settings.levels.empty() && (experiment || !settings.drive.empty()))
@@ -119,18 +124,22 @@ std::vector<double> drive_levels(const CampaignSettings& settings, const Paramet
   std::vector<double> levels;
   for (const std::string& level : settings.levels) levels.push_back(parse_level(level));
   if (!levels.empty()) return levels;
-  return damper.drive_levels.empty() ? levels_over(damper.drive_min, damper.drive_max) : damper.drive_levels;
+  return damper.drive_levels.empty() ? levels_over(damper.drive_min, damper.drive_max)
+                                     : damper.drive_levels;
 }
 
 /// Each motion under each drive.
 std::vector<BenchTest> campaign_tests(const CampaignSettings& settings, const ParameterSet& damper,
                                       BenchOptions options) {
-  if (!settings.experiment.empty()) return experiment_tests(settings.experiment, damper, options.seed);
+  if (!settings.experiment.empty())
+    return experiment_tests(settings.experiment, damper, options.seed);
   options.motions.clear();
-  for (const std::string& motion : settings.motions) options.motions.push_back(parse_motion(motion));
+  for (const std::string& motion : settings.motions)
+    options.motions.push_back(parse_motion(motion));
   const std::vector<BenchTest> motions =
-      settings.motion.empty() ? bench_sines(options)
-                              : std::vector{sequence_test(settings.motion, options.seed, "--motion")};
+      settings.motion.empty()
+          ? bench_sines(options)
+          : std::vector{sequence_test(settings.motion, options.seed, "--motion")};
   const DriveFrame frame{.low = damper.drive_min, .high = damper.drive_max, .seed = options.seed};
   std::vector<BenchTest> tests;
   for (const BenchTest& motion : motions) {
@@ -185,7 +194,11 @@ std::vector<Option> campaign_options(CampaignSettings& settings) {
        .value = "NAME",
        .choices = experiment_names(),
        .noun = "experiment"},
-      {.names = "--cycles", .target = &bench.cycles, .help = "cycles per record", .value = "N", .minimum = 1},
+      {.names = "--cycles",
+       .target = &bench.cycles,
+       .help = "cycles per record",
+       .value = "N",
+       .minimum = 1},
       {.names = "--sample-rate",
        .target = &settings.sample_rate,
        .help = "samples per second",
@@ -215,7 +228,8 @@ std::vector<Option> campaign_options(CampaignSettings& settings) {
 
 Dataset run_campaign(const CampaignSettings& settings, const ParameterSet& damper) {
   require_consistent(settings);
-  BenchOptions options = settings.experiment.empty() ? settings.bench : one_sensor_bench(settings.bench);
+  BenchOptions options =
+      settings.experiment.empty() ? settings.bench : one_sensor_bench(settings.bench);
   if (settings.sample_rate > 0) options.sample_rate = settings.sample_rate;
   Dataset campaign = run_virtual_bench(damper.model, damper.model.drive_unit(),
                                        campaign_tests(settings, damper, options), options);

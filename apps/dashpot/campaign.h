@@ -24,13 +24,14 @@ struct CampaignSettings {
 
 std::vector<Option> campaign_options(CampaignSettings& settings);
 
-/// The recordings of the campaign. Throws UsageError on a motion or level that cannot be read, Error
-/// on a sequence.
+/// The recordings of the campaign. Throws UsageError on a motion or level that cannot be read,
+/// Error on a sequence.
 Dataset run_campaign(const CampaignSettings& settings, const ParameterSet& damper);
 
-/// One CSV file per record, as a real bench would leave them, and dataset.yaml, whose comments tell the
-/// truth that a real bench does not know. Returns the path of dataset.yaml.
+/// One CSV file per record, as a real bench would leave them, and dataset.yaml, whose comments tell
+/// the truth that a real bench does not know. Returns the path of dataset.yaml.
 std::filesystem::path write_campaign(const Dataset& campaign, const ParameterSet& damper,
-                                     const std::filesystem::path& folder, const std::string& command);
+                                     const std::filesystem::path& folder,
+                                     const std::string& command);
 
 }  // namespace dashpot::cli

@@ -36,7 +36,8 @@ const Command& find_command(const std::vector<Command>& commands, const std::str
     names.push_back(command.last_word());
   }
   throw UsageError(
-      "", std::string("unknown ") + (word.starts_with('-') ? "option" : "command") + " '" + word + "'",
+      "",
+      std::string("unknown ") + (word.starts_with('-') ? "option" : "command") + " '" + word + "'",
       suggest(word, names));
 }
 

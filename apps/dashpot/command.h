@@ -21,9 +21,10 @@ class UsageError : public Error {
   using Error::Error;
 };
 
-/// Where an option's value goes. What stands there before parsing is the default, which help prints.
-/// A bool is a switch: naming it turns the variable over.
-using Target = std::variant<bool*, int*, std::uint64_t*, double*, std::string*, std::vector<std::string>*>;
+/// Where an option's value goes. What stands there before parsing is the default, which help
+/// prints. A bool is a switch: naming it turns the variable over.
+using Target =
+    std::variant<bool*, int*, std::uint64_t*, double*, std::string*, std::vector<std::string>*>;
 
 /// What a value names, so that a shell can complete it.
 enum class Takes { Word, File, Folder };
@@ -33,8 +34,9 @@ struct Option {
   std::string names;  ///< "-q,--quiet", "--starts", or "DATA" for an argument by position
   Target target;
   std::string help;
-  std::string value = {};                 ///< what help calls the value: "HZ"
-  std::vector<std::string> choices = {};  ///< the words allowed, and paths where it takes files; empty: any
+  std::string value = {};  ///< what help calls the value: "HZ"
+  std::vector<std::string> choices =
+      {};  ///< the words allowed, and paths where it takes files; empty: any
   std::vector<std::string> more_choices = {};  ///< allowed too, and not listed in the help
   std::string noun = "value";                  ///< what a message calls a word: "unknown model 'x'"
   Takes takes = Takes::Word;
@@ -49,7 +51,9 @@ struct Option {
 };
 
 /// Whether a word that may name a choice or a file names a file: names have neither dot nor slash.
-inline bool is_path(const std::string& word) { return word.find_first_of("./") != std::string::npos; }
+inline bool is_path(const std::string& word) {
+  return word.find_first_of("./") != std::string::npos;
+}
 
 /// Rows that several commands have.
 Option seed_option(std::uint64_t& seed);

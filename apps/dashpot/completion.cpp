@@ -11,7 +11,8 @@ Command completion_command() {
   return {
       .name = "completion",
       .title = "Print the completion script of a shell",
-      .description = "Prints a script that lets the shell complete commands, options, model names and files.",
+      .description =
+          "Prints a script that lets the shell complete commands, options, model names and files.",
       .options = {{.names = "SHELL",
                    .target = shell.get(),
                    .help = "bash, zsh or fish",

@@ -20,7 +20,8 @@ std::string command_names(const std::vector<Command>& commands) {
   return join(names, " ");
 }
 
-// ---- bash -------------------------------------------------------------------------------------------
+// ---- bash
+// -------------------------------------------------------------------------------------------
 
 /// What bash offers for one value.
 std::string bash_values(const Option& option) {
@@ -30,8 +31,8 @@ std::string bash_values(const Option& option) {
   return ":";
 }
 
-/// One branch of a case: a command's values by the word before, its options, its arguments; of a group, the
-/// case of its subcommands.
+/// One branch of a case: a command's values by the word before, its options, its arguments; of a
+/// group, the case of its subcommands.
 std::string bash_command(const Command& command, const std::vector<Option>& common) {
   if (!command.subcommands.empty()) {
     std::string cases;
@@ -49,8 +50,8 @@ std::string bash_command(const Command& command, const std::vector<Option>& comm
     }
     names += fmt::format(" {}", join(split(option.names, ','), " "));
     if (!option.is_switch())
-      values +=
-          fmt::format("        {}) {}; return;;\n", join(split(option.names, ','), "|"), bash_values(option));
+      values += fmt::format("        {}) {}; return;;\n", join(split(option.names, ','), "|"),
+                            bash_values(option));
   }
   return fmt::format(
       "    {})\n      case $previous in\n{}      esac\n"
@@ -78,7 +79,8 @@ std::string bash_script(const std::vector<Command>& commands, const std::vector<
          cases + "  esac\n}\ncomplete -o filenames -F _dashpot dashpot\n";
 }
 
-// ---- zsh --------------------------------------------------------------------------------------------
+// ---- zsh
+// --------------------------------------------------------------------------------------------
 
 /// Text for a zsh specification: brackets and colons mean something there.
 std::string zsh_text(const std::string& text) {
@@ -102,7 +104,8 @@ std::string zsh_specification(const Option& option) {
   if (option.is_positional())
     return shell_quoted((option.is_list() ? "*:" : ":") + option.names + ":" + zsh_action(option));
   std::string value;
-  if (!option.is_switch()) value = fmt::format(":{}:{}", zsh_text(option.value), zsh_action(option));
+  if (!option.is_switch())
+    value = fmt::format(":{}:{}", zsh_text(option.value), zsh_action(option));
   std::vector<std::string> specifications;
   for (const std::string& name : split(option.names, ','))
     specifications.push_back(shell_quoted(name + "[" + zsh_text(option.help) + "]" + value));
@@ -120,8 +123,10 @@ std::string zsh_command(const Command& command, const std::vector<Option>& commo
   }
   std::string cases;
   for (const Command& one : command.subcommands) cases += zsh_command(one, common);
-  return text + "      if (( CURRENT == 2 )); then\n        compadd " + command_names(command.subcommands) +
-         "\n        return\n      fi\n      command=$words[2]\n      shift words\n      (( CURRENT-- ))\n"
+  return text + "      if (( CURRENT == 2 )); then\n        compadd " +
+         command_names(command.subcommands) +
+         "\n        return\n      fi\n      command=$words[2]\n      shift words\n      (( "
+         "CURRENT-- ))\n"
          "      case $command in\n" +
          cases + "      esac;;\n";
 }
@@ -143,7 +148,8 @@ std::string zsh_script(const std::vector<Command>& commands, const std::vector<O
          cases + "  esac\n}\n_dashpot \"$@\"\n";
 }
 
-// ---- fish -------------------------------------------------------------------------------------------
+// ---- fish
+// -------------------------------------------------------------------------------------------
 
 std::string fish_values(const Option& option) {
   if (!option.choices.empty()) return " -x -a " + shell_quoted(join(option.choices, " "));
@@ -154,7 +160,8 @@ std::string fish_values(const Option& option) {
 std::string fish_option(const std::string& condition, const Option& option) {
   std::string line = "complete -c dashpot -n " + shell_quoted(condition);
   if (option.is_positional()) {
-    if (!option.choices.empty()) return line + " -a " + shell_quoted(join(option.choices, " ")) + '\n';
+    if (!option.choices.empty())
+      return line + " -a " + shell_quoted(join(option.choices, " ")) + '\n';
     return option.takes == Takes::File ? line + " -F\n" : "";
   }
   for (const std::string& name : split(option.names, ','))
@@ -173,7 +180,8 @@ std::string fish_command(const Command& command, const std::string& condition,
     text += "complete -c dashpot -n " +
             shell_quoted(condition + "; and not __fish_seen_subcommand_from " + names) + " -a " +
             one.last_word() + " -d " + shell_quoted(one.title) + '\n' +
-            fish_command(one, condition + "; and __fish_seen_subcommand_from " + one.last_word(), common);
+            fish_command(one, condition + "; and __fish_seen_subcommand_from " + one.last_word(),
+                         common);
   }
   if (command.subcommands.empty())
     for (const Option& option : options_of(command, common)) text += fish_option(condition, option);

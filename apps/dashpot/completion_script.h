@@ -6,7 +6,8 @@
 
 namespace dashpot::cli {
 
-/// The completion script of a shell ("bash", "zsh" or "fish"). `common`: the options of every command.
+/// The completion script of a shell ("bash", "zsh" or "fish"). `common`: the options of every
+/// command.
 std::string completion_script(const std::string& shell, const std::vector<Command>& commands,
                               const std::vector<Option>& common);
 

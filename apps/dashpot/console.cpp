@@ -10,7 +10,7 @@
 
 #include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
-#include "dashpot/output/safe_text.h"
+#include "dashpot/report/safe_text.h"
 #include "layout.h"
 
 namespace dashpot::cli {
@@ -114,12 +114,15 @@ void Console::finish() {
   throw Error("standard output", "cannot be written", "is the disk full?");
 }
 
-std::string Console::bold(std::string_view text) const { return coloured(text, "1", STDOUT_FILENO); }
+std::string Console::bold(std::string_view text) const {
+  return coloured(text, "1", STDOUT_FILENO);
+}
 
 std::string shell_quoted(std::string_view word) {
   constexpr std::string_view kSafe =
       "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_=+,./:%@";
-  if (!word.empty() && word.find_first_not_of(kSafe) == std::string_view::npos) return std::string(word);
+  if (!word.empty() && word.find_first_not_of(kSafe) == std::string_view::npos)
+    return std::string(word);
   std::string quoted = "'";
   for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
   return quoted + "'";

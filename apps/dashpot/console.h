@@ -13,8 +13,8 @@ namespace dashpot::cli {
 /// Who read stdout through a pipe wants no more: `| head`.
 struct ReaderGone {};
 
-/// Where the program talks. Results go to stdout, all talk about the work to stderr; with --json, stdout
-/// holds the JSON text alone.
+/// Where the program talks. Results go to stdout, all talk about the work to stderr; with --json,
+/// stdout holds the JSON text alone.
 class Console {
  public:
   /// `stop` is set when the user interrupts.

@@ -4,7 +4,7 @@
 
 #include "console.h"
 #include "dashpot/damper/parameter_set.h"
-#include "dashpot/identify/track.h"
+#include "dashpot/identify/judge/track.h"
 
 namespace dashpot::cli {
 
@@ -36,7 +36,8 @@ std::vector<Option> coil_options(DamperChoice& choice) {
            .default_text = "the model's own"}};
 }
 
-ModelFile load_damper_file(const DamperChoice& choice, const std::string& command, Console& console) {
+ModelFile load_damper_file(const DamperChoice& choice, const std::string& command,
+                           Console& console) {
   if (choice.model.empty() == choice.parameters.empty())
     throw UsageError(command, "needs one damper", "give a model file, or --parameters NAME");
   if (!choice.model.empty()) return load_model(choice.model);
@@ -63,7 +64,8 @@ DriverOptions driver_of(const Damper& damper, const DamperChoice& choice, Driver
   options.current_min = damper.drive_min;
   options.current_max = choice.current_max > 0 ? choice.current_max : damper.drive_max;
   if (!(options.current_min < options.current_max))
-    throw Error(damper.name, "its data lie at one current only", "state the greatest with --current-max");
+    throw Error(damper.name, "its data lie at one current only",
+                "state the greatest with --current-max");
   options = driver_of(*damper.model, options);
   if (choice.lag_rate >= 0) options.lag_rate = choice.lag_rate;
   return options;

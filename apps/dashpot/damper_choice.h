@@ -22,7 +22,8 @@ std::vector<Option> damper_options(DamperChoice& choice);
 std::vector<Option> coil_options(DamperChoice& choice);
 
 /// Throws UsageError where not exactly one damper was chosen.
-ModelFile load_damper_file(const DamperChoice& choice, const std::string& command, Console& console);
+ModelFile load_damper_file(const DamperChoice& choice, const std::string& command,
+                           Console& console);
 
 /// A damper and the range of its current.
 struct Damper {
@@ -36,6 +37,7 @@ struct Damper {
 Damper load_damper(const DamperChoice& choice, const std::string& command, Console& console);
 
 /// The driver in front of it. Throws Error where there is no range of currents.
-DriverOptions driver_of(const Damper& damper, const DamperChoice& choice, DriverOptions options = {});
+DriverOptions driver_of(const Damper& damper, const DamperChoice& choice,
+                        DriverOptions options = {});
 
 }  // namespace dashpot::cli

@@ -6,7 +6,7 @@
 
 #include "console.h"
 #include "dashpot/base/text.h"
-#include "dashpot/output/words.h"
+#include "dashpot/report/words.h"
 
 namespace dashpot::cli {
 namespace {
@@ -21,37 +21,38 @@ std::string drive_levels(const Dataset& dataset) {
   const std::string noun = dataset.drive_unit == "V" ? "voltage" : "current";
   if (levels.size() == 1)
     return fmt::format("1 {}, {} {}", noun, format_number(*levels.begin()), dataset.drive_unit);
-  return fmt::format("{} {} ... {} {}", counted(levels.size(), noun), format_number(*levels.begin()),
-                     format_number(*levels.rbegin()), dataset.drive_unit);
+  return fmt::format("{} {} ... {} {}", counted(levels.size(), noun),
+                     format_number(*levels.begin()), format_number(*levels.rbegin()),
+                     dataset.drive_unit);
 }
 
 }  // namespace
 
 std::vector<Option> data_options(DataSettings& settings) {
-  return {
-      {.names = "DATA",
-       .target = &settings.paths,
-       .help = "recordings: files or folders (CSV, DAQ text, MAT, JSON; also .gz), or a dataset file (.yaml)",
-       .takes = Takes::File,
-       .required = true},
-      {.names = "--dataset",
-       .target = &settings.load.dataset_file,
-       .help = "a dataset file that states channels, units and conditions",
-       .value = "FILE",
-       .takes = Takes::File,
-       .default_text = "dataset.yaml beside the data, if there"},
-      {.names = "--no-recognise",
-       .target = &settings.load.recognise,
-       .help = "do not look for these recordings among the known published ones"},
-      {.names = "--velocity-cutoff",
-       .target = &settings.load.velocity_cutoff_hz,
-       .help = "cut-off of the zero-phase filter that velocity is derived with",
-       .value = "HZ",
-       .minimum = 0,
-       .default_text = "from the motion, and stated"},
-      {.names = "-v,--verbose",
-       .target = &settings.verbose,
-       .help = "print all that was understood of the data"}};
+  return {{.names = "DATA",
+           .target = &settings.paths,
+           .help = "recordings: files or folders (CSV, DAQ text, MAT, JSON; also .gz), or a "
+                   "dataset file (.yaml)",
+           .takes = Takes::File,
+           .required = true},
+          {.names = "--dataset",
+           .target = &settings.load.dataset_file,
+           .help = "a dataset file that states channels, units and conditions",
+           .value = "FILE",
+           .takes = Takes::File,
+           .default_text = "dataset.yaml beside the data, if there"},
+          {.names = "--no-recognise",
+           .target = &settings.load.recognise,
+           .help = "do not look for these recordings among the known published ones"},
+          {.names = "--velocity-cutoff",
+           .target = &settings.load.velocity_cutoff_hz,
+           .help = "cut-off of the zero-phase filter that velocity is derived with",
+           .value = "HZ",
+           .minimum = 0,
+           .default_text = "from the motion, and stated"},
+          {.names = "-v,--verbose",
+           .target = &settings.verbose,
+           .help = "print all that was understood of the data"}};
 }
 
 std::string summary(const Dataset& dataset) {
@@ -61,13 +62,14 @@ std::string summary(const Dataset& dataset) {
     conditions.insert(record.condition);
     if (!record.time.empty()) seconds += record.time.back() - record.time.front();
   }
-  return fmt::format("{}: {}, {}, {}, {} s", dataset.name, counted(dataset.records.size(), "record"),
-                     counted(conditions.size(), "condition"), drive_levels(dataset),
-                     format_number(seconds, 3));
+  return fmt::format(
+      "{}: {}, {}, {}, {} s", dataset.name, counted(dataset.records.size(), "record"),
+      counted(conditions.size(), "condition"), drive_levels(dataset), format_number(seconds, 3));
 }
 
 void print_notes(const Dataset& dataset, Console& console, std::size_t most) {
-  for (std::size_t i = 0; i < std::min(most, dataset.notes.size()); ++i) console.note(dataset.notes[i]);
+  for (std::size_t i = 0; i < std::min(most, dataset.notes.size()); ++i)
+    console.note(dataset.notes[i]);
   if (dataset.notes.size() > most)
     console.note(fmt::format("and {} more; --verbose prints them", dataset.notes.size() - most));
   if (dataset.passed_over.empty()) return;

@@ -17,7 +17,8 @@ struct DataSettings {
 /// The rows that every command with DATA has.
 std::vector<Option> data_options(DataSettings& settings);
 
-/// Reads the recordings and prints, on stderr, what was understood: briefly, or all of it when verbose.
+/// Reads the recordings and prints, on stderr, what was understood: briefly, or all of it when
+/// verbose.
 Dataset load_recordings(const DataSettings& settings, Console& console);
 
 /// What was inferred, assumed or passed over, as notes.

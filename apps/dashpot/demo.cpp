@@ -44,13 +44,14 @@ bool print_recovery(const std::vector<RecoveredParameter>& parameters, Console& 
   const auto missed = std::ranges::count_if(
       parameters, [](const RecoveredParameter& p) { return !p.recovered() && !p.weak; });
   if (missed == 0 && !parameters.empty()) {
-    console.print(
-        fmt::format("All known parameters that these data can tell are recovered, within their joint 95 % "
-                    "interval or {} %.\n",
-                    format_number(100 * kRecoveryTolerance)));
+    console.print(fmt::format(
+        "All known parameters that these data can tell are recovered, within their joint 95 % "
+        "interval or {} %.\n",
+        format_number(100 * kRecoveryTolerance)));
     return true;
   }
-  console.error(fmt::format("{} of {} known parameters were not recovered", missed, parameters.size()));
+  console.error(
+      fmt::format("{} of {} known parameters were not recovered", missed, parameters.size()));
   return false;
 }
 
@@ -64,8 +65,9 @@ int run(const Settings& settings, Console& console) {
   const ParameterSet damper = load_parameter_set(campaign.damper);
   prepare_results(settings.results);
   console.talk("Virtual test bench: " + damper.damper + "\n  " + damper.source + '\n');
-  const auto statement = write_campaign(run_campaign(campaign, damper), damper,
-                                        settings.results.folder + "/recordings", console.command_line());
+  const auto statement =
+      write_campaign(run_campaign(campaign, damper), damper,
+                     settings.results.folder + "/recordings", console.command_line());
   // From here on as with real recordings: the files are all there is.
   const Dataset dataset = load_recordings({.paths = {statement.string()}, .load = {}}, console);
   FitSettings fit = settings.fit;
@@ -76,12 +78,14 @@ int run(const Settings& settings, Console& console) {
       rank(models, dataset, default_leave_out(dataset), identify_options(fit, models, console));
   const ReportInput input = report_input(dataset, ranking, console);
   print_results(input, console);
-  const std::vector<RecoveredParameter> parameters = compare(damper.model, find_model(ranking, truth).fit);
+  const std::vector<RecoveredParameter> parameters =
+      compare(damper.model, find_model(ranking, truth).fit);
   const bool recovered = print_recovery(parameters, console);
   write_results(input, settings.results, console);
   if (console.json)
-    console.print_json(Value::object(
-        {{"recovered", recovered}, {"parameters", to_json(parameters)}, {"report", json_report(input)}}));
+    console.print_json(Value::object({{"recovered", recovered},
+                                      {"parameters", to_json(parameters)},
+                                      {"report", json_report(input)}}));
   return recovered ? exit_code_of(ranking, console) : kNotUsable;
 }
 
@@ -94,7 +98,8 @@ Command demo_command() {
       .name = "demo",
       .title = "See it all at work: a virtual damper, measured and identified",
       .description =
-          "Records a virtual damper with known parameters, identifies models from the files as from a "
+          "Records a virtual damper with known parameters, identifies models from the files as "
+          "from a "
           "real campaign, checks that the known parameters are found again, and writes the report. "
           "Needs no data.",
       .options = fit_options(settings->fit),

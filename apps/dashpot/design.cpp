@@ -10,7 +10,7 @@
 #include "dashpot/base/file.h"
 #include "dashpot/base/text.h"
 #include "dashpot/design/design_law.h"
-#include "dashpot/output/design_report.h"
+#include "dashpot/report/design_report.h"
 #include "layout.h"
 #include "results.h"
 
@@ -47,13 +47,15 @@ constexpr std::string_view kExample =
 DesignRequest requested(const Settings& settings) {
   if (settings.request.empty())
     throw UsageError("REQUEST", "is missing: a file, or one of " + join(request_names(), ", "));
-  return is_path(settings.request) ? load_request(settings.request) : named_request(settings.request);
+  return is_path(settings.request) ? load_request(settings.request)
+                                   : named_request(settings.request);
 }
 
 std::string quantities_text(int width) {
   Table table({"quantity", "unit", "meaning"});
   for (const DesignQuantity& quantity : design_quantities())
-    table.row({std::string(quantity.name), std::string(quantity.unit), std::string(quantity.meaning)});
+    table.row(
+        {std::string(quantity.name), std::string(quantity.unit), std::string(quantity.meaning)});
   return table.text(static_cast<std::size_t>(width));
 }
 
@@ -62,16 +64,18 @@ void clear_designs(const fs::path& folder) {
   for (const auto& [part, ending] : {std::pair{"designs", ".yaml"}, std::pair{"models", ".json"}}) {
     std::error_code none;
     for (const auto& entry : fs::directory_iterator(folder / part, none))
-      if (entry.path().filename().string().starts_with("design_") && entry.path().extension() == ending)
+      if (entry.path().filename().string().starts_with("design_") &&
+          entry.path().extension() == ending)
         fs::remove(entry.path());
   }
 }
 
-/// The models of a design: members of families, or laws, the largest error of which is kept, as a share of
-/// its largest force.
+/// The models of a design: members of families, or laws, the largest error of which is kept, as a
+/// share of its largest force.
 class ModelWriter {
  public:
-  ModelWriter(const DesignReport& report, const Console& console) : report_(report), console_(console) {
+  ModelWriter(const DesignReport& report, const Console& console)
+      : report_(report), console_(console) {
     add(report.options.model, "--model", "");
     if (!report.options.second.empty()) add(report.options.second, "--second", "_second");
   }
@@ -88,7 +92,8 @@ class ModelWriter {
   std::string text() const {
     std::vector<std::string> kinds;
     if (laws_ > 0)
-      kinds.push_back("laws, within " + format_number(100 * worst_, 2) + " % RMS of the largest force");
+      kinds.push_back("laws, within " + format_number(100 * worst_, 2) +
+                      " % RMS of the largest force");
     if (members_ > 0) kinds.push_back("members of a family");
     return join(kinds, "; ");
   }
@@ -120,7 +125,8 @@ class ModelWriter {
 };
 
 /// Descriptions and models; says of which kind these are.
-std::string write_designs(const DesignReport& report, const fs::path& folder, const Console& console) {
+std::string write_designs(const DesignReport& report, const fs::path& folder,
+                          const Console& console) {
   clear_designs(folder);
   ModelWriter models(report, console);
   for (const Design& design : report.designs) {
@@ -155,17 +161,19 @@ void print_report(const DesignReport& report, Console& console) {
   if (report.designs.size() > kShown)
     console.print(fmt::format("... all {} are in design.csv\n", report.designs.size()));
   // One design is told in full; of a front the one that weighs all goals.
-  const auto knee = std::ranges::find_if(
-      report.designs, [](const Design& design) { return design.role.find("knee") != std::string::npos; });
+  const auto knee = std::ranges::find_if(report.designs, [](const Design& design) {
+    return design.role.find("knee") != std::string::npos;
+  });
   if (!report.designs.empty()) {
     const Design& told = knee == report.designs.end() ? report.designs.front() : *knee;
     if (!report.request.constraints.empty())
       console.print('\n' + console.bold(told.name) + '\n' + constraint_table(report, told, width));
     if (told.sensitivity)
       console.print(
-          fmt::format("\nWhat each tolerance moves (its share of the variance); {} % of the dampers made "
-                      "hold every constraint\n",
-                      format_number(100 * told.sensitivity->holding, 3)) +
+          fmt::format(
+              "\nWhat each tolerance moves (its share of the variance); {} % of the dampers made "
+              "hold every constraint\n",
+              format_number(100 * told.sensitivity->holding, 3)) +
           sensitivity_table(report, told, width));
   }
   console.print('\n' + paragraph(design_verdict(report), static_cast<std::size_t>(width)) +
@@ -201,9 +209,10 @@ std::vector<Option> options_of(Settings& settings) {
   return {
       {.names = "REQUEST",
        .target = &settings.request,
-       .help = "what may vary, what must hold and what to favour: a YAML file, or one that comes with "
-               "Dashpot: " +
-               join(request_names(), ", "),
+       .help =
+           "what may vary, what must hold and what to favour: a YAML file, or one that comes with "
+           "Dashpot: " +
+           join(request_names(), ", "),
        .takes = Takes::File},
       {.names = "-o,--output",
        .target = &settings.folder,
@@ -235,8 +244,9 @@ std::vector<Option> options_of(Settings& settings) {
        .takes = Takes::File},
       {.names = "--second",
        .target = &settings.options.second,
-       .help = "a model whose figures stand beside, with the difference; constraints and goals can be "
-               "asked of it too",
+       .help =
+           "a model whose figures stand beside, with the difference; constraints and goals can be "
+           "asked of it too",
        .value = "MODEL",
        .choices = design_model_names(),
        .noun = "model",
@@ -244,7 +254,8 @@ std::vector<Option> options_of(Settings& settings) {
        .default_text = "none"},
       {.names = "--outside-family",
        .target = &settings.outside_family,
-       .help = "designs beyond the dampers that a family's model was fitted on: tell of it, or refuse them",
+       .help = "designs beyond the dampers that a family's model was fitted on: tell of it, or "
+               "refuse them",
        .value = "MODE",
        .choices = {"mark", "refuse"}},
       seed_option(settings.options.seed),
@@ -252,25 +263,29 @@ std::vector<Option> options_of(Settings& settings) {
       {.names = "--quantities",
        .target = &settings.quantities,
        .help = "list what constraints and goals may speak of"},
-      {.names = "--no-report", .target = &settings.report, .help = "write descriptions and models only"}};
+      {.names = "--no-report",
+       .target = &settings.report,
+       .help = "write descriptions and models only"}};
 }
 
 }  // namespace
 
 Command design_command() {
   auto settings = std::make_shared<Settings>();
-  return {
-      .name = "design",
-      .title = "Dampers that do what is asked of them",
-      .description =
-          "Reads what may vary of a damper's description, what must hold and what to favour, and finds "
-          "designs: "
-          "the best for one goal, or a front for several, also where made dampers differ from their drawing. "
-          "Each design is written as a description and as a model for the other commands, after it was read "
-          "again and checked. Where none can be, it says which constraints conflict.",
-      .options = options_of(*settings),
-      .example = std::string(kExample),
-      .run = [settings](Console& console) { return run(*settings, console); }};
+  return {.name = "design",
+          .title = "Dampers that do what is asked of them",
+          .description =
+              "Reads what may vary of a damper's description, what must hold and what to favour, "
+              "and finds "
+              "designs: "
+              "the best for one goal, or a front for several, also where made dampers differ from "
+              "their drawing. "
+              "Each design is written as a description and as a model for the other commands, "
+              "after it was read "
+              "again and checked. Where none can be, it says which constraints conflict.",
+          .options = options_of(*settings),
+          .example = std::string(kExample),
+          .run = [settings](Console& console) { return run(*settings, console); }};
 }
 
 }  // namespace dashpot::cli

@@ -1,6 +1,6 @@
 #pragma once
 #include "console.h"
-#include "dashpot/output/document.h"
+#include "dashpot/report/document.h"
 
 namespace dashpot::cli {
 

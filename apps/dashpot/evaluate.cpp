@@ -7,11 +7,11 @@
 #include "console.h"
 #include "dashpot/base/file.h"
 #include "dashpot/base/text.h"
-#include "dashpot/damper/family/family_model.h"
-#include "dashpot/identify/extrapolation.h"
-#include "dashpot/identify/fit_words.h"
-#include "dashpot/output/interval_table.h"
-#include "dashpot/output/report_json.h"
+#include "dashpot/damper/kinds/family/family_model.h"
+#include "dashpot/identify/fit/fit_words.h"
+#include "dashpot/identify/judge/extrapolation.h"
+#include "dashpot/report/interval_table.h"
+#include "dashpot/report/report_json.h"
 #include "data.h"
 #include "layout.h"
 #include "results.h"
@@ -40,14 +40,16 @@ std::string percent(double value) { return fmt::format("{:.2f}", value); }
 std::vector<std::string> record_row(const RecordResult& r) {
   const std::string level = r.drive_level ? format_number(*r.drive_level) : "varies";
   if (r.diverged_at)
-    return {r.record, level, "", "", "", "", "", "diverged at " + format_number(*r.diverged_at) + " s"};
+    return {r.record, level, "", "",
+            "",       "",    "", "diverged at " + format_number(*r.diverged_at) + " s"};
   const Metrics& m = r.metrics;
   return {r.record,       level,          format_number(m.rmse),   percent(m.rms_half_span),
           percent(m.esr), percent(m.fit), percent(r.energy_error), format_number(r.offset, 3)};
 }
 
 std::vector<std::string> pooled_row(const std::string& name, const Metrics& m) {
-  return {name, "", format_number(m.rmse), percent(m.rms_half_span), percent(m.esr), percent(m.fit), "", ""};
+  return {name, "", format_number(m.rmse), percent(m.rms_half_span), percent(m.esr), percent(m.fit),
+          "",   ""};
 }
 
 std::string record_table(const Evaluation& evaluation, const std::string& drive_unit, int width) {
@@ -73,8 +75,10 @@ std::string band_table(const Evaluation& evaluation, int width) {
 /// Of models that feed their force back.
 std::string one_step_line(const Evaluation& evaluation) {
   if (!evaluation.one_step) return {};
-  return "one step ahead, with the measured force fed back (flatters; no measure of the model): RMSE " +
-         format_number(evaluation.one_step->rmse) + " N, ESR " + percent(evaluation.one_step->esr) + " %\n";
+  return "one step ahead, with the measured force fed back (flatters; no measure of the model): "
+         "RMSE " +
+         format_number(evaluation.one_step->rmse) + " N, ESR " + percent(evaluation.one_step->esr) +
+         " %\n";
 }
 
 /// The report of `identify` with this model alone in it, fitted elsewhere.
@@ -112,17 +116,20 @@ int run(const Settings& settings, Console& console) {
   const std::vector<Extrapolation> outside = extrapolations(file, dataset);
   console.print('\n' + console.bold(file.model->name()) +
                 " in free run, nothing fitted but the force zero of each record\n\n");
-  console.print(record_table(evaluation, dataset.drive_unit, console.width()) + one_step_line(evaluation));
+  console.print(record_table(evaluation, dataset.drive_unit, console.width()) +
+                one_step_line(evaluation));
   if (evaluation.pooled.samples > 0) console.print('\n' + band_table(evaluation, console.width()));
   if (const std::string sentence = interval_sentence(evaluation); !sentence.empty())
     console.print('\n' + paragraph(sentence, static_cast<std::size_t>(console.width())));
   for (const Extrapolation& e : outside) console.warn(describe(e));
-  for (const std::string& what : outside_family(evaluation)) console.warn(what + ": it extrapolates there");
+  for (const std::string& what : outside_family(evaluation))
+    console.warn(what + ": it extrapolates there");
   if (console.json) console.print_json(evaluation_json(file, evaluation, outside));
-  if (!settings.report.empty()) write_report(settings, dataset, std::move(file), evaluation, console);
+  if (!settings.report.empty())
+    write_report(settings, dataset, std::move(file), evaluation, console);
   if (evaluation.diverged == 0) return kDone;
-  console.error(
-      fmt::format("the model diverged on {} of {} records", evaluation.diverged, evaluation.records.size()));
+  console.error(fmt::format("the model diverged on {} of {} records", evaluation.diverged,
+                            evaluation.records.size()));
   return kNotUsable;
 }
 
@@ -130,38 +137,42 @@ int run(const Settings& settings, Console& console) {
 
 Command evaluate_command() {
   auto settings = std::make_shared<Settings>();
-  Command command{
-      .name = "evaluate",
-      .title = "Judge a model file on recordings, without fitting",
-      .description =
-          "Runs a model in free run over each recording (motion and current in, force out) and prints "
-          "its errors per record, pooled and by velocity. Says where the recordings leave the range "
-          "that the model was fitted on.",
-      .options = {{.names = "MODEL",
-                   .target = &settings->model,
-                   .help = "a model file that 'dashpot identify' wrote",
-                   .takes = Takes::File,
-                   .required = true}},
-      .example = std::string(kExample),
-      .run = [settings](Console& console) { return run(*settings, console); }};
+  Command command{.name = "evaluate",
+                  .title = "Judge a model file on recordings, without fitting",
+                  .description =
+                      "Runs a model in free run over each recording (motion and current in, force "
+                      "out) and prints "
+                      "its errors per record, pooled and by velocity. Says where the recordings "
+                      "leave the range "
+                      "that the model was fitted on.",
+                  .options = {{.names = "MODEL",
+                               .target = &settings->model,
+                               .help = "a model file that 'dashpot identify' wrote",
+                               .takes = Takes::File,
+                               .required = true}},
+                  .example = std::string(kExample),
+                  .run = [settings](Console& console) { return run(*settings, console); }};
   append(command.options, data_options(settings->data));
-  append(command.options,
-         {{.names = "--outside-family",
-           .target = &settings->outside_family,
-           .help = "a damper outside the family that the model is of: tell of it and go on, or refuse it",
-           .value = "MODE",
-           .choices = {"mark", "refuse"}},
-          {.names = "--force-offset",
-           .target = &settings->force_offset,
-           .help = "the force zero (gas, load cell): a free offset per record, or the model's own alone",
-           .value = "MODE",
-           .choices = {"record", "none"}},
-          {.names = "--report",
-           .target = &settings->report,
-           .help = "also write a report page",
-           .value = "FILE",
-           .takes = Takes::File},
-          threads_option(settings->threads)});
+  append(
+      command.options,
+      {{.names = "--outside-family",
+        .target = &settings->outside_family,
+        .help =
+            "a damper outside the family that the model is of: tell of it and go on, or refuse it",
+        .value = "MODE",
+        .choices = {"mark", "refuse"}},
+       {.names = "--force-offset",
+        .target = &settings->force_offset,
+        .help =
+            "the force zero (gas, load cell): a free offset per record, or the model's own alone",
+        .value = "MODE",
+        .choices = {"record", "none"}},
+       {.names = "--report",
+        .target = &settings->report,
+        .help = "also write a report page",
+        .value = "FILE",
+        .takes = Takes::File},
+       threads_option(settings->threads)});
   return command;
 }
 

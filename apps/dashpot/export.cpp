@@ -10,8 +10,8 @@
 #include "dashpot/base/file.h"
 #include "dashpot/base/text.h"
 #include "dashpot/base/units.h"
-#include "dashpot/output/exporters/c_inverse.h"
-#include "dashpot/output/exporters/exporter.h"
+#include "dashpot/export/c/c_inverse.h"
+#include "dashpot/export/exporter.h"
 #include "export_control.h"
 
 namespace dashpot::cli {
@@ -39,12 +39,14 @@ constexpr std::string_view kExample =
     "dashpot export --parameters spencer1997 --to c --name front_damper -o front\n"
     "\n"
     "# A controller for an ECU with the sensors of a car, from accelerometer to current:\n"
-    "dashpot export --controller mix1,crossover=1.9Hz --in-car --to c --precision float --sample-time 2ms -o "
+    "dashpot export --controller mix1,crossover=1.9Hz --in-car --to c --precision float "
+    "--sample-time 2ms -o "
     "ecu\n"
     "\n"
     "# The current for a wanted force, and a skyhook that drives its damper by it:\n"
     "dashpot export --parameters spencer1997 --inverse numeric --to c -o ecu\n"
-    "dashpot export --controller skyhook_modified --damper spencer1997 --inverse numeric --to c -o ecu";
+    "dashpot export --controller skyhook_modified --damper spencer1997 --inverse numeric --to c -o "
+    "ecu";
 
 std::vector<std::string> exporter_names() {
   std::vector<std::string> names;
@@ -55,8 +57,8 @@ std::vector<std::string> exporter_names() {
 std::string formats_text() {
   std::string text;
   for (const Exporter& exporter : exporters())
-    text += fmt::format(" {}: {}, from {}; writes {}.", exporter.name, exporter.title, exporter.takes,
-                        exporter.files);
+    text += fmt::format(" {}: {}, from {}; writes {}.", exporter.name, exporter.title,
+                        exporter.takes, exporter.files);
   return text;
 }
 
@@ -64,7 +66,8 @@ bool is_inverse(const std::string& path) {
   if (path.empty()) return false;
   const Value document = parse_json(read_file(path), path);
   const Value* format = document.kind() == Value::Kind::Object ? document.find("format") : nullptr;
-  return format && format->kind() == Value::Kind::String && format->as_string() == "dashpot-inverse";
+  return format && format->kind() == Value::Kind::String &&
+         format->as_string() == "dashpot-inverse";
 }
 
 std::optional<CPrecision> precision_of(const Settings& settings) {
@@ -135,15 +138,16 @@ int run(const Settings& settings, Console& console) {
   if (settings.formats.empty())
     throw UsageError("--to", "is missing", "one or more of " + join(exporter_names(), ", "));
   if (settings.folder.empty()) throw UsageError("--output", "the name of the folder is empty");
-  const ExportOptions options{.name = settings.name,
-                              .precision = precision_of(settings),
-                              .sample_time = settings.sample_time.empty()
-                                                 ? 0
-                                                 : parse_quantity(settings.sample_time, "s", "--sample-time"),
-                              .compiler = settings.compiler.empty() ? usual_compiler() : settings.compiler,
-                              .sources_only = settings.sources_only,
-                              .command = console.command_line(),
-                              .version = DASHPOT_VERSION};
+  const ExportOptions options{
+      .name = settings.name,
+      .precision = precision_of(settings),
+      .sample_time = settings.sample_time.empty()
+                         ? 0
+                         : parse_quantity(settings.sample_time, "s", "--sample-time"),
+      .compiler = settings.compiler.empty() ? usual_compiler() : settings.compiler,
+      .sources_only = settings.sources_only,
+      .command = console.command_line(),
+      .version = DASHPOT_VERSION};
   const std::vector<ExportedFile> files = exported_files(settings, options, console);
   Value list = Value::array();
   for (const ExportedFile& file : files) {
@@ -196,16 +200,18 @@ Command export_command() {
                     .help = "folder for the files",
                     .value = "DIR",
                     .takes = Takes::Folder}});
-  return {.name = "export",
-          .title = "A model or a controller as code or tables for other programs",
-          .description =
-              "Writes a model in a form that needs Dashpot no more. An inverse network that 'dashpot invert' "
-              "wrote, an inverse of a damper (--inverse) and a vehicle's controller (--controller) are "
-              "exported, too, where a format takes them." +
-              formats_text(),
-          .options = std::move(options),
-          .example = std::string(kExample),
-          .run = [settings](Console& console) { return run(*settings, console); }};
+  return {
+      .name = "export",
+      .title = "A model or a controller as code or tables for other programs",
+      .description =
+          "Writes a model in a form that needs Dashpot no more. An inverse network that 'dashpot "
+          "invert' "
+          "wrote, an inverse of a damper (--inverse) and a vehicle's controller (--controller) are "
+          "exported, too, where a format takes them." +
+          formats_text(),
+      .options = std::move(options),
+      .example = std::string(kExample),
+      .run = [settings](Console& console) { return run(*settings, console); }};
 }
 
 }  // namespace dashpot::cli

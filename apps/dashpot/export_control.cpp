@@ -7,9 +7,9 @@
 #include "console.h"
 #include "dashpot/base/error.h"
 #include "dashpot/damper/inverse/registry.h"
-#include "dashpot/identify/track.h"
-#include "dashpot/output/exporters/c_controller.h"
-#include "dashpot/output/exporters/c_inverse.h"
+#include "dashpot/export/c/c_controller.h"
+#include "dashpot/export/c/c_inverse.h"
+#include "dashpot/identify/judge/track.h"
 
 namespace dashpot::cli {
 namespace {
@@ -38,8 +38,8 @@ std::vector<Option> control_options(VehicleChoice& choice) {
   return options;
 }
 
-CBlockMaker controller_block(VehicleChoice choice, const DamperChoice& damper, const ExportOptions& options,
-                             Console& console) {
+CBlockMaker controller_block(VehicleChoice choice, const DamperChoice& damper,
+                             const ExportOptions& options, Console& console) {
   if (choice.damper.empty())
     choice.damper = damper.model.empty() ? damper.parameters : damper.model;
   else if (damper.is_made())
@@ -50,8 +50,8 @@ CBlockMaker controller_block(VehicleChoice choice, const DamperChoice& damper, c
   return [vehicle](const ExportOptions& own) { return c_controller_block(*vehicle, own); };
 }
 
-CBlockMaker scheme_block(const VehicleChoice& choice, DamperChoice damper, const ExportOptions& options,
-                         Console& console) {
+CBlockMaker scheme_block(const VehicleChoice& choice, DamperChoice damper,
+                         const ExportOptions& options, Console& console) {
   damper.current_max = choice.current_max;
   damper.lag_rate = choice.lag_rate;
   const auto loaded = std::make_shared<const Damper>(load_damper(damper, "export", console));

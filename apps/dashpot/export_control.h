@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "damper_choice.h"
-#include "dashpot/output/exporters/exporter.h"
+#include "dashpot/export/exporter.h"
 #include "vehicle_options.h"
 
 namespace dashpot::cli {
@@ -12,10 +12,10 @@ namespace dashpot::cli {
 std::vector<Option> control_options(VehicleChoice& choice);
 
 /// The vehicle's controller; `damper` is its damper where the choice names none.
-CBlockMaker controller_block(VehicleChoice choice, const DamperChoice& damper, const ExportOptions& options,
-                             Console& console);
+CBlockMaker controller_block(VehicleChoice choice, const DamperChoice& damper,
+                             const ExportOptions& options, Console& console);
 /// The scheme's inverse of the damper.
-CBlockMaker scheme_block(const VehicleChoice& choice, DamperChoice damper, const ExportOptions& options,
-                         Console& console);
+CBlockMaker scheme_block(const VehicleChoice& choice, DamperChoice damper,
+                         const ExportOptions& options, Console& console);
 
 }  // namespace dashpot::cli

@@ -7,7 +7,7 @@
 
 #include "console.h"
 #include "dashpot/base/text.h"
-#include "dashpot/output/safe_text.h"
+#include "dashpot/report/safe_text.h"
 #include "layout.h"
 
 namespace dashpot::cli {
@@ -22,11 +22,14 @@ struct DefaultText {
   std::string operator()(const std::uint64_t* target) const { return fmt::format("{}", *target); }
   std::string operator()(const double* target) const { return format_number(*target); }
   std::string operator()(const std::string* target) const { return *target; }
-  std::string operator()(const std::vector<std::string>* target) const { return join(*target, ","); }
+  std::string operator()(const std::vector<std::string>* target) const {
+    return join(*target, ",");
+  }
 };
 
 std::string default_of(const Option& option) {
-  return option.default_text.empty() ? std::visit(DefaultText{}, option.target) : option.default_text;
+  return option.default_text.empty() ? std::visit(DefaultText{}, option.target)
+                                     : option.default_text;
 }
 
 /// "STUDY": what usage calls the subcommand of a group.
@@ -78,7 +81,8 @@ std::string section(const std::string& title, const std::vector<Option>& options
 
 std::string indented(const std::string& text) {
   std::string result;
-  for (const std::string& line : split(text, '\n')) result += line.empty() ? "\n" : "  " + line + '\n';
+  for (const std::string& line : split(text, '\n'))
+    result += line.empty() ? "\n" : "  " + line + '\n';
   return result;
 }
 
@@ -90,8 +94,8 @@ std::string markdown_options(const std::vector<Option>& options) {
 }
 
 std::string markdown_command(const Command& command, const std::string& mark) {
-  std::string text = "\n" + mark + "dashpot " + command.name + "\n\n    " + usage(command) + "\n\n" +
-                     command.description + "\n\n";
+  std::string text = "\n" + mark + "dashpot " + command.name + "\n\n    " + usage(command) +
+                     "\n\n" + command.description + "\n\n";
   if (!command.options.empty()) text += markdown_options(command.options) + '\n';
   return text + "```sh\n" + command.example + "\n```\n";
 }
@@ -114,11 +118,12 @@ std::string option_text(const Option& option) {
 
 std::string overview(const std::vector<Command>& commands, const Console& console) {
   const auto width = static_cast<std::size_t>(console.width());
-  std::string text = console.bold("Dashpot") + " " DASHPOT_VERSION "\n" +
-                     paragraph(
-                         "Turns test-bench recordings of magnetorheological dampers into models that can be "
-                         "trusted.",
-                         width);
+  std::string text =
+      console.bold("Dashpot") + " " DASHPOT_VERSION "\n" +
+      paragraph(
+          "Turns test-bench recordings of magnetorheological dampers into models that can be "
+          "trusted.",
+          width);
   text += '\n' + console.bold("Start here") +
           "\n"
           "  dashpot demo                 a virtual damper, measured and identified, in seconds\n"
@@ -126,15 +131,18 @@ std::string overview(const std::vector<Command>& commands, const Console& consol
           "  dashpot identify recordings/ models, ranked, and a report to read\n"
           "\n" +
           console.bold("Commands") + '\n';
-  for (const Command& command : commands) text += fmt::format("  {:<12}{}\n", command.name, command.title);
+  for (const Command& command : commands)
+    text += fmt::format("  {:<12}{}\n", command.name, command.title);
   return text + '\n' +
          paragraph("Each one explains itself, with an example: 'dashpot COMMAND --help'.", width);
 }
 
-std::string command_help(const Command& command, const std::vector<Option>& common, const Console& console) {
+std::string command_help(const Command& command, const std::vector<Option>& common,
+                         const Console& console) {
   const auto width = static_cast<std::size_t>(console.width());
-  return console.bold("Usage") + "\n  " + usage(command) + "\n\n" + paragraph(command.description, width) +
-         subcommand_list(command, console) + section("Arguments", command.options, true, console) +
+  return console.bold("Usage") + "\n  " + usage(command) + "\n\n" +
+         paragraph(command.description, width) + subcommand_list(command, console) +
+         section("Arguments", command.options, true, console) +
          section("Options", command.options, false, console) +
          section("Common options", common, false, console) + '\n' + console.bold("Example") + '\n' +
          indented(command.example);
@@ -144,7 +152,8 @@ std::string help_markdown(const std::vector<Command>& commands, const std::vecto
   std::string text =
       "# The command line\n\n"
       "Made by `dashpot --help-markdown`; `dashpot COMMAND --help` says the same on a terminal.\n\n"
-      "Exit codes: 0 done; 1 unusable input; 2 the command line cannot be understood; 3 it ran, but the "
+      "Exit codes: 0 done; 1 unusable input; 2 the command line cannot be understood; 3 it ran, "
+      "but the "
       "result is not usable; 130 interrupted.\n";
   for (const Command& command : commands) {
     text += markdown_command(command, "## ");

@@ -10,7 +10,8 @@ namespace dashpot::cli {
 std::string overview(const std::vector<Command>& commands, const Console& console);
 
 /// What `dashpot COMMAND --help` says. `common`: the options that every command has.
-std::string command_help(const Command& command, const std::vector<Option>& common, const Console& console);
+std::string command_help(const Command& command, const std::vector<Option>& common,
+                         const Console& console);
 
 /// All of it as a page of the documentation.
 std::string help_markdown(const std::vector<Command>& commands, const std::vector<Option>& common);

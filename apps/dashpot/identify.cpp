@@ -36,16 +36,17 @@ int run(const RankingSettings& settings, Console& console) {
 
 Command identify_command() {
   auto settings = std::make_shared<RankingSettings>();
-  return {
-      .name = "identify",
-      .title = "Turn recordings into ranked damper models and a report",
-      .description =
-          "Fits each model to all training records together and judges it in free run (motion and current "
-          "in, force out) on records that it has not seen. Ranks the models by that error, saves each as "
-          "a file and writes a report.",
-      .options = ranking_options(*settings),
-      .example = std::string(kExample),
-      .run = [settings](Console& console) { return run(*settings, console); }};
+  return {.name = "identify",
+          .title = "Turn recordings into ranked damper models and a report",
+          .description =
+              "Fits each model to all training records together and judges it in free run (motion "
+              "and current "
+              "in, force out) on records that it has not seen. Ranks the models by that error, "
+              "saves each as "
+              "a file and writes a report.",
+          .options = ranking_options(*settings),
+          .example = std::string(kExample),
+          .run = [settings](Console& console) { return run(*settings, console); }};
 }
 
 }  // namespace dashpot::cli

@@ -27,8 +27,10 @@ std::vector<Option> fit_options(FitSettings& settings) {
   return {
       {.names = "--models",
        .target = &settings.models,
-       .help = "the models to fit, separated by commas; 'usual' stands for " + join(usual_models(), ", ") +
-               "; 'all' for every model of one damper that 'dashpot models' lists, 'family' for those of a "
+       .help = "the models to fit, separated by commas; 'usual' stands for " +
+               join(usual_models(), ", ") +
+               "; 'all' for every model of one damper that 'dashpot models' lists, 'family' for "
+               "those of a "
                "family of dampers",
        .value = "NAMES",
        .choices = names_and_groups(),
@@ -37,12 +39,14 @@ std::vector<Option> fit_options(FitSettings& settings) {
        .default_text = join(settings.models, ",")},
       {.names = "--force-offset",
        .target = &settings.force_offset,
-       .help = "the force zero (gas, load cell): a free offset per record, or none beside the model's own",
+       .help = "the force zero (gas, load cell): a free offset per record, or none beside the "
+               "model's own",
        .value = "MODE",
        .choices = {"record", "none"}},
       {.names = "--form",
        .target = &settings.forms,
-       .help = "how parameters depend on current, as alpha=exponential or bouc_wen.alpha=linear: constant, "
+       .help = "how parameters depend on current, as alpha=exponential or bouc_wen.alpha=linear: "
+               "constant, "
                "linear, quadratic, cubic or exponential",
        .value = "LIST",
        .default_text = "as each law's table says"},
@@ -63,7 +67,8 @@ std::vector<Option> fit_options(FitSettings& settings) {
        .default_text = "as each law's table says"},
       {.names = "--prior",
        .target = &settings.priors,
-       .help = "what is known of parameters beforehand at every current, value and standard deviation, as "
+       .help = "what is known of parameters beforehand at every current, value and standard "
+               "deviation, as "
                "k1=500+-100",
        .value = "LIST",
        .default_text = "nothing"},
@@ -95,8 +100,8 @@ std::vector<std::string> chosen_models(const FitSettings& settings, const Datase
   return std::move(chosen.names);
 }
 
-IdentifyOptions identify_options(const FitSettings& settings, const std::vector<std::string>& models,
-                                 Console& console) {
+IdentifyOptions identify_options(const FitSettings& settings,
+                                 const std::vector<std::string>& models, Console& console) {
   try {
     IdentifyOptions options = dashpot::identify_options(settings, models, "--");
     options.monitor = console.monitor();

@@ -8,10 +8,10 @@
 #include "dashpot/base/text.h"
 #include "dashpot/damper/inverse/inverse_file.h"
 #include "dashpot/damper/inverse/numeric.h"
-#include "dashpot/identify/fit_inverse.h"
+#include "dashpot/identify/fit/fit_inverse.h"
 #include "dashpot/identify/identify.h"
-#include "dashpot/output/track_figure.h"
-#include "dashpot/output/words.h"
+#include "dashpot/report/track_figure.h"
+#include "dashpot/report/words.h"
 #include "data.h"
 #include "layout.h"
 #include "results.h"
@@ -69,21 +69,23 @@ Bench make_bench(const Settings& settings, Console& console) {
   }
   bench.damper = load_damper(settings.damper, "invert", console);
   if (recorded && bench.damper.drive_unit != bench.drive_unit)
-    throw Error(bench.damper.name,
-                "is driven by " + bench.damper.drive_unit + ", the recordings by " + bench.drive_unit);
+    throw Error(bench.damper.name, "is driven by " + bench.damper.drive_unit +
+                                       ", the recordings by " + bench.drive_unit);
   bench.drive_unit = bench.damper.drive_unit;
   bench.driver = driver_of(bench.damper, settings.damper);
   if (bench.damper.domain) bench.range = motion_range(*bench.damper.domain);
   if (settings.amplitude > 0) bench.range.amplitude = settings.amplitude / 1000;
   if (settings.frequency > 0) bench.range.frequency = settings.frequency;
-  bench.trials = inverse_trials(*bench.damper.model, bench.range, limits_of(bench.driver, kSampleTime));
+  bench.trials =
+      inverse_trials(*bench.damper.model, bench.range, limits_of(bench.driver, kSampleTime));
   return bench;
 }
 
 std::vector<TrackReport> follow(const Bench& bench, const InverseModel& inverse) {
   std::vector<TrackReport> reports;
   for (const InverseTrial& trial : bench.trials)
-    reports.push_back(track(*bench.damper.model, inverse, Driver(bench.driver), trial.motion, trial.wanted));
+    reports.push_back(
+        track(*bench.damper.model, inverse, Driver(bench.driver), trial.motion, trial.wanted));
   return reports;
 }
 
@@ -94,7 +96,8 @@ double error_in_reach(const std::vector<TrackReport>& reports) {
   return std::sqrt(squares / static_cast<double>(reports.size()));
 }
 
-Candidate teach(const Settings& settings, const Bench& bench, const std::string& network, Console& console) {
+Candidate teach(const Settings& settings, const Bench& bench, const std::string& network,
+                Console& console) {
   InverseFitOptions options;
   options.network = network;
   options.rate_max = settings.rate_limit;
@@ -104,17 +107,19 @@ Candidate teach(const Settings& settings, const Bench& bench, const std::string&
   options.training.monitor = console.monitor();
   const DamperModel* forward = bench.damper.model.get();
   const InverseLimits limits = limits_of(bench.driver, kSampleTime);
-  Candidate candidate{network,
-                      bench.recordings ? fit_inverse(*bench.recordings, default_leave_out(*bench.recordings),
-                                                     forward, options)
-                                       : fit_inverse(*forward, bench.range, limits, options),
-                      {}};
+  Candidate candidate{
+      network,
+      bench.recordings
+          ? fit_inverse(*bench.recordings, default_leave_out(*bench.recordings), forward, options)
+          : fit_inverse(*forward, bench.range, limits, options),
+      {}};
   if (forward) candidate.reports = follow(bench, HistoryNetwork(candidate.fit.network, limits));
   return candidate;
 }
 
 std::vector<std::string> chosen_networks(const Settings& settings) {
-  if (std::ranges::find(settings.networks, "all") == settings.networks.end()) return settings.networks;
+  if (std::ranges::find(settings.networks, "all") == settings.networks.end())
+    return settings.networks;
   return inverse_network_names();
 }
 
@@ -137,8 +142,8 @@ std::vector<Candidate> teach_all(const Settings& settings, const Bench& bench, C
   return candidates;
 }
 
-std::string table_of(const std::vector<Candidate>& candidates, const std::vector<TrackReport>& numeric,
-                     const Bench& bench, int width) {
+std::string table_of(const std::vector<Candidate>& candidates,
+                     const std::vector<TrackReport>& numeric, const Bench& bench, int width) {
   std::vector<std::string> titles{"inverse", ">current rms " + bench.drive_unit};
   for (const InverseTrial& trial : bench.trials) titles.push_back(">" + trial.name + " %");
   Table table(titles);
@@ -167,9 +172,10 @@ std::string heading(const Candidate& best, const Bench& bench) {
 Value json_of(const Candidate& candidate, const Bench& bench) {
   Value trials = Value::array();
   for (std::size_t k = 0; k < candidate.reports.size(); ++k)
-    trials.push_back(Value::object({{"motion", bench.trials[k].motion.description},
-                                    {"rms_span_percent_in_reach", candidate.reports[k].reachable.rms_span},
-                                    {"reachable_percent", candidate.reports[k].reachable_share}}));
+    trials.push_back(
+        Value::object({{"motion", bench.trials[k].motion.description},
+                       {"rms_span_percent_in_reach", candidate.reports[k].reachable.rms_span},
+                       {"reachable_percent", candidate.reports[k].reachable_share}}));
   return Value::object({{"teacher", candidate.fit.teacher},
                         {"training_current_rmse", candidate.fit.training_rmse},
                         {"left_out_current_rmse", candidate.fit.left_out_rmse},
@@ -193,10 +199,13 @@ void save(const Candidate& best, const Bench& bench, const Settings& settings, C
 
 void write_figure(const std::vector<Candidate>& candidates, const std::vector<TrackReport>& numeric,
                   const Bench& bench, const std::string& folder, Console& console) {
-  if (numeric.empty()) throw Error("--figure", "there is nothing to follow with", "give a damper, too");
+  if (numeric.empty())
+    throw Error("--figure", "there is nothing to follow with", "give a damper, too");
   std::vector<TrackedScheme> schemes{{"numeric", numeric.front()}};
-  for (const Candidate& c : candidates) schemes.insert(schemes.end() - 1, {c.name, c.reports.front()});
-  console.print("Picture  " + write_track_figure(schemes, bench.drive_unit, folder).front().string() + '\n');
+  for (const Candidate& c : candidates)
+    schemes.insert(schemes.end() - 1, {c.name, c.reports.front()});
+  console.print("Picture  " +
+                write_track_figure(schemes, bench.drive_unit, folder).front().string() + '\n');
 }
 
 int run(const Settings& settings, Console& console) {
@@ -204,18 +213,21 @@ int run(const Settings& settings, Console& console) {
   const std::vector<Candidate> candidates = teach_all(settings, bench, console);
   std::vector<TrackReport> numeric;
   if (bench.damper.model)
-    numeric = follow(bench, NumericInverse(*bench.damper.model, limits_of(bench.driver, kSampleTime)));
+    numeric =
+        follow(bench, NumericInverse(*bench.damper.model, limits_of(bench.driver, kSampleTime)));
   const Candidate& best = candidates.front();
   console.print(heading(best, bench) + table_of(candidates, numeric, bench, console.width()));
   for (const std::string& warning : best.fit.warnings) console.warn(warning);
   if (numeric.empty())
-    console.note("no damper was given, so that how the force follows was not measured: give a model, too");
+    console.note(
+        "no damper was given, so that how the force follows was not measured: give a model, too");
   save(best, bench, settings, console);
   if (!settings.figure.empty()) write_figure(candidates, numeric, bench, settings.figure, console);
   if (console.json) {
     Value all = Value::object();
     for (const Candidate& c : candidates) all.add(c.name, json_of(c, bench));
-    console.print_json(Value::object({{"file", settings.file}, {"saved", best.name}, {"networks", all}}));
+    console.print_json(
+        Value::object({{"file", settings.file}, {"saved", best.name}, {"networks", all}}));
   }
   return kDone;
 }
@@ -261,25 +273,30 @@ std::vector<Option> network_options(Settings& s) {
 Command invert_command() {
   auto settings = std::make_shared<Settings>();
   Settings& s = *settings;
-  Command command{
-      .name = "invert",
-      .title = "Teach a network to give the current for a wanted force",
-      .description =
-          "Makes an inverse of a damper: a small network from motion, wanted force and their past to the "
-          "current, taught on a model that is moved over its range, or on recordings. Judges it by its "
-          "current on what it had not seen and, where there is a model, by the force that comes of it behind "
-          "the coil's driver, beside the search on the model. Saves it as a file for 'dashpot track'. "
-          "Recordings at one current cannot teach it; such with a constant current each cannot teach a "
-          "network "
-          "that feeds its currents back.",
-      .options = damper_options(s.damper),
-      .example = std::string(kExample),
-      .run = [settings](Console& console) { return run(*settings, console); }};
-  command.options.push_back({.names = "--recordings",
-                             .target = &s.recordings.paths,
-                             .help = "teach it with these files or folders; a model then weighs and judges",
-                             .value = "LIST",
-                             .takes = Takes::File});
+  Command command{.name = "invert",
+                  .title = "Teach a network to give the current for a wanted force",
+                  .description =
+                      "Makes an inverse of a damper: a small network from motion, wanted force and "
+                      "their past to the "
+                      "current, taught on a model that is moved over its range, or on recordings. "
+                      "Judges it by its "
+                      "current on what it had not seen and, where there is a model, by the force "
+                      "that comes of it behind "
+                      "the coil's driver, beside the search on the model. Saves it as a file for "
+                      "'dashpot track'. "
+                      "Recordings at one current cannot teach it; such with a constant current "
+                      "each cannot teach a "
+                      "network "
+                      "that feeds its currents back.",
+                  .options = damper_options(s.damper),
+                  .example = std::string(kExample),
+                  .run = [settings](Console& console) { return run(*settings, console); }};
+  command.options.push_back(
+      {.names = "--recordings",
+       .target = &s.recordings.paths,
+       .help = "teach it with these files or folders; a model then weighs and judges",
+       .value = "LIST",
+       .takes = Takes::File});
   command.options.push_back({.names = "--dataset",
                              .target = &s.recordings.load.dataset_file,
                              .help = "a dataset file that states channels, units and conditions",
@@ -293,11 +310,12 @@ Command invert_command() {
                              .help = "the file of the inverse",
                              .value = "FILE",
                              .takes = Takes::File});
-  command.options.push_back({.names = "--figure",
-                             .target = &s.figure,
-                             .help = "also draw how the force follows along the first motion (needs gnuplot)",
-                             .value = "DIR",
-                             .takes = Takes::Folder});
+  command.options.push_back(
+      {.names = "--figure",
+       .target = &s.figure,
+       .help = "also draw how the force follows along the first motion (needs gnuplot)",
+       .value = "DIR",
+       .takes = Takes::Folder});
   return command;
 }
 

@@ -5,8 +5,8 @@
 #include <fmt/core.h>
 
 #include "dashpot/base/text.h"
-#include "dashpot/output/search_report.h"
-#include "dashpot/output/words.h"
+#include "dashpot/report/search_report.h"
+#include "dashpot/report/words.h"
 #include "layout.h"
 
 namespace dashpot::cli {
@@ -59,23 +59,26 @@ void LiveTable::take() {
 
 std::string LiveTable::table() const {
   constexpr std::size_t kRows = 8;  // fits a small terminal
-  const std::string round =
-      search_.rungs.size() > 1 ? fmt::format(" in round {} of {}", rung_ + 1, search_.rungs.size()) : "";
+  const std::string round = search_.rungs.size() > 1
+                                ? fmt::format(" in round {} of {}", rung_ + 1, search_.rungs.size())
+                                : "";
   const std::string text = fmt::format("{} of {} ended{}, the best so far:\n", ended_,
                                        counted(search_.rungs[rung_].trials, "trial"), round) +
                            trial_table(trials_, search_, console_.live_width(), kRows);
   // A line that wraps would be two when it is drawn over.
   std::string cut;
   for (const std::string& row : split(text, '\n'))
-    if (!row.empty()) cut += first_columns(row, static_cast<std::size_t>(console_.live_width() - 1)) + '\n';
+    if (!row.empty())
+      cut += first_columns(row, static_cast<std::size_t>(console_.live_width() - 1)) + '\n';
   return cut;
 }
 
 std::string LiveTable::line(const Trial& trial) const {
   const std::string outcome = !trial.failure.empty() ? "failed: " + trial.failure
-                              : trial.diverged ? counted(trial.diverged, "record") + " diverged"
-                                               : fmt::format("ESR {} %, {}", percent_text(trial.left_out.esr),
-                                                             counted(trial.parameters, "parameter"));
+                              : trial.diverged
+                                  ? counted(trial.diverged, "record") + " diverged"
+                                  : fmt::format("ESR {} %, {}", percent_text(trial.left_out.esr),
+                                                counted(trial.parameters, "parameter"));
   const Rung& rung = search_.rungs[rung_];
   return fmt::format("{:>3} of {}{}  {}: {}\n", ended_, rung.trials,
                      rung.share < 1 ? fmt::format(" with 1/{:.0f}", 1 / rung.share) : "",

@@ -5,12 +5,12 @@
 #include <vector>
 
 #include "console.h"
-#include "dashpot/identify/search.h"
+#include "dashpot/identify/search/search.h"
 
 namespace dashpot::cli {
 
-/// The trials of a running search: on a terminal the best so far as a table that redraws itself, in a log a
-/// line per trial. add() and draw() may be called from several threads.
+/// The trials of a running search: on a terminal the best so far as a table that redraws itself, in
+/// a log a line per trial. add() and draw() may be called from several threads.
 class LiveTable {
  public:
   explicit LiveTable(Console& console) : console_(console) {}

@@ -20,8 +20,9 @@ std::atomic<bool> stop_asked = false;
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler writes it");
 std::atomic<int> stop_signal = 0;
 
-/// The first signal asks long work to end in order, a later one ends the program. Those within a moment of
-/// the first are the first: `timeout` and shells send one to the program and one to its group.
+/// The first signal asks long work to end in order, a later one ends the program. Those within a
+/// moment of the first are the first: `timeout` and shells send one to the program and one to its
+/// group.
 void on_signal(int number) {
   constexpr double kMoment = 0.3;  // s
   static timespec first;
@@ -45,11 +46,12 @@ void catch_signals() {
   std::signal(SIGPIPE, SIG_IGN);  // results are written although nobody reads the table
 }
 
-/// A file opened later must not become a closed standard stream: the table would end up in the report.
-/// Opened for the wrong direction, so that using the stream is an error still.
+/// A file opened later must not become a closed standard stream: the table would end up in the
+/// report. Opened for the wrong direction, so that using the stream is an error still.
 void hold_standard_streams() {
   for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
-    if (fcntl(descriptor, F_GETFD) < 0) open("/dev/null", descriptor == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+    if (fcntl(descriptor, F_GETFD) < 0)
+      open("/dev/null", descriptor == STDIN_FILENO ? O_WRONLY : O_RDONLY);
 }
 
 /// The command that the first words name; what is left are its arguments.
@@ -105,8 +107,8 @@ int run(const std::vector<std::string>& words, Console& console) {
 
 /// The command line that explains what went wrong on this one.
 std::string help_for(const std::vector<std::string>& words) {
-  const bool known =
-      std::ranges::any_of(all_commands(), [&](const Command& c) { return c.name == words.front(); });
+  const bool known = std::ranges::any_of(all_commands(),
+                                         [&](const Command& c) { return c.name == words.front(); });
   return known ? "dashpot " + words.front() + " --help" : "dashpot --help";
 }
 

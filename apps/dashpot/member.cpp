@@ -7,7 +7,7 @@
 #include "console.h"
 #include "dashpot/base/text.h"
 #include "dashpot/base/units.h"
-#include "dashpot/damper/family/family_model.h"
+#include "dashpot/damper/kinds/family/family_model.h"
 #include "dashpot/damper/model_file.h"
 #include "dashpot/damper/physics/damper_description.h"
 #include "layout.h"
@@ -22,11 +22,13 @@ struct Settings {
 
 constexpr std::string_view kExample =
     "# One damper of a fitted family, as a model that every other command takes:\n"
-    "dashpot member results/models/family_gated.json --set gap=1.25mm,pole_length=9mm -o member.json\n"
+    "dashpot member results/models/family_gated.json --set gap=1.25mm,pole_length=9mm -o "
+    "member.json\n"
     "\n"
     "# The same as a strong build of it, and as a drawing, a coil and a fluid say:\n"
     "dashpot member results/models/family_gated.json --set build=1.64 -o strong.json\n"
-    "dashpot member results/models/family_gated.json --damper my_damper.yaml --outside-family refuse";
+    "dashpot member results/models/family_gated.json --damper my_damper.yaml --outside-family "
+    "refuse";
 
 DamperDescription description_of(const std::string& damper) {
   const std::vector<std::string> known = description_names();
@@ -47,9 +49,10 @@ Conditions changes_of(const Settings& settings) {
       known.emplace_back(field.name);
       if (field.name == name) unit = field.unit;
     }
-    if (unit.empty()) throw UsageError("--set", "unknown number '" + name + "'; " + suggest(name, known));
-    conditions.emplace_back(
-        name, parse_quantity(trim(std::string_view(change).substr(equals + 1)), unit, "--set " + name));
+    if (unit.empty())
+      throw UsageError("--set", "unknown number '" + name + "'; " + suggest(name, known));
+    conditions.emplace_back(name, parse_quantity(trim(std::string_view(change).substr(equals + 1)),
+                                                 unit, "--set " + name));
   }
   return conditions;
 }
@@ -60,8 +63,8 @@ std::string table_of(const FamilyModel& model, int width) {
     std::string range;
     for (const Family::Range& r : model.family().domain)
       if (r.field == field.field) range = format_number(r.min) + " ... " + format_number(r.max);
-    table.row({std::string(field.name), std::string(field.unit), format_number(model.member().*field.field),
-               range});
+    table.row({std::string(field.name), std::string(field.unit),
+               format_number(model.member().*field.field), range});
   }
   const std::vector<double>& stresses = model.member().yield.stresses;
   table.row({std::string(kYieldStress), "Pa",
@@ -79,10 +82,13 @@ int run(const Settings& settings, Console& console) {
                 "a file that 'dashpot identify --models family' wrote");
   const bool refuse = settings.outside_family == "refuse";
   const auto asked = family->with_outside(refuse ? OutsideFamily::Refuse : OutsideFamily::Mark);
-  const double largest = std::max(std::abs(file.domain.current_min), std::abs(file.domain.current_max));
-  const FamilyMember drawn =
-      settings.damper.empty() ? family->member() : member_of(description_of(settings.damper), largest);
-  const auto member = asked->with_member(with_conditions(drawn, changes_of(settings), settings.model));
+  const double largest =
+      std::max(std::abs(file.domain.current_min), std::abs(file.domain.current_max));
+  const FamilyMember drawn = settings.damper.empty()
+                                 ? family->member()
+                                 : member_of(description_of(settings.damper), largest);
+  const auto member =
+      asked->with_member(with_conditions(drawn, changes_of(settings), settings.model));
   const std::vector<std::string> outside = member->extrapolations();
   console.print(table_of(*member, console.width()));
   for (const std::string& what : outside) console.warn(what + ": it extrapolates there");
@@ -101,39 +107,40 @@ int run(const Settings& settings, Console& console) {
 
 Command member_command() {
   auto settings = std::make_shared<Settings>();
-  return {
-      .name = "member",
-      .title = "One damper of a fitted family, as a model of its own",
-      .description =
-          "Reads a model of a family of dampers and makes it the model of one of them: by its numbers, by "
-          "a drawing with coil and fluid, or by how far a build is from the mean of its design. Says what "
-          "of it lies outside the dampers that the family was fitted on.",
-      .options = {{.names = "MODEL",
-                   .target = &settings->model,
-                   .help = "a model file of a family that 'dashpot identify' wrote",
-                   .takes = Takes::File,
-                   .required = true},
-                  {.names = "--damper",
-                   .target = &settings->damper,
-                   .help = "a damper description, as of 'dashpot physics'",
-                   .value = "DAMPER",
-                   .takes = Takes::File},
-                  {.names = "--set",
-                   .target = &settings->changes,
-                   .help = "the damper's numbers, as gap=1.25mm,yield_stress=20kPa,build=1",
-                   .value = "LIST"},
-                  {.names = "--outside-family",
-                   .target = &settings->outside_family,
-                   .help = "a damper outside the family: tell of it and go on, or refuse it",
-                   .value = "MODE",
-                   .choices = {"mark", "refuse"}},
-                  {.names = "-o,--output",
-                   .target = &settings->output,
-                   .help = "write the model of this damper",
-                   .value = "FILE",
-                   .takes = Takes::File}},
-      .example = std::string(kExample),
-      .run = [settings](Console& console) { return run(*settings, console); }};
+  return {.name = "member",
+          .title = "One damper of a fitted family, as a model of its own",
+          .description =
+              "Reads a model of a family of dampers and makes it the model of one of them: by its "
+              "numbers, by "
+              "a drawing with coil and fluid, or by how far a build is from the mean of its "
+              "design. Says what "
+              "of it lies outside the dampers that the family was fitted on.",
+          .options = {{.names = "MODEL",
+                       .target = &settings->model,
+                       .help = "a model file of a family that 'dashpot identify' wrote",
+                       .takes = Takes::File,
+                       .required = true},
+                      {.names = "--damper",
+                       .target = &settings->damper,
+                       .help = "a damper description, as of 'dashpot physics'",
+                       .value = "DAMPER",
+                       .takes = Takes::File},
+                      {.names = "--set",
+                       .target = &settings->changes,
+                       .help = "the damper's numbers, as gap=1.25mm,yield_stress=20kPa,build=1",
+                       .value = "LIST"},
+                      {.names = "--outside-family",
+                       .target = &settings->outside_family,
+                       .help = "a damper outside the family: tell of it and go on, or refuse it",
+                       .value = "MODE",
+                       .choices = {"mark", "refuse"}},
+                      {.names = "-o,--output",
+                       .target = &settings->output,
+                       .help = "write the model of this damper",
+                       .value = "FILE",
+                       .takes = Takes::File}},
+          .example = std::string(kExample),
+          .run = [settings](Console& console) { return run(*settings, console); }};
 }
 
 }  // namespace dashpot::cli

@@ -6,16 +6,16 @@
 
 #include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
-#include "dashpot/damper/family/family_force.h"
-#include "dashpot/damper/hybrid_model.h"
 #include "dashpot/damper/inverse/polynomial.h"
-#include "dashpot/damper/law_model.h"
-#include "dashpot/damper/neural/hysteresis_network.h"
-#include "dashpot/damper/neural/mlp.h"
-#include "dashpot/damper/neural/state_space_model.h"
+#include "dashpot/damper/kinds/family/family_force.h"
+#include "dashpot/damper/kinds/hybrid/hybrid_model.h"
+#include "dashpot/damper/kinds/hysteresis_network/hysteresis_network.h"
+#include "dashpot/damper/kinds/law/law_model.h"
+#include "dashpot/damper/kinds/state_space/state_space_model.h"
+#include "dashpot/damper/nets/mlp.h"
 #include "dashpot/damper/registry.h"
-#include "dashpot/identify/network_design.h"
-#include "dashpot/output/safe_text.h"
+#include "dashpot/identify/fit/network_design.h"
+#include "dashpot/report/safe_text.h"
 #include "layout.h"
 
 namespace dashpot::cli {
@@ -62,8 +62,8 @@ LawModel driven_example(const Law& law) {
     const double pace = 0.3 + 0.05 * static_cast<double>(d.forms.size());
     d.forms.push_back(follows || param.fit == Fit::Drive ? Form::Linear : Form::Constant);
     d.coefficients.push_back(param.fit == Fit::Drive ? std::vector<double>{0, 1}
-                             : follows               ? std::vector<double>{param.value, pace * param.value}
-                                                     : std::vector<double>{param.value});
+                             : follows ? std::vector<double>{param.value, pace * param.value}
+                                       : std::vector<double>{param.value});
   }
   return LawModel(law, std::move(d), "A", 0);
 }
@@ -96,7 +96,8 @@ void add_numbers(ModelSheet& sheet, const FuzzyPreset& preset) {
     rules *= count;
     sets += count > 1 ? count : 0;
   }
-  sheet.numbers = sets * Membership{preset.shape}.parameter_count() + rules * (preset.inputs.size() + 1);
+  sheet.numbers =
+      sets * Membership{preset.shape}.parameter_count() + rules * (preset.inputs.size() + 1);
   const auto change = std::find(preset.inputs.begin(), preset.inputs.end(), "velocity_change");
   if (change == preset.inputs.end()) return;
   sheet.states.emplace_back("v_past, m/s");
@@ -107,8 +108,8 @@ void add_numbers(ModelSheet& sheet, const HybridPreset& preset) {
   add_table(sheet, *preset.law);
   GatedNetwork network;
   network.currents = 1 + preset.current_lags;
-  network.signals.resize(2 + preset.law->needs_displacement + preset.law->states.size() + preset.path_states +
-                         preset.velocity_lags + network.currents);
+  network.signals.resize(2 + preset.law->needs_displacement + preset.law->states.size() +
+                         preset.path_states + preset.velocity_lags + network.currents);
   network.initialise(preset.hidden, 0);
   sheet.numbers += network.parameter_count();
   sheet.states.insert(sheet.states.end(), preset.path_states, "w, 1");
@@ -231,8 +232,8 @@ std::string sheet_text(const ModelSheet& sheet, int width) {
 }
 
 std::string sheet_markdown(const ModelSheet& sheet) {
-  std::string text = "## `" + sheet.name + "`: " + sheet.title + "\n\n```\n" + sheet.equation + "\n```\n\n" +
-                     facts(sheet) + ".\n\n";
+  std::string text = "## `" + sheet.name + "`: " + sheet.title + "\n\n```\n" + sheet.equation +
+                     "\n```\n\n" + facts(sheet) + ".\n\n";
   if (!sheet.parameters.empty()) {
     text += markdown_row(kColumns) + "|---|---|---|---|---|---|\n";
     for (const ParameterLine& p : sheet.parameters) text += markdown_row(cells(p));
@@ -254,19 +255,19 @@ Value sheet_json(const ModelSheet& sheet) {
                                           {"form", name_of(p.form)},
                                           {"fit", fit_name(p.fit)},
                                           {"meaning", p.meaning}}));
-  return Value::object(
-      {{"name", sheet.name},
-       {"kind", sheet.kind},
-       {"title", sheet.title},
-       {"equation", sheet.equation},
-       {"inputs", Value::array(sheet.inputs)},
-       {"states", Value::array(sheet.states)},
-       {"parameters", std::move(parameters)},
-       {"numbers", sheet.numbers},
-       {"inverse", sheet.inverse},
-       {"network", Value::array(std::vector<std::string>(sheet.settings.begin(), sheet.settings.end()))},
-       {"source", sheet.source},
-       {"remarks", sheet.remarks}});
+  return Value::object({{"name", sheet.name},
+                        {"kind", sheet.kind},
+                        {"title", sheet.title},
+                        {"equation", sheet.equation},
+                        {"inputs", Value::array(sheet.inputs)},
+                        {"states", Value::array(sheet.states)},
+                        {"parameters", std::move(parameters)},
+                        {"numbers", sheet.numbers},
+                        {"inverse", sheet.inverse},
+                        {"network", Value::array(std::vector<std::string>(sheet.settings.begin(),
+                                                                          sheet.settings.end()))},
+                        {"source", sheet.source},
+                        {"remarks", sheet.remarks}});
 }
 
 }  // namespace dashpot::cli

@@ -16,10 +16,10 @@ struct ParameterLine {
 struct ModelSheet {
   std::string name, kind, title, equation, source, remarks;
   std::vector<std::string> inputs = {};
-  std::string inverse = {};                     ///< "closed form" or "search"
-  std::vector<std::string> states = {};         ///< "z, m"
-  std::vector<ParameterLine> parameters = {};   ///< of a law
-  std::size_t numbers = 0;                      ///< fitted, with the usual forms of dependence on current
+  std::string inverse = {};                    ///< "closed form" or "search"
+  std::vector<std::string> states = {};        ///< "z, m"
+  std::vector<ParameterLine> parameters = {};  ///< of a law
+  std::size_t numbers = 0;  ///< fitted, with the usual forms of dependence on current
   std::vector<std::string_view> settings = {};  ///< what of --network its fit follows
 };
 

@@ -40,10 +40,11 @@ DamperDescription described(const Settings& settings) {
     if (equals == std::string::npos)
       throw UsageError("--set", "'" + change + "' has no value; write gap=0.8mm");
     const DescriptionField& field = find_description_field(trim(change.substr(0, equals)), "--set");
-    description.*field.field = parse_quantity(trim(std::string_view(change).substr(equals + 1)), field.unit,
-                                              "--set " + std::string(field.name));
+    description.*field.field = parse_quantity(trim(std::string_view(change).substr(equals + 1)),
+                                              field.unit, "--set " + std::string(field.name));
   }
-  require_possible(description, settings.changes.empty() ? settings.damper : settings.damper + " with --set");
+  require_possible(description,
+                   settings.changes.empty() ? settings.damper : settings.damper + " with --set");
   return description;
 }
 
@@ -54,7 +55,8 @@ std::string fields_table(int width) {
                format_number(field.lower) + " ... " + format_number(field.upper),
                std::string(field.meaning)});
   return table.text(static_cast<std::size_t>(width)) +
-         "\nBeside these: name, note, fluid (122EG, 132DG, 140CG), yield (carlson, paper, data_set), circuit "
+         "\nBeside these: name, note, fluid (122EG, 132DG, 140CG), yield (carlson, paper, "
+         "data_set), circuit "
          "(filled, paper), flow (plate, moving_wall, paper).\n";
 }
 
@@ -64,8 +66,8 @@ std::string quantities_text(const DamperPhysics& physics) {
   for (const PhysicsQuantity& quantity : physics_quantities()) {
     if (quantity.group != group) text += fmt::format("\n{}\n", group = quantity.group);
     const std::string unit(quantity.unit == "1" ? "" : quantity.unit);
-    text += fmt::format("  {:<46} {:>10} {:<6} {}\n", quantity.name, format_number(physics.*quantity.value),
-                        unit, quantity.equation);
+    text += fmt::format("  {:<46} {:>10} {:<6} {}\n", quantity.name,
+                        format_number(physics.*quantity.value), unit, quantity.equation);
   }
   return text;
 }
@@ -105,8 +107,9 @@ int run(const Settings& settings, Console& console) {
                                       {"warnings", Value::array(warnings)}}));
     return kDone;
   }
-  console.print(fmt::format("{} with {}, at {} A, {} m/s, {} m\n", description.name, description.fluid->name,
-                            format_number(operation.current), format_number(operation.velocity),
+  console.print(fmt::format("{} with {}, at {} A, {} m/s, {} m\n", description.name,
+                            description.fluid->name, format_number(operation.current),
+                            format_number(operation.velocity),
                             format_number(operation.displacement)) +
                 quantities_text(physics));
   for (const std::string& warning : warnings) console.warn(warning);
@@ -117,40 +120,45 @@ int run(const Settings& settings, Console& console) {
 
 Command physics_command() {
   auto settings = std::make_shared<Settings>();
-  return {
-      .name = "physics",
-      .title = "From drawing, coil and fluid to force: every step with its unit",
-      .description =
-          "Reads a damper description (YAML: gap: 1 mm, turns: 150, fluid: 140CG ...) and prints spring, "
-          "magnetic "
-          "circuit, coil, fluid, pressures and forces at one current and speed. By itself it solves the "
-          "circuit "
-          "with fluid in the gap and steel that saturates, and the exact flow of a Bingham fluid between "
-          "plates; "
-          "a description may ask for the equations of the family paper instead.",
-      .options = {{.names = "DAMPER",
-                   .target = &settings->damper,
-                   .help = "a damper description, or one that comes with Dashpot: " +
-                           join(description_names(), ", "),
-                   .takes = Takes::File},
-                  {.names = "--current", .target = &settings->current, .help = "in the coil", .value = "A"},
-                  {.names = "--velocity",
-                   .target = &settings->velocity,
-                   .help = "of the piston, extension positive",
-                   .value = "M/S"},
-                  {.names = "--displacement",
-                   .target = &settings->displacement,
-                   .help = "from where the spring is free",
-                   .value = "M"},
-                  {.names = "--set",
-                   .target = &settings->changes,
-                   .help = "fields in place of the description's, as gap=0.8mm,turns=200",
-                   .value = "LIST"},
-                  {.names = "--fields",
-                   .target = &settings->fields,
-                   .help = "list what a description may state"}},
-      .example = std::string(kExample),
-      .run = [settings](Console& console) { return run(*settings, console); }};
+  return {.name = "physics",
+          .title = "From drawing, coil and fluid to force: every step with its unit",
+          .description =
+              "Reads a damper description (YAML: gap: 1 mm, turns: 150, fluid: 140CG ...) and "
+              "prints spring, "
+              "magnetic "
+              "circuit, coil, fluid, pressures and forces at one current and speed. By itself it "
+              "solves the "
+              "circuit "
+              "with fluid in the gap and steel that saturates, and the exact flow of a Bingham "
+              "fluid between "
+              "plates; "
+              "a description may ask for the equations of the family paper instead.",
+          .options = {{.names = "DAMPER",
+                       .target = &settings->damper,
+                       .help = "a damper description, or one that comes with Dashpot: " +
+                               join(description_names(), ", "),
+                       .takes = Takes::File},
+                      {.names = "--current",
+                       .target = &settings->current,
+                       .help = "in the coil",
+                       .value = "A"},
+                      {.names = "--velocity",
+                       .target = &settings->velocity,
+                       .help = "of the piston, extension positive",
+                       .value = "M/S"},
+                      {.names = "--displacement",
+                       .target = &settings->displacement,
+                       .help = "from where the spring is free",
+                       .value = "M"},
+                      {.names = "--set",
+                       .target = &settings->changes,
+                       .help = "fields in place of the description's, as gap=0.8mm,turns=200",
+                       .value = "LIST"},
+                      {.names = "--fields",
+                       .target = &settings->fields,
+                       .help = "list what a description may state"}},
+          .example = std::string(kExample),
+          .run = [settings](Console& console) { return run(*settings, console); }};
 }
 
 }  // namespace dashpot::cli

@@ -33,7 +33,8 @@ void ProgressLine::show(const Progress& progress) {
     fmt::print(stderr, "\r\x1b[K{}", bar(progress));
     drawn_ = true;
   } else {
-    fmt::print(stderr, "{:3.0f} %  {}\n", 100 * std::clamp(progress.fraction, 0.0, 1.0), progress.stage);
+    fmt::print(stderr, "{:3.0f} %  {}\n", 100 * std::clamp(progress.fraction, 0.0, 1.0),
+               progress.stage);
   }
   std::fflush(stderr);
 }

@@ -6,9 +6,9 @@
 #include "console.h"
 #include "dashpot/base/file.h"
 #include "dashpot/base/parallel.h"
-#include "dashpot/identify/fit_store.h"
-#include "dashpot/output/leaderboard.h"
-#include "dashpot/output/words.h"
+#include "dashpot/identify/rank/fit_store.h"
+#include "dashpot/report/leaderboard.h"
+#include "dashpot/report/words.h"
 #include "layout.h"
 #include "ranking_run.h"
 
@@ -34,24 +34,29 @@ std::string time_line(const Ranking& ranking, int threads) {
   double fits = 0;
   for (const RankedModel& model : ranking.models) fits += model.seconds;
   const auto cores = static_cast<std::size_t>(threads > 0 ? threads : default_threads());
-  return fmt::format(
-      "{} took {} s on {}; their fits take {} s of CPU time{}.\n", counted(ranking.models.size(), "model"),
-      number_text(ranking.wall_seconds), counted(cores, "thread"), number_text(fits),
-      ranking.kept_fits == 0 ? "" : fmt::format("; {} kept from before", counted(ranking.kept_fits, "fit")));
+  return fmt::format("{} took {} s on {}; their fits take {} s of CPU time{}.\n",
+                     counted(ranking.models.size(), "model"), number_text(ranking.wall_seconds),
+                     counted(cores, "thread"), number_text(fits),
+                     ranking.kept_fits == 0
+                         ? ""
+                         : fmt::format("; {} kept from before", counted(ranking.kept_fits, "fit")));
 }
 
 constexpr std::string_view kLegend =
-    "Free run on left-out records. ESR: share of the force's power left unexplained, over all samples; Mean, "
-    "Worst: by record; Train: on the records of the fit. Slow: RMS error below 5 % of the top speed. Energy: "
-    "of the dissipated energy, by record. Par.: fitted numbers. Fit: CPU time of all fits. Bounded: the "
+    "Free run on left-out records. ESR: share of the force's power left unexplained, over all "
+    "samples; Mean, "
+    "Worst: by record; Train: on the records of the fit. Slow: RMS error below 5 % of the top "
+    "speed. Energy: "
+    "of the dissipated energy, by record. Par.: fitted numbers. Fit: CPU time of all fits. "
+    "Bounded: the "
     "force "
     "stays within ten spans at twice the stroke and speed of the data.";
 
 void print_leaderboard(const ReportInput& input, int threads, Console& console) {
   const int width = console.width();
   const auto columns = static_cast<std::size_t>(width);
-  console.print('\n' + leaderboard_table(input.ranking, width) + paragraph(kLegend, columns) + '\n' +
-                console.bold("RMS error by speed, ESR % by drive") + '\n' +
+  console.print('\n' + leaderboard_table(input.ranking, width) + paragraph(kLegend, columns) +
+                '\n' + console.bold("RMS error by speed, ESR % by drive") + '\n' +
                 breakdown_table(input.ranking, input.dataset.drive_unit, width) + '\n' +
                 interval_part(input.ranking, console) + paragraph(verdict(input.ranking), columns) +
                 time_line(input.ranking, threads));
@@ -83,22 +88,26 @@ Command rank_command() {
   auto settings = std::make_shared<Settings>();
   settings->ranking.fit.models = {"all"};
   settings->ranking.results.folder = "dashpot-ranking";
-  Command command{
-      .name = "rank",
-      .title = "Every model on one scale: the leaderboard",
-      .description =
-          "Fits every model of the registry as 'identify' does and compares them: error on left-out records "
-          "beside the error on those of the fit, by record, speed and drive; number of parameters, cost per "
-          "step, CPU time of the fit, and whether the force stays bounded beyond the data. Finished fits are "
-          "kept in DIR/fits: the same command goes on where it was interrupted.",
-      .options = ranking_options(settings->ranking),
-      .example = std::string(kExample),
-      .run = [settings](Console& console) { return run(*settings, console); }};
+  Command command{.name = "rank",
+                  .title = "Every model on one scale: the leaderboard",
+                  .description =
+                      "Fits every model of the registry as 'identify' does and compares them: "
+                      "error on left-out records "
+                      "beside the error on those of the fit, by record, speed and drive; number of "
+                      "parameters, cost per "
+                      "step, CPU time of the fit, and whether the force stays bounded beyond the "
+                      "data. Finished fits are "
+                      "kept in DIR/fits: the same command goes on where it was interrupted.",
+                  .options = ranking_options(settings->ranking),
+                  .example = std::string(kExample),
+                  .run = [settings](Console& console) { return run(*settings, console); }};
   append(command.options,
          {{.names = "--markdown",
            .target = &settings->markdown,
            .help = "print the tables as a part of a Markdown page, without a date"},
-          {.names = "--fresh", .target = &settings->fresh, .help = "neither use nor keep finished fits"}});
+          {.names = "--fresh",
+           .target = &settings->fresh,
+           .help = "neither use nor keep finished fits"}});
   return command;
 }
 

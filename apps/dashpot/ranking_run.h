@@ -19,8 +19,8 @@ struct RankingSettings {
 };
 
 Option leave_out_option(std::string& text);
-/// What the command line says of it, before the long work begins; nothing when it says nothing. Throws
-/// UsageError.
+/// What the command line says of it, before the long work begins; nothing when it says nothing.
+/// Throws UsageError.
 std::optional<LeaveOut> stated_leave_out(const std::string& text);
 
 std::vector<Option> ranking_options(RankingSettings& settings);

@@ -11,8 +11,8 @@
 namespace dashpot::cli {
 namespace {
 
-/// Half-width of a two-sided 95 % interval for a dozen parameters at once over that for one (Bonferroni:
-/// the normal distribution's 1 - 0.05 / 24 point over its 0.975 point).
+/// Half-width of a two-sided 95 % interval for a dozen parameters at once over that for one
+/// (Bonferroni: the normal distribution's 1 - 0.05 / 24 point over its 0.975 point).
 constexpr double kJoint = 2.865 / 1.960;
 
 const FittedParameter* find(const FitReport& fit, const std::string& name) {
@@ -52,8 +52,10 @@ std::vector<RecoveredParameter> compare(const LawModel& truth, const FitReport& 
 std::string recovery_table(const std::vector<RecoveredParameter>& parameters, int width) {
   Table table({"parameter", "unit", ">true", ">found", ">+-", ">deviation %", "verdict"});
   for (const RecoveredParameter& p : parameters)
-    table.row({p.name, p.unit, format_number(p.truth), format_number(p.found), format_number(p.half_width, 2),
-               p.truth == 0 ? "" : fmt::format("{:+.2f}", 100 * (p.found / p.truth - 1)), verdict_of(p)});
+    table.row({p.name, p.unit, format_number(p.truth), format_number(p.found),
+               format_number(p.half_width, 2),
+               p.truth == 0 ? "" : fmt::format("{:+.2f}", 100 * (p.found / p.truth - 1)),
+               verdict_of(p)});
   return table.text(static_cast<std::size_t>(width));
 }
 

@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "dashpot/damper/law_model.h"
+#include "dashpot/damper/kinds/law/law_model.h"
 #include "dashpot/identify/identify.h"
 
 namespace dashpot::cli {
@@ -19,8 +19,8 @@ struct RecoveredParameter {
 /// Shares of the truth within which a parameter counts as recovered whatever its interval.
 constexpr double kRecoveryTolerance = 0.02;
 
-/// The fitted parameters of the true law against the truth; without fixed ones and the force zero, which
-/// the records' offsets hide.
+/// The fitted parameters of the true law against the truth; without fixed ones and the force zero,
+/// which the records' offsets hide.
 std::vector<RecoveredParameter> compare(const LawModel& truth, const FitReport& fit);
 
 std::string recovery_table(const std::vector<RecoveredParameter>& parameters, int width);

@@ -9,8 +9,8 @@
 
 #include "console.h"
 #include "dashpot/base/file.h"
-#include "dashpot/output/interval_table.h"
-#include "dashpot/output/words.h"
+#include "dashpot/report/interval_table.h"
+#include "dashpot/report/words.h"
 #include "layout.h"
 
 namespace dashpot::cli {
@@ -39,15 +39,16 @@ void write_reports(const ReportInput& input, const fs::path& folder, Console& co
 }  // namespace
 
 std::vector<Option> result_options(ResultSettings& settings) {
-  return {{.names = "-o,--output",
-           .target = &settings.folder,
-           .help = "folder for the report and the model files",
-           .value = "DIR",
-           .takes = Takes::Folder},
-          {.names = "--figures",
-           .target = &settings.figures,
-           .help = "also draw the figures as SVG and PDF, for a paper (needs gnuplot)"},
-          {.names = "--no-report", .target = &settings.report, .help = "write the model files only"}};
+  return {
+      {.names = "-o,--output",
+       .target = &settings.folder,
+       .help = "folder for the report and the model files",
+       .value = "DIR",
+       .takes = Takes::Folder},
+      {.names = "--figures",
+       .target = &settings.figures,
+       .help = "also draw the figures as SVG and PDF, for a paper (needs gnuplot)"},
+      {.names = "--no-report", .target = &settings.report, .help = "write the model files only"}};
 }
 
 std::string program_id() { return DASHPOT_VERSION " " + sha256_of_file("/proc/self/exe"); }
@@ -65,21 +66,24 @@ void print_results(const ReportInput& input, Console& console) {
                 paragraph(verdict(input.ranking), static_cast<std::size_t>(console.width())));
   if (std::ranges::any_of(input.ranking.models,
                           [](const RankedModel& m) { return m.left_out.one_step.has_value(); }))
-    console.print('\n' + paragraph(*one_step_note(input.ranking), static_cast<std::size_t>(console.width())));
+    console.print(
+        '\n' + paragraph(*one_step_note(input.ranking), static_cast<std::size_t>(console.width())));
   const RankedModel& best = input.ranking.models.front();
   if (!best.fit.parameters.empty())
     console.print('\n' + console.bold(best.name) + ", fitted on all training records\n" +
                   parameter_table(best.fit));
   console.print('\n' + interval_part(input.ranking, console));
   for (const RankedModel& ranked : input.ranking.models)
-    for (const std::string& warning : ranked.fit.warnings) console.warn(ranked.name + ": " + warning);
+    for (const std::string& warning : ranked.fit.warnings)
+      console.warn(ranked.name + ": " + warning);
 }
 
 std::string interval_part(const Ranking& ranking, const Console& console) {
   const std::string table = interval_table(ranking, console.width());
-  return table.empty() ? ""
-                       : console.bold("90 % intervals of the force, on records that they were made without") +
-                             '\n' + table + '\n';
+  return table.empty()
+             ? ""
+             : console.bold("90 % intervals of the force, on records that they were made without") +
+                   '\n' + table + '\n';
 }
 
 void prepare_results(const ResultSettings& settings) {
@@ -88,11 +92,13 @@ void prepare_results(const ResultSettings& settings) {
   make_folder(models);
   for (const fs::path& folder : {fs::path(settings.folder), models})
     if (access(folder.c_str(), W_OK | X_OK) != 0)
-      throw Error(folder.string(), "no file can be written there: " + std::generic_category().message(errno),
+      throw Error(folder.string(),
+                  "no file can be written there: " + std::generic_category().message(errno),
                   "give a folder of your own with --output");
 }
 
-void write_results(const ReportInput& input, const ResultSettings& settings, Console& console, Say say) {
+void write_results(const ReportInput& input, const ResultSettings& settings, Console& console,
+                   Say say) {
   const fs::path folder = settings.folder;
   write_models(input, folder / "models", console);
   if (settings.report) write_reports(input, folder, console);
@@ -107,7 +113,8 @@ void write_results(const ReportInput& input, const ResultSettings& settings, Con
 
 int exit_code_of(const Ranking& ranking, Console& console) {
   if (std::ranges::any_of(ranking.models, is_usable)) return kDone;
-  console.error("no model gave a usable force on the records left out; the table and the warnings say why");
+  console.error(
+      "no model gave a usable force on the records left out; the table and the warnings say why");
   return kNotUsable;
 }
 

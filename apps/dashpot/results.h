@@ -6,7 +6,7 @@
 #include "command.h"
 #include "dashpot/base/date.h"
 #include "dashpot/identify/identify.h"
-#include "dashpot/output/report.h"
+#include "dashpot/report/report.h"
 
 namespace dashpot::cli {
 

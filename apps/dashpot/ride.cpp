@@ -3,7 +3,7 @@
 #include "commands.h"
 #include "console.h"
 #include "dashpot/base/units.h"
-#include "dashpot/output/ride_document.h"
+#include "dashpot/report/ride_document.h"
 #include "study_results.h"
 #include "vehicle_options.h"
 #include "vehicle_sheet.h"
@@ -72,51 +72,54 @@ int run(const Settings& settings, Console& console) {
 }
 
 std::vector<Option> study_options(Settings& settings) {
-  return {
-      {.names = "--controllers",
-       .target = &settings.controllers,
-       .help = "control laws with their settings, ';' between; or all (--list controllers)",
-       .value = "LIST"},
-      {.names = "--against",
-       .target = &settings.against,
-       .help = "the passive reference: a damper's words, or current=A for the same damper at that current",
-       .value = "WORDS",
-       .default_text = "the plant's nominal damping, or half of the current"},
-      {.names = "--frequencies",
-       .target = &settings.frequencies,
-       .help = "of the sines, Hz, rising",
-       .value = "LIST",
-       .default_text = "18 from 0.5 to 20"},
-      {.names = "--amplitude",
-       .target = &settings.amplitude,
-       .help = "of sines and chirp, mm",
-       .value = "MM"},
-      {.names = "--settling",
-       .target = &settings.settling,
-       .help = "before the periods of a sine that count, s",
-       .value = "S",
-       .minimum = 0},
-      {.names = "--chirp",
-       .target = &settings.chirp,
-       .help = "how long the chirp lasts, s",
-       .value = "S",
-       .minimum = 1},
-      {.names = "--step", .target = &settings.step, .help = "height of the step, mm", .value = "MM"},
-      {.names = "--held",
-       .target = &settings.held,
-       .help = "currents at which the same dampers are held, for the trade-off's line",
-       .value = "N",
-       .minimum = 2},
-      {.names = "--bound",
-       .target = &settings.bound,
-       .help =
-           "also what is possible on the road: a bound that no controller beats, and what the best reaches "
-           "that knew the road (quarter cars, dampers without memory)"},
-      {.names = "--outside",
-       .target = &settings.allowed_outside,
-       .help = "share of the time that a damper may be outside its data without a warning, %",
-       .value = "%",
-       .minimum = 0}};
+  return {{.names = "--controllers",
+           .target = &settings.controllers,
+           .help = "control laws with their settings, ';' between; or all (--list controllers)",
+           .value = "LIST"},
+          {.names = "--against",
+           .target = &settings.against,
+           .help = "the passive reference: a damper's words, or current=A for the same damper at "
+                   "that current",
+           .value = "WORDS",
+           .default_text = "the plant's nominal damping, or half of the current"},
+          {.names = "--frequencies",
+           .target = &settings.frequencies,
+           .help = "of the sines, Hz, rising",
+           .value = "LIST",
+           .default_text = "18 from 0.5 to 20"},
+          {.names = "--amplitude",
+           .target = &settings.amplitude,
+           .help = "of sines and chirp, mm",
+           .value = "MM"},
+          {.names = "--settling",
+           .target = &settings.settling,
+           .help = "before the periods of a sine that count, s",
+           .value = "S",
+           .minimum = 0},
+          {.names = "--chirp",
+           .target = &settings.chirp,
+           .help = "how long the chirp lasts, s",
+           .value = "S",
+           .minimum = 1},
+          {.names = "--step",
+           .target = &settings.step,
+           .help = "height of the step, mm",
+           .value = "MM"},
+          {.names = "--held",
+           .target = &settings.held,
+           .help = "currents at which the same dampers are held, for the trade-off's line",
+           .value = "N",
+           .minimum = 2},
+          {.names = "--bound",
+           .target = &settings.bound,
+           .help = "also what is possible on the road: a bound that no controller beats, and what "
+                   "the best reaches "
+                   "that knew the road (quarter cars, dampers without memory)"},
+          {.names = "--outside",
+           .target = &settings.allowed_outside,
+           .help = "share of the time that a damper may be outside its data without a warning, %",
+           .value = "%",
+           .minimum = 0}};
 }
 
 }  // namespace

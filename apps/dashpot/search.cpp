@@ -1,4 +1,4 @@
-#include "dashpot/identify/search.h"
+#include "dashpot/identify/search/search.h"
 
 #include <algorithm>
 #include <array>
@@ -11,9 +11,9 @@
 #include "dashpot/base/file.h"
 #include "dashpot/base/text.h"
 #include "dashpot/damper/registry.h"
-#include "dashpot/identify/fit_store.h"
-#include "dashpot/output/search_report.h"
-#include "dashpot/output/words.h"
+#include "dashpot/identify/rank/fit_store.h"
+#include "dashpot/report/search_report.h"
+#include "dashpot/report/words.h"
 #include "layout.h"
 #include "live_table.h"
 #include "ranking_run.h"
@@ -36,12 +36,16 @@ constexpr std::string_view kExample =
     "# 24 networks drawn by chance, each judged on records that it has not seen:\n"
     "dashpot search recordings/ --over hidden=3:30 --over activation=tanh,relu --output search\n"
     "\n"
-    "# Interrupted, or not enough? The same command goes on where it stopped; more trials are added:\n"
-    "dashpot search recordings/ --over hidden=3:30 --over activation=tanh,relu --output search --trials 60\n"
+    "# Interrupted, or not enough? The same command goes on where it stopped; more trials are "
+    "added:\n"
+    "dashpot search recordings/ --over hidden=3:30 --over activation=tanh,relu --output search "
+    "--trials 60\n"
     "\n"
     "# Every combination; or many designs, of which the bad ones are dropped early:\n"
-    "dashpot search recordings/ --over hidden=5,10,20,10-10 --over activation=tanh,relu --method grid\n"
-    "dashpot search recordings/ --over hidden=2:40 --over l2=1e-6:1e-2 --method halving --trials 54";
+    "dashpot search recordings/ --over hidden=5,10,20,10-10 --over activation=tanh,relu --method "
+    "grid\n"
+    "dashpot search recordings/ --over hidden=2:40 --over l2=1e-6:1e-2 --method halving --trials "
+    "54";
 
 std::vector<std::string> searchable_models() {
   std::vector<std::string> names = model_names();
@@ -49,7 +53,8 @@ std::vector<std::string> searchable_models() {
   return names;
 }
 
-/// "hidden=5" "10" "activation=tanh": values that the command line took for items of their own go back.
+/// "hidden=5" "10" "activation=tanh": values that the command line took for items of their own go
+/// back.
 std::vector<SearchAxis> axes_of(const std::vector<std::string>& words) {
   std::vector<std::string> texts;
   for (const std::string& word : words)
@@ -93,10 +98,11 @@ SearchReport run_search(const RankingData& data, const SearchOptions& options, c
     console.talk(counted(store.size(), "fit") + " kept from before in " + file.string() + '\n');
   LiveTable live(console);
   SearchOptions watched = options;  // draws the table wherever progress is drawn
-  watched.fit.monitor.on_progress = [&, show = options.fit.monitor.on_progress](const Progress& progress) {
-    live.draw();
-    if (show) show(progress);
-  };
+  watched.fit.monitor.on_progress =
+      [&, show = options.fit.monitor.on_progress](const Progress& progress) {
+        live.draw();
+        if (show) show(progress);
+      };
   SearchReport report =
       search(data.dataset, data.leave_out, watched, &store,
              [&](const Trial& trial, const SearchReport& so_far) { live.add(trial, so_far); });
@@ -105,7 +111,8 @@ SearchReport run_search(const RankingData& data, const SearchOptions& options, c
   return report;
 }
 
-/// The best network and the smallest that is practically as good, ranked as `dashpot rank` does, as files.
+/// The best network and the smallest that is practically as good, ranked as `dashpot rank` does, as
+/// files.
 void write_choices(const RankingData& data, const SearchReport& report, const fs::path& folder,
                    Console& console) {
   const FitStore fits(folder / "fits", program_id());
@@ -148,11 +155,12 @@ void print_report(const SearchReport& report, Console& console) {
     console.print(fmt::format("... and {} more, in search.csv\n", report.trials.size() - kShown));
   double seconds = 0;
   for (const Trial& trial : report.trials) seconds += trial.seconds;
-  console.print(
-      '\n' + paragraph(search_verdict(report), static_cast<std::size_t>(width)) + '\n' +
-      fmt::format("{} in {} s; {} of CPU time{}.\n", counted(report.results, "fit"),
-                  number_text(report.wall_seconds), number_text(seconds) + " s",
-                  report.kept ? fmt::format("; {} kept from before", counted(report.kept, "fit")) : ""));
+  console.print('\n' + paragraph(search_verdict(report), static_cast<std::size_t>(width)) + '\n' +
+                fmt::format("{} in {} s; {} of CPU time{}.\n", counted(report.results, "fit"),
+                            number_text(report.wall_seconds), number_text(seconds) + " s",
+                            report.kept
+                                ? fmt::format("; {} kept from before", counted(report.kept, "fit"))
+                                : ""));
 }
 
 int run_in(const fs::path& folder, const RankingData& data, const SearchOptions& options,
@@ -161,7 +169,8 @@ int run_in(const fs::path& folder, const RankingData& data, const SearchOptions&
   if (settings.fresh) TrialStore::remove(file);
   console.talk("search: " + search_plan(search_rungs(options), options.effort) + '\n');
   const SearchReport report = run_search(data, options, file, console);
-  const SearchInput input{data.dataset, report, console.command_line(), DASHPOT_VERSION, date_now()};
+  const SearchInput input{data.dataset, report, console.command_line(), DASHPOT_VERSION,
+                          date_now()};
   if (report.best()) write_choices(data, report, folder, console);
   print_report(report, console);
   ResultSettings results = settings.ranking.results;
@@ -187,45 +196,48 @@ int run(const Settings& settings, Console& console) {
 }
 
 std::vector<Option> own_options(Settings& settings) {
-  return {
-      {.names = "--model",
-       .target = &settings.model,
-       .help = "the network whose settings are searched",
-       .value = "NAME",
-       .choices = searchable_models(),
-       .noun = "network"},
-      {.names = "--over",
-       .target = &settings.over,
-       .help = "a setting and its values, as hidden=5,10,10-10, or their range, as l2=1e-5:1e-2; again for "
-               "each setting. --network tells the settings",
-       .value = "SETTING=...",
-       .required = true},
-      {.names = "--method",
-       .target = &settings.method,
-       .help = "every combination, so many by chance, or halving: many by chance with little effort, the "
-               "best third of them with three times as much, until all effort goes to the last three or "
-               "more. Ranges are spaced and drawn evenly in the logarithm",
-       .value = "HOW",
-       .choices = {"grid", "random", "halving"}},
-      {.names = "--trials",
-       .target = &settings.trials,
-       .help = "networks drawn by chance; a grid has its own number",
-       .value = "N",
-       .minimum = 1},
-      {.names = "--steps",
-       .target = &settings.steps,
-       .help = "values of a range on a grid",
-       .value = "N",
-       .minimum = 1},
-      {.names = "--effort",
-       .target = &settings.effort,
-       .help = "what halving gives little of at first: samples (the first part of every training record) or "
-               "epochs (then --network epochs=N says how many are all)",
-       .value = "WHAT",
-       .choices = {"samples", "epochs"}},
-      {.names = "--fresh",
-       .target = &settings.fresh,
-       .help = "begin anew: what an earlier search left in DIR/search.sqlite is thrown away"}};
+  return {{.names = "--model",
+           .target = &settings.model,
+           .help = "the network whose settings are searched",
+           .value = "NAME",
+           .choices = searchable_models(),
+           .noun = "network"},
+          {.names = "--over",
+           .target = &settings.over,
+           .help = "a setting and its values, as hidden=5,10,10-10, or their range, as "
+                   "l2=1e-5:1e-2; again for "
+                   "each setting. --network tells the settings",
+           .value = "SETTING=...",
+           .required = true},
+          {.names = "--method",
+           .target = &settings.method,
+           .help = "every combination, so many by chance, or halving: many by chance with little "
+                   "effort, the "
+                   "best third of them with three times as much, until all effort goes to the last "
+                   "three or "
+                   "more. Ranges are spaced and drawn evenly in the logarithm",
+           .value = "HOW",
+           .choices = {"grid", "random", "halving"}},
+          {.names = "--trials",
+           .target = &settings.trials,
+           .help = "networks drawn by chance; a grid has its own number",
+           .value = "N",
+           .minimum = 1},
+          {.names = "--steps",
+           .target = &settings.steps,
+           .help = "values of a range on a grid",
+           .value = "N",
+           .minimum = 1},
+          {.names = "--effort",
+           .target = &settings.effort,
+           .help = "what halving gives little of at first: samples (the first part of every "
+                   "training record) or "
+                   "epochs (then --network epochs=N says how many are all)",
+           .value = "WHAT",
+           .choices = {"samples", "epochs"}},
+          {.names = "--fresh",
+           .target = &settings.fresh,
+           .help = "begin anew: what an earlier search left in DIR/search.sqlite is thrown away"}};
 }
 
 }  // namespace
@@ -233,22 +245,26 @@ std::vector<Option> own_options(Settings& settings) {
 Command search_command() {
   auto settings = std::make_shared<Settings>();
   settings->ranking.results.folder = "dashpot-search";
-  Command command{
-      .name = "search",
-      .title = "The settings with which a network predicts best",
-      .description =
-          "Fits a network with many settings and judges each on left-out records as 'rank' does. Prints them "
-          "by "
-          "error, with the fewest parameters that are within one standard error of the best, and writes both "
-          "as model files, fitted on everything, with a page that shows error against size. Each fit is kept "
-          "in DIR/search.sqlite as it ends: the same command goes on where it was stopped, and more --trials "
-          "go "
-          "on beyond it. The result does not depend on threads or interruptions.",
-      .options = ranking_options(settings->ranking),
-      .example = std::string(kExample),
-      .run = [settings](Console& console) { return run(*settings, console); }};
+  Command command{.name = "search",
+                  .title = "The settings with which a network predicts best",
+                  .description =
+                      "Fits a network with many settings and judges each on left-out records as "
+                      "'rank' does. Prints them "
+                      "by "
+                      "error, with the fewest parameters that are within one standard error of the "
+                      "best, and writes both "
+                      "as model files, fitted on everything, with a page that shows error against "
+                      "size. Each fit is kept "
+                      "in DIR/search.sqlite as it ends: the same command goes on where it was "
+                      "stopped, and more --trials "
+                      "go "
+                      "on beyond it. The result does not depend on threads or interruptions.",
+                  .options = ranking_options(settings->ranking),
+                  .example = std::string(kExample),
+                  .run = [settings](Console& console) { return run(*settings, console); }};
   // A search has one model, and parameters of laws are not its business.
-  constexpr std::array kOthers{"--models", "--form", "--fix", "--free", "--bounds", "--prior", "--search"};
+  constexpr std::array kOthers{"--models", "--form",  "--fix",   "--free",
+                               "--bounds", "--prior", "--search"};
   std::erase_if(command.options, [&](const Option& option) {
     return std::ranges::find(kOthers, option.long_name()) != kOthers.end();
   });

@@ -10,7 +10,8 @@ static constexpr std::size_t kIndent = 2;
 
 std::string sheet_text(const SequenceInfo& info, std::size_t width) {
   std::string text = '\n' + std::string(info.name) + "  " + std::string(info.title) + '\n' +
-                     paragraph(info.equation, width, kIndent) + paragraph(info.remarks, width, kIndent) +
+                     paragraph(info.equation, width, kIndent) +
+                     paragraph(info.remarks, width, kIndent) +
                      paragraph("source: " + std::string(info.source), width, kIndent);
   if (info.params.empty()) return text;
   Table table({"parameter", ">default", "unit", "meaning"});
@@ -55,12 +56,15 @@ std::string text_of(const Excitation& excitation) {
 std::string sequences_text(int width) {
   const auto columns = static_cast<std::size_t>(width);
   std::string text = "Sequences of motion (--motion)\n";
-  for (const MotionSequence& sequence : motion_sequences()) text += sheet_text(sequence.info, columns);
+  for (const MotionSequence& sequence : motion_sequences())
+    text += sheet_text(sequence.info, columns);
   text += "\nSequences of current or voltage (--drive)\n";
-  for (const DriveSequence& sequence : drive_sequences()) text += sheet_text(sequence.info, columns);
+  for (const DriveSequence& sequence : drive_sequences())
+    text += sheet_text(sequence.info, columns);
   Table table({"experiment", "damper of any current", "damper of two levels"});
   for (const BenchExperiment& experiment : bench_experiments())
-    table.row({std::string(experiment.name), text_of(experiment.continuous), text_of(experiment.switched)});
+    table.row({std::string(experiment.name), text_of(experiment.continuous),
+               text_of(experiment.switched)});
   return text + "\nExperiments of the one-sensor paper (--experiment)\n\n" + table.text(columns);
 }
 

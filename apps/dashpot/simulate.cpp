@@ -3,9 +3,9 @@
 
 #include "commands.h"
 #include "console.h"
-#include "dashpot/output/safe_text.h"
-#include "dashpot/output/simulation_document.h"
 #include "dashpot/record/record_file.h"
+#include "dashpot/report/safe_text.h"
+#include "dashpot/report/simulation_document.h"
 #include "document_text.h"
 #include "study_results.h"
 #include "vehicle_options.h"
@@ -41,24 +41,28 @@ Simulation simulate_choice(const Settings& settings, Console& console) {
   const VehicleWords words = words_of(settings.vehicle);
   const auto vehicle = std::make_shared<const Vehicle>(make_vehicle(words));
   const GroundPointer ground = ground_of(settings.road, settings.vehicle.seed, vehicle->set.plant);
-  const RunOptions options{.duration = duration_of(settings.road, *ground),
-                           .allowed_outside = settings.allowed_outside / 100,
-                           .relative_tolerance = settings.tolerance,
-                           .step = settings.step > 0 ? std::optional(settings.step / 1000) : std::nullopt,
-                           .monitor = console.monitor()};
+  const RunOptions options{
+      .duration = duration_of(settings.road, *ground),
+      .allowed_outside = settings.allowed_outside / 100,
+      .relative_tolerance = settings.tolerance,
+      .step = settings.step > 0 ? std::optional(settings.step / 1000) : std::nullopt,
+      .monitor = console.monitor()};
   Simulation simulation{.run = run_vehicle(vehicle, *ground, options),
                         .ground = ground->description(),
                         .duration = options.duration,
                         .discard = usual_discard(*ground, options.duration)};
-  if (settings.against == "none" || (settings.against.empty() && !vehicle->controller)) return simulation;
-  const auto passive = std::make_shared<const Vehicle>(make_vehicle(passive_words(words, settings.against)));
+  if (settings.against == "none" || (settings.against.empty() && !vehicle->controller))
+    return simulation;
+  const auto passive =
+      std::make_shared<const Vehicle>(make_vehicle(passive_words(words, settings.against)));
   simulation.against = run_vehicle(passive, *ground, options);
   return simulation;
 }
 
 void write_trace(const Settings& settings, const SimulatedRun& run, const std::string& name,
                  Console& console) {
-  const fs::path file = fs::path(settings.results.folder) / (name + (settings.mat ? ".mat" : ".csv"));
+  const fs::path file =
+      fs::path(settings.results.folder) / (name + (settings.mat ? ".mat" : ".csv"));
   (settings.mat ? save_mat : save_csv)(run.trace.record, file);
   console.print("Trace    " + file.string() + '\n');
 }
@@ -101,40 +105,44 @@ Command simulate_command() {
       .example = std::string(kExample),
       .run = [settings](Console& console) { return run(*settings, console); }};
   append(command.options, road_options(settings->road));
-  append(command.options,
-         {{.names = "--against",
-           .target = &settings->against,
-           .help = "to compare with, without controller: a damper's words, current=A for the same damper "
-                   "at that current, or none",
-           .value = "WORDS",
-           .default_text = "beside a controller the plant's nominal damping, or half of the current"},
-          {.names = "--outside",
-           .target = &settings->allowed_outside,
-           .help = "share of the time that a damper may be outside its data without a warning, %",
-           .value = "%",
-           .minimum = 0},
-          {.names = "--tolerance",
-           .target = &settings->tolerance,
-           .help = "relative, of the integrator",
-           .value = "NUMBER"},
-          {.names = "--max-step",
-           .target = &settings->step,
-           .help = "of the integrator, ms, without control of its error: quicker, for dampers without "
-                   "hysteresis",
-           .value = "MS",
-           .minimum = 0,
-           .default_text = "as the tolerance asks"},
-          {.names = "-o,--output",
-           .target = &settings->results.folder,
-           .help = "folder for the page and the traces",
-           .value = "DIR",
-           .takes = Takes::Folder,
-           .default_text = "none: only the table"},
-          {.names = "--mat", .target = &settings->mat, .help = "traces as MATLAB files instead of CSV"},
-          {.names = "--figures",
-           .target = &settings->results.figures,
-           .help = "also draw the figures as SVG and PDF (needs gnuplot)"},
-          list_option(settings->list)});
+  append(
+      command.options,
+      {{.names = "--against",
+        .target = &settings->against,
+        .help =
+            "to compare with, without controller: a damper's words, current=A for the same damper "
+            "at that current, or none",
+        .value = "WORDS",
+        .default_text = "beside a controller the plant's nominal damping, or half of the current"},
+       {.names = "--outside",
+        .target = &settings->allowed_outside,
+        .help = "share of the time that a damper may be outside its data without a warning, %",
+        .value = "%",
+        .minimum = 0},
+       {.names = "--tolerance",
+        .target = &settings->tolerance,
+        .help = "relative, of the integrator",
+        .value = "NUMBER"},
+       {.names = "--max-step",
+        .target = &settings->step,
+        .help = "of the integrator, ms, without control of its error: quicker, for dampers without "
+                "hysteresis",
+        .value = "MS",
+        .minimum = 0,
+        .default_text = "as the tolerance asks"},
+       {.names = "-o,--output",
+        .target = &settings->results.folder,
+        .help = "folder for the page and the traces",
+        .value = "DIR",
+        .takes = Takes::Folder,
+        .default_text = "none: only the table"},
+       {.names = "--mat",
+        .target = &settings->mat,
+        .help = "traces as MATLAB files instead of CSV"},
+       {.names = "--figures",
+        .target = &settings->results.figures,
+        .help = "also draw the figures as SVG and PDF (needs gnuplot)"},
+       list_option(settings->list)});
   return command;
 }
 

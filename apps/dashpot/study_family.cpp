@@ -3,12 +3,12 @@
 
 #include "console.h"
 #include "dashpot/damper/registry.h"
-#include "dashpot/identify/training_store.h"
-#include "dashpot/output/family_document.h"
-#include "dashpot/output/words.h"
+#include "dashpot/report/words.h"
 #include "data.h"
 #include "results.h"
 #include "studies.h"
+#include "studies/family/family_document.h"
+#include "studies/family/training_store.h"
 #include "study_results.h"
 
 namespace dashpot::cli {
@@ -24,7 +24,8 @@ struct Settings {
 };
 
 constexpr std::string_view kExample =
-    "# The paper's experiments on its published recordings; interrupted, the same command goes on:\n"
+    "# The paper's experiments on its published recordings; interrupted, the same command goes "
+    "on:\n"
     "dashpot study family recordings/family-dnn --figures --output family\n"
     "\n"
     "# A first look: two seeds, a tenth of the training:\n"
@@ -33,13 +34,14 @@ constexpr std::string_view kExample =
 int run(const Settings& settings, Console& console) {
   prepare_study(settings.results);
   FamilySamples family = family_samples(load_recordings(settings.data, console));
-  const TrainingStore store(fs::path(settings.results.folder) / "fits", program_id(), family.cycles);
+  const TrainingStore store(fs::path(settings.results.folder) / "fits", program_id(),
+                            family.cycles);
   FamilyStudyOptions options = settings.options;
   options.monitor = console.monitor();
   for (const FamilyPreset& preset : family_presets()) options.models.emplace_back(preset.name);
   if (!settings.results.fresh) options.store = &store;
-  const FamilyStudy study =
-      study_family(std::move(family), family_experiments(static_cast<std::size_t>(settings.seeds)), options);
+  const FamilyStudy study = study_family(
+      std::move(family), family_experiments(static_cast<std::size_t>(settings.seeds)), options);
   write_study(family_document(study), family_json(study), settings.results, console);
   if (study.kept > 0) console.note(counted(study.kept, "training") + " kept from before");
   return kDone;
@@ -49,39 +51,42 @@ int run(const Settings& settings, Console& console) {
 
 Command family_study() {
   auto settings = std::make_shared<Settings>();
-  Command command{.name = "study family",
-                  .title = "The family paper's figures, on its published recordings",
-                  .description =
-                      "Repeats the paper that teaches one network the force of a family of dampers from "
-                      "geometry, fluid and "
-                      "field: architectures for one damper and for all, regularisation, learning rate and "
-                      "batch size, the "
-                      "error while learning, lengths, gaps, fluids and fields compared, R2; each with the "
-                      "paper's figure and "
-                      "those of its published networks beside ours. Beyond the paper, each geometry and each "
-                      "fluid is left "
-                      "out in turn: what the networks, and Dashpot's own models of a family, know of a "
-                      "damper that they have "
-                      "not seen. Finished "
-                      "trainings are kept "
-                      "in DIR/fits: the same command goes on where it was interrupted.",
-                  .options = data_options(settings->data),
-                  .example = std::string(kExample),
-                  .run = [settings](Console& console) { return run(*settings, console); }};
+  Command command{
+      .name = "study family",
+      .title = "The family paper's figures, on its published recordings",
+      .description =
+          "Repeats the paper that teaches one network the force of a family of dampers from "
+          "geometry, fluid and "
+          "field: architectures for one damper and for all, regularisation, learning rate and "
+          "batch size, the "
+          "error while learning, lengths, gaps, fluids and fields compared, R2; each with the "
+          "paper's figure and "
+          "those of its published networks beside ours. Beyond the paper, each geometry and each "
+          "fluid is left "
+          "out in turn: what the networks, and Dashpot's own models of a family, know of a "
+          "damper that they have "
+          "not seen. Finished "
+          "trainings are kept "
+          "in DIR/fits: the same command goes on where it was interrupted.",
+      .options = data_options(settings->data),
+      .example = std::string(kExample),
+      .run = [settings](Console& console) { return run(*settings, console); }};
   append(command.options, study_result_options(settings->results, "trainings"));
-  append(command.options,
-         {{.names = "--seeds",
-           .target = &settings->seeds,
-           .help = "trainings of each network, from other first weights; half of them where something is "
-                   "left out, three at most of large networks and in grids",
-           .value = "N",
-           .minimum = 1},
-          {.names = "--effort",
-           .target = &settings->options.effort,
-           .help = "share of each training's epochs",
-           .value = "SHARE",
-           .minimum = 0},
-          threads_option(settings->options.threads)});
+  append(
+      command.options,
+      {{.names = "--seeds",
+        .target = &settings->seeds,
+        .help =
+            "trainings of each network, from other first weights; half of them where something is "
+            "left out, three at most of large networks and in grids",
+        .value = "N",
+        .minimum = 1},
+       {.names = "--effort",
+        .target = &settings->options.effort,
+        .help = "share of each training's epochs",
+        .value = "SHARE",
+        .minimum = 0},
+       threads_option(settings->options.threads)});
   return command;
 }
 

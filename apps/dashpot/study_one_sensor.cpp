@@ -4,11 +4,11 @@
 #include <fmt/core.h>
 
 #include "console.h"
-#include "dashpot/identify/fit_store.h"
-#include "dashpot/output/one_sensor_document.h"
-#include "dashpot/output/words.h"
+#include "dashpot/identify/rank/fit_store.h"
+#include "dashpot/report/words.h"
 #include "ranking_run.h"
 #include "studies.h"
+#include "studies/one_sensor/one_sensor_document.h"
 #include "study_results.h"
 
 namespace dashpot::cli {
@@ -69,12 +69,16 @@ Command one_sensor_study() {
       .description =
           "Repeats the paper that identifies a damper with a small static network and one sensor: "
           "feed-forward "
-          "against recurrent, one sensor or two, delayed samples, the number of neurons, five experiments on "
+          "against recurrent, one sensor or two, delayed samples, the number of neurons, five "
+          "experiments on "
           "two "
-          "dampers, and the comparison with laws, each with the paper's figure beside ours, and with the "
+          "dampers, and the comparison with laws, each with the paper's figure beside ours, and "
+          "with the "
           "hysteresis "
-          "network, which needs the same one sensor. Without DATA on two virtual dampers shaped after the "
-          "paper's words. Finished fits are kept in DIR/fits: the same command goes on where it was "
+          "network, which needs the same one sensor. Without DATA on two virtual dampers shaped "
+          "after the "
+          "paper's words. Finished fits are kept in DIR/fits: the same command goes on where it "
+          "was "
           "interrupted.",
       .options = data_options(settings->data),
       .example = std::string(kExample),

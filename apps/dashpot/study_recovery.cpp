@@ -6,8 +6,8 @@
 #include "console.h"
 #include "dashpot/base/text.h"
 #include "dashpot/damper/registry.h"
-#include "dashpot/identify/recovery_study.h"
 #include "studies.h"
+#include "studies/recovery/recovery_study.h"
 
 namespace dashpot::cli {
 namespace {
@@ -81,18 +81,19 @@ Value to_json(const LawRecovery& recovery) {
 int run(RecoveryStudyOptions options, Console& console) {
   options.monitor = console.monitor();
   const std::vector<LawRecovery> recoveries = study_recovery(options);
-  console.print(fmt::format("# Parameter recovery\n\n"
-                            "A damper with known parameters, for each law, on the virtual bench; the law is "
-                            "fitted to its records {} "
-                            "times, each with other noise (force noise {} % of the span, {} motion, seed "
-                            "{}). How often do the 95 % intervals hold "
-                            "the truth? Between 90 and 99 % counts as trustworthy. Made by `{}`.\n\n",
-                            options.repetitions, format_number(100 * options.force_noise),
-                            options.noisy_motion ? "noisy" : "exact", options.seed, console.command_line()) +
-                overview(recoveries) +
-                "\nBias and spread of what was found are counted in standard errors as the fits state them: "
-                "0 and 1 are right.\n\n" +
-                details(recoveries));
+  console.print(
+      fmt::format("# Parameter recovery\n\n"
+                  "A damper with known parameters, for each law, on the virtual bench; the law is "
+                  "fitted to its records {} "
+                  "times, each with other noise (force noise {} % of the span, {} motion, seed "
+                  "{}). How often do the 95 % intervals hold "
+                  "the truth? Between 90 and 99 % counts as trustworthy. Made by `{}`.\n\n",
+                  options.repetitions, format_number(100 * options.force_noise),
+                  options.noisy_motion ? "noisy" : "exact", options.seed, console.command_line()) +
+      overview(recoveries) +
+      "\nBias and spread of what was found are counted in standard errors as the fits state them: "
+      "0 and 1 are right.\n\n" +
+      details(recoveries));
   Value list = Value::array();
   for (const LawRecovery& recovery : recoveries) list.push_back(to_json(recovery));
   if (console.json) console.print_json(Value::object({{"laws", std::move(list)}}));
@@ -100,7 +101,8 @@ int run(RecoveryStudyOptions options, Console& console) {
   for (const LawRecovery& recovery : recoveries)
     if (!recovery.trustworthy()) missed.push_back(recovery.law);
   if (missed.empty()) return kDone;
-  console.error("fewer than 90 % or more than 99 % of the intervals hold the truth: " + join(missed, ", "));
+  console.error("fewer than 90 % or more than 99 % of the intervals hold the truth: " +
+                join(missed, ", "));
   return kNotUsable;
 }
 
@@ -120,32 +122,35 @@ Command recovery_study() {
       .title = "Do the 95 % intervals of Dashpot's fits hold the truth?",
       .description =
           "Records dampers with known parameters on the virtual bench, fits each law to its own "
-          "records many times with other noise, and counts how often the 95 % intervals hold the truth. "
-          "What a fit itself calls unknown (weak, at a bound, fixed) is listed and not counted. The "
+          "records many times with other noise, and counts how often the 95 % intervals hold the "
+          "truth. "
+          "What a fit itself calls unknown (weak, at a bound, fixed) is listed and not counted. "
+          "The "
           "table is Markdown.",
-      .options = {{.names = "--laws",
-                   .target = &options.laws,
-                   .help = "the laws to study, separated by commas",
-                   .value = "NAMES",
-                   .choices = law_names(),
-                   .noun = "law",
-                   .default_text = "all"},
-                  {.names = "--repetitions",
-                   .target = &options.repetitions,
-                   .help = "records and fits of each law",
-                   .value = "N",
-                   .minimum = 1},
-                  {.names = "--noise",
-                   .target = &options.force_noise,
-                   .help = "standard deviation of the force noise, as a share of each record's force span",
-                   .value = "SHARE",
-                   .minimum = 0},
-                  {.names = "--noisy-motion",
-                   .target = &options.noisy_motion,
-                   .help = "derive the velocity from a noisy displacement, as on a real bench: the "
-                           "intervals know of noise in the force alone"},
-                  seed_option(options.seed),
-                  threads_option(options.threads)},
+      .options =
+          {{.names = "--laws",
+            .target = &options.laws,
+            .help = "the laws to study, separated by commas",
+            .value = "NAMES",
+            .choices = law_names(),
+            .noun = "law",
+            .default_text = "all"},
+           {.names = "--repetitions",
+            .target = &options.repetitions,
+            .help = "records and fits of each law",
+            .value = "N",
+            .minimum = 1},
+           {.names = "--noise",
+            .target = &options.force_noise,
+            .help = "standard deviation of the force noise, as a share of each record's force span",
+            .value = "SHARE",
+            .minimum = 0},
+           {.names = "--noisy-motion",
+            .target = &options.noisy_motion,
+            .help = "derive the velocity from a noisy displacement, as on a real bench: the "
+                    "intervals know of noise in the force alone"},
+           seed_option(options.seed),
+           threads_option(options.threads)},
       .example = std::string(kExample),
       .run = [settings](Console& console) { return run(*settings, console); }};
 }

@@ -4,7 +4,7 @@
 
 #include "console.h"
 #include "dashpot/base/file.h"
-#include "dashpot/output/safe_text.h"
+#include "dashpot/report/safe_text.h"
 #include "document_text.h"
 #include "results.h"
 
@@ -21,7 +21,9 @@ std::vector<Option> study_result_options(StudyResults& results, const std::strin
           {.names = "--figures",
            .target = &results.figures,
            .help = "also draw the figures as SVG and PDF (needs gnuplot)"},
-          {.names = "--fresh", .target = &results.fresh, .help = "neither use nor keep finished " + kept}};
+          {.names = "--fresh",
+           .target = &results.fresh,
+           .help = "neither use nor keep finished " + kept}};
 }
 
 void prepare_study(const StudyResults& results) {
@@ -29,7 +31,8 @@ void prepare_study(const StudyResults& results) {
   make_folder(results.folder);
 }
 
-void write_study(Document document, const Value& data, const StudyResults& results, Console& console) {
+void write_study(Document document, const Value& data, const StudyResults& results,
+                 Console& console) {
   document.command = console.command_line();
   document.version = DASHPOT_VERSION;
   document.date = date_now();

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "command.h"
-#include "dashpot/output/document.h"
+#include "dashpot/report/document.h"
 
 namespace dashpot::cli {
 
@@ -21,6 +21,7 @@ std::vector<Option> study_result_options(StudyResults& results, const std::strin
 void prepare_study(const StudyResults& results);
 
 /// Prints the document and writes it as a page, Markdown and, with `data`, JSON.
-void write_study(Document document, const Value& data, const StudyResults& results, Console& console);
+void write_study(Document document, const Value& data, const StudyResults& results,
+                 Console& console);
 
 }  // namespace dashpot::cli

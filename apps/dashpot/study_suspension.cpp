@@ -1,9 +1,9 @@
 #include <memory>
 
 #include "console.h"
-#include "dashpot/output/suspension_study_document.h"
 #include "results.h"
 #include "studies.h"
+#include "studies/suspension/suspension_study_document.h"
 #include "study_results.h"
 
 namespace dashpot::cli {
@@ -23,7 +23,8 @@ int run(const Settings& settings, Console& console) {
   SuspensionStudyOptions options = settings.options;
   options.monitor = console.monitor();
   const SuspensionStudy study = study_suspension(options);
-  write_study(suspension_study_document(study), suspension_study_json(study), settings.results, console);
+  write_study(suspension_study_document(study), suspension_study_json(study), settings.results,
+              console);
   return kDone;
 }
 
@@ -31,18 +32,21 @@ int run(const Settings& settings, Console& console) {
 
 Command suspension_study() {
   auto settings = std::make_shared<Settings>();
-  Command command{
-      .name = "study suspension",
-      .title = "The one-sensor paper's suspension, and what is possible at best",
-      .description =
-          "Drives the one-sensor paper's quarter car with its identified damper, a virtual one, under "
-          "Mix-1-sensor and other controllers, against a passive damper identified by the same network: over "
-          "its chirp, its step and a road. Beside each controller stands the clairvoyant bound: what no "
-          "force of that damper can beat, and what a controller that knew the road would reach. Says which "
-          "of the paper's claims follow, and which least damping they would need.",
-      .options = {},
-      .example = std::string(kExample),
-      .run = [settings](Console& console) { return run(*settings, console); }};
+  Command command{.name = "study suspension",
+                  .title = "The one-sensor paper's suspension, and what is possible at best",
+                  .description =
+                      "Drives the one-sensor paper's quarter car with its identified damper, a "
+                      "virtual one, under "
+                      "Mix-1-sensor and other controllers, against a passive damper identified by "
+                      "the same network: over "
+                      "its chirp, its step and a road. Beside each controller stands the "
+                      "clairvoyant bound: what no "
+                      "force of that damper can beat, and what a controller that knew the road "
+                      "would reach. Says which "
+                      "of the paper's claims follow, and which least damping they would need.",
+                  .options = {},
+                  .example = std::string(kExample),
+                  .run = [settings](Console& console) { return run(*settings, console); }};
   for (Option& option : study_result_options(settings->results, "data"))
     if (option.names != "--fresh") command.options.push_back(std::move(option));
   append(command.options, {{.names = "--duration",

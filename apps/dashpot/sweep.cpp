@@ -9,8 +9,8 @@
 #include "console.h"
 #include "dashpot/base/file.h"
 #include "dashpot/base/text.h"
-#include "dashpot/output/sweep_report.h"
-#include "dashpot/output/words.h"
+#include "dashpot/report/sweep_report.h"
+#include "dashpot/report/words.h"
 #include "results.h"
 #include "study_results.h"
 
@@ -32,7 +32,8 @@ constexpr std::string_view kExample =
     "# Three controllers on the same thousand cars and roads:\n"
     "dashpot sweep comfort --output comfort\n"
     "\n"
-    "# Interrupted, or not enough? The same command goes on where it stopped; more samples are added:\n"
+    "# Interrupted, or not enough? The same command goes on where it stopped; more samples are "
+    "added:\n"
     "dashpot sweep comfort --output comfort --samples 5000\n"
     "\n"
     "# Your own: what varies and how, as docs/sweep.md describes:\n"
@@ -61,7 +62,8 @@ std::string measures_text(int width) {
 
 void write_tables(const Sweep& result, const fs::path& folder, Console& console) {
   const std::vector<ColumnTable> tables = sweep_tables(result);
-  for (const ColumnTable& table : tables) write_file(folder / (table.name + ".csv"), csv_table(table));
+  for (const ColumnTable& table : tables)
+    write_file(folder / (table.name + ".csv"), csv_table(table));
   write_hdf5(folder / "sweep.h5", tables,
              {{"command", console.command_line()},
               {"version", DASHPOT_VERSION},
@@ -112,7 +114,8 @@ std::vector<Option> options_of(Settings& settings) {
   std::vector<Option> options{
       {.names = "REQUEST",
        .target = &settings.request,
-       .help = "what vehicle, what controllers, what varies: a YAML file, or one that comes with Dashpot: " +
+       .help = "what vehicle, what controllers, what varies: a YAML file, or one that comes with "
+               "Dashpot: " +
                join(sweep_names(), ", "),
        .takes = Takes::File},
       {.names = "--samples",
@@ -135,9 +138,10 @@ std::vector<Option> options_of(Settings& settings) {
        .default_text = "the request's"}};
   append(options, study_result_options(settings.results, "rides"));
   options.back().help = "begin anew: what an earlier sweep left in DIR/sweep.sqlite is thrown away";
-  append(options,
-         {threads_option(settings.threads),
-          {.names = "--measures", .target = &settings.measures, .help = "list what a ride is judged by"}});
+  append(options, {threads_option(settings.threads),
+                   {.names = "--measures",
+                    .target = &settings.measures,
+                    .help = "list what a ride is judged by"}});
   return options;
 }
 
@@ -149,12 +153,17 @@ Command sweep_command() {
       .name = "sweep",
       .title = "Thousands of vehicles over roads: how far controllers and dampers can be trusted",
       .description =
-          "Draws vehicles from the distributions of a request - masses, stiffnesses, dampers as built, "
+          "Draws vehicles from the distributions of a request - masses, stiffnesses, dampers as "
+          "built, "
           "speeds, "
-          "roads - and drives each of them under every controller over the same road. Prints quantiles of "
-          "comfort, road holding, travel and energy, the ratios to a baseline vehicle by vehicle, and which "
-          "inputs matter; writes every ride as CSV and HDF5, and a page. Each block of rides is kept in "
-          "DIR/sweep.sqlite as it ends: the same command goes on where it was stopped. The result does not "
+          "roads - and drives each of them under every controller over the same road. Prints "
+          "quantiles of "
+          "comfort, road holding, travel and energy, the ratios to a baseline vehicle by vehicle, "
+          "and which "
+          "inputs matter; writes every ride as CSV and HDF5, and a page. Each block of rides is "
+          "kept in "
+          "DIR/sweep.sqlite as it ends: the same command goes on where it was stopped. The result "
+          "does not "
           "depend on threads or interruptions.",
       .options = options_of(*settings),
       .example = std::string(kExample),

@@ -1,4 +1,4 @@
-#include "dashpot/identify/track.h"
+#include "dashpot/identify/judge/track.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,9 +12,9 @@
 #include "dashpot/damper/inverse/inverse_file.h"
 #include "dashpot/damper/inverse/observer.h"
 #include "dashpot/damper/inverse/registry.h"
-#include "dashpot/output/track_figure.h"
-#include "dashpot/output/words.h"
 #include "dashpot/record/dataset.h"
+#include "dashpot/report/track_figure.h"
+#include "dashpot/report/words.h"
 #include "layout.h"
 
 namespace dashpot::cli {
@@ -56,10 +56,12 @@ Task recorded_task(const std::string& path) {
   const Record& record = dataset.records.front();
   if (record.sample_time == 0)
     throw Error(record.name, "is not sampled at equal steps of time", "resample it");
-  return {
-      {record.sample_time, record.channel("displacement").samples, record.channel("velocity").samples, {}},
-      record.channel("force").samples,
-      "measured, " + record.name};
+  return {{record.sample_time,
+           record.channel("displacement").samples,
+           record.channel("velocity").samples,
+           {}},
+          record.channel("force").samples,
+          "measured, " + record.name};
 }
 
 Task make_task(const Settings& settings, const DamperModel& damper, DriverOptions driver) {
@@ -71,12 +73,14 @@ Task make_task(const Settings& settings, const DamperModel& damper, DriverOption
   const InverseLimits limits = limits_of(driver, task.motion.sample_time);
   if (settings.wanted == "random") {
     task.wanted = admissible_force(damper, task.motion, limits, settings.band, settings.seed + 1);
-    task.description = "random within what the damper can give, 0 to " + format_number(settings.band) + " Hz";
+    task.description =
+        "random within what the damper can give, 0 to " + format_number(settings.band) + " Hz";
   } else {
     const double half = 0.5 * Observer(damper, limits).force_max();
     const double force = settings.force > 0 ? settings.force : half;
     task.wanted = sine_force(force, settings.band, task.motion);
-    task.description = "sine of " + format_number(force) + " N at " + format_number(settings.band) + " Hz";
+    task.description =
+        "sine of " + format_number(force) + " N at " + format_number(settings.band) + " Hz";
   }
   task.description += "; " + task.motion.description;
   return task;
@@ -105,8 +109,8 @@ std::unique_ptr<InverseModel> make_inverse(const std::string& word, const Damper
 }
 
 /// What was asked for; if nothing, all schemes that apply. The best comes first.
-std::vector<TrackedScheme> track_all(const Settings& settings, const Damper& damper, const Driver& driver,
-                                     const Task& task, Console& console) {
+std::vector<TrackedScheme> track_all(const Settings& settings, const Damper& damper,
+                                     const Driver& driver, const Task& task, Console& console) {
   const InverseLimits limits = limits_of(driver.options(), task.motion.sample_time);
   const bool asked = !settings.inverses.empty();
   std::vector<TrackedScheme> tracked;
@@ -130,7 +134,8 @@ std::string table_of(const std::vector<TrackedScheme>& tracked, int width) {
                ">time out of reach %", ">at a limit %"});
   for (const auto& [name, r] : tracked)
     table.row({name, number_text(r.all.rmse), percent_text(r.all.rms_span),
-               percent_text(r.reachable.rms_span), percent_text(100 * r.reachable.max_error / r.span),
+               percent_text(r.reachable.rms_span),
+               percent_text(100 * r.reachable.max_error / r.span),
                percent_text(100 - r.reachable_share), percent_text(r.saturated_share)});
   return table.text(static_cast<std::size_t>(width));
 }
@@ -142,16 +147,17 @@ std::string csv_of(const TrackReport& r, const Motion& motion, const std::string
   constexpr int kDigits = 9;
   for (std::size_t k = 0; k < r.time.size(); ++k) {
     text += format_number(r.time[k], kDigits);
-    for (const double value : {1000 * motion.displacement[k], motion.velocity[k], r.wanted[k], r.obtained[k],
-                               r.command[k], r.current[k], r.least[k], r.greatest[k]})
+    for (const double value :
+         {1000 * motion.displacement[k], motion.velocity[k], r.wanted[k], r.obtained[k],
+          r.command[k], r.current[k], r.least[k], r.greatest[k]})
       text += ',' + format_number(value, kDigits);
     text += '\n';
   }
   return text;
 }
 
-void write_curves(const std::vector<TrackedScheme>& tracked, const Task& task, const std::string& unit,
-                  const std::filesystem::path& folder, Console& console) {
+void write_curves(const std::vector<TrackedScheme>& tracked, const Task& task,
+                  const std::string& unit, const std::filesystem::path& folder, Console& console) {
   for (const auto& [name, report] : tracked)
     write_file(folder / (name + ".csv"), csv_of(report, task.motion, unit));
   console.print("\nCurves   " + (folder / "*.csv").string() + '\n');
@@ -183,62 +189,65 @@ int run(const Settings& settings, Console& console) {
       console.error("the damper diverged behind the inverse " + name);
       return kNotUsable;
     }
-  console.print('\n' + console.bold(damper.name) + ", " + format_number(options.current_min) + " ... " +
-                format_number(options.current_max) + ' ' + damper.drive_unit + ", coil lag " +
+  console.print('\n' + console.bold(damper.name) + ", " + format_number(options.current_min) +
+                " ... " + format_number(options.current_max) + ' ' + damper.drive_unit +
+                ", coil lag " +
                 (options.lag_rate > 0 ? format_number(1000 / options.lag_rate) + " ms" : "none") +
                 "\nWanted force: " + task.description + ", span " +
                 format_number(tracked.front().report.span) + " N\n\n");
   console.print(table_of(tracked, console.width()));
-  if (!settings.folder.empty()) write_curves(tracked, task, damper.drive_unit, settings.folder, console);
+  if (!settings.folder.empty())
+    write_curves(tracked, task, damper.drive_unit, settings.folder, console);
   if (console.json) console.print_json(json_of(tracked, damper, task));
   return kDone;
 }
 
 /// The motion, and the force that is wanted along it.
 std::vector<Option> task_options(Settings& s) {
-  return {{.names = "--wanted",
-           .target = &s.wanted,
-           .help = "wanted force: random within what the damper can give, or a sine",
-           .value = "KIND",
-           .choices = {"random", "sine"}},
-          {.names = "--force",
-           .target = &s.force,
-           .help = "amplitude of the sine, N",
-           .value = "N",
-           .minimum = 0,
-           .default_text = "half of the largest that the damper gives"},
-          {.names = "--band",
-           .target = &s.band,
-           .help = "frequency of the sine, highest of the random force",
-           .value = "HZ",
-           .minimum = 0},
-          {.names = "--motion",
-           .target = &s.motion,
-           .help = "motion of the piston",
-           .value = "KIND",
-           .choices = {"random", "sine"}},
-          {.names = "--amplitude",
-           .target = &s.amplitude,
-           .help = "of the motion, mm; of a random one twice its standard deviation",
-           .value = "MM",
-           .minimum = 0},
-          {.names = "--frequency",
-           .target = &s.frequency,
-           .help = "of the motion; of a random one the highest",
-           .value = "HZ",
-           .minimum = 0},
-          {.names = "--duration", .target = &s.duration, .help = "seconds", .value = "S", .minimum = 0},
-          {.names = "--recording",
-           .target = &s.recording,
-           .help = "take motion and wanted force from the first record of this file or folder",
-           .value = "PATH",
-           .takes = Takes::File},
-          {.names = "--sample-rate",
-           .target = &s.sample_rate,
-           .help = "commands per second; that of the recording where there is one",
-           .value = "HZ",
-           .minimum = 1},
-          seed_option(s.seed)};
+  return {
+      {.names = "--wanted",
+       .target = &s.wanted,
+       .help = "wanted force: random within what the damper can give, or a sine",
+       .value = "KIND",
+       .choices = {"random", "sine"}},
+      {.names = "--force",
+       .target = &s.force,
+       .help = "amplitude of the sine, N",
+       .value = "N",
+       .minimum = 0,
+       .default_text = "half of the largest that the damper gives"},
+      {.names = "--band",
+       .target = &s.band,
+       .help = "frequency of the sine, highest of the random force",
+       .value = "HZ",
+       .minimum = 0},
+      {.names = "--motion",
+       .target = &s.motion,
+       .help = "motion of the piston",
+       .value = "KIND",
+       .choices = {"random", "sine"}},
+      {.names = "--amplitude",
+       .target = &s.amplitude,
+       .help = "of the motion, mm; of a random one twice its standard deviation",
+       .value = "MM",
+       .minimum = 0},
+      {.names = "--frequency",
+       .target = &s.frequency,
+       .help = "of the motion; of a random one the highest",
+       .value = "HZ",
+       .minimum = 0},
+      {.names = "--duration", .target = &s.duration, .help = "seconds", .value = "S", .minimum = 0},
+      {.names = "--recording",
+       .target = &s.recording,
+       .help = "take motion and wanted force from the first record of this file or folder",
+       .value = "PATH",
+       .takes = Takes::File},
+      {.names = "--sample-rate",
+       .target = &s.sample_rate,
+       .help = "commands per second; that of the recording where there is one",
+       .value = "HZ",
+       .minimum = 1},
+      seed_option(s.seed)};
 }
 
 std::vector<Option> driver_options(Settings& s) {
@@ -249,7 +258,8 @@ std::vector<Option> driver_options(Settings& s) {
            .minimum = 0},
           {.names = "--period",
            .target = &s.period,
-           .help = "of the driver, s between the instants at which it looks at its command; 0: at every one",
+           .help = "of the driver, s between the instants at which it looks at its command; 0: at "
+                   "every one",
            .value = "S",
            .minimum = 0}};
 }
@@ -258,37 +268,40 @@ std::vector<Option> driver_options(Settings& s) {
 
 Command track_command() {
   auto settings = std::make_shared<Settings>();
-  Command command{.name = "track",
-                  .title = "Follow a wanted force: inverse models side by side",
-                  .description =
-                      "Puts an inverse (wanted force to current), the coil's driver and a damper in series, "
-                      "moves them, and "
-                      "compares the wanted with the obtained force. Says how often the wanted force was out "
-                      "of reach of any "
-                      "current at that instant, and how often the command was at a limit. The first 0.1 s, "
-                      "in which the coil "
-                      "starts, are not scored.",
-                  .options = {},
-                  .example = std::string(kExample),
-                  .run = [settings](Console& console) { return run(*settings, console); }};
+  Command command{
+      .name = "track",
+      .title = "Follow a wanted force: inverse models side by side",
+      .description =
+          "Puts an inverse (wanted force to current), the coil's driver and a damper in series, "
+          "moves them, and "
+          "compares the wanted with the obtained force. Says how often the wanted force was out "
+          "of reach of any "
+          "current at that instant, and how often the command was at a limit. The first 0.1 s, "
+          "in which the coil "
+          "starts, are not scored.",
+      .options = {},
+      .example = std::string(kExample),
+      .run = [settings](Console& console) { return run(*settings, console); }};
   Settings& s = *settings;
   command.options = damper_options(s.damper);
-  command.options.push_back({.names = "--inverse",
-                             .target = &s.inverses,
-                             .help = "schemes to compare, and files of inverses that 'dashpot invert' wrote",
-                             .value = "LIST",
-                             .choices = inverse_names(),
-                             .noun = "inverse",
-                             .takes = Takes::File,
-                             .default_text = "all that apply"});
+  command.options.push_back(
+      {.names = "--inverse",
+       .target = &s.inverses,
+       .help = "schemes to compare, and files of inverses that 'dashpot invert' wrote",
+       .value = "LIST",
+       .choices = inverse_names(),
+       .noun = "inverse",
+       .takes = Takes::File,
+       .default_text = "all that apply"});
   append(command.options, task_options(s));
   append(command.options, coil_options(s.damper));
   append(command.options, driver_options(s));
-  command.options.push_back({.names = "-o,--output",
-                             .target = &s.folder,
-                             .help = "also write every scheme's curves (CSV) and a picture (needs gnuplot)",
-                             .value = "DIR",
-                             .takes = Takes::Folder});
+  command.options.push_back(
+      {.names = "-o,--output",
+       .target = &s.folder,
+       .help = "also write every scheme's curves (CSV) and a picture (needs gnuplot)",
+       .value = "DIR",
+       .takes = Takes::Folder});
   return command;
 }
 

@@ -15,75 +15,81 @@ constexpr double kAfter = 5;    // s, to come to rest
 }  // namespace
 
 std::vector<Option> vehicle_options(VehicleChoice& choice) {
-  return {{.names = "--plant",
-           .target = &choice.plant,
-           .help = "vehicle or building: a set, a kind of plant, or a file (--list plants)",
-           .value = "NAME",
-           .takes = Takes::File},
-          {.names = "--set",
-           .target = &choice.values,
-           .help = "values in place of the plant's: sprung_mass=350kg,friction=40",
-           .value = "NAME=VALUE",
-           .default_text = "none"},
-          {.names = "--damper",
-           .target = &choice.damper,
-           .help = "model file, parameter set, curve or kind (--list dampers); one for all struts, or one "
-                   "each, with ';' between",
-           .value = "WORDS",
-           .takes = Takes::File,
-           .default_text = "the plant's own range, ideal"},
-          {.names = "--inverse",
-           .target = &choice.inverse,
-           .help = "from a wanted force to a current: a scheme of 'dashpot track' or a file of 'dashpot "
-                   "invert'",
-           .value = "NAME",
-           .takes = Takes::File,
-           .default_text = "damping in a straight line over the current"},
-          {.names = "--force-loop",
-           .target = &choice.force_loop,
-           .help = "corrects the force wanted of the inverse by the one that is missed, as a PID controller: "
-                   "proportional=0.5,integral=20,derivative=0",
-           .value = "WORDS",
-           .default_text = "none"},
-          {.names = "--current",
-           .target = &choice.current,
-           .help = "A (or V, or place from 0 to 1) where nothing controls it",
-           .value = "A",
-           .minimum = 0},
-          {.names = "--current-max",
-           .target = &choice.current_max,
-           .help = "greatest current, A (or V)",
-           .value = "A",
-           .minimum = 0,
-           .default_text = "that of the damper's data"},
-          {.names = "--lag-rate",
-           .target = &choice.lag_rate,
-           .help = "of the coil, 1/s; 0: none",
-           .value = "1/S",
-           .minimum = 0,
-           .default_text = "the damper's own"},
-          {.names = "--sample-time",
-           .target = &choice.sample_time,
-           .help = "of the controller, ms",
-           .value = "MS"},
-          {.names = "--in-car",
-           .target = &choice.in_car,
-           .help = "sensors as in a car: one accelerometer and one deflection per strut, noise, filters"},
-          {.names = "--delay",
-           .target = &choice.delay,
-           .help = "of the sensors, ms, with --in-car",
-           .value = "MS",
-           .minimum = 0},
-          seed_option(choice.seed)};
+  return {
+      {.names = "--plant",
+       .target = &choice.plant,
+       .help = "vehicle or building: a set, a kind of plant, or a file (--list plants)",
+       .value = "NAME",
+       .takes = Takes::File},
+      {.names = "--set",
+       .target = &choice.values,
+       .help = "values in place of the plant's: sprung_mass=350kg,friction=40",
+       .value = "NAME=VALUE",
+       .default_text = "none"},
+      {.names = "--damper",
+       .target = &choice.damper,
+       .help =
+           "model file, parameter set, curve or kind (--list dampers); one for all struts, or one "
+           "each, with ';' between",
+       .value = "WORDS",
+       .takes = Takes::File,
+       .default_text = "the plant's own range, ideal"},
+      {.names = "--inverse",
+       .target = &choice.inverse,
+       .help =
+           "from a wanted force to a current: a scheme of 'dashpot track' or a file of 'dashpot "
+           "invert'",
+       .value = "NAME",
+       .takes = Takes::File,
+       .default_text = "damping in a straight line over the current"},
+      {.names = "--force-loop",
+       .target = &choice.force_loop,
+       .help = "corrects the force wanted of the inverse by the one that is missed, as a PID "
+               "controller: "
+               "proportional=0.5,integral=20,derivative=0",
+       .value = "WORDS",
+       .default_text = "none"},
+      {.names = "--current",
+       .target = &choice.current,
+       .help = "A (or V, or place from 0 to 1) where nothing controls it",
+       .value = "A",
+       .minimum = 0},
+      {.names = "--current-max",
+       .target = &choice.current_max,
+       .help = "greatest current, A (or V)",
+       .value = "A",
+       .minimum = 0,
+       .default_text = "that of the damper's data"},
+      {.names = "--lag-rate",
+       .target = &choice.lag_rate,
+       .help = "of the coil, 1/s; 0: none",
+       .value = "1/S",
+       .minimum = 0,
+       .default_text = "the damper's own"},
+      {.names = "--sample-time",
+       .target = &choice.sample_time,
+       .help = "of the controller, ms",
+       .value = "MS"},
+      {.names = "--in-car",
+       .target = &choice.in_car,
+       .help =
+           "sensors as in a car: one accelerometer and one deflection per strut, noise, filters"},
+      {.names = "--delay",
+       .target = &choice.delay,
+       .help = "of the sensors, ms, with --in-car",
+       .value = "MS",
+       .minimum = 0},
+      seed_option(choice.seed)};
 }
 
 std::vector<Option> controlled_vehicle_options(VehicleChoice& choice) {
   std::vector<Option> options = vehicle_options(choice);
-  options.insert(options.begin() + 3, {.names = "--controller",
-                                       .target = &choice.controller,
-                                       .help = "a control law with its settings (--list controllers)",
-                                       .value = "WORDS",
-                                       .default_text = "none: the current stays"});
+  options.insert(options.begin() + 3,
+                 {.names = "--controller",
+                  .target = &choice.controller,
+                  .help = "a control law with its settings (--list controllers)",
+                  .value = "WORDS",
+                  .default_text = "none: the current stays"});
   return options;
 }
 
@@ -98,8 +104,9 @@ std::vector<Option> road_options(RoadChoice& choice) {
        .help = "s",
        .value = "S",
        .minimum = 0,
-       .default_text =
-           choice.duration > 0 ? "" : "20 on a road; to the end of a bump, chirp or earthquake and 5 more"}};
+       .default_text = choice.duration > 0
+                           ? ""
+                           : "20 on a road; to the end of a bump, chirp or earthquake and 5 more"}};
 }
 
 std::vector<std::string> words_between(const std::string& text) {
@@ -131,7 +138,8 @@ GroundPointer ground_of(const RoadChoice& choice, std::uint64_t seed, const Plan
   if (plant.tyres.empty() && !ground->shakes())
     throw Error("--road", "'" + choice.road + "' moves no building", "earthquake,file=...");
   if (plant.ground.empty() && ground->shakes())
-    throw Error("--road", "'" + choice.road + "' shakes buildings, not the " + plant.name, "a road, a step");
+    throw Error("--road", "'" + choice.road + "' shakes buildings, not the " + plant.name,
+                "a road, a step");
   return ground;
 }
 

@@ -12,10 +12,11 @@ namespace dashpot::cli {
 struct VehicleChoice {
   std::string plant = VehicleWords{}.plant, damper, controller, inverse, force_loop;
   std::vector<std::string> values;
-  double current = 0, current_max = 0, lag_rate = -1;  ///< A, A, 1/s; 0 and below 0: the damper's own
-  double sample_time = 1, delay = 0;                   ///< ms
-  bool in_car = false;                                 ///< sensors as a car has them
-  std::uint64_t seed = 1;                              ///< of the road and of the sensors' noise
+  double current = 0, current_max = 0,
+         lag_rate = -1;               ///< A, A, 1/s; 0 and below 0: the damper's own
+  double sample_time = 1, delay = 0;  ///< ms
+  bool in_car = false;                ///< sensors as a car has them
+  std::uint64_t seed = 1;             ///< of the road and of the sensors' noise
 };
 
 /// What it drives over, and for how long.
@@ -24,7 +25,8 @@ struct RoadChoice {
   double duration = 0;  ///< s; 0: as the ground has it, 20 s at most
 };
 
-/// --plant, --set, --damper, --controller, --inverse, --force-loop, --current, --current-max, --lag-rate,
+/// --plant, --set, --damper, --controller, --inverse, --force-loop, --current, --current-max,
+/// --lag-rate,
 /// --sample-time,
 /// --in-car, --delay, --seed. A command of several controllers has its own row for them.
 std::vector<Option> vehicle_options(VehicleChoice& choice);

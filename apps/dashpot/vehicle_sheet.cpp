@@ -5,12 +5,12 @@
 #include "console.h"
 #include "dashpot/base/text.h"
 #include "dashpot/damper/parameter_set.h"
-#include "dashpot/suspension/controller.h"
+#include "dashpot/suspension/control/controller.h"
 #include "dashpot/suspension/damper_words.h"
 #include "dashpot/suspension/ground/ground_sequences.h"
 #include "dashpot/suspension/ground/recorded_ground.h"
 #include "dashpot/suspension/passive_curve.h"
-#include "dashpot/suspension/plant_set.h"
+#include "dashpot/suspension/plants/plant_set.h"
 #include "layout.h"
 #include "sequence_sheet.h"
 
@@ -38,15 +38,16 @@ void list_plants(Listing& list) {
   Table sets({"set", "plant", "source"});
   for (const std::string& name : plant_set_names()) {
     const PlantSet set = load_plant_set(name);
-    sets.row({name, set.plant.title, set.source + (set.verified ? "" : " (an example: " + set.reason + ")")});
+    sets.row({name, set.plant.title,
+              set.source + (set.verified ? "" : " (an example: " + set.reason + ")")});
     list.json.push_back(Value::object({{"name", name},
                                        {"title", set.plant.title},
                                        {"source", set.source},
                                        {"kind", set.kind},
                                        {"verified", set.verified}}));
   }
-  list.text +=
-      "Sets of numbers\n\n" + sets.text(list.width) + "\nKinds of plant, with what --set can change\n";
+  list.text += "Sets of numbers\n\n" + sets.text(list.width) +
+               "\nKinds of plant, with what --set can change\n";
   for (const PlantModel* model : plant_models()) list.add(info_of(*model));
 }
 
@@ -74,8 +75,10 @@ void list_roads(Listing& list) {
 
 void list_dampers(Listing& list) {
   list.text +=
-      "A model file that 'dashpot identify' wrote, a file with the columns velocity and force, or one of "
-      "these; motion_ratio=0.7 after any of them mounts it on a lever, force_factor=0.9 builds it weaker "
+      "A model file that 'dashpot identify' wrote, a file with the columns velocity and force, or "
+      "one of "
+      "these; motion_ratio=0.7 after any of them mounts it on a lever, force_factor=0.9 builds it "
+      "weaker "
       "than its "
       "model, which no controller knows.\n";
   for (const SimpleDamper& kind : simple_dampers())

@@ -9,7 +9,8 @@ namespace {
 
 bool is_measured(const Channel& velocity) { return !velocity.origin.starts_with("derived"); }
 
-double rms_difference_percent(const std::vector<double>& derived, const std::vector<double>& measured) {
+double rms_difference_percent(const std::vector<double>& derived,
+                              const std::vector<double>& measured) {
   double difference = 0, power = 0;
   for (std::size_t k = 0; k < measured.size(); ++k) {
     difference += (derived[k] - measured[k]) * (derived[k] - measured[k]);
@@ -33,7 +34,8 @@ std::vector<VelocityCheck> check_velocities(const Dataset& dataset, double cutof
     const double cutoff = cutoff_hz > 0 ? cutoff_hz : choose_cutoff_hz(x, record.sample_time);
     const std::vector<double> derived = differentiate_zero_phase(x, record.sample_time, cutoff);
     const double percent = rms_difference_percent(derived, velocity->samples);
-    if (std::isfinite(percent)) checks.push_back({record.name, cutoff, percent});  // not without motion
+    if (std::isfinite(percent))
+      checks.push_back({record.name, cutoff, percent});  // not without motion
   }
   return checks;
 }

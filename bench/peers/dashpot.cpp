@@ -1,6 +1,6 @@
 #include "dashpot/base/error.h"
-#include "dashpot/damper/neural/mlp_evaluator.h"
-#include "dashpot/damper/neural/train_batches.h"
+#include "dashpot/damper/nets/mlp_evaluator.h"
+#include "dashpot/damper/nets/train_batches.h"
 #include "rides.h"
 
 using namespace dashpot;

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "dashpot/base/random.h"
-#include "dashpot/damper/neural/mlp.h"
+#include "dashpot/damper/nets/mlp.h"
 
 // What every peer is: a program that names its tasks on its first line, then answers each line "TASK ROUND"
 // with the CPU seconds per unit of work. So that bench/compare can let them take turns.

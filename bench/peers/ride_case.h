@@ -6,12 +6,12 @@
 #include <numbers>
 
 #include "dashpot/damper/laws/modified_bouc_wen.h"
-#include "dashpot/damper/neural/network_model.h"
+#include "dashpot/damper/kinds/network/network_model.h"
 #include "dashpot/damper/parameter_set.h"
 #include "dashpot/suspension/ground/ground_motion.h"
 #include "dashpot/suspension/ground/road_profile.h"
 #include "dashpot/suspension/mounted_damper.h"
-#include "dashpot/suspension/plant_set.h"
+#include "dashpot/suspension/plants/plant_set.h"
 #include "peer.h"
 
 // The ride that all integrators take: the one-sensor paper's quarter car, 10 s of a class C road at 20 m/s,

@@ -1,5 +1,5 @@
 #pragma once
-#include "dashpot/suspension/batch.h"
+#include "dashpot/suspension/lanes/batch.h"
 #include "ride_case.h"
 
 // Dashpot's own rides: one vehicle and a batch of 32 in lanes, and one by simulate().

@@ -5,7 +5,8 @@
 using dashpot::run_child;
 
 TEST_CASE("a child's output, both streams, and whether it succeeded") {
-  const dashpot::ChildResult fine = run_child({"sh", "-c", "echo one; echo \"$0\" >&2", "two words"});
+  const dashpot::ChildResult fine =
+      run_child({"sh", "-c", "echo one; echo \"$0\" >&2", "two words"});
   CHECK(fine.succeeded);
   CHECK(fine.printed == "one\ntwo words\n");
   CHECK(!run_child({"sh", "-c", "exit 3"}).succeeded);

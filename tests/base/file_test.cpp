@@ -27,7 +27,8 @@ TEST_CASE("a file that cannot be read says why") {
   const fs::path path = folder.write("a.txt", std::string(100000, 'x') + "y");
   CHECK(run_program("gzip " + path.string()).exit_code == 0);
   fs::resize_file(path.string() + ".gz", 60);
-  CHECK(message_of([&] { read_file(path.string() + ".gz"); }).find("damaged gzip file") != std::string::npos);
+  CHECK(message_of([&] { read_file(path.string() + ".gz"); }).find("damaged gzip file") !=
+        std::string::npos);
 }
 
 TEST_CASE("a disk that fills up leaves the old file and no rubbish") {
@@ -35,7 +36,8 @@ TEST_CASE("a disk that fills up leaves the old file and no rubbish") {
   const fs::path path = folder.write("report.html", "old");
   rlimit before{};
   getrlimit(RLIMIT_FSIZE, &before);
-  const auto handler = std::signal(SIGXFSZ, SIG_IGN);  // the write then fails with EFBIG, as with ENOSPC
+  const auto handler =
+      std::signal(SIGXFSZ, SIG_IGN);  // the write then fails with EFBIG, as with ENOSPC
   const rlimit small{1000, before.rlim_max};
   setrlimit(RLIMIT_FSIZE, &small);
   const std::string message = message_of([&] { write_file(path, std::string(5000, 'n')); });

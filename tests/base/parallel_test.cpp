@@ -29,7 +29,8 @@ TEST_CASE("farms may be nested") {
 
 TEST_CASE("the exception of the lowest index comes out") {
   const auto run = [] {
-    parallel_for(8, 4, [](std::size_t k) { throw std::runtime_error("task " + std::to_string(k)); });
+    parallel_for(8, 4,
+                 [](std::size_t k) { throw std::runtime_error("task " + std::to_string(k)); });
   };
   CHECK(message_of(run) == "task 0");
 }

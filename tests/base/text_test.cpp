@@ -12,7 +12,8 @@ TEST_CASE("a number is the whole text or nothing") {
   CHECK(*parse_number("-0,25", ',') == -0.25);
   for (const char* bad : {"", " ", "1.5x", "1,5", "++1", "abc", "1 2", "0x10"})
     CHECK_MESSAGE(!parse_number(bad), bad);
-  CHECK_MESSAGE(!parse_number("1.234,5", ','), "a point is no digit where the comma is the decimal sign");
+  CHECK_MESSAGE(!parse_number("1.234,5", ','),
+                "a point is no digit where the comma is the decimal sign");
   CHECK(std::isnan(*parse_number("nan")));
 }
 
@@ -33,5 +34,6 @@ TEST_CASE("a mistyped word finds its neighbour") {
   CHECK(closest("bingam", known) == "bingham");
   CHECK(closest("modified", known) == "modified_bouc_wen");
   CHECK(!closest("polynomial", known));
-  CHECK(suggest("Bingham", known) == "did you mean 'bingham'? known: bingham, modified_bouc_wen, tanh_kwok");
+  CHECK(suggest("Bingham", known) ==
+        "did you mean 'bingham'? known: bingham, modified_bouc_wen, tanh_kwok");
 }

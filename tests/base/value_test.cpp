@@ -16,7 +16,9 @@ TEST_CASE("JSON round trip keeps order, kinds and every digit") {
 }
 
 TEST_CASE("damaged JSON says where") {
-  CHECK(message_of([] { parse_json("{\n\"a\": 1,\n}", "m.json"); }).find("m.json:3: is not valid JSON") == 0);
+  CHECK(message_of([] {
+          parse_json("{\n\"a\": 1,\n}", "m.json");
+        }).find("m.json:3: is not valid JSON") == 0);
   CHECK(message_of([] { parse_json(std::string(100000, '['), "deep.json"); }) ==
         "deep.json: is nested more than 200 levels deep");
   CHECK(!message_of([] { format_json(Value(std::numeric_limits<double>::quiet_NaN())); }).empty());
@@ -24,7 +26,8 @@ TEST_CASE("damaged JSON says where") {
 
 TEST_CASE("a wrong kind names the place") {
   const Value value = parse_json(R"({"a":{"b":"x"}})", "m.json");
-  CHECK(message_of([&] { value.find("a")->find("b")->as_number(); }) == "m.json, a.b: is text, not a number");
+  CHECK(message_of([&] { value.find("a")->find("b")->as_number(); }) ==
+        "m.json, a.b: is text, not a number");
 }
 
 TEST_CASE("unknown, missing and present keys") {
@@ -34,7 +37,8 @@ TEST_CASE("unknown, missing and present keys") {
   CHECK(reader.number("rate", 1) == 5);
   CHECK(reader.number("velocity", 7) == 7);
   CHECK(message_of([&] { reader.finish(); }) ==
-        "d.yaml:3: a dataset file has an unknown key 'velocty'; did you mean 'velocity'? known: name, rate, "
+        "d.yaml:3: a dataset file has an unknown key 'velocty'; did you mean 'velocity'? known: "
+        "name, rate, "
         "velocity");
   CHECK(message_of([&] { reader.required("files"); }) == "d.yaml:1: a dataset file needs 'files'");
 }
@@ -48,7 +52,8 @@ TEST_CASE("YAML scalars by the core schema, with their lines") {
   CHECK(value.find("e")->is_null());
   CHECK(value.find("f")->as_numbers() == std::vector<double>{1, 2});
   CHECK(value.find("d")->where() == "d.yaml:4");
-  CHECK(message_of([] { parse_yaml("a: 1\na: 2\n", "d.yaml"); }) == "d.yaml:2: the key 'a' stands twice");
+  CHECK(message_of([] { parse_yaml("a: 1\na: 2\n", "d.yaml"); }) ==
+        "d.yaml:2: the key 'a' stands twice");
   CHECK(message_of([] { parse_yaml("a: [1, 2\n", "d.yaml"); }).find("is not valid YAML") !=
         std::string::npos);
 }
@@ -61,5 +66,6 @@ TEST_CASE("YAML aliases cannot fill the memory") {
     for (int j = 0; j < 9; ++j) bomb += "," + last;
     bomb += "]\n";
   }
-  CHECK(message_of([&] { parse_yaml(bomb, "bomb.yaml"); }) == "bomb.yaml: has more than 100000 entries");
+  CHECK(message_of([&] { parse_yaml(bomb, "bomb.yaml"); }) ==
+        "bomb.yaml: has more than 100000 entries");
 }

@@ -23,7 +23,8 @@ std::string without_command(const std::string& text) {
 
 TEST_CASE("a model is exported as the program does it") {
   const TemporaryFolder folder;
-  const std::string here = (folder.path() / "here").string(), there = (folder.path() / "there").string();
+  const std::string here = (folder.path() / "here").string(),
+                    there = (folder.path() / "there").string();
   const Model model = published("spencer1997");
   const Value options = Value::object({{"to", Value::array(std::vector<std::string>{"c", "dpr"})},
                                        {"folder", here},
@@ -31,8 +32,8 @@ TEST_CASE("a model is exported as the program does it") {
                                        {"command", "dashpot export of a test"}});
   Text report;
   REQUIRE(dashpot_export(model, dashpot::format_json(options).c_str(), &report) == DASHPOT_OK);
-  const ProgramResult told =
-      run_program(program_path() + " export --parameters spencer1997 --to c,dpr --name front -o " + there);
+  const ProgramResult told = run_program(
+      program_path() + " export --parameters spencer1997 --to c,dpr --name front -o " + there);
   REQUIRE(told.exit_code == 0);
   const Value told_files = parse_json(report.handle, "report");
   const std::vector<Value>& files = told_files.find("files")->items();
@@ -52,17 +53,20 @@ TEST_CASE("an export that cannot be says why, and writes nothing") {
   const auto refusal = [&](const std::string& options) {
     return message_of(
         DASHPOT_BAD_INPUT,
-        dashpot_export(model, ("{\"folder\": \"" + into + "\", " + options + "}").c_str(), nullptr));
+        dashpot_export(model, ("{\"folder\": \"" + into + "\", " + options + "}").c_str(),
+                       nullptr));
   };
   CHECK(contains(refusal(R"("name": "x")"), "names no format"));
   CHECK(contains(refusal(R"("to": ["fmu4"])"), "unknown format 'fmu4'; did you mean 'fmu"));
-  CHECK(contains(refusal(R"("to": ["c", "fmu3"], "compiler": "no-such-compiler")"), "no-such-compiler"));
+  CHECK(contains(refusal(R"("to": ["c", "fmu3"], "compiler": "no-such-compiler")"),
+                 "no-such-compiler"));
   CHECK(contains(refusal(R"("to": ["c"], "precision": "half")"), "double or float"));
   CHECK(contains(refusal(R"("to": ["c"], "name": "2fast")"), "2fast"));
   CHECK(contains(refusal(R"("to": ["c"], "sample_time": -1)"), "sample time"));
   CHECK(contains(refusal(R"("to": ["c"], "step": 1)"), "unknown key 'step'"));
   CHECK(!std::filesystem::exists(into));
-  CHECK(contains(message_of(DASHPOT_BAD_INPUT,
-                            dashpot_export(model, R"({"to": ["c"], "folder": "/dev/null/x"})", nullptr)),
-                 "/dev/null/x"));
+  CHECK(contains(
+      message_of(DASHPOT_BAD_INPUT,
+                 dashpot_export(model, R"({"to": ["c"], "folder": "/dev/null/x"})", nullptr)),
+      "/dev/null/x"));
 }

@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "dashpot/damper/parameter_set.h"
-#include "dashpot/identify/evaluate.h"
+#include "dashpot/identify/judge/evaluate.h"
 #include "handles.h"
 
 namespace {
@@ -42,7 +42,8 @@ std::string run_message(const dashpot_model* model, const dashpot_motion& motion
 
 }  // namespace
 
-TEST_CASE("a whole motion gives the library's free run, bit for bit, from columns that lie anyhow") {
+TEST_CASE(
+    "a whole motion gives the library's free run, bit for bit, from columns that lie anyhow") {
   const Model model = published();
   const Sine sine(500);
   const dashpot::FreeRun expected =
@@ -87,13 +88,14 @@ TEST_CASE("steps one by one and a motion in two parts give the same as the whole
   REQUIRE(dashpot_run(model, &motion, &response) == DASHPOT_OK);
 
   const auto at = [&](std::size_t k) {
-    return dashpot_input{sine.inputs[k].displacement, sine.inputs[k].velocity, sine.inputs[k].current};
+    return dashpot_input{sine.inputs[k].displacement, sine.inputs[k].velocity,
+                         sine.inputs[k].current};
   };
   for (std::size_t k = 0; k < 100; ++k) {
     const dashpot_input now = at(k), before = at(k > 0 ? k - 1 : 0);
-    REQUIRE((k == 0
-                 ? dashpot_rest(model, &now, state.data(), state.size())
-                 : dashpot_advance(model, &before, &now, 0.002, state.data(), state.size())) == DASHPOT_OK);
+    REQUIRE((k == 0 ? dashpot_rest(model, &now, state.data(), state.size())
+                    : dashpot_advance(model, &before, &now, 0.002, state.data(), state.size())) ==
+            DASHPOT_OK);
     REQUIRE(dashpot_force(model, &now, state.data(), state.size(), &stepped[k]) == DASHPOT_OK);
   }
   CHECK(stepped == whole);
@@ -179,10 +181,11 @@ TEST_CASE("wrong sizes, steps and numbers are told by name") {
   CHECK(contains(message_of(DASHPOT_BAD_INPUT, dashpot_rest(model, &input, state, 3)),
                  "state_size: is 3; bouc_wen has 1 states"));
   for (const double dt : {0.0, -1e-3, kNaN, kInfinity})
-    CHECK(
-        contains(message_of(DASHPOT_BAD_INPUT, dashpot_advance(model, &input, &input, dt, state, 1)), "dt"));
+    CHECK(contains(
+        message_of(DASHPOT_BAD_INPUT, dashpot_advance(model, &input, &input, dt, state, 1)), "dt"));
   const dashpot_input broken = {0, kNaN, 0};
-  CHECK(contains(message_of(DASHPOT_BAD_INPUT, dashpot_rest(model, &broken, state, 1)), "velocity: is nan"));
+  CHECK(contains(message_of(DASHPOT_BAD_INPUT, dashpot_rest(model, &broken, state, 1)),
+                 "velocity: is nan"));
 
   Sine sine(10);
   sine.inputs[7].current = kInfinity;
@@ -214,15 +217,16 @@ TEST_CASE("a state that is no number gives a status, not a force") {
   const dashpot_input input = {0, 0.1, 1};
   const double state = kNaN;
   double force = 0;
-  CHECK(
-      contains(message_of(DASHPOT_NOT_USABLE, dashpot_force(model, &input, &state, 1, &force)), "diverged"));
+  CHECK(contains(message_of(DASHPOT_NOT_USABLE, dashpot_force(model, &input, &state, 1, &force)),
+                 "diverged"));
 }
 
-TEST_CASE("files that are no models, and names that nothing has, are refused with what would be right") {
+TEST_CASE(
+    "files that are no models, and names that nothing has, are refused with what would be right") {
   const TemporaryFolder folder;
   dashpot_model* model = nullptr;
-  CHECK(
-      contains(message_of(DASHPOT_BAD_INPUT, dashpot_model_load("/nowhere/model.json", &model)), "nowhere"));
+  CHECK(contains(message_of(DASHPOT_BAD_INPUT, dashpot_model_load("/nowhere/model.json", &model)),
+                 "nowhere"));
   for (const char* text : {"", "{", "[]", "{\"format\": \"dashpot-model\"}", "\xff\xfe"})
     CHECK(dashpot_model_parse(text, &model) == DASHPOT_BAD_INPUT);
   CHECK(contains(message_of(DASHPOT_BAD_INPUT, dashpot_model_published("spenser1997", &model)),

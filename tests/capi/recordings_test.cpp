@@ -17,8 +17,8 @@ Recordings bench() {
   Recordings recordings;
   REQUIRE(dashpot_recordings_new(&recordings) == DASHPOT_OK);
   for (const double current : {0.0, 0.5, 1.0})
-    REQUIRE(BinghamBench(current).add_to(recordings, ("at " + std::to_string(current) + " A").c_str()) ==
-            DASHPOT_OK);
+    REQUIRE(BinghamBench(current).add_to(
+                recordings, ("at " + std::to_string(current) + " A").c_str()) == DASHPOT_OK);
   return recordings;
 }
 
@@ -36,8 +36,8 @@ TEST_CASE("arrays are fitted: the damper's own numbers come out") {
   CHECK(dashpot_recordings_count(recordings) == 3);
   Model model;
   Text report;
-  REQUIRE(dashpot_fit(recordings, R"({"models": ["bingham"], "starts": 1, "threads": 1})", nullptr, &model,
-                      &report) == DASHPOT_OK);
+  REQUIRE(dashpot_fit(recordings, R"({"models": ["bingham"], "starts": 1, "threads": 1})", nullptr,
+                      &model, &report) == DASHPOT_OK);
   // The closed form that made the recordings.
   const dashpot_input fast = {0, 0.2, 0.5};
   double force = 0;
@@ -51,10 +51,11 @@ TEST_CASE("arrays are fitted: the damper's own numbers come out") {
 TEST_CASE("models are ranked, reported and taken from the ranking") {
   const Recordings recordings = bench();
   HeldRanking ranking;
-  REQUIRE(dashpot_identify(recordings,
-                           R"({"models": ["bingham", "polynomial"], "leave_out": "current", "starts": 1,
+  REQUIRE(
+      dashpot_identify(recordings,
+                       R"({"models": ["bingham", "polynomial"], "leave_out": "current", "starts": 1,
                                "threads": 1, "command": "a test"})",
-                           nullptr, &ranking) == DASHPOT_OK);
+                       nullptr, &ranking) == DASHPOT_OK);
   CHECK(dashpot_ranking_count(ranking) == 2);
   Model best;
   REQUIRE(dashpot_ranking_model(ranking, 0, &best) == DASHPOT_OK);
@@ -65,14 +66,17 @@ TEST_CASE("models are ranked, reported and taken from the ranking") {
   CHECK(info.interval_level == 0.9);
   Text json, html, table;
   REQUIRE(dashpot_ranking_report(ranking, "json", &json) == DASHPOT_OK);
-  CHECK(parse_json(json.handle, "report").find("models")->items()[0].find("name")->as_string() == info.name);
+  CHECK(parse_json(json.handle, "report").find("models")->items()[0].find("name")->as_string() ==
+        info.name);
   CHECK(dashpot_ranking_report(ranking, "html", &html) == DASHPOT_OK);
   REQUIRE(dashpot_ranking_report(ranking, "text", &table) == DASHPOT_OK);
   CHECK(contains(table.handle, "predicts the force best"));
   char* text = nullptr;
-  CHECK(contains(message_of(DASHPOT_BAD_INPUT, dashpot_ranking_report(ranking, "pdf", &text)), "markdown"));
+  CHECK(contains(message_of(DASHPOT_BAD_INPUT, dashpot_ranking_report(ranking, "pdf", &text)),
+                 "markdown"));
   dashpot_model* none = nullptr;
-  CHECK(contains(message_of(DASHPOT_BAD_INPUT, dashpot_ranking_model(ranking, 2, &none)), "there are 2"));
+  CHECK(contains(message_of(DASHPOT_BAD_INPUT, dashpot_ranking_model(ranking, 2, &none)),
+                 "there are 2"));
 
   // What the ranking's model has as its band is there for every sample.
   const BinghamBench motion(0.5);
@@ -88,10 +92,13 @@ TEST_CASE("models are ranked, reported and taken from the ranking") {
 
   Text evaluation;
   REQUIRE(dashpot_evaluate(best, recordings, nullptr, &evaluation) == DASHPOT_OK);
-  CHECK(parse_json(evaluation.handle, "evaluation").find("pooled")->find("esr_percent")->as_number() < 2);
+  CHECK(
+      parse_json(evaluation.handle, "evaluation").find("pooled")->find("esr_percent")->as_number() <
+      2);
 }
 
-TEST_CASE("recordings in arrays are read as a file's columns: units, derived velocity, nothing flipped") {
+TEST_CASE(
+    "recordings in arrays are read as a file's columns: units, derived velocity, nothing flipped") {
   const BinghamBench motion(1);
   std::vector<double> x_mm, pushed;
   for (std::size_t k = 0; k < motion.x.size(); ++k) {
@@ -184,7 +191,8 @@ TEST_CASE("wrong options, paths and calls in the wrong order give a status") {
   const Recordings recordings = bench();
   dashpot_model* model = nullptr;
   const auto refusal = [&](const char* options) {
-    return message_of(DASHPOT_BAD_INPUT, dashpot_fit(recordings, options, nullptr, &model, nullptr));
+    return message_of(DASHPOT_BAD_INPUT,
+                      dashpot_fit(recordings, options, nullptr, &model, nullptr));
   };
   CHECK(contains(refusal("{"), "options"));
   CHECK(contains(refusal("[]"), "options"));
@@ -200,14 +208,14 @@ TEST_CASE("wrong options, paths and calls in the wrong order give a status") {
 
   Recordings empty, read;
   REQUIRE(dashpot_recordings_new(&empty) == DASHPOT_OK);
-  CHECK(contains(message_of(DASHPOT_BAD_INPUT,
-                            dashpot_fit(empty, R"({"models": ["bingham"]})", nullptr, &model, nullptr)),
+  CHECK(contains(message_of(DASHPOT_BAD_INPUT, dashpot_fit(empty, R"({"models": ["bingham"]})",
+                                                           nullptr, &model, nullptr)),
                  "there are none"));
   dashpot_ranking* ranking = nullptr;
   CHECK(dashpot_identify(empty, nullptr, nullptr, &ranking) == DASHPOT_BAD_INPUT);
   const char* paths[] = {"/nowhere", nullptr};
-  CHECK(
-      contains(message_of(DASHPOT_BAD_INPUT, dashpot_recordings_load(paths, 1, nullptr, &read)), "nowhere"));
+  CHECK(contains(message_of(DASHPOT_BAD_INPUT, dashpot_recordings_load(paths, 1, nullptr, &read)),
+                 "nowhere"));
   CHECK(dashpot_recordings_load(paths, 2, nullptr, &read) == DASHPOT_BAD_INPUT);
   CHECK(dashpot_recordings_load(paths, 0, nullptr, &read) == DASHPOT_BAD_INPUT);
   CHECK(dashpot_recordings_load(nullptr, 1, nullptr, &read) == DASHPOT_BAD_INPUT);
@@ -227,11 +235,13 @@ TEST_CASE("wrong options, paths and calls in the wrong order give a status") {
   CHECK(dashpot_evaluate(nullptr, recordings, nullptr, nullptr) == DASHPOT_BAD_INPUT);
   char* report = nullptr;
   const Model of_volts = published();
-  CHECK(contains(message_of(DASHPOT_BAD_INPUT, dashpot_evaluate(of_volts, recordings, nullptr, &report)),
-                 "driven in V, but the recordings are driven in A"));
+  CHECK(contains(
+      message_of(DASHPOT_BAD_INPUT, dashpot_evaluate(of_volts, recordings, nullptr, &report)),
+      "driven in V, but the recordings are driven in A"));
 }
 
-TEST_CASE("a monitor is told of progress, stops the work, and is called on the caller's thread alone") {
+TEST_CASE(
+    "a monitor is told of progress, stops the work, and is called on the caller's thread alone") {
   struct Seen {
     std::thread::id caller = std::this_thread::get_id();
     int questions = 0, reports = 0, elsewhere = 0;
@@ -251,9 +261,10 @@ TEST_CASE("a monitor is told of progress, stops the work, and is called on the c
   const Recordings recordings = bench();
   dashpot_ranking* ranking = nullptr;
   // Many starts of a slow law: minutes, if nobody stopped it.
-  CHECK(message_of(DASHPOT_CANCELLED,
-                   dashpot_identify(recordings, R"({"models": ["modified_bouc_wen"], "starts": 1000})",
-                                    &monitor, &ranking)) == "interrupted");
+  CHECK(message_of(
+            DASHPOT_CANCELLED,
+            dashpot_identify(recordings, R"({"models": ["modified_bouc_wen"], "starts": 1000})",
+                             &monitor, &ranking)) == "interrupted");
   CHECK(ranking == nullptr);
   CHECK(seen.questions >= 3);
   CHECK(seen.reports >= 1);

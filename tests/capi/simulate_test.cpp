@@ -6,8 +6,8 @@
 TEST_CASE("a vehicle by words drives as it does inside the library") {
   Recordings trace;
   Text report;
-  REQUIRE(dashpot_simulate(R"({"road": "step,height=3cm", "duration": 1, "controller": "sh_add"})", nullptr,
-                           &trace, &report) == DASHPOT_OK);
+  REQUIRE(dashpot_simulate(R"({"road": "step,height=3cm", "duration": 1, "controller": "sh_add"})",
+                           nullptr, &trace, &report) == DASHPOT_OK);
   const dashpot::Vehicle vehicle = dashpot::make_vehicle({.controller = "sh_add"});
   const dashpot::GroundPointer ground = dashpot::make_ground("step,height=3cm", 1);
   const dashpot::Trace expected = dashpot::simulate(vehicle.on(*ground), vehicle.options(1));
@@ -19,7 +19,8 @@ TEST_CASE("a vehicle by words drives as it does inside the library") {
     dashpot_channel channel;
     REQUIRE(dashpot_recordings_channel(trace, 0, c, &channel) == DASHPOT_OK);
     CHECK(channel.name == expected.record.channels[c].name);
-    CHECK(std::equal(channel.data, channel.data + info.samples, expected.record.channels[c].samples.begin()));
+    CHECK(std::equal(channel.data, channel.data + info.samples,
+                     expected.record.channels[c].samples.begin()));
   }
   const dashpot::Value json = dashpot::parse_json(report.handle, "report");
   CHECK(json.find("controller")->as_string() == "sh_add");
@@ -43,9 +44,11 @@ TEST_CASE("words that nothing is known by are refused") {
 
 TEST_CASE("a trace takes no arrays") {
   Recordings trace;
-  REQUIRE(dashpot_simulate(R"({"road": "step", "duration": 0.1})", nullptr, &trace, nullptr) == DASHPOT_OK);
+  REQUIRE(dashpot_simulate(R"({"road": "step", "duration": 0.1})", nullptr, &trace, nullptr) ==
+          DASHPOT_OK);
   const double value = 0;
   const dashpot_named_column column = {"F_N", {&value, 0}};
   const dashpot_table table = {nullptr, 2, 0.1, &column, 1, nullptr};
-  CHECK(contains(message_of(DASHPOT_BAD_INPUT, dashpot_recordings_add(trace, &table)), "not made empty"));
+  CHECK(contains(message_of(DASHPOT_BAD_INPUT, dashpot_recordings_add(trace, &table)),
+                 "not made empty"));
 }

@@ -7,8 +7,8 @@
 #include "dashpot/base/file.h"
 #include "handles.h"
 
-// Every function of dashpot.h, used wrongly: a status and a message, nothing made, never a crash. The fuzz
-// target `capi` goes further than these tables.
+// Every function of dashpot.h, used wrongly: a status and a message, nothing made, never a crash.
+// The fuzz target `capi` goes further than these tables.
 
 namespace {
 
@@ -70,7 +70,8 @@ std::set<std::string> declared_functions() {
   const std::string header = dashpot::read_file(project_file("capi/dashpot.h"));
   const std::string begin = "DASHPOT_API ";
   std::set<std::string> names;
-  for (std::size_t at = header.find(begin); at != std::string::npos; at = header.find(begin, at + 1)) {
+  for (std::size_t at = header.find(begin); at != std::string::npos;
+       at = header.find(begin, at + 1)) {
     const std::size_t open = header.find('(', at), name = header.rfind("dashpot_", open) + 8;
     if (header[at - 1] == '\n') names.insert(header.substr(name, open - name));
   }
@@ -97,7 +98,8 @@ TEST_CASE("every function takes null pointers, and says what is null") {
   CHECK(known == declared_functions());
   for (const auto& [name, call] : calls) {
     CAPTURE(name);
-    if (name.ends_with("_free") || name.ends_with("_count") || name == "version" || name == "last_error")
+    if (name.ends_with("_free") || name.ends_with("_count") || name == "version" ||
+        name == "last_error")
       CHECK(call() == DASHPOT_OK);
     else
       check_refused(name, call);
@@ -117,21 +119,28 @@ TEST_CASE("steps with wrong sizes, with numbers that are none, out of their orde
        {std::size_t{0}, size - 1, size + 1, std::numeric_limits<std::size_t>::max()}) {
     CAPTURE(wrong);
     check_refused("rest", [&] { return dashpot_rest(model, &good, state.data(), wrong); });
-    check_refused("advance", [&] { return dashpot_advance(model, &good, &good, 1e-3, state.data(), wrong); });
-    check_refused("force", [&] { return dashpot_force(model, &good, state.data(), wrong, &force); });
+    check_refused("advance",
+                  [&] { return dashpot_advance(model, &good, &good, 1e-3, state.data(), wrong); });
+    check_refused("force",
+                  [&] { return dashpot_force(model, &good, state.data(), wrong, &force); });
   }
   for (const double odd : {kNaN, kInfinity, -kInfinity})
     for (const dashpot_input& bad : {dashpot_input{odd, 0, 0}, {0, odd, 0}, {0, 0, odd}}) {
       check_refused("rest", [&] { return dashpot_rest(model, &bad, state.data(), size); });
-      check_refused("from", [&] { return dashpot_advance(model, &bad, &good, 1e-3, state.data(), size); });
-      check_refused("to", [&] { return dashpot_advance(model, &good, &bad, 1e-3, state.data(), size); });
-      check_refused("force", [&] { return dashpot_force(model, &bad, state.data(), size, &force); });
+      check_refused("from",
+                    [&] { return dashpot_advance(model, &bad, &good, 1e-3, state.data(), size); });
+      check_refused("to",
+                    [&] { return dashpot_advance(model, &good, &bad, 1e-3, state.data(), size); });
+      check_refused("force",
+                    [&] { return dashpot_force(model, &bad, state.data(), size, &force); });
     }
   for (const double dt : {0.0, -1e-3, kNaN, kInfinity})
-    check_refused("dt", [&] { return dashpot_advance(model, &good, &good, dt, state.data(), size); });
+    check_refused("dt",
+                  [&] { return dashpot_advance(model, &good, &good, dt, state.data(), size); });
   check_refused("no state", [&] { return dashpot_rest(model, &good, nullptr, size); });
   check_refused("no input", [&] { return dashpot_rest(model, nullptr, state.data(), size); });
-  check_refused("no force", [&] { return dashpot_force(model, &good, state.data(), size, nullptr); });
+  check_refused("no force",
+                [&] { return dashpot_force(model, &good, state.data(), size, nullptr); });
   // A state that no model was ever in is a result that cannot be used, and no bad call.
   std::fill(state.begin(), state.end(), kNaN);
   CHECK(dashpot_force(model, &good, state.data(), size, &force) == DASHPOT_NOT_USABLE);
@@ -186,15 +195,18 @@ TEST_CASE("what is taken from a ranking, from recordings and from names that are
   dashpot_channel channel;
   for (const std::size_t far : {std::size_t{0}, std::numeric_limits<std::size_t>::max()}) {
     check_refused("record", [&] { return dashpot_recordings_get_info(recordings, far, &info); });
-    check_refused("channel", [&] { return dashpot_recordings_channel(recordings, far, far, &channel); });
+    check_refused("channel",
+                  [&] { return dashpot_recordings_channel(recordings, far, far, &channel); });
   }
   char* text = nullptr;
-  check_refused("nothing to describe", [&] { return dashpot_recordings_describe(recordings, &text); });
+  check_refused("nothing to describe",
+                [&] { return dashpot_recordings_describe(recordings, &text); });
   dashpot_ranking* ranking = nullptr;
   check_refused("nothing to identify",
                 [&] { return dashpot_identify(recordings, nullptr, nullptr, &ranking); });
   const Model model = published();
-  check_refused("nothing to evaluate", [&] { return dashpot_evaluate(model, recordings, nullptr, &text); });
+  check_refused("nothing to evaluate",
+                [&] { return dashpot_evaluate(model, recordings, nullptr, &text); });
   CHECK(text == nullptr);
   CHECK(ranking == nullptr);
 }
@@ -208,7 +220,8 @@ TEST_CASE("a model file that was cut off anywhere is refused") {
   for (std::size_t length = 0; length + 2 < whole.size(); length += 37) {
     CAPTURE(length);
     dashpot_model* none = nullptr;
-    check_refused("cut", [&] { return dashpot_model_parse(whole.substr(0, length).c_str(), &none); });
+    check_refused("cut",
+                  [&] { return dashpot_model_parse(whole.substr(0, length).c_str(), &none); });
     CHECK(none == nullptr);
   }
 }

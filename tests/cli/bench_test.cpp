@@ -29,7 +29,8 @@ TEST_CASE("bench: the same seed gives the same bytes, another seed others") {
   const TemporaryFolder folder;
   const auto bytes_of = [&](const std::string& name, const std::string& seed) {
     const std::string to = (folder.path() / name).string();
-    REQUIRE(run_dashpot("bench --motions 5x2 --levels 1 --seed " + seed + " --output " + to).exit_code == 0);
+    REQUIRE(run_dashpot("bench --motions 5x2 --levels 1 --seed " + seed + " --output " + to)
+                .exit_code == 0);
     return read_file(folder.path() / name / "5_mm_2_Hz_1_V.csv");
   };
   const std::string first = bytes_of("a", "3");
@@ -44,11 +45,15 @@ TEST_CASE("bench: a motion too fast to be sampled is refused with the limit") {
   CHECK(contains(result.output, "tenth of the sample rate"));
 }
 
-TEST_CASE("bench: a sequence under a sequence reads back with its velocity, and inspect tells what it is") {
+TEST_CASE(
+    "bench: a sequence under a sequence reads back with its velocity, and inspect tells what it "
+    "is") {
   const TemporaryFolder folder;
   const std::string to = (folder.path() / "am").string();
   const ProgramResult made = run_dashpot(
-      "bench --damper mr1 --motion AM,duration=3,carrier=5 --drive PRBS --velocity-sensor --output " + to);
+      "bench --damper mr1 --motion AM,duration=3,carrier=5 --drive PRBS --velocity-sensor "
+      "--output " +
+      to);
   REQUIRE_MESSAGE(made.exit_code == 0, made.output);
   const Record record = load_dataset({to}).records.at(0);
   CHECK(record.name == "AM duration=3 carrier=5, PRBS");
@@ -100,8 +105,8 @@ TEST_CASE("bench: an experiment of the one-sensor paper, at its rate or another"
 
 TEST_CASE("bench: the list of sequences, for people and programs") {
   const std::string text = run_dashpot("bench --sequences").output;
-  for (const char* name : {"\nAM ", "\nFM ", "\nRP ", "\nSFS ", "\nTPNVS ", "\nAPRBS ", "\nICPS ", "\nPRBS ",
-                           "\nSC ", "\none-sensor-5 "})
+  for (const char* name : {"\nAM ", "\nFM ", "\nRP ", "\nSFS ", "\nTPNVS ", "\nAPRBS ", "\nICPS ",
+                           "\nPRBS ", "\nSC ", "\none-sensor-5 "})
     CHECK(contains(text, name));
   const Value json = parse_json(stdout_of_dashpot("bench --sequences --json").output, "stdout");
   CHECK(json.find("motions")->items().size() == 5);

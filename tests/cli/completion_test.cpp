@@ -12,8 +12,8 @@ bool is_installed(const std::string& shell) {
 std::string bash_completion(const std::string& words, int count) {
   const TemporaryFolder folder;
   const std::filesystem::path script =
-      folder.write("try.bash", "source <(" + program_path() + " completion bash)\nCOMP_WORDS=(" + words +
-                                   ")\nCOMP_CWORD=" + std::to_string(count - 1) +
+      folder.write("try.bash", "source <(" + program_path() + " completion bash)\nCOMP_WORDS=(" +
+                                   words + ")\nCOMP_CWORD=" + std::to_string(count - 1) +
                                    "\n_dashpot\necho \"${COMPREPLY[@]}\"\n");
   return run_program("bash " + script.string()).output;
 }

@@ -1,6 +1,6 @@
 #include <filesystem>
 
-#include "damper/family/example_family.h"
+#include "damper/kinds/family/example_family.h"
 #include "dashpot/base/file.h"
 #include "dashpot/base/value.h"
 #include "dashpot/damper/model_file.h"
@@ -22,8 +22,9 @@ constraints: [{quantity: force, min: 1200 N}]
 goals: [{maximise: dynamic_range}, {minimise: mass}]
 )")
                                   .string();
-  const ProgramResult result = run_dashpot(
-      "design " + request + " --points 8 --generations 20 --second physics:moving_wall --output " + out);
+  const ProgramResult result =
+      run_dashpot("design " + request +
+                  " --points 8 --generations 20 --second physics:moving_wall --output " + out);
   CHECK_MESSAGE(result.exit_code == 0, result.output);
   CHECK(contains(result.output, "knee"));
   CHECK(contains(result.output, "Every one holds all constraints"));
@@ -32,7 +33,8 @@ goals: [{maximise: dynamic_range}, {minimise: mass}]
   const Value json = parse_json(read_file(fs::path(out) / "design.json"), "json");
   CHECK(json.find("designs")->items().size() == 8);
   CHECK(run_dashpot("physics " + out + "/designs/design_008.yaml").exit_code == 0);
-  const ProgramResult track = run_dashpot("track " + out + "/models/design_001.json --inverses numeric");
+  const ProgramResult track =
+      run_dashpot("track " + out + "/models/design_001.json --inverses numeric");
   CHECK_MESSAGE(track.exit_code != 1, track.output);
   // A run with fewer designs leaves none of the earlier ones.
   run_dashpot("design " + request + " --points 4 --generations 1 --no-report --output " + out);
@@ -79,8 +81,9 @@ constraints: [{quantity: force, min: 1 N, by: second}]
 goals: [{maximise: gap}]
 )")
                                   .string();
-  const ProgramResult result = run_dashpot("design " + request + " --model " + family +
-                                           " --second physics --outside-family refuse --output " + out);
+  const ProgramResult result =
+      run_dashpot("design " + request + " --model " + family +
+                  " --second physics --outside-family refuse --output " + out);
   CHECK_MESSAGE(result.exit_code == 0, result.output);
   CHECK(contains(result.output, "members of a family"));
   CHECK(contains(result.output, "family_gated and physics differ by"));
@@ -89,5 +92,6 @@ goals: [{maximise: gap}]
   CHECK(!contains(member.output, "extrapolates"));
   CHECK(fs::exists(fs::path(out) / "models/design_001_second.json"));
   CHECK(run_dashpot("track " + out + "/models/design_001.json --inverses numeric").exit_code != 1);
-  CHECK(run_dashpot("design " + request + " --model " + family + "x --output " + out).exit_code == 1);
+  CHECK(run_dashpot("design " + request + " --model " + family + "x --output " + out).exit_code ==
+        1);
 }

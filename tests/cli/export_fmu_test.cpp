@@ -9,9 +9,9 @@ namespace fs = std::filesystem;
 
 TEST_CASE("export writes FMUs of both versions side by side") {
   const TemporaryFolder folder;
-  const ProgramResult result =
-      run_dashpot("export --parameters spencer1997 --to fmu2,fmu3 --sources-only --name front -o '" +
-                  folder.path().string() + "'");
+  const ProgramResult result = run_dashpot(
+      "export --parameters spencer1997 --to fmu2,fmu3 --sources-only --name front -o '" +
+      folder.path().string() + "'");
   CAPTURE(result.output);
   CHECK(result.exit_code == 0);
   CHECK(fs::exists(folder.path() / "front_fmi2.fmu"));
@@ -22,13 +22,14 @@ TEST_CASE("export writes controllers and inverses as FMUs") {
   const TemporaryFolder folder;
   const auto preset = dashpot::inverse_network_presets().front();
   const fs::path file = folder.path() / "inverse.json";
-  dashpot::save_inverse({.network = example_network(preset), .domain = {-0.02, 0.02, -0.3, 0.3, 0, 1}}, file);
+  dashpot::save_inverse(
+      {.network = example_network(preset), .domain = {-0.02, 0.02, -0.3, 0.3, 0, 1}}, file);
   for (const auto& [words, name] :
        {std::pair{std::string("--controller mix1 --in-car"), "mix1_controller_fmi3.fmu"},
         {"--parameters spencer1997 --inverse numeric", "numeric_inverse_fmi3.fmu"},
         {"'" + file.string() + "' --name current", "current_fmi3.fmu"}}) {
-    const ProgramResult result =
-        run_dashpot("export " + words + " --to fmu3 --sources-only -o '" + folder.path().string() + "'");
+    const ProgramResult result = run_dashpot("export " + words + " --to fmu3 --sources-only -o '" +
+                                             folder.path().string() + "'");
     CAPTURE(result.output);
     CHECK(result.exit_code == 0);
     CHECK(fs::exists(folder.path() / name));
@@ -44,10 +45,12 @@ TEST_CASE("the guide's loop of a damper's and a controller's FMU runs") {
   std::size_t exports = 0;
   for (const std::string& line : dashpot::split(page, '\n'))
     if (line.starts_with("    dashpot export") && line.ends_with(" -o .") && ++exports)
-      commands += " && " + program_path() + line.substr(line.find(" export")) + " --compiler 'cc -O0'";
+      commands +=
+          " && " + program_path() + line.substr(line.find(" export")) + " --compiler 'cc -O0'";
   REQUIRE(exports == 2);
-  const ProgramResult result = run_program(commands + " && PYTHONPATH='" + project_file("examples/python") +
-                                           "' /usr/bin/python3 loop.py");
+  const ProgramResult result =
+      run_program(commands + " && PYTHONPATH='" + project_file("examples/python") +
+                  "' /usr/bin/python3 loop.py");
   CAPTURE(result.output);
   CHECK(result.exit_code == 0);
   // A body on a spring over a ground that moves 10 mm: 10.0 mm on a rigid damper, by the formula of
@@ -59,8 +62,9 @@ TEST_CASE("the guide's loop of a damper's and a controller's FMU runs") {
 
 TEST_CASE("export says which compiler an FMU lacks") {
   const TemporaryFolder folder;
-  const ProgramResult result = run_dashpot("export --parameters spencer1997 --to fmu3 --compiler none -o '" +
-                                           folder.path().string() + "'");
+  const ProgramResult result =
+      run_dashpot("export --parameters spencer1997 --to fmu3 --compiler none -o '" +
+                  folder.path().string() + "'");
   CHECK(result.exit_code == 1);
   CHECK(contains(result.output, "none: the C compiler cannot be run"));
   CHECK(contains(result.output, "--sources-only"));

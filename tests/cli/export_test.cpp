@@ -5,21 +5,24 @@
 
 namespace fs = std::filesystem;
 
-TEST_CASE("export writes each format of a published damper into one folder, and C that passes its own test") {
+TEST_CASE(
+    "export writes each format of a published damper into one folder, and C that passes its own "
+    "test") {
   const TemporaryFolder folder;
   const std::string out = (folder.path() / "out").string();
-  const ProgramResult result =
-      run_program(program_path() +
-                  " export --parameters spencer1997 --to c,tables,dpr --precision float -o '" + out + "'");
+  const ProgramResult result = run_program(
+      program_path() + " export --parameters spencer1997 --to c,tables,dpr --precision float -o '" +
+      out + "'");
   CAPTURE(result.output);
   REQUIRE(result.exit_code == 0);
-  for (const char* name :
-       {"modified_bouc_wen_damper.h", "modified_bouc_wen_damper.c", "modified_bouc_wen_damper_test.c",
-        "modified_bouc_wen_damper_force.csv", "modified_bouc_wen_damper_current.csv",
-        "modified_bouc_wen_damper.mat", "modified_bouc_wen_damper_00.dpr"})
+  for (const char* name : {"modified_bouc_wen_damper.h", "modified_bouc_wen_damper.c",
+                           "modified_bouc_wen_damper_test.c", "modified_bouc_wen_damper_force.csv",
+                           "modified_bouc_wen_damper_current.csv", "modified_bouc_wen_damper.mat",
+                           "modified_bouc_wen_damper_00.dpr"})
     CHECK(fs::exists(fs::path(out) / name));
   if (run_program("cc --version").exit_code != 0) return;
-  const ProgramResult check = run_program("cd '" + out + "' && cc -std=c99 *.c -lm -o check && ./check");
+  const ProgramResult check =
+      run_program("cd '" + out + "' && cc -std=c99 *.c -lm -o check && ./check");
   CAPTURE(check.output);
   CHECK(check.exit_code == 0);
 }
@@ -28,8 +31,8 @@ TEST_CASE("export writes ONNX, in float unless told") {
   const TemporaryFolder folder;
   const auto exported = [&](const std::string& name, const std::string& more) {
     const ProgramResult result =
-        run_dashpot("export --parameters spencer1997 --to onnx --sample-time 2ms --name " + name + " -o '" +
-                    folder.path().string() + "' " + more);
+        run_dashpot("export --parameters spencer1997 --to onnx --sample-time 2ms --name " + name +
+                    " -o '" + folder.path().string() + "' " + more);
     CAPTURE(result.output);
     CHECK(result.exit_code == 0);
     CHECK(fs::exists(folder.path() / (name + "_rest.onnx")));
@@ -37,18 +40,21 @@ TEST_CASE("export writes ONNX, in float unless told") {
   };
   const auto usual = exported("usual", "");
   const double few = 50;  // bytes: metadata hold the command
-  CHECK_CLOSE(static_cast<double>(exported("single", "--precision float")), static_cast<double>(usual), 0,
-              few);
-  CHECK(static_cast<double>(exported("wider", "--precision double")) > static_cast<double>(usual) + few);
+  CHECK_CLOSE(static_cast<double>(exported("single", "--precision float")),
+              static_cast<double>(usual), 0, few);
+  CHECK(static_cast<double>(exported("wider", "--precision double")) >
+        static_cast<double>(usual) + few);
 }
 
 TEST_CASE("export takes an inverse network, to what runs sample by sample") {
   const TemporaryFolder folder;
   const auto preset = dashpot::inverse_network_presets().front();
-  dashpot::InverseFile inverse{.network = example_network(preset), .domain = {-0.02, 0.02, -0.3, 0.3, 0, 1}};
+  dashpot::InverseFile inverse{.network = example_network(preset),
+                               .domain = {-0.02, 0.02, -0.3, 0.3, 0, 1}};
   const fs::path file = folder.path() / "inverse.json";
   save_inverse(inverse, file);
-  const std::string command = "export '" + file.string() + "' -o '" + folder.path().string() + "' --to ";
+  const std::string command =
+      "export '" + file.string() + "' -o '" + folder.path().string() + "' --to ";
   const ProgramResult result = run_dashpot(command + "c --name controller");
   CAPTURE(result.output);
   CHECK(result.exit_code == 0);
@@ -59,23 +65,29 @@ TEST_CASE("export takes an inverse network, to what runs sample by sample") {
   CHECK(contains(run_dashpot(command + "dpr").output, "is an inverse, which cannot become 'dpr'"));
 }
 
-TEST_CASE("export takes a vehicle's controller and a damper's inverse, to what runs sample by sample") {
+TEST_CASE(
+    "export takes a vehicle's controller and a damper's inverse, to what runs sample by sample") {
   const TemporaryFolder folder;
   const std::string out = " -o '" + folder.path().string() + "'";
-  CHECK(run_dashpot("export --controller mix1,crossover=2Hz --in-car --sample-time 2ms --to c,onnx" + out)
+  CHECK(run_dashpot(
+            "export --controller mix1,crossover=2Hz --in-car --sample-time 2ms --to c,onnx" + out)
             .exit_code == 0);
-  CHECK(run_dashpot("export --parameters spencer1997 --inverse heaviside --to c,onnx --name rule" + out)
+  CHECK(run_dashpot("export --parameters spencer1997 --inverse heaviside --to c,onnx --name rule" +
+                    out)
             .exit_code == 0);
-  for (const char* name : {"mix1_controller.h", "mix1_controller.c", "mix1_controller_test.c",
-                           "mix1_controller.onnx", "mix1_controller_rest.onnx", "rule.c", "rule.onnx"})
+  for (const char* name :
+       {"mix1_controller.h", "mix1_controller.c", "mix1_controller_test.c", "mix1_controller.onnx",
+        "mix1_controller_rest.onnx", "rule.c", "rule.onnx"})
     CHECK(fs::exists(folder.path() / name));
   CHECK(contains(run_dashpot("export --controller mix1 --to dpr" + out).output,
                  "is a controller, which cannot become 'dpr'"));
-  CHECK(contains(run_dashpot("export --controller mix2 --to c" + out).output, "did you mean 'mix1'"));
+  CHECK(
+      contains(run_dashpot("export --controller mix2 --to c" + out).output, "did you mean 'mix1'"));
   CHECK(contains(run_dashpot("export --parameters spencer1997 --in-car --to c" + out).output,
                  "--in-car: goes with --controller"));
-  CHECK(contains(run_dashpot("export spencer.json --controller mix1 --damper ideal --to c" + out).output,
-                 "another damper"));
+  CHECK(contains(
+      run_dashpot("export spencer.json --controller mix1 --damper ideal --to c" + out).output,
+      "another damper"));
 }
 
 TEST_CASE("export says what is wrong") {
@@ -87,7 +99,8 @@ TEST_CASE("export says what is wrong") {
   };
   const std::string damper = "--parameters spencer1997 ";
   complains(damper,
-            "--to: is missing; one or more of c, dpr, fmu2, fmu3, mex, modelica, onnx, sfunction, tables");
+            "--to: is missing; one or more of c, dpr, fmu2, fmu3, mex, modelica, onnx, sfunction, "
+            "tables");
   complains("--to c", "needs one damper");
   complains(damper + "--to d", "unknown format 'd'");
   complains(damper + "--to c --name 2x", "cannot begin names in C");

@@ -6,15 +6,16 @@
 
 namespace {
 
-const char* const kCommands[] = {"identify", "rank",  "search", "evaluate", "member",     "inspect",
-                                 "models",   "track", "bench",  "demo",     "completion", "version"};
+const char* const kCommands[] = {"identify", "rank",    "search",     "evaluate",
+                                 "member",   "inspect", "models",     "track",
+                                 "bench",    "demo",    "completion", "version"};
 
 std::size_t longest_line(const std::string& text) {
   std::istringstream lines(text);
   std::size_t longest = 0;
   for (std::string line; std::getline(lines, line);)
-    longest = std::max(longest, static_cast<std::size_t>(
-                                    std::ranges::count_if(line, [](char c) { return (c & 0xC0) != 0x80; })));
+    longest = std::max(longest, static_cast<std::size_t>(std::ranges::count_if(
+                                    line, [](char c) { return (c & 0xC0) != 0x80; })));
   return longest;
 }
 
@@ -53,7 +54,8 @@ TEST_CASE("a group of commands explains itself and names its own; each has optio
   CHECK(contains(run_dashpot("--help-markdown").output, "\n### dashpot study one-sensor\n"));
 }
 
-TEST_CASE("help keeps to the width of the terminal, but for the examples, which must be copied whole") {
+TEST_CASE(
+    "help keeps to the width of the terminal, but for the examples, which must be copied whole") {
   const std::string help = run_dashpot("identify --help", "COLUMNS=60").output;
   CHECK(longest_line(help.substr(0, help.find("\nExample\n"))) <= 60);
 }
@@ -68,7 +70,8 @@ TEST_CASE("the documentation page names every command, and the one in docs/ is u
   const ProgramResult page = run_dashpot("--help-markdown");
   CHECK(page.output == dashpot::read_file(project_file("docs/command-line.md")));
   CHECK(page.exit_code == 0);
-  for (const char* command : kCommands) CHECK(contains(page.output, std::string("\n## dashpot ") + command));
+  for (const char* command : kCommands)
+    CHECK(contains(page.output, std::string("\n## dashpot ") + command));
 }
 
 TEST_CASE("a wrong command line exits with 2 and says what would be right") {
@@ -85,7 +88,8 @@ TEST_CASE("a wrong command line exits with 2 and says what would be right") {
       {"identify data --starts 0", "--starts: 0 is too small; give at least 1"},
       {"identify data --starts 99999999999", "--starts: 99999999999 is too large"},
       {"identify data --velocity-cutoff nan", "--velocity-cutoff: 'nan' is not a number"},
-      {"identify data --models bimgham", "--models: unknown model 'bimgham'; did you mean 'bingham'?"},
+      {"identify data --models bimgham",
+       "--models: unknown model 'bimgham'; did you mean 'bingham'?"},
       {"identify data --force-offset some", "--force-offset: unknown value 'some'"},
       {"identify data --leave-out moon", "moon"},
       {"rank", "DATA is missing"},
@@ -96,7 +100,8 @@ TEST_CASE("a wrong command line exits with 2 and says what would be right") {
       {"study recoveri", "unknown command 'recoveri'; did you mean 'recovery'?"},
       {"study one-sensor --repetitions 3", "unknown option '--repetitions'"},
       {"study one-sensor data --leave-out moon", "moon"},
-      {"study one-sensor --models bingam", "--models: unknown row 'bingam'; did you mean 'bingham'?"},
+      {"study one-sensor --models bingam",
+       "--models: unknown row 'bingam'; did you mean 'bingham'?"},
       {"models bimgham", "unknown model 'bimgham'; did you mean 'bingham'?"},
       {"models bingham tanh_kwok", "one argument too many"},
       {"bench --motions 3", "--motions: '3' is not an amplitude and a frequency; write mm x Hz"},
@@ -120,7 +125,9 @@ TEST_CASE("version") {
   CHECK(contains(run_dashpot("version --json").output, "\"version\":"));
 }
 
-TEST_CASE("no colour where stdout is no terminal") { CHECK(!contains(run_dashpot("").output, "\x1b")); }
+TEST_CASE("no colour where stdout is no terminal") {
+  CHECK(!contains(run_dashpot("").output, "\x1b"));
+}
 
 TEST_CASE("a full standard output is an error") {
   const ProgramResult result = run_program("( " + program_path() + " models > /dev/full )");

@@ -14,8 +14,9 @@ const fs::path& small_results() {
   static const TemporaryFolder folder;
   static const fs::path path = [] {
     const fs::path results = folder.path() / "results";
-    const ProgramResult made = run_dashpot("identify " + small_campaign().string() +
-                                           " --models bingham,tanh_kwok --output " + results.string());
+    const ProgramResult made =
+        run_dashpot("identify " + small_campaign().string() +
+                    " --models bingham,tanh_kwok --output " + results.string());
     REQUIRE_MESSAGE(made.exit_code == 0, made.output);
     return results;
   }();
@@ -25,8 +26,8 @@ const fs::path& small_results() {
 }  // namespace
 
 TEST_CASE("identify: a folder of recordings becomes a ranking, model files and a report") {
-  for (const char* file : {"report.html", "report.json", "report.md", "report.csv", "models/bingham.json",
-                           "models/tanh_kwok.json"}) {
+  for (const char* file : {"report.html", "report.json", "report.md", "report.csv",
+                           "models/bingham.json", "models/tanh_kwok.json"}) {
     CAPTURE(file);
     CHECK(fs::exists(small_results() / file));
   }
@@ -49,15 +50,16 @@ TEST_CASE("identify prints the ranking on stdout and progress on stderr") {
 
 TEST_CASE("identify: what the user knows of parameters shapes the fit and stands in its table") {
   const TemporaryFolder folder;
-  const ProgramResult out =
-      stdout_of_dashpot("identify " + small_campaign().string() +
-                        " --models bingham --fix c0=50N*s/cm --form f_c=exponential --no-report --output " +
-                        folder.path().string());
+  const ProgramResult out = stdout_of_dashpot(
+      "identify " + small_campaign().string() +
+      " --models bingham --fix c0=50N*s/cm --form f_c=exponential --no-report --output " +
+      folder.path().string());
   CHECK(out.exit_code == 0);
   const std::string model = read_file(folder.path() / "models/bingham.json");
   const Value file = parse_json(model, "bingham.json");
   ObjectReader reader(file, "a model file");
-  const Value& parameters = *ObjectReader(reader.required("model"), "a model").optional("parameters");
+  const Value& parameters =
+      *ObjectReader(reader.required("model"), "a model").optional("parameters");
   ObjectReader rows(parameters, "parameters");
   ObjectReader c0(rows.required("c0"), "c0"), f_c(rows.required("f_c"), "f_c");
   CHECK(c0.required("coefficients").as_numbers() == std::vector<double>{5000});
@@ -65,7 +67,8 @@ TEST_CASE("identify: what the user knows of parameters shapes the fit and stands
 }
 
 TEST_CASE("study recovery: a table, and exit code 3 where intervals do not hold what they claim") {
-  const ProgramResult out = stdout_of_dashpot("study recovery --laws bingham --repetitions 40 --seed 2");
+  const ProgramResult out =
+      stdout_of_dashpot("study recovery --laws bingham --repetitions 40 --seed 2");
   CHECK(out.exit_code == 0);
   CHECK(contains(out.output, "| bingham | f_c_a | N | 670 | 40 |"));
   const ProgramResult noisy =
@@ -76,8 +79,9 @@ TEST_CASE("study recovery: a table, and exit code 3 where intervals do not hold 
 
 TEST_CASE("identify --json: stdout is one JSON document") {
   const TemporaryFolder folder;
-  const ProgramResult out = stdout_of_dashpot("identify " + small_campaign().string() +
-                                              " --models bingham --json --output " + folder.path().string());
+  const ProgramResult out =
+      stdout_of_dashpot("identify " + small_campaign().string() +
+                        " --models bingham --json --output " + folder.path().string());
   CHECK(out.exit_code == 0);
   CHECK(parse_json(out.output, "identify --json").kind() == Value::Kind::Object);
 }
@@ -110,8 +114,9 @@ TEST_CASE("evaluate: says where recordings leave the model's range") {
 TEST_CASE("evaluate: writes a report page") {
   const TemporaryFolder folder;
   const std::string page = (folder.path() / "page.html").string();
-  const ProgramResult result = run_dashpot("evaluate " + (small_results() / "models/bingham.json").string() +
-                                           " " + small_campaign().string() + " --report " + page);
+  const ProgramResult result =
+      run_dashpot("evaluate " + (small_results() / "models/bingham.json").string() + " " +
+                  small_campaign().string() + " --report " + page);
   CAPTURE(result.output);
   CHECK(result.exit_code == 0);
   CHECK(fs::exists(page));
@@ -121,8 +126,8 @@ TEST_CASE("evaluate: a model file with an unknown key, of another drive, or none
   const TemporaryFolder folder;
   std::string text = read_file(small_results() / "models/bingham.json");
   text.insert(text.find('{') + 1, "\"colour\": \"red\",");
-  const ProgramResult key =
-      run_dashpot("evaluate " + folder.write("odd.json", text).string() + " " + small_campaign().string());
+  const ProgramResult key = run_dashpot("evaluate " + folder.write("odd.json", text).string() +
+                                        " " + small_campaign().string());
   CHECK(key.exit_code == 1);
   CHECK(contains(key.output, "odd.json"));
   CHECK(contains(key.output, "colour"));
@@ -132,8 +137,8 @@ TEST_CASE("evaluate: a model file with an unknown key, of another drive, or none
   CHECK(contains(none.output, "nowhere.json"));
 
   const std::string amperes = (folder.path() / "amperes").string();
-  REQUIRE(run_dashpot("bench --damper kwok2006 --motions 5x2 --levels 0,1 --output " + amperes).exit_code ==
-          0);
+  REQUIRE(run_dashpot("bench --damper kwok2006 --motions 5x2 --levels 0,1 --output " + amperes)
+              .exit_code == 0);
   const ProgramResult drive =
       run_dashpot("evaluate " + (small_results() / "models/bingham.json").string() + " " + amperes);
   CHECK(drive.exit_code == 1);

@@ -15,7 +15,8 @@ TEST_CASE("inspect says what each column is") {
 }
 
 TEST_CASE("inspect --json holds columns and records, on stdout alone") {
-  const ProgramResult result = stdout_of_dashpot("inspect " + small_campaign().string() + " --json");
+  const ProgramResult result =
+      stdout_of_dashpot("inspect " + small_campaign().string() + " --json");
   const Value value = parse_json(result.output, "inspect --json");
   CHECK(value.find("records")->items().size() == 9);
   CHECK(value.find("drive_unit")->as_string() == "V");
@@ -30,12 +31,14 @@ TEST_CASE("inspect writes its page") {
 }
 
 TEST_CASE("inspect compares a measured velocity with the derived one") {
-  // x = 10 mm sin(2 pi t) at 500 Hz with its exact velocity: what remains is the filter's own error.
+  // x = 10 mm sin(2 pi t) at 500 Hz with its exact velocity: what remains is the filter's own
+  // error.
   std::string text = "t_s,x_mm,v_mm_s,F_N,i_A\n";
   for (int k = 0; k < 2000; ++k) {
     const double w = 2 * 3.14159265358979, t = k / 500.0;
     text += std::to_string(t) + "," + std::to_string(10 * std::sin(w * t)) + "," +
-            std::to_string(10 * w * std::cos(w * t)) + "," + std::to_string(100 * std::cos(w * t)) + ",1\n";
+            std::to_string(10 * w * std::cos(w * t)) + "," + std::to_string(100 * std::cos(w * t)) +
+            ",1\n";
   }
   const TemporaryFolder folder;
   const std::string file = folder.write("run_1.0A.csv", text).string();
@@ -75,7 +78,8 @@ TEST_CASE("a folder that may not be read is an error, not an empty folder") {
     MESSAGE("SKIPPED: no way to run the program as another user");
     return;
   }
-  const ProgramResult result = run_program(as_nobody + program_path() + " inspect " + closed.string());
+  const ProgramResult result =
+      run_program(as_nobody + program_path() + " inspect " + closed.string());
   CAPTURE(result.output);
   CHECK(result.exit_code == 1);
   CHECK(contains(result.output, "closed"));

@@ -30,8 +30,8 @@ TEST_CASE("invert: a file that track follows with, near the search on the model"
 TEST_CASE("invert: recordings teach it, and what was not measured is said") {
   const TemporaryFolder folder;
   const std::string file = (folder.path() / "mine.json").string();
-  const ProgramResult made =
-      run_dashpot("invert --recordings " + small_campaign().string() + " --network history --output " + file);
+  const ProgramResult made = run_dashpot("invert --recordings " + small_campaign().string() +
+                                         " --network history --output " + file);
   CAPTURE(made.output);
   CHECK(made.exit_code == 0);
   CHECK(contains(made.output, "Taught by 9 records"));

@@ -1,4 +1,4 @@
-#include "damper/family/example_family.h"
+#include "damper/kinds/family/example_family.h"
 #include "dashpot/damper/model_file.h"
 #include "program.h"
 
@@ -12,7 +12,8 @@ TEST_CASE("a member of a family becomes a model of its own, marked or refused ou
   file.model = example_family().with_offset(0);
   save_model(file, family);
 
-  const ProgramResult inside = run_dashpot("member " + family + " --set gap=1.5mm,build=1 -o " + member);
+  const ProgramResult inside =
+      run_dashpot("member " + family + " --set gap=1.5mm,build=1 -o " + member);
   CHECK_MESSAGE(inside.exit_code == 0, inside.output);
   const ModelFile made = load_model(member);
   const auto wanted = example_family().specialised({{"gap", 1.5e-3}, {"build", 1}});
@@ -22,5 +23,6 @@ TEST_CASE("a member of a family becomes a model of its own, marked or refused ou
   CHECK(contains(run_dashpot("member " + family + " --set gap=9mm").output, "extrapolates"));
   CHECK(run_dashpot("member " + family + " --set gap=9mm --outside-family refuse").exit_code == 1);
   CHECK(contains(run_dashpot("member " + family + " --set gape=9mm").output, "did you mean 'gap'"));
-  CHECK(contains(run_dashpot("member " + family + " --damper family_prototype").output, "yield_stress"));
+  CHECK(contains(run_dashpot("member " + family + " --damper family_prototype").output,
+                 "yield_stress"));
 }

@@ -19,14 +19,16 @@ TEST_CASE("models NAME: equation, every parameter with its unit, source") {
     const std::string equation(law->equation.substr(0, law->equation.find('\n')));
     CHECK(contains(result.output, equation));
     CHECK(contains(result.output, "Source: "));
-    for (const ParamInfo& p : law->params) CHECK(contains(result.output, "\n" + std::string(p.name) + " "));
+    for (const ParamInfo& p : law->params)
+      CHECK(contains(result.output, "\n" + std::string(p.name) + " "));
   }
 }
 
 TEST_CASE("models --json holds the tables as they stand in the registry") {
   const Value list = parse_json(run_dashpot("models --json").output, "models --json");
   REQUIRE(list.items().size() == model_names().size());
-  const Value one = parse_json(run_dashpot("models bingham --json").output, "models bingham --json");
+  const Value one =
+      parse_json(run_dashpot("models bingham --json").output, "models bingham --json");
   const Law& law = find_law("bingham");
   REQUIRE(one.find("parameters")->items().size() == law.params.size());
   const Value& first = one.find("parameters")->items().front();

@@ -10,7 +10,8 @@ TEST_CASE("physics: every step with its unit, as text and as JSON") {
   for (const PhysicsQuantity& quantity : physics_quantities())
     CHECK(contains(result.output, std::string(quantity.name)));
   const Value json = parse_json(
-      stdout_of_dashpot("physics family_prototype --current 0.25 --velocity 34mm/s --json").output, "json");
+      stdout_of_dashpot("physics family_prototype --current 0.25 --velocity 34mm/s --json").output,
+      "json");
   CHECK(json.find("quantities")->items().size() == physics_quantities().size());
   CHECK(json.find("velocity")->as_number() == 0.034);
 }

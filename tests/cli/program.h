@@ -35,33 +35,37 @@ inline std::vector<std::string> shell_commands(const std::string& page) {
   return commands;
 }
 
-/// A command as a page has it, which says "dashpot" and "python3 ../dashpot/examples/...": for where we are.
+/// A command as a page has it, which says "dashpot" and "python3 ../dashpot/examples/...": for
+/// where we are.
 inline std::string command_here(const std::string& command) {
   const std::string python = "python3 ../dashpot/";
-  if (command.starts_with(python)) return "/usr/bin/python3 " + project_file(command.substr(python.size()));
+  if (command.starts_with(python))
+    return "/usr/bin/python3 " + project_file(command.substr(python.size()));
   REQUIRE(command.starts_with("dashpot "));
   return program_path() + " " + command.substr(8);
 }
 
 /// Runs them in an empty folder, one after the other.
-inline void check_commands_run(const std::vector<std::string>& commands, const TemporaryFolder& folder) {
+inline void check_commands_run(const std::vector<std::string>& commands,
+                               const TemporaryFolder& folder) {
   for (const std::string& command : commands) {
-    const ProgramResult result = run_program("cd " + folder.path().string() + " && " + command_here(command));
+    const ProgramResult result =
+        run_program("cd " + folder.path().string() + " && " + command_here(command));
     CAPTURE(command);
     CAPTURE(result.output);
     CHECK(result.exit_code == 0);
   }
 }
 
-/// A campaign of nine short records of a known damper (the published parameters of spencer1997), made
-/// once. Small enough for tests, with enough motion to identify simple models.
+/// A campaign of nine short records of a known damper (the published parameters of spencer1997),
+/// made once. Small enough for tests, with enough motion to identify simple models.
 inline const std::filesystem::path& small_campaign() {
   static const TemporaryFolder folder;
   static const std::filesystem::path path = [] {
     const std::filesystem::path data = folder.path() / "small";
-    const ProgramResult made =
-        run_dashpot("bench --motions 15x1,10x2,5x3 --levels 0,1,2 --cycles 2 --sample-rate 200 --output " +
-                    data.string());
+    const ProgramResult made = run_dashpot(
+        "bench --motions 15x1,10x2,5x3 --levels 0,1,2 --cycles 2 --sample-rate 200 --output " +
+        data.string());
     REQUIRE_MESSAGE(made.exit_code == 0, made.output);
     return data;
   }();

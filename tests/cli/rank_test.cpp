@@ -11,20 +11,22 @@ namespace fs = std::filesystem;
 namespace {
 
 std::string rank_of(const std::string& models, const fs::path& folder) {
-  return "rank " + small_campaign().string() + " --models " + models + " --output " + folder.string();
+  return "rank " + small_campaign().string() + " --models " + models + " --output " +
+         folder.string();
 }
 
 }  // namespace
 
-TEST_CASE("rank: a table, a breakdown, a report, a CSV file; a second call goes on from kept fits") {
+TEST_CASE(
+    "rank: a table, a breakdown, a report, a CSV file; a second call goes on from kept fits") {
   const TemporaryFolder folder;
   const ProgramResult first = stdout_of_dashpot(rank_of("bingham,tanh_kwok", folder.path()));
   REQUIRE(first.exit_code == 0);
   for (const char* part : {"tanh_kwok", "Bounded", "pre-yield N", "1 V", "CPU time"})
     CHECK_MESSAGE(contains(first.output, part), part);
   CHECK(!contains(first.output, "kept from before"));
-  for (const char* file :
-       {"report.html", "report.json", "report.md", "report.csv", "leaderboard.csv", "models/tanh_kwok.json"})
+  for (const char* file : {"report.html", "report.json", "report.md", "report.csv",
+                           "leaderboard.csv", "models/tanh_kwok.json"})
     CHECK_MESSAGE(fs::exists(folder.path() / file), file);
   const Value report = parse_json(read_file(folder.path() / "report.json"), "report.json");
   const Value& best = report.find("models")->items().front();
@@ -39,9 +41,11 @@ TEST_CASE("rank: a table, a breakdown, a report, a CSV file; a second call goes 
   CHECK(!contains(other.output, "kept from before"));
 }
 
-TEST_CASE("rank: an interruption ends it soon, with 130 and no report, and what is finished stays") {
+TEST_CASE(
+    "rank: an interruption ends it soon, with 130 and no report, and what is finished stays") {
   const TemporaryFolder folder;
-  REQUIRE(run_dashpot(rank_of("bingham --leave-out fraction=0.3 --starts 1", folder.path())).exit_code == 0);
+  REQUIRE(run_dashpot(rank_of("bingham --leave-out fraction=0.3 --starts 1", folder.path()))
+              .exit_code == 0);
   fs::remove(folder.path() / "report.html");
   const ProgramResult stopped = run_program(
       "timeout --preserve-status -s INT 1 " + program_path() + " " +
@@ -51,10 +55,12 @@ TEST_CASE("rank: an interruption ends it soon, with 130 and no report, and what 
   CHECK(!fs::exists(folder.path() / "report.html"));
   const ProgramResult again =
       run_dashpot(rank_of("bingham,tanh_kwok --leave-out fraction=0.3 --starts 1", folder.path()));
-  CHECK(contains(again.output, "7 fits kept from before"));  // the final one, and six for the interval
+  CHECK(contains(again.output,
+                 "7 fits kept from before"));  // the final one, and six for the interval
 }
 
-TEST_CASE("rank --markdown prints a part of a page and nothing else on stdout; --json one document") {
+TEST_CASE(
+    "rank --markdown prints a part of a page and nothing else on stdout; --json one document") {
   const TemporaryFolder folder;
   const ProgramResult page = stdout_of_dashpot(rank_of("bingham --markdown", folder.path()));
   CHECK(page.exit_code == 0);
@@ -71,12 +77,13 @@ TEST_CASE("identify fits the usual models unless it is told otherwise; rank fits
   CHECK(contains(help, "(default: usual)"));
   CHECK(contains(run_dashpot("rank --help").output, "(default: all)"));
   const TemporaryFolder folder;
-  const ProgramResult result = run_dashpot("identify " + small_campaign().string() +
-                                           " --models bingham,usual --network members=1,epochs=3 --starts 1 "
-                                           "--leave-out fraction=0.3 --no-report --output " +
-                                           folder.path().string());
+  const ProgramResult result =
+      run_dashpot("identify " + small_campaign().string() +
+                  " --models bingham,usual --network members=1,epochs=3 --starts 1 "
+                  "--leave-out fraction=0.3 --no-report --output " +
+                  folder.path().string());
   CHECK(result.exit_code == 0);
-  for (const char* model : {"bingham", "tanh_kwok", "arctan", "modified_bouc_wen", "large_scale_bouc_wen",
-                            "anfis", "mlp_one_sensor"})
+  for (const char* model : {"bingham", "tanh_kwok", "arctan", "modified_bouc_wen",
+                            "large_scale_bouc_wen", "anfis", "mlp_one_sensor"})
     CHECK_MESSAGE(fs::exists(folder.path() / "models" / (std::string(model) + ".json")), model);
 }

@@ -12,7 +12,8 @@ TEST_CASE("the tour of the README runs in an empty folder, command by command" *
   CHECK(std::filesystem::exists(folder.path() / "results/report.html"));
 }
 
-TEST_CASE("the commands of the guide to suspensions run in an empty folder" * doctest::test_suite("long")) {
+TEST_CASE("the commands of the guide to suspensions run in an empty folder" *
+          doctest::test_suite("long")) {
   const TemporaryFolder folder;
   const auto commands = shell_commands(dashpot::read_file(project_file("docs/suspension.md")));
   REQUIRE(commands.size() >= 8);

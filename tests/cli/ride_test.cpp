@@ -8,7 +8,8 @@ TEST_CASE("ride: two controllers against passive, with a page") {
   const TemporaryFolder folder;
   const std::string out = (folder.path() / "ride").string();
   const ProgramResult result = run_dashpot(
-      "ride --controllers \"skyhook;mix1,crossover=2Hz\" --frequencies 4,8 --held 2 --duration 6 --settling "
+      "ride --controllers \"skyhook;mix1,crossover=2Hz\" --frequencies 4,8 --held 2 --duration 6 "
+      "--settling "
       "4 --chirp 5 "
       "--threads 1 --output " +
       out);
@@ -35,8 +36,8 @@ TEST_CASE("ride: wrong command lines") {
   };
   for (const auto& c : cases) {
     CAPTURE(c.arguments);
-    const ProgramResult result =
-        run_dashpot(std::string("ride ") + c.arguments + " --output " + (folder.path() / "r").string());
+    const ProgramResult result = run_dashpot(std::string("ride ") + c.arguments + " --output " +
+                                             (folder.path() / "r").string());
     CAPTURE(result.output);
     CHECK(result.exit_code == c.exit_code);
     CHECK(contains(result.output, c.message));

@@ -22,7 +22,9 @@ TEST_CASE("simulate: JSON, MATLAB traces, no comparison") {
   const TemporaryFolder folder;
   const std::string out = (folder.path() / "out").string();
   const ProgramResult result = stdout_of_dashpot(
-      "simulate --json --controller skyhook --road step --duration 1 --against none --mat --output " + out);
+      "simulate --json --controller skyhook --road step --duration 1 --against none --mat "
+      "--output " +
+      out);
   REQUIRE(result.exit_code == 0);
   const Value data = parse_json(result.output, "stdout");
   CHECK(data.find("plant")->as_string() == "savaresi_spelta");
@@ -34,16 +36,17 @@ TEST_CASE("simulate: JSON, MATLAB traces, no comparison") {
 TEST_CASE("simulate: a damper of a model file on a lever, asked beyond its data, is told of") {
   const TemporaryFolder folder;
   const std::string results = (folder.path() / "fit").string();
-  REQUIRE(run_dashpot("identify " + small_campaign().string() + " --models bingham --no-report --output " +
-                      results)
+  REQUIRE(run_dashpot("identify " + small_campaign().string() +
+                      " --models bingham --no-report --output " + results)
               .exit_code == 0);
-  const ProgramResult result =
-      run_dashpot("simulate --damper " + results +
-                  "/models/bingham.json,motion_ratio=0.8 --controller skyhook --inverse polynomial --road "
-                  "iso8608,class=E --duration 3");
+  const ProgramResult result = run_dashpot(
+      "simulate --damper " + results +
+      "/models/bingham.json,motion_ratio=0.8 --controller skyhook --inverse polynomial --road "
+      "iso8608,class=E --duration 3");
   CAPTURE(result.output);
   CHECK(result.exit_code == 0);
-  CHECK(contains(result.output, "bingham.json, motion ratio 0.8 is asked beyond its data: velocity "));
+  CHECK(contains(result.output,
+                 "bingham.json, motion ratio 0.8 is asked beyond its data: velocity "));
   CHECK(contains(result.output, "N*s/m between 0 and 2 V at the strut"));
 }
 
@@ -65,15 +68,18 @@ TEST_CASE("simulate: wrong command lines") {
       {"--controller skyhok", "vehicle: unknown controller 'skyhok'; did you mean 'skyhook'?", 1},
       {"--damper viscos", "vehicle: unknown damper 'viscos'; did you mean 'viscous'?", 1},
       {"--plant quartercar", "unknown plant 'quartercar'; did you mean 'quarter_car'?", 1},
-      {"--road isso8608", "--road: unknown motion of the ground 'isso8608'; did you mean 'iso8608'?", 1},
-      {"--controller mix1 --sample-time 0", "vehicle: the controller's sample time is not above 0", 1},
+      {"--road isso8608",
+       "--road: unknown motion of the ground 'isso8608'; did you mean 'iso8608'?", 1},
+      {"--controller mix1 --sample-time 0", "vehicle: the controller's sample time is not above 0",
+       1},
       {"--controller mix1 --max-step 5",
        "simulation: its step is longer than the controller's sample time; at most 0.001 s", 1},
       {"--duration -1", "--duration: -1 is too small", 2},
       {"--list cars", "unknown list 'cars'", 2},
       {"--plant dyke_spencer1996 --damper spencer1997 --road step",
        "--road: 'step' moves no building; earthquake,file=...", 1},
-      {"--inverse numerik --damper spencer1997", "unknown inverse 'numerik'; did you mean 'numeric'?", 1},
+      {"--inverse numerik --damper spencer1997",
+       "unknown inverse 'numerik'; did you mean 'numeric'?", 1},
       {"--tolerance 0", "simulation: a tolerance is not above 0", 1},
   };
   for (const auto& c : cases) {

@@ -1,15 +1,16 @@
 #include <tuple>
 
-#include "../identify/family_example.h"
 #include "dashpot/base/file.h"
 #include "dashpot/base/value.h"
+#include "identify/family_example.h"
 #include "program.h"
 
 using namespace dashpot;
 
 namespace {
 
-/// A family of dampers as the family paper's authors publish theirs: a file of records, and one of inputs.
+/// A family of dampers as the family paper's authors publish theirs: a file of records, and one of
+/// inputs.
 std::filesystem::path write_family(const TemporaryFolder& folder) {
   Value records = Value::object(), inputs = Value::object();
   const Dataset family = small_family();
@@ -43,8 +44,9 @@ std::filesystem::path write_family(const TemporaryFolder& folder) {
 
 }  // namespace
 
-TEST_CASE("study one-sensor on recordings: tables, a page, Markdown and JSON; again from kept fits" *
-          doctest::test_suite("long")) {
+TEST_CASE(
+    "study one-sensor on recordings: tables, a page, Markdown and JSON; again from kept fits" *
+    doctest::test_suite("long")) {
   const TemporaryFolder folder;
   const std::string command = "study one-sensor " + small_campaign().string() +
                               " --models one-sensor,two-sensors,bingham --neurons 1 --output " +
@@ -56,12 +58,14 @@ TEST_CASE("study one-sensor on recordings: tables, a page, Markdown and JSON; ag
   CHECK(contains(read_file(folder.path() / "report.html"), "\"page\":\"document\""));
   CHECK(contains(read_file(folder.path() / "report.md"), "# The one-sensor paper, repeated"));
   const ProgramResult again = stdout_of_dashpot(command + " --json");
-  CHECK(parse_json(again.output, "stdout").find("format")->as_string() == "dashpot one-sensor study 1");
+  CHECK(parse_json(again.output, "stdout").find("format")->as_string() ==
+        "dashpot one-sensor study 1");
   CHECK(contains(run_dashpot(command).output, "kept from before"));
 }
 
 TEST_CASE(
-    "study family: tables, a page, Markdown and JSON; again from kept trainings; other data is refused") {
+    "study family: tables, a page, Markdown and JSON; again from kept trainings; other data is "
+    "refused") {
   const TemporaryFolder folder;
   const std::string output = " --output " + (folder.path() / "out").string();
   CHECK(contains(run_dashpot("study family " + small_campaign().string() + output).output,

@@ -12,15 +12,17 @@ TEST_CASE("closed and full streams, a reader that leaves") {
   const std::string fit = program_path() + " identify " + small_campaign().string() +
                           " --quiet --models bingham --output " + results;
   CHECK(run_program("( " + fit + " <&- >&- 2>&- )").exit_code == 1);
-  CHECK(read_file(results + "/report.json").starts_with("{"));  // the table did not go into the report
+  CHECK(read_file(results + "/report.json")
+            .starts_with("{"));  // the table did not go into the report
 
-  const ProgramResult full =
-      run_program("( " + program_path() + " inspect " + small_campaign().string() + " >/dev/full )");
+  const ProgramResult full = run_program("( " + program_path() + " inspect " +
+                                         small_campaign().string() + " >/dev/full )");
   CHECK(full.exit_code == 1);
   CHECK(contains(full.output, "standard output: cannot be written"));
 
   fs::remove_all(results);
-  const ProgramResult left = run_program("bash -c '" + fit + " 2>&1 | true; exit ${PIPESTATUS[0]}'");
+  const ProgramResult left =
+      run_program("bash -c '" + fit + " 2>&1 | true; exit ${PIPESTATUS[0]}'");
   CHECK(left.exit_code == 128 + 13);  // SIGPIPE, as other programs do
   CHECK(left.output == "");
   CHECK(fs::exists(results + "/report.html"));
@@ -28,8 +30,8 @@ TEST_CASE("closed and full streams, a reader that leaves") {
 
 TEST_CASE("no HOME, a German locale, a terminal of 20 columns") {
   const TemporaryFolder folder;
-  const std::string rest =
-      program_path() + " identify " + small_campaign().string() + " --quiet --models bingham --output ";
+  const std::string rest = program_path() + " identify " + small_campaign().string() +
+                           " --quiet --models bingham --output ";
   const auto report = [&](const std::string& environment, const std::string& name) {
     const ProgramResult result =
         run_program("env " + environment + " " + rest + (folder.path() / name).string());

@@ -25,8 +25,8 @@ TEST_CASE("sweep: a table, a page, rides as CSV and HDF5; more samples go on fro
   CAPTURE(result.output);
   REQUIRE(result.exit_code == 0);
   for (const char* part :
-       {"sweep: 20 vehicles, 3 controllers each", "Against passive", "Weighted acceleration", "What matters",
-        "sprung_mass", "60 rides in", "uniform, 320 ... 520 kg"})
+       {"sweep: 20 vehicles, 3 controllers each", "Against passive", "Weighted acceleration",
+        "What matters", "sprung_mass", "60 rides in", "uniform, 320 ... 520 kg"})
     CHECK_MESSAGE(contains(result.output, part), part);
   for (const char* file : {"sweep.sqlite", "report.html", "report.json", "report.md", "rides.csv",
                            "quantiles.csv", "ratios.csv", "correlations.csv", "sweep.h5"})
@@ -45,19 +45,23 @@ TEST_CASE("sweep: a table, a page, rides as CSV and HDF5; more samples go on fro
   CHECK(run_dashpot(sweep_of("--samples 2 --seed 2 --fresh" + output)).exit_code == 0);
 }
 
-TEST_CASE("sweep: killed at random moments, it goes on, and the tables are the same to the last bit" *
-          doctest::test_suite("long")) {
+TEST_CASE(
+    "sweep: killed at random moments, it goes on, and the tables are the same to the last bit" *
+    doctest::test_suite("long")) {
   const TemporaryFolder folder;
   const fs::path whole = folder.path() / "whole", resumed = folder.path() / "resumed";
   const std::string request = "sweep comfort --duration 6 --samples 200 --threads 2 --output ";
   const auto begin = std::chrono::steady_clock::now();
   REQUIRE(run_dashpot(request + whole.string()).exit_code == 0);
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  Random random(static_cast<std::uint64_t>(std::chrono::system_clock::now().time_since_epoch().count()));
+  const double seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  Random random(
+      static_cast<std::uint64_t>(std::chrono::system_clock::now().time_since_epoch().count()));
   int kills = 0, code = 137;
   for (int k = 0; k < 4 && code == 137; ++k) {
     const std::string moment = format_exact(random.uniform(0.2, 0.6) * seconds);
-    code = run_program("timeout -s KILL " + moment + " " + program_path() + " " + request + resumed.string())
+    code = run_program("timeout -s KILL " + moment + " " + program_path() + " " + request +
+                       resumed.string())
                .exit_code;
     kills += code == 137;
   }
@@ -70,12 +74,14 @@ TEST_CASE("sweep: killed at random moments, it goes on, and the tables are the s
     CHECK_MESSAGE(read_file(resumed / table) == read_file(whole / table), table);
 }
 
-TEST_CASE("sweep: an interruption says what is kept and how to go on" * doctest::test_suite("long")) {
+TEST_CASE("sweep: an interruption says what is kept and how to go on" *
+          doctest::test_suite("long")) {
   const TemporaryFolder folder;
   const std::string log = (folder.path() / "log").string();
   const ProgramResult result = run_program(
-      "( " + program_path() + " " + sweep_of("--samples 1000000 --output " + folder.path().string()) + " > " +
-      log + " 2>&1 & job=$!; for k in $(seq 600); do grep -q 'sweep: ' " + log +
+      "( " + program_path() + " " +
+      sweep_of("--samples 1000000 --output " + folder.path().string()) + " > " + log +
+      " 2>&1 & job=$!; for k in $(seq 600); do grep -q 'sweep: ' " + log +
       " && break; sleep 0.05; done; sleep 0.3; kill -INT $job; wait $job; code=$?; cat " + log +
       "; exit $code )");
   CAPTURE(result.output);
@@ -87,8 +93,8 @@ TEST_CASE("sweep: an interruption says what is kept and how to go on" * doctest:
 
 TEST_CASE("sweep: what cannot be swept is told") {
   const TemporaryFolder folder;
-  const fs::path bad =
-      folder.write("bad.yaml", "plant: savaresi_spelta\nroad: iso8608_fft\nvary:\n  mass: [3 kg]\n");
+  const fs::path bad = folder.write(
+      "bad.yaml", "plant: savaresi_spelta\nroad: iso8608_fft\nvary:\n  mass: [3 kg]\n");
   const std::pair<std::string, std::string> cases[] = {
       {"", "REQUEST: is missing"},
       {"comfrt", "unknown sweep 'comfrt'; did you mean 'comfort'"},

@@ -26,12 +26,13 @@ TEST_CASE("track: every scheme that applies, the numeric one best and within 1 %
   CHECK(schemes.front().find("inverse")->as_string() == "numeric");
   CHECK(number(*schemes.front().find("reachable"), "rms_span_percent") < 1);
   CHECK(number(*schemes.back().find("reachable"), "rms_span_percent") > 5);
-  CHECK(
-      contains(run_dashpot("track --parameters spencer1997 --duration 1").output, "polynomial is left out"));
+  CHECK(contains(run_dashpot("track --parameters spencer1997 --duration 1").output,
+                 "polynomial is left out"));
 }
 
 TEST_CASE("track: a force beyond the damper saturates it, and the table says so") {
-  const Value result = track_json("--parameters kwok2006 --inverse numeric --wanted sine --force 90000");
+  const Value result =
+      track_json("--parameters kwok2006 --inverse numeric --wanted sine --force 90000");
   const Value& scheme = result.find("schemes")->items().front();
   CHECK(number(scheme, "reachable_percent") < 2);
   CHECK(number(scheme, "saturated_percent") > 95);
@@ -39,13 +40,14 @@ TEST_CASE("track: a force beyond the damper saturates it, and the table says so"
 
 TEST_CASE("track: a recording's motion and force, a model file, curves and a picture") {
   const TemporaryFolder folder;
-  const std::string results = (folder.path() / "fit").string(), curves = (folder.path() / "curves").string();
-  REQUIRE(run_dashpot("identify " + small_campaign().string() + " --models bingham --no-report --output " +
-                      results)
+  const std::string results = (folder.path() / "fit").string(),
+                    curves = (folder.path() / "curves").string();
+  REQUIRE(run_dashpot("identify " + small_campaign().string() +
+                      " --models bingham --no-report --output " + results)
               .exit_code == 0);
   const ProgramResult result =
-      run_dashpot("track " + results + "/models/bingham.json --recording " + small_campaign().string() +
-                  " --inverse polynomial,numeric --output " + curves);
+      run_dashpot("track " + results + "/models/bingham.json --recording " +
+                  small_campaign().string() + " --inverse polynomial,numeric --output " + curves);
   CAPTURE(result.output);
   CHECK(result.exit_code == 0);
   CHECK(contains(result.output, "Wanted force: measured, "));
@@ -62,13 +64,15 @@ TEST_CASE("track: wrong command lines") {
   } cases[] = {
       {"track", "needs one damper; give a model file, or --parameters NAME", 2},
       {"track m.json --parameters spencer1997", "needs one damper", 2},
-      {"track --parameters spencer", "unknown parameter set 'spencer'; did you mean 'spencer1997'?", 2},
+      {"track --parameters spencer", "unknown parameter set 'spencer'; did you mean 'spencer1997'?",
+       2},
       {"track --parameters spencer1997 --inverse numerik",
        "unknown inverse 'numerik'; did you mean 'numeric'?", 2},
       {"track --parameters spencer1997 --inverse polynomial", "take the numeric inverse", 1},
       {"track --parameters spencer1997 --duration 0", "must be above 0", 1},
       {"track --parameters spencer1997 --duration 1e9", "at most 1e+07", 1},
-      {"track --parameters labcontrol_bouc_wen", "its data lie at one current only; state the greatest", 1},
+      {"track --parameters labcontrol_bouc_wen",
+       "its data lie at one current only; state the greatest", 1},
       {"track missing.json", "missing.json", 1},
   };
   for (const auto& c : cases) {

@@ -12,7 +12,8 @@ std::string dataset_file(const std::string& entry) {
 
 TEST_CASE("dataset files that cannot be used") {
   const auto with = [](const std::string& text) {
-    return std::vector<std::pair<std::string, std::string>>{{"r_1A.csv", csv()}, {"dataset.yaml", text}};
+    return std::vector<std::pair<std::string, std::string>>{{"r_1A.csv", csv()},
+                                                            {"dataset.yaml", text}};
   };
   const Wrong table[] = {
       {"an unknown key",

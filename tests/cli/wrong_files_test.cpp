@@ -50,8 +50,8 @@ TEST_CASE("file names that are no UTF-8 cost nobody the results") {
   const TemporaryFolder folder;
   for (const char* name : {"a\xFF_1Hz.csv", "b\xFF_2Hz.csv"}) folder.write(name, csv());
   const std::string results = (folder.path() / "out").string();
-  const ProgramResult result =
-      run_dashpot("identify " + folder.path().string() + " --models bingham --quiet --output " + results);
+  const ProgramResult result = run_dashpot("identify " + folder.path().string() +
+                                           " --models bingham --quiet --output " + results);
   CAPTURE(result.output);
   CHECK(result.exit_code == 0);
   CHECK(contains(read_file(results + "/models/bingham.json"), "a\xEF\xBF\xBD_1Hz"));

@@ -5,8 +5,8 @@
 #include "dashpot/base/text.h"
 #include "program.h"
 
-// What people get wrong, end to end: the program ends with its code and says where, what, and what would be
-// right. Messages of single parts are tested beside those parts.
+// What people get wrong, end to end: the program ends with its code and says where, what, and what
+// would be right. Messages of single parts are tested beside those parts.
 
 namespace dashpot {
 
@@ -21,7 +21,8 @@ inline constexpr const char* kNames = "t_s,x_mm,F_N,i_A\n";
 
 /// The sine as CSV below `names`; `change` may alter the cells of a row.
 using Change = std::function<void(int, std::vector<std::string>&)>;
-inline std::string csv(const Change& change = {}, int rows = 300, const std::string& names = kNames) {
+inline std::string csv(const Change& change = {}, int rows = 300,
+                       const std::string& names = kNames) {
   std::string text = names;
   for (int k = 0; k < rows; ++k) {
     std::vector<std::string> row = sine_row(k);

@@ -14,7 +14,8 @@ TEST_CASE("model files that cannot be used") {
     std::string text = good;
     const std::size_t at = text.find(from);
     REQUIRE(at != std::string::npos);
-    return std::vector<std::pair<std::string, std::string>>{{"m.json", text.replace(at, from.size(), to)}};
+    return std::vector<std::pair<std::string, std::string>>{
+        {"m.json", text.replace(at, from.size(), to)}};
   };
   const std::string run = "evaluate DIR/m.json " + small_campaign().string();
   const Wrong table[] = {
@@ -38,7 +39,11 @@ TEST_CASE("model files that cannot be used") {
        run,
        1,
        {"m.json, sample_time: is negative"}},
-      {"cut off", {{"m.json", good.substr(0, good.size() / 2)}}, run, 1, {"m.json:", "not valid JSON"}},
+      {"cut off",
+       {{"m.json", good.substr(0, good.size() / 2)}},
+       run,
+       1,
+       {"m.json:", "not valid JSON"}},
       {"empty", {{"m.json", ""}}, run, 1, {"m.json:1: is not valid JSON"}},
       {"deep", {{"m.json", std::string(100000, '[')}}, run, 1, {"m.json: is nested more than"}},
       {"a folder", {}, "evaluate DIR DIR", 1, {"is a folder, not a file"}},

@@ -8,7 +8,9 @@ std::string cut_mat() {
   // The head of a version 5 file, then an element that promises 4096 bytes and has 8.
   std::string text = "MATLAB 5.0 MAT-file";
   text.resize(124, ' ');
-  return text + std::string("\x00\x01IM\x0e\x00\x00\x00\x00\x10\x00\x00\x06\x00\x00\x00\x08\x00\x00\x00", 20);
+  return text +
+         std::string("\x00\x01IM\x0e\x00\x00\x00\x00\x10\x00\x00\x06\x00\x00\x00\x08\x00\x00\x00",
+                     20);
 }
 
 }  // namespace
@@ -25,9 +27,21 @@ TEST_CASE("recordings that cannot be used") {
        "inspect DIR",
        1,
        {"r.csv:102: force (F_N) is 'abc'", "12.5"}},
-      {"NaN", {{"r.csv", csv(cell(2, "NaN"))}}, "inspect DIR", 1, {"r.csv:102: force (F_N) is 'NaN'"}},
-      {"infinity", {{"r.csv", csv(cell(1, "1e999"))}}, "inspect DIR", 1, {"r.csv:102: displacement"}},
-      {"an empty cell", {{"r.csv", csv(cell(2, ""))}}, "inspect DIR", 1, {"r.csv:102: force (F_N) is empty"}},
+      {"NaN",
+       {{"r.csv", csv(cell(2, "NaN"))}},
+       "inspect DIR",
+       1,
+       {"r.csv:102: force (F_N) is 'NaN'"}},
+      {"infinity",
+       {{"r.csv", csv(cell(1, "1e999"))}},
+       "inspect DIR",
+       1,
+       {"r.csv:102: displacement"}},
+      {"an empty cell",
+       {{"r.csv", csv(cell(2, ""))}},
+       "inspect DIR",
+       1,
+       {"r.csv:102: force (F_N) is empty"}},
       {"time backwards",
        {{"r.csv", csv(cell(0, "0.3"))}},
        "inspect DIR",
@@ -50,9 +64,21 @@ TEST_CASE("recordings that cannot be used") {
        "inspect DIR",
        1,
        {"both displacement", "dataset file"}},
-      {"0 bytes", {{"good_1A.csv", csv()}, {"r.csv", ""}}, "inspect DIR", 1, {"r.csv: is empty (0 bytes)"}},
-      {"one sample", {{"r.csv", csv({}, 1)}}, "inspect DIR", 1, {"r.csv: has 1 sample;", "at least 2"}},
-      {"three samples", {{"r.csv", csv({}, 3)}}, "inspect DIR", 1, {"r.csv: velocity", "only 3 samples"}},
+      {"0 bytes",
+       {{"good_1A.csv", csv()}, {"r.csv", ""}},
+       "inspect DIR",
+       1,
+       {"r.csv: is empty (0 bytes)"}},
+      {"one sample",
+       {{"r.csv", csv({}, 1)}},
+       "inspect DIR",
+       1,
+       {"r.csv: has 1 sample;", "at least 2"}},
+      {"three samples",
+       {{"r.csv", csv({}, 3)}},
+       "inspect DIR",
+       1,
+       {"r.csv: velocity", "only 3 samples"}},
       {"UTF-16",
        {{"r.csv", std::string("\xFF\xFEt\0,\0", 6)}},
        "inspect DIR",
@@ -86,7 +112,11 @@ TEST_CASE("recordings that cannot be used") {
 
 TEST_CASE("recordings that are doubtful are read, and the doubt is said") {
   const Wrong table[] = {
-      {"kN called N", {{"r.csv", csv(scaled(2, 1e-3))}}, "inspect DIR", 0, {" N: is its unit N right?"}},
+      {"kN called N",
+       {{"r.csv", csv(scaled(2, 1e-3))}},
+       "inspect DIR",
+       0,
+       {" N: is its unit N right?"}},
       {"other files",
        {{"r.csv", csv()}, {"photo.jpg", "\xFF\xD8"}, {"notes.txt", "hello\n"}},
        "inspect DIR",

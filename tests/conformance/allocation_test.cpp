@@ -2,16 +2,16 @@
 #include <new>
 
 #include "conformance/laws.h"
-#include "damper/family/example_family.h"
 #include "damper/inverse/inverses.h"
-#include "damper/neural/narx_example.h"
-#include "damper/neural/state_space_example.h"
-#include "dashpot/damper/fuzzy/fuzzy_model.h"
-#include "dashpot/damper/hybrid_model.h"
+#include "damper/kinds/family/example_family.h"
+#include "damper/kinds/narx/narx_example.h"
+#include "damper/kinds/state_space/state_space_example.h"
 #include "dashpot/damper/inverse/registry.h"
-#include "dashpot/damper/neural/hysteresis_network.h"
-#include "dashpot/damper/neural/mlp_evaluator.h"
-#include "dashpot/damper/neural/network_model.h"
+#include "dashpot/damper/kinds/fuzzy/fuzzy_model.h"
+#include "dashpot/damper/kinds/hybrid/hybrid_model.h"
+#include "dashpot/damper/kinds/hysteresis_network/hysteresis_network.h"
+#include "dashpot/damper/kinds/network/network_model.h"
+#include "dashpot/damper/nets/mlp_evaluator.h"
 #include "support.h"
 
 using namespace dashpot;
@@ -49,7 +49,8 @@ void check_stepping(const DamperModel& model) {
   const std::size_t before = allocations;
   for (int k = 0; k < 1000; ++k) {
     model.advance(sine(k * 1e-3, 1), sine((k + 1) * 1e-3, 0.5), 1e-3, state);
-    sum += model.force(sine((k + 1) * 1e-3, 0.5), state) + model.spread(sine((k + 1) * 1e-3, 0.5), state);
+    sum += model.force(sine((k + 1) * 1e-3, 0.5), state) +
+           model.spread(sine((k + 1) * 1e-3, 0.5), state);
   }
   CHECK(allocations == before);
   CHECK(std::isfinite(sum));
@@ -118,7 +119,8 @@ TEST_CASE("stepping a hybrid allocates nothing") {
     network.currents = 2;
     network.initialise(3, 1);
     check_stepping(HybridModel(
-        source, {std::vector<double>(motions), std::vector<double>(motions * (motions + 1) / 2)}, network));
+        source, {std::vector<double>(motions), std::vector<double>(motions * (motions + 1) / 2)},
+        network));
   });
 }
 
@@ -129,7 +131,8 @@ TEST_CASE("stepping a fuzzy model allocates nothing") {
                       .rules = {{0, 1}, {1, 2}},
                       .consequents = {1, 2, 3, 4, 5, 6, 7, 8}};
   const FuzzyModel model(
-      "test", FuzzyInputs({"velocity", "velocity_change", "current"}, {0.01, 0.02}, "test"), sugeno);
+      "test", FuzzyInputs({"velocity", "velocity_change", "current"}, {0.01, 0.02}, "test"),
+      sugeno);
   check_stepping(model);
 }
 
@@ -143,7 +146,8 @@ TEST_CASE("an inverse's command allocates nothing") {
     const std::size_t before = allocations;
     for (int k = 0; k < 1000; ++k) {
       const DamperInput now = sine(k * 1e-3);
-      sum += inverse->command({800 * std::sin(0.02 * k), now.displacement, now.velocity, 0.4, 300}, state);
+      sum += inverse->command({800 * std::sin(0.02 * k), now.displacement, now.velocity, 0.4, 300},
+                              state);
     }
     CHECK(allocations == before);
     CHECK(sum > 0);

@@ -12,7 +12,8 @@ inline bool is_there(const std::string& program) {
 
 /// Of a compiler: looks for the mistakes that the build of the tests looks for.
 #ifdef __SANITIZE_ADDRESS__
-inline const std::string kAsTheTests = "-fsanitize=address,undefined -fno-sanitize-recover=undefined";
+inline const std::string kAsTheTests =
+    "-fsanitize=address,undefined -fno-sanitize-recover=undefined";
 #else
 inline const std::string kAsTheTests;
 #endif
@@ -23,15 +24,17 @@ inline std::string chosen_runner() {
   return runner ? runner : "";
 }
 
-/// Compiles all C in the folder, NAME.c with NAME_test.c, and runs the tests. What fails is printed.
+/// Compiles all C in the folder, NAME.c with NAME_test.c, and runs the tests. What fails is
+/// printed.
 inline ProgramResult compile_and_run(const TemporaryFolder& folder, const std::string& flags,
                                      const std::string& runner = chosen_runner()) {
-  folder.write("check", "cc -std=c99 -pedantic -Wall -Wextra -Wshadow -Wfloat-conversion -Werror " + flags +
-                            " -c $1.c -o $1.o 2> $1.out && cc -std=c99 -w " + flags +
+  folder.write("check", "cc -std=c99 -pedantic -Wall -Wextra -Wshadow -Wfloat-conversion -Werror " +
+                            flags + " -c $1.c -o $1.o 2> $1.out && cc -std=c99 -w " + flags +
                             " $1_test.c $1.o -lm -o $1 && " + runner + " ./$1 > $1.out 2>&1 || " +
                             "{ echo \"FAILED $1\"; head -5 $1.out; exit 1; }\n");
-  return run_program("cd '" + folder.path().string() +
-                     "' && ls *_test.c | sed 's/_test.c//' | xargs -P $(nproc) -I NAME sh check NAME");
+  return run_program(
+      "cd '" + folder.path().string() +
+      "' && ls *_test.c | sed 's/_test.c//' | xargs -P $(nproc) -I NAME sh check NAME");
 }
 
 inline void check_that_it_runs(const TemporaryFolder& folder, const std::string& flags,
@@ -43,13 +46,16 @@ inline void check_that_it_runs(const TemporaryFolder& folder, const std::string&
 
 /// What cppcheck's MISRA add-on says of a source is listed in its header.
 inline void check_misra(const std::filesystem::path& source, const std::string& header) {
-  const ProgramResult result =
-      run_program("cppcheck --addon=misra --quiet --enable=style --std=c99 '" + source.string() + "'");
+  const ProgramResult result = run_program(
+      "cppcheck --addon=misra --quiet --enable=style --std=c99 '" + source.string() + "'");
   CAPTURE(result.output);
   CHECK(result.output.find("error:") == std::string::npos);
-  for (std::size_t at = 0; (at = result.output.find("misra-c2012-", at)) != std::string::npos; ++at) {
+  for (std::size_t at = 0; (at = result.output.find("misra-c2012-", at)) != std::string::npos;
+       ++at) {
     std::size_t end = at + 12;
-    while (std::isdigit(static_cast<unsigned char>(result.output[end])) || result.output[end] == '.') ++end;
+    while (std::isdigit(static_cast<unsigned char>(result.output[end])) ||
+           result.output[end] == '.')
+      ++end;
     const std::string rule = result.output.substr(at + 12, end - at - 12);
     CAPTURE(rule);
     CHECK(header.find(' ' + rule) != std::string::npos);

@@ -6,7 +6,8 @@ using namespace dashpot;
 
 namespace {
 
-std::vector<ExportedFile> exported_controller(const Vehicle& vehicle, const ExportOptions& options) {
+std::vector<ExportedFile> exported_controller(const Vehicle& vehicle,
+                                              const ExportOptions& options) {
   return write_c_block(c_controller_block(vehicle, options), "");
 }
 
@@ -42,7 +43,8 @@ TEST_CASE(
     for (const CPrecision precision : {CPrecision::Double, CPrecision::Single}) {
       CBlock block = one.block({.precision = precision});
       block.name += precision == CPrecision::Double ? "_d" : "_s";
-      for (const ExportedFile& file : write_c_block(block, "")) folder.write(file.name, file.content);
+      for (const ExportedFile& file : write_c_block(block, ""))
+        folder.write(file.name, file.content);
     }
   check_that_it_runs(folder, kAsTheTests);
 }
@@ -86,10 +88,9 @@ int main(void) {
     const double wave = sin(0.03 * k) + sin(0.009 * k);
     input.struts[0].deflection = (k % 100 == 0) ? NAN : 0.01 * wave;
 )" +
-            std::string(
-                std::string(law) == "feb"
-                    ? ""
-                    : "    input.struts[0].body_acceleration = (k % 70 == 0) ? NAN : 3 * cos(0.03 * k);\n") +
+            std::string(std::string(law) == "feb" ? ""
+                                                  : "    input.struts[0].body_acceleration = (k % "
+                                                    "70 == 0) ? NAN : 3 * cos(0.03 * k);\n") +
             R"(
     x_step(&model, &input, commands);
     if (!(commands[0] >= 0 && commands[0] <= 1)) return 1;
@@ -110,7 +111,8 @@ TEST_CASE("exported controllers: what cppcheck's MISRA add-on says is listed in 
   if (!is_there("cppcheck")) return;
   const TemporaryFolder folder;
   for (const BlockCase& one : controller_cases()) {
-    if (one.name != "selector_q" && one.name != "full_car" && one.name != "spencer_numeric") continue;
+    if (one.name != "selector_q" && one.name != "full_car" && one.name != "spencer_numeric")
+      continue;
     CAPTURE(one.name);
     const std::vector<ExportedFile> files = write_c_block(one.block({}), "");
     folder.write(files[0].name, files[0].content);
@@ -130,6 +132,7 @@ TEST_CASE("a vehicle that cannot become C is refused, with what would be right")
       .dampers = {"spencer1997", "spencer1997,motion_ratio=0.9", "spencer1997", "spencer1997"},
       .controller = "skyhook_modified",
       .inverse = "heaviside"};
-  CHECK(message_of([&] { exported_controller(make_vehicle(four), {}); }).find("one damper for all") !=
-        std::string::npos);
+  CHECK(message_of([&] {
+          exported_controller(make_vehicle(four), {});
+        }).find("one damper for all") != std::string::npos);
 }

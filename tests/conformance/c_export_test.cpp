@@ -2,9 +2,9 @@
 
 #include "c_compile.h"
 #include "damper/inverse/example_network.h"
-#include "dashpot/output/exporters/c_inverse.h"
-#include "dashpot/output/exporters/c_source.h"
-#include "output/exporters/example_models.h"
+#include "dashpot/export/c/c_inverse.h"
+#include "dashpot/export/c/c_source.h"
+#include "export/example_models.h"
 #include "support.h"
 
 using namespace dashpot;
@@ -13,22 +13,24 @@ namespace {
 
 void write_all(const TemporaryFolder& folder, CPrecision precision) {
   for (const ExampleModel& example : example_models())
-    for (const ExportedFile& file :
-         write_c_source(exported(*example.model), {.name = example.name + "_x", .precision = precision}))
+    for (const ExportedFile& file : write_c_source(
+             exported(*example.model), {.name = example.name + "_x", .precision = precision}))
       folder.write(file.name, file.content);
 }
 
 }  // namespace
 
-TEST_CASE("exported C: every kind of model in double precision gives the library's force within 1e-12") {
+TEST_CASE(
+    "exported C: every kind of model in double precision gives the library's force within 1e-12") {
   if (!is_there("cc")) return;
   const TemporaryFolder folder;
   write_all(folder, CPrecision::Double);
   check_that_it_runs(folder, kAsTheTests);
 }
 
-TEST_CASE("exported C: every kind of model in single precision gives it within 1e-5, without a double" *
-          doctest::test_suite("long")) {
+TEST_CASE(
+    "exported C: every kind of model in single precision gives it within 1e-5, without a double" *
+    doctest::test_suite("long")) {
   if (!is_there("cc")) return;
   const TemporaryFolder folder;
   write_all(folder, CPrecision::Single);
@@ -40,11 +42,15 @@ TEST_CASE("exported C: every inverse network gives the library's currents, in bo
   const TemporaryFolder folder;
   for (const InverseNetworkPreset& preset : inverse_network_presets())
     for (const CPrecision precision : {CPrecision::Double, CPrecision::Single}) {
-      InverseFile inverse{.network = example_network(preset), .domain = {-0.02, 0.02, -0.3, 0.3, 0, 1}};
+      InverseFile inverse{.network = example_network(preset),
+                          .domain = {-0.02, 0.02, -0.3, 0.3, 0, 1}};
       inverse.network.rate_max = 30;
-      const std::string name = std::string(preset.name) + (precision == CPrecision::Double ? "_d" : "_s");
+      const std::string name =
+          std::string(preset.name) + (precision == CPrecision::Double ? "_d" : "_s");
       for (const ExportedFile& file : write_c_block(
-               c_inverse_block(inverse, {.name = name, .precision = precision, .sample_time = 2.5e-3}), ""))
+               c_inverse_block(inverse,
+                               {.name = name, .precision = precision, .sample_time = 2.5e-3}),
+               ""))
         folder.write(file.name, file.content);
     }
   check_that_it_runs(folder, kAsTheTests);

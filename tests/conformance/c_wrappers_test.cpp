@@ -1,11 +1,11 @@
-#include "dashpot/output/exporters/c_wrappers.h"
+#include "dashpot/export/c/c_wrappers.h"
 
 #include "c_compile.h"
 #include "dashpot/base/file.h"
 #include "dashpot/base/text.h"
-#include "dashpot/output/exporters/c_source.h"
-#include "dashpot/output/exporters/export_run.h"
-#include "output/exporters/example_models.h"
+#include "dashpot/export/c/c_source.h"
+#include "dashpot/export/export_run.h"
+#include "export/example_models.h"
 #include "support.h"
 
 using namespace dashpot;
@@ -28,7 +28,8 @@ std::vector<std::vector<double>> run_of(const DamperModel& model) {
 std::string run_header(const DamperModel& model) {
   std::string rows;
   for (const std::vector<double>& row : run_of(model)) rows += "  " + c_numbers(row) + ",\n";
-  return "#define SAMPLE_TIME " + c_number(kStep) + "\nstatic const double kRun[][4] = {\n" + rows + "};\n";
+  return "#define SAMPLE_TIME " + c_number(kStep) + "\nstatic const double kRun[][4] = {\n" + rows +
+         "};\n";
 }
 
 std::string run_csv(const DamperModel& model) {
@@ -64,23 +65,27 @@ TEST_CASE("exported S-function: it steps as Simulink steps it, and gives the lib
   for_each_kind([](const ExampleModel& example) {
     CAPTURE(example.name);
     const TemporaryFolder folder;
-    write_all(folder, write_sfunction(exported(*example.model), {.name = "x", .sample_time = kStep}));
+    write_all(folder,
+              write_sfunction(exported(*example.model), {.name = "x", .sample_time = kStep}));
     folder.write("run.h", run_header(*example.model));
-    const ProgramResult result =
-        run_in(folder, "cc -std=c99 -Wall -Wextra -Werror -isystem '" +
-                           project_file("tests/conformance/simulink") + "' -I. x_sfun.c x.c -lm -o x && ./x");
+    const ProgramResult result = run_in(folder, "cc -std=c99 -Wall -Wextra -Werror -isystem '" +
+                                                    project_file("tests/conformance/simulink") +
+                                                    "' -I. x_sfun.c x.c -lm -o x && ./x");
     CAPTURE(result.output);
     CHECK(result.exit_code == 0);
   });
 }
 
-TEST_CASE("exported Modelica package: its library builds as it says, its C part gives the library's force" *
-          doctest::test_suite("long")) {
+TEST_CASE(
+    "exported Modelica package: its library builds as it says, its C part gives the library's "
+    "force" *
+    doctest::test_suite("long")) {
   if (!is_there("cc")) return;
   for_each_kind([](const ExampleModel& example) {
     CAPTURE(example.name);
     const TemporaryFolder folder;
-    write_all(folder, write_modelica(exported(*example.model), {.name = "x", .sample_time = kStep}));
+    write_all(folder,
+              write_modelica(exported(*example.model), {.name = "x", .sample_time = kStep}));
     folder.write("run.h", run_header(*example.model));
     folder.write("main.c", R"(#include <math.h>
 #include "run.h"
@@ -99,10 +104,10 @@ int main(void) {
 )");
     const std::string package = read_file(folder.path() / "x/package.mo");
     const std::size_t from = package.find("<pre>") + 5, to = package.find("</pre>");
-    const ProgramResult result =
-        run_in(folder, "(cd x && " + package.substr(from, to - from) +
-                           ") && cc -std=c99 -Wall -Wextra -Werror -I. -Ix/Resources/Include main.c "
-                           "-Lx/Resources/Library/linux64 -lx -lm -o check && ./check");
+    const ProgramResult result = run_in(
+        folder, "(cd x && " + package.substr(from, to - from) +
+                    ") && cc -std=c99 -Wall -Wextra -Werror -I. -Ix/Resources/Include main.c "
+                    "-Lx/Resources/Library/linux64 -lx -lm -o check && ./check");
     CAPTURE(result.output);
     CHECK(result.exit_code == 0);
   });
@@ -112,12 +117,13 @@ TEST_CASE("exported Modelica package: what begins ends, and what is called is th
   const LawModel model = example_law(find_law("bouc_wen"));
   ExportedModel said = exported(model);
   said.origin = "two \"lines\"\nof it";
-  const std::vector<ExportedFile> files =
-      write_modelica(said, {.name = "front", .sample_time = kStep, .command = "dashpot export \"<x>\""});
+  const std::vector<ExportedFile> files = write_modelica(
+      said, {.name = "front", .sample_time = kStep, .command = "dashpot export \"<x>\""});
   REQUIRE(files.back().name == "front/package.mo");
   const std::string& text = files.back().content;
-  for (const char* name : {"package front", "class Damper", "function constructor", "function destructor",
-                           "impure function sample_force", "block ForceBlock", "model ForceElement"}) {
+  for (const char* name :
+       {"package front", "class Damper", "function constructor", "function destructor",
+        "impure function sample_force", "block ForceBlock", "model ForceElement"}) {
     CAPTURE(name);
     CHECK(text.find(name) != std::string::npos);
     const std::string last = split(name, ' ').back();
@@ -132,7 +138,8 @@ TEST_CASE("exported Modelica package: what begins ends, and what is called is th
   CHECK(text.find("&lt;x&gt;") != std::string::npos);
 }
 
-TEST_CASE("exported MEX: Octave builds it and gets the library's force" * doctest::test_suite("long")) {
+TEST_CASE("exported MEX: Octave builds it and gets the library's force" *
+          doctest::test_suite("long")) {
   if (!is_there("mkoctfile") || !is_there("octave-cli")) return;
   const TemporaryFolder folder;
   std::string commands, checks;
@@ -144,14 +151,15 @@ TEST_CASE("exported MEX: Octave builds it and gets the library's force" * doctes
                                   {.name = name, .precision = precision, .sample_time = kStep}));
       folder.write(name + ".csv", run_csv(*example.model));
       commands += "mkoctfile --mex " + name + "_mex.c " + name + ".c && ";
-      checks +=
-          "run = csvread('" + name + ".csv'); f = " + name +
-          "_mex(run(:, 1:3)); e = max(abs(f - run(:, 4))) / (max(run(:, 4)) - min(run(:, 4))); printf('" +
-          name + " %g\\n', e); assert(e <= " + (single ? "1e-5" : "1e-12") + ");\n";
+      checks += "run = csvread('" + name + ".csv'); f = " + name +
+                "_mex(run(:, 1:3)); e = max(abs(f - run(:, 4))) / (max(run(:, 4)) - min(run(:, "
+                "4))); printf('" +
+                name + " %g\\n', e); assert(e <= " + (single ? "1e-5" : "1e-12") + ");\n";
     }
   });
   checks +=
-      "try\n mlp_d_mex(1); error('a scalar was taken');\ncatch e\n assert(!isempty(strfind(e.message, 'one "
+      "try\n mlp_d_mex(1); error('a scalar was taken');\ncatch e\n "
+      "assert(!isempty(strfind(e.message, 'one "
       "matrix')));\nend\n";
   folder.write("check.m", checks);
   const ProgramResult result = run_in(folder, commands + "octave-cli --norc --quiet check.m");

@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "dashpot/damper/inverse/registry.h"
-#include "dashpot/output/exporters/c_controller.h"
-#include "dashpot/output/exporters/c_inverse.h"
-#include "output/exporters/example_models.h"
+#include "dashpot/export/c/c_controller.h"
+#include "dashpot/export/c/c_inverse.h"
+#include "export/example_models.h"
 
 /// A controller or an inverse, with a name in C.
 struct BlockCase {
@@ -14,8 +14,8 @@ struct BlockCase {
   dashpot::CBlockMaker block;
 };
 
-/// Every law on a quarter car, with true signals and with a car's sensors; laws of the whole plant on a full
-/// car; the ways from a force to a current.
+/// Every law on a quarter car, with true signals and with a car's sensors; laws of the whole plant
+/// on a full car; the ways from a force to a current.
 inline std::vector<BlockCase> controller_cases() {
   using namespace dashpot;
   std::vector<BlockCase> all;
@@ -29,18 +29,23 @@ inline std::vector<BlockCase> controller_cases() {
   for (const ControlLaw* law : control_laws()) {
     const std::string name(law->name);
     add(name + "_q", {.controller = name});
-    if (!law->needs_plant_state) add(name + "_car", {.controller = name, .sensors = {.in_car = true}});
+    if (!law->needs_plant_state)
+      add(name + "_car", {.controller = name, .sensors = {.in_car = true}});
   }
   add("selector_q",
       {.controller = "selector(skyhook_modified/feb),crossover=3Hz", .sensors = {.in_car = true}});
   add("twice_q", {.controller = "selector(feb/feb)"});
-  add("full_car", {.plant = "ikenaga2000", .dampers = {"ideal"}, .controller = "clipped_lqr,force=1e-8"});
-  add("full_skyhook",
-      {.plant = "ikenaga2000", .dampers = {"ideal"}, .controller = "feb", .sensors = {.in_car = true}});
+  add("full_car",
+      {.plant = "ikenaga2000", .dampers = {"ideal"}, .controller = "clipped_lqr,force=1e-8"});
+  add("full_skyhook", {.plant = "ikenaga2000",
+                       .dampers = {"ideal"},
+                       .controller = "feb",
+                       .sensors = {.in_car = true}});
   for (const char* inverse :
        {"numeric", "heaviside", "signum", "modified_clipped_optimal", "clipped_optimal"})
-    add(std::string("spencer_") + inverse,
-        {.dampers = {"spencer1997,motion_ratio=0.8"}, .controller = "skyhook_modified", .inverse = inverse});
+    add(std::string("spencer_") + inverse, {.dampers = {"spencer1997,motion_ratio=0.8"},
+                                            .controller = "skyhook_modified",
+                                            .inverse = inverse});
   add("spencer_loop", {.dampers = {"spencer1997,motion_ratio=0.8"},
                        .controller = "skyhook_modified",
                        .inverse = "numeric",

@@ -1,10 +1,10 @@
 #include <sstream>
 
 #include "dashpot/base/file.h"
-#include "dashpot/output/exporters/c_controller.h"
-#include "dashpot/output/exporters/c_source.h"
-#include "dashpot/output/exporters/export_run.h"
-#include "output/exporters/example_models.h"
+#include "dashpot/export/c/c_controller.h"
+#include "dashpot/export/c/c_source.h"
+#include "dashpot/export/export_run.h"
+#include "export/example_models.h"
 #include "support.h"
 
 using namespace dashpot;
@@ -27,16 +27,19 @@ bool are_there(const std::vector<std::string>& programs) {
 std::vector<ExampleModel> ecu_models() {
   std::vector<ExampleModel> models;
   for (ExampleModel& example : example_models())
-    for (const char* name : {"bouc_wen", "modified_bouc_wen", "narx", "state_space", "fuzzy", "mlp"})
+    for (const char* name :
+         {"bouc_wen", "modified_bouc_wen", "narx", "state_space", "fuzzy", "mlp"})
       if (example.name == name) models.push_back(std::move(example));
   const StateNetworkPreset& preset = find_state_network_preset("hysteresis_network");
   std::vector<BankNetwork> members;
   for (std::size_t m = 0; m < preset.members; ++m) {
     BankNetwork member;
-    for (std::size_t k = 0; k < preset.path_states; ++k) member.bank.path_rates.push_back(20.0 * (k + 1));
+    for (std::size_t k = 0; k < preset.path_states; ++k)
+      member.bank.path_rates.push_back(20.0 * (k + 1));
     for (std::size_t k = 0; k < preset.velocity_lags; ++k)
       member.bank.velocity_rates.push_back(10.0 * (k + 1));
-    for (std::size_t k = 0; k < preset.current_lags; ++k) member.bank.current_rates.push_back(30.0 * (k + 1));
+    for (std::size_t k = 0; k < preset.current_lags; ++k)
+      member.bank.current_rates.push_back(30.0 * (k + 1));
     member.network.signals.resize(member.bank.signal_count());
     member.network.signals.front().scale = 0.2;
     member.network.currents = preset.current_lags;
@@ -46,7 +49,8 @@ std::vector<ExampleModel> ecu_models() {
     member.network.output_scale = 1000;
     members.push_back(std::move(member));
   }
-  models.push_back({"bank", std::make_shared<HysteresisNetwork>("hysteresis_network", std::move(members))});
+  models.push_back(
+      {"bank", std::make_shared<HysteresisNetwork>("hysteresis_network", std::move(members))});
   return models;
 }
 
@@ -59,22 +63,25 @@ struct Board {
   std::string includes, list, functions;
 
   /// `next`: the body of a function of a model and k that returns what is expected at k.
-  void add(const std::string& prefix, const std::vector<double>& expected, const std::string& next) {
+  void add(const std::string& prefix, const std::vector<double>& expected,
+           const std::string& next) {
     includes += "#include \"" + prefix + ".h\"\n";
     list += " X(" + prefix + ")";
-    functions += table(prefix + "_expected", expected) + "static __attribute__((noipa)) double " + prefix +
-                 "_next(" + prefix + "_model* model, int k) {\n" + next + "}\n";
+    functions += table(prefix + "_expected", expected) + "static __attribute__((noipa)) double " +
+                 prefix + "_next(" + prefix + "_model* model, int k) {\n" + next + "}\n";
   }
 };
 
-/// From an accelerometer to a command; from a demand to a current by search on a model and by a network.
+/// From an accelerometer to a command; from a demand to a current by search on a model and by a
+/// network.
 std::vector<std::pair<std::string, VehicleWords>> ecu_controllers() {
   const VehicleWords search{.dampers = {"spencer1997"},
                             .controller = "skyhook_modified",
                             .inverse = "numeric",
                             .sensors = {.in_car = true}};
   return {{"mix1", {.controller = "mix1", .sensors = {.in_car = true}}},
-          {"lqr", {.plant = "ikenaga2000", .dampers = {"ideal"}, .controller = "clipped_lqr,force=1e-8"}},
+          {"lqr",
+           {.plant = "ikenaga2000", .dampers = {"ideal"}, .controller = "clipped_lqr,force=1e-8"}},
           {"search", search}};
 }
 
@@ -96,8 +103,8 @@ void write_controllers(const TemporaryFolder& folder, Board& board) {
       for (const CPort& port : block.inputs)
         for (std::size_t k = 0; k < port.count; ++k)
           next += "  input." + port.at(k) + " = row[" + std::to_string(place++) + "];\n";
-      board.functions +=
-          "static const double " + prefix + "_rows[][" + std::to_string(place) + "] = {\n" + numbers + "};\n";
+      board.functions += "static const double " + prefix + "_rows[][" + std::to_string(place) +
+                         "] = {\n" + numbers + "};\n";
       board.add(prefix, expected,
                 filled(R"(  const double* row = @prefix@_rows[k];
   static @prefix@_input input;
@@ -121,23 +128,27 @@ void write_models(const TemporaryFolder& folder) {
   for (const ExampleModel& example : ecu_models()) {
     const ExportedModel model = exported(*example.model);
     for (const CPrecision precision : {CPrecision::Double, CPrecision::Single}) {
-      const std::string prefix = example.name + (precision == CPrecision::Single ? "_float" : "_double");
-      const CSource source = c_source(model, {.name = prefix, .precision = precision, .sample_time = 1e-3});
+      const std::string prefix =
+          example.name + (precision == CPrecision::Single ? "_float" : "_double");
+      const CSource source =
+          c_source(model, {.name = prefix, .precision = precision, .sample_time = 1e-3});
       run = export_run(model.domain, source.sample_time, kSteps);
       folder.write(prefix + ".h", source.header);
       folder.write(prefix + ".c", source.source);
-      board.add(prefix, force_along(*example.model, run, source.sample_time),
-                filled(R"(  const @prefix@_input input = {kInputs[k][0], kInputs[k][1], kInputs[k][2]};
+      board.add(
+          prefix, force_along(*example.model, run, source.sample_time),
+          filled(R"(  const @prefix@_input input = {kInputs[k][0], kInputs[k][1], kInputs[k][2]};
   if (k > 0) return @prefix@_step(model, &input);
   @prefix@_reset(model, &input);
   return @prefix@_force(&input, model->state);
 )",
-                       {{"prefix", prefix}}));
+                 {{"prefix", prefix}}));
     }
   }
   std::string inputs;
   for (const DamperInput& input : run)
-    inputs += "  " + c_numbers(std::vector{input.displacement, input.velocity, input.current}) + ",\n";
+    inputs +=
+        "  " + c_numbers(std::vector{input.displacement, input.velocity, input.current}) + ",\n";
   write_controllers(folder, board);
   folder.write("models.h", board.includes + "\n#define STEPS " + std::to_string(kSteps) +
                                "\n#define MODELS(X)" + board.list +
@@ -148,14 +159,17 @@ void write_models(const TemporaryFolder& folder) {
 ProgramResult run_on_board(const TemporaryFolder& folder) {
   for (const char* name : {"board.h", "board.c", "main.c", "ecu.ld"})
     folder.write(name, read_file(project_file(std::string("tests/conformance/ecu/") + name)));
-  return run_program(
-      "cd '" + folder.path().string() +
-      "' && arm-none-eabi-gcc -std=gnu99 -O2 -mcpu=cortex-m4 -mthumb -mfloat-abi=hard -mfpu=fpv4-sp-d16 "
-      "-ffunction-sections -Wl,--gc-sections -nostartfiles --specs=nosys.specs -T ecu.ld *.c -lm -o ecu.elf "
-      "&& "
-      // A tick of SysTick is 1/168 us; an instruction takes 32 ns of qemu's time: what counts is the ratio.
-      "timeout 60 qemu-system-arm -M netduinoplus2 -nographic -monitor none -serial null -icount shift=5 "
-      "-semihosting-config enable=on,target=native -kernel ecu.elf");
+  return run_program("cd '" + folder.path().string() +
+                     "' && arm-none-eabi-gcc -std=gnu99 -O2 -mcpu=cortex-m4 -mthumb "
+                     "-mfloat-abi=hard -mfpu=fpv4-sp-d16 "
+                     "-ffunction-sections -Wl,--gc-sections -nostartfiles --specs=nosys.specs -T "
+                     "ecu.ld *.c -lm -o ecu.elf "
+                     "&& "
+                     // A tick of SysTick is 1/168 us; an instruction takes 32 ns of qemu's time:
+                     // what counts is the ratio.
+                     "timeout 60 qemu-system-arm -M netduinoplus2 -nographic -monitor none -serial "
+                     "null -icount shift=5 "
+                     "-semihosting-config enable=on,target=native -kernel ecu.elf");
 }
 
 /// B, by the project's own script; it reads the program that ran.
@@ -186,7 +200,8 @@ TEST_CASE("exported C on a Cortex-M4F: the library's numbers, within 100 us a st
     const double bound = stack_bound(folder, name + "_next");
     CHECK(stack <= bound);
     CHECK(bound <= 2 * stack + 400);  // by what may be, not by what was
-    MESSAGE(name << ": " << instructions << " instructions, stack " << stack << " B, at most " << bound);
+    MESSAGE(name << ": " << instructions << " instructions, stack " << stack << " B, at most "
+                 << bound);
     const bool single = name.ends_with("_float");
     CHECK(difference <= (single ? 1e7 : 1));  // in 1e-12 of the span
     CHECK(stack > 0);

@@ -1,11 +1,11 @@
 #include "conformance/laws.h"
-#include "damper/family/example_family.h"
-#include "damper/neural/bank_network_example.h"
-#include "damper/neural/narx_example.h"
-#include "damper/neural/state_space_example.h"
-#include "dashpot/damper/hybrid_model.h"
-#include "dashpot/damper/neural/hysteresis_network.h"
-#include "dashpot/damper/neural/narx_model.h"
+#include "damper/kinds/family/example_family.h"
+#include "damper/kinds/narx/narx_example.h"
+#include "damper/kinds/state_space/state_space_example.h"
+#include "damper/nets/bank_network_example.h"
+#include "dashpot/damper/kinds/hybrid/hybrid_model.h"
+#include "dashpot/damper/kinds/hysteresis_network/hysteresis_network.h"
+#include "dashpot/damper/kinds/narx/narx_model.h"
 #include "support.h"
 
 using namespace dashpot;
@@ -27,7 +27,8 @@ void check_flow(const DamperModel& model) {
       std::vector<double> later = state;
       model.advance(now, now, kShort, later);
       for (std::size_t z = 0; z < state.size(); ++z)
-        CHECK_CLOSE(rates[z], (later[z] - state[z]) / kShort, 1e-3, 1e-6 * (1 + std::abs(state[z])) / kStep);
+        CHECK_CLOSE(rates[z], (later[z] - state[z]) / kShort, 1e-3,
+                    1e-6 * (1 + std::abs(state[z])) / kStep);
     }
     model.advance(now, sine((k + 1) * kStep, 0.5 + 0.1 * std::sin(0.1 * (k + 1))), kStep, state);
   }
@@ -56,7 +57,8 @@ TEST_CASE("rates of states are what a short step makes of them: networks, famili
   network.currents = 2;
   network.initialise(3, 1);
   check_flow(HybridModel(
-      source, {std::vector<double>(motions), std::vector<double>(motions * (motions + 1) / 2)}, network));
+      source, {std::vector<double>(motions), std::vector<double>(motions * (motions + 1) / 2)},
+      network));
 }
 
 TEST_CASE("a model whose memory goes by its own clock does not flow") {

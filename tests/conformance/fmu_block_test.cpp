@@ -1,7 +1,7 @@
 // FMUs of controllers and inverses, driven along the runs that their C is checked along.
 #include "control_cases.h"
 #include "dashpot/base/parallel.h"
-#include "output/exporters/fmu_importer.h"
+#include "export/fmu_importer.h"
 
 using namespace dashpot;
 
@@ -9,7 +9,8 @@ namespace {
 
 /// Sets what is known at each sample, then reads the commands there.
 void check_commands(const LoadedFmu& fmu, const CBlock& block) {
-  const std::size_t inputs = block.samples[0].inputs.size(), commands = block.samples[0].commands.size();
+  const std::size_t inputs = block.samples[0].inputs.size(),
+                    commands = block.samples[0].commands.size();
   std::vector<unsigned> outputs(commands);
   std::iota(outputs.begin(), outputs.end(), static_cast<unsigned>(1 + inputs));
   FmuInstance instance(fmu, false);
@@ -20,7 +21,8 @@ void check_commands(const LoadedFmu& fmu, const CBlock& block) {
     if (k == 0) {
       instance.initialize_at(sample.inputs);
     } else {
-      REQUIRE(instance.step(static_cast<double>(k - 1) * block.sample_time, block.sample_time) == 0);
+      REQUIRE(instance.step(static_cast<double>(k - 1) * block.sample_time, block.sample_time) ==
+              0);
       REQUIRE(instance.set_inputs(sample.inputs) == 0);
     }
     REQUIRE(instance.get(outputs, read) == 0);
@@ -32,7 +34,8 @@ void check_commands(const LoadedFmu& fmu, const CBlock& block) {
 
 }  // namespace
 
-TEST_CASE("FMUs of every controller and inverse give the library's commands" * doctest::test_suite("long")) {
+TEST_CASE("FMUs of every controller and inverse give the library's commands" *
+          doctest::test_suite("long")) {
   if (!has_compiler()) return;
   std::vector<BlockCase> cases = block_cases();
   // Coils that lag make the same FMUs but for the C, which is run without an FMU.

@@ -2,8 +2,8 @@
 #include <set>
 
 #include "dashpot/base/parallel.h"
-#include "dashpot/output/exporters/export_run.h"
-#include "output/exporters/fmu_importer.h"
+#include "dashpot/export/export_run.h"
+#include "export/fmu_importer.h"
 
 using namespace dashpot;
 
@@ -36,7 +36,8 @@ void check_co_simulation(const LoadedFmu& fmu, const DamperModel& model) {
 }
 
 /// What the equations give at a state: the law's own derivative, behind the coil's lag.
-std::vector<double> slopes(const LawModel& law, const DamperInput& input, const std::vector<double>& state) {
+std::vector<double> slopes(const LawModel& law, const DamperInput& input,
+                           const std::vector<double>& state) {
   std::vector<double> p(law.law().params.size()), slope(state.size());
   law.parameters_at(law.coil_current(input, state), p.data());
   if (law.law().derivative)
@@ -62,11 +63,11 @@ void check_model_exchange(const LoadedFmu& fmu, const DamperModel& model) {
     model.advance(run[k - 1], run[k], kStep, state);
     REQUIRE(fmu.call("SetTime", instance.handle, static_cast<double>(k) * kStep) == 0);
     REQUIRE(instance.set(run[k]) == 0);
-    REQUIRE(fmu.call("SetContinuousStates", instance.handle, static_cast<const double*>(state.data()),
-                     state.size()) == 0);
+    REQUIRE(fmu.call("SetContinuousStates", instance.handle,
+                     static_cast<const double*>(state.data()), state.size()) == 0);
     CHECK_CLOSE(instance.get("f"), model.force(run[k], state), 0, 1e-12 * span);
-    REQUIRE(fmu.call(fmu.version == 2 ? "GetDerivatives" : "GetContinuousStateDerivatives", instance.handle,
-                     slope.data(), slope.size()) == 0);
+    REQUIRE(fmu.call(fmu.version == 2 ? "GetDerivatives" : "GetContinuousStateDerivatives",
+                     instance.handle, slope.data(), slope.size()) == 0);
     if (!law) continue;
     const std::vector<double> expected = slopes(*law, run[k], state);
     // Differences of large terms: 1e-12 of what goes into them.
@@ -77,7 +78,8 @@ void check_model_exchange(const LoadedFmu& fmu, const DamperModel& model) {
 
 }  // namespace
 
-TEST_CASE("FMUs of every kind of model give the library's numbers in co-simulation and model exchange") {
+TEST_CASE(
+    "FMUs of every kind of model give the library's numbers in co-simulation and model exchange") {
   if (!has_compiler()) return;
   const std::vector<ExampleModel> models = example_models();
   // Every model once, as FMI 3 or FMI 2 in turn, and one of each kind as both.

@@ -7,8 +7,8 @@ using namespace dashpot;
 
 namespace {
 
-/// Force at the end of 20 ms in `steps` steps: a motion that a straight line describes exactly, so that what
-/// is left is the integrator's error.
+/// Force at the end of 20 ms in `steps` steps: a motion that a straight line describes exactly, so
+/// that what is left is the integrator's error.
 double force_after_ramp(const LawModel& model, int steps) {
   const auto at = [](double s) { return DamperInput{1e-5 * s, 0.002 + 0.001 * s, 0.2 + 0.3 * s}; };
   std::vector<double> state(model.state_size());
@@ -18,7 +18,8 @@ double force_after_ramp(const LawModel& model, int steps) {
   return model.force(at(1), state);
 }
 
-/// Force shortly before the motion turns, where every loop is open: the force then feels the states.
+/// Force shortly before the motion turns, where every loop is open: the force then feels the
+/// states.
 double force_on_sine(const LawModel& model, int steps) {
   const double end = 0.24;
   std::vector<double> state(model.state_size());
@@ -28,7 +29,8 @@ double force_on_sine(const LawModel& model, int steps) {
   return model.force(sine(end), state);
 }
 
-/// Infinite where the coarse run is as good as rounding lets the fine one be: an exact step, or a standstill.
+/// Infinite where the coarse run is as good as rounding lets the fine one be: an exact step, or a
+/// standstill.
 template <class Run>
 double measured_order(Run run, int steps) {
   const double exact = run(64 * steps), error = std::abs(run(steps) - exact);
@@ -41,7 +43,8 @@ double measured_order(Run run, int steps) {
 TEST_CASE("laws with states: order 4 under inputs that are straight lines, 2 under a sine") {
   for_each_law([](const Law& law) {
     if (law.states.empty()) return;
-    // Every parameter grows with the current, which lags: the stages must see it at their own times.
+    // Every parameter grows with the current, which lags: the stages must see it at their own
+    // times.
     Dependence d;
     for (const ParamInfo& info : law.params) {
       d.forms.push_back(info.fit == Fit::Fixed ? Form::Constant : Form::Linear);

@@ -11,8 +11,8 @@
 #include "dashpot/damper/inverse/numeric.h"
 #include "dashpot/damper/inverse/registry.h"
 #include "dashpot/damper/parameter_set.h"
-#include "dashpot/identify/fit_inverse.h"
-#include "dashpot/identify/track.h"
+#include "dashpot/identify/fit/fit_inverse.h"
+#include "dashpot/identify/judge/track.h"
 #include "support.h"
 
 using namespace dashpot;
@@ -25,9 +25,11 @@ Motion test_motion() {
   return random_motion({.frequency = 3, .duration = 3, .sample_time = kSampleTime, .seed = 3});
 }
 
-TrackReport track_numeric(const LawModel& model, const Motion& motion, const std::vector<double>& wanted) {
+TrackReport track_numeric(const LawModel& model, const Motion& motion,
+                          const std::vector<double>& wanted) {
   const DriverOptions driver = driver_of(model, {});
-  return track(model, NumericInverse(model, limits_of(driver, kSampleTime)), Driver(driver), motion, wanted);
+  return track(model, NumericInverse(model, limits_of(driver, kSampleTime)), Driver(driver), motion,
+               wanted);
 }
 
 /// Mostly of ordinary size, now and then huge, tiny or not finite.
@@ -57,8 +59,8 @@ std::size_t bad_commands(const InverseModel& inverse, std::size_t calls, Random&
   std::size_t bad = 0;
   for (std::size_t k = 0; k < calls; ++k) {
     const double current =
-        inverse.command({any_number(1000, random), any_number(0.01, random), any_number(0.1, random),
-                         any_number(1, random), any_number(1000, random)},
+        inverse.command({any_number(1000, random), any_number(0.01, random),
+                         any_number(0.1, random), any_number(1, random), any_number(1000, random)},
                         state);
     bad += !(current >= inverse.limits().current_min && current <= inverse.limits().current_max);
   }
@@ -74,20 +76,22 @@ std::optional<std::size_t> thorough_calls() {
 
 }  // namespace
 
-TEST_CASE("the numeric inverse tracks a random admissible force to 1 % of its span, for every law") {
+TEST_CASE(
+    "the numeric inverse tracks a random admissible force to 1 % of its span, for every law") {
   const Motion motion = test_motion();
   for_each_law([&](const Law& law) {
     for (const double lag_rate : {0.0, 150.0}) {
       CAPTURE(lag_rate);
       const LawModel model = driven(law, lag_rate);
       const InverseLimits limits = limits_of(driver_of(model, {}), kSampleTime);
-      const TrackReport report = track_numeric(model, motion, admissible_force(model, motion, limits, 2, 7));
+      const TrackReport report =
+          track_numeric(model, motion, admissible_force(model, motion, limits, 2, 7));
       // Least where only the states feel the current: what one horizon can change is less than all.
       CHECK(report.reachable_share > 60);
       CHECK(report.reachable.rms_span <= 1);
-      MESSAGE(law.name << ", lag " << lag_rate << " 1/s: " << report.reachable.rms_span << " % rms, "
-                       << 100 * report.reachable.max_error / report.span << " % at most, in reach "
-                       << report.reachable_share << " % of the time");
+      MESSAGE(law.name << ", lag " << lag_rate << " 1/s: " << report.reachable.rms_span
+                       << " % rms, " << 100 * report.reachable.max_error / report.span
+                       << " % at most, in reach " << report.reachable_share << " % of the time");
     }
   });
 }
@@ -98,7 +102,8 @@ TEST_CASE("a force out of reach saturates the current, and the report says so, f
     const LawModel model = driven(law, 0);
     const Observer observer(model, {});
     std::vector<double> wanted;
-    for (const double v : motion.velocity) wanted.push_back(std::copysign(100 * observer.force_max(), v));
+    for (const double v : motion.velocity)
+      wanted.push_back(std::copysign(100 * observer.force_max(), v));
     const TrackReport report = track_numeric(model, motion, wanted);
     CHECK(report.reachable_share == 0);
     // All but the instants at which more current means less force, or none.
@@ -107,7 +112,8 @@ TEST_CASE("a force out of reach saturates the current, and the report says so, f
 }
 
 TEST_CASE("no inverse gives a current that is NaN or beyond its limits, whatever it is asked") {
-  const std::size_t calls = thorough_calls().value_or(100000) / (laws().size() * inverse_schemes().size());
+  const std::size_t calls =
+      thorough_calls().value_or(100000) / (laws().size() * inverse_schemes().size());
   std::size_t made = 0;
   for_each_law([&](const Law& law) {
     Random random(17);
@@ -118,13 +124,15 @@ TEST_CASE("no inverse gives a current that is NaN or beyond its limits, whatever
         const bool taught = scheme.name.starts_with("neural");
         if (taught && (&law != laws().front() || lag_rate > 0) && !thorough_calls()) continue;
         try {
-          const auto inverse = scheme.make(driven(law, 100), {.current_min = 0.1, .lag_rate = lag_rate});
+          const auto inverse =
+              scheme.make(driven(law, 100), {.current_min = 0.1, .lag_rate = lag_rate});
           CHECK(inverse->name() == scheme.name);
           CHECK(bad_commands(*inverse, calls / 2, random) == 0);
           made += calls / 2;
         } catch (const Error& error) {
           CHECK(scheme.name == "polynomial");  // the only one that may not apply
-          CHECK(std::string(error.what()).find("no polynomial of the current") != std::string::npos);
+          CHECK(std::string(error.what()).find("no polynomial of the current") !=
+                std::string::npos);
         }
       }
   });
@@ -139,8 +147,8 @@ TEST_CASE("no inverse network gives a current that is NaN or beyond its limits, 
     InverseNetwork network = example_network(preset);
     for (const double rate_max : {0.0, 40.0}) {
       network.rate_max = rate_max;
-      CHECK(bad_commands(HistoryNetwork(network, {.current_min = 0.1, .lag_rate = 100}), calls / 2, random) ==
-            0);
+      CHECK(bad_commands(HistoryNetwork(network, {.current_min = 0.1, .lag_rate = 100}), calls / 2,
+                         random) == 0);
     }
   }
 }
@@ -163,14 +171,14 @@ TEST_CASE("an inverse network follows an admissible force to 5 % of its span, fo
       training.current_max = set.drive_max;
       const TaughtInverse taught = train_inverse(preset, runs[0], runs[1], training);
       for (const InverseTrial& trial : inverse_trials(set.model, {}, limits)) {
-        const TrackReport report = track(set.model, HistoryNetwork(taught.network, limits), Driver(driver),
-                                         trial.motion, trial.wanted);
+        const TrackReport report = track(set.model, HistoryNetwork(taught.network, limits),
+                                         Driver(driver), trial.motion, trial.wanted);
         CAPTURE(std::string(preset.name));
         CAPTURE(trial.name);
         CHECK(report.reachable_share > 60);
         CHECK(report.reachable.rms_span < 5);
-        MESSAGE(name << ", " << preset.name << ", " << trial.name << ": " << report.reachable.rms_span
-                     << " % rms");
+        MESSAGE(name << ", " << preset.name << ", " << trial.name << ": "
+                     << report.reachable.rms_span << " % rms");
       }
     }
   }
@@ -181,11 +189,13 @@ TEST_CASE("every preset of an inverse network says what it is, in alphabetical o
   for (const InverseNetworkPreset& preset : inverse_network_presets()) {
     CHECK(before < preset.name);
     before = preset.name;
-    for (const std::string_view text : {preset.title, preset.equation, preset.source, preset.remarks})
+    for (const std::string_view text :
+         {preset.title, preset.equation, preset.source, preset.remarks})
       CHECK_FALSE(text.empty());
     require_usable(example_network(preset), std::string(preset.name));
     // The equation counts the inputs.
-    CHECK(preset.equation.find(",  " + std::to_string(preset.taps.size()) + "-") != std::string_view::npos);
+    CHECK(preset.equation.find(",  " + std::to_string(preset.taps.size()) + "-") !=
+          std::string_view::npos);
   }
   CHECK(message_of([] {
           find_inverse_network("meterd", "--network");
@@ -197,7 +207,8 @@ TEST_CASE("every scheme says what it is, in alphabetical order") {
   for (const InverseScheme& scheme : inverse_schemes()) {
     CHECK(before < scheme.name);
     before = scheme.name;
-    for (const std::string_view text : {scheme.title, scheme.equation, scheme.source, scheme.remarks})
+    for (const std::string_view text :
+         {scheme.title, scheme.equation, scheme.source, scheme.remarks})
       CHECK_FALSE(text.empty());
   }
   CHECK(message_of([] {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "dashpot/damper/law_model.h"
+#include "dashpot/damper/kinds/law/law_model.h"
 #include "dashpot/damper/registry.h"
 #include "support.h"
 

@@ -43,7 +43,9 @@ double middle(const std::vector<Sample>& cycle) {
 
 }  // namespace
 
-TEST_CASE("every field of a law's struct stands in its table, with a name of its own and what docs need") {
+TEST_CASE(
+    "every field of a law's struct stands in its table, with a name of its own and what docs "
+    "need") {
   for_each_law([](const Law& law) {
     std::set<std::string_view> names;
     for (const ParamInfo& info : law.params) {
@@ -74,16 +76,19 @@ TEST_CASE("bounds hold the default; one parameter in N is the bias, and adds to 
     const LawModel model = LawModel::constant(law, defaults(law));
     std::vector<double> state(model.state_size());
     model.rest(sine(0), state);
-    CHECK_CLOSE(model.with_offset(7)->force(sine(0.1), state), model.force(sine(0.1), state) + 7, 1e-12, 0);
+    CHECK_CLOSE(model.with_offset(7)->force(sine(0.1), state), model.force(sine(0.1), state) + 7,
+                1e-12, 0);
   });
 }
 
-TEST_CASE("a parameter of the table is the field of the struct that its place says: the force feels it") {
+TEST_CASE(
+    "a parameter of the table is the field of the struct that its place says: the force feels it") {
   for_each_law([](const Law& law) {
     const double z[kMaxStates] = {0.004, 0.003, 0, 0, 0, 0, 0, 0};
     const auto response = [&](const std::vector<double>& p) {
       double sum = 0;
-      // some parameters count in one direction only, those of a map within their own range of speeds
+      // some parameters count in one direction only, those of a map within their own range of
+      // speeds
       for (double v = 0.002; v < 0.5; v *= 1.5)
         for (const double sign : {1.0, -2.0}) {
           double dz[kMaxStates] = {};
@@ -117,7 +122,8 @@ TEST_CASE("force and derivative are finite wherever the bounds allow") {
       bool finite = std::isfinite(law.force(p.data(), x, v, z));
       if (law.derivative) {
         law.derivative(p.data(), x, v, z, dz);
-        finite &= std::all_of(std::begin(dz), std::end(dz), [](double d) { return std::isfinite(d); });
+        finite &=
+            std::all_of(std::begin(dz), std::end(dz), [](double d) { return std::isfinite(d); });
         finite &= law.rate(p.data(), v) >= 0 && std::isfinite(law.rate(p.data(), v));
       }
       CHECK(finite);
@@ -161,7 +167,8 @@ TEST_CASE("a cycle dissipates: the F-x loop runs clockwise, for the defaults and
 }
 
 TEST_CASE(
-    "hysteresis runs counter-clockwise in F-v: on the rising branch the force crosses its middle at v > 0") {
+    "hysteresis runs counter-clockwise in F-v: on the rising branch the force crosses its middle "
+    "at v > 0") {
   for_each_law([](const Law& law) {
     const std::vector<Sample> cycle = steady_cycle(LawModel::constant(law, defaults(law)));
     const double centre = middle(cycle);

@@ -4,8 +4,8 @@
 #include "dashpot/base/parallel.h"
 #include "dashpot/base/random.h"
 #include "dashpot/damper/inverse/wanted.h"
-#include "dashpot/damper/law_model.h"
-#include "dashpot/damper/neural/narx_model.h"
+#include "dashpot/damper/kinds/law/law_model.h"
+#include "dashpot/damper/kinds/narx/narx_model.h"
 #include "dashpot/damper/parameter_set.h"
 #include "dashpot/identify/identify.h"
 #include "support.h"
@@ -74,7 +74,8 @@ std::shared_ptr<const DamperModel> trained_model(const DamperModel& damper, std:
   NetworkDesign& design = options.network;
   design.hidden = {2 + random.index(9)};
   if (random.uniform() < 0.3) design.hidden.push_back(2 + random.index(5));
-  design.activation = choose(Activation::Tanh, Activation::Relu, Activation::Sigmoid, Activation::Identity);
+  design.activation =
+      choose(Activation::Tanh, Activation::Relu, Activation::Sigmoid, Activation::Identity);
   design.delays = random.index(4);
   design.feedback = 1 + random.index(4);
   design.spacing = 1 + random.index(3);
@@ -82,9 +83,11 @@ std::shared_ptr<const DamperModel> trained_model(const DamperModel& damper, std:
   design.l2 = std::pow(10, random.uniform(-9, -3));
   design.training = choose(FeedbackTraining::SeriesParallel, FeedbackTraining::SeriesParallel,
                            FeedbackTraining::SeriesParallel, FeedbackTraining::FreeRun);
-  design.output = choose(OutputRange::Linear, OutputRange::Linear, OutputRange::Linear, OutputRange::Bounded);
+  design.output =
+      choose(OutputRange::Linear, OutputRange::Linear, OutputRange::Linear, OutputRange::Bounded);
   const double noise = choose(0.0, 1.0, 10.0, 100.0);
-  const std::vector<Record> records{record_of(random_run(damper, 200 + random.index(300), noise, seed + 1))};
+  const std::vector<Record> records{
+      record_of(random_run(damper, 200 + random.index(300), noise, seed + 1))};
   return identify(choose("narx_one_sensor", "narx_two_sensors"), records, "A", options).model;
 }
 
@@ -105,7 +108,8 @@ Outcome outcome_of(const NarxModel& model, const Run& run) {
     if (k > 0) model.advance(run.inputs[k - 1], run.inputs[k], kSampleTime, state);
     const double force = model.force(run.inputs[k], state);
     outcome.not_numbers += !std::isfinite(force);
-    outcome.beyond += !(std::abs(force - mlp.output_mean) <= (NarxModel::kRange + 1e-9) * mlp.output_scale);
+    outcome.beyond +=
+        !(std::abs(force - mlp.output_mean) <= (NarxModel::kRange + 1e-9) * mlp.output_scale);
     if (!outcome.diverged_at && model.has_diverged(state)) outcome.diverged_at = run.time[k];
   }
   return outcome;
@@ -142,6 +146,6 @@ TEST_CASE("no trained NARX model gives NaN, and each divergence is told with its
     bounded_diverged += outcomes[k].is_bounded && told[k];
   }
   CHECK(bounded_diverged == 0);
-  MESSAGE(models << " models, " << run.inputs.size() << " samples each: " << diverged << " diverged; of "
-                 << bounded << " with a bounded output, " << bounded_diverged);
+  MESSAGE(models << " models, " << run.inputs.size() << " samples each: " << diverged
+                 << " diverged; of " << bounded << " with a bounded output, " << bounded_diverged);
 }

@@ -1,10 +1,10 @@
 #include "c_compile.h"
 #include "dashpot/base/file.h"
 #include "dashpot/base/text.h"
-#include "dashpot/output/exporters/force_map.h"
+#include "dashpot/export/tables/force_map.h"
 #include "dashpot/record/dataset.h"
 #include "dashpot/record/record_file.h"
-#include "output/exporters/example_models.h"
+#include "export/example_models.h"
 #include "support.h"
 
 using namespace dashpot;
@@ -24,9 +24,10 @@ TEST_CASE("Octave reads the tables and recordings that Dashpot writes as MAT") {
   const LawModel model = example_law(find_law("bingham"));
   for (const ExportedFile& file : write_tables(exported(model), {.name = "map"}))
     write_file(folder.path() / file.name, file.content);
-  const auto csv = folder.write("run.csv",
-                                "t[s],displacement[m],velocity[m/s],current[A],force[N]\n0,0,1,0.5,3\n"
-                                "0.1,0.1,2,0.5,5\n0.2,0.3,1,0.5,2.25\n");
+  const auto csv =
+      folder.write("run.csv",
+                   "t[s],displacement[m],velocity[m/s],current[A],force[N]\n0,0,1,0.5,3\n"
+                   "0.1,0.1,2,0.5,5\n0.2,0.3,1,0.5,2.25\n");
   save_mat(load_dataset({csv}).records.front(), folder.path() / "run.mat");
   const ProgramResult result = octave(folder, R"(map = load('map.mat');
 table = csvread('map_force.csv');

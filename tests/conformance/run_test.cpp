@@ -1,7 +1,7 @@
 #include <limits>
 
-#include "dashpot/output/exporters/export_run.h"
-#include "output/exporters/example_models.h"
+#include "dashpot/export/export_run.h"
+#include "export/example_models.h"
 #include "support.h"
 
 using namespace dashpot;
@@ -32,7 +32,8 @@ void check_run(const DamperModel& model, const std::vector<DamperInput>& inputs)
   Forces got{std::vector<double>(inputs.size(), -1), std::vector<double>(inputs.size(), -1)};
   std::vector<double> state(model.state_size());
   model.rest(inputs.front(), state);
-  CHECK(model.run(inputs, {.step = kStep}, state, {got.force.data(), got.spread.data()}) == inputs.size());
+  CHECK(model.run(inputs, {.step = kStep}, state, {got.force.data(), got.spread.data()}) ==
+        inputs.size());
   CHECK(got.force == expected.force);
   CHECK(got.spread == expected.spread);
 }

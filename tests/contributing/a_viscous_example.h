@@ -2,7 +2,8 @@
  *
  *   F = c v / (1 + |v| / v_1) + f0
  *
- * v m/s (extension positive); F N, same sign as v. No internal state, no hysteresis. Not from the literature.
+ * v m/s (extension positive); F N, same sign as v. No internal state, no hysteresis. Not from the
+ * literature.
  */
 #ifndef DASHPOT_LAW_A_VISCOUS_EXAMPLE_H
 #define DASHPOT_LAW_A_VISCOUS_EXAMPLE_H
@@ -14,7 +15,8 @@ typedef struct AViscousExample {
   double f0;  /* N, offset */
 } AViscousExample;
 
-static inline double a_viscous_example_force(const AViscousExample* p, double x, double v, const double* z) {
+static inline double a_viscous_example_force(const AViscousExample* p, double x, double v,
+                                             const double* z) {
   (void)x, (void)z;
   return p->c * v / (1 + fabs(v) / p->v_1) + p->f0;
 }

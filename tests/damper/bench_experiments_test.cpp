@@ -50,9 +50,11 @@ constexpr double kFastest = 1.5 / (2 * M_PI * 15);  // m: at 15 Hz
 
 }  // namespace
 
-TEST_CASE("a sequence through a viscous damper: force over the exact velocity, current as commanded") {
+TEST_CASE(
+    "a sequence through a viscous damper: force over the exact velocity, current as commanded") {
   const LawModel damper = LawModel::constant(find_law("bingham"), {5000, 0, 0, 0});
-  const BenchTest test = under_sequence(sequence_test("FM,duration=5", 1), "APRBS", {.high = 2, .seed = 3});
+  const BenchTest test =
+      under_sequence(sequence_test("FM,duration=5", 1), "APRBS", {.high = 2, .seed = 3});
   const Record record = record_of(damper, test, without_flaws());
   CHECK(record.name == "FM duration=5, APRBS");
   CHECK(record.condition == "FM duration=5");
@@ -61,7 +63,8 @@ TEST_CASE("a sequence through a viscous damper: force over the exact velocity, c
   const DriveSignal drive = make_drive("APRBS", {.high = 2, .duration = 5, .seed = 3});
   const PistonMotion motion = make_motion("FM,duration=5", 1);
   for (std::size_t k = 0; k < record.size(); k += 13) {
-    CHECK_CLOSE(record.channel("force").samples[k], 5000 * motion.at(record.time[k]).velocity, 0, 1e-6);
+    CHECK_CLOSE(record.channel("force").samples[k], 5000 * motion.at(record.time[k]).velocity, 0,
+                1e-6);
     CHECK_CLOSE(record.channel("velocity").samples[k], motion.at(record.time[k]).velocity, 0, 1e-9);
     CHECK(record.channel("current").samples[k] == drive.at(record.time[k]));
   }
@@ -77,7 +80,8 @@ TEST_CASE("the sensor of velocity has its noise, and changes no other channel") 
   CHECK(with.channel("force").samples == without.channel("force").samples);
   double squares = 0;
   for (std::size_t k = 0; k < with.size(); ++k)
-    squares += std::pow(with.channel("velocity").samples[k] - test.motion.at(with.time[k]).velocity, 2);
+    squares +=
+        std::pow(with.channel("velocity").samples[k] - test.motion.at(with.time[k]).velocity, 2);
   CHECK_CLOSE(std::sqrt(squares / static_cast<double>(with.size())), 0.01, 0.04, 0);
 }
 
@@ -104,12 +108,13 @@ TEST_CASE("the one-sensor paper's table 2: sequences by experiment and damper") 
   const double pass = first[1].motion.duration / 10;
   CHECK(first[1].drive.at(0.99 * pass) == 0);
   CHECK(first[1].drive.at(1.01 * pass) > 0);
-  CHECK_CLOSE(first[1].motion.at(0.3 * pass).displacement, first[1].motion.at(1.3 * pass).displacement, 0,
-              1e-9);
+  CHECK_CLOSE(first[1].motion.at(0.3 * pass).displacement,
+              first[1].motion.at(1.3 * pass).displacement, 0, 1e-9);
   // the transient currents are not the same ones
   CHECK(first[2].drive.at(5) != first[3].drive.at(5));
-  CHECK(message_of([&] { experiment_tests("one-sensor-6", mr1, 1); }).find("did you mean 'one-sensor-") !=
-        std::string::npos);
+  CHECK(message_of([&] {
+          experiment_tests("one-sensor-6", mr1, 1);
+        }).find("did you mean 'one-sensor-") != std::string::npos);
 }
 
 TEST_CASE("the paper's bench: 1650 Hz and a measured velocity") {
@@ -119,7 +124,8 @@ TEST_CASE("the paper's bench: 1650 Hz and a measured velocity") {
   CHECK(bench.force_noise == 0.03);
 }
 
-TEST_CASE("mr1 is shaped like the paper's MR1: +-4000 N, hysteresis at high frequency within +-0.5 m/s") {
+TEST_CASE(
+    "mr1 is shaped like the paper's MR1: +-4000 N, hysteresis at high frequency within +-0.5 m/s") {
   const Loop fast = loop_of("mr1", kFastest, 15, 2.5), slow = loop_of("mr1", 0.025, 1, 2.5);
   CHECK_CLOSE(fast.highest, 4000, 0.05, 0);
   CHECK_CLOSE(fast.lowest, -4000, 0.05, 0);
@@ -168,7 +174,8 @@ TEST_CASE("the second recording of an experiment: other sequences over the same 
     for (std::size_t k = 0; k < first.size(); ++k) {
       CAPTURE(first[k].name);
       double fastest = 0, again = 0, difference = 0;
-      for (double t = 0; t < std::min(first[k].motion.duration, second[k].motion.duration); t += 0.037) {
+      for (double t = 0; t < std::min(first[k].motion.duration, second[k].motion.duration);
+           t += 0.037) {
         const double v = first[k].motion.at(t).velocity, w = second[k].motion.at(t).velocity;
         fastest = std::max(fastest, std::abs(v));
         again = std::max(again, std::abs(w));

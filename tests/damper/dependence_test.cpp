@@ -8,8 +8,9 @@
 using namespace dashpot;
 
 TEST_CASE("parameters follow the current by their form") {
-  const Dependence d{{Form::Constant, Form::Linear, Form::Quadratic, Form::Cubic, Form::Exponential},
-                     {{7}, {1, 2}, {1, 2, 3}, {1, 2, 3, 4}, {1, 9, 0.5}}};
+  const Dependence d{
+      {Form::Constant, Form::Linear, Form::Quadratic, Form::Cubic, Form::Exponential},
+      {{7}, {1, 2}, {1, 2, 3}, {1, 2, 3, 4}, {1, 9, 0.5}}};
   const double at_two[] = {7, 5, 17, 49, 9 - 8 * std::exp(-1.0)};
   for (std::size_t k = 0; k < 5; ++k) CHECK_CLOSE(d.at(k, 2), at_two[k], 1e-15, 0);
   CHECK(d.at(2, 0) == 1);
@@ -17,10 +18,12 @@ TEST_CASE("parameters follow the current by their form") {
 }
 
 TEST_CASE("forms are named, and a wrong name is answered") {
-  for (const Form form : {Form::Constant, Form::Linear, Form::Quadratic, Form::Cubic, Form::Exponential})
+  for (const Form form :
+       {Form::Constant, Form::Linear, Form::Quadratic, Form::Cubic, Form::Exponential})
     CHECK(parse_form(name_of(form), "") == form);
   CHECK(message_of([] { parse_form("linar", "model.json, form"); }) ==
-        "model.json, form: unknown form 'linar'; did you mean 'linear'? known: constant, linear, quadratic, "
+        "model.json, form: unknown form 'linar'; did you mean 'linear'? known: constant, linear, "
+        "quadratic, "
         "cubic, exponential");
 }
 

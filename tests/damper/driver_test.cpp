@@ -34,7 +34,8 @@ TEST_CASE("driver: without lag, rate and period it gives the command, within the
 TEST_CASE("driver: a lag is the exponential, whatever the steps") {
   const Driver driver({.current_max = 2, .lag_rate = 190});
   const double exact = 1.5 + (0.25 - 1.5) * std::exp(-190 * 0.004);
-  for (const int steps : {1, 2, 7}) CHECK_CLOSE(after(driver, 0.25, 1.5, 0.004, steps), exact, 1e-13, 0);
+  for (const int steps : {1, 2, 7})
+    CHECK_CLOSE(after(driver, 0.25, 1.5, 0.004, steps), exact, 1e-13, 0);
 }
 
 TEST_CASE("driver: a rate limit is a ramp, whatever the steps") {
@@ -86,5 +87,6 @@ TEST_CASE("driver: what makes no sense is refused") {
         }).starts_with("driver: the currents 1 ... 1"));
   CHECK(message_of([] { Driver({.rate_max = 0}); }).find("rate limit of 0") != std::string::npos);
   CHECK(message_of([] { Driver({.lag_rate = -1}); }).find("lag rate of -1") != std::string::npos);
-  CHECK(message_of([] { Driver({.period = INFINITY}); }).find("period of inf") != std::string::npos);
+  CHECK(message_of([] { Driver({.period = INFINITY}); }).find("period of inf") !=
+        std::string::npos);
 }

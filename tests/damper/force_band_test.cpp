@@ -7,7 +7,11 @@ using namespace dashpot;
 namespace {
 
 ForceBand example() {
-  return {.level = 0.9, .records = 7, .speeds = {0.1}, .drives = {0, 2}, .half_width = {10, 30, 20, 40}};
+  return {.level = 0.9,
+          .records = 7,
+          .speeds = {0.1},
+          .drives = {0, 2},
+          .half_width = {10, 30, 20, 40}};
 }
 
 }  // namespace
@@ -55,6 +59,7 @@ TEST_CASE("a force band in JSON: there and back, and what is refused") {
   CHECK(refused("[1, 2]", "[1, 1]").find("not in order") != std::string::npos);
   std::string many = text;
   many.replace(many.find("\"records\": 7"), 12, "\"records\": 1e300");  // no count holds it
-  CHECK(message_of([&] { read_force_band(parse_json(many, "m.json")); }).find("records is 1e+300") !=
-        std::string::npos);
+  CHECK(message_of([&] {
+          read_force_band(parse_json(many, "m.json"));
+        }).find("records is 1e+300") != std::string::npos);
 }

@@ -1,13 +1,13 @@
 #include "dashpot/damper/model_file.h"
 
-#include "damper/neural/state_space_example.h"
+#include "damper/kinds/hybrid/hybrid_model_example.h"
+#include "damper/kinds/state_space/state_space_example.h"
 #include "dashpot/base/file.h"
-#include "dashpot/damper/fuzzy/fuzzy_model.h"
-#include "dashpot/damper/hybrid_model.h"
-#include "dashpot/damper/neural/hysteresis_network.h"
-#include "dashpot/damper/neural/network_model.h"
+#include "dashpot/damper/kinds/fuzzy/fuzzy_model.h"
+#include "dashpot/damper/kinds/hybrid/hybrid_model.h"
+#include "dashpot/damper/kinds/hysteresis_network/hysteresis_network.h"
+#include "dashpot/damper/kinds/network/network_model.h"
 #include "dashpot/damper/parameter_set.h"
-#include "hybrid_model_example.h"
 #include "support.h"
 
 using namespace dashpot;
@@ -20,13 +20,19 @@ ModelFile example(std::unique_ptr<DamperModel> model, std::string drive_unit) {
   file.drive_unit = std::move(drive_unit);
   file.sample_time = 1.0 / 3004.8;
   file.domain = {-0.015, 0.015, -0.3, 0.3, 0, 2.25};
-  file.provenance = {
-      "2026-01-02T03:04:05Z", "dashpot identify data", "campaign", "someone", {{"a.csv", "00ff"}}, {"r1"}};
+  file.provenance = {"2026-01-02T03:04:05Z",
+                     "dashpot identify data",
+                     "campaign",
+                     "someone",
+                     {{"a.csv", "00ff"}},
+                     {"r1"}};
   file.quality = Value::object({{"esr", 0.1 + 0.2}});
   return file;
 }
 
-ModelFile spencer() { return example(std::make_unique<LawModel>(load_parameters("spencer1997")), "V"); }
+ModelFile spencer() {
+  return example(std::make_unique<LawModel>(load_parameters("spencer1997")), "V");
+}
 
 Mlp small_network() {
   Mlp mlp;
@@ -64,10 +70,11 @@ TEST_CASE("a law's file comes back as it was, to the last bit") {
 }
 
 TEST_CASE("a network's file comes back as it was, to the last bit") {
-  const ModelFile saved = example(
-      std::make_unique<NetworkModel>("mlp_one_sensor", std::vector<std::string>{"velocity", "current"},
-                                     std::vector{small_network()}, 4.5),
-      "A");
+  const ModelFile saved =
+      example(std::make_unique<NetworkModel>("mlp_one_sensor",
+                                             std::vector<std::string>{"velocity", "current"},
+                                             std::vector{small_network()}, 4.5),
+              "A");
   const ModelFile loaded = parse_model(format_model(saved), "m.json");
   CHECK(format_model(loaded) == format_model(saved));
   for (const double v : {-0.2, 0.0, 0.13})
@@ -81,22 +88,25 @@ TEST_CASE("a fuzzy model's file comes back as it was, to the last bit") {
                       .consequents = {0.1 + 0.2, 4},
                       .output_mean = -3,
                       .output_scale = 812.5};
-  const ModelFile saved =
-      example(std::make_unique<FuzzyModel>("anfis", FuzzyInputs({"velocity"}, {}, "test"), sugeno, 4.5), "A");
+  const ModelFile saved = example(
+      std::make_unique<FuzzyModel>("anfis", FuzzyInputs({"velocity"}, {}, "test"), sugeno, 4.5),
+      "A");
   const ModelFile loaded = parse_model(format_model(saved), "m.json");
   CHECK(format_model(loaded) == format_model(saved));
   CHECK(loaded.model->force({0, 0.13, 0.5}, {}) == saved.model->force({0, 0.13, 0.5}, {}));
 }
 
 TEST_CASE("a state network's file comes back as it was, to the last bit") {
-  const BankNetwork member{.bank = {.path_rates = {100 / 3.0}, .velocity_rates = {}, .current_rates = {50}},
-                           .network = {.signals = {{0, 0.2, -3, 3}, {0, 1, -1, 1}, {1, 1, -1, 1}},
-                                       .currents = 1,
-                                       .neurons = {0.1 + 0.2, 1, -1, 0.5},
-                                       .gates = std::vector<double>(12, 0.7 / 3),
-                                       .output_scale = 812.5}};
-  const ModelFile saved = example(
-      std::make_unique<HysteresisNetwork>("hysteresis_network", std::vector<BankNetwork>{member}, 4.5), "A");
+  const BankNetwork member{
+      .bank = {.path_rates = {100 / 3.0}, .velocity_rates = {}, .current_rates = {50}},
+      .network = {.signals = {{0, 0.2, -3, 3}, {0, 1, -1, 1}, {1, 1, -1, 1}},
+                  .currents = 1,
+                  .neurons = {0.1 + 0.2, 1, -1, 0.5},
+                  .gates = std::vector<double>(12, 0.7 / 3),
+                  .output_scale = 812.5}};
+  const ModelFile saved = example(std::make_unique<HysteresisNetwork>(
+                                      "hysteresis_network", std::vector<BankNetwork>{member}, 4.5),
+                                  "A");
   const ModelFile loaded = parse_model(format_model(saved), "m.json");
   CHECK(format_model(loaded) == format_model(saved));
   const std::vector<double> state{0.3, 0.6};
@@ -104,8 +114,10 @@ TEST_CASE("a state network's file comes back as it was, to the last bit") {
 }
 
 TEST_CASE("a state space's file comes back as it was, to the last bit") {
-  const ModelFile saved = example(
-      std::make_unique<StateSpaceModel>("neural_state_space", std::vector{example_state_space()}, 4.5), "A");
+  const ModelFile saved =
+      example(std::make_unique<StateSpaceModel>("neural_state_space",
+                                                std::vector{example_state_space()}, 4.5),
+              "A");
   const ModelFile loaded = parse_model(format_model(saved), "m.json");
   CHECK(format_model(loaded) == format_model(saved));
   const std::vector<double> state{0.3, 0.6, -0.2, 0.1};
@@ -118,9 +130,11 @@ TEST_CASE("a hybrid's file comes back as it was, to the last bit, and its law ke
   CHECK(format_model(loaded) == format_model(saved));
   std::vector<double> state(saved.model->state_size());
   saved.model->rest({0.01, 0, 0.5}, state);
-  CHECK(loaded.model->force({0.01, 0.13, 0.5}, state) == saved.model->force({0.01, 0.13, 0.5}, state));
+  CHECK(loaded.model->force({0.01, 0.13, 0.5}, state) ==
+        saved.model->force({0.01, 0.13, 0.5}, state));
   CHECK(message_of([&] {
-          parse_model(format_model(example(std::make_unique<HybridModel>(example_hybrid()), "A")), "m.json");
+          parse_model(format_model(example(std::make_unique<HybridModel>(example_hybrid()), "A")),
+                      "m.json");
         }).find("drive_unit is V, but A for the file") != std::string::npos);
 }
 
@@ -130,7 +144,8 @@ TEST_CASE("a model file that cannot be used says where and why") {
     return text.find("m.json") == 0 && text.find(part) != std::string::npos;
   };
   CHECK(mentions(message_after("dashpot-model", "other"), "write dashpot-model"));
-  CHECK(mentions(message_after("\"version\": 1", "\"version\": 2"), "this Dashpot reads version 1"));
+  CHECK(
+      mentions(message_after("\"version\": 1", "\"version\": 2"), "this Dashpot reads version 1"));
   CHECK(mentions(message_after("\"kind\": \"law\"", "\"kind\": \"laws\""), "did you mean 'law'"));
   CHECK(mentions(message_after("\"sample_time\"", "\"sampletime\""), "needs 'sample_time'"));
   CHECK(mentions(message_after("\"quality\"", "\"qualities\""), "unknown key 'qualities'"));
@@ -139,5 +154,6 @@ TEST_CASE("a model file that cannot be used says where and why") {
   CHECK(mentions(message_after("\"drive_unit\": \"V\"", "\"drive_unit\": \"A\""), ""));
   CHECK(mentions(message_after("\"max\": 2.25", "\"max\": 1e9"), "alpha is"));
   CHECK(mentions(message_of([] { parse_model("{\"format\": \"dashpot-model\"", "m.json"); }), ""));
-  CHECK(message_of([] { load_model("/nowhere/m.json"); }).find("/nowhere/m.json") != std::string::npos);
+  CHECK(message_of([] { load_model("/nowhere/m.json"); }).find("/nowhere/m.json") !=
+        std::string::npos);
 }

@@ -26,7 +26,9 @@ TEST_CASE("centimetres are converted: Spencer's set in SI") {
   CHECK(model.drive_unit() == "V");
 }
 
-TEST_CASE("every set that comes with Dashpot loads, holds over its range and says whether it was verified") {
+TEST_CASE(
+    "every set that comes with Dashpot loads, holds over its range and says whether it was "
+    "verified") {
   const std::vector<std::string> names = parameter_set_names();
   CHECK(std::is_sorted(names.begin(), names.end()));
   // everything else is marked [M], from memory, in MODELS.md, or does not meet its data
@@ -52,12 +54,13 @@ TEST_CASE("one value of each set, converted: MODELS.md 4.4 to 4.14") {
        {Case{"braz_cesar_barros2013", "beta", 0, 3.044e6},  // 3.044 mm^-2
         Case{"jansen_dyke2000", "alpha", 2, 2638},          // (8.66 + 2 * 8.86) N/cm
         Case{"jansen_dyke2000", "c0", 1, 1.16}, Case{"labcontrol_bouc_wen", "rho", 0, 27450},
-        Case{"labcontrol_dahl", "rho", 1, 18751.2},                  // 42.745 - 39.038 + 17.881 - 2.8368
+        Case{"labcontrol_dahl", "rho", 1, 18751.2},  // 42.745 - 39.038 + 17.881 - 2.8368
         Case{"large_scale_exponential", "alpha", 1, 388133.045885},  // 5.5e5 - 4.4e5 / e
         Case{"large_scale_exponential", "beta", 0, 5e4}, Case{"ramallo2002", "alpha", 1, 5778800},
         Case{"sakai2003", "sigma_2", 1, 2400},
         Case{"spencer1997_bouc_wen", "gamma", 0, 1e6},  // 100 cm^-2, not 100e-4
-        Case{"spencer1997_bouc_wen", "alpha", 0, 88000}, Case{"spencer1997_fixed_voltage", "beta", 0, 2e6},
+        Case{"spencer1997_bouc_wen", "alpha", 0, 88000},
+        Case{"spencer1997_fixed_voltage", "beta", 0, 2e6},
         Case{"spencer1997_fixed_voltage", "c1", 0, 93000}, Case{"yang2002", "gamma", 1, 647.46}}) {
     CAPTURE(std::string(c.set));
     CAPTURE(std::string(c.param));

@@ -2,22 +2,24 @@
 
 #include <algorithm>
 
-#include "dashpot/damper/family/family_force.h"
+#include "dashpot/damper/kinds/family/family_force.h"
 #include "support.h"
 
 using namespace dashpot;
 
 TEST_CASE(
-    "laws stand in alphabetical order, networks, state networks, fuzzy models, usual hybrids and families "
+    "laws stand in alphabetical order, networks, state networks, fuzzy models, usual hybrids and "
+    "families "
     "follow") {
   const std::vector<std::string> names = model_names();
   const auto others = names.begin() + static_cast<std::ptrdiff_t>(laws().size());
   CHECK(std::is_sorted(names.begin(), others));
   CHECK(std::vector<std::string>(others, names.end()) ==
-        std::vector<std::string>{"mlp_one_sensor", "mlp_two_sensors", "narx_one_sensor", "narx_two_sensors",
-                                 "hysteresis_network", "neural_state_space", "anfis", "takagi_sugeno",
-                                 "large_scale_bouc_wen+network", "modified_bouc_wen+network", "family_gated",
-                                 "family_h3x15", "family_h3x15_residual", "family_h3x15_total"});
+        std::vector<std::string>{"mlp_one_sensor", "mlp_two_sensors", "narx_one_sensor",
+                                 "narx_two_sensors", "hysteresis_network", "neural_state_space",
+                                 "anfis", "takagi_sugeno", "large_scale_bouc_wen+network",
+                                 "modified_bouc_wen+network", "family_gated", "family_h3x15",
+                                 "family_h3x15_residual", "family_h3x15_total"});
   for (const Law* law : laws()) {
     CHECK(&find_law(law->name) == law);
     CHECK(is_law(law->name));
@@ -96,7 +98,8 @@ TEST_CASE("families say their kind and inputs; the paper's network has its eight
 TEST_CASE("an unknown name is answered with the near one") {
   const std::string message = message_of([] { find_law("bingam", "model.json, law"); });
   CHECK(message.find("model.json, law: unknown model 'bingam'; did you mean 'bingham'?") == 0);
-  CHECK(message_of([] { find_network_preset("bingham"); }).find("unknown model") != std::string::npos);
+  CHECK(message_of([] { find_network_preset("bingham"); }).find("unknown model") !=
+        std::string::npos);
   CHECK(message_of([] { find_law("bingham").index_of("c9"); }).find("known: c0, f_c, f0, v_s") !=
         std::string::npos);
 }

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "dashpot/damper/law_model.h"
+#include "dashpot/damper/kinds/law/law_model.h"
 #include "dashpot/damper/registry.h"
 #include "support.h"
 
@@ -42,7 +42,8 @@ TEST_CASE("without flaws the bench gives the closed form: a sine through a visco
     const double t = record.time[k], v = 0.01 * w * std::sin(w * t);
     CHECK_CLOSE(record.channel("displacement").samples[k], -0.01 * std::cos(w * t), 0, 1e-15);
     CHECK_CLOSE(record.channel("force").samples[k], 5000 * v, 0, 1e-9);
-    if (t > 0.2 && t < 3.8) CHECK_CLOSE(record.channel("velocity").samples[k], v, 0, 0.02 * 0.01 * w);
+    if (t > 0.2 && t < 3.8)
+      CHECK_CLOSE(record.channel("velocity").samples[k], v, 0, 0.02 * 0.01 * w);
   }
 }
 
@@ -57,7 +58,8 @@ TEST_CASE("the flaws are as large as asked for") {
   const std::vector<double>& force = record.channel("force").samples;
   for (const double f : force) CHECK(f == 4 * std::round(f / 4));
   // over whole cycles the viscous force has mean 0: what is left is the offset that the note tells
-  const double offset = std::stod(record.notes.at(0).substr(record.notes[0].find_first_of("-0123456789")));
+  const double offset =
+      std::stod(record.notes.at(0).substr(record.notes[0].find_first_of("-0123456789")));
   CHECK(std::abs(offset) < 150);
   CHECK_CLOSE(mean(force), offset, 0, 0.2);
   double squared = 0;
@@ -66,13 +68,14 @@ TEST_CASE("the flaws are as large as asked for") {
     squared += e * e;
   }
   const double noise = 0.01 * 2 * 5000 * 0.01 * 2 * M_PI;  // of the span
-  CHECK_CLOSE(std::sqrt(squared / static_cast<double>(ideal.size())), std::hypot(noise, 4 / std::sqrt(12.0)),
-              0.06, 0);
+  CHECK_CLOSE(std::sqrt(squared / static_cast<double>(ideal.size())),
+              std::hypot(noise, 4 / std::sqrt(12.0)), 0.06, 0);
 }
 
 TEST_CASE("the whole matrix is run, the same for the same seed") {
   const LawModel damper = viscous();
-  const Dataset once = run_virtual_bench(damper, "V", {}), again = run_virtual_bench(damper, "V", {});
+  const Dataset once = run_virtual_bench(damper, "V", {}),
+                again = run_virtual_bench(damper, "V", {});
   BenchOptions other;
   other.seed = 2;
   const Dataset different = run_virtual_bench(damper, "V", other);
@@ -81,7 +84,8 @@ TEST_CASE("the whole matrix is run, the same for the same seed") {
   CHECK(once.notes.at(0).find("\"law\":\"bingham\"") != std::string::npos);
   for (std::size_t k = 0; k < once.records.size(); ++k) {
     CHECK(once.records[k].channel("force").samples == again.records[k].channel("force").samples);
-    CHECK(once.records[k].channel("force").samples != different.records[k].channel("force").samples);
+    CHECK(once.records[k].channel("force").samples !=
+          different.records[k].channel("force").samples);
     CHECK(once.records[k].find("voltage"));
     CHECK(once.records[k].time.back() >= 1 - 1e-9);
   }
@@ -94,8 +98,12 @@ TEST_CASE("a bench that cannot run says why") {
     return message_of([&] { run_virtual_bench(viscous(), "A", options); });
   };
   CHECK(message([](BenchOptions& o) { o.motions.clear(); }).find("no motion") != std::string::npos);
-  CHECK(message([](BenchOptions& o) { o.motions = {{0.01, 200}}; }).find("200 Hz") != std::string::npos);
-  CHECK(message([](BenchOptions& o) { o.sample_rate = 0; }).find("sample rate") != std::string::npos);
-  CHECK(message([](BenchOptions& o) { o.sample_rate = 1e12; }).find("at most 1e+08") != std::string::npos);
-  CHECK(message_of([] { run_virtual_bench(viscous(), "mA", {}); }).find("write A or V") != std::string::npos);
+  CHECK(message([](BenchOptions& o) { o.motions = {{0.01, 200}}; }).find("200 Hz") !=
+        std::string::npos);
+  CHECK(message([](BenchOptions& o) { o.sample_rate = 0; }).find("sample rate") !=
+        std::string::npos);
+  CHECK(message([](BenchOptions& o) { o.sample_rate = 1e12; }).find("at most 1e+08") !=
+        std::string::npos);
+  CHECK(message_of([] { run_virtual_bench(viscous(), "mA", {}); }).find("write A or V") !=
+        std::string::npos);
 }

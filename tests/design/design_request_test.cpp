@@ -6,7 +6,8 @@ using namespace dashpot;
 
 namespace {
 
-std::string request(const std::string& vary, const std::string& rest = "goals: [{minimise: mass}]") {
+std::string request(const std::string& vary,
+                    const std::string& rest = "goals: [{minimise: mass}]") {
   return "damper: passenger_car\nvary:\n  " + vary + "\n" + rest + "\n";
 }
 
@@ -61,16 +62,20 @@ TEST_CASE("design request: what is wrong is named") {
   says(request("gap: []"), "no gap to choose from");
   says(request("gap: {from: 1 mm, to: 2 mm, step: 0}"), "the step is 0");
   says(request("gap: {from: 1 mm, to: 2 mm}", ""), "there is no goal");
-  says(request("gap: {from: 1 mm, to: 2 mm}", "goals: [{minimise: weight}]"), "unknown quantity 'weight'");
-  says(request("gap: {from: 1 mm, to: 2 mm}", "goals: [{minimise: mass, maximise: force}]"), "one quantity");
-  says(request("gap: {from: 1 mm, to: 2 mm}", "goals: [{minimise: mass}]\nconstraints: [{quantity: force}]"),
+  says(request("gap: {from: 1 mm, to: 2 mm}", "goals: [{minimise: weight}]"),
+       "unknown quantity 'weight'");
+  says(request("gap: {from: 1 mm, to: 2 mm}", "goals: [{minimise: mass, maximise: force}]"),
+       "one quantity");
+  says(request("gap: {from: 1 mm, to: 2 mm}",
+               "goals: [{minimise: mass}]\nconstraints: [{quantity: force}]"),
        "no bound");
   says(request("gap: {from: 1 mm, to: 2 mm}",
                "goals: [{minimise: mass}]\nconstraints: [{quantity: force, min: 2 kN, max: 1 kN}]"),
        "min above its max");
   says(request("gap: {from: 1 mm, to: 2 mm}", "goals: [{minimise: mass}]\nrobust: {share: 0.9}"),
        "robust against nothing");
-  says(request("gap: {from: 1 mm, to: 2 mm}", "goals: [{minimise: mass}]\nfollow: {gap: {pole_length: 1}}"),
+  says(request("gap: {from: 1 mm, to: 2 mm}",
+               "goals: [{minimise: mass}]\nfollow: {gap: {pole_length: 1}}"),
        "both varies and follows");
   says(request("fluid: [132DH]"), "unknown fluid");
   says("vary: {gap: [1 mm]}\ngoals: [{minimise: mass}]", "damper");

@@ -8,7 +8,8 @@ using namespace dashpot;
 
 namespace {
 
-// A valve of free width, whose fluid yields at a given stress: what Jolly's and Carlson's rule speaks of.
+// A valve of free width, whose fluid yields at a given stress: what Jolly's and Carlson's rule
+// speaks of.
 constexpr const char* kVolume = R"(
 damper: passenger_car
 at: {velocity: 0.2 m/s}
@@ -49,8 +50,8 @@ DesignReport designed(const std::string& text, DesignOptions options = {}) {
 }  // namespace
 
 TEST_CASE("design: the smallest active volume is that of Jolly and Carlson") {
-  // V = (12 / c^2) (eta / tau^2) lambda W_m: MODELS.md 5.2, recalled. With the pressures 12 eta L Q / (w h^3)
-  // and c tau L / h it is an identity; here c = 2. 132DG: 0.112 Pa s.
+  // V = (12 / c^2) (eta / tau^2) lambda W_m: MODELS.md 5.2, recalled. With the pressures 12 eta L Q
+  // / (w h^3) and c tau L / h it is an identity; here c = 2. 132DG: 0.112 Pa s.
   const DesignReport report = designed(kVolume);
   REQUIRE(report.designs.size() == 1);
   const double rule = 12. / 4 * 0.112 / (30e3 * 30e3) * 8 * 300;
@@ -58,8 +59,8 @@ TEST_CASE("design: the smallest active volume is that of Jolly and Carlson") {
 }
 
 TEST_CASE("design: the gap of the largest control ratio under friction") {
-  // Of a slot of fixed width, a h^-1 / (b h^-3 + f) is largest at h^3 = 2 b / f: there the viscous force is
-  // half of the friction.
+  // Of a slot of fixed width, a h^-1 / (b h^-3 + f) is largest at h^3 = 2 b / f: there the viscous
+  // force is half of the friction.
   const DesignReport report = designed(R"(
 damper: passenger_car
 at: {velocity: 0.2 m/s}
@@ -73,7 +74,9 @@ goals: [{maximise: control_ratio}]
   CHECK_CLOSE(report.designs[0].damper.gap, std::cbrt(2 * b / 50), 1e-3, 0);
 }
 
-TEST_CASE("design: every design of a front holds every constraint when its file is read and assessed anew") {
+TEST_CASE(
+    "design: every design of a front holds every constraint when its file is read and assessed "
+    "anew") {
   const DesignRequest request = parse_request(kFront, "request.yaml");
   DesignOptions options{.threads = 1, .points = 24, .generations = 30};
   const DesignReport report = design(request, options);
@@ -85,7 +88,8 @@ TEST_CASE("design: every design of a front holds every constraint when its file 
       // By the physics alone: none of what the search uses.
       const DesignConstraint& asked = request.constraints[k];
       const DamperPhysics physics = evaluate_physics(read, asked.at);
-      const double figure = asked.quantity->of({read, asked.at, physics, *make_design_model("physics", "")});
+      const double figure =
+          asked.quantity->of({read, asked.at, physics, *make_design_model("physics", "")});
       CHECK((asked.at_least ? figure >= asked.bound : figure <= asked.bound));
       CHECK(figure == own.assessment.constraints[k]);
     }
@@ -128,8 +132,8 @@ TEST_CASE("design: what was found stands when stopped") {
 }
 
 TEST_CASE("design: of conflicting constraints the fewest are named, with what can be reached") {
-  // Power is R I^2 and the current density I / A of the same wire: 1 A/mm^2 at 2 A asks for 1.6 mm. The
-  // others hold everywhere.
+  // Power is R I^2 and the current density I / A of the same wire: 1 A/mm^2 at 2 A asks for 1.6 mm.
+  // The others hold everywhere.
   const DesignReport report = designed(R"(
 damper: passenger_car
 at: {current: 2 A, velocity: 0.3 m/s}
@@ -153,14 +157,15 @@ goals: [{minimise: mass}]
 
 TEST_CASE("design: ranges of which no damper can be drawn are told from constraints") {
   const DesignReport report = designed(
-      "damper: passenger_car\nvary: {rod_diameter: {from: 46 mm, to: 60 mm}}\ngoals: [{minimise: mass}]\n");
+      "damper: passenger_car\nvary: {rod_diameter: {from: 46 mm, to: 60 mm}}\ngoals: [{minimise: "
+      "mass}]\n");
   REQUIRE(report.conflict);
   CHECK(report.conflict->undrawable);
 }
 
 TEST_CASE("design: the share of dampers made moves the optimum inside by the tolerance") {
-  // Area of the wire >= 0.2 mm^2 as the current density at 2 A; of those made within +-0.02 mm nine in ten
-  // must.
+  // Area of the wire >= 0.2 mm^2 as the current density at 2 A; of those made within +-0.02 mm nine
+  // in ten must.
   const std::string text = R"(
 damper: passenger_car
 at: {current: 2 A}

@@ -1,9 +1,9 @@
 #include <filesystem>
 
-#include "damper/family/example_family.h"
+#include "damper/kinds/family/example_family.h"
 #include "dashpot/base/error.h"
 #include "dashpot/design/design.h"
-#include "dashpot/output/design_report.h"
+#include "dashpot/report/design_report.h"
 #include "support.h"
 
 using namespace dashpot;
@@ -36,7 +36,8 @@ DesignReport designed(const std::string& text, DesignOptions options) {
 
 }  // namespace
 
-TEST_CASE("design by a family: a model without a memory gives the force of the member that is drawn") {
+TEST_CASE(
+    "design by a family: a model without a memory gives the force of the member that is drawn") {
   const TemporaryFolder folder;
   const FamilyModel family = example_family_network();
   const auto model = make_design_model(family_file(folder, family), "--model");
@@ -50,11 +51,13 @@ TEST_CASE("design by a family: a model without a memory gives the force of the m
   const double off = family.with_member(member)->force({0.001, 0.02, 0}, {});
   CHECK_CLOSE(told.force, force, 1e-12, 0);
   CHECK_CLOSE(told.off_force, off, 1e-12, 0);
-  CHECK_CLOSE(told.dynamic_range, (force - physics.spring_force) / (off - physics.spring_force), 1e-12, 0);
+  CHECK_CLOSE(told.dynamic_range, (force - physics.spring_force) / (off - physics.spring_force),
+              1e-12, 0);
   CHECK(told.flux_density == physics.flux_density);  // the rest is first principles'
 }
 
-TEST_CASE("design by a family: one with a memory is told in a sine of the stroke of its recordings") {
+TEST_CASE(
+    "design by a family: one with a memory is told in a sine of the stroke of its recordings") {
   const TemporaryFolder folder;
   const auto model = make_design_model(family_file(folder, example_family()), "--model");
   const DamperDescription drawn = named_description("family_prototype");
@@ -94,7 +97,8 @@ TEST_CASE("design beyond a family: marked, or kept within it by a constraint of 
 TEST_CASE("design by two models: constraints and goals of either, and by how much they differ") {
   const TemporaryFolder folder;
   const std::string file = family_file(folder, example_family_network());
-  const std::string request = std::string(kRequest).substr(0, std::string(kRequest).find("goals")) + R"(
+  const std::string request =
+      std::string(kRequest).substr(0, std::string(kRequest).find("goals")) + R"(
 constraints: [{quantity: force, min: 1 N}, {quantity: force, max: 1 MN, by: both}]
 goals: [{maximise: force, by: second}]
 )";
@@ -108,7 +112,8 @@ goals: [{maximise: force, by: second}]
   CHECK_CLOSE(own.disagreement, std::abs(own.second[0] / own.first[0] - 1), 1e-12, 0);
   CHECK(describe(report.request.goals[0]).ends_with(", by the second model"));
   CHECK(constraint_table(report, own, 160).find("family_h3x15") != std::string::npos);
-  CHECK(message_of([&] { designed(request, {.model = file}); }).find("second model") != std::string::npos);
+  CHECK(message_of([&] { designed(request, {.model = file}); }).find("second model") !=
+        std::string::npos);
 }
 
 TEST_CASE("design by a family: what it cannot know is told") {
@@ -120,8 +125,9 @@ TEST_CASE("design by a family: what it cannot know is told") {
   REQUIRE(report.notes.size() == 2);
   CHECK(report.notes[0] == "family_gated knows a current up to 1 A, not of 3 A");
   CHECK(report.notes[1].find("does not see turns:") != std::string::npos);  // it reads the current
-  CHECK(message_of([&] { designed(request, {.model = file, .refuse_outside = true}); }).find("3 A") !=
-        std::string::npos);
+  CHECK(message_of([&] {
+          designed(request, {.model = file, .refuse_outside = true});
+        }).find("3 A") != std::string::npos);
   const std::string law = folder.write("law.json", "{}").string();
   CHECK_THROWS_AS(make_design_model(law, "--model"), Error);
 }

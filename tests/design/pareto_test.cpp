@@ -11,8 +11,8 @@ using namespace dashpot;
 
 namespace {
 
-/// ZDT1 (Zitzler, Deb, Thiele 2000) in four variables: its front is f2 = 1 - sqrt(f1), the others 0. Held: f1
-/// from 0.1 on.
+/// ZDT1 (Zitzler, Deb, Thiele 2000) in four variables: its front is f2 = 1 - sqrt(f1), the others
+/// 0. Held: f1 from 0.1 on.
 FrontProblem zdt1() {
   FrontProblem problem{.size = 4, .goals = 2, .scale = {1, 1}};
   problem.evaluate = [](std::span<const double> x) {

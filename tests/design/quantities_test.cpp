@@ -38,13 +38,13 @@ TEST_CASE("design quantities: sizes by hand") {
   // The ring between the bore, 46 mm, and the outer diameter has the core's 450 mm^2.
   const double outer = figure("outer_diameter", damper, at);
   CHECK_CLOSE(3.14159265358979 / 4 * (outer * outer - 0.046 * 0.046), 450e-6, 1e-12, 0);
-  CHECK_CLOSE(figure("copper_mass", damper, at), 8960 * 120 * 0.1 * 0.25 * 3.14159265358979 * 0.25e-6, 1e-12,
-              0);
+  CHECK_CLOSE(figure("copper_mass", damper, at),
+              8960 * 120 * 0.1 * 0.25 * 3.14159265358979 * 0.25e-6, 1e-12, 0);
 }
 
 TEST_CASE("design quantities: the response of a linear coil is that of its time constant") {
-  // Steel that neither saturates nor resists, a given force law: with air in the circuit L is constant, and
-  // the time to the current of 90 % of the force is -tau ln(1 - i/I).
+  // Steel that neither saturates nor resists, a given force law: with air in the circuit L is
+  // constant, and the time to the current of 90 % of the force is -tau ln(1 - i/I).
   DamperDescription damper = named_description("family_prototype");
   damper.saturation = 3;
   damper.turns = 10;  // far from the knee
@@ -57,6 +57,6 @@ TEST_CASE("design quantities: the response of a linear coil is that of its time 
     const double force = model->evaluate(damper, {middle, at.velocity}).force;
     (force < on.off_force + 0.9 * (on.force - on.off_force) ? low : high) = middle;
   }
-  CHECK_CLOSE(figure("response_time", damper, at), -on.time_constant * std::log(1 - low / at.current), 2e-3,
-              0);
+  CHECK_CLOSE(figure("response_time", damper, at),
+              -on.time_constant * std::log(1 - low / at.current), 2e-3, 0);
 }

@@ -5,8 +5,9 @@
 using namespace dashpot;
 
 TEST_CASE("sensitivity: derivatives and shares of a product by hand") {
-  // Resistance = rho N l / A with wire and length off by 1 %: ln R moves by -2 x 1 % and 1 %, so that the
-  // shares of the variance are 4 : 1 to first order; the turns' tolerance does nothing to the stroke.
+  // Resistance = rho N l / A with wire and length off by 1 %: ln R moves by -2 x 1 % and 1 %, so
+  // that the shares of the variance are 4 : 1 to first order; the turns' tolerance does nothing to
+  // the stroke.
   const DesignRequest request = parse_request(R"(
 damper: passenger_car
 at: {current: 1 A}
@@ -33,5 +34,6 @@ goals: [{minimise: resistance}]
   SensitivityOptions several{.samples = 256, .threads = 3};
   const Sensitivity on_three = sensitivity(problem, request.damper, several);
   several.threads = 1;
-  CHECK(on_three.figures[0].total == sensitivity(problem, request.damper, several).figures[0].total);
+  CHECK(on_three.figures[0].total ==
+        sensitivity(problem, request.damper, several).figures[0].total);
 }

@@ -14,8 +14,8 @@
 #include "dashpot/base/random.h"
 #include "fuzz.h"
 
-// A target for some seconds with seeds changed by chance: what ./test runs (tests/fuzz/attack), since
-// libFuzzer would want another build of the library. What it finds it keeps in a file.
+// A target for some seconds with seeds changed by chance: what ./test runs (tests/fuzz/attack),
+// since libFuzzer would want another build of the library. What it finds it keeps in a file.
 
 namespace {
 
@@ -143,8 +143,8 @@ void attack(const FuzzTarget& target, const fs::path& seed_folder, double second
   const std::vector<std::string> seeds = seeds_of(seed_folder);
   for (const std::string& seed : seeds) try_input(target, seed);
   Mutator mutator(seeds, 1);
-  const Clock::time_point end =
-      Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+  const Clock::time_point end = Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                                                   std::chrono::duration<double>(seconds));
   std::size_t tried = 0;
   for (; static_cast<double>(tried) < kMostInputs * seconds && Clock::now() < end; ++tried)
     try_input(target, mutator.next());
@@ -159,11 +159,12 @@ extern "C" const char* __asan_default_options() {
   return "max_allocation_size_mb=2048:allocator_may_return_null=1";
 }
 
-/// fuzz_attack SECONDS TARGET; fuzz_attack TARGET FILE tries what was found; fuzz_attack alone names the
-/// targets.
+/// fuzz_attack SECONDS TARGET; fuzz_attack TARGET FILE tries what was found; fuzz_attack alone
+/// names the targets.
 int main(int argc, char** argv) {
   if (argc != 3) {
-    for (const FuzzTarget* target : fuzz_targets()) std::printf("%s\n", std::string(target->name()).c_str());
+    for (const FuzzTarget* target : fuzz_targets())
+      std::printf("%s\n", std::string(target->name()).c_str());
     return argc == 1 ? 0 : 2;
   }
   __sanitizer_set_death_callback(keep_finding);

@@ -7,8 +7,8 @@
 #include "fuzz.h"
 #include "words.h"
 
-// The C boundary, called with whatever, in whatever order: a status and a message, never a crash. What C
-// cannot check stays true: an array holds as many numbers as the call says.
+// The C boundary, called with whatever, in whatever order: a status and a message, never a crash.
+// What C cannot check stays true: an array holds as many numbers as the call says.
 
 namespace {
 
@@ -57,7 +57,8 @@ struct Samples {
     const unsigned kind = bytes.byte() % 8;
     if (kind == 0) return;
     const std::ptrdiff_t stride = kind == 1 ? 0 : kind == 2 ? 2 : kind == 3 ? -1 : 1;
-    const std::size_t length = std::max<std::size_t>(1, stride == 0 ? 1 : count * (stride == 2 ? 2 : 1));
+    const std::size_t length =
+        std::max<std::size_t>(1, stride == 0 ? 1 : count * (stride == 2 ? 2 : 1));
     const double step = bytes.number(), odd = bytes.number();
     for (std::size_t k = 0; k < length; ++k) values.push_back(step * static_cast<double>(k % 7));
     values[bytes.size(length - 1)] = odd;
@@ -143,7 +144,8 @@ class Caller {
     const dashpot_model* model = any(models_);
     std::vector<double> state = state_for(model);
     const dashpot_input input = input_of(bytes_);
-    return dashpot_rest(model, bytes_.byte() % 8 == 0 ? nullptr : &input, state.data(), state.size());
+    return dashpot_rest(model, bytes_.byte() % 8 == 0 ? nullptr : &input, state.data(),
+                        state.size());
   }
 
   dashpot_status advance() {
@@ -168,8 +170,8 @@ class Caller {
     dashpot_motion motion{};
     motion.samples = bytes_.size(kMostSamples);
     motion.sample_time = bytes_.number();
-    const Samples time(bytes_, motion.samples), x(bytes_, motion.samples), v(bytes_, motion.samples),
-        i(bytes_, motion.samples);
+    const Samples time(bytes_, motion.samples), x(bytes_, motion.samples),
+        v(bytes_, motion.samples), i(bytes_, motion.samples);
     motion.time = time.column, motion.displacement = x.column;
     motion.velocity = v.column, motion.current = i.column;
     std::vector<double> force(motion.samples), half(motion.samples), state = state_for(model);
@@ -186,8 +188,8 @@ class Caller {
     if (bytes_.byte() % 4 > 0) return dashpot_recordings_new(&slot);
     std::string kept;
     const char* path = "/nonexistent";
-    return dashpot_recordings_load(bytes_.byte() % 2 ? &path : nullptr, bytes_.size(1), bytes_.text(kept),
-                                   &slot);
+    return dashpot_recordings_load(bytes_.byte() % 2 ? &path : nullptr, bytes_.size(1),
+                                   bytes_.text(kept), &slot);
   }
 
   dashpot_status add() {
@@ -199,7 +201,8 @@ class Caller {
     std::vector<Samples> samples;
     std::vector<std::string> names(table.column_count + 2);
     std::vector<dashpot_named_column> columns;
-    for (std::size_t k = 0; k < table.column_count; ++k) samples.emplace_back(bytes_, table.samples);
+    for (std::size_t k = 0; k < table.column_count; ++k)
+      samples.emplace_back(bytes_, table.samples);
     for (std::size_t k = 0; k < table.column_count; ++k)
       columns.push_back({bytes_.text(names[k]), samples[k].column});
     table.columns = columns.data();
@@ -222,8 +225,9 @@ class Caller {
   dashpot_status evaluate() {
     std::string kept;
     char* report = nullptr;
-    const dashpot_status status = dashpot_evaluate(any(models_), any(recordings_), bytes_.text(kept),
-                                                   bytes_.byte() % 8 == 0 ? nullptr : &report);
+    const dashpot_status status =
+        dashpot_evaluate(any(models_), any(recordings_), bytes_.text(kept),
+                         bytes_.byte() % 8 == 0 ? nullptr : &report);
     dashpot_text_free(&report);
     return status;
   }
@@ -247,9 +251,9 @@ class Caller {
 
   /// To a folder that cannot be: files of any name are none of a fuzzer's.
   dashpot_status export_model() {
-    constexpr const char* kOptions[] = {R"({"to": ["c", "dpr", "tables"], "folder": "/dev/null/no"})",
-                                        R"({"to": ["fmu3"], "sources_only": true, "folder": "/dev/null/no"})",
-                                        nullptr};
+    constexpr const char* kOptions[] = {
+        R"({"to": ["c", "dpr", "tables"], "folder": "/dev/null/no"})",
+        R"({"to": ["fmu3"], "sources_only": true, "folder": "/dev/null/no"})", nullptr};
     char* report = nullptr;
     const dashpot_model* model = any(models_);
     const dashpot_status status = dashpot_export(model, kOptions[bytes_.byte() % 3], &report);
@@ -260,7 +264,8 @@ class Caller {
   dashpot_status understand() {
     std::string kept;
     dashpot_column_meaning meaning;
-    return dashpot_understand_column(bytes_.text(kept), bytes_.byte() % 8 == 0 ? nullptr : &meaning);
+    return dashpot_understand_column(bytes_.text(kept),
+                                     bytes_.byte() % 8 == 0 ? nullptr : &meaning);
   }
 
   /// Twice, as a caller who lost count.
@@ -297,10 +302,13 @@ const FuzzTarget targets[] = {
     {"capi", [](const std::string& input) { Caller(input).call_all(); }},
     {"drive_options", drive_options},
     {"fit_options", fit_options},
-    {"load_options", [](const std::string& input) { dashpot::capi::read_load_options(input.c_str()); }},
-    {"export_options", [](const std::string& input) { dashpot::capi::read_export_options(input.c_str()); }},
+    {"load_options",
+     [](const std::string& input) { dashpot::capi::read_load_options(input.c_str()); }},
+    {"export_options",
+     [](const std::string& input) { dashpot::capi::read_export_options(input.c_str()); }},
     {"evaluate_options",
      [](const std::string& input) { dashpot::capi::read_evaluate_options(input.c_str()); }},
-    {"conditions", [](const std::string& input) { dashpot::capi::read_conditions(input.c_str()); }}};
+    {"conditions",
+     [](const std::string& input) { dashpot::capi::read_conditions(input.c_str()); }}};
 
 }  // namespace

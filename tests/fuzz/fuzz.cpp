@@ -18,8 +18,9 @@ struct FuzzFolder {
   std::filesystem::path path;
   FuzzFolder() {
     const bool has_memory = std::filesystem::is_directory("/dev/shm");
-    path = (has_memory ? std::filesystem::path("/dev/shm") : std::filesystem::temp_directory_path()) /
-           ("dashpot-fuzz-" + std::to_string(getpid()));
+    path =
+        (has_memory ? std::filesystem::path("/dev/shm") : std::filesystem::temp_directory_path()) /
+        ("dashpot-fuzz-" + std::to_string(getpid()));
     std::filesystem::create_directories(path);
   }
   ~FuzzFolder() { std::filesystem::remove_all(path); }
@@ -30,7 +31,8 @@ struct FuzzFolder {
 /// HDF5 keeps some memory of files that it refused.
 extern "C" const char* __lsan_default_suppressions() { return "leak:libhdf5"; }
 
-FuzzTarget::FuzzTarget(std::string_view name, Function function) : name_(name), function_(function) {
+FuzzTarget::FuzzTarget(std::string_view name, Function function)
+    : name_(name), function_(function) {
   known().push_back(this);
 }
 

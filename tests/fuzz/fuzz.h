@@ -6,9 +6,11 @@
 #include <string_view>
 #include <vector>
 
-// What the fuzz targets share. dashpot::Error is the right answer to bad input; all else is a finding.
+// What the fuzz targets share. dashpot::Error is the right answer to bad input; all else is a
+// finding.
 
-/// Something that takes text or bytes from outside, under a name. Makes itself known where it is defined.
+/// Something that takes text or bytes from outside, under a name. Makes itself known where it is
+/// defined.
 class FuzzTarget {
  public:
   using Function = void (*)(const std::string& input);

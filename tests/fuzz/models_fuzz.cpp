@@ -63,7 +63,8 @@ void damper_yaml(const std::string& input) {
 
 /// What is understood can be searched: figures of the middle of all ranges.
 void design_yaml(const std::string& input) {
-  const dashpot::DesignRequest request = dashpot::parse_request(input, "request.yaml", "/nonexistent");
+  const dashpot::DesignRequest request =
+      dashpot::parse_request(input, "request.yaml", "/nonexistent");
   const std::unique_ptr<dashpot::DesignModel> model = dashpot::make_design_model("physics", "");
   const dashpot::DesignProblem problem(request, *model, 1);
   const std::vector<double> middle(problem.size(), 0.5);

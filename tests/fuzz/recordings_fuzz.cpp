@@ -11,7 +11,8 @@ namespace {
 void require_sound(const dashpot::Dataset& dataset) {
   for (const dashpot::Record& record : dataset.records) {
     require_true(record.size() >= 2 && record.find("force") && record.find("velocity"));
-    for (std::size_t k = 1; k < record.size(); ++k) require_true(record.time[k] > record.time[k - 1]);
+    for (std::size_t k = 1; k < record.size(); ++k)
+      require_true(record.time[k] > record.time[k - 1]);
     for (const dashpot::Channel& channel : record.channels) {
       require_true(channel.samples.size() == record.size());
       for (const double value : channel.samples) require_true(std::isfinite(value));
@@ -32,15 +33,18 @@ void load_fuzzed(const std::filesystem::path& path, const std::string& dataset_f
 void daq_text(const std::string& input) {
   const std::string columns =
       "name: fuzz\nfiles:\n  - match: '*'\n    level: 1\n    channels:\n"
-      "      displacement: {column: 2, unit: mm}\n      force: {column: 3, unit: kN, centre: mean}\n";
-  load_fuzzed(fuzz_file("run.txt", "Header Size: " + input), fuzz_file("daq.yaml", columns).string());
+      "      displacement: {column: 2, unit: mm}\n      force: {column: 3, unit: kN, centre: "
+      "mean}\n";
+  load_fuzzed(fuzz_file("run.txt", "Header Size: " + input),
+              fuzz_file("daq.yaml", columns).string());
 }
 
 void dataset_yaml(const std::string& input) {
   static const std::filesystem::path data = [] {
     std::string text = "t_s,x_mm,F_N,i_A\n";
     for (int k = 0; k < 40; ++k)
-      text += std::to_string(0.01 * k) + "," + std::to_string(k % 10) + "," + std::to_string(k % 7) + ",1\n";
+      text += std::to_string(0.01 * k) + "," + std::to_string(k % 10) + "," +
+              std::to_string(k % 7) + ",1\n";
     return fuzz_file("run_0.5A.csv", text);
   }();
   load_fuzzed(data, fuzz_file("dataset.yaml", input).string());
@@ -65,7 +69,8 @@ void file_name(const std::string& input) {
 }
 
 const FuzzTarget targets[] = {
-    {"csv", [](const std::string& input) { load_fuzzed(fuzz_file("run_10mm_1Hz_0.5A.csv", input)); }},
+    {"csv",
+     [](const std::string& input) { load_fuzzed(fuzz_file("run_10mm_1Hz_0.5A.csv", input)); }},
     {"mat", [](const std::string& input) { load_fuzzed(fuzz_file("run_0.5A.mat", input)); }},
     {"daq_text", daq_text},
     {"dataset_yaml", dataset_yaml},

@@ -3,20 +3,20 @@
 #include <filesystem>
 #include <matio.h>
 
-#include "damper/family/example_family.h"
-#include "damper/hybrid_model_example.h"
 #include "damper/inverse/example_network.h"
-#include "damper/neural/bank_network_example.h"
-#include "damper/neural/narx_example.h"
-#include "damper/neural/state_space_example.h"
+#include "damper/kinds/family/example_family.h"
+#include "damper/kinds/hybrid/hybrid_model_example.h"
+#include "damper/kinds/narx/narx_example.h"
+#include "damper/kinds/state_space/state_space_example.h"
+#include "damper/nets/bank_network_example.h"
 #include "dashpot/base/data_folder.h"
 #include "dashpot/base/file.h"
-#include "dashpot/damper/fuzzy/fuzzy_model.h"
-#include "dashpot/damper/hybrid_model.h"
 #include "dashpot/damper/inverse/inverse_file.h"
-#include "dashpot/damper/law_model.h"
+#include "dashpot/damper/kinds/fuzzy/fuzzy_model.h"
+#include "dashpot/damper/kinds/hybrid/hybrid_model.h"
+#include "dashpot/damper/kinds/law/law_model.h"
+#include "dashpot/damper/kinds/network/network_model.h"
 #include "dashpot/damper/model_file.h"
-#include "dashpot/damper/neural/network_model.h"
 #include "dashpot/damper/parameter_set.h"
 #include "fuzz.h"
 
@@ -41,7 +41,8 @@ std::string rows(const std::string& separator, double step, const std::string& e
 
 void csv_seeds(const fs::path& folder) {
   write_file(folder / "plain", "t_s,x_mm,F_N\n" + rows(",", 0.01, "\n"));
-  write_file(folder / "tabs", "junk: 1\n\nTime\tStroke\tForce\n(s)\t(mm)\t(kN)\n" + rows("\t", 0.01, "\r\n"));
+  write_file(folder / "tabs",
+             "junk: 1\n\nTime\tStroke\tForce\n(s)\t(mm)\t(kN)\n" + rows("\t", 0.01, "\r\n"));
   write_file(folder / "quoted", "# c\n\"t [s]\";\"x [mm]\";\"F [N]\"\n" + rows(";", 0.01, ";\n"));
   write_file(folder / "comma",
              "t;displacement(mm);F_N\n0,0;1,5;2\n0,1;2,5;3\n0,2;1,5;2\n0,3;0,5;1\n0,4;1,5;2\n");
@@ -61,7 +62,8 @@ void mat_seed(const fs::path& path, mat_ft version, matio_compression compressio
   const char* names[] = {"t", "x_mm", "F_N"};
   std::size_t dims[] = {kRows, 1};
   for (int c = 0; c < 3; ++c) {
-    matvar_t* variable = Mat_VarCreate(names[c], MAT_C_DOUBLE, MAT_T_DOUBLE, 2, dims, columns[c].data(), 0);
+    matvar_t* variable =
+        Mat_VarCreate(names[c], MAT_C_DOUBLE, MAT_T_DOUBLE, 2, dims, columns[c].data(), 0);
     Mat_VarWrite(file, variable, compression);
     Mat_VarFree(variable);
   }
@@ -90,14 +92,16 @@ void model_seeds(const fs::path& folder) {
   using namespace dashpot;
   const LawModel law = load_parameters("spencer1997");
   write_file(folder / "law", model_seed(std::make_unique<LawModel>(law), law.drive_unit()));
-  const Sugeno sugeno{.inputs = {{}, {}},
-                      .memberships = {{Membership::Shape::Bell, 0}, {Membership::Shape::Gaussian, 1}},
-                      .rules = {{0, 1}},
-                      .consequents = {1, 2, 3}};
-  write_file(folder / "fuzzy",
-             model_seed(std::make_unique<FuzzyModel>(
-                            "anfis", FuzzyInputs({"velocity", "current"}, {0.01, 0.02}, "seed"), sugeno),
-                        "A"));
+  const Sugeno sugeno{
+      .inputs = {{}, {}},
+      .memberships = {{Membership::Shape::Bell, 0}, {Membership::Shape::Gaussian, 1}},
+      .rules = {{0, 1}},
+      .consequents = {1, 2, 3}};
+  write_file(
+      folder / "fuzzy",
+      model_seed(std::make_unique<FuzzyModel>(
+                     "anfis", FuzzyInputs({"velocity", "current"}, {0.01, 0.02}, "seed"), sugeno),
+                 "A"));
   write_file(folder / "family_gates",
              model_seed(example_family(dashpot::FamilyTarget::Residual).with_offset(0), "A"));
   write_file(folder / "family_network", model_seed(example_family_network().with_offset(0), "A"));
@@ -112,16 +116,18 @@ void model_seeds(const fs::path& folder) {
   mlp.input_mean = mlp.input_scale = {1, 1};
   const std::vector<std::string> inputs = {"velocity", "current"};
   for (const std::size_t members : {1, 2})
-    write_file(
-        folder / ("network_" + std::to_string(members)),
-        model_seed(std::make_unique<NetworkModel>("mlp_one_sensor", inputs, std::vector(members, mlp)), "A"));
+    write_file(folder / ("network_" + std::to_string(members)),
+               model_seed(std::make_unique<NetworkModel>("mlp_one_sensor", inputs,
+                                                         std::vector(members, mlp)),
+                          "A"));
   write_file(folder / "state_network",
              model_seed(std::make_unique<HysteresisNetwork>("hysteresis_network",
                                                             std::vector{example_bank_network()}),
                         "A"));
-  write_file(folder / "state_space", model_seed(std::make_unique<StateSpaceModel>(
-                                                    "neural_state_space", std::vector{example_state_space()}),
-                                                "A"));
+  write_file(folder / "state_space",
+             model_seed(std::make_unique<StateSpaceModel>("neural_state_space",
+                                                          std::vector{example_state_space()}),
+                        "A"));
   write_file(folder / "hybrid",
              model_seed(std::make_unique<HybridModel>(example_hybrid()), law.drive_unit()));
 }

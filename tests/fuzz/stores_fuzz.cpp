@@ -1,15 +1,16 @@
 #include "dashpot/base/file.h"
 #include "dashpot/damper/parameter_set.h"
 #include "dashpot/damper/virtual_bench.h"
-#include "dashpot/identify/family_network.h"
-#include "dashpot/identify/fit_store.h"
-#include "dashpot/identify/training_store.h"
-#include "dashpot/identify/trial_store.h"
+#include "dashpot/identify/rank/fit_store.h"
+#include "dashpot/identify/search/trial_store.h"
 #include "dashpot/suspension/sweep/request.h"
 #include "dashpot/suspension/sweep/store.h"
 #include "fuzz.h"
+#include "studies/family/family_network.h"
+#include "studies/family/training_store.h"
 
-// Files that Dashpot keeps for itself and reads again after an interruption, whatever became of them since.
+// Files that Dashpot keeps for itself and reads again after an interruption, whatever became of
+// them since.
 
 using namespace dashpot;
 namespace fs = std::filesystem;
@@ -63,7 +64,8 @@ void fit_store(const std::string& input) {
 
 /// A store with one trained network in it.
 struct KeptTraining {
-  StudiedNetwork network{.mlp = {.layers = {2, 1, 1}, .parameters = {1, 2, 3, 4, 5}}, .history = {2, 1}};
+  StudiedNetwork network{.mlp = {.layers = {2, 1, 1}, .parameters = {1, 2, 3, 4, 5}},
+                         .history = {2, 1}};
   fs::path folder = own_folder("trainings");
   TrainingStore store{folder, "1", {}};
   fs::path file;

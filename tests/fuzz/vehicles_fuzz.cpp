@@ -1,11 +1,11 @@
-#include "dashpot/suspension/controller.h"
+#include "dashpot/suspension/control/controller.h"
 #include "dashpot/suspension/damper_words.h"
 #include "dashpot/suspension/ground/earthquake.h"
 #include "dashpot/suspension/ground/ground_sequences.h"
 #include "dashpot/suspension/ground/road_profile.h"
-#include "dashpot/suspension/linear.h"
 #include "dashpot/suspension/passive_curve.h"
-#include "dashpot/suspension/plant_set.h"
+#include "dashpot/suspension/plants/linear.h"
+#include "dashpot/suspension/plants/plant_set.h"
 #include "dashpot/suspension/sweep/inputs.h"
 #include "dashpot/suspension/sweep/request.h"
 #include "fuzz.h"
@@ -28,12 +28,14 @@ void plant_set_json(const std::string& input) {
 void require_ground(const dashpot::GroundMotion& ground) {
   for (const double t : {0.0, 0.01, 3.0, 1e6})
     for (const std::size_t track : {0, 1})
-      require_true(std::isfinite(ground.foot(t, track, 2.5).height) && std::isfinite(ground.acceleration(t)));
+      require_true(std::isfinite(ground.foot(t, track, 2.5).height) &&
+                   std::isfinite(ground.acceleration(t)));
   (void)ground.jumps(2.5);
 }
 
 void road_file(const std::string& input) {
-  require_ground(*dashpot::drive_over(dashpot::load_road(fuzz_file("road.csv", input), "m", "mm"), 20));
+  require_ground(
+      *dashpot::drive_over(dashpot::load_road(fuzz_file("road.csv", input), "m", "mm"), 20));
 }
 
 void earthquake_file(const std::string& input) {
@@ -41,7 +43,8 @@ void earthquake_file(const std::string& input) {
 }
 
 void curve_file(const std::string& input) {
-  const dashpot::PassiveCurve curve = dashpot::load_passive_curve(fuzz_file("curve.csv", input).string());
+  const dashpot::PassiveCurve curve =
+      dashpot::load_passive_curve(fuzz_file("curve.csv", input).string());
   for (const double velocity : {curve.velocity_min(), curve.velocity_max(), 0.0})
     require_true(std::isfinite(curve.force({0, velocity, 0}, {})));
 }
@@ -53,7 +56,8 @@ void ground_words(const std::string& input) {
 void controller_words(const std::string& input) {
   static const dashpot::PlantSet set = dashpot::load_plant_set("savaresi_spelta");
   const dashpot::ControlLimits limits;
-  const dashpot::ControllerPointer controller = dashpot::make_controller(input, {limits, set.plant});
+  const dashpot::ControllerPointer controller =
+      dashpot::make_controller(input, {limits, set.plant});
   (void)dashpot::needs_plant_state(input);
   std::vector<double> state(controller->state_size());
   controller->reset(state);
@@ -78,13 +82,15 @@ void sweep_yaml(const std::string& input) {
   const dashpot::SweepRequest request = dashpot::parse_sweep(input, "fuzz.yaml", "nowhere");
   const dashpot::SweepDraw draw = dashpot::draw_vehicle(request, 0);
   require_true(draw.values.size() == request.inputs.size());
-  for (std::size_t k = 0; k < request.controllers.size(); ++k) (void)dashpot::vehicle_words(request, k, draw);
+  for (std::size_t k = 0; k < request.controllers.size(); ++k)
+    (void)dashpot::vehicle_words(request, k, draw);
   (void)dashpot::road_words(request, draw);
 }
 
-const FuzzTarget targets[] = {{"plant_set_json", plant_set_json},   {"road_file", road_file},
-                              {"earthquake_file", earthquake_file}, {"curve_file", curve_file},
-                              {"ground_words", ground_words},       {"controller_words", controller_words},
-                              {"damper_words", damper_words},       {"sweep_yaml", sweep_yaml}};
+const FuzzTarget targets[] = {
+    {"plant_set_json", plant_set_json},   {"road_file", road_file},
+    {"earthquake_file", earthquake_file}, {"curve_file", curve_file},
+    {"ground_words", ground_words},       {"controller_words", controller_words},
+    {"damper_words", damper_words},       {"sweep_yaml", sweep_yaml}};
 
 }  // namespace

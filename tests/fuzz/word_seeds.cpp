@@ -3,7 +3,7 @@
 
 #include "dashpot/base/file.h"
 #include "dashpot/record/excitation.h"
-#include "dashpot/suspension/controller.h"
+#include "dashpot/suspension/control/controller.h"
 #include "dashpot/suspension/ground/ground_sequences.h"
 #include "fuzz.h"
 
@@ -16,16 +16,19 @@ std::string bytes(std::initializer_list<int> values, const std::string& text = {
   return text.empty() ? all : all + text + '\0';
 }
 
-/// A published damper, at rest, a step on, its force, a run; recordings of three columns, evaluated.
+/// A published damper, at rest, a step on, its force, a run; recordings of three columns,
+/// evaluated.
 std::string calls() {
   std::string add = bytes({7, 0, 20, 125, 3, 7, 150, 130, 3, 7, 150, 120, 1, 7, 130, 140, 2});
-  add +=
-      bytes({}, "x_mm") + bytes({}, "F_N") + bytes({}, "u_V") + bytes({}, "one") + bytes({}, "{\"gap\": 1}");
+  add += bytes({}, "x_mm") + bytes({}, "F_N") + bytes({}, "u_V") + bytes({}, "one") +
+         bytes({}, "{\"gap\": 1}");
   return bytes({0, 0, 3}, "spencer1997") + bytes({2, 0, 2, 130, 140, 150, 1}) +
-         bytes({3, 0, 2, 130, 140, 150, 131, 141, 151, 1, 125}) + bytes({4, 0, 2, 130, 140, 150, 1}) +
-         bytes({5, 0, 20, 125, 0, 4, 130, 140, 1, 5, 140, 150, 2, 1, 150, 150, 0, 2, 1}) + bytes({6, 0, 1}) +
-         add + bytes({1, 0, 1, 1}) + bytes({8, 0, 0, 1}) + bytes({9, 0, 0}, "{\"threads\": 1}") + bytes({1}) +
-         bytes({12}, "velocity [mm/s]") + bytes({1, 13});
+         bytes({3, 0, 2, 130, 140, 150, 131, 141, 151, 1, 125}) +
+         bytes({4, 0, 2, 130, 140, 150, 1}) +
+         bytes({5, 0, 20, 125, 0, 4, 130, 140, 1, 5, 140, 150, 2, 1, 150, 150, 0, 2, 1}) +
+         bytes({6, 0, 1}) + add + bytes({1, 0, 1, 1}) + bytes({8, 0, 0, 1}) +
+         bytes({9, 0, 0}, "{\"threads\": 1}") + bytes({1}) + bytes({12}, "velocity [mm/s]") +
+         bytes({1, 13});
 }
 
 const std::map<std::string, std::vector<std::string>> kSeeds{
@@ -35,7 +38,8 @@ const std::map<std::string, std::vector<std::string>> kSeeds{
     {"json", {R"({"a": [1, -2.5e-3, true, null, "\u00e9"], "b": {"c": {}}})", "[[[[]]]]"}},
     {"yaml", {"a: [1, 2]\nb:\n  - c: &x 1\n  - *x\n", "- 'it''s'\n- \"\\\n\"\n"}},
     {"leave_out",
-     {"current=0.87,1.98", "fraction=0.3", "record=a,b", "roles", "condition", "each=gap,pole_length"}},
+     {"current=0.87,1.98", "fraction=0.3", "record=a,b", "roles", "condition",
+      "each=gap,pole_length"}},
     {"file_name", {"sine_5mm_3Hz_0.25A", "run 7 (2V)", "a_-1.5mA_b"}},
     {"road_file",
      {"distance [m],height [mm]\n0,0\n0.1,1\n0.2,-1\n0.3,0\n",
@@ -53,8 +57,8 @@ const std::map<std::string, std::vector<std::string>> kSeeds{
      {"spencer1997,x0=0", "viscous,damping=1500", "ideal,damping_min=300,damping_max=3900",
       "suv_front,motion_ratio=0.7", "kwok2006"}},
     {"network_words",
-     {"hidden=15-15,activation=relu", "trainer=adam,rate=1e-3,schedule=cosine,batch=64", "members=5",
-      "l2=1e-4,patience=20", "training=free_run,window=100", "output=bounded"}},
+     {"hidden=15-15,activation=relu", "trainer=adam,rate=1e-3,schedule=cosine,batch=64",
+      "members=5", "l2=1e-4,patience=20", "training=free_run,window=100", "output=bounded"}},
     {"search_words", {"hidden=5,10,10-10", "l2=1e-5:1e-2", "members=1:5", "activation=tanh,relu"}},
     {"parameter_words",
      {"alpha=exponential\nn=2\nA\nc0=0:5000\nk0=500+-100", "bouc_wen.alpha=cubic\nk0=5N/cm"}},
@@ -73,7 +77,8 @@ const std::map<std::string, std::vector<std::string>> kSeeds{
       R"({"models": ["usual", "mlp_one_sensor"], "network": ["hidden=5", "trainer=adam"]})"}},
     {"load_options", {R"({"dataset": "FILE", "recognise": true, "velocity_cutoff": 20})"}},
     {"evaluate_options", {R"({"force_offset": "none", "threads": 2})"}},
-    {"export_options", {R"({"to": ["c", "fmu3"], "folder": "out", "name": "front", "precision": "float",
+    {"export_options",
+     {R"({"to": ["c", "fmu3"], "folder": "out", "name": "front", "precision": "float",
                             "sample_time": 0.001, "compiler": "cc", "sources_only": true})"}},
     {"conditions", {R"({"gap": 0.001, "pole_length": 2e-3})"}}};
 
@@ -85,9 +90,12 @@ void write(const std::filesystem::path& folder, const char* target, std::string_
 
 void write_word_seeds(const std::filesystem::path& folder) {
   // The names alone, from the tables.
-  for (const auto& sequence : dashpot::motion_sequences()) write(folder, "motion_words", sequence.info.name);
-  for (const auto& sequence : dashpot::drive_sequences()) write(folder, "drive_words", sequence.info.name);
-  for (const auto& sequence : dashpot::ground_sequences()) write(folder, "ground_words", sequence.info.name);
+  for (const auto& sequence : dashpot::motion_sequences())
+    write(folder, "motion_words", sequence.info.name);
+  for (const auto& sequence : dashpot::drive_sequences())
+    write(folder, "drive_words", sequence.info.name);
+  for (const auto& sequence : dashpot::ground_sequences())
+    write(folder, "ground_words", sequence.info.name);
   for (const auto* law : dashpot::control_laws()) write(folder, "controller_words", law->name);
   for (const auto& [target, texts] : kSeeds)
     for (std::size_t k = 0; k < texts.size(); ++k)

@@ -7,8 +7,8 @@
 
 namespace dashpot {
 
-/// Two lengths, two gaps, two fluids, at two field levels: a friction that grows with the yield stress and a
-/// viscous force. Three cycles of 24 samples each. Made up; nothing was measured.
+/// Two lengths, two gaps, two fluids, at two field levels: a friction that grows with the yield
+/// stress and a viscous force. Three cycles of 24 samples each. Made up; nothing was measured.
 inline Dataset small_family() {
   Dataset family;
   family.name = "small";
@@ -24,8 +24,8 @@ inline Dataset small_family() {
           record.conditions = {{"viscosity", viscosity}, {"piston_area", 1.6e-4},
                                {"gap_area", 2.5e-5},     {"gap", gap},
                                {"pole_length", length},  {"yield_stress", yield}};
-          Channel x{"displacement", "m", {}, ""}, v{"velocity", "m/s", {}, ""}, f{"force", "N", {}, ""},
-              i{"current", "A", {}, ""};
+          Channel x{"displacement", "m", {}, ""}, v{"velocity", "m/s", {}, ""},
+              f{"force", "N", {}, ""}, i{"current", "A", {}, ""};
           for (int k = 0; k < 72; ++k) {
             const double angle = 2 * 3.14159265358979 * (k - 3.5) / 24;
             record.time.push_back(0.1 * k);

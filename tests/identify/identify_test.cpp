@@ -34,7 +34,8 @@ TEST_CASE("known parameters lie in their intervals, give or take the odds") {
   for (const FittedParameter& fitted : report.parameters) {
     for (std::size_t k = 0; k < truth.law().params.size(); ++k)
       for (std::size_t c = 0; c < truth.parameters().coefficients[k].size(); ++c) {
-        const std::string name = coefficient_name(truth.law().params[k].name, truth.parameters().forms[k], c);
+        const std::string name =
+            coefficient_name(truth.law().params[k].name, truth.parameters().forms[k], c);
         if (name != fitted.name || fitted.fixed || truth.law().params[k].fit == Fit::Bias) continue;
         ++checked;
         const double slack = fitted.high - fitted.low;  // four standard errors, not two
@@ -69,7 +70,8 @@ TEST_CASE("the same bits on any number of threads" * doctest::test_suite("long")
   for (std::size_t k = 0; k < one.models.size(); ++k) {
     CHECK(one.models[k].name == two.models[k].name);
     CHECK(one.models[k].left_out.pooled.esr == two.models[k].left_out.pooled.esr);
-    CHECK(format_json(one.models[k].fit.model->to_json()) == format_json(two.models[k].fit.model->to_json()));
+    CHECK(format_json(one.models[k].fit.model->to_json()) ==
+          format_json(two.models[k].fit.model->to_json()));
   }
 }
 
@@ -101,12 +103,14 @@ TEST_CASE("a monitor stops a fit") {
 }
 
 TEST_CASE("records that cannot serve are refused in words") {
-  CHECK(message_of([] { identify("bingham", {}, "A", {}); }) == "bingham: there is no record to fit it on");
+  CHECK(message_of([] { identify("bingham", {}, "A", {}); }) ==
+        "bingham: there is no record to fit it on");
   Dataset data = small_campaign();
   for (Record& record : data.records)
     std::erase_if(record.channels, [](const Channel& c) { return c.name == "displacement"; });
-  CHECK(message_of([&] { identify("tanh_kwok", data.records, "A", {}); }).find("has no displacement") !=
-        std::string::npos);
+  CHECK(message_of([&] {
+          identify("tanh_kwok", data.records, "A", {});
+        }).find("has no displacement") != std::string::npos);
   for (Record& record : data.records)
     for (double& v : record.find("velocity")->samples) v = 0;
   CHECK(message_of([&] { identify("bingham", data.records, "A", {}); }).find("nothing moves") !=

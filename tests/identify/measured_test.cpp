@@ -1,5 +1,5 @@
-// What the models reach on the measured recordings: the gates of the project, with the shipped dataset
-// files. Fits take minutes under the sanitizers, so they run in the release build only.
+// What the models reach on the measured recordings: the gates of the project, with the shipped
+// dataset files. Fits take minutes under the sanitizers, so they run in the release build only.
 #include <cmath>
 
 #include "dashpot/base/file.h"
@@ -34,7 +34,8 @@ void check_coverage(const RankedModel& model) {
 Metrics of_left_out(const std::string& model, const Dataset& dataset) {
   const Fold fold = split(dataset, *dataset.leave_out).front();
   const FitReport fit = identify(model, fold.training, dataset.drive_unit, {});
-  return evaluate(*fit.model, fold.left_out, dataset.drive_unit, {.known_offsets = fit.offsets}).pooled;
+  return evaluate(*fit.model, fold.left_out, dataset.drive_unit, {.known_offsets = fit.offsets})
+      .pooled;
 }
 
 }  // namespace
@@ -63,7 +64,9 @@ TEST_CASE("utfsm: modified Bouc-Wen on conditions left out" * doctest::test_suit
   check_coverage(model);
 }
 
-TEST_CASE("utfsm: records that begin in motion are no worse at their start, so that rest is a fair start") {
+TEST_CASE(
+    "utfsm: records that begin in motion are no worse at their start, so that rest is a fair "
+    "start") {
   const auto folder = recordings("utfsm");
   if (folder.empty()) return;
   const Dataset data = load_dataset({folder});
@@ -116,7 +119,8 @@ TEST_CASE("hysteresis network: one fold of each set of recordings" * doctest::te
     CAPTURE(gate.folder);
     const Dataset data = load_dataset({folder});
     const bool stated = std::string_view(gate.left_out).empty();
-    const Fold fold = split(data, stated ? *data.leave_out : parse_leave_out(gate.left_out)).front();
+    const Fold fold =
+        split(data, stated ? *data.leave_out : parse_leave_out(gate.left_out)).front();
     const FitReport fit = identify("hysteresis_network", fold.training, data.drive_unit, {});
     const Evaluation left_out =
         evaluate(*fit.model, fold.left_out, data.drive_unit, {.known_offsets = fit.offsets});
@@ -124,7 +128,8 @@ TEST_CASE("hysteresis network: one fold of each set of recordings" * doctest::te
   }
 }
 
-TEST_CASE("sysidentpy: the simulated damper, trained and tested on the halves that are used publicly") {
+TEST_CASE(
+    "sysidentpy: the simulated damper, trained and tested on the halves that are used publicly") {
   const auto folder = recordings("sysidentpy-simulated");
   if (folder.empty()) return;
   CHECK(of_left_out("modified_bouc_wen", load_dataset({folder})).rrse <=
@@ -147,7 +152,8 @@ TEST_CASE("sysidentpy: the stated parameters meet the second half of the data an
     return evaluate(load_parameters("leva_piroddi2002"), {part}, "V", {.offset = OffsetMode::None})
         .pooled.rmse;
   };
-  // What the dataset file of the exchanged halves and the parameter file say of these recordings, in N.
+  // What the dataset file of the exchanged halves and the parameter file say of these recordings,
+  // in N.
   CHECK_CLOSE(rmse(400, 2000), 10.1, 0.02, 0);
   CHECK_CLOSE(rmse(2000, 3600), 1.87, 0.02, 0);
 }

@@ -9,8 +9,8 @@ struct SmallCampaign {
   double sample_rate = 100;                   ///< Hz
 };
 
-/// A cycle of each motion at each current, of a damper of the literature with hysteresis and a knee; no
-/// noise.
+/// A cycle of each motion at each current, of a damper of the literature with hysteresis and a
+/// knee; no noise.
 inline Dataset small_campaign(std::vector<SineMotion> motions, const SmallCampaign& options = {}) {
   BenchOptions bench;
   bench.motions = std::move(motions);

@@ -1,11 +1,11 @@
-// What is exported, under valgrind. DASHPOT_RUN_WITH=... of c_compile.h does the same to any other test of
-// exported C.
+// What is exported, under valgrind. DASHPOT_RUN_WITH=... of c_compile.h does the same to any other
+// test of exported C.
 #include <filesystem>
 
 #include "conformance/c_compile.h"
 #include "conformance/control_cases.h"
-#include "dashpot/output/exporters/c_source.h"
-#include "output/exporters/example_models.h"
+#include "dashpot/export/c/c_source.h"
+#include "export/example_models.h"
 #include "support.h"
 
 using namespace dashpot;
@@ -13,8 +13,10 @@ using namespace dashpot;
 namespace {
 
 const std::string kMemcheck = "valgrind --quiet --error-exitcode=9 --leak-check=full";
-// allocation_test.cpp replaces some operators of the test program, which valgrind takes for a mismatch.
-const std::string kOfTests = kMemcheck + " --show-mismatched-frees=no --child-silent-after-fork=yes";
+// allocation_test.cpp replaces some operators of the test program, which valgrind takes for a
+// mismatch.
+const std::string kOfTests =
+    kMemcheck + " --show-mismatched-frees=no --child-silent-after-fork=yes";
 
 void write(const TemporaryFolder& folder, const std::vector<ExportedFile>& files) {
   for (const ExportedFile& file : files) folder.write(file.name, file.content);
@@ -22,7 +24,8 @@ void write(const TemporaryFolder& folder, const std::vector<ExportedFile>& files
 
 }  // namespace
 
-TEST_CASE("valgrind finds nothing in exported C: a model of each kind, an inverse and a controller") {
+TEST_CASE(
+    "valgrind finds nothing in exported C: a model of each kind, an inverse and a controller") {
   if (!is_there("cc") || !is_there("valgrind")) return;
   const TemporaryFolder folder;
   for (const ExampleModel& example : example_models())
@@ -40,7 +43,9 @@ TEST_CASE("valgrind finds nothing in exported C: a model of each kind, an invers
   check_that_it_runs(folder, "-O1 -g", kMemcheck);
 }
 
-TEST_CASE("valgrind finds nothing where the test importer takes FMUs of FMI 2 and 3 through their lives") {
+TEST_CASE(
+    "valgrind finds nothing where the test importer takes FMUs of FMI 2 and 3 through their "
+    "lives") {
   if (!is_there("cc") || !is_there("valgrind")) return;
   const ProgramResult result =
       run_program(kOfTests + " '" + std::filesystem::read_symlink("/proc/self/exe").string() +

@@ -13,7 +13,8 @@ namespace {
 double gain(const std::vector<Biquad>& sections, double hz, double dt) {
   const std::complex<double> w = std::polar(1.0, -2 * std::numbers::pi * hz * dt);
   std::complex<double> h = 1;
-  for (const Biquad& s : sections) h *= (s.b0 + w * (s.b1 + w * s.b2)) / (1.0 + w * (s.a1 + w * s.a2));
+  for (const Biquad& s : sections)
+    h *= (s.b0 + w * (s.b1 + w * s.b2)) / (1.0 + w * (s.a1 + w * s.a2));
   return std::abs(h);
 }
 
@@ -30,9 +31,12 @@ TEST_CASE("a Butterworth low-pass has the gain of its definition") {
     const std::vector<Biquad> sections = butterworth_lowpass(order, 30, 0.002);
     CHECK(sections.size() == static_cast<std::size_t>(order / 2));
     for (const double hz : {0.0, 5.0, 30.0, 60.0, 120.0}) {
-      // |H|^2 = 1 / (1 + (tan(pi f dt) / tan(pi fc dt))^(2 order)): the analogue gain, frequency warped.
-      const double ratio = std::tan(std::numbers::pi * hz * 0.002) / std::tan(std::numbers::pi * 30 * 0.002);
-      CHECK_CLOSE(gain(sections, hz, 0.002), 1 / std::sqrt(1 + std::pow(ratio, 2 * order)), 1e-10, 1e-14);
+      // |H|^2 = 1 / (1 + (tan(pi f dt) / tan(pi fc dt))^(2 order)): the analogue gain, frequency
+      // warped.
+      const double ratio =
+          std::tan(std::numbers::pi * hz * 0.002) / std::tan(std::numbers::pi * 30 * 0.002);
+      CHECK_CLOSE(gain(sections, hz, 0.002), 1 / std::sqrt(1 + std::pow(ratio, 2 * order)), 1e-10,
+                  1e-14);
     }
   }
 }
@@ -52,24 +56,24 @@ TEST_CASE("zero-phase filtering is that of scipy") {
     double cutoff_hz, sample_rate;
     std::array<double, 6> y;
   };
-  // scipy 1.10.1: signal.sosfiltfilt(signal.butter(order, cutoff, fs=rate, output='sos'), x) at 0 1 7 20 38
-  // 39
+  // scipy 1.10.1: signal.sosfiltfilt(signal.butter(order, cutoff, fs=rate, output='sos'), x) at 0 1
+  // 7 20 38 39
   const std::array<Golden, 3> goldens{{
       {2,
        30,
        500,
-       {-0.01449291370967265, 0.6321578537100684, 2.7067532963201923, 5.304589512259571, 15.654486800656212,
-        16.561918044624072}},
+       {-0.01449291370967265, 0.6321578537100684, 2.7067532963201923, 5.304589512259571,
+        15.654486800656212, 16.561918044624072}},
       {4,
        30,
        500,
-       {0.05906576671568564, 0.7185882635060131, 2.921968912858099, 5.263042087377125, 15.55016375290548,
-        16.45384106906969}},
+       {0.05906576671568564, 0.7185882635060131, 2.921968912858099, 5.263042087377125,
+        15.55016375290548, 16.45384106906969}},
       {6,
        10,
        100,
-       {0.0052176942902202456, 0.9671416669577331, 2.9229745923143864, 5.216794878822321, 15.290973230179668,
-        16.47394298569924}},
+       {0.0052176942902202456, 0.9671416669577331, 2.9229745923143864, 5.216794878822321,
+        15.290973230179668, 16.47394298569924}},
   }};
   for (const Golden& golden : goldens) {
     const std::vector<double> y = filter_zero_phase(

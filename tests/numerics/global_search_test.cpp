@@ -12,7 +12,8 @@ namespace {
 /// Rastrigin's function: about 100 local minima in this box, the least one 0 at the origin.
 double rastrigin(std::span<const double> x) {
   double sum = 0;
-  for (const double value : x) sum += 10 + value * value - 10 * std::cos(2 * std::numbers::pi * value);
+  for (const double value : x)
+    sum += 10 + value * value - 10 * std::cos(2 * std::numbers::pi * value);
   return sum;
 }
 

@@ -30,7 +30,9 @@ TEST_CASE("L-BFGS goes through Rosenbrock's valley") {
 
 TEST_CASE("a listener ends the search, and its exception comes out") {
   MinimiseOptions options;
-  options.on_iteration = [](int iteration, double, std::span<const double>) { return iteration < 3; };
+  options.on_iteration = [](int iteration, double, std::span<const double>) {
+    return iteration < 3;
+  };
   CHECK(minimise(valley, {-1.2, 1}, options).iterations == 3);
   options.on_iteration = [](int, double, std::span<const double>) -> bool { throw Interrupted(); };
   CHECK_THROWS_AS(minimise(valley, {-1.2, 1}, options), Interrupted);
@@ -41,6 +43,8 @@ TEST_CASE("a listener ends the search, and its exception comes out") {
 }
 
 TEST_CASE("a function that cannot be computed at the start does not converge") {
-  const SmoothFunction never = [](std::span<const double>, double&, std::span<double>) { return false; };
+  const SmoothFunction never = [](std::span<const double>, double&, std::span<double>) {
+    return false;
+  };
   CHECK_FALSE(minimise(never, {0.0}).converged);
 }

@@ -10,13 +10,15 @@ using namespace dashpot;
 
 TEST_CASE("the lines of a sine sum to its power and peak at its frequency") {
   std::vector<double> x;
-  for (int n = 0; n < 1500; ++n) x.push_back(7 + 3 * std::sin(2 * std::numbers::pi * 12.5 * n * 0.001));
+  for (int n = 0; n < 1500; ++n)
+    x.push_back(7 + 3 * std::sin(2 * std::numbers::pi * 12.5 * n * 0.001));
   const PowerSpectrum spectrum = power_spectrum(x, 0.001);
   CHECK(spectrum.power.size() == 1025);
   CHECK_CLOSE(spectrum.spacing_hz, 1000.0 / 2048, 1e-12, 0);
   // Mean square of a sine of amplitude 3; the window weighs its 18.75 periods evenly to 1e-3.
   CHECK_CLOSE(std::accumulate(spectrum.power.begin(), spectrum.power.end(), 0.0), 4.5, 1e-3, 0);
-  const auto peak = std::max_element(spectrum.power.begin(), spectrum.power.end()) - spectrum.power.begin();
+  const auto peak =
+      std::max_element(spectrum.power.begin(), spectrum.power.end()) - spectrum.power.begin();
   CHECK_CLOSE(static_cast<double>(peak) * spectrum.spacing_hz, 12.5, 0, spectrum.spacing_hz);
 }
 

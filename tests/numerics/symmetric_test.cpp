@@ -27,10 +27,12 @@ TEST_CASE("a positive definite system is solved, another refused") {
   CHECK(solve_positive_definite(std::vector<double>{2, 1, 1, 3}, std::vector<double>{4, 7}, x));
   CHECK_CLOSE(x[0], 1, 1e-14, 0);
   CHECK_CLOSE(x[1], 2, 1e-14, 0);
-  CHECK_FALSE(solve_positive_definite(std::vector<double>{1, 2, 2, 1}, std::vector<double>{1, 1}, x));
+  CHECK_FALSE(
+      solve_positive_definite(std::vector<double>{1, 2, 2, 1}, std::vector<double>{1, 1}, x));
 }
 
 TEST_CASE("the trace of an inverse") {
-  CHECK_CLOSE(trace_of_inverse(std::vector<double>{2, 1, 1, 3}, 2).value(), 1.0, 1e-14, 0);  // (3 + 2) / 5
+  CHECK_CLOSE(trace_of_inverse(std::vector<double>{2, 1, 1, 3}, 2).value(), 1.0, 1e-14,
+              0);  // (3 + 2) / 5
   CHECK_FALSE(trace_of_inverse(std::vector<double>{1, 2, 2, 1}, 2));
 }

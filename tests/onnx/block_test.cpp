@@ -4,8 +4,8 @@
 
 #include "conformance/c_compile.h"
 #include "conformance/control_cases.h"
-#include "dashpot/output/exporters/c_model.h"
-#include "dashpot/output/exporters/onnx.h"
+#include "dashpot/export/c/c_model.h"
+#include "dashpot/export/onnx/onnx.h"
 #include "runtime.h"
 
 using namespace dashpot;
@@ -42,8 +42,8 @@ RuntimeCheck check_of(const CBlock& block) {
 }
 
 void write_graphs(const TemporaryFolder& folder, const CBlock& block) {
-  for (const ExportedFile& file :
-       write_onnx_block([&](const ExportOptions&) { return block; }, {.precision = block.precision}))
+  for (const ExportedFile& file : write_onnx_block([&](const ExportOptions&) { return block; },
+                                                   {.precision = block.precision}))
     folder.write(file.name, file.content);
 }
 
@@ -67,7 +67,8 @@ Rows answers_of_c(const TemporaryFolder& folder, const CBlock& block, const Rows
   std::string rows;
   for (const std::vector<double>& row : inputs)
     for (const double number : row) rows += in_c(number) + ",\n";
-  for (const ExportedFile& file : c_block_sources(block, "x", "")) folder.write(file.name, file.content);
+  for (const ExportedFile& file : c_block_sources(block, "x", ""))
+    folder.write(file.name, file.content);
   const std::size_t commands = block.samples[0].commands.size();
   folder.write("main.c", filled(R"(#include "x.h"
 #include <math.h>
@@ -95,8 +96,8 @@ int main(void) {
                                  {"commands", std::to_string(commands)},
                                  {"steps", std::to_string(inputs.size())},
                                  {"step", std::string(with_prefix(block.step, "x"))}}));
-  const ProgramResult result =
-      run_program("cd '" + folder.path().string() + "' && cc -std=c99 -w main.c x.c -lm -o x && ./x");
+  const ProgramResult result = run_program("cd '" + folder.path().string() +
+                                           "' && cc -std=c99 -w main.c x.c -lm -o x && ./x");
   CAPTURE(result.output);
   REQUIRE(result.exit_code == 0);
   std::istringstream numbers(result.output);
@@ -119,8 +120,9 @@ Rows disturbed(Rows inputs) {
 TEST_CASE("ONNX Runtime: what is no number is taken as the C code takes it") {
   if (!is_runtime_there() || !is_there("cc")) return;
   const TemporaryFolder folder;
-  const std::set<std::string> some{"pdd_q",        "feb_car",        "selector_q",        "full_car",
-                                   "spencer_loop", "bingham_neural", "bingham_polynomial"};
+  const std::set<std::string> some{
+      "pdd_q",        "feb_car",        "selector_q",        "full_car",
+      "spencer_loop", "bingham_neural", "bingham_polynomial"};
   for (const BlockCase& one : block_cases()) {
     if (!some.contains(one.name)) continue;
     const CBlock block = one.block({.precision = CPrecision::Double});
@@ -137,7 +139,8 @@ TEST_CASE("ONNX Runtime: what is no number is taken as the C code takes it") {
 }
 
 TEST_CASE(
-    "ONNX Runtime: every controller gives the library's commands, within 1e-5 of their range or 1e-12") {
+    "ONNX Runtime: every controller gives the library's commands, within 1e-5 of their range or "
+    "1e-12") {
   if (!is_runtime_there()) return;
   const TemporaryFolder folder;
   for (const BlockCase& one : controller_cases())
@@ -146,7 +149,9 @@ TEST_CASE(
   check_that_all_agree(folder);
 }
 
-TEST_CASE("ONNX Runtime: every inverse gives the library's currents, within 1e-5 of their range or 1e-12") {
+TEST_CASE(
+    "ONNX Runtime: every inverse gives the library's currents, within 1e-5 of their range or "
+    "1e-12") {
   if (!is_runtime_there()) return;
   const TemporaryFolder folder;
   for (const BlockCase& one : inverse_cases())

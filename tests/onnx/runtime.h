@@ -4,7 +4,7 @@
 
 #include "dashpot/base/text.h"
 #include "dashpot/base/value.h"
-#include "dashpot/output/exporters/c_block.h"
+#include "dashpot/export/c/c_block.h"
 #include "support.h"
 
 using Rows = std::vector<std::vector<double>>;
@@ -38,7 +38,8 @@ inline dashpot::Value json_rows(const Rows& rows) {
   return out;
 }
 
-inline void write_check(const TemporaryFolder& folder, const std::string& name, const RuntimeCheck& check) {
+inline void write_check(const TemporaryFolder& folder, const std::string& name,
+                        const RuntimeCheck& check) {
   using dashpot::Value;
   Value inputs = Value::object(), runs = Value::array();
   std::size_t begin = 0;
@@ -52,17 +53,19 @@ inline void write_check(const TemporaryFolder& folder, const std::string& name, 
     if (!run.matters.empty()) one.add("matters", json_rows(run.matters));
     runs.push_back(std::move(one));
   }
-  folder.write(name + ".json", format_json(Value::object({{"inputs", std::move(inputs)},
-                                                          {"output", check.output},
-                                                          {"type", check.is_single ? "float32" : "float64"},
-                                                          {"span", check.span},
-                                                          {"tolerance", check.tolerance},
-                                                          {"runs", std::move(runs)}})));
+  folder.write(name + ".json",
+               format_json(Value::object({{"inputs", std::move(inputs)},
+                                          {"output", check.output},
+                                          {"type", check.is_single ? "float32" : "float64"},
+                                          {"span", check.span},
+                                          {"tolerance", check.tolerance},
+                                          {"runs", std::move(runs)}})));
 }
 
 /// Runs what lies in the folder.
 inline ProgramResult run_all(const TemporaryFolder& folder) {
-  return run_program("node '" + project_file("tests/onnx/run.mjs") + "' '" + folder.path().string() + "'");
+  return run_program("node '" + project_file("tests/onnx/run.mjs") + "' '" +
+                     folder.path().string() + "'");
 }
 
 inline void check_that_all_agree(const TemporaryFolder& folder) {

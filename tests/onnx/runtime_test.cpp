@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "dashpot/output/exporters/export_run.h"
-#include "dashpot/output/exporters/onnx.h"
-#include "output/exporters/example_models.h"
+#include "dashpot/export/export_run.h"
+#include "dashpot/export/onnx/onnx.h"
+#include "export/example_models.h"
 
 using namespace dashpot;
 
@@ -23,16 +23,18 @@ RuntimeCheck::Run run_of(const DamperModel& model, const std::vector<DamperInput
 }
 
 /// The graphs of a model, and what the library says of three runs.
-void write_model(const TemporaryFolder& folder, const DamperModel& model, const ExportOptions& options) {
+void write_model(const TemporaryFolder& folder, const DamperModel& model,
+                 const ExportOptions& options) {
   const ExportedModel what = exported(model);
   for (const ExportedFile& file : write_onnx(what, options)) folder.write(file.name, file.content);
   const double sample_time = export_sample_time(what, options);
   const std::vector<DamperInput> whole = export_run(what.domain, sample_time, 3 * kSteps);
   const bool is_single = options.precision != CPrecision::Double;
-  RuntimeCheck check{.inputs = {{.name = "displacement"}, {.name = "velocity"}, {.name = "current"}},
-                     .output = "force",
-                     .is_single = is_single,
-                     .tolerance = is_single ? 1e-5 : 1e-12};
+  RuntimeCheck check{
+      .inputs = {{.name = "displacement"}, {.name = "velocity"}, {.name = "current"}},
+      .output = "force",
+      .is_single = is_single,
+      .tolerance = is_single ? 1e-5 : 1e-12};
   for (const std::size_t part : {2, 0, 1}) {
     const auto begin = whole.begin() + static_cast<std::ptrdiff_t>(part * kSteps);
     check.runs.push_back(run_of(model, {begin, begin + kSteps}, sample_time));
@@ -44,12 +46,15 @@ void write_model(const TemporaryFolder& folder, const DamperModel& model, const 
 
 }  // namespace
 
-TEST_CASE("ONNX Runtime: every kind of model gives the library's force, within 1e-5 of its span or 1e-12") {
+TEST_CASE(
+    "ONNX Runtime: every kind of model gives the library's force, within 1e-5 of its span or "
+    "1e-12") {
   if (!is_runtime_there()) return;
   const TemporaryFolder folder;
   for (const ExampleModel& example : example_models()) {
     write_model(folder, *example.model, {.name = example.name + "_float"});
-    write_model(folder, *example.model, {.name = example.name + "_double", .precision = CPrecision::Double});
+    write_model(folder, *example.model,
+                {.name = example.name + "_double", .precision = CPrecision::Double});
     if (example.name == "narx")  // on its grid of 5 ms, whatever the steps
       write_model(folder, *example.model, {.name = "narx_between", .sample_time = 2e-3});
   }

@@ -54,7 +54,8 @@ TEST_CASE("the last cycle of a record; a record without one is refused") {
   CHECK(message_of([&] { last_cycle(record); }).find("record 'sine': has no whole cycle") == 0);
 }
 
-TEST_CASE("one cycle of each published record of the family: the paper's authors have 13333 samples") {
+TEST_CASE(
+    "one cycle of each published record of the family: the paper's authors have 13333 samples") {
   const std::filesystem::path folder = shared_data("family-dnn");
   if (folder.empty()) return;
   const Dataset dataset = load_dataset({folder});

@@ -13,7 +13,8 @@ using namespace dashpot;
 
 namespace {
 
-/// A sine of 10 mm and 1 Hz, 100 Hz for 3 s, with force = 1000 N*s/m * v; `sign` turns the force round.
+/// A sine of 10 mm and 1 Hz, 100 Hz for 3 s, with force = 1000 N*s/m * v; `sign` turns the force
+/// round.
 std::string sine_csv(double sign = 1) {
   std::string text = "t_s,x_mm,F_N\n";
   for (int k = 0; k < 300; ++k) {
@@ -34,7 +35,9 @@ std::string message_for(const std::string& name, const std::string& text) {
   return message_of([&] { load(path); });
 }
 
-bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
 
 }  // namespace
 
@@ -79,7 +82,8 @@ TEST_CASE("wrong input is refused with its place") {
   CHECK(has(message_for("a.csv", good + "0.1,2,3\n"), "a.csv:4: time 0.1 is repeated"));
   CHECK(has(message_for("a.csv", "t,x [mm],F\ns,m,N\n0,1,2\n1,2,3\n"),
             "two units: 'mm' in its name and 'm' below it"));
-  CHECK(has(message_for("a.csv", "t,x_mm,displacement_mm,F\n0,1,1,2\n1,2,3,3\n"), "are both displacement"));
+  CHECK(has(message_for("a.csv", "t,x_mm,displacement_mm,F\n0,1,1,2\n1,2,3,3\n"),
+            "are both displacement"));
   CHECK(has(message_for("a.csv", "t,x,F\n0,1,2\n"), "has 1 sample"));
   CHECK(has(message_for("a.csv", "0,1,2\n1,2,3\n"), "state them by number in a dataset file"));
   CHECK(has(message_for("a.csv", ""), "is empty (0 bytes)"));
@@ -95,8 +99,8 @@ TEST_CASE("a dataset file states what cannot be inferred") {
   const TemporaryFolder folder;
   std::string text;
   for (int k = 0; k < 400; ++k)
-    text +=
-        std::to_string(k % 7) + ";" + std::to_string(100 + k) + ";" + std::to_string(k < 200 ? 1 : 2) + "\n";
+    text += std::to_string(k % 7) + ";" + std::to_string(100 + k) + ";" +
+            std::to_string(k < 200 ? 1 : 2) + "\n";
   folder.write("a.txt", text);
   folder.write("dataset.yaml", R"(name: stated
 drive: V
@@ -153,7 +157,8 @@ TEST_CASE("roles give parts of one record that both run from its start") {
   folder.write("a.csv", sine_csv());
   folder.write("dataset.yaml",
                "leave_out: roles\nfiles:\n  - match: a.csv\n    level: 1\n    roles:\n"
-               "      - {role: training, to: 2, score_from: 0.5}\n      - {role: left_out, score_from: 2}\n");
+               "      - {role: training, to: 2, score_from: 0.5}\n      - {role: left_out, "
+               "score_from: 2}\n");
   const Dataset dataset = load(folder.path());
   REQUIRE(dataset.records.size() == 2);
   CHECK(dataset.records[0].size() == 200);
@@ -177,7 +182,8 @@ TEST_CASE("utfsm without any dataset file") {
     conditions.insert(record.condition), levels.insert(record.drive_level.value_or(-1));
   CHECK(conditions.size() == 4);
   CHECK(levels == std::set<double>{0, 0.25, 0.5, 0.75, 1});
-  for (const char* file : {"ME25mm0x25Hz.txt.gz", "ME5mm3Hz.txt.gz", "published_bouc_wen_parameters.mat"})
+  for (const char* file :
+       {"ME25mm0x25Hz.txt.gz", "ME5mm3Hz.txt.gz", "published_bouc_wen_parameters.mat"})
     CHECK(std::any_of(dataset.passed_over.begin(), dataset.passed_over.end(),
                       [&](const PassedOver& passed) { return passed.file == file; }));
 }
@@ -187,11 +193,12 @@ TEST_CASE("the shipped dataset files recognise the measured recordings") {
     const char *folder, *name, *drive;
     std::size_t records, folds;
   };
-  for (const Shipped shipped : {Shipped{"utfsm", "utfsm", "A", 20, 4}, Shipped{"utfpr", "utfpr", "V", 38, 2},
-                                Shipped{"nees-2012-1158", "nees-2012-1158", "V", 1, 1},
-                                Shipped{"sysidentpy-simulated", "sysidentpy-simulated", "V", 2, 1},
-                                Shipped{"family-dnn", "family-dnn", "A", 108, 9},
-                                Shipped{"utfsm/ME5mm3Hz.txt.gz", "utfsm-daq-logs", "A", 5, 3}}) {
+  for (const Shipped shipped :
+       {Shipped{"utfsm", "utfsm", "A", 20, 4}, Shipped{"utfpr", "utfpr", "V", 38, 2},
+        Shipped{"nees-2012-1158", "nees-2012-1158", "V", 1, 1},
+        Shipped{"sysidentpy-simulated", "sysidentpy-simulated", "V", 2, 1},
+        Shipped{"family-dnn", "family-dnn", "A", 108, 9},
+        Shipped{"utfsm/ME5mm3Hz.txt.gz", "utfsm-daq-logs", "A", 5, 3}}) {
     CAPTURE(std::string(shipped.folder));
     const auto path = shared_data(shipped.folder);
     if (path.empty()) return;
@@ -251,8 +258,8 @@ TEST_CASE("family records carry geometry and yield stress in SI") {
 TEST_CASE("any file may hold any bytes") {
   const TemporaryFolder folder;
   for (const char* name : {"a.csv", "a.mat", "a.txt", "a.json", "inp_a.json", "a.csv.gz"}) {
-    for (const char* text : {"\x1f\x8b\x08garbage", "MATLAB 5.0", "MATLAB 7.3", "Header Size:  7", "{}",
-                             "{\"a\":[{}]}", "\0\0\0\0"}) {
+    for (const char* text : {"\x1f\x8b\x08garbage", "MATLAB 5.0", "MATLAB 7.3", "Header Size:  7",
+                             "{}", "{\"a\":[{}]}", "\0\0\0\0"}) {
       folder.write("inp_a.json", "{}");
       const auto path = folder.write(name, text);
       CHECK(!message_of([&] { load_dataset({path}); }).empty());

@@ -11,7 +11,8 @@ namespace {
 
 std::vector<double> sine(double amplitude, double hz, double dt, int samples) {
   std::vector<double> x;
-  for (int n = 0; n < samples; ++n) x.push_back(amplitude * std::sin(2 * std::numbers::pi * hz * n * dt));
+  for (int n = 0; n < samples; ++n)
+    x.push_back(amplitude * std::sin(2 * std::numbers::pi * hz * n * dt));
   return x;
 }
 
@@ -22,9 +23,11 @@ TEST_CASE("the velocity of a sine has its amplitude and no delay") {
   const std::vector<double> x = sine(0.02, hz, dt, 2000);
   const std::vector<double> v = differentiate_zero_phase(x, dt, cutoff);
   REQUIRE(v.size() == x.size());
-  // Gain: 1 / (1 + (warped frequency ratio)^4) of the filter run twice, sin(w dt) / dt of the differences.
+  // Gain: 1 / (1 + (warped frequency ratio)^4) of the filter run twice, sin(w dt) / dt of the
+  // differences.
   const double w = 2 * std::numbers::pi * hz;
-  const double ratio = std::tan(std::numbers::pi * hz * dt) / std::tan(std::numbers::pi * cutoff * dt);
+  const double ratio =
+      std::tan(std::numbers::pi * hz * dt) / std::tan(std::numbers::pi * cutoff * dt);
   const double amplitude = 0.02 * std::sin(w * dt) / dt / (1 + std::pow(ratio, 4));
   for (int n = 300; n < 1700; n += 7)
     CHECK_CLOSE(v[static_cast<std::size_t>(n)], amplitude * std::cos(w * n * dt), 1e-9, 1e-9);
@@ -47,7 +50,8 @@ TEST_CASE("a velocity that cannot be derived is refused") {
 }
 
 TEST_CASE("the cut-off is ten times the frequency of the motion, within its limits") {
-  // 99 % of a windowed sine's power lies below its frequency plus about the window's half width, 1.5 / T.
+  // 99 % of a windowed sine's power lies below its frequency plus about the window's half
+  // width, 1.5 / T.
   CHECK_CLOSE(choose_cutoff_hz(sine(0.01, 5, 0.001, 20000), 0.001), 50, 0.02, 0);
   CHECK_CLOSE(choose_cutoff_hz(sine(0.01, 0.5, 0.001, 20000), 0.001), 10, 1e-12, 0);  // lowest
   CHECK_CLOSE(choose_cutoff_hz(sine(0.01, 5, 0.01, 2000), 0.01), 40, 1e-12, 0);       // 0.4 / dt

@@ -57,16 +57,21 @@ struct Limits {
 
 }  // namespace
 
-TEST_CASE("every motion starts at rest, stays within amplitude and speed, and its velocity is its slope") {
+TEST_CASE(
+    "every motion starts at rest, stays within amplitude and speed, and its velocity is its "
+    "slope") {
   for (const Limits& limits :
        {Limits{"AM", 0.025, 1.5}, Limits{"FM", 0.025, 1.5}, Limits{"RP", 0.025, 1.5},
         Limits{"SFS", 0.025, 1.5}, Limits{"TPNVS", 0.025, 1},
         // the limit of speed binds
-        Limits{"AM,carrier=14,modulation=1,depth=0.4", 0.025, 1.5}, Limits{"FM,speed_max=0.3", 0.025, 0.3},
-        Limits{"RP,speed_max=0.1,roughness=0.004", 0.025, 0.1}, Limits{"SFS,speed_max=0.2", 0.025, 0.2},
+        Limits{"AM,carrier=14,modulation=1,depth=0.4", 0.025, 1.5},
+        Limits{"FM,speed_max=0.3", 0.025, 0.3},
+        Limits{"RP,speed_max=0.1,roughness=0.004", 0.025, 0.1},
+        Limits{"SFS,speed_max=0.2", 0.025, 0.2},
         Limits{"TPNVS,speed_max=5,speed_min=0.5", 0.025, 5},
         // the limit of displacement binds
-        Limits{"RP,amplitude=5mm", 0.005, 1.5}, Limits{"FM,amplitude=2mm,modulation=0.5", 0.002, 1.5}}) {
+        Limits{"RP,amplitude=5mm", 0.005, 1.5},
+        Limits{"FM,amplitude=2mm,modulation=0.5", 0.002, 1.5}}) {
     CAPTURE(std::string(limits.text));
     const PistonMotion motion = make_motion(limits.text, 3);
     CHECK_CLOSE(motion.at(0).velocity, 0, 0, 1e-12);
@@ -99,7 +104,8 @@ TEST_CASE("every motion stays within its band") {
 }
 
 TEST_CASE("AM: closed form") {
-  const PistonMotion motion = make_motion("AM,amplitude=10 mm,carrier=3,modulation=0.25,depth=0.5", 1);
+  const PistonMotion motion =
+      make_motion("AM,amplitude=10 mm,carrier=3,modulation=0.25,depth=0.5", 1);
   // at t = 2 the modulation is at its most; at t = 1 halfway
   CHECK_CLOSE(motion.at(2).displacement, -0.01, 1e-12, 0);
   CHECK_CLOSE(motion.at(1).displacement, -0.01 / 1.5, 1e-12, 0);
@@ -117,7 +123,8 @@ TEST_CASE("FM: the frequency between zero crossings goes from the least to the g
   CHECK(crossings.size() == 60);  // mean 6 Hz over 10 s
   for (std::size_t k = 1; k < crossings.size(); ++k) {
     const double middle = 0.5 * (crossings[k] + crossings[k - 1]);
-    CHECK_CLOSE(1 / (crossings[k] - crossings[k - 1]), 6 - 4 * std::cos(2 * M_PI * 0.1 * middle), 0.02, 0);
+    CHECK_CLOSE(1 / (crossings[k] - crossings[k - 1]), 6 - 4 * std::cos(2 * M_PI * 0.1 * middle),
+                0.02, 0);
   }
 }
 
@@ -154,8 +161,8 @@ TEST_CASE("RP: the power is that of the road through the car") {
   // deflection
   const double gain = 387 * 334.235181 / std::hypot(37300, 2280 * 2 * M_PI * 5);
   // over a narrow band, class D at 20 m/s: G_d n0^2 v / f^2
-  const PistonMotion motion =
-      make_motion("RP,damping=2280,frequency_min=4.75,frequency_max=5.25,duration=300,amplitude=1", 1);
+  const PistonMotion motion = make_motion(
+      "RP,damping=2280,frequency_min=4.75,frequency_max=5.25,duration=300,amplitude=1", 1);
   const double expected = 1.024e-3 * 0.01 * 20 / 25 * gain * gain * 0.5;
   CHECK_CLOSE(variance(displacement_of(sampled(motion))), expected, 0.06, 0);
 }
@@ -182,8 +189,9 @@ TEST_CASE("maximum-length sequences of every order: period, balance and autocorr
     const std::vector<bool> bits = maximum_length_bits(order, 1, 2 * period);
     CHECK(std::equal(bits.begin(), bits.begin() + static_cast<std::ptrdiff_t>(period),
                      bits.begin() + static_cast<std::ptrdiff_t>(period)));
-    CHECK(static_cast<std::size_t>(std::count(
-              bits.begin(), bits.begin() + static_cast<std::ptrdiff_t>(period), true)) == (period + 1) / 2);
+    CHECK(static_cast<std::size_t>(
+              std::count(bits.begin(), bits.begin() + static_cast<std::ptrdiff_t>(period), true)) ==
+          (period + 1) / 2);
     for (const std::size_t shift : {std::size_t{1}, std::size_t{3}, period / 3, period / 2}) {
       long sum = 0;  // of +-1 times +-1: -1 at every shift of a maximum-length sequence
       for (std::size_t k = 0; k < period; ++k) sum += bits[k] == bits[k + shift] ? 1 : -1;
@@ -191,7 +199,8 @@ TEST_CASE("maximum-length sequences of every order: period, balance and autocorr
     }
   }
   CHECK(message_of([] { maximum_length_bits(17, 1, 1); }).find("3 to 16") != std::string::npos);
-  CHECK(message_of([] { maximum_length_bits(7, 0x80, 1); }).find("starts empty") != std::string::npos);
+  CHECK(message_of([] { maximum_length_bits(7, 0x80, 1); }).find("starts empty") !=
+        std::string::npos);
 }
 
 TEST_CASE("PRBS: two levels, the clock, the seed") {
@@ -223,7 +232,8 @@ TEST_CASE("APRBS: switches where PRBS does, to levels over the whole range") {
 
 TEST_CASE("ICPS: the k-th level lasts k clocks") {
   const DriveFrame frame{.duration = 0.01 * 2016, .seed = 9};  // 1 + 2 + ... + 63
-  const std::vector<double> values = sampled(make_drive("ICPS,clock=0.01", frame), frame.duration, 0.01);
+  const std::vector<double> values =
+      sampled(make_drive("ICPS,clock=0.01", frame), frame.duration, 0.01);
   std::set<double> levels;
   std::size_t k = 0;
   for (std::size_t clocks = 1; clocks <= 63; ++clocks)
@@ -252,27 +262,34 @@ TEST_CASE("SC: the paper's ten and two levels over the whole duration; a hold be
 
 TEST_CASE("a sequence says what it is, in SI") {
   CHECK(make_motion("tpnvs, amplitude = 10 mm", 1).description ==
-        "TPNVS: amplitude 0.01 m, speed_min 0.05 m/s, speed_max 1 m/s, levels 8, cycles 1, acceleration 60 "
+        "TPNVS: amplitude 0.01 m, speed_min 0.05 m/s, speed_max 1 m/s, levels 8, cycles 1, "
+        "acceleration 60 "
         "m/s^2, repeats 1");
   CHECK(make_drive("ICPS", {}).description == "ICPS: clock 0.02 s");
 }
 
 TEST_CASE("a sequence that cannot be understood is refused with what would be right") {
-  const auto motion = [](const std::string& text) { return message_of([&] { make_motion(text, 1); }); };
-  CHECK(motion("AN") == "motion: unknown sequence 'AN'; did you mean 'AM'? known: AM, FM, RP, SFS, TPNVS");
+  const auto motion = [](const std::string& text) {
+    return message_of([&] { make_motion(text, 1); });
+  };
+  CHECK(motion("AN") ==
+        "motion: unknown sequence 'AN'; did you mean 'AM'? known: AM, FM, RP, SFS, TPNVS");
   CHECK(motion("AM,carier=2").find("did you mean 'carrier'") != std::string::npos);
   CHECK(motion("AM,carrier").find("write NAME=VALUE") != std::string::npos);
   CHECK(motion("AM,carrier=fast").find("carrier: 'fast' is not a number; a number in Hz") !=
         std::string::npos);
   CHECK(motion("AM,carrier=2 mm").find("carrier: 'mm' is not a unit of it; it is counted in Hz") !=
         std::string::npos);
-  CHECK(motion("AM,amplitude=25").find("amplitude is 25 m; between 1e-06 and 1") != std::string::npos);
+  CHECK(motion("AM,amplitude=25").find("amplitude is 25 m; between 1e-06 and 1") !=
+        std::string::npos);
   CHECK(motion("FM,frequency_min=9,frequency_max=3").find("ends below") != std::string::npos);
   CHECK(motion("RP,frequency_min=9,frequency_max=3").find("not below") != std::string::npos);
   CHECK(motion("TPNVS,speed_min=3").find("speed_min is above") != std::string::npos);
   CHECK(motion("TPNVS,levels=2.5") == "motion: levels is 2.5; a whole number");
   CHECK(motion("SFS,step=0.001").find("a larger step") != std::string::npos);
-  const auto drive = [](const std::string& text) { return message_of([&] { make_drive(text, {}); }); };
+  const auto drive = [](const std::string& text) {
+    return message_of([&] { make_drive(text, {}); });
+  };
   CHECK(drive("PRSB").find("did you mean 'PRBS'") != std::string::npos);
   CHECK(drive("PRBS,order=20").find("between 3 and 16") != std::string::npos);
   CHECK(drive("ICPS,clock=0.000001").find("clock is 1e-06 s") != std::string::npos);

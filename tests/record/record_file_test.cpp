@@ -11,7 +11,8 @@ namespace {
 Record small_record() {
   Record record;
   record.time = {0, 0.001, 0.002};
-  record.channels = {{"body", "m", {0, 1.0 / 3, -2}, ""}, {"tyre_load", "N", {4414.5, 1e-7, 9e5}, ""}};
+  record.channels = {{"body", "m", {0, 1.0 / 3, -2}, ""},
+                     {"tyre_load", "N", {4414.5, 1e-7, 9e5}, ""}};
   return record;
 }
 

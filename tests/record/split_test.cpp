@@ -79,13 +79,14 @@ TEST_CASE("an impossible split says which ways would work") {
   const std::string message = message_of([&] { split(dataset, parse_leave_out("condition")); });
   CHECK(message.find("one condition") != std::string::npos);
   CHECK(message.find("'current'") != std::string::npos);
-  CHECK(message_of([&] { split(dataset, parse_leave_out("current=0.7")); }).find("no record is '0.7 A'") !=
-        std::string::npos);
+  CHECK(message_of([&] {
+          split(dataset, parse_leave_out("current=0.7"));
+        }).find("no record is '0.7 A'") != std::string::npos);
 }
 
 TEST_CASE("ways of leaving out as text") {
-  for (const char* text :
-       {"condition", "current", "current=0.5,1", "record", "fraction=0.33", "roles", "each=gap,pole_length"})
+  for (const char* text : {"condition", "current", "current=0.5,1", "record", "fraction=0.33",
+                           "roles", "each=gap,pole_length"})
     CHECK(format_leave_out(parse_leave_out(text)) == text);
   for (const char* text :
        {"", "conditions", "fraction=2", "fraction=x", "current=", "roles=1", "each", "each="}) {
@@ -97,17 +98,20 @@ TEST_CASE("ways of leaving out as text") {
 TEST_CASE("what agrees in named conditions is left out together") {
   Dataset dataset = small_dataset();
   for (std::size_t k = 0; k < dataset.records.size(); ++k)
-    dataset.records[k].conditions = {{"gap", k % 2 ? 1e-3 : 2e-3}, {"viscosity", k < 3 ? 0.1 : 0.2}};
+    dataset.records[k].conditions = {{"gap", k % 2 ? 1e-3 : 2e-3},
+                                     {"viscosity", k < 3 ? 0.1 : 0.2}};
   const auto gaps = split(dataset, parse_leave_out("each=gap"));
   REQUIRE(gaps.size() == 2);
   CHECK(gaps[0].name == "without gap 0.002");
   CHECK(gaps[0].left_out.size() == 3);
   CHECK(split(dataset, parse_leave_out("each=gap,viscosity")).size() == 4);
-  CHECK(message_of([&] { split(dataset, parse_leave_out("each=gapp")); }).find("no condition 'gapp'") !=
-        std::string::npos);
+  CHECK(message_of([&] {
+          split(dataset, parse_leave_out("each=gapp"));
+        }).find("no condition 'gapp'") != std::string::npos);
   for (Record& record : dataset.records) record.conditions = {{"gap", 1e-3}};
-  CHECK(message_of([&] { split(dataset, parse_leave_out("each=gap")); }).find("all records have gap 0.001") !=
-        std::string::npos);
+  CHECK(message_of([&] {
+          split(dataset, parse_leave_out("each=gap"));
+        }).find("all records have gap 0.001") != std::string::npos);
 }
 
 TEST_CASE("a training part is held back as the judged part was left out, else in six") {
@@ -143,7 +147,8 @@ TEST_CASE("trials hold back each condition and each inner level, else the ends")
   const std::vector<Record> training = small_dataset().records;
   const auto folds = trial_folds(training);
   REQUIRE(folds.size() == 3);  // slow, fast, 0.5
-  for (const Fold& fold : folds) CHECK(fold.training.size() + fold.left_out.size() == training.size());
+  for (const Fold& fold : folds)
+    CHECK(fold.training.size() + fold.left_out.size() == training.size());
   CHECK(folds[1].left_out.front().condition == "fast");
   CHECK(folds[2].left_out.size() == 2);
   CHECK(*folds[2].left_out[1].drive_level == 0.5);

@@ -5,7 +5,8 @@ using namespace dashpot;
 
 namespace {
 
-Record record(const std::string& condition, std::optional<double> level, std::size_t samples = 110) {
+Record record(const std::string& condition, std::optional<double> level,
+              std::size_t samples = 110) {
   Record r;
   r.name = condition;
   r.condition = condition;
@@ -24,8 +25,8 @@ std::vector<std::size_t> records_of(const ScoredParts& parts) {
 }  // namespace
 
 TEST_CASE("conditions are held back in turn, and so is each inner level") {
-  const std::vector<Record> training = {record("a", 0), record("a", 1), record("a", 2), record("b", 0),
-                                        record("b", 2)};
+  const std::vector<Record> training = {record("a", 0), record("a", 1), record("a", 2),
+                                        record("b", 0), record("b", 2)};
   const std::vector<TrialParts> trials = trial_parts(training);
   REQUIRE(trials.size() == 3);
   CHECK(records_of(trials[0].held_back) == std::vector<std::size_t>{0, 1, 2});
@@ -38,7 +39,8 @@ TEST_CASE("conditions are held back in turn, and so is each inner level") {
 
 TEST_CASE("six conditions make four trials") {
   std::vector<Record> training;
-  for (const char* condition : {"a", "b", "c", "d", "e", "f"}) training.push_back(record(condition, {}));
+  for (const char* condition : {"a", "b", "c", "d", "e", "f"})
+    training.push_back(record(condition, {}));
   const std::vector<TrialParts> trials = trial_parts(training);
   REQUIRE(trials.size() == 4);
   CHECK(records_of(trials[1].held_back) == std::vector<std::size_t>{1, 5});

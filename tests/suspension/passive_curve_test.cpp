@@ -31,12 +31,15 @@ TEST_CASE("a curve of straight lines is a straight line") {
 
 TEST_CASE("a curve's file may have other units, and what is wrong in it is said") {
   const TemporaryFolder folder;
-  const auto path = folder.write("own.csv", "velocity [mm/s],force [kN]\n-100,-0.3\n0,0\n100,0.5\n");
+  const auto path =
+      folder.write("own.csv", "velocity [mm/s],force [kN]\n-100,-0.3\n0,0\n100,0.5\n");
   CHECK_CLOSE(load_passive_curve(path.string()).force({.velocity = 0.1}, {}), 500, 1e-12, 0);
   const auto back = folder.write("back.csv", "velocity [m/s],force [N]\n0,0\n-1,-300\n1,500\n");
   CHECK(message_of([&] { load_passive_curve(back.string()); }) ==
-        "back: the velocity does not rise at point 2; one force per velocity, the least velocity first");
-  const auto leap = folder.write("leap.csv", "velocity [m/s],force [N]\n-1,-300\n0,0\n1e-320,500\n");
+        "back: the velocity does not rise at point 2; one force per velocity, the least velocity "
+        "first");
+  const auto leap =
+      folder.write("leap.csv", "velocity [m/s],force [N]\n-1,-300\n0,0\n1e-320,500\n");
   CHECK(message_of([&] { load_passive_curve(leap.string()); }) ==
         "leap: the force leaps at point 3; points further apart, or one of the two");
   const auto other = folder.write("other.csv", "force [N],current [A]\n0,0\n-1,-300\n1,500\n");

@@ -7,7 +7,7 @@
 #include "dashpot/damper/registry.h"
 #include "dashpot/suspension/ground/deterministic.h"
 #include "dashpot/suspension/ground/ground_sequences.h"
-#include "dashpot/suspension/plant_set.h"
+#include "dashpot/suspension/plants/plant_set.h"
 #include "dashpot/suspension/ride/ride.h"
 #include "dashpot/suspension/steps/integrator.h"
 #include "support.h"
@@ -33,14 +33,16 @@ MountedDamper spencer_damper(double voltage) {
   const LawModel published = load_parameters("spencer1997");
   Dependence parameters = published.parameters();
   parameters.coefficients[published.law().index_of("x0")] = {0};
-  return {.model = std::make_shared<LawModel>(published.law(), parameters, "V", published.lag_rate()),
-          .driver = {.current_min = 0, .current_max = 2.25},
-          .current = voltage};
+  return {
+      .model = std::make_shared<LawModel>(published.law(), parameters, "V", published.lag_rate()),
+      .driver = {.current_min = 0, .current_max = 2.25},
+      .current = voltage};
 }
 
 double greatest(const Trace& trace, const char* channel) {
   double top = 0;
-  for (const double value : trace.record.channel(channel).samples) top = std::max(top, std::abs(value));
+  for (const double value : trace.record.channel(channel).samples)
+    top = std::max(top, std::abs(value));
   return top;
 }
 
@@ -65,13 +67,15 @@ TEST_CASE("step of the one-sensor paper's quarter car with a linear damper: TC-3
     CHECK_CLOSE(at(trace, "body_acceleration", t[k]), body[k], 0, 1e-6);
     CHECK_CLOSE(at(trace, "tyre_deflection", t[k]), tyre[k], 0, 6e-7);
   }
-  CHECK_CLOSE(root_mean_square(trace.record.channel("body_acceleration").samples), 0.705644, 2e-4, 0);
+  CHECK_CLOSE(root_mean_square(trace.record.channel("body_acceleration").samples), 0.705644, 2e-4,
+              0);
   CHECK(trace.warnings.empty());
 }
 
-TEST_CASE("energy is kept without damping: every plant, 100 s, to 1e-9" * doctest::test_suite("long")) {
-  for (const char* name :
-       {"tudon_martinez2012", "half_car_a", "ikenaga2000", "boileau_rakheja1998", "dyke_spencer1996"}) {
+TEST_CASE("energy is kept without damping: every plant, 100 s, to 1e-9" *
+          doctest::test_suite("long")) {
+  for (const char* name : {"tudon_martinez2012", "half_car_a", "ikenaga2000", "boileau_rakheja1998",
+                           "dyke_spencer1996"}) {
     CAPTURE(name);
     Plant plant = load_plant_set(name).plant;
     std::fill(plant.damping.begin(), plant.damping.end(), 0);
@@ -110,14 +114,16 @@ TEST_CASE("three-storey building on a sine: TC-8.5, without damper, with one off
   struct Case {
     double voltage, x[3], x1_half, x3_half, force, force_half;
   };
-  const Case cases[] = {{0, {0.5997, 0.9678, 1.1805}, -4.326019e-3, -7.702567e-3, 495.6, 211.5167},
-                        {2.25, {0.0925, 0.1799, 0.2397}, -8.679655e-4, -1.471587e-3, 878.5, 95.8892}};
+  const Case cases[] = {
+      {0, {0.5997, 0.9678, 1.1805}, -4.326019e-3, -7.702567e-3, 495.6, 211.5167},
+      {2.25, {0.0925, 0.1799, 0.2397}, -8.679655e-4, -1.471587e-3, 878.5, 95.8892}};
   for (const Case& c : cases) {
     CAPTURE(c.voltage);
     const std::vector<MountedDamper> dampers{spencer_damper(c.voltage)};
-    const Trace trace = simulate(
-        {plant, dampers, *ground},
-        {.duration = 2, .output_step = 1e-4, .relative_tolerance = 1e-8, .limits = {.current_max = 2.25}});
+    const Trace trace = simulate({plant, dampers, *ground}, {.duration = 2,
+                                                             .output_step = 1e-4,
+                                                             .relative_tolerance = 1e-8,
+                                                             .limits = {.current_max = 2.25}});
     const char* floors[] = {"floor_1", "floor_2", "floor_3"};
     for (int k = 0; k < 3; ++k) CHECK_CLOSE(100 * greatest(trace, floors[k]), c.x[k], 0, 6e-5);
     CHECK_CLOSE(at(trace, "floor_1", 0.5), c.x1_half, 3e-6, 0);
@@ -133,7 +139,8 @@ TEST_CASE("three-storey building on a sine: TC-8.5, without damper, with one off
   CHECK_CLOSE(at(trace, "floor_3", 0.5), -1.13142730e-2, 1e-6, 0);
 }
 
-/// Fundamental gain of a law from the road to the body's acceleration, sampled every `sample_time` s.
+/// Fundamental gain of a law from the road to the body's acceleration, sampled every `sample_time`
+/// s.
 double controlled_gain(const char* law, double f, double sample_time) {
   const Plant plant = load_plant_set("savaresi_spelta").plant;
   const std::vector<MountedDamper> dampers{linear_damper(300, 3900, 2 * std::numbers::pi * 50)};
@@ -141,15 +148,18 @@ double controlled_gain(const char* law, double f, double sample_time) {
   const GroundPointer sine = sine_ground(0.005, f);
   const ControllerPointer controller = make_controller(law, {limits, plant});
   // The soft damper's ringing at 1 Hz takes 20 s to leave.
-  const Trace trace = simulate(
-      {plant, dampers, *sine, controller.get()},
-      {.duration = f < 1.1 ? 24.0 : 10.0, .output_step = 1e-3, .step = sample_time, .limits = limits});
-  return gain_at(trace.record.channel("body_acceleration").samples, trace.record.channel("tyre_road").samples,
-                 1e-3, f, static_cast<int>(4 * f))
+  const Trace trace =
+      simulate({plant, dampers, *sine, controller.get()}, {.duration = f < 1.1 ? 24.0 : 10.0,
+                                                           .output_step = 1e-3,
+                                                           .step = sample_time,
+                                                           .limits = limits});
+  return gain_at(trace.record.channel("body_acceleration").samples,
+                 trace.record.channel("tyre_road").samples, 1e-3, f, static_cast<int>(4 * f))
       .fundamental;
 }
 
-TEST_CASE("controlled quarter car on sines: reference table 7.13 within 3 %" * doctest::test_suite("long")) {
+TEST_CASE("controlled quarter car on sines: reference table 7.13 within 3 %" *
+          doctest::test_suite("long")) {
   const double f[] = {1, 1.25, 2, 4, 8, 12, 20};
   const struct {
     const char* law;
@@ -164,8 +174,9 @@ TEST_CASE("controlled quarter car on sines: reference table 7.13 within 3 %" * d
               {"pdd", {98.7, 74.6, 51.9, 45.1, 105.9, 506.1, 57.5}},
               {"sh_add", {53.5, 60.3, 52.9, 49.6, 109.0, 520.5, 59.6}},
               {"mix1", {53.9, 60.3, 55.5, 59.8, 112.6, 573.9, 66.8}}};
-  // Where a law switches, the gain hangs on how late the sample is that sees it (skyhook at 8 Hz: 324 sampled
-  // at 1 kHz, 304 at 2 kHz); the reference's own phase is not known. One of the two is met.
+  // Where a law switches, the gain hangs on how late the sample is that sees it (skyhook at 8 Hz:
+  // 324 sampled at 1 kHz, 304 at 2 kHz); the reference's own phase is not known. One of the two is
+  // met.
   for (const auto& row : rows)
     for (int k = 0; k < 7; ++k) {
       CAPTURE(row.law);
@@ -181,15 +192,16 @@ TEST_CASE("a modified Bouc-Wen damper costs no short steps, and the tolerance is
   const std::vector<MountedDamper> dampers{spencer_damper(1)};
   const GroundPointer road = make_ground("iso8608,class=C,length=100", 1);
   const auto end = [&](double tolerance) {
-    return simulate({plant, dampers, *road},
-                    {.duration = 4, .relative_tolerance = tolerance, .limits = {.current_max = 2.25}});
+    return simulate(
+        {plant, dampers, *road},
+        {.duration = 4, .relative_tolerance = tolerance, .limits = {.current_max = 2.25}});
   };
   const Trace fine = end(1e-9), usual = end(1e-6);
   CHECK(usual.steps < 60000);
   double apart = 0;
   for (std::size_t k = 0; k < fine.record.time.size(); ++k)
-    apart = std::max(
-        apart, std::abs(fine.record.channel("body").samples[k] - usual.record.channel("body").samples[k]));
+    apart = std::max(apart, std::abs(fine.record.channel("body").samples[k] -
+                                     usual.record.channel("body").samples[k]));
   CHECK(apart < 1e-6 * 10 * greatest(fine, "body"));
 }
 
@@ -202,8 +214,9 @@ TEST_CASE("corners of a coil's current are met: a driver that samples, limits it
   const ControlLimits limits{300, 3900, 0, 1, 5e-3};
   const ControllerPointer law = make_controller("skyhook", {limits, plant});
   const auto run = [&](double tolerance, std::optional<double> step) {
-    return simulate({plant, dampers, *sine, law.get()},
-                    {.duration = 2, .relative_tolerance = tolerance, .step = step, .limits = limits});
+    return simulate(
+        {plant, dampers, *sine, law.get()},
+        {.duration = 2, .relative_tolerance = tolerance, .step = step, .limits = limits});
   };
   const Trace fine = run(1e-10, {}), usual = run(1e-6, {}), fixed = run(1e-6, 1e-4);
   const double top = greatest(fine, "body");

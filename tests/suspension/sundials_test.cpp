@@ -6,21 +6,21 @@
 #include <nvector/nvector_serial.h>
 #endif
 
-#include "damper/neural/bank_network_example.h"
-#include "dashpot/damper/law_model.h"
-#include "dashpot/damper/neural/hysteresis_network.h"
-#include "dashpot/damper/neural/network_model.h"
+#include "damper/nets/bank_network_example.h"
+#include "dashpot/damper/kinds/hysteresis_network/hysteresis_network.h"
+#include "dashpot/damper/kinds/law/law_model.h"
+#include "dashpot/damper/kinds/network/network_model.h"
 #include "dashpot/damper/parameter_set.h"
-#include "dashpot/suspension/batch.h"
 #include "dashpot/suspension/ground/ground_sequences.h"
-#include "dashpot/suspension/plant_set.h"
+#include "dashpot/suspension/lanes/batch.h"
+#include "dashpot/suspension/plants/plant_set.h"
 #include "support.h"
 
 using namespace dashpot;
 
-// simulate() and simulate_batch() against ARKODE's DP5(4) at a relative tolerance of 1e-10, which knows
-// neither their integrators nor their damper code: it takes the textbook's quarter car, and a damper's
-// derivative written out here.
+// simulate() and simulate_batch() against ARKODE's DP5(4) at a relative tolerance of 1e-10, which
+// knows neither their integrators nor their damper code: it takes the textbook's quarter car, and a
+// damper's derivative written out here.
 #if defined(DASHPOT_SUNDIALS)
 namespace {
 
@@ -115,14 +115,16 @@ struct Errors {
   double alone, in_lanes;
 };
 /// Of both engines, with a controller where `law` names one.
-Errors errors_of(std::shared_ptr<const DamperModel> model, const Equations& equations, const char* law,
-                 double highest) {
+Errors errors_of(std::shared_ptr<const DamperModel> model, const Equations& equations,
+                 const char* law, double highest) {
   const Plant plant = load_plant_set("tudon_martinez2012").plant;
-  const GroundPointer road = make_ground("iso8608,class=C,length=60,wave_number_max=1,waves=200", 5);
+  const GroundPointer road =
+      make_ground("iso8608,class=C,length=60,wave_number_max=1,waves=200", 5);
   const ControlLimits limits{.current_max = highest};
   const ControllerPointer controller = law ? make_controller(law, {limits, plant}) : nullptr;
-  const std::vector<MountedDamper> dampers{
-      {.model = std::move(model), .driver = {.current_max = highest}, .current = law ? 0 : 0.4 * highest}};
+  const std::vector<MountedDamper> dampers{{.model = std::move(model),
+                                            .driver = {.current_max = highest},
+                                            .current = law ? 0 : 0.4 * highest}};
   constexpr double kDuration = 1.5;
   const auto truth =
       reference({plant, *road, equations, controller.get(), limits, dampers[0].current}, kDuration);
@@ -165,25 +167,27 @@ std::shared_ptr<const DamperModel> spencer_model() {
   return std::make_shared<LawModel>(published.law(), parameters, "V", published.lag_rate());
 }
 
-/// Spencer et al. 1997 with Dyke et al.'s voltage laws, in SI: states y, z and the coil's voltage, from that
-/// voltage on.
+/// Spencer et al. 1997 with Dyke et al.'s voltage laws, in SI: states y, z and the coil's voltage,
+/// from that voltage on.
 Equations spencer_equations(double voltage) {
-  return Equations{3, [voltage](double x, double v, double command, const double* z, double* dz) {
-                     const double u = z[2] + voltage;
-                     const double alpha = 14000 + 69500 * u, c0 = 2100 + 350 * u, c1 = 28300 + 295 * u;
-                     dz[0] = (alpha * z[1] + c0 * v + 4690 * (x - z[0])) / (c0 + c1);
-                     const double w = v - dz[0];
-                     dz[1] = 301 * w - 3.63e6 * (std::abs(w) * z[1] * std::abs(z[1]) + w * z[1] * z[1]);
-                     dz[2] = 190 * (command - u);
-                     return c1 * dz[0] + 500 * x;
-                   }};
+  return Equations{
+      3, [voltage](double x, double v, double command, const double* z, double* dz) {
+        const double u = z[2] + voltage;
+        const double alpha = 14000 + 69500 * u, c0 = 2100 + 350 * u, c1 = 28300 + 295 * u;
+        dz[0] = (alpha * z[1] + c0 * v + 4690 * (x - z[0])) / (c0 + c1);
+        const double w = v - dz[0];
+        dz[1] = 301 * w - 3.63e6 * (std::abs(w) * z[1] * std::abs(z[1]) + w * z[1] * z[1]);
+        dz[2] = 190 * (command - u);
+        return c1 * dz[0] + 500 * x;
+      }};
 }
 
 }  // namespace
 
 TEST_CASE("a stated tolerance is kept where hysteresis is stiff, and without short steps") {
   const Plant plant = load_plant_set("savaresi_spelta").plant;
-  const GroundPointer road = make_ground("iso8608,class=F,length=60,speed=30,wave_number_max=1,waves=200", 5);
+  const GroundPointer road =
+      make_ground("iso8608,class=F,length=60,speed=30,wave_number_max=1,waves=200", 5);
   const ControlLimits limits{.current_max = 2.25};
   const std::vector<MountedDamper> dampers{
       {.model = spencer_model(), .driver = {.current_max = 2.25}, .current = 0.9}};
@@ -209,14 +213,16 @@ TEST_CASE("modified Bouc-Wen damper against SUNDIALS, with and without a control
 
 TEST_CASE("hysteresis network against SUNDIALS, with and without a controller") {
   BankNetwork member = example_bank_network();
-  // Its own numbers are random: made weak enough beside a dashpot's for the vehicle to come to rest.
+  // Its own numbers are random: made weak enough beside a dashpot's for the vehicle to come to
+  // rest.
   for (double& gate : member.network.gates) gate *= 0.2;
   member.network.gates[member.network.gate_count()] = 1;
   const auto model = std::make_shared<HysteresisNetwork>("hysteresis", std::vector{member});
   const HysteresisBank& bank = member.bank;
   // w' = rho (v - |v| w), y' = lambda (v - y), u' = mu (i - u); at rest u = i.
   const auto equations_from = [&](double current) {
-    return Equations{bank.size(), [&, current](double, double v, double i, const double* z, double* dz) {
+    return Equations{bank.size(),
+                     [&, current](double, double v, double i, const double* z, double* dz) {
                        std::vector<double> state(z, z + bank.size());
                        state.back() += current;
                        std::size_t k = 0;

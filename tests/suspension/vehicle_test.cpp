@@ -28,7 +28,8 @@ TEST_CASE("dampers by words") {
   CHECK(viscous.name == "viscous, 2000 N*s/m");
   CHECK(viscous.is_passive());
   CHECK(force(viscous, 0.1, 0) == 200);
-  const ChosenDamper ideal = choose_damper("ideal, damping_min=500 ,damping_max=2500, motion_ratio=0.5");
+  const ChosenDamper ideal =
+      choose_damper("ideal, damping_min=500 ,damping_max=2500, motion_ratio=0.5");
   CHECK(ideal.name == "ideal, 500 to 2500 N*s/m, motion ratio 0.5");
   CHECK_CLOSE(force(ideal, 0.1, 0.25), 100, 1e-12, 0);
   CHECK(ideal.motion_ratio == 0.5);
@@ -72,10 +73,13 @@ TEST_CASE("damper words that mean nothing are refused") {
   CHECK(refusal("missing/model.json").find("missing/model.json") == 0);
 }
 
-TEST_CASE("damping that dissipates alike: exact for a linear damper, 4 f / (pi w A) for dry friction") {
-  CHECK_CLOSE(equivalent_damping(*choose_damper("viscous,damping=1234").model, 0, 0.02, 0.2), 1234, 1e-12, 0);
+TEST_CASE(
+    "damping that dissipates alike: exact for a linear damper, 4 f / (pi w A) for dry friction") {
+  CHECK_CLOSE(equivalent_damping(*choose_damper("viscous,damping=1234").model, 0, 0.02, 0.2), 1234,
+              1e-12, 0);
   const LawModel friction = LawModel::constant(find_law("bingham"), {0, 100, 0, 0});
-  CHECK_CLOSE(equivalent_damping(friction, 0, 0.01, 0.3), 4 * 100 / (std::numbers::pi * 0.3), 1e-3, 0);
+  CHECK_CLOSE(equivalent_damping(friction, 0, 0.01, 0.3), 4 * 100 / (std::numbers::pi * 0.3), 1e-3,
+              0);
   const ChosenDamper levered = choose_damper("viscous,damping=1000,motion_ratio=2");
   CHECK(damping_between(levered, 0, 0).nominal == 4000);
 }
@@ -106,10 +110,11 @@ TEST_CASE("a damper on a lever: a viscous one of c at a ratio i is one of c i^2 
   for (std::size_t k = 0; k < plain.size(); ++k) CHECK_CLOSE(levered[k], plain[k], 1e-9, 1e-12);
 }
 
-TEST_CASE("a damper built stronger than its model: its force is, and its controller does not know") {
+TEST_CASE(
+    "a damper built stronger than its model: its force is, and its controller does not know") {
   const Vehicle drawn = make_vehicle({.dampers = {"spencer1997,x0=0"}, .controller = "skyhook"}),
-                built =
-                    make_vehicle({.dampers = {"spencer1997,x0=0,force_factor=1.2"}, .controller = "skyhook"});
+                built = make_vehicle(
+                    {.dampers = {"spencer1997,x0=0,force_factor=1.2"}, .controller = "skyhook"});
   CHECK(built.limits.damping_max == drawn.limits.damping_max);
   CHECK(built.damper_names[0] == "spencer1997, x0=0, force factor 1.2");
   const DamperState a(drawn.dampers[0], drawn.limits, 0), b(built.dampers[0], built.limits, 0);
@@ -124,7 +129,8 @@ TEST_CASE("a damper built stronger than its model: its force is, and its control
   for (std::size_t k = 0; k < plain.size(); ++k) CHECK_CLOSE(strong[k], plain[k], 1e-9, 1e-12);
 }
 
-TEST_CASE("a force loop about the inverse finds the force of a damper that is stronger than its model") {
+TEST_CASE(
+    "a force loop about the inverse finds the force of a damper that is stronger than its model") {
   // v = 0.2 m/s: 60 to 780 N by the model, a quarter more as built.
   const auto force_after = [](const char* loop, std::vector<double> wanted) {
     const Vehicle vehicle =
@@ -158,10 +164,12 @@ TEST_CASE("values in place of the plant's, in its units, and a damper per strut"
   const Vehicle half = make_vehicle({.plant = "half_car_a", .dampers = {"suv_front", "suv_rear"}});
   CHECK(half.damper_names == std::vector<std::string>{"suv_front", "suv_rear"});
   CHECK(half.notes.size() == 2);  // the dampings at the reference stroke
-  const Vehicle heavy = make_vehicle({.plant = "tudon_martinez2012", .values = {"sprung_mass=0.5 t"}});
+  const Vehicle heavy =
+      make_vehicle({.plant = "tudon_martinez2012", .values = {"sprung_mass=0.5 t"}});
   CHECK(heavy.set.plant.mass[0] == 500);
   const TemporaryFolder folder;
-  const auto own = folder.write("own.json", R"({"title": "x", "source": "y", "verified": true, "reason": "z",
+  const auto own =
+      folder.write("own.json", R"({"title": "x", "source": "y", "verified": true, "reason": "z",
     "plant": "quarter_car", "parameters": {"sprung_mass": "250 kg"}, "damping": [100, 900, 2000]})");
   CHECK(make_vehicle({.plant = own.string()}).limits.damping_max == 2000);
 }
@@ -182,25 +190,32 @@ TEST_CASE("a force is wanted through the inverse of a real damper") {
 }
 
 TEST_CASE("vehicles that cannot be are refused, in words") {
-  const auto refusal = [](const VehicleWords& words) { return message_of([&] { make_vehicle(words); }); };
-  CHECK(refusal({.values = {"sprung_mass=-5"}}) == "vehicle: sprung_mass is -5 kg; between 1 and 1e+06 kg");
+  const auto refusal = [](const VehicleWords& words) {
+    return message_of([&] { make_vehicle(words); });
+  };
+  CHECK(refusal({.values = {"sprung_mass=-5"}}) ==
+        "vehicle: sprung_mass is -5 kg; between 1 and 1e+06 kg");
   CHECK(refusal({.values = {"mass=5"}}).find("vehicle: quarter_car has no parameter 'mass'") == 0);
-  CHECK(refusal({.plant = "quartercar"}).find("unknown plant 'quartercar'; did you mean 'quarter_car'?") ==
-        0);
+  CHECK(refusal({.plant = "quartercar"})
+            .find("unknown plant 'quartercar'; did you mean 'quarter_car'?") == 0);
   CHECK(refusal({.controller = "skyhok"})
             .find("vehicle: unknown controller 'skyhok'; did you mean 'skyhook'?") == 0);
   CHECK(refusal({.dampers = {"suv_front"}, .controller = "skyhook"}) ==
-        "vehicle: 'skyhook' has nothing to control: every damper is passive; a damper that a current drives");
+        "vehicle: 'skyhook' has nothing to control: every damper is passive; a damper that a "
+        "current drives");
   CHECK(refusal({.plant = "dyke_spencer1996"}) ==
         "vehicle: dyke_spencer1996 states no damper of its own; name one");
   CHECK(refusal({.plant = "half_car_a", .dampers = {"suv_front", "suv_rear", "suv_rear"}}) ==
         "vehicle: 3 dampers for the 2 struts of half_car_a; one for all, or one for each");
-  CHECK(refusal({.plant = "half_car_a", .dampers = {"spencer1997", "lai_liao2002"}, .controller = "skyhook"})
+  CHECK(refusal({.plant = "half_car_a",
+                 .dampers = {"spencer1997", "lai_liao2002"},
+                 .controller = "skyhook"})
             .find("are not driven over the same range") != std::string::npos);
   CHECK(refusal({.current = 7}) == "vehicle: a drive of 7 is beyond the greatest, 1");
   VehicleWords words{.plant = "tudon_martinez2012", .controller = "clipped_lqr"};
   words.sensors.in_car = true;
-  CHECK(refusal(words).find("'clipped_lqr' feeds back what no sensor of a car tells") != std::string::npos);
+  CHECK(refusal(words).find("'clipped_lqr' feeds back what no sensor of a car tells") !=
+        std::string::npos);
 }
 
 TEST_CASE("a damper that is used where it has no data is told of") {
@@ -219,14 +234,17 @@ TEST_CASE("a damper that is used where it has no data is told of") {
 }
 
 TEST_CASE("motions of the ground from files are named like the others") {
-  const auto refusal = [](const char* words) { return message_of([&] { make_ground(words, 1, "--road"); }); };
+  const auto refusal = [](const char* words) {
+    return message_of([&] { make_ground(words, 1, "--road"); });
+  };
   CHECK(refusal("measured") == "--road: measured names no file; measured,file=...");
   CHECK(refusal("earthquake,path=x").find("--road: earthquake has no parameter 'path'") == 0);
   const auto folder = shared_data("road");
   if (folder.empty()) return;
-  const GroundPointer road = make_ground("measured,file=" + (folder / "i76_eastbound_left.txt").string() +
-                                             ",speed=72km/h,distance_unit=ft,height_unit=in",
-                                         1);
+  const GroundPointer road =
+      make_ground("measured,file=" + (folder / "i76_eastbound_left.txt").string() +
+                      ",speed=72km/h,distance_unit=ft,height_unit=in",
+                  1);
   CHECK_CLOSE(road->duration(), 38, 0.05, 0);
   CHECK(!road->shakes());
   CHECK(make_ground("earthquake,file=" + (shared_data("earthquake") / "el_centro_g.dat").string() +

@@ -19,7 +19,8 @@ inline bool is_in_place(const py::array& array) {
   return true;
 }
 
-/// The array itself, or a copy of other numbers as float64. Raises TypeError at what is not real numbers.
+/// The array itself, or a copy of other numbers as float64. Raises TypeError at what is not real
+/// numbers.
 inline py::array as_float64(const py::object& values) {
   if (py::isinstance<py::array>(values)) {
     auto array = py::reinterpret_borrow<py::array>(values);
@@ -66,13 +67,14 @@ class Columns {
   py::ssize_t samples_ = -1;
 };
 
-/// X of predict(): rows are samples; 2 columns are velocity and current, 3 have displacement before them, 4
-/// time before that.
+/// X of predict(): rows are samples; 2 columns are velocity and current, 3 have displacement before
+/// them, 4 time before that.
 inline dashpot_motion motion_of(const py::array& x) {
   const py::ssize_t count = x.ndim() == 2 ? x.shape(1) : 0;
   if (count < 2 || count > 4)
     throw py::value_error(
-        "X has the wrong shape: one row per sample, its columns velocity, current; displacement, velocity, "
+        "X has the wrong shape: one row per sample, its columns velocity, current; displacement, "
+        "velocity, "
         "current; or time, displacement, velocity, current");
   const auto column = [&](py::ssize_t k) {
     return dashpot_column{static_cast<const double*>(x.data()) + k * stride(x, 1), stride(x, 0)};

@@ -42,9 +42,9 @@ class Model : public Owner<dashpot_model, dashpot_model_free> {
     return respond(motion, interval, nullptr, 0);
   }
 
-  py::object run(const py::object& velocity, const py::object& current, const py::object& displacement,
-                 const py::object& time, const py::object& sample_time, const py::object& state,
-                 bool interval) const {
+  py::object run(const py::object& velocity, const py::object& current,
+                 const py::object& displacement, const py::object& time,
+                 const py::object& sample_time, const py::object& state, bool interval) const {
     Columns columns;
     dashpot_motion motion = {};
     motion.velocity = columns.add(velocity, "velocity");
@@ -55,7 +55,8 @@ class Model : public Owner<dashpot_model, dashpot_model_free> {
     motion.sample_time = seconds(sample_time);
     if (state.is_none()) return respond(motion, interval, nullptr, 0);
     const Array kept = state_of(state);
-    return respond(motion, interval, const_cast<double*>(kept.data()), static_cast<size_t>(kept.size()));
+    return respond(motion, interval, const_cast<double*>(kept.data()),
+                   static_cast<size_t>(kept.size()));
   }
 
   Array rest(double displacement, double current) const {
@@ -69,7 +70,8 @@ class Model : public Owner<dashpot_model, dashpot_model_free> {
   void advance(const py::object& state, const Input& from, const Input& to, double dt) const {
     Array kept = state_of(state);
     const dashpot_input a = input_of(from), b = input_of(to);
-    check(dashpot_advance(get(), &a, &b, dt, kept.mutable_data(), static_cast<size_t>(kept.size())));
+    check(
+        dashpot_advance(get(), &a, &b, dt, kept.mutable_data(), static_cast<size_t>(kept.size())));
   }
 
   double force(const py::object& state, const Input& at) const {
@@ -92,20 +94,23 @@ class Model : public Owner<dashpot_model, dashpot_model_free> {
 
   /// The caller's array itself: what is written must be seen.
   static Array state_of(const py::object& state) {
-    if (!py::isinstance<Array>(state)) throw py::type_error("state is no float64 array; take that of rest()");
+    if (!py::isinstance<Array>(state))
+      throw py::type_error("state is no float64 array; take that of rest()");
     auto array = py::reinterpret_borrow<Array>(state);
-    const bool usable = array.ndim() == 1 && (array.size() < 2 || array.strides(0) == sizeof(double)) &&
+    const bool usable = array.ndim() == 1 &&
+                        (array.size() < 2 || array.strides(0) == sizeof(double)) &&
                         array.writeable() && is_in_place(array);
     if (!usable) throw py::value_error("state is no contiguous, writeable array of one dimension");
     return array;
   }
 
-  py::object respond(const dashpot_motion& motion, bool interval, double* state, size_t state_size) const {
+  py::object respond(const dashpot_motion& motion, bool interval, double* state,
+                     size_t state_size) const {
     constexpr size_t kWorthOthersRunning = 256;
     Array force(static_cast<py::ssize_t>(motion.samples));
     Array half_width(interval ? static_cast<py::ssize_t>(motion.samples) : 0);
-    const dashpot_response response = {force.mutable_data(), interval ? half_width.mutable_data() : nullptr,
-                                       state, state_size};
+    const dashpot_response response = {
+        force.mutable_data(), interval ? half_width.mutable_data() : nullptr, state, state_size};
     dashpot_status status = DASHPOT_OK;
     if (motion.samples < kWorthOthersRunning) {
       status = dashpot_run(get(), &motion, &response);

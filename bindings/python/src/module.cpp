@@ -11,7 +11,8 @@ class Ranking : public Owner<dashpot_ranking, dashpot_ranking_free> {
  public:
   size_t count() const { return dashpot_ranking_count(get()); }
   Model model(size_t place) const {
-    return Model::make([&](dashpot_model** out) { return dashpot_ranking_model(get(), place, out); });
+    return Model::make(
+        [&](dashpot_model** out) { return dashpot_ranking_model(get(), place, out); });
   }
   std::string report(const std::string& format) const {
     Text text;
@@ -105,7 +106,8 @@ void bind_model(py::module_& module) {
       .def("save", &Model::save, arg("path"), "Writes a model file (JSON).")
       .def("to_json", &Model::text, "The text of its model file.")
       .def_property_readonly("name", reading(&dashpot_model_info::name), "\"tanh_kwok\"")
-      .def_property_readonly("kind", reading(&dashpot_model_info::kind), "\"law\", \"network\", \"narx\" ...")
+      .def_property_readonly("kind", reading(&dashpot_model_info::kind),
+                             "\"law\", \"network\", \"narx\" ...")
       .def_property_readonly("title", reading(&dashpot_model_info::title), "For people.")
       .def_property_readonly("drive_unit", reading(&dashpot_model_info::drive_unit),
                              "\"A\", or \"V\": then every current is a voltage.")
@@ -114,39 +116,48 @@ void bind_model(py::module_& module) {
       .def_property_readonly("parameter_count", reading(&dashpot_model_info::parameter_count),
                              "Numbers that were fitted.")
       .def_property_readonly(
-          "needs_displacement", [](const Model& model) { return model.info().needs_displacement != 0; },
+          "needs_displacement",
+          [](const Model& model) { return model.info().needs_displacement != 0; },
           "Whether velocity and current alone do not do.")
       .def_property_readonly("sample_time", reading(&dashpot_model_info::sample_time),
                              "s between the samples that it was fitted on; 0: mixed or unknown.")
-      .def_property_readonly("interval_level", reading(&dashpot_model_info::interval_level),
-                             "Share of left-out samples that its band claims to hold; 0: it has no band.")
+      .def_property_readonly(
+          "interval_level", reading(&dashpot_model_info::interval_level),
+          "Share of left-out samples that its band claims to hold; 0: it has no band.")
       .def_property_readonly(
           "domain", &domain,
           "Ranges of the data that it was fitted on: displacement m, velocity m/s, current A "
           "(or V). Outside, it extrapolates. All 0: unknown.")
       .def("predict", &Model::predict, arg("X"), arg("sample_time") = none, arg("interval") = false,
            "Force, N, in free run from rest, one per row of X.\n\n"
-           "X: a float64 array, read where it lies whatever its strides (other numbers are copied): columns\n"
-           "velocity m/s, current A; or displacement m before them; or time s before that. Or a DataFrame "
+           "X: a float64 array, read where it lies whatever its strides (other numbers are "
+           "copied): columns\n"
+           "velocity m/s, current A; or displacement m before them; or time s before that. Or a "
+           "DataFrame "
            "whose\n"
-           "columns tell by their names what they are (\"velocity [mm/s]\"); the result is then a Series.\n"
+           "columns tell by their names what they are (\"velocity [mm/s]\"); the result is then a "
+           "Series.\n"
            "sample_time: s between rows without a time; None: that of the fit.\n"
            "interval: returns (force, half_width), the model's band being force +- half_width.\n"
            "Raises Error on input that cannot be used, NotUsable where the model diverges.")
       .def("run", &Model::run, arg("velocity"), arg("current"), arg("displacement") = none,
-           arg("time") = none, arg("sample_time") = none, arg("state") = none, arg("interval") = false,
+           arg("time") = none, arg("sample_time") = none, arg("state") = none,
+           arg("interval") = false,
            "As predict(), from separate columns (m/s, A, m, s), each an array or one value for all "
            "samples.\n\n"
-           "state: an array of rest(): the run begins there and leaves its end in it; to go on, begin with "
+           "state: an array of rest(): the run begins there and leaves its end in it; to go on, "
+           "begin with "
            "the\n"
            "last sample again.")
       .def("rest", &Model::rest, arg("displacement") = 0.0, arg("current") = 0.0,
            "A state array: after a long rest at this displacement, m, and current, A.")
       .def("advance", &Model::advance, arg("state"), arg("start"), arg("end"), arg("dt"),
-           "Brings the state array dt s further. start, end: (displacement m, velocity m/s, current A); "
+           "Brings the state array dt s further. start, end: (displacement m, velocity m/s, "
+           "current A); "
            "linear\n"
            "in between.")
-      .def("force", &Model::force, arg("state"), arg("at"), "N at (displacement m, velocity m/s, current A).")
+      .def("force", &Model::force, arg("state"), arg("at"),
+           "N at (displacement m, velocity m/s, current A).")
       .def(
           "score",
           [](const py::object& self, const py::object& x, const py::object& y,
@@ -154,34 +165,44 @@ void bind_model(py::module_& module) {
             return py::module_::import("dashpot._learn").attr("score")(self, x, y, sample_time);
           },
           arg("X"), arg("y"), arg("sample_time") = none,
-          "R2 of predict(X) against the measured force y, N; of lists of recordings: over all their samples.")
+          "R2 of predict(X) against the measured force y, N; of lists of recordings: over all "
+          "their samples.")
       .def(
           "evaluate",
           [](const py::object& self, const py::object& recordings, const py::kwargs& options) {
-            return py::module_::import("dashpot._identify").attr("evaluate")(self, recordings, **options);
+            return py::module_::import("dashpot._identify")
+                .attr("evaluate")(self, recordings, **options);
           },
           arg("recordings"),
           "The figures of `dashpot evaluate --json`, as a dict. recordings: Recordings, or paths.\n"
-          "force_offset: \"record\" (each recording has a free force zero) or \"none\"; threads: 0 for all.")
+          "force_offset: \"record\" (each recording has a free force zero) or \"none\"; threads: 0 "
+          "for all.")
       .def(
           "export",
           [](const py::object& self, const py::object& to, const py::object& folder,
              const py::kwargs& options) {
-            return py::module_::import("dashpot._export").attr("export")(self, to, folder, **options);
+            return py::module_::import("dashpot._export")
+                .attr("export")(self, to, folder, **options);
           },
           arg("to"), arg("folder") = "dashpot-export",
-          "Writes the model as files for other programs, as `dashpot export` does; returns their paths.\n\n"
-          "to: \"c\", \"fmu2\", \"fmu3\", \"tables\" ..., one or a list; `dashpot export --help` has all.\n"
-          "name: of the files and of the functions in them (\"\": the model's). precision: \"double\" or\n"
-          "\"float\", of numbers in C. sample_time: s between two steps (0: that of the model's data, or 1 "
+          "Writes the model as files for other programs, as `dashpot export` does; returns their "
+          "paths.\n\n"
+          "to: \"c\", \"fmu2\", \"fmu3\", \"tables\" ..., one or a list; `dashpot export --help` "
+          "has all.\n"
+          "name: of the files and of the functions in them (\"\": the model's). precision: "
+          "\"double\" or\n"
+          "\"float\", of numbers in C. sample_time: s between two steps (0: that of the model's "
+          "data, or 1 "
           "ms).\n"
-          "compiler: of C, for the binary in an FMU (\"\": $CC, or cc). sources_only: an FMU without a "
+          "compiler: of C, for the binary in an FMU (\"\": $CC, or cc). sources_only: an FMU "
+          "without a "
           "binary.\n"
           "Raises Error where the model cannot become that; then nothing is written.")
       .def("__repr__",
            [](const Model& model) {
-             return "<dashpot.DamperModel " + std::string(model.info().name) + ", " + model.info().kind +
-                    ", " + std::to_string(model.info().parameter_count) + " parameters>";
+             return "<dashpot.DamperModel " + std::string(model.info().name) + ", " +
+                    model.info().kind + ", " + std::to_string(model.info().parameter_count) +
+                    " parameters>";
            })
       .def(py::pickle([](const Model& model) { return model.text(); },
                       [](const std::string& text) { return Model::parse(text); }));

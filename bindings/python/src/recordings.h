@@ -13,7 +13,8 @@ class Recordings : public Owner<dashpot_recordings, dashpot_recordings_free> {
     dashpot_status status = DASHPOT_OK;
     {
       const py::gil_scoped_release others_may_run;
-      status = dashpot_recordings_load(texts.data(), texts.size(), options.c_str(), recordings.out());
+      status =
+          dashpot_recordings_load(texts.data(), texts.size(), options.c_str(), recordings.out());
     }
     check(status);
     return recordings;
@@ -34,7 +35,8 @@ class Recordings : public Owner<dashpot_recordings, dashpot_recordings_free> {
     std::vector<dashpot_column> columns;
     for (const auto& [key, values] : table) {
       names.push_back(py::str(key));
-      columns.push_back(arrays.add(py::reinterpret_borrow<py::object>(values), names.back().c_str()));
+      columns.push_back(
+          arrays.add(py::reinterpret_borrow<py::object>(values), names.back().c_str()));
     }
     std::vector<dashpot_named_column> named;
     for (std::size_t k = 0; k < names.size(); ++k) named.push_back({names[k].c_str(), columns[k]});
@@ -56,7 +58,8 @@ class Recordings : public Owner<dashpot_recordings, dashpot_recordings_free> {
     return text.take();
   }
 
-  /// Name, condition, sample time and columns of one: views of the library's memory, which `self` keeps.
+  /// Name, condition, sample time and columns of one: views of the library's memory, which `self`
+  /// keeps.
   static py::dict record(const py::object& self, size_t place) {
     const auto* recordings = self.cast<const Recordings&>().get();
     dashpot_record_info info = {};

@@ -25,7 +25,8 @@ ChildResult run_child(std::vector<std::string> program_and_arguments) {
   for (std::string& argument : program_and_arguments) arguments.push_back(argument.data());
   arguments.push_back(nullptr);
   pid_t child = 0;
-  const int problem = posix_spawnp(&child, program.c_str(), &actions, nullptr, arguments.data(), environ);
+  const int problem =
+      posix_spawnp(&child, program.c_str(), &actions, nullptr, arguments.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
   close(ends[1]);
   ChildResult result;

@@ -10,9 +10,9 @@ namespace dashpot {
 
 namespace {
 
-/// Where the data may lie, the first best: where the user says; beside the program or shared library that
-/// runs, as an installation (which may have been moved) or a Python package has it; in the source; where it
-/// was to be installed.
+/// Where the data may lie, the first best: where the user says; beside the program or shared
+/// library that runs, as an installation (which may have been moved) or a Python package has it; in
+/// the source; where it was to be installed.
 std::vector<fs::path> find_roots() {
   std::vector<fs::path> roots;
   if (const char* stated = std::getenv("DASHPOT_DATA")) roots.emplace_back(stated);
@@ -21,7 +21,8 @@ std::vector<fs::path> find_roots() {
   if (dladdr(reinterpret_cast<const void*>(&find_roots), &here) != 0 && here.dli_fname) {
     // A program's own name may be relative to a folder that it has left.
     fs::path code = fs::read_symlink("/proc/self/exe", unknown);
-    if (fs::path(here.dli_fname).filename() != code.filename()) code = fs::absolute(here.dli_fname, unknown);
+    if (fs::path(here.dli_fname).filename() != code.filename())
+      code = fs::absolute(here.dli_fname, unknown);
     const fs::path folder = code.parent_path();
     for (const fs::path& root :
          {folder / "data", folder / "../share/dashpot", folder / "../../share/dashpot"})

@@ -6,8 +6,9 @@
 
 namespace dashpot {
 
-/// The folder `kind` of the data that come with Dashpot ("parameters", "dampers"): of $DASHPOT_DATA, of the
-/// installation that the program or library is part of, or of the source that it was built from.
+/// The folder `kind` of the data that come with Dashpot ("parameters", "dampers"): of
+/// $DASHPOT_DATA, of the installation that the program or library is part of, or of the source that
+/// it was built from.
 std::filesystem::path data_folder(std::string_view kind);
 
 /// Names without their ending of the files of that kind, in alphabetical order.

@@ -2,7 +2,8 @@
 
 namespace dashpot {
 
-static std::string compose(const std::string& where, const std::string& what, const std::string& right) {
+static std::string compose(const std::string& where, const std::string& what,
+                           const std::string& right) {
   std::string text = where.empty() ? what : where + ": " + what;
   if (!right.empty()) text += "; " + right;
   return text;

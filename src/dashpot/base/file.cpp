@@ -65,7 +65,8 @@ class TemporaryFile {
 
  private:
   [[noreturn]] void fail() const {
-    throw Error(final_.string(), "cannot be written: " + reason(), "what stood there before is unchanged");
+    throw Error(final_.string(), "cannot be written: " + reason(),
+                "what stood there before is unchanged");
   }
 
   fs::path final_;
@@ -90,10 +91,10 @@ std::string read_file(const fs::path& path) {
   const char* message = gzerror(file.get(), &code);
   // A truncated gzip ends with Z_BUF_ERROR although gzread returned 0.
   if (n < 0 || code == Z_BUF_ERROR) {
-    throw Error(
-        path.string(),
-        code == Z_ERRNO ? "cannot be read: " + reason() : std::string("damaged gzip file: ") + message,
-        "copy it again from its source");
+    throw Error(path.string(),
+                code == Z_ERRNO ? "cannot be read: " + reason()
+                                : std::string("damaged gzip file: ") + message,
+                "copy it again from its source");
   }
   return content;
 }
@@ -120,7 +121,8 @@ std::string sha256(std::string_view bytes) {
 std::string sha256_of_file(const fs::path& path) {
   require_readable_file(path);
   std::array<char, SHA256_DIGEST_STRING_LENGTH> text;
-  if (!SHA256File(path.c_str(), text.data())) throw Error(path.string(), "cannot be read: " + reason());
+  if (!SHA256File(path.c_str(), text.data()))
+    throw Error(path.string(), "cannot be read: " + reason());
   return text.data();
 }
 

@@ -13,8 +13,9 @@ struct Progress {
 
 /// What long work talks to: it reports through it and is stopped by it. Safe from several threads.
 struct Monitor {
-  std::function<void(const Progress&)> on_progress;  ///< may be empty; called from one thread at a time
-  const std::atomic<bool>* stop = nullptr;           ///< set by a signal handler, say
+  std::function<void(const Progress&)>
+      on_progress;                          ///< may be empty; called from one thread at a time
+  const std::atomic<bool>* stop = nullptr;  ///< set by a signal handler, say
 
   /// Reports, and throws Interrupted when `stop` is set.
   void report(const std::string& stage, double fraction) const;

@@ -23,7 +23,8 @@ namespace {
 /// Hands out task numbers and keeps the exception of the lowest failing one.
 class Farm {
  public:
-  Farm(std::size_t count, const std::function<void(std::size_t)>& task) : count_(count), task_(task) {}
+  Farm(std::size_t count, const std::function<void(std::size_t)>& task)
+      : count_(count), task_(task) {}
 
   void work() {
     for (std::size_t k; (k = next_.fetch_add(1)) < count_;) {
@@ -67,11 +68,13 @@ thread_local double seconds_of_others = 0;
 double cpu_seconds() {
   timespec own{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &own);
-  return static_cast<double>(own.tv_sec) + 1e-9 * static_cast<double>(own.tv_nsec) + seconds_of_others;
+  return static_cast<double>(own.tv_sec) + 1e-9 * static_cast<double>(own.tv_nsec) +
+         seconds_of_others;
 }
 
 void parallel_for(std::size_t count, int threads, const std::function<void(std::size_t)>& task) {
-  const auto wanted = inside_a_task ? 1 : static_cast<std::size_t>(threads > 0 ? threads : default_threads());
+  const auto wanted =
+      inside_a_task ? 1 : static_cast<std::size_t>(threads > 0 ? threads : default_threads());
   const std::size_t workers = std::min(count, wanted);
   if (workers <= 1) {
     for (std::size_t k = 0; k < count; ++k) task(k);

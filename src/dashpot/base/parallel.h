@@ -12,8 +12,8 @@ int default_threads();
 /// exception of the lowest failing index is rethrown after all running tasks have ended.
 void parallel_for(std::size_t count, int threads, const std::function<void(std::size_t)>& task);
 
-/// CPU time of the calling thread, s, and of what it gave to other threads through parallel_for: what work
-/// costs, whatever runs beside it. Differences count.
+/// CPU time of the calling thread, s, and of what it gave to other threads through parallel_for:
+/// what work costs, whatever runs beside it. Differences count.
 double cpu_seconds();
 
 }  // namespace dashpot

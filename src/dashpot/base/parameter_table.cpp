@@ -45,8 +45,8 @@ double parse_value(const ParameterRow& row, std::string_view text, const std::st
   return checked(row, parse_quantity(text, row.unit, where + ", " + std::string(row.name)), where);
 }
 
-std::vector<double> with_values(ParameterTable table, const NamedValues& values, std::string_view owner,
-                                const std::string& where) {
+std::vector<double> with_values(ParameterTable table, const NamedValues& values,
+                                std::string_view owner, const std::string& where) {
   std::vector<double> numbers = default_values(table);
   for (const auto& [name, value] : values) {
     const std::size_t place = row_named(table, name, owner, where);
@@ -60,17 +60,21 @@ std::vector<double> parse_values(ParameterTable table, std::span<const std::stri
   std::vector<double> numbers = default_values(table);
   for (const std::string& text : texts) {
     const std::size_t equals = text.find('=');
-    if (equals == std::string::npos) throw Error(where, "'" + text + "' states no value", "write NAME=VALUE");
+    if (equals == std::string::npos)
+      throw Error(where, "'" + text + "' states no value", "write NAME=VALUE");
     const std::size_t place = row_named(table, trim(text.substr(0, equals)), owner, where);
-    numbers[place] = parse_value(table[place], trim(std::string_view(text).substr(equals + 1)), where);
+    numbers[place] =
+        parse_value(table[place], trim(std::string_view(text).substr(equals + 1)), where);
   }
   return numbers;
 }
 
-std::string describe_values(ParameterTable table, std::span<const double> values, std::string_view owner) {
+std::string describe_values(ParameterTable table, std::span<const double> values,
+                            std::string_view owner) {
   std::string text(owner);
   for (std::size_t k = 0; k < values.size(); ++k)
-    text += (k == 0 ? ": " : ", ") + std::string(table[k].name) + " " + with_unit(values[k], table[k]);
+    text +=
+        (k == 0 ? ": " : ", ") + std::string(table[k].name) + " " + with_unit(values[k], table[k]);
   return text;
 }
 

@@ -31,13 +31,14 @@ double checked(const ParameterRow& row, double value, const std::string& where);
 double parse_value(const ParameterRow& row, std::string_view text, const std::string& where);
 
 /// Defaults with these in their places, checked; likewise from texts "amplitude=4mm".
-std::vector<double> with_values(ParameterTable table, const NamedValues& values, std::string_view owner,
-                                const std::string& where);
+std::vector<double> with_values(ParameterTable table, const NamedValues& values,
+                                std::string_view owner, const std::string& where);
 std::vector<double> parse_values(ParameterTable table, std::span<const std::string> texts,
                                  std::string_view owner, const std::string& where);
 
 /// "AM: amplitude 0.025 m, carrier 2 Hz"
-std::string describe_values(ParameterTable table, std::span<const double> values, std::string_view owner);
+std::string describe_values(ParameterTable table, std::span<const double> values,
+                            std::string_view owner);
 
 /// Values in table order as the struct of doubles whose fields stand in that order.
 template <class P>

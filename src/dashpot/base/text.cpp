@@ -20,7 +20,8 @@ std::optional<double> parse_number(std::string_view text, char decimal) {
   if (text.empty() || text.front() == '+') return std::nullopt;
   std::array<char, 64> with_point;
   if (decimal != '.') {
-    if (text.size() > with_point.size() || text.find('.') != std::string_view::npos) return std::nullopt;
+    if (text.size() > with_point.size() || text.find('.') != std::string_view::npos)
+      return std::nullopt;
     std::replace_copy(text.begin(), text.end(), with_point.begin(), decimal, '.');
     text = {with_point.data(), text.size()};
   }
@@ -38,8 +39,8 @@ std::string format_exact(double value) {
 
 std::string format_number(double value, int digits) {
   std::array<char, 32> buffer;
-  const auto result =
-      std::to_chars(buffer.data(), buffer.data() + buffer.size(), value, std::chars_format::general, digits);
+  const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value,
+                                    std::chars_format::general, digits);
   return {buffer.data(), result.ptr};
 }
 
@@ -84,7 +85,8 @@ static std::size_t edit_distance(std::string_view a, std::string_view b) {
   return row[b.size()];
 }
 
-std::optional<std::string> closest(std::string_view word, const std::vector<std::string>& candidates) {
+std::optional<std::string> closest(std::string_view word,
+                                   const std::vector<std::string>& candidates) {
   const std::string wanted = lower(word);
   std::optional<std::string> best;
   std::size_t best_distance = std::max<std::size_t>(2, wanted.size() / 3) + 1;

@@ -22,7 +22,8 @@ std::vector<std::string> split(std::string_view text, char separator);
 std::string join(const std::vector<std::string>& parts, std::string_view separator);
 
 /// The candidate nearest to a mistyped word, or nothing when none is near.
-std::optional<std::string> closest(std::string_view word, const std::vector<std::string>& candidates);
+std::optional<std::string> closest(std::string_view word,
+                                   const std::vector<std::string>& candidates);
 
 /// "did you mean 'bingham'? known: bingham, ..." for the last part of an Error.
 std::string suggest(std::string_view word, const std::vector<std::string>& known,

@@ -91,9 +91,11 @@ const Named* find_named(std::string_view name) {
 }
 
 std::optional<Unit> parse_symbol(std::string_view name) {
-  if (const Named* unit = find_named(name)) return Unit{unit->dimension, unit->factor, unit->offset};
+  if (const Named* unit = find_named(name))
+    return Unit{unit->dimension, unit->factor, unit->offset};
   for (const Prefix& prefix : kPrefixes) {
-    if (name.size() <= prefix.name.size() || name.substr(0, prefix.name.size()) != prefix.name) continue;
+    if (name.size() <= prefix.name.size() || name.substr(0, prefix.name.size()) != prefix.name)
+      continue;
     const Named* unit = find_named(name.substr(prefix.name.size()));
     if (unit && unit->offset == 0 && unit->name != "1" && unit->name != "-" && unit->name != "%")
       return Unit{unit->dimension, unit->factor * prefix.factor, 0};
@@ -117,18 +119,21 @@ std::optional<Unit> parse_factor(std::string_view text) {
   if (!unit || (unit->offset != 0 && exponent != 1)) return std::nullopt;
   if (exponent == 1) return unit;
   Unit power{{}, std::pow(unit->factor, exponent), 0};
-  for (std::size_t k = 0; k < power.dimension.size(); ++k) power.dimension[k] = unit->dimension[k] * exponent;
+  for (std::size_t k = 0; k < power.dimension.size(); ++k)
+    power.dimension[k] = unit->dimension[k] * exponent;
   return power;
 }
 
 /// Spells superscripts, dots and blanks between factors as ^ and *.
 std::string normalise(std::string_view text) {
   static constexpr std::pair<std::string_view, std::string_view> kSpellings[] = {
-      {"\u00b2", "^2"},  {"\u00b3", "^3"}, {"\u207b\u00b9", "^-1"}, {"\u00b7", "*"}, {"\u22c5", "*"},
-      {"\u00b0", "deg"}, {"**", "^"}};
+      {"\u00b2", "^2"}, {"\u00b3", "^3"}, {"\u207b\u00b9", "^-1"},
+      {"\u00b7", "*"},  {"\u22c5", "*"},  {"\u00b0", "deg"},
+      {"**", "^"}};
   std::string out(trim(text));
   for (const auto& [from, to] : kSpellings)
-    for (std::size_t at; (at = out.find(from)) != std::string::npos;) out.replace(at, from.size(), to);
+    for (std::size_t at; (at = out.find(from)) != std::string::npos;)
+      out.replace(at, from.size(), to);
   for (std::size_t k = 1; k + 1 < out.size(); ++k)
     if ((out[k] == ' ' || out[k] == '.') && std::isalpha(static_cast<unsigned char>(out[k + 1])))
       out[k] = '*';
@@ -141,7 +146,8 @@ bool multiply(Unit& unit, std::string_view product, int sign) {
   for (const std::string& part : split(product, '*')) {
     const auto factor = parse_factor(part);
     if (!factor) return false;
-    for (std::size_t k = 0; k < unit.dimension.size(); ++k) unit.dimension[k] += sign * factor->dimension[k];
+    for (std::size_t k = 0; k < unit.dimension.size(); ++k)
+      unit.dimension[k] += sign * factor->dimension[k];
     unit.factor *= sign > 0 ? factor->factor : 1 / factor->factor;
     if (factor->offset != 0) {
       if (product.find('*') != std::string_view::npos || sign < 0) return false;

@@ -16,19 +16,20 @@ struct Unit {
   double offset = 0;  ///< only degC and degF have one
 };
 
-/// Reads "mm", "N*s/m", "cm/s^2", "1/(m*A)", "kN", "in", "lbf", "g0", "degC", "1", "%". Also accepts
-/// "N s/m", "N.s/m", "m/s²" and the spellings "newton", "Newtons", "sec", "volts". Nothing when unknown.
+/// Reads "mm", "N*s/m", "cm/s^2", "1/(m*A)", "kN", "in", "lbf", "g0", "degC", "1", "%". Also
+/// accepts "N s/m", "N.s/m", "m/s²" and the spellings "newton", "Newtons", "sec", "volts". Nothing
+/// when unknown.
 std::optional<Unit> parse_unit(std::string_view text);
 
 /// As parse_unit, but throws Error(where, ...) that names the unit and near ones.
 Unit require_unit(std::string_view text, const std::string& where);
 
-/// "1.5 mm", "5N/cm" or a plain number, which is in SI, as a number in `si_unit`. Throws Error(where, ...) on
-/// anything else, and on a unit of another dimension.
+/// "1.5 mm", "5N/cm" or a plain number, which is in SI, as a number in `si_unit`. Throws
+/// Error(where, ...) on anything else, and on a unit of another dimension.
 double parse_quantity(std::string_view text, std::string_view si_unit, const std::string& where);
 
-/// `unit` (an SI unit text with powers of A, as in a law's table) with V in place of A: parameters of a
-/// model that is driven by a voltage. "N*s/(m*A)" -> "N*s/(m*V)".
+/// `unit` (an SI unit text with powers of A, as in a law's table) with V in place of A: parameters
+/// of a model that is driven by a voltage. "N*s/(m*A)" -> "N*s/(m*V)".
 std::string with_drive_unit(std::string_view unit, std::string_view drive_unit);
 
 }  // namespace dashpot

@@ -29,8 +29,8 @@ std::string_view name_of(Value::Kind kind) {
 /// `what` names the value where its place does not: "'scale' ".
 void require_kind(const Value& value, Value::Kind wanted, const std::string& what = {}) {
   if (value.kind() == wanted) return;
-  throw Error(value.where(),
-              what + "is " + std::string(name_of(value.kind())) + ", not " + std::string(name_of(wanted)));
+  throw Error(value.where(), what + "is " + std::string(name_of(value.kind())) + ", not " +
+                                 std::string(name_of(wanted)));
 }
 
 std::string quoted(std::string_view key) { return "'" + std::string(key) + "' "; }
@@ -99,10 +99,11 @@ void Value::push_back(Value value) {
   items_.push_back(std::move(value));
 }
 
-ObjectReader::ObjectReader(const Value& value, std::string what) : value_(value), what_(std::move(what)) {
+ObjectReader::ObjectReader(const Value& value, std::string what)
+    : value_(value), what_(std::move(what)) {
   if (value.kind() != Value::Kind::Object)
-    throw Error(value.where(),
-                what_ + " must be a mapping of keys to values, not " + std::string(name_of(value.kind())));
+    throw Error(value.where(), what_ + " must be a mapping of keys to values, not " +
+                                   std::string(name_of(value.kind())));
 }
 
 const Value* ObjectReader::optional(std::string_view key) {

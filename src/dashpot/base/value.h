@@ -82,8 +82,8 @@ class ObjectReader {
   std::vector<std::string> asked_;
 };
 
-/// JSON and YAML text to a Value and back. `source` (a file name) stands in messages and in where().
-/// Numbers keep all their digits; NaN and infinities cannot be written and throw.
+/// JSON and YAML text to a Value and back. `source` (a file name) stands in messages and in
+/// where(). Numbers keep all their digits; NaN and infinities cannot be written and throw.
 Value parse_json(std::string_view text, const std::string& source);
 Value parse_yaml(std::string_view text, const std::string& source);
 std::string format_json(const Value& value, bool pretty = true);

@@ -106,8 +106,9 @@ Value parse_json(std::string_view text, const std::string& source) {
   } catch (const Json::parse_error& error) {
     const std::string message = error.what();
     const std::size_t detail = message.find("syntax error");
-    throw Error(source + ":" + std::to_string(line_at(text, error.byte)),
-                "is not valid JSON: " + (detail == std::string::npos ? message : message.substr(detail)));
+    throw Error(
+        source + ":" + std::to_string(line_at(text, error.byte)),
+        "is not valid JSON: " + (detail == std::string::npos ? message : message.substr(detail)));
   } catch (const Json::exception& error) {
     throw Error(source, std::string("is not valid JSON: ") + error.what());
   }

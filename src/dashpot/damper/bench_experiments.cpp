@@ -11,8 +11,8 @@ namespace {
 constexpr std::string_view kAll = "one-sensor";
 constexpr std::uint64_t kSecondSeed = 1000;  // further than the number of experiments
 
-// Each constant of SC sees the whole motion. In experiment 4 the frequencies are high and the amplitudes low,
-// as the paper says of it.
+// Each constant of SC sees the whole motion. In experiment 4 the frequencies are high and the
+// amplitudes low, as the paper says of it.
 constexpr std::array kExperiments{
     BenchExperiment{.name = "one-sensor-1",
                     .title = "triangles of variable slope, stepped constants",
@@ -40,7 +40,8 @@ constexpr std::array kExperiments{
                     .second = "modulation=0.07"},
 };
 
-BenchTest test_of(std::size_t k, const ParameterSet& damper, std::uint64_t seed, Recording recording) {
+BenchTest test_of(std::size_t k, const ParameterSet& damper, std::uint64_t seed,
+                  Recording recording) {
   const bool switched = !damper.drive_levels.empty(), second = recording == Recording::Second;
   const BenchExperiment& experiment = kExperiments[k];
   const Excitation& excitation = switched ? experiment.switched : experiment.continuous;
@@ -68,8 +69,10 @@ std::vector<BenchTest> experiment_tests(const std::string& name, const Parameter
                                         std::uint64_t seed, Recording recording) {
   std::vector<BenchTest> tests;
   for (std::size_t k = 0; k < kExperiments.size(); ++k)
-    if (name == kAll || name == kExperiments[k].name) tests.push_back(test_of(k, damper, seed, recording));
-  if (tests.empty()) throw Error("", "unknown experiment '" + name + "'", suggest(name, experiment_names()));
+    if (name == kAll || name == kExperiments[k].name)
+      tests.push_back(test_of(k, damper, seed, recording));
+  if (tests.empty())
+    throw Error("", "unknown experiment '" + name + "'", suggest(name, experiment_names()));
   return tests;
 }
 

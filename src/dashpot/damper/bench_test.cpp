@@ -19,7 +19,8 @@ std::string label_of(std::string sequence) {
 
 BenchTest sine_test(const SineMotion& sine, double duration) {
   BenchTest test;
-  test.condition = format_number(1000 * sine.amplitude) + " mm " + format_number(sine.frequency) + " Hz";
+  test.condition =
+      format_number(1000 * sine.amplitude) + " mm " + format_number(sine.frequency) + " Hz";
   test.motion.duration = duration;
   test.motion.at = [=, w = 2 * std::numbers::pi * sine.frequency](double t) -> MotionPoint {
     return {-sine.amplitude * std::cos(w * t), sine.amplitude * w * std::sin(w * t)};

@@ -23,9 +23,11 @@ struct BenchTest {
 /// Tests that lack their drive: a sine for this time, from rest at its lower end; a sequence (see
 /// make_motion).
 BenchTest sine_test(const SineMotion& sine, double duration);
-BenchTest sequence_test(const std::string& motion, std::uint64_t seed, const std::string& where = "motion");
+BenchTest sequence_test(const std::string& motion, std::uint64_t seed,
+                        const std::string& where = "motion");
 
-/// The same motion under a constant drive, and under a sequence (see make_drive), which lasts as long.
+/// The same motion under a constant drive, and under a sequence (see make_drive), which lasts as
+/// long.
 BenchTest at_level(BenchTest test, double level, const std::string& drive_unit);
 BenchTest under_sequence(BenchTest test, const std::string& drive, DriveFrame frame,
                          const std::string& where = "drive");

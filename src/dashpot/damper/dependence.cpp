@@ -10,11 +10,12 @@
 namespace dashpot {
 namespace {
 
-constexpr std::array<std::pair<Form, std::string_view>, 5> kForms{{{Form::Constant, "constant"},
-                                                                   {Form::Linear, "linear"},
-                                                                   {Form::Quadratic, "quadratic"},
-                                                                   {Form::Cubic, "cubic"},
-                                                                   {Form::Exponential, "exponential"}}};
+constexpr std::array<std::pair<Form, std::string_view>, 5> kForms{
+    {{Form::Constant, "constant"},
+     {Form::Linear, "linear"},
+     {Form::Quadratic, "quadratic"},
+     {Form::Cubic, "cubic"},
+     {Form::Exponential, "exponential"}}};
 
 }  // namespace
 

@@ -6,7 +6,8 @@
 
 namespace dashpot {
 
-/// How a parameter depends on the coil current i. The polynomials stand in the order of their degree:
+/// How a parameter depends on the coil current i. The polynomials stand in the order of their
+/// degree:
 ///   Constant p_a;  Linear p_a + p_b i;  Quadratic ... + p_c i^2;  Cubic ... + p_d i^3;
 ///   Exponential p_b + (p_a - p_b) exp(-p_c i): from p_a without current to p_b in saturation.
 enum class Form { Constant, Linear, Quadratic, Cubic, Exponential };
@@ -29,7 +30,8 @@ struct Dependence {
 
 /// "c_a", "c_b" for a linear c; "c" for a constant one.
 std::string coefficient_name(std::string_view param, Form form, std::size_t index);
-/// The coefficient's unit: "N*s/m" -> "N*s/(m*A)" for the linear one ("V" for a voltage-driven model).
+/// The coefficient's unit: "N*s/m" -> "N*s/(m*A)" for the linear one ("V" for a voltage-driven
+/// model).
 std::string coefficient_unit(std::string_view unit, Form form, std::size_t index,
                              std::string_view drive_unit);
 

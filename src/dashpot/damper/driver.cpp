@@ -11,9 +11,10 @@ namespace dashpot {
 Driver::Driver(const DriverOptions& options) : options_(options) {
   const auto& [low, high, rate, lag, period] = options;
   if (!(std::isfinite(low) && std::isfinite(high) && low < high))
-    throw Error("driver",
-                "the currents " + format_number(low) + " ... " + format_number(high) + " are no range",
-                "give the least current first");
+    throw Error(
+        "driver",
+        "the currents " + format_number(low) + " ... " + format_number(high) + " are no range",
+        "give the least current first");
   if (!(rate > 0))
     throw Error("driver", "a rate limit of " + format_number(rate) + " A/s", "it must be above 0");
   if (!(lag >= 0 && std::isfinite(lag)))
@@ -29,7 +30,8 @@ void Driver::rest(double current, std::span<double> state) const noexcept {
 }
 
 void Driver::command(double current, std::span<double> state) const noexcept {
-  if (!std::isnan(current)) state[kAsked] = std::clamp(current, options_.current_min, options_.current_max);
+  if (!std::isnan(current))
+    state[kAsked] = std::clamp(current, options_.current_min, options_.current_max);
   if (state[kWait] > 0) return;
   state[kHeld] = state[kAsked];
   state[kWait] = options_.period;
@@ -37,7 +39,8 @@ void Driver::command(double current, std::span<double> state) const noexcept {
 }
 
 void Driver::advance(double dt, std::span<double> state) const noexcept {
-  // Sums of steps miss a sampling instant by rounding: one that is nearly reached counts as reached.
+  // Sums of steps miss a sampling instant by rounding: one that is nearly reached counts as
+  // reached.
   const double slack = 1e-9 * options_.period;
   if (options_.period == 0 || dt < state[kWait] - slack) {
     state[kWait] = std::max(0.0, state[kWait] - dt);
@@ -57,7 +60,8 @@ double Driver::next_corner(std::span<const double> state) const noexcept {
   constexpr double kNever = std::numeric_limits<double>::infinity();
   const double sampled = state[kAsked] != state[kHeld] ? state[kWait] : kNever;
   const double way = std::abs(state[kHeld] - state[kRamp]);
-  return std::min(sampled, way > 0 && std::isfinite(options_.rate_max) ? way / options_.rate_max : kNever);
+  return std::min(sampled,
+                  way > 0 && std::isfinite(options_.rate_max) ? way / options_.rate_max : kNever);
 }
 
 void Driver::meet_corner(std::span<double> state) const noexcept {
@@ -65,11 +69,13 @@ void Driver::meet_corner(std::span<double> state) const noexcept {
     state[kWait] = 0;
     command(state[kAsked], state);
   }
-  if (std::abs(state[kHeld] - state[kRamp]) < kInstant * options_.rate_max) state[kRamp] = state[kHeld];
+  if (std::abs(state[kHeld] - state[kRamp]) < kInstant * options_.rate_max)
+    state[kRamp] = state[kHeld];
 }
 
 bool Driver::is_steady(std::span<const double> state) const noexcept {
-  return state[kCoil] == state[kHeld] && state[kRamp] == state[kHeld] && state[kAsked] == state[kHeld];
+  return state[kCoil] == state[kHeld] && state[kRamp] == state[kHeld] &&
+         state[kAsked] == state[kHeld];
 }
 
 void Driver::follow(double dt, std::span<double> state) const noexcept {

@@ -4,16 +4,18 @@
 
 namespace dashpot {
 
-/// What lies between a commanded current and the coil: sampling, limits, a limited rate, a first-order lag,
-/// in this order.
+/// What lies between a commanded current and the coil: sampling, limits, a limited rate, a
+/// first-order lag, in this order.
 struct DriverOptions {
   double current_min = 0, current_max = 1;                    ///< A (or V)
   double rate_max = std::numeric_limits<double>::infinity();  ///< A/s
   double lag_rate = 0;                                        ///< 1/s; 0: no lag
-  double period = 0;  ///< s between the instants at which it looks at its command; 0: at every command
+  double period =
+      0;  ///< s between the instants at which it looks at its command; 0: at every command
 };
 
-/// The coil's driver. The state is the caller's; exact for a command that is constant between calls.
+/// The coil's driver. The state is the caller's; exact for a command that is constant between
+/// calls.
 class Driver {
  public:
   /// Throws Error on limits, rates or a period that make no sense.
@@ -23,12 +25,13 @@ class Driver {
   static constexpr double kInstant = 1e-10;  ///< s: a corner that is nearer than this is met
   /// After a long rest at this current; the next command is a sampling instant.
   void rest(double current, std::span<double> state) const noexcept;
-  /// Takes a new command. A coil without lag and rate limit answers at once. NaN keeps the last command.
+  /// Takes a new command. A coil without lag and rate limit answers at once. NaN keeps the last
+  /// command.
   void command(double current, std::span<double> state) const noexcept;
   /// Brings the coil's current dt seconds further.
   void advance(double dt, std::span<double> state) const noexcept;
-  /// s until the current's course has a corner by itself, at an instant of its own sampling or where a
-  /// limited rate ends; infinite where none comes.
+  /// s until the current's course has a corner by itself, at an instant of its own sampling or
+  /// where a limited rate ends; infinite where none comes.
   double next_corner(std::span<const double> state) const noexcept;
   /// There: what it takes at a sampling instant.
   void meet_corner(std::span<double> state) const noexcept;

@@ -25,8 +25,9 @@ std::vector<Axis> axes(const std::string& drive_unit) {
 Value to_json(const Domain& domain, const std::string& drive_unit) {
   Value out = Value::object();
   for (const Axis& axis : axes(drive_unit))
-    out.add(std::string(axis.key),
-            Value::object({{"min", domain.*axis.min}, {"max", domain.*axis.max}, {"unit", axis.unit}}));
+    out.add(
+        std::string(axis.key),
+        Value::object({{"min", domain.*axis.min}, {"max", domain.*axis.max}, {"unit", axis.unit}}));
   return out;
 }
 
@@ -40,7 +41,8 @@ Domain read_domain(const Value& value, const std::string& drive_unit) {
     domain.*axis.max = ends.number("max");
     const std::string unit = ends.string("unit");
     ends.finish();
-    if (unit != axis.unit) throw Error(range.where(), "unit is '" + unit + "'", "write " + axis.unit);
+    if (unit != axis.unit)
+      throw Error(range.where(), "unit is '" + unit + "'", "write " + axis.unit);
     if (domain.*axis.min > domain.*axis.max) throw Error(range.where(), "min is above max");
   }
   reader.finish();
@@ -84,7 +86,8 @@ void require_format(ObjectReader& reader, const FileFormat& format) {
                 "write " + std::string(format.name));
   const Value& version = reader.required("version");
   if (version.as_number() != format.version)
-    throw Error(version.where(), "version " + format_number(version.as_number()) + " is not known here",
+    throw Error(version.where(),
+                "version " + format_number(version.as_number()) + " is not known here",
                 "this Dashpot reads version " + std::to_string(format.version));
 }
 

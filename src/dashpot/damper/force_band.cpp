@@ -32,7 +32,8 @@ double between_knots(const std::vector<double>& knots, const double* values, dou
 
 double ForceBand::half_width_at(const DamperInput& input, double members_spread) const noexcept {
   const double speed = std::abs(input.velocity);
-  const auto band = static_cast<std::size_t>(std::ranges::upper_bound(speeds, speed) - speeds.begin());
+  const auto band =
+      static_cast<std::size_t>(std::ranges::upper_bound(speeds, speed) - speeds.begin());
   const double width = between_knots(drives, &half_width[band * drives.size()], input.current);
   return spread > 0 ? std::hypot(width, spread * members_spread) : width;
 }
@@ -75,8 +76,10 @@ ForceBand read_force_band(const Value& value) {
       throw Error(spread->where(), "is not positive", "leave it out for a single model");
   }
   reader.finish();
-  if (!(band.level > 0 && band.level < 1)) throw Error(value.where(), "level is not between 0 and 1");
-  if (band.drives.empty() || band.half_width.size() != (band.speeds.size() + 1) * band.drives.size())
+  if (!(band.level > 0 && band.level < 1))
+    throw Error(value.where(), "level is not between 0 and 1");
+  if (band.drives.empty() ||
+      band.half_width.size() != (band.speeds.size() + 1) * band.drives.size())
     throw Error(widths.where(), "has not one width per band of speed and knot of drive");
   if (std::ranges::any_of(band.half_width, [](double width) { return !(width > 0); }))
     throw Error(widths.where(), "a width is not positive");

@@ -8,13 +8,14 @@
 
 namespace dashpot {
 
-/// An interval of the force around a model's: force -half ... force +half, its width by what is known at run
-/// time. Constant in each band of speed, linear in the drive between knots, constant beyond them; and the
-/// wider the less an ensemble's members agree.
+/// An interval of the force around a model's: force -half ... force +half, its width by what is
+/// known at run time. Constant in each band of speed, linear in the drive between knots, constant
+/// beyond them; and the wider the less an ensemble's members agree.
 struct ForceBand {
-  double level = 0.9;              ///< share of samples that it claims to cover
-  std::size_t records = 0;         ///< left-out records, or parts of them, that its width comes from
-  std::vector<double> speeds;      ///< m/s, ascending: |v| where one band of speed ends and the next begins
+  double level = 0.9;       ///< share of samples that it claims to cover
+  std::size_t records = 0;  ///< left-out records, or parts of them, that its width comes from
+  std::vector<double>
+      speeds;  ///< m/s, ascending: |v| where one band of speed ends and the next begins
   std::vector<double> drives;      ///< A or V, ascending: the knots, at least one
   std::vector<double> half_width;  ///< N, one row per band of speed, one column per knot
 

@@ -14,7 +14,9 @@ struct DamperInput {
 struct Steps {
   const double* time = nullptr;  ///< s, of every sample; null: all are `step` long
   double step = 0;               ///< s
-  double to(std::size_t sample) const noexcept { return time ? time[sample] - time[sample - 1] : step; }
+  double to(std::size_t sample) const noexcept {
+    return time ? time[sample] - time[sample - 1] : step;
+  }
 };
 
 }  // namespace dashpot

@@ -11,7 +11,8 @@ std::size_t Law::index_of(std::string_view param) const {
     if (params[k].name == param) return k;
     known.emplace_back(params[k].name);
   }
-  throw Error(std::string(name), "unknown parameter '" + std::string(param) + "'", suggest(param, known));
+  throw Error(std::string(name), "unknown parameter '" + std::string(param) + "'",
+              suggest(param, known));
 }
 
 }  // namespace dashpot

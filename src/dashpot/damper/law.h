@@ -21,19 +21,22 @@ constexpr std::size_t kMaxStates = 8, kMaxParams = 24;
 enum class Fit {
   Free,
   Fixed,  ///< keeps its value unless asked for
-  Scale,  ///< not fitted: takes the size of the data (start times their half force span, half stroke ...)
+  Scale,  ///< not fitted: takes the size of the data (start times their half force span, half
+          ///< stroke ...)
   Drive,  ///< the coil current itself, for laws that need it: always p = i
   Bias    ///< a constant force: replaced by the record offsets during a fit
 };
 
 constexpr bool is_estimated(Fit fit) { return fit == Fit::Free || fit == Fit::Bias; }
 
-/// One row of a law's parameter table. Bounds hold for the parameter at every current in the domain.
+/// One row of a law's parameter table. Bounds hold for the parameter at every current in the
+/// domain.
 struct ParamInfo {
   std::string_view name, unit;
   double value = 0;  ///< default: an example damper of the 3 kN class
   double lower = 0, upper = 0;
-  double start = 0;  ///< where a fit starts, in the data's own half force span, half stroke and top speed
+  double start =
+      0;  ///< where a fit starts, in the data's own half force span, half stroke and top speed
   Form form = Form::Constant;  ///< how it depends on current unless the user says otherwise
   Fit fit = Fit::Free;
   std::string_view meaning;
@@ -50,7 +53,8 @@ struct Law {
   std::vector<ParamInfo> params;
   double lag_rate = 0;             ///< 1/s, default rate of the coil's first-order lag; 0: none
   bool needs_displacement = true;  ///< false: neither force nor states depend on x
-  /// Internal state of a damper that starts at x, v without a memory; that of a long rest when v = 0.
+  /// Internal state of a damper that starts at x, v without a memory; that of a long rest when v =
+  /// 0.
   void (*rest)(const double* p, double x, double v, double* z) = nullptr;
   void (*derivative)(const double* p, double x, double v, const double* z, double* dz) = nullptr;
   double (*force)(const double* p, double x, double v, const double* z) = nullptr;
@@ -58,15 +62,16 @@ struct Law {
   void (*forces)(const double* p, std::span<const DamperInput> inputs, double* force) = nullptr;
   /// Force and derivative at once; null without states.
   double (*flow)(const double* p, double x, double v, const double* z, double* dz) = nullptr;
-  /// One classical Runge-Kutta step of length h of `count` states, with p, x and v at its start, middle and
-  /// end.
-  void (*runge_kutta)(const double* const* p, const double* x, const double* v, double h, std::size_t count,
-                      double* z) = nullptr;
-  /// Bound of the fastest internal rate, 1/s: an explicit integrator keeps rate * step below its limit.
+  /// One classical Runge-Kutta step of length h of `count` states, with p, x and v at its start,
+  /// middle and end.
+  void (*runge_kutta)(const double* const* p, const double* x, const double* v, double h,
+                      std::size_t count, double* z) = nullptr;
+  /// Bound of the fastest internal rate, 1/s: an explicit integrator keeps rate * step below its
+  /// limit.
   double (*rate)(const double* p, double v) = nullptr;
-  /// Optional: one step of the law's own integrator, stable at any length h, with x[0], v[0] at its start
-  /// and x[1], v[1] at its end. Returns 0 where it does not apply. Taken where the explicit one would need
-  /// many steps.
+  /// Optional: one step of the law's own integrator, stable at any length h, with x[0], v[0] at its
+  /// start and x[1], v[1] at its end. Returns 0 where it does not apply. Taken where the explicit
+  /// one would need many steps.
   int (*step)(const double* p, const double* x, const double* v, double h, double* z) = nullptr;
   /// One `step` of any length is as good as many while the parameters stay: taken wherever they do.
   bool exact_step = false;
@@ -106,7 +111,8 @@ P from_array(const double* p) {
 template <class P>
 std::size_t position_of(double P::* field) {
   const P own{};
-  const auto distance = reinterpret_cast<const char*>(&(own.*field)) - reinterpret_cast<const char*>(&own);
+  const auto distance =
+      reinterpret_cast<const char*>(&(own.*field)) - reinterpret_cast<const char*>(&own);
   return static_cast<std::size_t>(distance) / sizeof(double);
 }
 
@@ -117,8 +123,8 @@ struct ExplicitStep {
   static constexpr auto law_derivative = Derivative;
   enum { LAW_MOST_STATES = kMaxStates };
 #include "dashpot/damper/c_text/law_runge_kutta.h"
-  static void step(const double* const* p, const double* x, const double* v, double h, std::size_t count,
-                   double* z) {
+  static void step(const double* const* p, const double* x, const double* v, double h,
+                   std::size_t count, double* z) {
     const P stages[] = {from_array<P>(p[0]), from_array<P>(p[1]), from_array<P>(p[2])};
     const P* const at[] = {&stages[0], &stages[1], &stages[2]};
     law_runge_kutta(at, x, v, h, static_cast<int>(count), z);
@@ -133,8 +139,8 @@ struct TravelStep {
 };
 }  // namespace detail
 
-/// Turns a C law (a struct of doubles and its functions) into a Law. A field that the table leaves out
-/// shows as a row without a name; the conformance test looks for one.
+/// Turns a C law (a struct of doubles and its functions) into a Law. A field that the table leaves
+/// out shows as a row without a name; the conformance test looks for one.
 template <class P, auto Force>
 Law static_law(const LawTable<P>& table) {
   static_assert(sizeof(P) % sizeof(double) == 0);
@@ -156,7 +162,8 @@ Law static_law(const LawTable<P>& table) {
   };
   law.forces = [](const double* p, std::span<const DamperInput> inputs, double* force) {
     const P own = detail::from_array<P>(p);
-    for (const DamperInput& at : inputs) *force++ = Force(&own, at.displacement, at.velocity, nullptr);
+    for (const DamperInput& at : inputs)
+      *force++ = Force(&own, at.displacement, at.velocity, nullptr);
   };
   return law;
 }
@@ -195,9 +202,10 @@ Law with_step(Law law) {
   return law;
 }
 
-/// For a law whose first state moves with the displacement, however long that takes: Travel brings z over a
-/// displacement s (either sign) in closed form. Between samples v is a straight line, so that a step is one
-/// such travel, or two where v changes its sign. Filter, if any, brings the other states over the step.
+/// For a law whose first state moves with the displacement, however long that takes: Travel brings
+/// z over a displacement s (either sign) in closed form. Between samples v is a straight line, so
+/// that a step is one such travel, or two where v changes its sign. Filter, if any, brings the
+/// other states over the step.
 template <class P, auto Travel, auto... Filter>
 Law with_travel(Law law) {
   law.exact_step = true;

@@ -4,8 +4,8 @@
 
 namespace dashpot {
 
-std::size_t DamperModel::run(std::span<const DamperInput> inputs, Steps steps, std::span<double> state,
-                             Response to) const noexcept {
+std::size_t DamperModel::run(std::span<const DamperInput> inputs, Steps steps,
+                             std::span<double> state, Response to) const noexcept {
   for (std::size_t k = 0; k < inputs.size(); ++k) {
     if (k > 0) advance(inputs[k - 1], inputs[k], steps.to(k), state);
     to.force[k] = force(inputs[k], state);

@@ -26,7 +26,8 @@ struct Response {
   double* spread = nullptr;  ///< N, as DamperModel::spread; null: not asked for
 };
 
-/// What a simulation steps. The description is immutable; the state is a flat array of the caller's.
+/// What a simulation steps. The description is immutable; the state is a flat array of the
+/// caller's.
 class DamperModel {
  public:
   virtual ~DamperModel() = default;
@@ -39,20 +40,21 @@ class DamperModel {
 
   /// State after a long rest at the input's displacement and current, velocity 0.
   virtual void rest(const DamperInput& input, std::span<double> state) const noexcept = 0;
-  /// Brings the state from the instant of `from` to that of `to`, dt seconds later; inputs are linear
-  /// in between. Allocates nothing.
+  /// Brings the state from the instant of `from` to that of `to`, dt seconds later; inputs are
+  /// linear in between. Allocates nothing.
   virtual void advance(const DamperInput& from, const DamperInput& to, double dt,
                        std::span<double> state) const noexcept = 0;
   /// Force at this instant, N, positive when it resists extension.
   virtual double force(const DamperInput& input, std::span<const double> state) const noexcept = 0;
-  /// The force, N, and, of an ensemble, the spread at every sample of a series. The state is that of the
-  /// first sample before and that of the last one after. Returns how many forces can be used: all, or those
-  /// before the sample where the model diverged; the rest is then without meaning, as is the state.
+  /// The force, N, and, of an ensemble, the spread at every sample of a series. The state is that
+  /// of the first sample before and that of the last one after. Returns how many forces can be
+  /// used: all, or those before the sample where the model diverged; the rest is then without
+  /// meaning, as is the state.
   virtual std::size_t run(std::span<const DamperInput> inputs, Steps steps, std::span<double> state,
                           Response to) const noexcept;
 
-  /// Whether its states follow z' = f(x, v, i, z), as flow() has it, so that an integrator may step them with
-  /// the rest of a vehicle.
+  /// Whether its states follow z' = f(x, v, i, z), as flow() has it, so that an integrator may step
+  /// them with the rest of a vehicle.
   virtual bool flows() const noexcept { return state_size() == 0; }
   /// Of a model that flows: its force at this instant, N, and the rates of its states.
   virtual double flow(const DamperInput& input, std::span<const double> state,
@@ -60,26 +62,30 @@ class DamperModel {
     return force(input, state);
   }
 
-  /// Whether this is the mean of several models, which tell by their spread where they have learnt little.
+  /// Whether this is the mean of several models, which tell by their spread where they have learnt
+  /// little.
   virtual bool is_ensemble() const noexcept { return false; }
   /// Standard deviation of their forces at this instant, N; 0 for a single model.
-  virtual double spread(const DamperInput& /*input*/, std::span<const double> /*state*/) const noexcept {
+  virtual double spread(const DamperInput& /*input*/,
+                        std::span<const double> /*state*/) const noexcept {
     return 0;
   }
-  /// Whether the force left the range that the model can answer for: it stands still since, until the next
-  /// rest. Only a model that feeds its force back can.
+  /// Whether the force left the range that the model can answer for: it stands still since, until
+  /// the next rest. Only a model that feeds its force back can.
   virtual bool has_diverged(std::span<const double>) const noexcept { return false; }
   /// s between the forces that are fed back; 0: none is.
   virtual double feedback_step() const noexcept { return 0; }
-  /// Puts a measured force, N, in the place of the one that the model has just fed back: so the next one is
-  /// told one step ahead, not in free run.
+  /// Puts a measured force, N, in the place of the one that the model has just fed back: so the
+  /// next one is told one step ahead, not in free run.
   virtual void observe(double, std::span<double>) const noexcept {}
 
   /// The same model giving force + offset.
   virtual std::unique_ptr<DamperModel> with_offset(double newton) const = 0;
-  /// The model of the damper that these conditions describe; null where they say nothing to this model, as to
-  /// any model of one damper. Throws Error at conditions that cannot be.
-  virtual std::shared_ptr<const DamperModel> specialised(const Conditions&) const { return nullptr; }
+  /// The model of the damper that these conditions describe; null where they say nothing to this
+  /// model, as to any model of one damper. Throws Error at conditions that cannot be.
+  virtual std::shared_ptr<const DamperModel> specialised(const Conditions&) const {
+    return nullptr;
+  }
   /// In what this damper lies outside those that its model was fitted on, in words.
   virtual std::vector<std::string> extrapolations() const { return {}; }
   /// The kind's own part of a model file.

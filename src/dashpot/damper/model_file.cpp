@@ -3,15 +3,15 @@
 #include "dashpot/base/error.h"
 #include "dashpot/base/file.h"
 #include "dashpot/base/text.h"
-#include "dashpot/damper/family/family_model.h"
 #include "dashpot/damper/file_parts.h"
-#include "dashpot/damper/fuzzy/fuzzy_model.h"
-#include "dashpot/damper/hybrid_model.h"
-#include "dashpot/damper/law_model.h"
-#include "dashpot/damper/neural/hysteresis_network.h"
-#include "dashpot/damper/neural/narx_model.h"
-#include "dashpot/damper/neural/network_model.h"
-#include "dashpot/damper/neural/state_space_model.h"
+#include "dashpot/damper/kinds/family/family_model.h"
+#include "dashpot/damper/kinds/fuzzy/fuzzy_model.h"
+#include "dashpot/damper/kinds/hybrid/hybrid_model.h"
+#include "dashpot/damper/kinds/hysteresis_network/hysteresis_network.h"
+#include "dashpot/damper/kinds/law/law_model.h"
+#include "dashpot/damper/kinds/narx/narx_model.h"
+#include "dashpot/damper/kinds/network/network_model.h"
+#include "dashpot/damper/kinds/state_space/state_space_model.h"
 
 namespace dashpot {
 namespace {
@@ -20,7 +20,8 @@ constexpr FileFormat kFormat{"dashpot-model", "a model file", 1};
 
 void require_law(const LawModel& law, const ModelFile& file, const std::string& where) {
   if (law.drive_unit() != file.drive_unit)
-    throw Error(where, "drive_unit is " + law.drive_unit() + ", but " + file.drive_unit + " for the file");
+    throw Error(where,
+                "drive_unit is " + law.drive_unit() + ", but " + file.drive_unit + " for the file");
   require_bounds(law, file.domain.current_min, where);
   require_bounds(law, file.domain.current_max, where);
 }
@@ -37,7 +38,8 @@ std::unique_ptr<DamperModel> read_hybrid(const Value& value, const ModelFile& fi
   return model;
 }
 
-std::unique_ptr<DamperModel> read_model(const Value& kind, const Value& value, const ModelFile& file) {
+std::unique_ptr<DamperModel> read_model(const Value& kind, const Value& value,
+                                        const ModelFile& file) {
   if (kind.as_string() == "law") return read_law(value, file);
   if (kind.as_string() == "network") return network_model_from_json(value);
   if (kind.as_string() == "narx") return narx_model_from_json(value);
@@ -47,8 +49,8 @@ std::unique_ptr<DamperModel> read_model(const Value& kind, const Value& value, c
   if (kind.as_string() == "family") return family_model_from_json(value);
   if (kind.as_string() == "hybrid") return read_hybrid(value, file);
   throw Error(kind.where(), "unknown kind '" + kind.as_string() + "'",
-              suggest(kind.as_string(), {"law", "network", "narx", "state_network", "state_space", "fuzzy",
-                                         "hybrid", "family"}));
+              suggest(kind.as_string(), {"law", "network", "narx", "state_network", "state_space",
+                                         "fuzzy", "hybrid", "family"}));
 }
 
 }  // namespace
@@ -76,14 +78,16 @@ ModelFile parse_model(std::string_view text, const std::string& source) {
   file.drive_unit = reader.string("drive_unit");
   file.sample_time = reader.number("sample_time");
   if (!(file.sample_time >= 0))
-    throw Error(reader.required("sample_time").where(), "is negative", "seconds, or 0 when it varied");
+    throw Error(reader.required("sample_time").where(), "is negative",
+                "seconds, or 0 when it varied");
   file.domain = read_domain(reader.required("domain"), file.drive_unit);
   file.model = read_model(kind, reader.required("model"), file);
   if (const Value* quality = reader.optional("quality")) {
     ObjectReader(*quality, "the quality");  // any keys, but a mapping
     file.quality = *quality;
   }
-  if (const Value* interval = reader.optional("interval")) file.interval = read_force_band(*interval);
+  if (const Value* interval = reader.optional("interval"))
+    file.interval = read_force_band(*interval);
   file.provenance = read_provenance(reader.required("provenance"));
   reader.finish();
   return file;

@@ -31,8 +31,10 @@ struct ModelFile {
   double sample_time = 0;  ///< s, of the training data; 0 when mixed
   Domain domain;
   Provenance provenance;
-  Value quality;  ///< figures on training and left-out data, as the report printed them; may be null
-  std::optional<ForceBand> interval;  ///< around the force, where it could be told from left-out records
+  Value
+      quality;  ///< figures on training and left-out data, as the report printed them; may be null
+  std::optional<ForceBand>
+      interval;  ///< around the force, where it could be told from left-out records
 };
 
 /// Throws Error with file and key on anything unknown, missing or out of bounds.

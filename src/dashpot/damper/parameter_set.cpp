@@ -17,8 +17,8 @@ namespace {
 std::vector<double> read_drive_levels(const Value* levels, double low, double high) {
   if (!levels) return {};
   const std::vector<double> values = levels->as_numbers();
-  if (values.size() < 2 || !std::ranges::is_sorted(values, std::less_equal<>{}) || values.front() < low ||
-      values.back() > high)
+  if (values.size() < 2 || !std::ranges::is_sorted(values, std::less_equal<>{}) ||
+      values.front() < low || values.back() > high)
     throw Error(levels->where(), "are not levels", "at least two, rising, within drive_range");
   return values;
 }
@@ -27,7 +27,8 @@ std::vector<double> read_drive_levels(const Value* levels, double low, double hi
 
 std::vector<std::string> parameter_set_names() { return data_names("parameters", ".json"); }
 
-ParameterSet parse_parameter_set(std::string_view text, const std::string& source, const std::string& name) {
+ParameterSet parse_parameter_set(std::string_view text, const std::string& source,
+                                 const std::string& name) {
   const Value document = parse_json(text, source);
   ObjectReader reader(document, "a parameter set");
   const Value& model = reader.required("model");
@@ -35,15 +36,16 @@ ParameterSet parse_parameter_set(std::string_view text, const std::string& sourc
   const std::vector<double> ends = range.as_numbers();
   if (ends.size() != 2 || !(ends[0] <= ends[1]))
     throw Error(range.where(), "is not a range", "write [lowest, highest]");
-  ParameterSet set{.name = name,
-                   .damper = reader.string("damper"),
-                   .source = reader.string("source"),
-                   .verified = reader.required("verified").as_bool(),
-                   .reason = reader.string("reason"),
-                   .drive_min = ends[0],
-                   .drive_max = ends[1],
-                   .model = std::move(*law_model_from_json(model)),
-                   .drive_levels = read_drive_levels(reader.optional("drive_levels"), ends[0], ends[1])};
+  ParameterSet set{
+      .name = name,
+      .damper = reader.string("damper"),
+      .source = reader.string("source"),
+      .verified = reader.required("verified").as_bool(),
+      .reason = reader.string("reason"),
+      .drive_min = ends[0],
+      .drive_max = ends[1],
+      .model = std::move(*law_model_from_json(model)),
+      .drive_levels = read_drive_levels(reader.optional("drive_levels"), ends[0], ends[1])};
   reader.finish();
   for (const double drive : ends) require_bounds(set.model, drive, model.where());
   return set;

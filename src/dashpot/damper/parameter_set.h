@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "dashpot/damper/law_model.h"
+#include "dashpot/damper/kinds/law/law_model.h"
 #include "dashpot/damper/model_file.h"
 
 namespace dashpot {
@@ -16,13 +16,15 @@ struct ParameterSet {
   std::string reason;                   ///< how it was verified, or why it is not
   double drive_min = 0, drive_max = 0;  ///< A or V, where it holds
   LawModel model;
-  std::vector<double> drive_levels = {};  ///< those that its driver can give; empty: all in that range
+  std::vector<double> drive_levels =
+      {};  ///< those that its driver can give; empty: all in that range
 };
 
 /// Names of the sets that come with Dashpot, in alphabetical order.
 std::vector<std::string> parameter_set_names();
 
-/// Throws Error "unknown parameter set 'spencer'; did you mean ..." or on what is wrong in the file.
+/// Throws Error "unknown parameter set 'spencer'; did you mean ..." or on what is wrong in the
+/// file.
 ParameterSet load_parameter_set(const std::string& name);
 /// As load_parameter_set, but only the model.
 LawModel load_parameters(const std::string& name);
@@ -31,6 +33,7 @@ LawModel load_parameters(const std::string& name);
 ModelFile to_model_file(const ParameterSet& set);
 
 /// The text of such a file. `source` stands in messages.
-ParameterSet parse_parameter_set(std::string_view text, const std::string& source, const std::string& name);
+ParameterSet parse_parameter_set(std::string_view text, const std::string& source,
+                                 const std::string& name);
 
 }  // namespace dashpot

@@ -4,8 +4,8 @@
 #include <string_view>
 #include <vector>
 
-#include "dashpot/damper/family/family_baseline.h"
-#include "dashpot/damper/fuzzy/sugeno.h"
+#include "dashpot/damper/kinds/family/family_baseline.h"
+#include "dashpot/damper/kinds/fuzzy/sugeno.h"
 #include "dashpot/damper/law.h"
 
 namespace dashpot {
@@ -55,7 +55,8 @@ struct FuzzyPreset {
 };
 std::span<const FuzzyPreset> fuzzy_presets();
 
-/// A model of a family of dampers, known by name: static networks of its inputs, or gates where it has none.
+/// A model of a family of dampers, known by name: static networks of its inputs, or gates where it
+/// has none.
 struct FamilyPreset {
   std::string_view name, title, equation, source, remarks;
   std::vector<std::string> inputs;  ///< as family_input_named() has them
@@ -92,8 +93,10 @@ std::vector<std::string> more_model_names();
 /// All throw as model_info does.
 const Law& find_law(std::string_view name, const std::string& where = {});
 const NetworkPreset& find_network_preset(std::string_view name, const std::string& where = {});
-const StateNetworkPreset& find_state_network_preset(std::string_view name, const std::string& where = {});
-const StateSpacePreset& find_state_space_preset(std::string_view name, const std::string& where = {});
+const StateNetworkPreset& find_state_network_preset(std::string_view name,
+                                                    const std::string& where = {});
+const StateSpacePreset& find_state_space_preset(std::string_view name,
+                                                const std::string& where = {});
 const FuzzyPreset& find_fuzzy_preset(std::string_view name, const std::string& where = {});
 const FamilyPreset& find_family_preset(std::string_view name, const std::string& where = {});
 const HybridPreset& find_hybrid_preset(std::string_view name, const std::string& where = {});

@@ -11,7 +11,8 @@
 namespace dashpot {
 namespace {
 
-constexpr double kInnerStep = 1e-4;  // s, at most: fine enough that the motion between is a straight line
+constexpr double kInnerStep =
+    1e-4;  // s, at most: fine enough that the motion between is a straight line
 
 DamperInput piston(const BenchTest& test, double t) {
   const MotionPoint point = test.motion.at(t);
@@ -50,8 +51,8 @@ Truth simulate(const DamperModel& damper, const BenchTest& test, const BenchOpti
 }
 
 /// What a sensor with this zero, noise and converter makes of true values.
-std::vector<double> measure(std::vector<double> values, double zero, double noise, double resolution,
-                            Random& random) {
+std::vector<double> measure(std::vector<double> values, double zero, double noise,
+                            double resolution, Random& random) {
   for (double& value : values) {
     value += zero + noise * random.normal();
     if (resolution > 0) value = resolution * std::round(value / resolution);
@@ -82,13 +83,13 @@ Record run_test(const DamperModel& damper, const BenchTest& test, const std::str
   Truth truth = simulate(damper, test, options);
   const double offset = options.force_offset * random.normal();
   const double dt = 1 / options.sample_rate;
-  std::vector<double> displacement =
-      measure(truth.displacement, 0, options.displacement_noise, options.displacement_resolution, random);
-  std::vector<double> force =
-      measure(truth.force, offset, options.force_noise * span(truth.force), options.force_resolution, random);
-  Channel velocity = options.velocity_sensor
-                         ? measured_velocity(std::move(truth.velocity), options.velocity_noise, random)
-                         : derived_velocity(displacement, dt);
+  std::vector<double> displacement = measure(truth.displacement, 0, options.displacement_noise,
+                                             options.displacement_resolution, random);
+  std::vector<double> force = measure(truth.force, offset, options.force_noise * span(truth.force),
+                                      options.force_resolution, random);
+  Channel velocity = options.velocity_sensor ? measured_velocity(std::move(truth.velocity),
+                                                                 options.velocity_noise, random)
+                                             : derived_velocity(displacement, dt);
 
   Record record;
   record.name = test.name;
@@ -100,7 +101,8 @@ Record run_test(const DamperModel& damper, const BenchTest& test, const std::str
   record.channels.push_back({"displacement", "m", std::move(displacement), "simulated sensor"});
   record.channels.push_back(std::move(velocity));
   record.channels.push_back({"force", "N", std::move(force), "simulated load cell"});
-  record.channels.push_back({drive_unit == "V" ? "voltage" : "current", drive_unit, std::move(truth.drive),
+  record.channels.push_back({drive_unit == "V" ? "voltage" : "current", drive_unit,
+                             std::move(truth.drive),
                              test.level ? "constant, as set" : "as commanded"});
   record.notes.push_back("true force offset " + format_number(offset, 6) + " N");
   for (const std::string& description : {test.motion.description, test.drive.description})
@@ -112,20 +114,23 @@ void require_usable(const std::string& drive_unit, std::span<const BenchTest> te
                     const BenchOptions& options) {
   if (drive_unit != "A" && drive_unit != "V")
     throw Error("virtual bench", "drive unit '" + drive_unit + "'", "write A or V");
-  if (tests.empty()) throw Error("virtual bench", "no motion or no drive level", "give at least one of each");
+  if (tests.empty())
+    throw Error("virtual bench", "no motion or no drive level", "give at least one of each");
   if (!(options.sample_rate > 0)) throw Error("virtual bench", "the sample rate must be above 0");
   constexpr double kMostSamples = 1e8;
   double samples = 0;
   for (const BenchTest& test : tests) samples += test.motion.duration * options.sample_rate;
   if (samples > kMostSamples)
-    throw Error("virtual bench", "the campaign would have " + format_number(samples) + " samples",
-                "at most " + format_number(kMostSamples) + ": shorter tests or a lower sample rate");
+    throw Error(
+        "virtual bench", "the campaign would have " + format_number(samples) + " samples",
+        "at most " + format_number(kMostSamples) + ": shorter tests or a lower sample rate");
 }
 
 void require_usable(const SineMotion& motion, const BenchOptions& options) {
   if (!(options.sample_rate > 0 && options.cycles > 0))
     throw Error("virtual bench", "the sample rate and the cycles must be above 0");
-  if (!(motion.amplitude > 0 && motion.frequency > 0 && motion.frequency < options.sample_rate / 10))
+  if (!(motion.amplitude > 0 && motion.frequency > 0 &&
+        motion.frequency < options.sample_rate / 10))
     throw Error("virtual bench",
                 "a motion of " + format_number(1000 * motion.amplitude) + " mm at " +
                     format_number(motion.frequency) + " Hz",
@@ -147,7 +152,8 @@ Dataset run_virtual_bench(const DamperModel& damper, const std::string& drive_un
                           const BenchOptions& options) {
   std::vector<BenchTest> tests;
   for (const BenchTest& sine : bench_sines(options))
-    for (const double level : options.drive_levels) tests.push_back(at_level(sine, level, drive_unit));
+    for (const double level : options.drive_levels)
+      tests.push_back(at_level(sine, level, drive_unit));
   return run_virtual_bench(damper, drive_unit, tests, options);
 }
 
@@ -164,10 +170,12 @@ Dataset run_virtual_bench(const DamperModel& damper, const std::string& drive_un
   dataset.notes.push_back("simulated, not measured; the true model is " +
                           format_json(damper.to_json(), false));
   dataset.notes.push_back(
-      "force noise " + format_number(100 * options.force_noise) + " % of the span, displacement noise " +
-      format_number(1e6 * options.displacement_noise) + " um" +
-      (options.velocity_sensor ? ", velocity noise " + format_number(1e3 * options.velocity_noise) + " mm/s"
-                               : "") +
+      "force noise " + format_number(100 * options.force_noise) +
+      " % of the span, displacement noise " + format_number(1e6 * options.displacement_noise) +
+      " um" +
+      (options.velocity_sensor
+           ? ", velocity noise " + format_number(1e3 * options.velocity_noise) + " mm/s"
+           : "") +
       ", resolution " + format_number(options.force_resolution) + " N and " +
       format_number(1e6 * options.displacement_resolution) + " um");
   return dataset;

@@ -9,8 +9,8 @@
 namespace dashpot {
 namespace {
 
-bool can_hold(const DesignProblem& problem, const std::vector<bool>& counted, OptimiseOptions options,
-              Conflict& conflict) {
+bool can_hold(const DesignProblem& problem, const std::vector<bool>& counted,
+              OptimiseOptions options, Conflict& conflict) {
   options.counted = counted;
   const Optimum optimum = least_violation(problem, options);
   conflict.evaluations += optimum.evaluations;
@@ -24,11 +24,12 @@ Optimum best_of(const DesignProblem& problem, std::size_t constraint, OptimiseOp
   const DesignConstraint& own = asked.constraints[constraint];
   asked.goals = {{own.quantity, own.at, own.at_least, own.by}};
   options.counted[constraint] = false;
-  return optimise(DesignProblem(asked, problem.model(), options.seed, problem.second()), 0, options);
+  return optimise(DesignProblem(asked, problem.model(), options.seed, problem.second()), 0,
+                  options);
 }
 
-/// The constraints that fail at the place of least violation or lie on their bounds, where these alone
-/// conflict; else all.
+/// The constraints that fail at the place of least violation or lie on their bounds, where these
+/// alone conflict; else all.
 std::vector<bool> first_members(const DesignProblem& problem, const OptimiseOptions& options,
                                 Conflict& conflict) {
   constexpr double kNear = 0.01;
@@ -38,8 +39,8 @@ std::vector<bool> first_members(const DesignProblem& problem, const OptimiseOpti
   return can_hold(problem, near, options, conflict) ? std::vector<bool>(near.size(), true) : near;
 }
 
-void tell_reached(const DesignProblem& problem, const std::vector<bool>& counted, OptimiseOptions options,
-                  Conflict& conflict) {
+void tell_reached(const DesignProblem& problem, const std::vector<bool>& counted,
+                  OptimiseOptions options, Conflict& conflict) {
   options.counted = counted;
   for (const std::size_t k : conflict.members) {
     const Optimum optimum = best_of(problem, k, options);
@@ -50,13 +51,15 @@ void tell_reached(const DesignProblem& problem, const std::vector<bool>& counted
                                : problem.request().constraints[k].at_least ? -optimum.value
                                                                            : optimum.value);
     // A search for one figure may find what the search for all constraints has missed.
-    if (known && problem.assess(problem.damper_at(optimum.place)).holds()) conflict.design = optimum.place;
+    if (known && problem.assess(problem.damper_at(optimum.place)).holds())
+      conflict.design = optimum.place;
   }
 }
 
 }  // namespace
 
-Conflict find_conflict(const DesignProblem& problem, const Optimum& found, const OptimiseOptions& asked) {
+Conflict find_conflict(const DesignProblem& problem, const Optimum& found,
+                       const OptimiseOptions& asked) {
   const std::size_t count = problem.request().constraints.size();
   Conflict conflict;
   conflict.nearest = found;

@@ -19,10 +19,12 @@ struct Conflict {
   bool stopped = false;  ///< the user asked to stop: members may be more than needed
 };
 
-/// Deletion filter (Chinneck and Dravnieks 1991): each constraint is left out in turn, for good where the
-/// rest cannot hold without it. Whether constraints can hold is what a search finds: a set of rare designs
-/// may be called a conflict. `found`: the damper of least violation, whose constraints are tried first.
-Conflict find_conflict(const DesignProblem& problem, const Optimum& found, const OptimiseOptions& options);
+/// Deletion filter (Chinneck and Dravnieks 1991): each constraint is left out in turn, for good
+/// where the rest cannot hold without it. Whether constraints can hold is what a search finds: a
+/// set of rare designs may be called a conflict. `found`: the damper of least violation, whose
+/// constraints are tried first.
+Conflict find_conflict(const DesignProblem& problem, const Optimum& found,
+                       const OptimiseOptions& options);
 
 /// "force at least 3000 N at ...: 2100 N at most while the others hold", one line each.
 std::string describe(const Conflict& conflict, const DesignRequest& request);

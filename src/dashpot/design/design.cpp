@@ -18,12 +18,13 @@ class DesignRun {
  public:
   DesignRun(const DesignRequest& request, const DesignOptions& options)
       : model_(make_design_model(options.model, "model")),
-        second_(options.second.empty() ? nullptr : make_design_model(options.second, "second model")),
-        report_{
-            .request = options.refuse_outside ? within_families(request, *model_, second_.get()) : request,
-            .options = options,
-            .first_name = model_->name(),
-            .second_name = second_ ? second_->name() : ""},
+        second_(options.second.empty() ? nullptr
+                                       : make_design_model(options.second, "second model")),
+        report_{.request = options.refuse_outside ? within_families(request, *model_, second_.get())
+                                                  : request,
+                .options = options,
+                .first_name = model_->name(),
+                .second_name = second_ ? second_->name() : ""},
         problem_(report_.request, *model_, options.seed, second_.get()) {
     note_limits();
   }
@@ -69,7 +70,8 @@ OptimiseOptions DesignRun::search_options(const std::string& stage, double from,
       report_.stopped = true;
     }
   staged_ = {[&monitor, from, to](const Progress& own) {
-               if (monitor.on_progress) monitor.on_progress({own.stage, from + own.fraction * (to - from)});
+               if (monitor.on_progress)
+                 monitor.on_progress({own.stage, from + own.fraction * (to - from)});
              },
              monitor.stop};
   return {.seed = report_.options.seed, .threads = report_.options.threads, .monitor = &staged_};
@@ -81,7 +83,8 @@ std::vector<std::vector<double>> DesignRun::best_of_each_goal() {
   const double part = goals.size() > 1 ? 0.3 / static_cast<double>(goals.size()) : 0.6;
   for (std::size_t k = 0; k < goals.size() && !report_.stopped; ++k) {
     const double from = part * static_cast<double>(k);
-    const Optimum optimum = optimise(problem_, k, search_options(describe(goals[k]), from, from + part));
+    const Optimum optimum =
+        optimise(problem_, k, search_options(describe(goals[k]), from, from + part));
     report_.evaluations += optimum.evaluations;
     report_.stopped = report_.stopped || optimum.stopped;
     if (optimum.place.empty() || optimum.violation > 0) break;  // neither can it for another goal
@@ -168,8 +171,9 @@ void DesignRun::add_designs(const std::vector<std::vector<double>>& places) {
     }
     report_.designs.push_back(std::move(design));
   }
-  std::ranges::sort(report_.designs,
-                    [](const Design& a, const Design& b) { return a.assessment.goals < b.assessment.goals; });
+  std::ranges::sort(report_.designs, [](const Design& a, const Design& b) {
+    return a.assessment.goals < b.assessment.goals;
+  });
   for (std::size_t k = 0; k < report_.designs.size(); ++k) {
     Design& design = report_.designs[k];
     design.name = fmt::format("design_{:03}", k + 1);
@@ -177,14 +181,15 @@ void DesignRun::add_designs(const std::vector<std::vector<double>>& places) {
   }
 }
 
-/// The best for each goal, and the knee: nearest to the best of all goals at once, each in the front's
-/// extent.
+/// The best for each goal, and the knee: nearest to the best of all goals at once, each in the
+/// front's extent.
 void DesignRun::name_roles() {
   std::vector<Design>& designs = report_.designs;
   if (designs.empty()) return;
   const DesignRequest& request = report_.request;
   std::vector<std::vector<double>> values;
-  for (const Design& design : designs) values.push_back(to_minimise(request, design.assessment.goals));
+  for (const Design& design : designs)
+    values.push_back(to_minimise(request, design.assessment.goals));
   std::vector<double> distance(designs.size(), 0.);
   const auto add_role = [&](std::size_t k, const std::string& role) {
     designs[k].role += (designs[k].role.empty() ? "" : "; ") + role;
@@ -198,15 +203,17 @@ void DesignRun::name_roles() {
       if (high > low) distance[k] += std::pow((values[k][g] - low) / (high - low), 2);
   }
   if (request.goals.size() > 1)
-    add_role(static_cast<std::size_t>(std::ranges::min_element(distance) - distance.begin()), "knee");
+    add_role(static_cast<std::size_t>(std::ranges::min_element(distance) - distance.begin()),
+             "knee");
 }
 
 void DesignRun::add_sensitivities() {
   if (report_.request.tolerances.empty()) return;
   for (Design& design : report_.designs)
     if (!design.role.empty())
-      design.sensitivity = sensitivity(problem_, design.damper,
-                                       {.seed = report_.options.seed, .threads = report_.options.threads});
+      design.sensitivity =
+          sensitivity(problem_, design.damper,
+                      {.seed = report_.options.seed, .threads = report_.options.threads});
 }
 
 DesignReport DesignRun::run() {
@@ -218,14 +225,15 @@ DesignReport DesignRun::run() {
   add_designs(places);
   name_roles();
   add_sensitivities();
-  report_.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  report_.wall_seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return std::move(report_);
 }
 
 }  // namespace
 
-Assessment check_design(const std::string& text, const DesignRequest& request, const DesignModel& model,
-                        std::uint64_t seed, const DesignModel* second) {
+Assessment check_design(const std::string& text, const DesignRequest& request,
+                        const DesignModel& model, std::uint64_t seed, const DesignModel* second) {
   return DesignProblem(request, model, seed, second).assess(parse_description(text, "design"));
 }
 

@@ -19,7 +19,8 @@ struct DesignOptions {
   FrontMethod method = FrontMethod::Nsga2;
   std::string model = "physics";  ///< as make_design_model has them
   std::string second;             ///< a model whose figures stand beside; empty: none
-  bool refuse_outside = false;    ///< designs beyond the dampers of a family's model, else they are marked
+  bool refuse_outside =
+      false;  ///< designs beyond the dampers of a family's model, else they are marked
   Monitor monitor;
 };
 
@@ -30,9 +31,9 @@ struct Design {
   Assessment assessment;
   /// Where there is a second model: all figures as drawn by each, goals and then constraints.
   std::vector<double> first, second;
-  double disagreement = 0;                 ///< the largest difference of the two, in shares of the first's
-  std::string role;                        ///< what makes it stand out: "largest force", "knee"; else empty
-  std::vector<std::string> outside;        ///< in what it lies beyond the dampers of a family's model
+  double disagreement = 0;  ///< the largest difference of the two, in shares of the first's
+  std::string role;         ///< what makes it stand out: "largest force", "knee"; else empty
+  std::vector<std::string> outside;  ///< in what it lies beyond the dampers of a family's model
   std::optional<Sensitivity> sensitivity;  ///< of those that stand out, where there are tolerances
 };
 
@@ -49,14 +50,15 @@ struct DesignReport {
   bool stopped = false;  ///< the user asked to stop: the best so far
 };
 
-/// One goal: the best design. Several: a front of designs of which none is better in all goals. Every design
-/// is written as a damper's description, read again and assessed anew; one that then fails a constraint is
-/// not returned. Ends with what it has when the monitor asks to stop. Throws Error where a current or a speed
-/// is beyond a family's model, and that is to be refused.
+/// One goal: the best design. Several: a front of designs of which none is better in all goals.
+/// Every design is written as a damper's description, read again and assessed anew; one that then
+/// fails a constraint is not returned. Ends with what it has when the monitor asks to stop. Throws
+/// Error where a current or a speed is beyond a family's model, and that is to be refused.
 DesignReport design(const DesignRequest& request, const DesignOptions& options);
 
 /// The assessment of a description's text, from scratch.
-Assessment check_design(const std::string& text, const DesignRequest& request, const DesignModel& model,
-                        std::uint64_t seed, const DesignModel* second = nullptr);
+Assessment check_design(const std::string& text, const DesignRequest& request,
+                        const DesignModel& model, std::uint64_t seed,
+                        const DesignModel* second = nullptr);
 
 }  // namespace dashpot

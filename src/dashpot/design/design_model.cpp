@@ -11,7 +11,8 @@ namespace {
 
 class PhysicsModel final : public DesignModel {
  public:
-  PhysicsModel(std::string name, std::optional<FlowLaw> flow) : name_(std::move(name)), flow_(flow) {}
+  PhysicsModel(std::string name, std::optional<FlowLaw> flow)
+      : name_(std::move(name)), flow_(flow) {}
   std::string name() const override { return name_; }
   DamperPhysics evaluate(const DamperDescription& description,
                          const DamperOperation& operation) const override {

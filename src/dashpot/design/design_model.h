@@ -15,8 +15,9 @@ class DesignModel {
  public:
   virtual ~DesignModel() = default;
   virtual std::string name() const = 0;
-  /// The description is possible (require_possible). A model that knows only forces takes the other figures
-  /// from evaluate_physics. What it cannot tell is not finite, which counts as a constraint that fails.
+  /// The description is possible (require_possible). A model that knows only forces takes the other
+  /// figures from evaluate_physics. What it cannot tell is not finite, which counts as a constraint
+  /// that fails.
   virtual DamperPhysics evaluate(const DamperDescription& description,
                                  const DamperOperation& operation) const = 0;
 
@@ -27,13 +28,15 @@ class DesignModel {
   /// In what it does, in words; and a current or a speed.
   virtual std::vector<std::string> extrapolations(const DamperDescription&) const { return {}; }
   virtual std::vector<std::string> extrapolations(const DamperOperation&) const { return {}; }
-  /// The model of this damper for other commands; none where it is to be a law fitted to the forces.
+  /// The model of this damper for other commands; none where it is to be a law fitted to the
+  /// forces.
   virtual std::optional<ModelFile> model_of(const DamperDescription&) const { return std::nullopt; }
 };
 
-/// "physics" is what the description asks for; "physics:plate", "physics:moving_wall" and "physics:paper"
-/// take that law of the flow. A word with a dot or a slash is the file of a family's model. Throws
-/// Error(where, ...) on another name, or where the file holds something else.
+/// "physics" is what the description asks for; "physics:plate", "physics:moving_wall" and
+/// "physics:paper" take that law of the flow. A word with a dot or a slash is the file of a
+/// family's model. Throws Error(where, ...) on another name, or where the file holds something
+/// else.
 std::unique_ptr<DesignModel> make_design_model(const std::string& name, const std::string& where);
 std::vector<std::string> design_model_names();  ///< those that are no files
 

@@ -25,7 +25,8 @@ double range_value(const DesignVariable& v, double place, std::optional<std::siz
   if (level) return std::min(v.to, v.from + static_cast<double>(*level) * v.step);
   // A step has the places around its value, as place_of_level has them.
   if (v.step > 0)
-    return std::clamp(v.from + (place * static_cast<double>(v.levels()) - 0.5) * v.step, v.from, v.to);
+    return std::clamp(v.from + (place * static_cast<double>(v.levels()) - 0.5) * v.step, v.from,
+                      v.to);
   if (is_logarithmic(v)) return std::clamp(v.from * std::pow(v.to / v.from, place), v.from, v.to);
   return v.from + place * (v.to - v.from);
 }
@@ -49,7 +50,8 @@ bool is_possible(const DamperDescription& damper) {
 }
 
 /// Latin hypercube in -1 ... 1: each tolerance is divided evenly among the dampers.
-std::vector<std::vector<double>> draw_made(std::size_t dampers, std::size_t tolerances, std::uint64_t seed) {
+std::vector<std::vector<double>> draw_made(std::size_t dampers, std::size_t tolerances,
+                                           std::uint64_t seed) {
   Random random(seed);
   std::vector<std::vector<double>> made(dampers, std::vector<double>(tolerances));
   std::vector<std::size_t> order(dampers);
@@ -57,40 +59,46 @@ std::vector<std::vector<double>> draw_made(std::size_t dampers, std::size_t tole
     for (std::size_t k = 0; k < dampers; ++k) order[k] = k;
     for (std::size_t k = dampers; k > 1; --k) std::swap(order[k - 1], order[random.index(k)]);
     for (std::size_t k = 0; k < dampers; ++k)
-      made[k][t] = 2 * (static_cast<double>(order[k]) + random.uniform()) / static_cast<double>(dampers) - 1;
+      made[k][t] =
+          2 * (static_cast<double>(order[k]) + random.uniform()) / static_cast<double>(dampers) - 1;
   }
   return made;
 }
 
 double slack_of(const DesignConstraint& constraint, double figure) {
   const double scale = constraint.bound == 0 ? 1 : std::abs(constraint.bound);
-  const double slack = (constraint.at_least ? figure - constraint.bound : constraint.bound - figure) / scale;
+  const double slack =
+      (constraint.at_least ? figure - constraint.bound : constraint.bound - figure) / scale;
   return std::isnan(slack) ? -kImpossible : std::max(slack, -kImpossible);
 }
 
 }  // namespace
 
-DesignProblem::DesignProblem(const DesignRequest& request, const DesignModel& model, std::uint64_t seed,
-                             const DesignModel* second)
+DesignProblem::DesignProblem(const DesignRequest& request, const DesignModel& model,
+                             std::uint64_t seed, const DesignModel* second)
     : request_(request), model_(model), second_(second) {
   const auto place = [&](const DamperOperation& at, ToldBy by) {
     if (by == ToldBy::Second && !second)
-      throw Error("the request", "asks for figures by a second model, and there is none", "name one");
+      throw Error("the request", "asks for figures by a second model, and there is none",
+                  "name one");
     const auto found = std::ranges::find_if(
         questions_, [&](const Question& known) { return same(known.at, at) && known.by == by; });
     question_of_.push_back(static_cast<std::size_t>(found - questions_.begin()));
     if (found == questions_.end()) questions_.push_back({at, by});
   };
   for (const DesignGoal& goal : request.goals) place(goal.at, goal.by);
-  for (const DesignConstraint& constraint : request.constraints) place(constraint.at, constraint.by);
+  for (const DesignConstraint& constraint : request.constraints)
+    place(constraint.at, constraint.by);
   if (request.share > 0)
-    made_with_ = draw_made(static_cast<std::size_t>(request.samples), request.tolerances.size(), seed);
+    made_with_ =
+        draw_made(static_cast<std::size_t>(request.samples), request.tolerances.size(), seed);
 }
 
 std::size_t DesignProblem::level_at(std::size_t k, double place) const {
   const std::size_t levels = request_.variables[k].levels();
   if (levels == 0) return 0;
-  return std::min(static_cast<std::size_t>(std::max(place, 0.) * static_cast<double>(levels)), levels - 1);
+  return std::min(static_cast<std::size_t>(std::max(place, 0.) * static_cast<double>(levels)),
+                  levels - 1);
 }
 
 double DesignProblem::place_of_level(std::size_t k, std::size_t level) const {
@@ -118,13 +126,14 @@ void DesignProblem::follow(DamperDescription& damper) const {
   }
 }
 
-DamperDescription DesignProblem::made(const DamperDescription& drawn, std::span<const double> shares) const {
+DamperDescription DesignProblem::made(const DamperDescription& drawn,
+                                      std::span<const double> shares) const {
   DamperDescription damper = drawn;
   const auto off = [&](bool followers) {
     for (std::size_t t = 0; t < shares.size(); ++t) {
       const DesignTolerance& tolerance = request_.tolerances[t];
-      const bool follows = std::ranges::find(request_.following, tolerance.field, &FollowingField::field) !=
-                           request_.following.end();
+      const bool follows = std::ranges::find(request_.following, tolerance.field,
+                                             &FollowingField::field) != request_.following.end();
       if (follows == followers) damper.*tolerance.field->field += shares[t] * tolerance.width;
     }
   };
@@ -134,7 +143,8 @@ DamperDescription DesignProblem::made(const DamperDescription& drawn, std::span<
   return damper;
 }
 
-std::vector<double> DesignProblem::figures(const DamperDescription& damper, const DesignModel* all_by) const {
+std::vector<double> DesignProblem::figures(const DamperDescription& damper,
+                                           const DesignModel* all_by) const {
   const auto asked = [&](const Question& question) -> const DesignModel& {
     if (all_by) return *all_by;
     return question.by == ToldBy::Second ? *second_ : model_;
@@ -148,7 +158,8 @@ std::vector<double> DesignProblem::figures(const DamperDescription& damper, cons
     const Question& question = questions_[question_of_[k]];
     const DesignQuantity& quantity =
         k < goals ? *request_.goals[k].quantity : *request_.constraints[k - goals].quantity;
-    figures.push_back(quantity.of({damper, question.at, physics[question_of_[k]], asked(question)}));
+    figures.push_back(
+        quantity.of({damper, question.at, physics[question_of_[k]], asked(question)}));
   }
   return figures;
 }
@@ -158,8 +169,8 @@ double DesignProblem::figure_of_share(std::vector<double>& figures, bool at_leas
   for (double& figure : figures)  // what cannot be told is as bad as can be
     if (std::isnan(figure)) figure = at_least ? -HUGE_VAL : HUGE_VAL;
   std::ranges::sort(figures);
-  const auto needed =
-      static_cast<std::size_t>(std::ceil(request_.share * static_cast<double>(figures.size()) * (1 - 1e-12)));
+  const auto needed = static_cast<std::size_t>(
+      std::ceil(request_.share * static_cast<double>(figures.size()) * (1 - 1e-12)));
   return at_least ? figures[figures.size() - needed] : figures[needed - 1];
 }
 
@@ -183,8 +194,9 @@ Assessment DesignProblem::assess(const DamperDescription& drawn) const {
       for (std::size_t k = 0; k < all.size(); ++k) by_quantity[k].push_back(of_damper[k]);
     }
     for (std::size_t k = 0; k < all.size(); ++k)
-      all[k] = figure_of_share(
-          by_quantity[k], k < goals ? request_.goals[k].maximise : request_.constraints[k - goals].at_least);
+      all[k] =
+          figure_of_share(by_quantity[k], k < goals ? request_.goals[k].maximise
+                                                    : request_.constraints[k - goals].at_least);
   }
   assessment.goals.assign(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(goals));
   assessment.constraints.assign(all.begin() + static_cast<std::ptrdiff_t>(goals), all.end());

@@ -9,20 +9,21 @@ namespace dashpot {
 
 /// How a damper does what was asked of it.
 struct Assessment {
-  bool possible = true;             ///< false: no such damper can be drawn; there are no figures then
-  std::vector<double> goals;        ///< the quantities, as the share of dampers made reaches them
+  bool possible = true;       ///< false: no such damper can be drawn; there are no figures then
+  std::vector<double> goals;  ///< the quantities, as the share of dampers made reaches them
   std::vector<double> constraints;  ///< likewise
-  std::vector<double> slack;        ///< of each constraint, in shares of its bound; negative: it fails
-  double violation = 0;             ///< sum of what is negative
+  std::vector<double> slack;  ///< of each constraint, in shares of its bound; negative: it fails
+  double violation = 0;       ///< sum of what is negative
 
   bool holds() const { return possible && violation == 0; }
 };
 
-/// A request turned into a search: places in the unit cube are dampers, which are assessed. Immutable.
+/// A request turned into a search: places in the unit cube are dampers, which are assessed.
+/// Immutable.
 class DesignProblem {
  public:
-  /// Request and models must outlive it. The seed draws the dampers that stand for those made. Throws Error
-  /// when the request asks a second model and there is none.
+  /// Request and models must outlive it. The seed draws the dampers that stand for those made.
+  /// Throws Error when the request asks a second model and there is none.
   DesignProblem(const DesignRequest& request, const DesignModel& model, std::uint64_t seed,
                 const DesignModel* second = nullptr);
 
@@ -33,16 +34,18 @@ class DesignProblem {
 
   /// The damper at a place of the unit cube. `relaxed`: ranges with steps are taken without them.
   DamperDescription damper_at(std::span<const double> place, bool relaxed = false) const;
-  /// The place at which variable k takes its level (for a variable with levels), and the level at a place.
+  /// The place at which variable k takes its level (for a variable with levels), and the level at a
+  /// place.
   double place_of_level(std::size_t k, std::size_t level) const;
   std::size_t level_at(std::size_t k, double place) const;
 
   Assessment assess(const DamperDescription& drawn) const;
   /// The damper with its fields off by these shares of their tolerances.
   DamperDescription made(const DamperDescription& drawn, std::span<const double> shares) const;
-  /// The figures of every goal, then of every constraint, of one damper as it is: each by the model that is
-  /// asked for it, or all by one.
-  std::vector<double> figures(const DamperDescription& damper, const DesignModel* all_by = nullptr) const;
+  /// The figures of every goal, then of every constraint, of one damper as it is: each by the model
+  /// that is asked for it, or all by one.
+  std::vector<double> figures(const DamperDescription& damper,
+                              const DesignModel* all_by = nullptr) const;
 
  private:
   void follow(DamperDescription& damper) const;

@@ -22,7 +22,8 @@ DesignVariable read_fluids(const Value& value) {
   DesignVariable variable;
   for (const Value& item : value.items())
     variable.fluids.push_back(&find_fluid(item.as_string(), item.where()));
-  if (variable.fluids.empty()) throw Error(value.where(), "no fluid to choose from", "[122EG, 132DG]");
+  if (variable.fluids.empty())
+    throw Error(value.where(), "no fluid to choose from", "[122EG, 132DG]");
   return variable;
 }
 
@@ -54,9 +55,11 @@ DesignVariable read_variable(const std::string& name, const Value& value) {
     read_range(value, variable);
     return variable;
   }
-  for (const Value& item : value.items()) variable.values.push_back(read_field(item, *variable.field));
+  for (const Value& item : value.items())
+    variable.values.push_back(read_field(item, *variable.field));
   if (variable.values.empty())
-    throw Error(value.where(), "no " + name + " to choose from", "{from: ..., to: ...} or a list of values");
+    throw Error(value.where(), "no " + name + " to choose from",
+                "{from: ..., to: ...} or a list of values");
   return variable;
 }
 
@@ -88,7 +91,8 @@ void read_constraint(const Value& value, const DamperOperation& at, DesignReques
   const Value *least = reader.optional("min"), *most = reader.optional("max");
   const std::vector<ToldBy> asked_of = read_by(reader, true);
   reader.finish();
-  if (!least && !most) throw Error(value.where(), "the constraint has no bound", "min, max or both");
+  if (!least && !most)
+    throw Error(value.where(), "the constraint has no bound", "min, max or both");
   for (const ToldBy by : asked_of)
     for (const Value* bound : {least, most}) {
       if (!bound) continue;
@@ -111,7 +115,8 @@ DesignGoal read_goal(const Value& value, const DamperOperation& at) {
   goal.by = read_by(reader, false).front();
   reader.finish();
   if (!most == !least)
-    throw Error(value.where(), "a goal is one quantity", "maximise: dynamic_range, or minimise: mass");
+    throw Error(value.where(), "a goal is one quantity",
+                "maximise: dynamic_range, or minimise: mass");
   const Value& named = most ? *most : *least;
   goal.quantity = &find_design_quantity(named.as_string(), named.where());
   goal.maximise = most != nullptr;
@@ -125,7 +130,8 @@ FollowingField read_following(const std::string& name, const Value& value) {
     if (key == "constant")
       following.constant = read_quantity(factor, following.field->unit);
     else
-      following.terms.emplace_back(&find_description_field(key, factor.where()), factor.as_number());
+      following.terms.emplace_back(&find_description_field(key, factor.where()),
+                                   factor.as_number());
   return following;
 }
 
@@ -136,9 +142,11 @@ void read_robust(const Value& value, DesignRequest& request) {
   const double samples = reader.number("samples", request.samples);
   reader.finish();
   if (!(request.share > 0 && request.share <= 1))
-    throw Error(value.where(), "share is " + format_number(request.share), "more than 0, 1 at most");
+    throw Error(value.where(), "share is " + format_number(request.share),
+                "more than 0, 1 at most");
   if (!(samples >= 2 && samples <= kMostSamples && samples == std::floor(samples)))
-    throw Error(value.where(), "samples is " + format_number(samples), "a whole number from 2 to 10000");
+    throw Error(value.where(), "samples is " + format_number(samples),
+                "a whole number from 2 to 10000");
   request.samples = static_cast<int>(samples);
   if (request.tolerances.empty())
     throw Error(value.where(), "robust against nothing: no tolerances are stated",
@@ -150,12 +158,14 @@ DamperDescription read_damper(const Value& value, const std::filesystem::path& f
   const std::vector<std::string> known = description_names();
   if (std::ranges::find(known, name) != known.end()) return named_description(name);
   if (!name.ends_with(".yaml"))
-    throw Error(value.where(), "unknown damper '" + name + "'", suggest(name, known) + ", or a .yaml file");
+    throw Error(value.where(), "unknown damper '" + name + "'",
+                suggest(name, known) + ", or a .yaml file");
   return load_description(folder / name);
 }
 
 bool varies(const DesignRequest& request, const DescriptionField* field) {
-  return std::ranges::any_of(request.variables, [&](const DesignVariable& v) { return v.field == field; });
+  return std::ranges::any_of(request.variables,
+                             [&](const DesignVariable& v) { return v.field == field; });
 }
 
 void require_consistent(const DesignRequest& request, const std::string& source) {
@@ -164,7 +174,8 @@ void require_consistent(const DesignRequest& request, const std::string& source)
   if (request.goals.empty()) throw Error(source, "there is no goal", "goals: [{minimise: mass}]");
   for (const FollowingField& following : request.following) {
     const std::string name(following.field->name);
-    if (varies(request, following.field)) throw Error(source, name + " both varies and follows others");
+    if (varies(request, following.field))
+      throw Error(source, name + " both varies and follows others");
     for (const auto& [term, factor] : following.terms)
       if (term == following.field) throw Error(source, name + " follows itself");
   }
@@ -177,7 +188,8 @@ void each_member(ObjectReader& reader, std::string_view key, Read read) {
 }
 
 std::string place_text(const DamperOperation& at) {
-  std::string text = " at " + format_number(at.current) + " A, " + format_number(at.velocity) + " m/s";
+  std::string text =
+      " at " + format_number(at.current) + " A, " + format_number(at.velocity) + " m/s";
   return at.displacement == 0 ? text : text + ", " + format_number(at.displacement) + " m";
 }
 

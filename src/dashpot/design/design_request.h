@@ -8,7 +8,8 @@
 
 namespace dashpot {
 
-/// What may vary: a field within a range, in steps where a step is given; one of several values; the fluid.
+/// What may vary: a field within a range, in steps where a step is given; one of several values;
+/// the fluid.
 struct DesignVariable {
   const DescriptionField* field = nullptr;  ///< nullptr: the fluid
   double from = 0, to = 0, step = 0;        ///< step 0: any value
@@ -60,18 +61,18 @@ struct DesignRequest {
   std::vector<DesignConstraint> constraints;
   std::vector<DesignGoal> goals;
   std::vector<DesignTolerance> tolerances;
-  double share =
-      0;  ///< of the dampers made that must hold the constraints and reach the goals; 0: the drawn one
+  double share = 0;  ///< of the dampers made that must hold the constraints and reach the goals; 0:
+                     ///< the drawn one
   int samples = 32;  ///< dampers that stand for those made
 };
 
-/// "force at least 1500 N at 2 A, 0.3 m/s, by the second model"; the same of a goal: "largest dynamic_range
-/// at ..."
+/// "force at least 1500 N at 2 A, 0.3 m/s, by the second model"; the same of a goal: "largest
+/// dynamic_range at ..."
 std::string describe(const DesignConstraint& constraint);
 std::string describe(const DesignGoal& goal);
 
-/// YAML as docs/design.md describes. `folder`: where a damper's file is looked for. Throws Error that names
-/// file and line.
+/// YAML as docs/design.md describes. `folder`: where a damper's file is looked for. Throws Error
+/// that names file and line.
 DesignRequest parse_request(std::string_view text, const std::string& source,
                             const std::filesystem::path& folder = {});
 DesignRequest load_request(const std::filesystem::path& path);

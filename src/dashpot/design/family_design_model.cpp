@@ -6,14 +6,15 @@
 
 #include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
-#include "dashpot/damper/family/family_model.h"
+#include "dashpot/damper/kinds/family/family_model.h"
 #include "dashpot/design/design_model.h"
 
 namespace dashpot {
 namespace {
 
-/// The force as a test bench tells it: where a sine of this half stroke passes the displacement at the
-/// velocity, begun from rest one cycle and more before, so that what remembers has seen a motion of its kind.
+/// The force as a test bench tells it: where a sine of this half stroke passes the displacement at
+/// the velocity, begun from rest one cycle and more before, so that what remembers has seen a
+/// motion of its kind.
 double force_in_sine(const DamperModel& model, const DamperOperation& at, double half_stroke) {
   constexpr double kPi = std::numbers::pi;
   constexpr int kSteps = 100;  // of a cycle
@@ -57,12 +58,14 @@ class FamilyDesignModel final : public DesignModel {
                          const DamperOperation& operation) const override {
     DamperPhysics physics = evaluate_physics(description, operation);
     const std::array<double, 2> currents{0, std::abs(operation.current)};
-    FamilyMember member = member_of(description, std::span(currents).first(currents[1] > 0 ? 2 : 1));
+    FamilyMember member =
+        member_of(description, std::span(currents).first(currents[1] > 0 ? 2 : 1));
     member.spring_stiffness = 0;  // which the dynamic range leaves out
     const auto damper = family_->with_member(member);
     const double half_stroke = half_stroke_ > 0 ? half_stroke_ : 0.5 * description.stroke;
     const double force = force_in_sine(*damper, operation, half_stroke);
-    const double off = force_in_sine(*damper, {0, operation.velocity, operation.displacement}, half_stroke);
+    const double off =
+        force_in_sine(*damper, {0, operation.velocity, operation.displacement}, half_stroke);
     const bool has_spring = family_->family().baseline.target != FamilyTarget::Total;
     const double spring = has_spring ? physics.spring_force : 0;
     physics.force = force + spring;
@@ -84,8 +87,8 @@ class FamilyDesignModel final : public DesignModel {
     std::vector<std::string> outside;
     const auto look = [&](const char* what, const char* unit, double asked, double known) {
       if (std::abs(asked) > kMargin * known)
-        outside.push_back(name() + " knows a " + what + " up to " + format_number(known) + " " + unit +
-                          ", not of " + format_number(std::abs(asked)) + " " + unit);
+        outside.push_back(name() + " knows a " + what + " up to " + format_number(known) + " " +
+                          unit + ", not of " + format_number(std::abs(asked)) + " " + unit);
     };
     look("current", "A", at.current, current_);
     look("velocity", "m/s", at.velocity, speed_);
@@ -123,7 +126,8 @@ std::unique_ptr<DesignModel> load_family_design_model(const std::filesystem::pat
     throw Error(path.string(), "is a model of one damper, not of a family",
                 "a file that 'dashpot identify --models family' wrote");
   if (file.drive_unit != "A")
-    throw Error(path.string(), "is driven by " + file.drive_unit, "a family of coils whose current is known");
+    throw Error(path.string(), "is driven by " + file.drive_unit,
+                "a family of coils whose current is known");
   return std::make_unique<FamilyDesignModel>(std::move(file));
 }
 

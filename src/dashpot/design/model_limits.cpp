@@ -17,8 +17,8 @@ std::vector<DamperOperation> places_of_force(const DesignRequest& request) {
   return places;
 }
 
-bool moves_force(const DesignModel& model, const DamperDescription& from, const DamperDescription& to,
-                 const DamperOperation& at) {
+bool moves_force(const DesignModel& model, const DamperDescription& from,
+                 const DamperDescription& to, const DamperOperation& at) {
   constexpr double kRounding = 1e-9;
   const double a = model.evaluate(from, at).force, b = model.evaluate(to, at).force;
   return std::abs(b - a) > kRounding * (std::abs(a) + std::abs(b));
@@ -26,10 +26,12 @@ bool moves_force(const DesignModel& model, const DamperDescription& from, const 
 
 }  // namespace
 
-DesignRequest within_families(DesignRequest request, const DesignModel& first, const DesignModel* second) {
+DesignRequest within_families(DesignRequest request, const DesignModel& first,
+                              const DesignModel* second) {
   const DesignQuantity& outside = find_design_quantity(kOutsideFamily, "design");
   if (first.is_fitted()) request.constraints.push_back({&outside, {}, false, 0, ToldBy::First});
-  if (second && second->is_fitted()) request.constraints.push_back({&outside, {}, false, 0, ToldBy::Second});
+  if (second && second->is_fitted())
+    request.constraints.push_back({&outside, {}, false, 0, ToldBy::Second});
   return request;
 }
 

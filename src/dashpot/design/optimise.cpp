@@ -13,7 +13,8 @@
 namespace dashpot {
 namespace {
 
-// Searches keep this far inside of the constraints, in shares of the bounds: COBYLA ends on them to rounding.
+// Searches keep this far inside of the constraints, in shares of the bounds: COBYLA ends on them to
+// rounding.
 constexpr double kMargin = 1e-7;
 constexpr double kFails = 1e9;  // more than any goal that can be
 
@@ -78,8 +79,8 @@ class Search {
   double best_rank_ = HUGE_VAL;
 };
 
-/// COBYLA on some of the variables, the others held. NLopt asks for the goal and for the constraints
-/// separately: the last place is remembered.
+/// COBYLA on some of the variables, the others held. NLopt asks for the goal and for the
+/// constraints separately: the last place is remembered.
 class Polish {
  public:
   Polish(Search& search, std::vector<double> place, std::vector<std::size_t> free, bool relaxed)
@@ -93,15 +94,15 @@ class Polish {
     constexpr double kTolerance = 1e-9;
     const auto count = static_cast<unsigned>(free_.size());
     if (count == 0) return place_;
-    const std::unique_ptr<nlopt_opt_s, void (*)(nlopt_opt)> solver(nlopt_create(NLOPT_LN_COBYLA, count),
-                                                                   nlopt_destroy);
+    const std::unique_ptr<nlopt_opt_s, void (*)(nlopt_opt)> solver(
+        nlopt_create(NLOPT_LN_COBYLA, count), nlopt_destroy);
     solver_ = solver.get();
     nlopt_set_lower_bounds1(solver_, 0);
     nlopt_set_upper_bounds1(solver_, 1);
     nlopt_set_min_objective(solver_, goal, this);
     if (!seen_.slack.empty())
-      nlopt_add_inequality_mconstraint(solver_, static_cast<unsigned>(seen_.slack.size()), constraints, this,
-                                       nullptr);
+      nlopt_add_inequality_mconstraint(solver_, static_cast<unsigned>(seen_.slack.size()),
+                                       constraints, this, nullptr);
     nlopt_set_initial_step1(solver_, radius);
     nlopt_set_xtol_abs1(solver_, kTolerance);
     nlopt_set_maxeval(solver_, looks * static_cast<int>(count + 1));
@@ -136,7 +137,8 @@ class Polish {
     own.move(x);
     return own.seen_.value / own.scale_;
   }
-  static void constraints(unsigned count, double* result, unsigned, const double* x, double*, void* self) {
+  static void constraints(unsigned count, double* result, unsigned, const double* x, double*,
+                          void* self) {
     auto& own = *static_cast<Polish*>(self);
     own.move(x);
     for (unsigned k = 0; k < count; ++k) result[k] = -own.seen_.slack[k];
@@ -158,7 +160,8 @@ constexpr int kQuickLooks = 30, kLooks = 200;  // for each variable
 std::vector<std::size_t> movable(const DesignRequest& request, bool relaxed) {
   std::vector<std::size_t> free;
   for (std::size_t k = 0; k < request.variables.size(); ++k)
-    if (request.variables[k].levels() == 0 || (relaxed && request.variables[k].step > 0)) free.push_back(k);
+    if (request.variables[k].levels() == 0 || (relaxed && request.variables[k].step > 0))
+      free.push_back(k);
   return free;
 }
 
@@ -167,11 +170,13 @@ void polish(const DesignProblem& problem, Search& search, std::vector<double> pl
   constexpr double kWide = 0.05, kNarrow = 0.005;
   const std::vector<std::size_t> all = movable(problem.request(), true),
                                  free = movable(problem.request(), false);
-  if (all.size() > free.size()) place = Polish(search, std::move(place), all, true).run(kWide, looks);
+  if (all.size() > free.size())
+    place = Polish(search, std::move(place), all, true).run(kWide, looks);
   for (const std::size_t k : all)
     if (problem.request().variables[k].levels() > 0)
       place[k] = problem.place_of_level(k, problem.level_at(k, place[k]));
-  Polish(search, std::move(place), free, false).run(all.size() > free.size() ? kNarrow : kWide, looks);
+  Polish(search, std::move(place), free, false)
+      .run(all.size() > free.size() ? kNarrow : kWide, looks);
 }
 
 /// Levels to try in place of one: the neighbours of a step; all of a choice.
@@ -205,19 +210,22 @@ void run_start(const DesignProblem& problem, Search& search, const OptimiseOptio
   constexpr int kRounds = 4;
   const std::size_t size = problem.size();
   const SearchBox box{std::vector<double>(size, 0.), std::vector<double>(size, 1.)};
-  global_search([&](std::span<const double> place) { return Search::rank(search.look(place)); }, box,
-                std::vector<double>(size, 0.5), options.evaluations * static_cast<int>(size), seed);
+  global_search([&](std::span<const double> place) { return Search::rank(search.look(place)); },
+                box, std::vector<double>(size, 0.5), options.evaluations * static_cast<int>(size),
+                seed);
   polish(problem, search, search.best().place, kLooks);
   for (int round = 0; round < kRounds; ++round) {
     bool better = false;
     for (std::size_t k = 0; k < size; ++k)
-      if (problem.request().variables[k].levels() > 1) better = step_level(problem, search, k) || better;
+      if (problem.request().variables[k].levels() > 1)
+        better = step_level(problem, search, k) || better;
     if (!better) break;
   }
   Polish(search, search.best().place, movable(problem.request(), false), false).run(0.002, kLooks);
 }
 
-Optimum run_starts(const DesignProblem& problem, const std::size_t* goal, const OptimiseOptions& options) {
+Optimum run_starts(const DesignProblem& problem, const std::size_t* goal,
+                   const OptimiseOptions& options) {
   const auto starts = static_cast<std::size_t>(options.starts);
   std::vector<Search> searches(starts, Search(problem, goal, options));
   std::vector<char> stopped(starts, 0);

@@ -21,14 +21,15 @@ struct OptimiseOptions {
 struct Optimum {
   std::vector<double> place;  ///< in the unit cube; empty: stopped before anything was seen
   double violation = 0;       ///< of what counts
-  double value = 0;  ///< of the goal, to be made small: a figure to be made large has its sign turned
+  double value =
+      0;  ///< of the goal, to be made small: a figure to be made large has its sign turned
   std::size_t evaluations = 0;
   bool stopped = false;  ///< the user asked to stop: the best so far
 };
 
-/// Makes the goal best under the constraints. Each start: controlled random search in which a damper that
-/// holds the constraints beats any that does not; COBYLA, at first as if ranges had no steps; then the other
-/// levels of each variable in turn, with COBYLA on the rest. All by NLopt.
+/// Makes the goal best under the constraints. Each start: controlled random search in which a
+/// damper that holds the constraints beats any that does not; COBYLA, at first as if ranges had no
+/// steps; then the other levels of each variable in turn, with COBYLA on the rest. All by NLopt.
 Optimum optimise(const DesignProblem& problem, std::size_t goal, const OptimiseOptions& options);
 
 /// The place of least violation; ends where it finds none.

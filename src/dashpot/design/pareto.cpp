@@ -30,7 +30,8 @@ struct PagmoProblem {
   pagmo::vector_double fitness(const pagmo::vector_double& place) const {
     ++*evaluations;
     FrontProblem::Value value = problem->evaluate(place);
-    if (value.violation > 0) return pagmo::vector_double(problem->goals, kFails * (1 + value.violation));
+    if (value.violation > 0)
+      return pagmo::vector_double(problem->goals, kFails * (1 + value.violation));
     for (std::size_t k = 0; k < value.goals.size(); ++k) value.goals[k] /= problem->scale[k];
     return value.goals;
   }
@@ -44,8 +45,10 @@ struct PagmoProblem {
 struct ParallelEvaluation {
   int threads = 0;
 
-  pagmo::vector_double operator()(const pagmo::problem& problem, const pagmo::vector_double& places) const {
-    const std::size_t size = problem.get_nx(), goals = problem.get_nobj(), count = places.size() / size;
+  pagmo::vector_double operator()(const pagmo::problem& problem,
+                                  const pagmo::vector_double& places) const {
+    const std::size_t size = problem.get_nx(), goals = problem.get_nobj(),
+                      count = places.size() / size;
     const auto& own = *problem.extract<PagmoProblem>();
     pagmo::vector_double all(count * goals);
     parallel_for(count, threads, [&](std::size_t k) {
@@ -63,7 +66,8 @@ class Archive {
   explicit Archive(std::size_t most) : most_(most) {}
   void add(const pagmo::population& population) {
     for (std::size_t k = 0; k < population.size(); ++k)
-      if (const auto& goals = population.get_f()[k]; goals[0] < kFails) insert(population.get_x()[k], goals);
+      if (const auto& goals = population.get_f()[k]; goals[0] < kFails)
+        insert(population.get_x()[k], goals);
     if (places_.size() <= most_) return;
     std::vector<std::size_t> kept = pagmo::select_best_N_mo(goals_, most_);
     std::ranges::sort(kept);
@@ -102,7 +106,8 @@ class Archive {
 
 pagmo::population first_population(const FrontProblem& problem, const FrontOptions& options,
                                    const PagmoProblem& seen) {
-  const std::size_t size = std::max<std::size_t>(24, (options.points + 3) / 4 * 4);  // NSGA-II asks for fours
+  const std::size_t size =
+      std::max<std::size_t>(24, (options.points + 3) / 4 * 4);  // NSGA-II asks for fours
   Random random(options.seed);
   Places places = problem.starts;
   places.resize(std::min(places.size(), size));
@@ -120,8 +125,8 @@ pagmo::population first_population(const FrontProblem& problem, const FrontOptio
 pagmo::algorithm algorithm_of(const FrontProblem& problem, const FrontOptions& options) {
   const auto seed = static_cast<unsigned>(options.seed);
   if (options.method == FrontMethod::Moead)
-    return pagmo::algorithm(pagmo::moead(1u, problem.goals == 2 ? "grid" : "low discrepancy", "tchebycheff",
-                                         20u, 1.0, 0.5, 20., 0.9, 2u, true, seed));
+    return pagmo::algorithm(pagmo::moead(1u, problem.goals == 2 ? "grid" : "low discrepancy",
+                                         "tchebycheff", 20u, 1.0, 0.5, 20., 0.9, 2u, true, seed));
   pagmo::nsga2 method(1u, 0.95, 10., 1. / static_cast<double>(problem.size), 50., seed);
   method.set_bfe(pagmo::bfe(ParallelEvaluation{options.threads}));
   return pagmo::algorithm(method);

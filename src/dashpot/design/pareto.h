@@ -22,7 +22,7 @@ struct FrontProblem {
   std::size_t size = 0, goals = 0;
   std::function<Value(std::span<const double> place)> evaluate;  ///< called from several threads
   std::vector<double> scale;                                     ///< the extent of each goal, about
-  std::vector<std::vector<double>> starts;                       ///< places to begin from, beside random ones
+  std::vector<std::vector<double>> starts;  ///< places to begin from, beside random ones
 };
 
 struct FrontOptions {
@@ -40,8 +40,8 @@ struct Front {
   bool stopped = false;  ///< the user asked to stop: the front so far
 };
 
-/// At most `points` places that hold the constraints, spread over the front. A place that does not hold them
-/// is worse than any that does. By pagmo2.
+/// At most `points` places that hold the constraints, spread over the front. A place that does not
+/// hold them is worse than any that does. By pagmo2.
 Front pareto_front(const FrontProblem& problem, const FrontOptions& options);
 
 }  // namespace dashpot

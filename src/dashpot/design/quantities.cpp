@@ -29,9 +29,13 @@ double control_ratio(const OperatedDamper& d) {
          (p.piston_area * (p.newtonian_pressure + p.passive_pressure) + d.description.friction);
 }
 
-double controllable_power(const OperatedDamper& d) { return d.physics.yield_pressure * d.physics.flow; }
+double controllable_power(const OperatedDamper& d) {
+  return d.physics.yield_pressure * d.physics.flow;
+}
 
-double active_volume(const OperatedDamper& d) { return d.physics.gap_area * d.description.pole_length; }
+double active_volume(const OperatedDamper& d) {
+  return d.physics.gap_area * d.description.pole_length;
+}
 
 double piston_length(const OperatedDamper& d) {
   return d.description.pole_length + d.description.passive_length;
@@ -46,7 +50,8 @@ double outer_diameter(const OperatedDamper& d) {
 }
 
 double copper_mass(const OperatedDamper& d) {
-  return kCopperDensity * d.description.turns * d.description.turn_length * disc(d.description.wire_diameter);
+  return kCopperDensity * d.description.turns * d.description.turn_length *
+         disc(d.description.wire_diameter);
 }
 
 double mass(const OperatedDamper& d) {
@@ -71,7 +76,12 @@ constexpr std::array kEstimates{
       {},
       {},
       control_ratio},
-    Q{"controllable_power", "W", "pressure below which nothing flows times flow", {}, {}, controllable_power},
+    Q{"controllable_power",
+      "W",
+      "pressure below which nothing flows times flow",
+      {},
+      {},
+      controllable_power},
     Q{"response_time",
       "s",
       "from a voltage step to 90 % of the force's change; without eddy currents",
@@ -80,10 +90,28 @@ constexpr std::array kEstimates{
       response_time},
     Q{"active_volume", "m^3", "fluid in the gap where the field acts", {}, {}, active_volume, true},
     Q{"piston_length", "m", "gap with field and without", {}, {}, piston_length, true},
-    Q{"body_length", "m", "stroke and piston; neither accumulator nor mounts", {}, {}, body_length, true},
-    Q{"outer_diameter", "m", "of a steel tube whose section is the core's", {}, {}, outer_diameter, true},
+    Q{"body_length",
+      "m",
+      "stroke and piston; neither accumulator nor mounts",
+      {},
+      {},
+      body_length,
+      true},
+    Q{"outer_diameter",
+      "m",
+      "of a steel tube whose section is the core's",
+      {},
+      {},
+      outer_diameter,
+      true},
     Q{"copper_mass", "kg", "of the coil", {}, {}, copper_mass, true},
-    Q{"mass", "kg", "estimate: steel tube, piston and rod, copper, fluid; no mounts", {}, {}, mass, true},
+    Q{"mass",
+      "kg",
+      "estimate: steel tube, piston and rod, copper, fluid; no mounts",
+      {},
+      {},
+      mass,
+      true},
     Q{kOutsideFamily,
       "1",
       "how far beyond the dampers of a family's model, in shares of their ranges; 0 or less within",
@@ -138,7 +166,8 @@ const PhysicsQuantity& row_of(double P::* value) {
   return *std::ranges::find(physics_quantities(), value, &PhysicsQuantity::value);
 }
 
-/// Figures of the physics come before fields of the same name, which may be 0 for "follows from others".
+/// Figures of the physics come before fields of the same name, which may be 0 for "follows from
+/// others".
 std::vector<Q> all_quantities() {
   std::vector<Q> all;
   for (const PhysicsWord& word : kPhysicsWords) {
@@ -159,10 +188,11 @@ ShownUnit shown_unit(std::string_view si_unit) {
     std::string_view si, shown;
     double factor;
   };
-  constexpr std::array kRows{
-      Row{"m", "mm", 1e-3},   Row{"m^2", "mm^2", 1e-6}, Row{"m^3", "cm^3", 1e-6},    Row{"s", "ms", 1e-3},
-      Row{"Pa", "kPa", 1e3},  Row{"A/m", "kA/m", 1e3},  Row{"A/m^2", "A/mm^2", 1e6}, Row{"H", "mH", 1e-3},
-      Row{"Wb", "mWb", 1e-3}, Row{"1", "", 1}};
+  constexpr std::array kRows{Row{"m", "mm", 1e-3},        Row{"m^2", "mm^2", 1e-6},
+                             Row{"m^3", "cm^3", 1e-6},    Row{"s", "ms", 1e-3},
+                             Row{"Pa", "kPa", 1e3},       Row{"A/m", "kA/m", 1e3},
+                             Row{"A/m^2", "A/mm^2", 1e6}, Row{"H", "mH", 1e-3},
+                             Row{"Wb", "mWb", 1e-3},      Row{"1", "", 1}};
   for (const Row& row : kRows)
     if (row.si == si_unit) return {std::string(row.shown), row.factor};
   return {std::string(si_unit), 1};

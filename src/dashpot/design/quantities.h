@@ -15,7 +15,8 @@ struct OperatedDamper {
   const DesignModel& model;
 };
 
-/// Something that a design can be asked for: a figure of the physics, a field, or an estimate made of them.
+/// Something that a design can be asked for: a figure of the physics, a field, or an estimate made
+/// of them.
 struct DesignQuantity {
   std::string_view name, unit, meaning;
   double DamperPhysics::* physics = nullptr;
@@ -44,8 +45,9 @@ ShownUnit shown_unit(std::string_view si_unit);
 /// "12.3 mm" of a figure in SI.
 std::string shown_figure(double value, std::string_view si_unit);
 
-/// Time from a step of the coil's voltage to 90 % of the force's change, s. The flux linkage N phi(i) follows
-/// the circuit with its saturation; eddy currents and the fluid's own milliseconds are left out.
+/// Time from a step of the coil's voltage to 90 % of the force's change, s. The flux linkage N
+/// phi(i) follows the circuit with its saturation; eddy currents and the fluid's own milliseconds
+/// are left out.
 double response_time(const OperatedDamper& damper);
 
 }  // namespace dashpot

@@ -12,8 +12,8 @@ struct Sensitivity {
   struct Figure {
     double drawn = 0, low = 0, high = 0;  ///< as drawn; between which 90 % of the dampers made lie
     std::vector<double> local;            ///< derivative times tolerance, of each tolerance
-    /// Shares of the variance: alone (first order), and with all it takes part in (total), Saltelli 2010 and
-    /// Jansen 1999. They are estimates: small ones may come out a little below 0.
+    /// Shares of the variance: alone (first order), and with all it takes part in (total), Saltelli
+    /// 2010 and Jansen 1999. They are estimates: small ones may come out a little below 0.
     std::vector<double> alone, total;
   };
   std::vector<Figure> figures;

@@ -5,7 +5,7 @@
 
 #include "dashpot/base/error.h"
 #include "dashpot/base/parallel.h"
-#include "dashpot/identify/fit.h"
+#include "dashpot/identify/fit/fit.h"
 
 namespace dashpot {
 namespace {
@@ -19,18 +19,20 @@ void require_usable(const std::string& model, const std::vector<Record>& trainin
                   "record it, or leave this model out with --models");
 }
 
-/// Gives the model the mean offset of its training records as its bias, and reports what each record
-/// differs by.
-void settle_offsets(FitReport& report, const std::vector<Record>& training, const std::string& drive_unit,
-                    const IdentifyOptions& options) {
+/// Gives the model the mean offset of its training records as its bias, and reports what each
+/// record differs by.
+void settle_offsets(FitReport& report, const std::vector<Record>& training,
+                    const std::string& drive_unit, const IdentifyOptions& options) {
   if (options.offset == OffsetMode::None) return;
-  const Evaluation on_training = evaluate(*report.model, training, drive_unit, {.threads = options.threads});
+  const Evaluation on_training =
+      evaluate(*report.model, training, drive_unit, {.threads = options.threads});
   const double n = static_cast<double>(on_training.records.size());
   double mean = 0, square = 0;
   for (const RecordResult& r : on_training.records) mean += r.offset / n;
   for (const RecordResult& r : on_training.records) square += (r.offset - mean) * (r.offset - mean);
   report.model = report.model->with_offset(mean);
-  for (const RecordResult& r : on_training.records) report.offsets.emplace_back(r.record, r.offset - mean);
+  for (const RecordResult& r : on_training.records)
+    report.offsets.emplace_back(r.record, r.offset - mean);
   if (!is_law(report.model->name())) return;
   const double spread = n > 1 ? 1.96 * std::sqrt(square / (n - 1) / n) : 0;
   for (const ParamInfo& param : find_law(report.model->name()).params) {
@@ -42,13 +44,14 @@ void settle_offsets(FitReport& report, const std::vector<Record>& training, cons
   }
 }
 
-FitReport fit(const std::string& model, const std::vector<Record>& training, const std::string& drive_unit,
-              const IdentifyOptions& options) {
+FitReport fit(const std::string& model, const std::vector<Record>& training,
+              const std::string& drive_unit, const IdentifyOptions& options) {
   const std::string_view kind = model_info(model).kind;
   if (kind == "law") return fit_law(find_law(model), training, drive_unit, options);
   if (kind == "narx" || (kind == "network" && options.network.delays.value_or(0) > 0))
     return fit_narx(find_network_preset(model), training, drive_unit, options);
-  if (kind == "network") return fit_network(find_network_preset(model), training, drive_unit, options);
+  if (kind == "network")
+    return fit_network(find_network_preset(model), training, drive_unit, options);
   if (kind == "state_network")
     return fit_state_network(find_state_network_preset(model), training, drive_unit, options);
   if (kind == "state_space")
@@ -65,7 +68,8 @@ FitReport identify(const std::string& model, const std::vector<Record>& training
   require_usable(model, training);
   const double begin = cpu_seconds();
   FitReport report = fit(model, training, drive_unit, options);
-  if (report.status != FitReport::Status::Failed) settle_offsets(report, training, drive_unit, options);
+  if (report.status != FitReport::Status::Failed)
+    settle_offsets(report, training, drive_unit, options);
   report.seconds = cpu_seconds() - begin;
   return report;
 }

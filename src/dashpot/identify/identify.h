@@ -5,10 +5,10 @@
 
 #include "dashpot/base/monitor.h"
 #include "dashpot/damper/model_file.h"
-#include "dashpot/identify/evaluate.h"
-#include "dashpot/identify/network_design.h"
-#include "dashpot/identify/parameter_choice.h"
-#include "dashpot/identify/stress.h"
+#include "dashpot/identify/fit/network_design.h"
+#include "dashpot/identify/fit/parameter_choice.h"
+#include "dashpot/identify/judge/evaluate.h"
+#include "dashpot/identify/judge/stress.h"
 #include "dashpot/record/split.h"
 
 namespace dashpot {
@@ -40,16 +40,17 @@ struct FitReport {
   std::string message;
   std::shared_ptr<const DamperModel> model;  ///< with the mean record offset as its bias
   std::vector<FittedParameter> parameters;
-  std::vector<std::pair<std::string, double>> offsets;  ///< N, per training record, beyond the model's bias
-  std::vector<std::string> warnings;                    ///< identifiability, bounds, divergence, in words
+  std::vector<std::pair<std::string, double>>
+      offsets;                        ///< N, per training record, beyond the model's bias
+  std::vector<std::string> warnings;  ///< identifiability, bounds, divergence, in words
   int iterations = 0;
   double seconds = 0;        ///< CPU time
   double training_rmse = 0;  ///< N, free run
 };
 
-/// Fits the model of that name (a law, or a preset of a network or fuzzy model) to all records together in
-/// free run. Throws Error when the records cannot serve (a channel missing, no motion). Not converging is a
-/// status.
+/// Fits the model of that name (a law, or a preset of a network or fuzzy model) to all records
+/// together in free run. Throws Error when the records cannot serve (a channel missing, no motion).
+/// Not converging is a status.
 FitReport identify(const std::string& model, const std::vector<Record>& training,
                    const std::string& drive_unit, const IdentifyOptions& options);
 
@@ -62,8 +63,8 @@ struct RankedModel {
   Evaluation training;  ///< of `fit` on all its records
   std::vector<FitReport> fold_fits;
   std::vector<FitReport>
-      held_back_fits;               ///< where there is one fold: on parts of its training, for the interval
-  Evaluation left_out;              ///< the folds' models, each on its left-out records, pooled
+      held_back_fits;   ///< where there is one fold: on parts of its training, for the interval
+  Evaluation left_out;  ///< the folds' models, each on its left-out records, pooled
   std::optional<ForceBand> band;    ///< 90 % interval around the force of `fit`: conformal.h
   double seconds = 0;               ///< CPU time of all its fits
   double nanoseconds_per_step = 0;  ///< cost of advance + force, measured
@@ -79,16 +80,19 @@ struct Ranking {
 };
 
 /// Cross-validates each model over the folds of the split and ranks them. Without training roles,
-/// `fit` uses all records; with Roles or Fraction it uses the training part. With a store, fits that it
-/// holds are not made again, and new ones are kept as they end. The interval of a fold comes from the other
-/// folds' errors; where there is one fold, from further fits, each with a part of its training held back.
-Ranking rank(const std::vector<std::string>& models, const Dataset& dataset, const LeaveOut& leave_out,
-             const IdentifyOptions& options, const FitStore* store = nullptr);
+/// `fit` uses all records; with Roles or Fraction it uses the training part. With a store, fits
+/// that it holds are not made again, and new ones are kept as they end. The interval of a fold
+/// comes from the other folds' errors; where there is one fold, from further fits, each with a part
+/// of its training held back.
+Ranking rank(const std::vector<std::string>& models, const Dataset& dataset,
+             const LeaveOut& leave_out, const IdentifyOptions& options,
+             const FitStore* store = nullptr);
 
 /// What was made from these records of the dataset, by this command.
 Provenance provenance_of(const Dataset& dataset, std::vector<std::string> records,
                          const std::string& command);
 /// The model as a file: domain and provenance taken from the records.
-ModelFile to_model_file(const RankedModel& ranked, const Dataset& dataset, const std::string& command);
+ModelFile to_model_file(const RankedModel& ranked, const Dataset& dataset,
+                        const std::string& command);
 
 }  // namespace dashpot

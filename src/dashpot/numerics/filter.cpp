@@ -29,7 +29,8 @@ void filter_forward(const std::vector<Biquad>& sections, std::vector<double>& x)
   }
 }
 
-/// x with `margin` samples more at each end: x turned by 180 degrees about its first and last sample.
+/// x with `margin` samples more at each end: x turned by 180 degrees about its first and last
+/// sample.
 std::vector<double> extend_odd(std::span<const double> x, std::size_t margin) {
   std::vector<double> extended;
   extended.reserve(x.size() + 2 * margin);
@@ -43,7 +44,8 @@ std::vector<double> extend_odd(std::span<const double> x, std::size_t margin) {
 
 std::vector<Biquad> butterworth_lowpass(int order, double cutoff_hz, double dt) {
   if (order < 2 || order % 2 != 0)
-    throw Error("low-pass filter", "order " + std::to_string(order) + " is not even", "use 2, 4, 6, ...");
+    throw Error("low-pass filter", "order " + std::to_string(order) + " is not even",
+                "use 2, 4, 6, ...");
   if (!(dt > 0) || !(cutoff_hz > 0) || !(cutoff_hz * dt < 0.5))
     throw Error("low-pass filter",
                 "cut-off " + format_number(cutoff_hz) + " Hz does not fit a sample time of " +
@@ -51,7 +53,8 @@ std::vector<Biquad> butterworth_lowpass(int order, double cutoff_hz, double dt) 
                 "the cut-off must lie above 0 and below half the sample rate" +
                     (dt > 0 ? ", " + format_number(0.5 / dt) + " Hz" : std::string()));
 
-  // Each pair of poles of the prototype, s^2 + s / Q + 1, with s = (z - 1) / (z + 1) / k; low Q first.
+  // Each pair of poles of the prototype, s^2 + s / Q + 1, with s = (z - 1) / (z + 1) / k; low Q
+  // first.
   const double k = std::tan(std::numbers::pi * cutoff_hz * dt);
   std::vector<Biquad> sections;
   for (int pair = order / 2; pair-- > 0;) {
@@ -63,8 +66,8 @@ std::vector<Biquad> butterworth_lowpass(int order, double cutoff_hz, double dt) 
   return sections;
 }
 
-std::vector<double> filter_zero_phase(const std::vector<Biquad>& sections, std::span<const double> x,
-                                      std::size_t margin) {
+std::vector<double> filter_zero_phase(const std::vector<Biquad>& sections,
+                                      std::span<const double> x, std::size_t margin) {
   if (x.empty()) return {};
   if (margin == 0) margin = 3 * (2 * sections.size() + 1);
   margin = std::min(margin, x.size() - 1);

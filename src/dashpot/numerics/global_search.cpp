@@ -38,15 +38,16 @@ std::vector<double> global_search(const std::function<double(std::span<const dou
                                   std::uint64_t seed) {
   assert(box.lower.size() == start.size() && box.upper.size() == start.size());
   const auto count = static_cast<unsigned>(start.size());
-  const std::unique_ptr<nlopt_opt_s, void (*)(nlopt_opt)> solver(nlopt_create(NLOPT_GN_CRS2_LM, count),
-                                                                 nlopt_destroy);
+  const std::unique_ptr<nlopt_opt_s, void (*)(nlopt_opt)> solver(
+      nlopt_create(NLOPT_GN_CRS2_LM, count), nlopt_destroy);
   Search search{cost, solver.get(), nullptr};
   nlopt_srand(static_cast<unsigned long>(seed));  // a state of its own in each thread
   nlopt_set_lower_bounds(solver.get(), box.lower.data());
   nlopt_set_upper_bounds(solver.get(), box.upper.data());
   nlopt_set_maxeval(solver.get(), evaluations);
   nlopt_set_min_objective(solver.get(), evaluate, &search);
-  for (std::size_t k = 0; k < start.size(); ++k) start[k] = std::clamp(start[k], box.lower[k], box.upper[k]);
+  for (std::size_t k = 0; k < start.size(); ++k)
+    start[k] = std::clamp(start[k], box.lower[k], box.upper[k]);
   double best = 0;
   nlopt_optimize(solver.get(), start.data(), &best);
   if (search.failure) std::rethrow_exception(search.failure);

@@ -18,12 +18,13 @@ namespace dashpot {
 namespace {
 
 bool all_finite(std::span<const double> values) {
-  return std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
+  return std::all_of(values.begin(), values.end(),
+                     [](double value) { return std::isfinite(value); });
 }
 
 /// The whole problem as one Ceres residual block. Every unknown is a parameter block of its own, so
-/// that Ceres asks for the Jacobian column by column and a fixed unknown is simply a constant block.
-/// Exceptions must not travel through Ceres: the first one is kept in `failure`.
+/// that Ceres asks for the Jacobian column by column and a fixed unknown is simply a constant
+/// block. Exceptions must not travel through Ceres: the first one is kept in `failure`.
 class WholeProblem final : public ceres::CostFunction {
  public:
   WholeProblem(const LeastSquaresProblem& problem, const LeastSquaresOptions& options,
@@ -96,11 +97,13 @@ class WholeProblem final : public ceres::CostFunction {
 /// Unknowns that a bound holds at x (a fixed unknown is held by both).
 std::vector<bool> held_by_bounds(const LeastSquaresProblem& problem, const std::vector<double>& x) {
   std::vector<bool> held(x.size());
-  for (std::size_t k = 0; k < x.size(); ++k) held[k] = x[k] == problem.lower[k] || x[k] == problem.upper[k];
+  for (std::size_t k = 0; k < x.size(); ++k)
+    held[k] = x[k] == problem.lower[k] || x[k] == problem.upper[k];
   return held;
 }
 
-/// Passes iterations on; stops Ceres once a callback has thrown, or when another unknown arrives at a bound.
+/// Passes iterations on; stops Ceres once a callback has thrown, or when another unknown arrives at
+/// a bound.
 class Listener final : public ceres::IterationCallback {
  public:
   Listener(const LeastSquaresProblem& problem, const LeastSquaresOptions& options,
@@ -122,7 +125,8 @@ class Listener final : public ceres::IterationCallback {
                 report_.iterations + summary.iteration >= options_.hopeless_after;
     if (hopeless_) return ceres::SOLVER_ABORT;
     const bool arrived = held_by_bounds(problem_, report_.x) != held_;
-    return arrived && summary.iteration > 0 ? ceres::SOLVER_TERMINATE_SUCCESSFULLY : ceres::SOLVER_CONTINUE;
+    return arrived && summary.iteration > 0 ? ceres::SOLVER_TERMINATE_SUCCESSFULLY
+                                            : ceres::SOLVER_CONTINUE;
   }
 
  private:
@@ -136,7 +140,8 @@ class Listener final : public ceres::IterationCallback {
 
 ceres::Solver::Options ceres_options(const LeastSquaresOptions& options, Listener& listener) {
   ceres::Solver::Options result;
-  result.linear_solver_type = options.normal_equations ? ceres::DENSE_NORMAL_CHOLESKY : ceres::DENSE_QR;
+  result.linear_solver_type =
+      options.normal_equations ? ceres::DENSE_NORMAL_CHOLESKY : ceres::DENSE_QR;
   result.max_num_iterations = options.max_iterations;
   result.function_tolerance = options.function_tolerance;
   result.max_num_consecutive_invalid_steps = 50;  // residuals may fail in a large part of the space
@@ -160,8 +165,10 @@ void run(const LeastSquaresProblem& problem, const std::vector<bool>& held,
       target.SetParameterBlockConstant(blocks[k]);
       continue;
     }
-    if (std::isfinite(problem.lower[k])) target.SetParameterLowerBound(blocks[k], 0, problem.lower[k]);
-    if (std::isfinite(problem.upper[k])) target.SetParameterUpperBound(blocks[k], 0, problem.upper[k]);
+    if (std::isfinite(problem.lower[k]))
+      target.SetParameterLowerBound(blocks[k], 0, problem.lower[k]);
+    if (std::isfinite(problem.upper[k]))
+      target.SetParameterUpperBound(blocks[k], 0, problem.upper[k]);
   }
   ceres::Solver::Summary summary;
   ceres::Solve(options, &target, &summary);
@@ -171,19 +178,20 @@ void run(const LeastSquaresProblem& problem, const std::vector<bool>& held,
 }
 
 /// J'J of the residuals [first, end); the columns of J are m long.
-std::vector<double> normal_matrix(const std::vector<double>& jacobian, std::size_t m, std::size_t first,
-                                  std::size_t end) {
+std::vector<double> normal_matrix(const std::vector<double>& jacobian, std::size_t m,
+                                  std::size_t first, std::size_t end) {
   const std::size_t n = jacobian.size() / m;
   std::vector<double> matrix(n * n);
   for (std::size_t a = 0; a < n; ++a)
     for (std::size_t b = 0; b <= a; ++b)
-      matrix[a * n + b] = matrix[b * n + a] =
-          std::inner_product(&jacobian[a * m] + first, &jacobian[a * m] + end, &jacobian[b * m] + first, 0.0);
+      matrix[a * n + b] = matrix[b * n + a] = std::inner_product(
+          &jacobian[a * m] + first, &jacobian[a * m] + end, &jacobian[b * m] + first, 0.0);
   return matrix;
 }
 
 /// Cost, J'J and J'r at report.x; rows and columns of fixed unknowns are zero.
-void describe_end(const WholeProblem& whole, const LeastSquaresProblem& problem, LeastSquaresReport& report) {
+void describe_end(const WholeProblem& whole, const LeastSquaresProblem& problem,
+                  LeastSquaresReport& report) {
   const std::size_t n = report.x.size(), m = problem.residuals;
   std::vector<double> r(m), jacobian(m * n, 0.0);
   std::vector<double*> columns(n, nullptr);
@@ -209,12 +217,14 @@ void describe_end(const WholeProblem& whole, const LeastSquaresProblem& problem,
   }
 }
 
-/// Lets go of unknowns that would lower the cost by leaving their bound, each once. True when there are any.
-bool release(const LeastSquaresProblem& problem, const LeastSquaresReport& report, std::vector<bool>& held,
-             std::vector<bool>& released) {
+/// Lets go of unknowns that would lower the cost by leaving their bound, each once. True when there
+/// are any.
+bool release(const LeastSquaresProblem& problem, const LeastSquaresReport& report,
+             std::vector<bool>& held, std::vector<bool>& released) {
   bool any = false;
   for (std::size_t k = 0; k < held.size() && !report.gradient.empty(); ++k) {
-    const bool inward = report.x[k] == problem.lower[k] ? report.gradient[k] < 0 : report.gradient[k] > 0;
+    const bool inward =
+        report.x[k] == problem.lower[k] ? report.gradient[k] < 0 : report.gradient[k] > 0;
     if (!held[k] || released[k] || !inward || problem.lower[k] == problem.upper[k]) continue;
     // The gain that the unknown's own curvature promises must be worth another run.
     const double curvature = report.normal_matrix[k * held.size() + k];
@@ -229,7 +239,8 @@ bool release(const LeastSquaresProblem& problem, const LeastSquaresReport& repor
 
 LeastSquaresReport solve(const LeastSquaresProblem& problem, std::vector<double> start,
                          const LeastSquaresOptions& options) {
-  assert(!start.empty() && problem.lower.size() == start.size() && problem.upper.size() == start.size());
+  assert(!start.empty() && problem.lower.size() == start.size() &&
+         problem.upper.size() == start.size());
   FLAGS_minloglevel = google::GLOG_FATAL;  // Ceres warns on stderr of what the report says anyway
 
   LeastSquaresReport report;
@@ -242,8 +253,9 @@ LeastSquaresReport solve(const LeastSquaresProblem& problem, std::vector<double>
   WholeProblem whole(problem, options, failure);
   ceres::Solver::Options settings = ceres_options(options, listener);
 
-  // Ceres cuts its steps off at the bounds, and then creeps along them. So an unknown that arrives at a bound
-  // is held there and the run goes on without it; at the end those that pull away from theirs are let go.
+  // Ceres cuts its steps off at the bounds, and then creeps along them. So an unknown that arrives
+  // at a bound is held there and the run goes on without it; at the end those that pull away from
+  // theirs are let go.
   std::vector<bool> held = held_by_bounds(problem, report.x), released(held.size(), false);
   for (std::size_t k = 0; k < held.size(); ++k) held[k] = problem.lower[k] == problem.upper[k];
   while (!failure) {
@@ -260,7 +272,8 @@ LeastSquaresReport solve(const LeastSquaresProblem& problem, std::vector<double>
     held = now;
     if (arrived && report.iterations < options.max_iterations) continue;
     if (!failure) describe_end(whole, problem, report);
-    if (report.iterations >= options.max_iterations || !release(problem, report, held, released)) break;
+    if (report.iterations >= options.max_iterations || !release(problem, report, held, released))
+      break;
   }
   if (failure) std::rethrow_exception(failure);
   if (!std::isfinite(report.cost)) report.message = "the residuals cannot be computed at the start";

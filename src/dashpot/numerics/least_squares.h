@@ -11,14 +11,17 @@ namespace dashpot {
 /// min 0.5 |r(x)|^2 within bounds. Levenberg-Marquardt by Ceres.
 struct LeastSquaresProblem {
   std::size_t residuals = 0;
-  std::vector<std::size_t> parts = {0};  ///< first residual of each part; J'J is reported part by part
-  std::vector<double> lower, upper;  ///< one per unknown; +-infinity allowed; equal: that unknown is fixed
-  /// Residuals at x. Returns false where they cannot be computed (the step is then rejected), and so
-  /// counts a residual that is not finite. Called from several threads at a time.
+  std::vector<std::size_t> parts = {
+      0};  ///< first residual of each part; J'J is reported part by part
+  std::vector<double> lower,
+      upper;  ///< one per unknown; +-infinity allowed; equal: that unknown is fixed
+  /// Residuals at x. Returns false where they cannot be computed (the step is then rejected), and
+  /// so counts a residual that is not finite. Called from several threads at a time.
   std::function<bool(std::span<const double> x, std::span<double> r)> residual;
-  /// The residuals at x and the Jacobian column by column; a column that is not wanted is nullptr. Empty:
-  /// forward differences, one column per task on the farm.
-  std::function<bool(std::span<const double> x, std::span<double> r, std::span<double* const> columns)>
+  /// The residuals at x and the Jacobian column by column; a column that is not wanted is nullptr.
+  /// Empty: forward differences, one column per task on the farm.
+  std::function<bool(std::span<const double> x, std::span<double> r,
+                     std::span<double* const> columns)>
       jacobian;
 };
 
@@ -39,7 +42,7 @@ struct LeastSquaresReport {
   int iterations = 0;
   double cost = 0;  ///< 0.5 |r|^2; infinity when the residuals cannot be computed at the start
   std::vector<double> x;
-  std::vector<double> normal_matrix;               ///< J'J at the end, row by row; empty when there is no J
+  std::vector<double> normal_matrix;  ///< J'J at the end, row by row; empty when there is no J
   std::vector<std::vector<double>> part_matrices;  ///< the same of each part of the residuals
   std::vector<double> gradient;                    ///< J'r at the end, likewise
 };

@@ -35,7 +35,8 @@ class Wrapped final : public ceres::FirstOrderFunction {
 
 class Listener final : public ceres::IterationCallback {
  public:
-  Listener(const MinimiseOptions& options, const std::vector<double>& x, std::exception_ptr& failure)
+  Listener(const MinimiseOptions& options, const std::vector<double>& x,
+           std::exception_ptr& failure)
       : options_(options), x_(x), failure_(failure) {}
 
   ceres::CallbackReturnType operator()(const ceres::IterationSummary& summary) override {
@@ -71,7 +72,8 @@ MinimiseReport minimise(const SmoothFunction& function, std::vector<double> star
   how.logging_type = ceres::SILENT;
   how.update_state_every_iteration = true;
   how.callbacks.push_back(&listener);
-  const ceres::GradientProblem problem(new Wrapped(function, report.x.size(), failure));  // which owns it
+  const ceres::GradientProblem problem(
+      new Wrapped(function, report.x.size(), failure));  // which owns it
   ceres::GradientProblemSolver::Summary summary;
   ceres::Solve(how, problem, report.x.data(), &summary);
   if (failure) std::rethrow_exception(failure);

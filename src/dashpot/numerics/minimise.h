@@ -6,8 +6,8 @@
 
 namespace dashpot {
 
-/// A smooth function without bounds: its value at x, and its gradient there. Returns false where it cannot
-/// be computed.
+/// A smooth function without bounds: its value at x, and its gradient there. Returns false where it
+/// cannot be computed.
 using SmoothFunction =
     std::function<bool(std::span<const double> x, double& value, std::span<double> gradient)>;
 

@@ -10,7 +10,8 @@ namespace {
 
 using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-Eigen::Map<const Matrix> map_of(const std::vector<double>& values, std::size_t rows, std::size_t columns) {
+Eigen::Map<const Matrix> map_of(const std::vector<double>& values, std::size_t rows,
+                                std::size_t columns) {
   return {values.data(), static_cast<Eigen::Index>(rows), static_cast<Eigen::Index>(columns)};
 }
 
@@ -21,7 +22,8 @@ Eigen::MatrixXcd stable_subspace(const Eigen::MatrixXd& hamiltonian) {
   Eigen::MatrixXcd stable(2 * n, n);
   Eigen::Index found = 0;
   for (Eigen::Index k = 0; k < 2 * n; ++k)
-    if (solver.eigenvalues()[k].real() < 0 && found < n) stable.col(found++) = solver.eigenvectors().col(k);
+    if (solver.eigenvalues()[k].real() < 0 && found < n)
+      stable.col(found++) = solver.eigenvectors().col(k);
   if (found < n) throw Error("regulator", "a mode is neither damped nor reached by the input");
   return stable;
 }
@@ -30,11 +32,13 @@ Eigen::MatrixXcd stable_subspace(const Eigen::MatrixXd& hamiltonian) {
 
 std::vector<double> regulator_gain(const RegulatorProblem& p) {
   const auto n = static_cast<Eigen::Index>(p.states);
-  const Eigen::MatrixXd b = map_of(p.b, p.states, p.inputs), cross = map_of(p.n, p.states, p.inputs);
+  const Eigen::MatrixXd b = map_of(p.b, p.states, p.inputs),
+                        cross = map_of(p.n, p.states, p.inputs);
   const Eigen::LLT<Eigen::MatrixXd> r(map_of(p.r, p.inputs, p.inputs));
   const Eigen::VectorXd pivots = Eigen::MatrixXd(r.matrixL()).diagonal();
   if (r.info() != Eigen::Success || pivots.minCoeff() < 1e-7 * pivots.maxCoeff())
-    throw Error("regulator", "a combination of inputs costs nothing", "a price on the inputs themselves");
+    throw Error("regulator", "a combination of inputs costs nothing",
+                "a price on the inputs themselves");
   const Eigen::MatrixXd a = map_of(p.a, p.states, p.states) - b * r.solve(cross.transpose());
   const Eigen::MatrixXd q = map_of(p.q, p.states, p.states) - cross * r.solve(cross.transpose());
   Eigen::MatrixXd hamiltonian(2 * n, 2 * n);

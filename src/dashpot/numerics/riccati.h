@@ -13,9 +13,9 @@ struct RegulatorProblem {
   std::vector<double> r;  ///< inputs x inputs, positive definite
 };
 
-/// K of u = -K x that costs least (inputs x states), from the stable subspace of the Hamiltonian matrix.
-/// Throws Error where there is none: a mode on the imaginary axis that the price does not see or the input
-/// not reach.
+/// K of u = -K x that costs least (inputs x states), from the stable subspace of the Hamiltonian
+/// matrix. Throws Error where there is none: a mode on the imaginary axis that the price does not
+/// see or the input not reach.
 std::vector<double> regulator_gain(const RegulatorProblem& problem);
 
 }  // namespace dashpot

@@ -8,8 +8,8 @@ struct RootEnd {
   double x, value;
 };
 
-/// Where f is within `tolerance` of 0, between a place where it is negative and one where it is not. Regula
-/// falsi with Illinois' weights (Dowell and Jarratt 1971).
+/// Where f is within `tolerance` of 0, between a place where it is negative and one where it is
+/// not. Regula falsi with Illinois' weights (Dowell and Jarratt 1971).
 template <class Function>
 double find_root(Function f, RootEnd low, RootEnd high, double tolerance) {
   constexpr int kMost = 100;

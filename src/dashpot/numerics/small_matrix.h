@@ -4,17 +4,21 @@
 
 namespace dashpot {
 
-/// A matrix of a size known when compiled, row by row: for recursions that multiply millions of them.
+/// A matrix of a size known when compiled, row by row: for recursions that multiply millions of
+/// them.
 template <std::size_t Rows, std::size_t Columns>
 struct SmallMatrix {
   std::array<double, Rows * Columns> values{};
 
   double& operator()(std::size_t row, std::size_t column) { return values[row * Columns + column]; }
-  double operator()(std::size_t row, std::size_t column) const { return values[row * Columns + column]; }
+  double operator()(std::size_t row, std::size_t column) const {
+    return values[row * Columns + column];
+  }
 };
 
 template <std::size_t Rows, std::size_t Columns>
-SmallMatrix<Rows, Columns> operator+(SmallMatrix<Rows, Columns> a, const SmallMatrix<Rows, Columns>& b) {
+SmallMatrix<Rows, Columns> operator+(SmallMatrix<Rows, Columns> a,
+                                     const SmallMatrix<Rows, Columns>& b) {
   for (std::size_t k = 0; k < a.values.size(); ++k) a.values[k] += b.values[k];
   return a;
 }

@@ -29,8 +29,10 @@ PowerSpectrum power_spectrum(std::span<const double> x, double dt) {
   std::vector<std::complex<double>> lines;
   fft.fwd(lines, windowed);
 
-  // Lines of negative frequency are counted with their mirror images: all but the first and the last.
-  PowerSpectrum spectrum{1 / (dt * static_cast<double>(padded)), std::vector<double>(padded / 2 + 1)};
+  // Lines of negative frequency are counted with their mirror images: all but the first and the
+  // last.
+  PowerSpectrum spectrum{1 / (dt * static_cast<double>(padded)),
+                         std::vector<double>(padded / 2 + 1)};
   for (std::size_t k = 0; k < spectrum.power.size(); ++k) {
     const double sides = k == 0 || k == padded / 2 ? 1 : 2;
     spectrum.power[k] = sides * std::norm(lines[k]) / (window_power * static_cast<double>(padded));
@@ -38,7 +40,8 @@ PowerSpectrum power_spectrum(std::span<const double> x, double dt) {
   return spectrum;
 }
 
-std::vector<double> sum_of_harmonics(std::span<const std::complex<double>> lines, std::size_t points) {
+std::vector<double> sum_of_harmonics(std::span<const std::complex<double>> lines,
+                                     std::size_t points) {
   std::vector<std::complex<double>> half(points / 2 + 1);
   std::copy(lines.begin(), lines.end(), half.begin());
   half[0] *= 2;  // a constant has no mirror image

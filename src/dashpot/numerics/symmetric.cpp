@@ -22,7 +22,8 @@ SymmetricInverse invert_symmetric(std::span<const double> matrix, std::size_t n,
   if (n == 0) return result;
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(as_matrix(matrix, n));
   const double floor = tolerance * eigen.eigenvalues().cwiseAbs().maxCoeff();
-  Eigen::Map<RowMajor> inverse(result.inverse.data(), eigen.eigenvalues().size(), eigen.eigenvalues().size());
+  Eigen::Map<RowMajor> inverse(result.inverse.data(), eigen.eigenvalues().size(),
+                               eigen.eigenvalues().size());
   for (Eigen::Index i = 0; i < eigen.eigenvalues().size(); ++i) {
     const Eigen::VectorXd direction = eigen.eigenvectors().col(i);
     if (eigen.eigenvalues()[i] > floor)
@@ -39,7 +40,8 @@ bool solve_positive_definite(std::span<const double> matrix, std::span<const dou
   const Eigen::LLT<Eigen::MatrixXd> factor(as_matrix(matrix, right.size()));
   if (factor.info() != Eigen::Success) return false;
   const auto n = static_cast<Eigen::Index>(right.size());
-  Eigen::Map<Eigen::VectorXd>(x.data(), n) = factor.solve(Eigen::Map<const Eigen::VectorXd>(right.data(), n));
+  Eigen::Map<Eigen::VectorXd>(x.data(), n) =
+      factor.solve(Eigen::Map<const Eigen::VectorXd>(right.data(), n));
   return true;
 }
 

@@ -30,11 +30,11 @@ std::string refusal(const RawTable& table, const ColumnUses& uses) {
   const std::string missing = !motion && !force ? "displacement (or velocity) and force"
                               : motion          ? "force"
                                                 : "displacement (or velocity)";
-  const std::string how =
-      table.named()
-          ? "state in a dataset file which column it is: 'channels: {force: {column: NAME, unit: N}}'"
-          : "no line names the columns: state them by number in a dataset file: 'channels: {force: {column: "
-            "2, unit: N}}'";
+  const std::string how = table.named() ? "state in a dataset file which column it is: 'channels: "
+                                          "{force: {column: NAME, unit: N}}'"
+                                        : "no line names the columns: state them by number in a "
+                                          "dataset file: 'channels: {force: {column: "
+                                          "2, unit: N}}'";
   return "no column is " + missing + " by its name (it has " + table.column_list() + "); " + how;
 }
 
@@ -43,7 +43,8 @@ void require_numbers(const RawTable& table, const ColumnUse& use) {
   if (!column.bad) return;
   const std::string what = use.channel + " (" + label(column, use.column) + ") is ";
   throw Error(table.where(column.bad->row),
-              what + (column.bad->text.empty() ? "empty" : "'" + column.bad->text + "', not a finite number"),
+              what + (column.bad->text.empty() ? "empty"
+                                               : "'" + column.bad->text + "', not a finite number"),
               "write it as 12.5, or leave the row out");
 }
 
@@ -77,8 +78,9 @@ std::string set_time(Record& record, RawTable& table, const ColumnUses& uses,
   if (!step && (step = table.sample_time)) basis = "row times the file's sampling interval";
   if (!step) step = sample_time_of_scalars(table, basis);
   if (!step)
-    throw Error(table.file, "no column is time by its name (it has " + table.column_list() + ")",
-                "state in a dataset file 'time: {sample_rate: 1000}' or 'time: {column: NAME, unit: s}'");
+    throw Error(
+        table.file, "no column is time by its name (it has " + table.column_list() + ")",
+        "state in a dataset file 'time: {sample_rate: 1000}' or 'time: {column: NAME, unit: s}'");
   record.sample_time = *step;
   record.time.resize(table.rows());
   make_uniform(record.time, 0, *step);
@@ -122,15 +124,16 @@ const Channel& motion_of(const Record& record) {
 void cut(Record& record, const FileStatement& statement) {
   const double from = statement.cut_from.value_or(record.time.front());
   const double to = statement.cut_to.value_or(record.time.back());
-  auto first = static_cast<std::size_t>(std::lower_bound(record.time.begin(), record.time.end(), from) -
-                                        record.time.begin());
-  auto last = static_cast<std::size_t>(std::upper_bound(record.time.begin(), record.time.end(), to) -
-                                       record.time.begin());
+  auto first = static_cast<std::size_t>(
+      std::lower_bound(record.time.begin(), record.time.end(), from) - record.time.begin());
+  auto last = static_cast<std::size_t>(
+      std::upper_bound(record.time.begin(), record.time.end(), to) - record.time.begin());
   if (last < first + 2)
-    throw Error(record.name,
-                "the cut from " + format_number(from) + " s to " + format_number(to) + " s leaves nothing",
-                "the record runs from " + format_number(record.time.front()) + " s to " +
-                    format_number(record.time.back()) + " s");
+    throw Error(
+        record.name,
+        "the cut from " + format_number(from) + " s to " + format_number(to) + " s leaves nothing",
+        "the record runs from " + format_number(record.time.front()) + " s to " +
+            format_number(record.time.back()) + " s");
   if (statement.cut_rest) {
     const std::size_t n = last - first;
     const auto [begin, end] = moving_part(std::span(record.time).subspan(first, n),
@@ -140,8 +143,9 @@ void cut(Record& record, const FileStatement& statement) {
   }
   if (first == 0 && last == record.size()) return;
   const std::string note =
-      "cut to " + format_number(record.time[first], 6) + "..." + format_number(record.time[last - 1], 6) +
-      " s" + (statement.cut_rest ? ", without the rest before and after the motion" : ", as stated");
+      "cut to " + format_number(record.time[first], 6) + "..." +
+      format_number(record.time[last - 1], 6) + " s" +
+      (statement.cut_rest ? ", without the rest before and after the motion" : ", as stated");
   record.keep(first, last);
   record.notes.push_back(note);
 }
@@ -153,8 +157,8 @@ void centre(Record& record, const ColumnUses& uses) {
     const double mean = std::accumulate(channel->samples.begin(), channel->samples.end(), 0.0) /
                         static_cast<double>(record.size());
     for (double& value : channel->samples) value -= mean;
-    record.notes.push_back(channel->name + " centred: mean " + format_number(mean) + " " + channel->unit +
-                           " subtracted");
+    record.notes.push_back(channel->name + " centred: mean " + format_number(mean) + " " +
+                           channel->unit + " subtracted");
   }
 }
 
@@ -163,17 +167,20 @@ void add_velocity(Record& record, const BuildContext& context) {
   const std::vector<double>& x = record.channel("displacement").samples;
   if (!(record.sample_time > 0))
     throw Error(record.source, "velocity cannot be derived: the time stamps are not uniform",
-                "state in a dataset file a velocity column, 'resample: RATE' (Hz), or the 'sample_rate' when "
+                "state in a dataset file a velocity column, 'resample: RATE' (Hz), or the "
+                "'sample_rate' when "
                 "the stamps are wrong");
   double cutoff = context.statement->velocity_cutoff_hz;
   std::string basis = "stated";
   if (!(cutoff > 0) && context.velocity_cutoff_hz > 0)
     cutoff = context.velocity_cutoff_hz, basis = "as asked";
-  if (!(cutoff > 0)) cutoff = choose_cutoff_hz(x, record.sample_time), basis = "chosen from the motion";
+  if (!(cutoff > 0))
+    cutoff = choose_cutoff_hz(x, record.sample_time), basis = "chosen from the motion";
   try {
-    record.channels.push_back(
-        {"velocity", "m/s", differentiate_zero_phase(x, record.sample_time, cutoff),
-         "derived from displacement, " + format_number(cutoff, 3) + " Hz zero-phase (" + basis + ")"});
+    record.channels.push_back({"velocity", "m/s",
+                               differentiate_zero_phase(x, record.sample_time, cutoff),
+                               "derived from displacement, " + format_number(cutoff, 3) +
+                                   " Hz zero-phase (" + basis + ")"});
   } catch (const Error& error) {
     throw Error(record.source, error.what());
   }
@@ -195,7 +202,8 @@ void settle_sign(Record& record, const ColumnUses& uses) {
   for (double& value : force->samples) value = -value;
   force->origin += ", sign flipped";
   record.notes.push_back(
-      "force sign flipped: as recorded the damper would put energy in (state 'sign: 1' to keep it)");
+      "force sign flipped: as recorded the damper would put energy in (state 'sign: 1' to keep "
+      "it)");
 }
 
 /// What dampers on test benches span, generously: beyond it the unit is doubtful, and only that.
@@ -227,7 +235,8 @@ void add_drive(Record& record, const std::optional<KnownLevel>& level) {
     const char* name = level->unit == "V" ? "voltage" : "current";
     record.drive_level = level->value;
     if (!record.find(name))
-      record.channels.push_back({name, level->unit, std::vector<double>(record.size(), level->value),
+      record.channels.push_back({name, level->unit,
+                                 std::vector<double>(record.size(), level->value),
                                  "constant, from " + level->basis});
     return;
   }
@@ -256,7 +265,8 @@ std::vector<ColumnReading> readings_of(const RawTable& table, const ColumnUses& 
     if (use.centre) reading.basis += "; mean of the record subtracted";
     readings.push_back(std::move(reading));
   }
-  if (!find_use(uses, "time")) readings.push_back({table.file, "(row)", "time", "s", 1, 0, time_basis});
+  if (!find_use(uses, "time"))
+    readings.push_back({table.file, "(row)", "time", "s", 1, 0, time_basis});
   for (const auto& [column, why] : uses.unused)
     readings.push_back({table.file, label(table.columns[column], column), "", "", 1, 0, why});
   return readings;
@@ -271,9 +281,10 @@ BuiltRecord build_record(RawTable table, const BuildContext& context) {
   if (!built.refusal.empty()) return built;
   for (const ColumnUse& use : uses.used) require_numbers(table, use);
   if (table.rows() < 2)
-    throw Error(table.file,
-                "has " + std::to_string(table.rows()) + (table.rows() == 1 ? " sample" : " samples"),
-                "a recording has at least 2, and hundreds to be of use");
+    throw Error(
+        table.file,
+        "has " + std::to_string(table.rows()) + (table.rows() == 1 ? " sample" : " samples"),
+        "a recording has at least 2, and hundreds to be of use");
   Record& record = built.record;
   record.name = context.name;
   record.source = table.part.empty() ? table.file : table.file + ", " + table.part;
@@ -282,7 +293,8 @@ BuiltRecord build_record(RawTable table, const BuildContext& context) {
                            context.statement->conditions.end());
   record.notes = table.notes;
   built.readings = readings_of(table, uses, set_time(record, table, uses, *context.statement));
-  for (const auto& [column, why] : uses.unused) std::vector<double>().swap(table.columns[column].values);
+  for (const auto& [column, why] : uses.unused)
+    std::vector<double>().swap(table.columns[column].values);
   take_channels(record, table, uses);
   cut(record, *context.statement);
   if (context.statement->resample_hz) resample(record, *context.statement->resample_hz);

@@ -11,14 +11,16 @@ namespace {
 
 struct Names {
   std::string_view channel;
-  std::string_view words;  ///< anywhere at the start or end of a name; English, Spanish, Portuguese, German
+  std::string_view
+      words;  ///< anywhere at the start or end of a name; English, Spanish, Portuguese, German
   std::string_view exact;  ///< only as the whole name, case kept
 };
 
 constexpr Names kNames[] = {
     {"time", "time tiempo tempo zeit timestamp", "t tout Tout"},
     {"displacement",
-     "displacement displace displ disp dist stroke position pos desplazamiento deslocamento posicion posicao "
+     "displacement displace displ disp dist stroke position pos desplazamiento deslocamento "
+     "posicion posicao "
      "carrera "
      "curso weg hub extension travel",
      "x X d D s"},
@@ -64,7 +66,8 @@ std::string fold_accents(std::string_view text) {
 
 std::vector<std::string> words_of(std::string_view name) {
   std::string spaced;
-  for (const char c : lower(fold_accents(name))) spaced += (c >= 'a' && c <= 'z') || c == '\'' ? c : ' ';
+  for (const char c : lower(fold_accents(name)))
+    spaced += (c >= 'a' && c <= 'z') || c == '\'' ? c : ' ';
   std::vector<std::string> words = split(spaced, ' ');
   std::erase(words, "");
   return words;
@@ -104,7 +107,8 @@ std::vector<Parts> possible_parts(std::string_view column) {
     unit = std::string(trim(unit));
     if (!trim(name).empty() && parse_unit(unit)) parts.push_back({std::string(trim(name)), unit});
   };
-  for (const auto& [open, close] : {std::pair{'[', ']'}, std::pair{'(', ')'}, std::pair{'{', '}'}}) {
+  for (const auto& [open, close] :
+       {std::pair{'[', ']'}, std::pair{'(', ')'}, std::pair{'{', '}'}}) {
     const std::size_t from = column.find(open), to = column.rfind(close);
     if (from != std::string_view::npos && to != std::string_view::npos && to > from)
       add(column.substr(0, from), std::string(column.substr(from + 1, to - from - 1)));
@@ -115,8 +119,8 @@ std::vector<Parts> possible_parts(std::string_view column) {
   if (const std::size_t last = column.rfind('_'); last != std::string_view::npos && last > 0) {
     add(column.substr(0, last), std::string(column.substr(last + 1)));
     if (const std::size_t before = column.rfind('_', last - 1); before != std::string_view::npos)
-      add(column.substr(0, before), std::string(column.substr(before + 1, last - before - 1)) + "/" +
-                                        std::string(column.substr(last + 1)));
+      add(column.substr(0, before), std::string(column.substr(before + 1, last - before - 1)) +
+                                        "/" + std::string(column.substr(last + 1)));
   }
   if (const std::size_t last = column.rfind(' '); last != std::string_view::npos)
     add(column.substr(0, last), std::string(column.substr(last + 1)));
@@ -139,8 +143,8 @@ NamedChannel resolve(const std::string& name, const std::string& unit) {
   if (is_wish(name)) return {{}, unit, "'" + name + "' is not a measurement by its name", false};
   if (parsed && !fits(channel, *parsed))
     return {{}, unit, "unit '" + unit + "' does not fit " + channel, false};
-  const bool letters_only =
-      std::none_of(name.begin(), name.end(), [](char c) { return (c >= '0' && c <= '9') || c == '('; });
+  const bool letters_only = std::none_of(name.begin(), name.end(),
+                                         [](char c) { return (c >= '0' && c <= '9') || c == '('; });
   return {channel, unit, {}, letters_only && words_of(name).size() == 1};
 }
 
@@ -163,12 +167,15 @@ std::string_view si_unit(std::string_view channel) {
 
 NamedChannel recognise_channel(std::string_view column, std::string_view row_unit) {
   const std::string whole(trim(column)), row(row_unit);
-  if (is_matrix_column(whole)) return {{}, {}, "a column of a matrix has no name of its own", false};
+  if (is_matrix_column(whole))
+    return {{}, {}, "a column of a matrix has no name of its own", false};
   NamedChannel refused;
   for (const Parts& parts : possible_parts(whole)) {
     NamedChannel found = resolve(parts.name, parts.unit);
-    const bool two_units = !found.channel.empty() && !row.empty() && parse_unit(row) && row != found.unit;
-    if (two_units) found.problem = "two units: '" + found.unit + "' in its name and '" + row + "' below it";
+    const bool two_units =
+        !found.channel.empty() && !row.empty() && parse_unit(row) && row != found.unit;
+    if (two_units)
+      found.problem = "two units: '" + found.unit + "' in its name and '" + row + "' below it";
     if (!found.channel.empty()) return found;
     if (refused.problem.empty()) refused = found;
   }

@@ -15,7 +15,8 @@ struct NamedChannel {
   bool plain = false;   ///< the name is the channel's and nothing else: "force", not "force2"
 };
 
-/// `row_unit`: from a units row; "" when there is none. Conservative: a name that may mean two things
+/// `row_unit`: from a units row; "" when there is none. Conservative: a name that may mean two
+/// things
 /// ("V", "A" without a unit) or a wish instead of a measurement ("target force") is not used.
 NamedChannel recognise_channel(std::string_view column, std::string_view row_unit);
 

@@ -47,7 +47,8 @@ void set_unit(ColumnUse& use, const std::string& unit_text, const ChannelStateme
   use.centre = statement.centre;
 }
 
-ColumnUse use_stated(const RawTable& table, const ChannelStatement& statement, const std::string& stated_in) {
+ColumnUse use_stated(const RawTable& table, const ChannelStatement& statement,
+                     const std::string& stated_in) {
   ColumnUse use;
   use.column = find_column(table, statement);
   use.channel = statement.channel;
@@ -70,7 +71,9 @@ struct Claim {
   NamedChannel named;
 };
 
-bool same_values(const RawColumn& a, const RawColumn& b) { return !a.bad && !b.bad && a.values == b.values; }
+bool same_values(const RawColumn& a, const RawColumn& b) {
+  return !a.bad && !b.bad && a.values == b.values;
+}
 
 /// The one of several claims that counts: the only plain name, or all hold the same values.
 const Claim* choose(const std::vector<Claim>& claims, const RawTable& table) {
@@ -90,7 +93,8 @@ const Claim* choose(const std::vector<Claim>& claims, const RawTable& table) {
   const std::string& channel = claims.front().named.channel;
   throw Error(table.file,
               "columns '" + column_name(table, claims[0].column) + "' and '" +
-                  column_name(table, claims[1].column) + "' are both " + channel + " by their names",
+                  column_name(table, claims[1].column) + "' are both " + channel +
+                  " by their names",
               "state which in a dataset file, as in 'channels: {" + channel +
                   ": {column: " + column_name(table, claims[0].column) + "}}'");
 }
@@ -100,8 +104,8 @@ void use_claims(const std::vector<Claim>& claims, const RawTable& table, ColumnU
   if (!chosen) refuse_two(claims, table);
   for (const Claim& claim : claims)
     if (&claim != chosen)
-      out.unused.emplace_back(claim.column, "not used: '" + column_name(table, chosen->column) + "' is the " +
-                                                claim.named.channel);
+      out.unused.emplace_back(claim.column, "not used: '" + column_name(table, chosen->column) +
+                                                "' is the " + claim.named.channel);
   if (!chosen->named.problem.empty())
     throw Error(table.where(0),
                 "column '" + column_name(table, chosen->column) + "' has " + chosen->named.problem,
@@ -133,7 +137,8 @@ ColumnUses understand_columns(const RawTable& table, const FileStatement& statem
   for (std::size_t k = 0; k < table.columns.size(); ++k) {
     if (taken.count(k)) continue;
     const NamedChannel named = recognise_channel(table.columns[k].name, table.columns[k].unit);
-    const bool wanted = !stated.count(named.channel) && (!statement.only_stated || named.channel == "time") &&
+    const bool wanted = !stated.count(named.channel) &&
+                        (!statement.only_stated || named.channel == "time") &&
                         !(named.channel == "time" && (statement.sample_time || table.sample_time));
     if (named.channel.empty() || !wanted) {
       out.unused.emplace_back(
@@ -142,8 +147,9 @@ ColumnUses understand_columns(const RawTable& table, const FileStatement& statem
                                                       : "name not known"));
       continue;
     }
-    auto same = std::find_if(claims.begin(), claims.end(),
-                             [&](const auto& c) { return c.front().named.channel == named.channel; });
+    auto same = std::find_if(claims.begin(), claims.end(), [&](const auto& c) {
+      return c.front().named.channel == named.channel;
+    });
     if (same == claims.end()) same = claims.insert(claims.end(), std::vector<Claim>{});
     same->push_back({k, named});
   }

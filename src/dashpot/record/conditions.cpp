@@ -47,10 +47,13 @@ Motion motion_of(const Record& record) {
   return motion;
 }
 
-bool close(double a, double b) { return std::abs(a - b) <= 0.05 * std::max(std::abs(a), std::abs(b)); }
+bool close(double a, double b) {
+  return std::abs(a - b) <= 0.05 * std::max(std::abs(a), std::abs(b));
+}
 
 std::string describe_motion(const Motion& motion) {
-  const std::string text = format_number(motion.amplitude * 1e3, 2) + (motion.velocity ? " mm/s" : " mm");
+  const std::string text =
+      format_number(motion.amplitude * 1e3, 2) + (motion.velocity ? " mm/s" : " mm");
   // Less than two crossings: no frequency can be told.
   return motion.frequency > 0 ? text + " " + format_number(motion.frequency, 2) + " Hz" : text;
 }
@@ -67,7 +70,8 @@ NameParts split_name(std::string_view stem) {
     if (!is_digit(stem[k]) || (k > 0 && (is_digit(stem[k - 1]) || stem[k - 1] == '.'))) continue;
     std::size_t end = k;
     while (end < stem.size() &&
-           (is_digit(stem[end]) || (stem[end] == '.' && end + 1 < stem.size() && is_digit(stem[end + 1]))))
+           (is_digit(stem[end]) ||
+            (stem[end] == '.' && end + 1 < stem.size() && is_digit(stem[end + 1]))))
       ++end;
     const auto value = parse_number(stem.substr(k, end - k));
     const bool milli = end < stem.size() && stem[end] == 'm';
@@ -79,7 +83,8 @@ NameParts split_name(std::string_view stem) {
     std::string rest = strip_separators(std::string(stem.substr(0, k))),
                 tail = strip_separators(std::string(stem.substr(unit + 1)));
     if (!rest.empty() && !tail.empty()) rest += "_";
-    return {KnownLevel{milli ? *value / 1000 : *value, std::string(1, stem[unit]), "file name"}, rest + tail};
+    return {KnownLevel{milli ? *value / 1000 : *value, std::string(1, stem[unit]), "file name"},
+            rest + tail};
   }
   return {std::nullopt, std::string(stem)};
 }
@@ -94,7 +99,8 @@ void infer_conditions(std::vector<Record>& records, const std::vector<std::strin
     }
     const Motion motion = motion_of(records[k]);
     const auto same = std::find_if(known.begin(), known.end(), [&](const auto& other) {
-      return other.first.velocity == motion.velocity && close(other.first.amplitude, motion.amplitude) &&
+      return other.first.velocity == motion.velocity &&
+             close(other.first.amplitude, motion.amplitude) &&
              close(other.first.frequency, motion.frequency);
     });
     records[k].condition = same == known.end() ? describe_motion(motion) : same->second;

@@ -8,7 +8,8 @@
 namespace dashpot {
 namespace {
 
-constexpr double kArmed = 0.1;  // of the largest value: how far below zero a crossing must come from
+constexpr double kArmed =
+    0.1;  // of the largest value: how far below zero a crossing must come from
 
 /// Where the signal rises through zero, in samples.
 std::vector<double> upward_crossings(std::span<const double> samples) {

@@ -27,7 +27,8 @@ std::string fill_template(const std::string& text, const std::map<std::string, s
     const std::size_t open = text.find('{', k), close = text.find('}', open);
     out += text.substr(k, open - k);
     if (open == std::string::npos) break;
-    const std::string word = text.substr(open + 1, close == std::string::npos ? close : close - open - 1);
+    const std::string word =
+        text.substr(open + 1, close == std::string::npos ? close : close - open - 1);
     const auto at = words.find(word);
     std::vector<std::string> known;
     for (const auto& entry : words) known.push_back(entry.first);
@@ -44,7 +45,8 @@ class Loader {
  public:
   Loader(Sources sources, const LoadOptions& options)
       : sources_(std::move(sources)), options_(options), manifest_(find_manifest(sources_)) {
-    if (!sources_.stated.path.empty()) stated_in_ = fs::path(sources_.stated.path).filename().string();
+    if (!sources_.stated.path.empty())
+      stated_in_ = fs::path(sources_.stated.path).filename().string();
     dataset_.name = sources_.stated.name;
     dataset_.citation = sources_.stated.citation;
     dataset_.leave_out = sources_.stated.leave_out;
@@ -89,19 +91,26 @@ class Loader {
     }
     const std::size_t parts = tables.size();
     bool used = false;
-    for (RawTable& table : tables) used = load_table(file, *statement, std::move(table), parts) || used;
+    for (RawTable& table : tables)
+      used = load_table(file, *statement, std::move(table), parts) || used;
     if (used) dataset_.files.push_back({file.path.string(), sha256_of_file(file.path)});
   }
 
-  bool load_table(const SourcePath& file, const FileStatement& statement, RawTable table, std::size_t parts) {
-    const NameParts name = split_name(without_gz(fs::path(file.relative)).replace_extension().string());
-    BuildContext context{
-        &statement, stated_in_, {}, known_level(file, statement, table, name), options_.velocity_cutoff_hz};
+  bool load_table(const SourcePath& file, const FileStatement& statement, RawTable table,
+                  std::size_t parts) {
+    const NameParts name =
+        split_name(without_gz(fs::path(file.relative)).replace_extension().string());
+    BuildContext context{&statement,
+                         stated_in_,
+                         {},
+                         known_level(file, statement, table, name),
+                         options_.velocity_cutoff_hz};
     const std::string stem = without_gz(fs::path(file.relative)).replace_extension().string();
     const std::string part = std::to_string(table.part_index + 1), group = table.group;
     const auto words = template_words(file, stem, part, group, context.level);
     context.name = !group.empty() ? table.part : parts > 1 ? stem + ", part " + part : stem;
-    if (!statement.name.empty()) context.name = fill_template(statement.name, words, statement.where);
+    if (!statement.name.empty())
+      context.name = fill_template(statement.name, words, statement.where);
     const std::string condition = fill_template(statement.condition, words, statement.where);
     BuiltRecord built = build_record(std::move(table), context);
     if (!built.refusal.empty()) {
@@ -136,7 +145,8 @@ class Loader {
       Record part = record.slice(first, last);
       part.warm_up = scored - first;
       part.role = role.role;
-      if (statement.roles.size() > 1) part.name += role.role == Role::Training ? ", training" : ", left out";
+      if (statement.roles.size() > 1)
+        part.name += role.role == Role::Training ? ", training" : ", left out";
       if (part.warm_up > 0)
         part.notes.push_back("scored from " + format_number(part.time[part.warm_up], 6) + " s");
       dataset_.records.push_back(std::move(part));
@@ -145,14 +155,16 @@ class Loader {
   }
 
   std::map<std::string, std::string> template_words(const SourcePath& file, const std::string& stem,
-                                                    const std::string& part, const std::string& group,
+                                                    const std::string& part,
+                                                    const std::string& group,
                                                     const std::optional<KnownLevel>& level) const {
     std::map<std::string, std::string> words{{"stem", stem},
                                              {"part", part},
                                              {"group", group},
                                              {"level", level ? format_number(level->value) : ""}};
     for (const std::string& column : manifest_.columns())
-      if (const auto cell = manifest_.cell(file.path.filename().string(), column)) words[column] = *cell;
+      if (const auto cell = manifest_.cell(file.path.filename().string(), column))
+        words[column] = *cell;
     return words;
   }
 
@@ -165,10 +177,12 @@ class Loader {
     if (const auto* column = std::get_if<std::string>(&statement.level))
       return KnownLevel{manifest_.number(file_name, *column), unit, "manifest, " + *column};
     if (const auto* levels = std::get_if<std::vector<double>>(&statement.level)) {
-      if (table.part_index < levels->size()) return KnownLevel{(*levels)[table.part_index], unit, stated_in_};
-      throw Error(statement.where,
-                  "'level' lists " + std::to_string(levels->size()) + " parts, " + table.file + " has more",
-                  "one level per part");
+      if (table.part_index < levels->size())
+        return KnownLevel{(*levels)[table.part_index], unit, stated_in_};
+      throw Error(
+          statement.where,
+          "'level' lists " + std::to_string(levels->size()) + " parts, " + table.file + " has more",
+          "one level per part");
     }
     const bool drive_stated = std::any_of(
         statement.channels.begin(), statement.channels.end(),
@@ -186,34 +200,39 @@ class Loader {
   }
 
   [[noreturn]] void refuse_nothing() const {
-    const std::string where =
-        sources_.files.empty() ? sources_.pointed_at : sources_.files.front().path.parent_path().string();
-    std::string what = sources_.files.empty()
-                           ? "the folder holds no files"
-                           : "no recording among " + std::to_string(sources_.files.size()) + " files";
+    const std::string where = sources_.files.empty()
+                                  ? sources_.pointed_at
+                                  : sources_.files.front().path.parent_path().string();
+    std::string what =
+        sources_.files.empty()
+            ? "the folder holds no files"
+            : "no recording among " + std::to_string(sources_.files.size()) + " files";
     for (std::size_t k = 0; k < std::min<std::size_t>(dataset_.notes.size(), 3); ++k)
       what += "\n  " + dataset_.notes[k];
     throw Error(where, what,
                 "Dashpot looks for " + known_formats() +
-                    (stated_in_.empty()
-                         ? ""
-                         : "; " + stated_in_ +
-                               " says which files: give the folder that holds them, or state 'root:' in it"));
+                    (stated_in_.empty() ? ""
+                                        : "; " + stated_in_ +
+                                              " says which files: give the folder that holds them, "
+                                              "or state 'root:' in it"));
   }
 
   /// Within a condition by drive level; conditions stay in the order of their files.
   void sort_by_level() {
     std::map<std::string, std::size_t> order;
     for (const Record& record : dataset_.records) order.emplace(record.condition, order.size());
-    std::stable_sort(dataset_.records.begin(), dataset_.records.end(), [&](const Record& a, const Record& b) {
-      return std::pair(order[a.condition], a.drive_level) < std::pair(order[b.condition], b.drive_level);
-    });
+    std::stable_sort(dataset_.records.begin(), dataset_.records.end(),
+                     [&](const Record& a, const Record& b) {
+                       return std::pair(order[a.condition], a.drive_level) <
+                              std::pair(order[b.condition], b.drive_level);
+                     });
   }
 
   void make_names_unique() {
     std::map<std::string, int> seen;
     for (Record& record : dataset_.records)
-      if (const int times = ++seen[record.name]; times > 1) record.name += " (" + std::to_string(times) + ")";
+      if (const int times = ++seen[record.name]; times > 1)
+        record.name += " (" + std::to_string(times) + ")";
   }
 
   /// The unit of the drive; records of one dataset share it.
@@ -229,9 +248,10 @@ class Loader {
                                                               : "V";
     const std::size_t driven = dataset_.drive_unit == "A" ? current : voltage;
     if (driven < count)
-      dataset_.notes.push_back(std::to_string(count - driven) + " of " + std::to_string(count) +
-                               " records have no known current or voltage: give it as a column, in the file "
-                               "name (run_0.5A.csv), in manifest.csv or in a dataset file");
+      dataset_.notes.push_back(
+          std::to_string(count - driven) + " of " + std::to_string(count) +
+          " records have no known current or voltage: give it as a column, in the file "
+          "name (run_0.5A.csv), in manifest.csv or in a dataset file");
   }
 
   Sources sources_;

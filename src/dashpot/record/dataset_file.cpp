@@ -18,7 +18,8 @@ namespace {
 
 double finite_number(const Value& value, std::string_view what) {
   const double number = value.as_number();
-  if (!std::isfinite(number)) throw Error(value.where(), std::string(what) + " is not a finite number");
+  if (!std::isfinite(number))
+    throw Error(value.where(), std::string(what) + " is not a finite number");
   return number;
 }
 
@@ -84,7 +85,8 @@ ChannelStatement read_channel(const std::string& channel, const Value& value) {
     throw Error(statement.where, "'scale' or 'offset' is not a usable number");
   const std::string centre = reader.string("centre", "");
   if (!centre.empty() && centre != "mean")
-    throw Error(reader.required("centre").where(), "'centre' is '" + centre + "'", "it can be 'mean'");
+    throw Error(reader.required("centre").where(), "'centre' is '" + centre + "'",
+                "it can be 'mean'");
   statement.centre = !centre.empty();
   reader.finish();
   return statement;
@@ -139,7 +141,8 @@ double read_condition(const Value& value) {
   const std::size_t space = text.find(' ');
   const auto number = parse_number(text.substr(0, space));
   if (!number || space == std::string::npos)
-    throw Error(value.where(), "'" + text + "' is not a number with a unit", "as '25 degC' or '1 mm'");
+    throw Error(value.where(), "'" + text + "' is not a number with a unit",
+                "as '25 degC' or '1 mm'");
   const Unit unit = require_unit(trim(std::string_view(text).substr(space)), value.where());
   return unit.factor * *number + unit.offset;
 }
@@ -220,7 +223,8 @@ DatasetFile load_dataset_file(const fs::path& path) {
     }
   }
   if (const Value* recognise = reader.optional("recognise")) read_recognise(*recognise, out);
-  for (const Value& files : reader.required("files").items()) out.files.push_back(read_files(files));
+  for (const Value& files : reader.required("files").items())
+    out.files.push_back(read_files(files));
   if (const Value* notes = reader.optional("notes")) out.notes = texts(*notes);
   reader.finish();
   return out;

@@ -57,8 +57,8 @@ std::vector<Understood> group_readings(const std::vector<ColumnReading>& reading
     if (std::find(rows.begin(), rows.end(), row) == rows.end()) rows.push_back(std::move(row));
   }
   for (Understood& file : files) {
-    const auto same =
-        std::find_if(groups.begin(), groups.end(), [&](const Understood& g) { return g.rows == file.rows; });
+    const auto same = std::find_if(groups.begin(), groups.end(),
+                                   [&](const Understood& g) { return g.rows == file.rows; });
     if (same == groups.end()) {
       groups.push_back(std::move(file));
     } else {
@@ -90,7 +90,9 @@ std::string drive(const Record& record, const std::string& unit) {
 }
 
 std::string role(const Record& record) {
-  return record.role == Role::Training ? "training" : record.role == Role::LeftOut ? "left out" : "";
+  return record.role == Role::Training  ? "training"
+         : record.role == Role::LeftOut ? "left out"
+                                        : "";
 }
 
 std::string step(const Record& record) {
@@ -98,13 +100,14 @@ std::string step(const Record& record) {
 }
 
 std::string record_table(const Dataset& dataset) {
-  std::vector<Row> rows{{"record", "condition", "drive", "samples", "step ms", "length s", "displacement mm",
-                         "speed m/s", "force N", "role"}};
+  std::vector<Row> rows{{"record", "condition", "drive", "samples", "step ms", "length s",
+                         "displacement mm", "speed m/s", "force N", "role"}};
   for (const Record& record : dataset.records)
-    rows.push_back(
-        {record.name, record.condition, drive(record, dataset.drive_unit), std::to_string(record.size()),
-         step(record), format_number(record.time.back() - record.time.front()),
-         range(record, "displacement", 1e3), fastest(record), range(record, "force", 1), role(record)});
+    rows.push_back({record.name, record.condition, drive(record, dataset.drive_unit),
+                    std::to_string(record.size()), step(record),
+                    format_number(record.time.back() - record.time.front()),
+                    range(record, "displacement", 1e3), fastest(record), range(record, "force", 1),
+                    role(record)});
   return align(rows);
 }
 
@@ -125,8 +128,8 @@ struct SharedNote {
 
 void add_note(std::vector<SharedNote>& notes, const std::string& text, const std::string& subject) {
   const std::string pattern = pattern_of(text);
-  const auto at =
-      std::find_if(notes.begin(), notes.end(), [&](const SharedNote& n) { return n.pattern == pattern; });
+  const auto at = std::find_if(notes.begin(), notes.end(),
+                               [&](const SharedNote& n) { return n.pattern == pattern; });
   if (at == notes.end()) return notes.push_back({pattern, text, {subject}, false});
   at->differs = at->differs || at->text != text;
   if (at->subjects.back() != subject) at->subjects.push_back(subject);
@@ -135,15 +138,17 @@ void add_note(std::vector<SharedNote>& notes, const std::string& text, const std
 std::string format_note(const SharedNote& note, std::string_view plural) {
   std::string subject = note.subjects.front();
   if (note.subjects.size() > 1)
-    subject = std::to_string(note.subjects.size()) + " " + std::string(plural) + " (" + subject + ", " +
-              note.subjects[1] + (note.subjects.size() > 2 ? " ...)" : ")");
-  return (subject.empty() ? "" : subject + ": ") + note.text + (note.differs ? ", and likewise" : "");
+    subject = std::to_string(note.subjects.size()) + " " + std::string(plural) + " (" + subject +
+              ", " + note.subjects[1] + (note.subjects.size() > 2 ? " ...)" : ")");
+  return (subject.empty() ? "" : subject + ": ") + note.text +
+         (note.differs ? ", and likewise" : "");
 }
 
 std::string note_list(const Dataset& dataset) {
   std::vector<SharedNote> of_files, of_records;
   for (const std::string& note : dataset.notes) of_files.push_back({note, note, {""}, false});
-  for (const auto& [file, why] : dataset.passed_over) add_note(of_files, "passed over: " + why, file);
+  for (const auto& [file, why] : dataset.passed_over)
+    add_note(of_files, "passed over: " + why, file);
   for (const Record& record : dataset.records) {
     for (const std::string& note : record.notes) add_note(of_records, note, record.name);
     std::vector<std::string> conditions;
@@ -163,12 +168,13 @@ std::string note_list(const Dataset& dataset) {
 }  // namespace
 
 std::string describe(const Dataset& dataset) {
-  std::string out = dataset.name + ": " + std::to_string(dataset.records.size()) + " records from " +
-                    std::to_string(dataset.files.size()) + " files\n";
+  std::string out = dataset.name + ": " + std::to_string(dataset.records.size()) +
+                    " records from " + std::to_string(dataset.files.size()) + " files\n";
   if (!dataset.citation.empty()) out += "  cite: " + dataset.citation + "\n";
   for (const Understood& group : group_readings(dataset.readings)) {
     out.append("\n").append(group.files.front());
-    if (group.files.size() > 1) out += " and " + std::to_string(group.files.size() - 1) + " more like it";
+    if (group.files.size() > 1)
+      out += " and " + std::to_string(group.files.size() - 1) + " more like it";
     std::vector<Row> rows{{"column", "channel", "unit", "to SI", "why"}};
     rows.insert(rows.end(), group.rows.begin(), group.rows.end());
     out.append("\n").append(align(rows));

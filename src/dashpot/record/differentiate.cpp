@@ -27,8 +27,8 @@ void to_slope(std::vector<double>& x, double dt) {
   x[last] = last_slope;
 }
 
-/// The spectrum of a long record is the mean over equal parts of it: each is long enough to resolve the
-/// motion, and the memory does not grow with the record.
+/// The spectrum of a long record is the mean over equal parts of it: each is long enough to resolve
+/// the motion, and the memory does not grow with the record.
 PowerSpectrum mean_spectrum(std::span<const double> x, double dt) {
   constexpr std::size_t kLongest = std::size_t{1} << 20;
   const std::size_t parts = std::max<std::size_t>(1, (x.size() + kLongest - 1) / kLongest);
@@ -44,7 +44,8 @@ PowerSpectrum mean_spectrum(std::span<const double> x, double dt) {
 
 }  // namespace
 
-std::vector<double> differentiate_zero_phase(std::span<const double> x, double dt, double cutoff_hz) {
+std::vector<double> differentiate_zero_phase(std::span<const double> x, double dt,
+                                             double cutoff_hz) {
   constexpr std::size_t kFewest = 4;
   if (x.size() < kFewest)
     throw Error("velocity from displacement", "only " + std::to_string(x.size()) + " samples",
@@ -60,7 +61,8 @@ std::vector<double> differentiate_zero_phase(std::span<const double> x, double d
 double choose_cutoff_hz(std::span<const double> x, double dt) {
   constexpr double kPowerShare = 0.99, kMargin = 10, kLowest = 10, kHighestTimesDt = 0.4;
   const PowerSpectrum spectrum = mean_spectrum(x, dt);
-  const double wanted = kPowerShare * std::accumulate(spectrum.power.begin(), spectrum.power.end(), 0.0);
+  const double wanted =
+      kPowerShare * std::accumulate(spectrum.power.begin(), spectrum.power.end(), 0.0);
   double power = 0, motion_hz = 0;
   for (std::size_t k = 0; k < spectrum.power.size() && power < wanted; ++k) {
     power += spectrum.power[k];

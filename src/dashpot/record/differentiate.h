@@ -6,11 +6,13 @@ namespace dashpot {
 
 /// Velocity from displacement: second-order Butterworth low-pass at cutoff_hz applied forward and
 /// backward (zero phase, -6 dB at the cut-off), then central differences (one-sided at the ends).
-/// dt s, uniform. Throws Error when the cut-off is not below half the sample rate or fewer than 4 samples.
-std::vector<double> differentiate_zero_phase(std::span<const double> x, double dt, double cutoff_hz);
+/// dt s, uniform. Throws Error when the cut-off is not below half the sample rate or fewer than 4
+/// samples.
+std::vector<double> differentiate_zero_phase(std::span<const double> x, double dt,
+                                             double cutoff_hz);
 
-/// A cut-off for it: ten times the frequency below which 99 % of the motion's power (its mean apart)
-/// lies, within [10 Hz, 0.4 / dt].
+/// A cut-off for it: ten times the frequency below which 99 % of the motion's power (its mean
+/// apart) lies, within [10 Hz, 0.4 / dt].
 double choose_cutoff_hz(std::span<const double> x, double dt);
 
 }  // namespace dashpot

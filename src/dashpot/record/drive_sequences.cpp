@@ -76,7 +76,8 @@ struct ShiftRegister {
 
   std::vector<bool> bits(const DriveFrame& frame, Random& random) const {
     const auto bit_count = static_cast<int>(order);
-    const auto start = static_cast<std::uint32_t>(1 + random.index((std::size_t{1} << bit_count) - 1));
+    const auto start =
+        static_cast<std::uint32_t>(1 + random.index((std::size_t{1} << bit_count) - 1));
     return maximum_length_bits(bit_count, start, count_clocks(frame.duration, clock));
   }
 };
@@ -103,39 +104,44 @@ DriveSignal amplitude_modulated_binary(std::span<const double> values, const Dri
 
 constexpr ParameterRow kClock{"clock", "s", 0.05, 1e-5, 1e4, "time of one bit"};
 constexpr ParameterRow kOrder{"order", "1", 9, 3, 16, "bits of the shift register", true};
-constexpr std::string_view kPaper = "the one-sensor paper, after Lozoya-Santos et al. 2009; times our own";
+constexpr std::string_view kPaper =
+    "the one-sensor paper, after Lozoya-Santos et al. 2009; times our own";
 
 const std::array kSequences{
-    DriveSequence{{.name = "APRBS",
-                   .title = "Amplitude-modulated pseudo-random binary signal",
-                   .equation = "at each change of the PRBS a new level, uniform in low ... high",
-                   .source = "usual in the identification of nonlinear systems; not in the one-sensor paper",
-                   .remarks = "Switches as PRBS does and visits the whole range.",
-                   .params = {kClock, kOrder}},
-                  amplitude_modulated_binary},
-    DriveSequence{{.name = "ICPS",
-                   .title = "Increased clock period signal",
-                   .equation = "the k-th level lasts k clock and is uniform in low ... high",
-                   .source = kPaper,
-                   .remarks = "Fast changes first, then slower and slower ones. The paper says that the "
-                              "amplitude is random; that the period grows in proportion is recalled.",
-                   .params = {{"clock", "s", 0.02, 1e-5, 1e4, "time of the first level"}}},
-                  increased_clock_period},
-    DriveSequence{{.name = "PRBS",
-                   .title = "Pseudo-random binary signal",
-                   .equation = "low or high by the bits of a maximum-length shift register",
-                   .source = kPaper,
-                   .remarks = "2^order - 1 bits long, one more high than low; the seed is where it begins.",
-                   .params = {kClock, kOrder}},
-                  pseudo_random_binary},
-    DriveSequence{{.name = "SC",
-                   .title = "Stepped constants",
-                   .equation = "low + (high - low) k / (levels - 1), k = 0 ... levels - 1, each for hold",
-                   .source = kPaper,
-                   .remarks = "The paper's SC (10) and SC (2) are levels = 10 and 2. Begins again at low.",
-                   .params = {{"levels", "1", 10, 2, 1000, "number of constants", true},
-                              {"hold", "s", 0, 0, 1e5, "time of each; 0: the duration over levels"}}},
-                  stepped_constants},
+    DriveSequence{
+        {.name = "APRBS",
+         .title = "Amplitude-modulated pseudo-random binary signal",
+         .equation = "at each change of the PRBS a new level, uniform in low ... high",
+         .source = "usual in the identification of nonlinear systems; not in the one-sensor paper",
+         .remarks = "Switches as PRBS does and visits the whole range.",
+         .params = {kClock, kOrder}},
+        amplitude_modulated_binary},
+    DriveSequence{
+        {.name = "ICPS",
+         .title = "Increased clock period signal",
+         .equation = "the k-th level lasts k clock and is uniform in low ... high",
+         .source = kPaper,
+         .remarks = "Fast changes first, then slower and slower ones. The paper says that the "
+                    "amplitude is random; that the period grows in proportion is recalled.",
+         .params = {{"clock", "s", 0.02, 1e-5, 1e4, "time of the first level"}}},
+        increased_clock_period},
+    DriveSequence{
+        {.name = "PRBS",
+         .title = "Pseudo-random binary signal",
+         .equation = "low or high by the bits of a maximum-length shift register",
+         .source = kPaper,
+         .remarks = "2^order - 1 bits long, one more high than low; the seed is where it begins.",
+         .params = {kClock, kOrder}},
+        pseudo_random_binary},
+    DriveSequence{
+        {.name = "SC",
+         .title = "Stepped constants",
+         .equation = "low + (high - low) k / (levels - 1), k = 0 ... levels - 1, each for hold",
+         .source = kPaper,
+         .remarks = "The paper's SC (10) and SC (2) are levels = 10 and 2. Begins again at low.",
+         .params = {{"levels", "1", 10, 2, 1000, "number of constants", true},
+                    {"hold", "s", 0, 0, 1e5, "time of each; 0: the duration over levels"}}},
+        stepped_constants},
 };
 
 }  // namespace
@@ -144,9 +150,10 @@ std::span<const DriveSequence> drive_sequences() { return kSequences; }
 
 std::vector<bool> maximum_length_bits(int order, std::uint32_t start, std::size_t count) {
   // Bits that are fed back, of primitive polynomials: 0x60 is x^7 + x^6 + 1.
-  constexpr std::array<std::uint32_t, 14> kTaps{0x6,   0xc,   0x14,  0x30,   0x60,   0xb8,   0x110,
-                                                0x240, 0x500, 0x829, 0x100d, 0x2015, 0x6000, 0xd008};
-  if (order < 3 || order > 16) throw Error("shift register", std::to_string(order) + " bits", "3 to 16");
+  constexpr std::array<std::uint32_t, 14> kTaps{
+      0x6, 0xc, 0x14, 0x30, 0x60, 0xb8, 0x110, 0x240, 0x500, 0x829, 0x100d, 0x2015, 0x6000, 0xd008};
+  if (order < 3 || order > 16)
+    throw Error("shift register", std::to_string(order) + " bits", "3 to 16");
   const std::uint32_t taps = kTaps[static_cast<std::size_t>(order - 3)];
   const std::uint32_t mask = (std::uint32_t{1} << order) - 1;
   std::uint32_t word = start & mask;

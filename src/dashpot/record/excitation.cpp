@@ -35,8 +35,8 @@ Chosen<Sequence> choose(std::span<const Sequence> sequences, const std::string& 
                         const std::string& where) {
   const std::vector<std::string> parts = split(text, ',');
   const Sequence& sequence = find_sequence(sequences, trim(parts.front()), where);
-  return {sequence,
-          parse_values(sequence.info.params, std::span(parts).subspan(1), sequence.info.name, where)};
+  return {sequence, parse_values(sequence.info.params, std::span(parts).subspan(1),
+                                 sequence.info.name, where)};
 }
 
 }  // namespace

@@ -14,7 +14,8 @@ struct MotionPoint {
   double displacement, velocity;  ///< m, m/s
 };
 
-/// A motion for a test bench: displacement and its exact derivative at any time t in 0 ... duration, s.
+/// A motion for a test bench: displacement and its exact derivative at any time t in 0 ...
+/// duration, s.
 struct PistonMotion {
   std::string description;  ///< "AM: amplitude 0.025 m, ..."
   double duration = 0;      ///< s
@@ -33,8 +34,8 @@ struct SequenceInfo {
   std::vector<ParameterRow> params;
 };
 
-/// A motion known by name: within its amplitude, its band of frequencies and its limit of speed, and from
-/// rest. The same seed gives the same motion.
+/// A motion known by name: within its amplitude, its band of frequencies and its limit of speed,
+/// and from rest. The same seed gives the same motion.
 struct MotionSequence {
   SequenceInfo info;
   PistonMotion (*make)(std::span<const double> values, std::uint64_t seed);
@@ -56,14 +57,16 @@ struct DriveSequence {
 std::span<const MotionSequence> motion_sequences();
 std::span<const DriveSequence> drive_sequences();
 
-/// From a text like "AM" or "AM,carrier=10,amplitude=4mm": a name in any case, and values for some of its
-/// parameters, in the unit of the table unless one is stated. Throws Error(where, ...) on an unknown name or
-/// parameter and on a value that is out of bounds.
-PistonMotion make_motion(const std::string& text, std::uint64_t seed, const std::string& where = "motion");
-DriveSignal make_drive(const std::string& text, const DriveFrame& frame, const std::string& where = "drive");
+/// From a text like "AM" or "AM,carrier=10,amplitude=4mm": a name in any case, and values for some
+/// of its parameters, in the unit of the table unless one is stated. Throws Error(where, ...) on an
+/// unknown name or parameter and on a value that is out of bounds.
+PistonMotion make_motion(const std::string& text, std::uint64_t seed,
+                         const std::string& where = "motion");
+DriveSignal make_drive(const std::string& text, const DriveFrame& frame,
+                       const std::string& where = "drive");
 
-/// The first `count` bits of the maximum-length sequence of a shift register of `order` bits (3 ... 16, else
-/// Error) that starts with `start` in it, not 0. Its period is 2^order - 1.
+/// The first `count` bits of the maximum-length sequence of a shift register of `order` bits (3 ...
+/// 16, else Error) that starts with `start` in it, not 0. Its period is 2^order - 1.
 std::vector<bool> maximum_length_bits(int order, std::uint32_t start, std::size_t count);
 
 }  // namespace dashpot

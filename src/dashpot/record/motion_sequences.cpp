@@ -36,11 +36,12 @@ struct FrequencyModulated {
 };
 
 void require_band(double low, double high, std::string_view name) {
-  if (!(low <= high)) throw Error(std::string(name), "its band of frequencies ends below its begin");
+  if (!(low <= high))
+    throw Error(std::string(name), "its band of frequencies ends below its begin");
 }
 
-/// Where speed limits the amplitude, it changes with the frequency at this speed over speed_max, at most: the
-/// greatest f' / (2 pi f^2).
+/// Where speed limits the amplitude, it changes with the frequency at this speed over speed_max, at
+/// most: the greatest f' / (2 pi f^2).
 double speed_of_amplitude(double mean, double swing, double slow) {
   const double c = 4 * swing / (mean + std::sqrt(mean * mean + 8 * swing * swing));
   const double f = mean - swing * c;
@@ -56,12 +57,14 @@ PistonMotion frequency_modulated(std::span<const double> values, std::uint64_t) 
   const double speed = p.speed_max / std::hypot(1, speed_of_amplitude(mean, swing, slow));
   return {{}, p.duration, [=](double t) -> MotionPoint {
             constexpr double kSharpness = 8;
-            const double f = mean - swing * std::cos(slow * t), rise = swing * slow * std::sin(slow * t);
+            const double f = mean - swing * std::cos(slow * t),
+                         rise = swing * slow * std::sin(slow * t);
             const double phase = kTurn * mean * t - swing / p.modulation * std::sin(slow * t);
             const double excess = std::pow(kTurn * f * p.amplitude / speed, kSharpness);
             const double size = p.amplitude * std::pow(1 + excess, -1 / kSharpness);
             const double growth = -size * excess / (1 + excess) * rise / f;
-            return {-size * std::cos(phase), size * kTurn * f * std::sin(phase) - growth * std::cos(phase)};
+            return {-size * std::cos(phase),
+                    size * kTurn * f * std::sin(phase) - growth * std::cos(phase)};
           }};
 }
 
@@ -79,7 +82,8 @@ struct Pieces {
   }
   MotionPoint at(double t) const {
     const double within = std::fmod(std::max(t, 0.0), length);
-    const auto k = static_cast<std::size_t>(std::ranges::upper_bound(begins, within) - begins.begin()) - 1;
+    const auto k =
+        static_cast<std::size_t>(std::ranges::upper_bound(begins, within) - begins.begin()) - 1;
     return pieces[k].at(within - begins[k]);
   }
 };
@@ -120,7 +124,8 @@ PistonMotion stepped_frequency(std::span<const double> values, std::uint64_t) {
   Pieces<Packet> packets;
   for (int k = 0; k <= static_cast<int>(last); ++k) {
     const double f = p.frequency_min + k * p.step;
-    packets.add({std::min(p.amplitude, p.speed_max / (kTurn * f)), f, std::max(1.0, std::ceil(p.hold * f))});
+    packets.add({std::min(p.amplitude, p.speed_max / (kTurn * f)), f,
+                 std::max(1.0, std::ceil(p.hold * f))});
   }
   return as_motion(std::move(packets), p.repeats);
 }
@@ -170,7 +175,8 @@ PistonMotion road_profile(std::span<const double> values, std::uint64_t seed) {
 }
 
 constexpr ParameterRow kAmplitude{"amplitude", "m", 0.025, 1e-6, 1, "greatest displacement"};
-constexpr ParameterRow kSpeedMax{"speed_max", "m/s", 1.5, 1e-4, 20, "amplitude is reduced to stay below"};
+constexpr ParameterRow kSpeedMax{"speed_max", "m/s", 1.5,
+                                 1e-4,        20,    "amplitude is reduced to stay below"};
 constexpr ParameterRow kFrequencyMin{"frequency_min", "Hz", 0.5, 1e-3, 500, "least frequency"};
 constexpr ParameterRow kFrequencyMax{"frequency_max", "Hz", 15, 1e-3, 500, "greatest frequency"};
 constexpr ParameterRow kDuration{"duration", "s", 60, 0.1, 3600, "length of the motion"};
@@ -179,42 +185,46 @@ constexpr std::string_view kPaper =
     "the one-sensor paper (its ranges), after Lozoya-Santos et al. 2009; all other numbers our own";
 
 const std::array kSequences{
-    MotionSequence{{.name = "AM",
-                    .title = "Amplitude-modulated sine",
-                    .equation = "x = -A(t) cos(2 pi carrier t)\n"
-                                "A(t) = amplitude (1 - depth cos(2 pi modulation t)) / (1 + depth)",
-                    .source = kPaper,
-                    .remarks = "One frequency at every amplitude. Begins at the least amplitude.",
-                    .params = {kAmplitude,
-                               kSpeedMax,
-                               {"carrier", "Hz", 2, 1e-3, 500, "frequency of the sine"},
-                               {"modulation", "Hz", 0.1, 1e-4, 100, "how often the amplitude swells"},
-                               {"depth", "1", 1, 0, 1, "1: down to no motion at all"},
-                               kDuration}},
-                   amplitude_modulated},
-    MotionSequence{{.name = "FM",
-                    .title = "Frequency-modulated sine: a chirp up and down",
-                    .equation = "x = -A(f) cos(phi),  phi' = 2 pi f\n"
-                                "f between frequency_min and frequency_max as 1 - cos(2 pi modulation t)\n"
-                                "A(f) = amplitude (1 + (2 pi f amplitude / s)^8)^(-1/8)",
-                    .source = kPaper,
-                    .remarks = "Every frequency. Begins at the lowest. s is as far below speed_max as the "
-                               "changing amplitude needs.",
-                    .params = {kAmplitude,
-                               kSpeedMax,
-                               kFrequencyMin,
-                               kFrequencyMax,
-                               {"modulation", "Hz", 0.05, 1e-4, 100, "how often it goes up and down"},
-                               kDuration}},
-                   frequency_modulated},
+    MotionSequence{
+        {.name = "AM",
+         .title = "Amplitude-modulated sine",
+         .equation = "x = -A(t) cos(2 pi carrier t)\n"
+                     "A(t) = amplitude (1 - depth cos(2 pi modulation t)) / (1 + depth)",
+         .source = kPaper,
+         .remarks = "One frequency at every amplitude. Begins at the least amplitude.",
+         .params = {kAmplitude,
+                    kSpeedMax,
+                    {"carrier", "Hz", 2, 1e-3, 500, "frequency of the sine"},
+                    {"modulation", "Hz", 0.1, 1e-4, 100, "how often the amplitude swells"},
+                    {"depth", "1", 1, 0, 1, "1: down to no motion at all"},
+                    kDuration}},
+        amplitude_modulated},
+    MotionSequence{
+        {.name = "FM",
+         .title = "Frequency-modulated sine: a chirp up and down",
+         .equation = "x = -A(f) cos(phi),  phi' = 2 pi f\n"
+                     "f between frequency_min and frequency_max as 1 - cos(2 pi modulation t)\n"
+                     "A(f) = amplitude (1 + (2 pi f amplitude / s)^8)^(-1/8)",
+         .source = kPaper,
+         .remarks = "Every frequency. Begins at the lowest. s is as far below speed_max as the "
+                    "changing amplitude needs.",
+         .params = {kAmplitude,
+                    kSpeedMax,
+                    kFrequencyMin,
+                    kFrequencyMax,
+                    {"modulation", "Hz", 0.05, 1e-4, 100, "how often it goes up and down"},
+                    kDuration}},
+        frequency_modulated},
     MotionSequence{
         {.name = "RP",
          .title = "Road profile: the deflection of a car's suspension on a rough way",
          .equation = "sum of 300 sines with the power G_d n0^2 v / f^2 |H(f)|^2, n0 = 0.1 cycle/m",
-         .source = "ISO 8608; H: the one-sensor paper's quarter-car, its passive damper inferred; the "
-                   "paper says \"rough way\" and no more",
-         .remarks = "1.024e-3 m^3 is a road of class D. Scaled down where it would leave the amplitude or "
-                    "the speed. Faded in over a second.",
+         .source =
+             "ISO 8608; H: the one-sensor paper's quarter-car, its passive damper inferred; the "
+             "paper says \"rough way\" and no more",
+         .remarks =
+             "1.024e-3 m^3 is a road of class D. Scaled down where it would leave the amplitude or "
+             "the speed. Faded in over a second.",
          .params = {kAmplitude,
                     kSpeedMax,
                     kFrequencyMin,
@@ -225,36 +235,38 @@ const std::array kSequences{
                      "of the car, passive: what the paper's road holding needs"},
                     kDuration}},
         road_profile},
-    MotionSequence{{.name = "SFS",
-                    .title = "Stepped frequency sinusoid",
-                    .equation = "x = A(f) sin(2 pi f t), whole periods at f = frequency_min, + step, ...\n"
-                                "A(f) = min(amplitude, speed_max / (2 pi f))",
-                    .source = kPaper,
-                    .remarks = "Each packet comes and goes over half a period, so that a bench can follow: "
-                               "the bare definition asks for jumps of velocity.",
-                    .params = {kAmplitude,
-                               kSpeedMax,
-                               kFrequencyMin,
-                               {"frequency_max", "Hz", 14.5, 1e-3, 500, "greatest frequency"},
-                               {"step", "Hz", 1, 1e-3, 500, "from one frequency to the next"},
-                               {"hold", "s", 0.5, 0, 1000, "least time at full amplitude"},
-                               kRepeats}},
-                   stepped_frequency},
-    MotionSequence{{.name = "TPNVS",
-                    .title = "Triangular wave with positive and negative variable slopes",
-                    .equation = "x' = +-v_k, v_k = speed_min ... speed_max in equal ratios",
-                    .source = kPaper,
-                    .remarks = "Constant speed on every stroke, as great in one direction as in the other. "
-                               "The turns have a constant acceleration, as a bench has. A speed that the "
-                               "stroke is too short for is reduced.",
-                    .params = {kAmplitude,
-                               {"speed_min", "m/s", 0.05, 1e-5, 20, "least speed"},
-                               {"speed_max", "m/s", 1, 1e-4, 20, "greatest speed"},
-                               {"levels", "1", 8, 2, 1000, "number of speeds", true},
-                               {"cycles", "1", 1, 1, 1000, "at each speed", true},
-                               {"acceleration", "m/s^2", 60, 1e-2, 1e5, "at the turns"},
-                               kRepeats}},
-                   variable_slopes},
+    MotionSequence{
+        {.name = "SFS",
+         .title = "Stepped frequency sinusoid",
+         .equation = "x = A(f) sin(2 pi f t), whole periods at f = frequency_min, + step, ...\n"
+                     "A(f) = min(amplitude, speed_max / (2 pi f))",
+         .source = kPaper,
+         .remarks = "Each packet comes and goes over half a period, so that a bench can follow: "
+                    "the bare definition asks for jumps of velocity.",
+         .params = {kAmplitude,
+                    kSpeedMax,
+                    kFrequencyMin,
+                    {"frequency_max", "Hz", 14.5, 1e-3, 500, "greatest frequency"},
+                    {"step", "Hz", 1, 1e-3, 500, "from one frequency to the next"},
+                    {"hold", "s", 0.5, 0, 1000, "least time at full amplitude"},
+                    kRepeats}},
+        stepped_frequency},
+    MotionSequence{
+        {.name = "TPNVS",
+         .title = "Triangular wave with positive and negative variable slopes",
+         .equation = "x' = +-v_k, v_k = speed_min ... speed_max in equal ratios",
+         .source = kPaper,
+         .remarks = "Constant speed on every stroke, as great in one direction as in the other. "
+                    "The turns have a constant acceleration, as a bench has. A speed that the "
+                    "stroke is too short for is reduced.",
+         .params = {kAmplitude,
+                    {"speed_min", "m/s", 0.05, 1e-5, 20, "least speed"},
+                    {"speed_max", "m/s", 1, 1e-4, 20, "greatest speed"},
+                    {"levels", "1", 8, 2, 1000, "number of speeds", true},
+                    {"cycles", "1", 1, 1, 1000, "at each speed", true},
+                    {"acceleration", "m/s^2", 60, 1e-2, 1e5, "at the turns"},
+                    kRepeats}},
+        variable_slopes},
 };
 
 }  // namespace

@@ -18,8 +18,8 @@ constexpr StandardChannel kStandard[] = {
 std::span<const StandardChannel> standard_channels() { return kStandard; }
 
 const Channel* Record::find(std::string_view wanted) const {
-  const auto at =
-      std::find_if(channels.begin(), channels.end(), [&](const Channel& c) { return c.name == wanted; });
+  const auto at = std::find_if(channels.begin(), channels.end(),
+                               [&](const Channel& c) { return c.name == wanted; });
   return at == channels.end() ? nullptr : &*at;
 }
 

@@ -9,8 +9,8 @@
 namespace dashpot {
 
 /// The names that Dashpot gives meaning to, with their SI units. Other channels are carried along.
-///   displacement m, velocity m/s, acceleration m/s^2 (extension positive); force N (positive when it
-///   resists extension); current A or voltage V: what drives the coil; temperature K.
+///   displacement m, velocity m/s, acceleration m/s^2 (extension positive); force N (positive when
+///   it resists extension); current A or voltage V: what drives the coil; temperature K.
 struct StandardChannel {
   std::string_view name, unit;
 };
@@ -28,9 +28,9 @@ enum class Role { Unassigned, Training, LeftOut };
 
 /// One test run: channels on one time base, with its conditions and its source.
 struct Record {
-  std::string name;                   ///< unique in its dataset
-  std::string source;                 ///< file, and the part of it: "ME5mm3Hz.txt.gz, rows 9308-17607"
-  std::string condition;              ///< the motion: records at several currents under one motion share it
+  std::string name;       ///< unique in its dataset
+  std::string source;     ///< file, and the part of it: "ME5mm3Hz.txt.gz, rows 9308-17607"
+  std::string condition;  ///< the motion: records at several currents under one motion share it
   std::optional<double> drive_level;  ///< A or V when it is constant over the record
   /// What else was constant, in SI: gap m, yield_stress Pa, viscosity Pa*s, temperature K ...
   std::vector<std::pair<std::string, double>> conditions;

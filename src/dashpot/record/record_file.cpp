@@ -36,11 +36,12 @@ void write_vector(mat_t* file, const std::string& name, const std::vector<double
         path);
 }
 
-void write_text(mat_t* file, const std::string& name, const std::string& text, const fs::path& path) {
+void write_text(mat_t* file, const std::string& name, const std::string& text,
+                const fs::path& path) {
   size_t size[2] = {1, text.size()};
   write(file,
-        Variable(Mat_VarCreate(name.c_str(), MAT_C_CHAR, MAT_T_UTF8, 2, size, const_cast<char*>(text.data()),
-                               MAT_F_DONT_COPY_DATA)),
+        Variable(Mat_VarCreate(name.c_str(), MAT_C_CHAR, MAT_T_UTF8, 2, size,
+                               const_cast<char*>(text.data()), MAT_F_DONT_COPY_DATA)),
         path);
 }
 
@@ -48,11 +49,13 @@ void write_text(mat_t* file, const std::string& name, const std::string& text, c
 
 void save_csv(const Record& record, const fs::path& path) {
   std::string text = "time [s]";
-  for (const Channel& channel : record.channels) text += ',' + channel.name + " [" + channel.unit + ']';
+  for (const Channel& channel : record.channels)
+    text += ',' + channel.name + " [" + channel.unit + ']';
   text += '\n';
   for (std::size_t k = 0; k < record.size(); ++k) {
     text += format_number(record.time[k], kTimeDigits);
-    for (const Channel& channel : record.channels) text += ',' + format_number(channel.samples[k], kDigits);
+    for (const Channel& channel : record.channels)
+      text += ',' + format_number(channel.samples[k], kDigits);
     text += '\n';
   }
   write_file(path, text);
@@ -62,7 +65,8 @@ void save_mat(const Record& record, const fs::path& path) {
   if (path.has_parent_path()) make_folder(path.parent_path());
   const fs::path unfinished = path.string() + ".part";
   {
-    const std::unique_ptr<mat_t, Close> file(Mat_CreateVer(unfinished.c_str(), nullptr, MAT_FT_MAT5));
+    const std::unique_ptr<mat_t, Close> file(
+        Mat_CreateVer(unfinished.c_str(), nullptr, MAT_FT_MAT5));
     if (!file) throw Error(path.string(), "cannot be written");
     std::string units = "time s";
     write_vector(file.get(), "time", record.time, path);

@@ -91,7 +91,8 @@ PistonMotion road_deflection(const RoadDeflection& road, std::uint64_t seed) {
   const double band = (road.frequency_max - road.frequency_min) / kSines;
   for (int k = 0; k < kSines; ++k) {
     const double f = road.frequency_min + band * (k + random.uniform());
-    add_sine(*knots, std::sqrt(2 * deflection_density(road, f) * band), f, random.uniform(0, kTurn));
+    add_sine(*knots, std::sqrt(2 * deflection_density(road, f) * band), f,
+             random.uniform(0, kTurn));
   }
   fade_in(*knots);
   scale_into(*knots, road.amplitude, road.speed_max);

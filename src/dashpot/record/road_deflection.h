@@ -15,9 +15,10 @@ struct RoadDeflection {
   double duration;                      ///< s
 };
 
-/// Suspension deflection of the one-sensor paper's quarter-car, with a linear damper, on a road of ISO 8608:
-/// a sum of sines whose power is that of the deflection, with random frequencies and phases, faded in over a
-/// second. Between knots 64 to the shortest period it is a cubic, so that the velocity is exact for it.
+/// Suspension deflection of the one-sensor paper's quarter-car, with a linear damper, on a road of
+/// ISO 8608: a sum of sines whose power is that of the deflection, with random frequencies and
+/// phases, faded in over a second. Between knots 64 to the shortest period it is a cubic, so that
+/// the velocity is exact for it.
 PistonMotion road_deflection(const RoadDeflection& road, std::uint64_t seed);
 
 }  // namespace dashpot

@@ -19,7 +19,9 @@ namespace {
 /// Folders behind links are searched too, each folder once.
 class FolderSearch {
  public:
-  FolderSearch(const fs::path& root, std::vector<SourcePath>& out) : root_(root), out_(out) { search(root); }
+  FolderSearch(const fs::path& root, std::vector<SourcePath>& out) : root_(root), out_(out) {
+    search(root);
+  }
 
  private:
   void search(const fs::path& folder) {
@@ -36,7 +38,8 @@ class FolderSearch {
     std::error_code error;
     const fs::file_status status = fs::status(path, error);
     if (status.type() == fs::file_type::not_found)
-      throw Error(path.string(), "is a link to what is not there", "fetch the file, or remove the link");
+      throw Error(path.string(), "is a link to what is not there",
+                  "fetch the file, or remove the link");
     if (!fs::status_known(status)) throw Error(path.string(), "cannot be read: " + error.message());
     if (fs::is_directory(status)) return search(path);
     out_.push_back({path, path.lexically_relative(root_).string(), false});
@@ -99,7 +102,8 @@ Manifest::Manifest(const fs::path& path) : path_(path.string()) {
   rows_ = std::move(table.rows);
   const auto at = std::find(names_.begin(), names_.end(), "file");
   if (at == names_.end())
-    throw Error(path_, "has no column 'file'", "its first line names the columns, one of them 'file'");
+    throw Error(path_, "has no column 'file'",
+                "its first line names the columns, one of them 'file'");
   file_column_ = static_cast<std::size_t>(at - names_.begin());
 }
 
@@ -109,7 +113,8 @@ const std::vector<std::string>* Manifest::row_of(const std::string& file) const 
   return nullptr;
 }
 
-std::optional<std::string> Manifest::cell(const std::string& file, const std::string& column) const {
+std::optional<std::string> Manifest::cell(const std::string& file,
+                                          const std::string& column) const {
   const auto* row = row_of(file);
   const auto at = std::find(names_.begin(), names_.end(), column);
   if (!row || at == names_.end()) return std::nullopt;
@@ -119,9 +124,11 @@ std::optional<std::string> Manifest::cell(const std::string& file, const std::st
 double Manifest::number(const std::string& file, const std::string& column) const {
   const auto text = cell(file, column);
   if (!text)
-    throw Error(path_, "has no '" + column + "' for " + file, "its columns are " + join(names_, ", "));
+    throw Error(path_, "has no '" + column + "' for " + file,
+                "its columns are " + join(names_, ", "));
   const auto value = parse_number(*text);
-  if (!value) throw Error(path_, "'" + column + "' of " + file + " is '" + *text + "', not a number");
+  if (!value)
+    throw Error(path_, "'" + column + "' of " + file + " is '" + *text + "', not a number");
   return *value;
 }
 

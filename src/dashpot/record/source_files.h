@@ -14,15 +14,16 @@ struct SourcePath {
   bool named = false;    ///< pointed at itself, so that it may not be passed over
 };
 
-/// The files of the paths, folders (also behind links) searched to the bottom, sorted by name with numbers in
-/// their order
+/// The files of the paths, folders (also behind links) searched to the bottom, sorted by name with
+/// numbers in their order
 /// ("run2" before "run10"); hidden files left out. Throws Error on a path that cannot be read.
 std::vector<SourcePath> list_files(const std::vector<std::filesystem::path>& paths);
 
 /// Whether a pattern with * ? [...] fits the relative path or the file's name.
 bool matches(const std::string& pattern, const SourcePath& file);
 
-/// Table of the files of a folder, with a column "file": it selects them and states their conditions.
+/// Table of the files of a folder, with a column "file": it selects them and states their
+/// conditions.
 class Manifest {
  public:
   Manifest() = default;

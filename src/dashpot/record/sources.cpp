@@ -21,8 +21,9 @@ bool is_file(const fs::path& path) {
 }
 
 std::size_t count_matches(const DatasetFile& stated, const std::vector<SourcePath>& files) {
-  return static_cast<std::size_t>(std::count_if(
-      files.begin(), files.end(), [&](const SourcePath& f) { return statement_for(stated, f) != nullptr; }));
+  return static_cast<std::size_t>(
+      std::count_if(files.begin(), files.end(),
+                    [&](const SourcePath& f) { return statement_for(stated, f) != nullptr; }));
 }
 
 /// A file of that name and content in the folder of one of the files.
@@ -106,7 +107,8 @@ Sources find_sources(std::vector<fs::path> paths, const LoadOptions& options) {
       sources.stated = std::move(*shipped);
       sources.stated.notes.insert(sources.stated.notes.begin(),
                                   "recognised: understood as the dataset file " +
-                                      fs::path(sources.stated.path).filename().string() + " states");
+                                      fs::path(sources.stated.path).filename().string() +
+                                      " states");
       return sources;
     }
   sources.stated = nothing_stated(paths);
@@ -114,7 +116,8 @@ Sources find_sources(std::vector<fs::path> paths, const LoadOptions& options) {
 }
 
 Manifest find_manifest(const Sources& sources) {
-  const std::string name = sources.stated.manifest.empty() ? "manifest.csv" : sources.stated.manifest;
+  const std::string name =
+      sources.stated.manifest.empty() ? "manifest.csv" : sources.stated.manifest;
   for (const SourcePath& file : sources.files) {
     const fs::path candidate = file.path.parent_path() / name;
     if (is_file(candidate)) return Manifest(candidate);

@@ -11,11 +11,12 @@ namespace dashpot {
 struct Sources {
   std::vector<SourcePath> files;
   std::string pointed_at;  ///< the first path, for messages
-  DatasetFile stated;      ///< without a path when nobody stated anything: every file is tried by its names
+  DatasetFile
+      stated;  ///< without a path when nobody stated anything: every file is tried by its names
 };
 
-/// Separates recordings from a dataset file among the paths; without one looks for dataset.yaml in the
-/// folder, then for a shipped dataset file that recognises the recordings.
+/// Separates recordings from a dataset file among the paths; without one looks for dataset.yaml in
+/// the folder, then for a shipped dataset file that recognises the recordings.
 Sources find_sources(std::vector<std::filesystem::path> paths, const LoadOptions& options);
 
 /// The manifest beside the recordings; an empty one when there is none and none is stated.

@@ -13,9 +13,10 @@ struct Way {
   LeaveOut::By by;
   std::string_view name;
 };
-constexpr Way kWays[] = {{LeaveOut::By::Condition, "condition"}, {LeaveOut::By::Current, "current"},
-                         {LeaveOut::By::Record, "record"},       {LeaveOut::By::Fraction, "fraction"},
-                         {LeaveOut::By::Roles, "roles"},         {LeaveOut::By::Each, "each"}};
+constexpr Way kWays[] = {
+    {LeaveOut::By::Condition, "condition"}, {LeaveOut::By::Current, "current"},
+    {LeaveOut::By::Record, "record"},       {LeaveOut::By::Fraction, "fraction"},
+    {LeaveOut::By::Roles, "roles"},         {LeaveOut::By::Each, "each"}};
 
 template <class T>
 void add_new(std::vector<T>& values, const T& value) {
@@ -66,7 +67,8 @@ Fold fold_by(const Dataset& dataset, const std::string& name, const Chosen& left
   fold.name = name;
   for (const Record& record : dataset.records)
     (left_out(record) ? fold.left_out : fold.training).push_back(record);
-  if (fold.left_out.empty()) impossible(dataset, "no record is '" + name.substr(name.find(' ') + 1) + "'");
+  if (fold.left_out.empty())
+    impossible(dataset, "no record is '" + name.substr(name.find(' ') + 1) + "'");
   if (fold.training.empty()) impossible(dataset, "nothing is left to train on " + name);
   return fold;
 }
@@ -77,8 +79,8 @@ std::vector<Fold> by_condition(const Dataset& dataset, const LeaveOut& how) {
     impossible(dataset, "all records have one condition, '" + (all.empty() ? "" : all[0]) + "'");
   std::vector<Fold> folds;
   for (const std::string& condition : how.values.empty() ? all : how.values)
-    folds.push_back(
-        fold_by(dataset, "without " + condition, [&](const Record& r) { return r.condition == condition; }));
+    folds.push_back(fold_by(dataset, "without " + condition,
+                            [&](const Record& r) { return r.condition == condition; }));
   return folds;
 }
 
@@ -86,7 +88,8 @@ std::vector<double> chosen_levels(const Dataset& dataset, const LeaveOut& how) {
   if (how.values.empty()) {
     const std::vector<double> all = levels(dataset);
     if (all.size() < 3)
-      impossible(dataset, std::to_string(all.size()) + " constant drive level(s): no inner one to leave out");
+      impossible(dataset, std::to_string(all.size()) +
+                              " constant drive level(s): no inner one to leave out");
     return {all.begin() + 1, all.end() - 1};
   }
   std::vector<double> out;
@@ -106,9 +109,9 @@ bool same_level(double level, double asked) {
 std::vector<Fold> by_current(const Dataset& dataset, const LeaveOut& how) {
   std::vector<Fold> folds;
   for (const double level : chosen_levels(dataset, how))
-    folds.push_back(
-        fold_by(dataset, "without " + format_number(level) + " " + dataset.drive_unit,
-                [&](const Record& r) { return r.drive_level && same_level(*r.drive_level, level); }));
+    folds.push_back(fold_by(
+        dataset, "without " + format_number(level) + " " + dataset.drive_unit,
+        [&](const Record& r) { return r.drive_level && same_level(*r.drive_level, level); }));
   return folds;
 }
 
@@ -119,7 +122,8 @@ std::vector<Fold> by_record(const Dataset& dataset, const LeaveOut& how) {
     for (const Record& record : dataset.records) names.push_back(record.name);
   std::vector<Fold> folds;
   for (const std::string& name : names)
-    folds.push_back(fold_by(dataset, "without " + name, [&](const Record& r) { return r.name == name; }));
+    folds.push_back(
+        fold_by(dataset, "without " + name, [&](const Record& r) { return r.name == name; }));
   return folds;
 }
 
@@ -127,7 +131,8 @@ std::vector<Fold> by_record(const Dataset& dataset, const LeaveOut& how) {
 std::string values_of(const Record& record, const std::vector<std::string>& names) {
   std::vector<std::string> parts;
   for (const std::string& name : names) {
-    const auto found = std::ranges::find(record.conditions, name, &std::pair<std::string, double>::first);
+    const auto found =
+        std::ranges::find(record.conditions, name, &std::pair<std::string, double>::first);
     if (found == record.conditions.end()) {
       std::vector<std::string> known;
       for (const auto& condition : record.conditions) known.push_back(condition.first);
@@ -150,15 +155,17 @@ std::vector<Fold> by_each(const Dataset& dataset, const LeaveOut& how) {
   return folds;
 }
 
-/// The left-out record runs from its start, so that the model reaches its state, and is scored at its end.
+/// The left-out record runs from its start, so that the model reaches its state, and is scored at
+/// its end.
 std::vector<Fold> by_fraction(const Dataset& dataset, const LeaveOut& how) {
   Fold fold;
   fold.name = "without the last " + format_number(100 * how.fraction, 3) + " % of each record";
   for (const Record& record : dataset.records) {
-    const auto at =
-        static_cast<std::size_t>(std::lround((1 - how.fraction) * static_cast<double>(record.size())));
+    const auto at = static_cast<std::size_t>(
+        std::lround((1 - how.fraction) * static_cast<double>(record.size())));
     if (at < record.warm_up + 2 || at + 2 > record.size())
-      impossible(dataset, record.name + " is too short for a fraction of " + format_number(how.fraction));
+      impossible(dataset,
+                 record.name + " is too short for a fraction of " + format_number(how.fraction));
     fold.training.push_back(record.slice(0, at));
     fold.left_out.push_back(record);
     fold.left_out.back().warm_up = at;
@@ -177,8 +184,8 @@ std::vector<Fold> by_roles(const Dataset& dataset) {
   return {fold};
 }
 
-/// One of equal stretches of the scored samples is left out, and run from the record's start; what lies
-/// before and after it serves the fit, as two records.
+/// One of equal stretches of the scored samples is left out, and run from the record's start; what
+/// lies before and after it serves the fit, as two records.
 void hold_back_part(const Record& record, std::size_t part, std::size_t parts, Fold& fold) {
   const std::size_t scored = record.size() - std::min(record.warm_up, record.size());
   const std::size_t from = record.warm_up + scored * part / parts;
@@ -198,7 +205,8 @@ void hold_back_part(const Record& record, std::size_t part, std::size_t parts, F
 TrialParts without_ends(const ScoredParts& parts, double share) {
   TrialParts trial;
   for (const ScoredPart& part : parts) {
-    const auto held_back = static_cast<std::size_t>(share * static_cast<double>(part.last - part.first));
+    const auto held_back =
+        static_cast<std::size_t>(share * static_cast<double>(part.last - part.first));
     const std::size_t at = part.last - held_back;
     trial.training.push_back({part.record, part.first, at});
     trial.held_back.push_back({part.record, std::min(at, part.last - 1), part.last});
@@ -211,8 +219,8 @@ TrialParts without_ends(const ScoredParts& parts, double share) {
 LeaveOut parse_leave_out(const std::string& text) {
   const std::size_t equals = text.find('=');
   const std::string name = lower(trim(std::string_view(text).substr(0, equals)));
-  const auto way =
-      std::find_if(std::begin(kWays), std::end(kWays), [&](const Way& w) { return w.name == name; });
+  const auto way = std::find_if(std::begin(kWays), std::end(kWays),
+                                [&](const Way& w) { return w.name == name; });
   if (way == std::end(kWays))
     throw Error("", "cannot leave out by '" + text + "'",
                 "'condition', 'current', 'current=0.5,1', 'record', 'fraction=0.3', 'roles' or "
@@ -220,7 +228,8 @@ LeaveOut parse_leave_out(const std::string& text) {
   LeaveOut out;
   out.by = way->by;
   if (equals == std::string::npos && out.by == LeaveOut::By::Each)
-    throw Error("", "'each' does not say of what", "conditions of the records: 'each=gap,pole_length'");
+    throw Error("", "'each' does not say of what",
+                "conditions of the records: 'each=gap,pole_length'");
   if (equals == std::string::npos) return out;
   const std::string rest = text.substr(equals + 1);
   if (out.by == LeaveOut::By::Fraction) {
@@ -233,15 +242,16 @@ LeaveOut parse_leave_out(const std::string& text) {
   if (out.by == LeaveOut::By::Roles)
     throw Error("", "'roles' takes no values", "the dataset file states them");
   for (const std::string& value : split(rest, ',')) {
-    if (trim(value).empty()) throw Error("", "an empty value in '" + text + "'", "as 'current=0.5,1'");
+    if (trim(value).empty())
+      throw Error("", "an empty value in '" + text + "'", "as 'current=0.5,1'");
     out.values.emplace_back(trim(value));
   }
   return out;
 }
 
 std::string format_leave_out(const LeaveOut& leave_out) {
-  const auto way =
-      std::find_if(std::begin(kWays), std::end(kWays), [&](const Way& w) { return w.by == leave_out.by; });
+  const auto way = std::find_if(std::begin(kWays), std::end(kWays),
+                                [&](const Way& w) { return w.by == leave_out.by; });
   std::string text(way->name);
   if (leave_out.by == LeaveOut::By::Fraction) return text + "=" + format_exact(leave_out.fraction);
   return leave_out.values.empty() ? text : text + "=" + join(leave_out.values, ",");
@@ -284,7 +294,8 @@ std::vector<Fold> hold_back(const std::vector<Record>& training, const LeaveOut&
   dataset.records = training;
   if (judged.by == LeaveOut::By::Condition && conditions(dataset).size() > 1)
     return by_condition(dataset, {});
-  if (judged.by == LeaveOut::By::Current && levels(dataset).size() > 2) return by_current(dataset, {});
+  if (judged.by == LeaveOut::By::Current && levels(dataset).size() > 2)
+    return by_current(dataset, {});
   // With few parts, fits on what is left know much less than the one that they stand for.
   constexpr std::size_t kParts = 6, kLeastRecords = 3;
   const bool whole = judged.by != LeaveOut::By::Fraction && training.size() >= kLeastRecords;

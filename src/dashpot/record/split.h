@@ -13,21 +13,22 @@ struct Fold {
   std::vector<Record> left_out;  ///< judged from `warm_up` on
 };
 
-/// What the dataset file states; else the strictest way that the records allow: by condition, current,
-/// record, or the end of the only one.
+/// What the dataset file states; else the strictest way that the records allow: by condition,
+/// current, record, or the end of the only one.
 LeaveOut default_leave_out(const Dataset& dataset);
 
 /// Throws Error when the dataset cannot be divided so: one condition only, say; the message names
 /// the ways that would work.
 std::vector<Fold> split(const Dataset& dataset, const LeaveOut& leave_out);
 
-/// Divides a training part once more, without a look at what is judged: by condition or current where that is
-/// how the judged part was left out and several remain; else in six, of whole records where whole records
-/// are judged and there are three at least, or of each record's time. Folds that would be empty are left
-/// away.
+/// Divides a training part once more, without a look at what is judged: by condition or current
+/// where that is how the judged part was left out and several remain; else in six, of whole records
+/// where whole records are judged and there are three at least, or of each record's time. Folds
+/// that would be empty are left away.
 std::vector<Fold> hold_back(const std::vector<Record>& training, const LeaveOut& judged);
 
-/// Samples first ... last - 1 of a record that count; a model runs through the record from its beginning.
+/// Samples first ... last - 1 of a record that count; a model runs through the record from its
+/// beginning.
 struct ScoredPart {
   std::size_t record = 0;  ///< its place among the training records
   std::size_t first = 0, last = 0;
@@ -40,9 +41,9 @@ ScoredParts all_parts(const std::vector<Record>& records);
 struct TrialParts {
   ScoredParts training, held_back;
 };
-/// Divisions of a training part on which a fit tries what it must choose by itself. Conditions are dealt in
-/// turn to four at most, and each inner level of the drive is held back; of records that have neither, the
-/// last 30 %. One at least.
+/// Divisions of a training part on which a fit tries what it must choose by itself. Conditions are
+/// dealt in turn to four at most, and each inner level of the drive is held back; of records that
+/// have neither, the last 30 %. One at least.
 std::vector<TrialParts> trial_parts(const std::vector<Record>& training);
 /// The same with copies of the records.
 std::vector<Fold> trial_folds(const std::vector<Record>& training);

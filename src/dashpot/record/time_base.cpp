@@ -9,7 +9,9 @@
 namespace dashpot {
 namespace {
 
-bool whole(double value) { return std::abs(value - std::round(value)) <= 1e-6 + 4e-16 * std::abs(value); }
+bool whole(double value) {
+  return std::abs(value - std::round(value)) <= 1e-6 + 4e-16 * std::abs(value);
+}
 
 /// The power of ten to which the stamps are printed, or 0 when they have all their digits.
 double printed_digit(std::span<const double> stamps) {
@@ -39,7 +41,8 @@ struct Line {
   double start = 0, step = 0;
 };
 
-/// Least-squares line through stamp over index. Sums in long double: 1e8 stamps lose 1e-9 s otherwise.
+/// Least-squares line through stamp over index. Sums in long double: 1e8 stamps lose 1e-9 s
+/// otherwise.
 Line fit_line(std::span<const double> stamps) {
   const auto n = static_cast<long double>(stamps.size());
   const long double middle = (n - 1) / 2;
@@ -53,7 +56,8 @@ Line fit_line(std::span<const double> stamps) {
   return {stamps[0] + static_cast<double>(sum / n - step * middle), static_cast<double>(step)};
 }
 
-/// A rate that is a whole number of hertz, or a step with the printed digits, when the fit allows it.
+/// A rate that is a whole number of hertz, or a step with the printed digits, when the fit allows
+/// it.
 double snapped(double step, double tolerance, double digit) {
   const double rate = std::round(1 / step);
   if (rate >= 1 && std::abs(1 / rate - step) <= tolerance) return 1 / rate;
@@ -84,17 +88,22 @@ double uniform_step(std::span<const double> stamps) {
   const Line line = fit_line(stamps);
   const double digit = printed_digit(stamps);
   const int digits = digit > 0 ? significant_digits(stamps) : 0;
-  const double coarsest = digits > 0 ? std::pow(10.0, 1 - digits) * power_of_ten(stamps.back()) : digit;
-  // Coarse digits (0 1 2 4 5) cannot show that a gap is rounding: then only an exact grid is uniform.
+  const double coarsest =
+      digits > 0 ? std::pow(10.0, 1 - digits) * power_of_ten(stamps.back()) : digit;
+  // Coarse digits (0 1 2 4 5) cannot show that a gap is rounding: then only an exact grid is
+  // uniform.
   const bool rounded = std::max(digit, coarsest) < 0.5 * line.step;
   const auto tolerance = [&](double t) {
-    const double place = digits > 0 ? std::max(digit, std::pow(10.0, 1 - digits) * power_of_ten(t)) : digit;
+    const double place =
+        digits > 0 ? std::max(digit, std::pow(10.0, 1 - digits) * power_of_ten(t)) : digit;
     return (rounded ? 0.6 * place : 0) + 1e-6 * line.step + 1e-15 * std::abs(t);
   };
   for (std::size_t k = 0; k < stamps.size(); ++k)
-    if (std::abs(stamps[k] - (line.start + line.step * static_cast<double>(k))) > tolerance(stamps[k]))
+    if (std::abs(stamps[k] - (line.start + line.step * static_cast<double>(k))) >
+        tolerance(stamps[k]))
       return 0;
-  return snapped(line.step, 2 * tolerance(stamps.back()) / static_cast<double>(stamps.size() - 1), digit);
+  return snapped(line.step, 2 * tolerance(stamps.back()) / static_cast<double>(stamps.size() - 1),
+                 digit);
 }
 
 void require_increasing(std::span<const double> stamps, const RawTable& table) {
@@ -113,7 +122,8 @@ void make_uniform(std::span<double> stamps, double start, double sample_time) {
   const double rate = std::round(1 / sample_time);
   const bool whole = rate >= 1 && 1 / rate == sample_time;
   for (std::size_t k = 0; k < stamps.size(); ++k)
-    stamps[k] = start + (whole ? static_cast<double>(k) / rate : static_cast<double>(k) * sample_time);
+    stamps[k] =
+        start + (whole ? static_cast<double>(k) / rate : static_cast<double>(k) * sample_time);
 }
 
 void resample(Record& record, double rate_hz) {
@@ -124,7 +134,8 @@ void resample(Record& record, double rate_hz) {
                                  format_number(count, 12) + " samples");
   std::vector<double> time(static_cast<std::size_t>(count));
   make_uniform(time, record.time.front(), 1 / rate_hz);
-  for (Channel& channel : record.channels) channel.samples = interpolate(record.time, channel.samples, time);
+  for (Channel& channel : record.channels)
+    channel.samples = interpolate(record.time, channel.samples, time);
   record.time = std::move(time);
   record.sample_time = 1 / rate_hz;
   record.notes.push_back("resampled to " + format_number(rate_hz, 9) +

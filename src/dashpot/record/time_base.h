@@ -8,8 +8,8 @@
 
 namespace dashpot {
 
-/// The step of a uniform grid that all stamps agree with, within the rounding of their printed digits;
-/// 0 when there is none.
+/// The step of a uniform grid that all stamps agree with, within the rounding of their printed
+/// digits; 0 when there is none.
 double uniform_step(std::span<const double> stamps);
 
 /// Throws Error at the first stamp that is repeated or runs backwards. `table` gives its place.
@@ -23,6 +23,7 @@ void resample(Record& record, double rate_hz);
 
 /// First and one-past-last sample of what moves: rest of at least 0.3 s at either end is left out.
 /// Rest is where `motion` stays within 2 % of its half range of its value at that end.
-std::pair<std::size_t, std::size_t> moving_part(std::span<const double> time, std::span<const double> motion);
+std::pair<std::size_t, std::size_t> moving_part(std::span<const double> time,
+                                                std::span<const double> motion);
 
 }  // namespace dashpot

@@ -22,16 +22,18 @@ namespace {
 enum Mounting { kMotionRatio, kForceFactor };
 constexpr std::array kMounting{
     ParameterRow{"motion_ratio", "1", 1, 0.01, 100, "damper's travel over the strut's"},
-    ParameterRow{"force_factor", "1", 1, 0.01, 100, "this piece's force over its model's, as built"}};
+    ParameterRow{"force_factor", "1", 1, 0.01, 100,
+                 "this piece's force over its model's, as built"}};
 
-const std::array kSimple{
-    SimpleDamper{"ideal",
-                 "any damping within limits, at once but for a lag",
-                 {{"damping_min", "N*s/m", 300, 0, 1e7, "least"},
-                  {"damping_max", "N*s/m", 3900, 0, 1e7, "greatest"},
-                  {"lag_rate", "1/s", 2 * std::numbers::pi * 50, 0, 1e6, "of the damping; 0: none"}}},
-    SimpleDamper{
-        "viscous", "passive, linear in the velocity", {{"damping", "N*s/m", 1500, 0, 1e7, "of the damper"}}}};
+const std::array kSimple{SimpleDamper{"ideal",
+                                      "any damping within limits, at once but for a lag",
+                                      {{"damping_min", "N*s/m", 300, 0, 1e7, "least"},
+                                       {"damping_max", "N*s/m", 3900, 0, 1e7, "greatest"},
+                                       {"lag_rate", "1/s", 2 * std::numbers::pi * 50, 0, 1e6,
+                                        "of the damping; 0: none"}}},
+                         SimpleDamper{"viscous",
+                                      "passive, linear in the velocity",
+                                      {{"damping", "N*s/m", 1500, 0, 1e7, "of the damper"}}}};
 
 /// F = (soft + (hard - soft) drive) v.
 std::shared_ptr<const DamperModel> linear_damper(double soft, double hard) {
@@ -70,12 +72,13 @@ ChosenDamper make_simple(const SimpleDamper& kind, Words settings, const std::st
 }
 
 std::string friction_note(const DamperModel& model) {
-  return "the friction of " + model.name() + " sets in over " + format_number(1000 * kFrictionSpeed) +
-         " mm/s here, not at once";
+  return "the friction of " + model.name() + " sets in over " +
+         format_number(1000 * kFrictionSpeed) + " mm/s here, not at once";
 }
 
 /// With a law's own speed over which friction sets in, where it has such a one and states none.
-std::shared_ptr<const DamperModel> without_jump(const LawModel& model, std::vector<std::string>& notes) {
+std::shared_ptr<const DamperModel> without_jump(const LawModel& model,
+                                                std::vector<std::string>& notes) {
   const auto& params = model.law().params;
   const auto row = std::ranges::find(params, "v_s", &ParamInfo::name);
   const auto k = static_cast<std::size_t>(row - params.begin());
@@ -129,7 +132,8 @@ LawModel with_settings(const LawModel& model, Words settings, const std::string&
     for (const ParamInfo& param : law.params) known.emplace_back(param.name);
     const auto found = std::ranges::find(known, name);
     if (found == known.end() || equals == std::string::npos)
-      throw Error(where, std::string(law.name) + " has no parameter '" + name + "'", suggest(name, known));
+      throw Error(where, std::string(law.name) + " has no parameter '" + name + "'",
+                  suggest(name, known));
     const auto k = static_cast<std::size_t>(found - known.begin());
     parameters.forms[k] = Form::Constant;
     parameters.coefficients[k] = {
@@ -148,7 +152,8 @@ ChosenDamper from_set(const std::string& name, Words settings, const std::string
   damper.drive_unit = set.model.drive_unit();
   damper.drive_min = set.drive_min;
   damper.drive_max = set.drive_max;
-  if (!set.verified) damper.notes.push_back("the numbers of " + name + " are an example: " + set.reason);
+  if (!set.verified)
+    damper.notes.push_back("the numbers of " + name + " are an example: " + set.reason);
   return damper;
 }
 
@@ -175,7 +180,8 @@ std::array<double, kMounting.size()> take_mounting(std::vector<std::string>& par
     values[k] = kMounting[k].value;
     std::erase_if(parts, [&](const std::string& part) {
       const std::size_t equals = part.find('=');
-      if (equals == std::string::npos || trim(part.substr(0, equals)) != kMounting[k].name) return false;
+      if (equals == std::string::npos || trim(part.substr(0, equals)) != kMounting[k].name)
+        return false;
       values[k] = parse_value(kMounting[k], part.substr(equals + 1), where);
       return true;
     });
@@ -204,12 +210,15 @@ ChosenDamper choose_damper(const std::string& text, const std::string& where) {
   }
   damper.motion_ratio = mounting[kMotionRatio];
   damper.force_factor = mounting[kForceFactor];
-  if (damper.motion_ratio != 1) damper.name += ", motion ratio " + format_number(damper.motion_ratio);
-  if (damper.force_factor != 1) damper.name += ", force factor " + format_number(damper.force_factor);
+  if (damper.motion_ratio != 1)
+    damper.name += ", motion ratio " + format_number(damper.motion_ratio);
+  if (damper.force_factor != 1)
+    damper.name += ", force factor " + format_number(damper.force_factor);
   return damper;
 }
 
-double equivalent_damping(const DamperModel& model, double current, double amplitude, double speed) {
+double equivalent_damping(const DamperModel& model, double current, double amplitude,
+                          double speed) {
   constexpr int kSteps = 1000, kCycles = 3;
   const double omega = speed / amplitude, h = 2 * std::numbers::pi / (omega * kSteps);
   const auto at = [&](int k) {
@@ -221,7 +230,8 @@ double equivalent_damping(const DamperModel& model, double current, double ampli
   double energy = 0;
   for (int k = 0; k < kCycles * kSteps; ++k) {
     model.advance(at(k), at(k + 1), h, state);
-    if (k >= (kCycles - 1) * kSteps) energy += model.force(at(k + 1), state) * at(k + 1).velocity * h;
+    if (k >= (kCycles - 1) * kSteps)
+      energy += model.force(at(k + 1), state) * at(k + 1).velocity * h;
   }
   return energy / (std::numbers::pi * omega * amplitude * amplitude);
 }

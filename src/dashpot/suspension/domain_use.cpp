@@ -9,8 +9,9 @@ namespace {
 
 double share_outside(const std::vector<double>& values, double ratio, double low, double high) {
   const double slack = 0.01 * (high - low);
-  const auto outside = std::ranges::count_if(
-      values, [&](double value) { return ratio * value < low - slack || ratio * value > high + slack; });
+  const auto outside = std::ranges::count_if(values, [&](double value) {
+    return ratio * value < low - slack || ratio * value > high + slack;
+  });
   return values.empty() ? 0 : static_cast<double>(outside) / static_cast<double>(values.size());
 }
 
@@ -32,7 +33,8 @@ std::vector<DomainUse> domain_use(const Vehicle& vehicle, const Trace& trace) {
     if (vehicle.dampers[s].model->needs_displacement())
       use.displacement = share("_deflection", ratio, d.displacement_min, d.displacement_max);
     use.velocity = share("_velocity", ratio, d.velocity_min, d.velocity_max);
-    if (d.current_min < d.current_max) use.current = share("_current", 1, d.current_min, d.current_max);
+    if (d.current_min < d.current_max)
+      use.current = share("_current", 1, d.current_min, d.current_max);
     uses.push_back(use);
   }
   return uses;
@@ -50,7 +52,8 @@ std::vector<std::string> domain_warnings(const std::vector<DomainUse>& uses, dou
     add("velocity", use.velocity);
     add("current", use.current);
     if (!parts.empty())
-      warnings.push_back(use.strut + ": " + use.damper + " is asked beyond its data: " + join(parts, ", "));
+      warnings.push_back(use.strut + ": " + use.damper +
+                         " is asked beyond its data: " + join(parts, ", "));
   }
   return warnings;
 }

@@ -32,7 +32,8 @@ PlantForces::PlantForces(const Plant& plant, const GroundMotion& ground)
     rows.assign(solved.data(), solved.data() + solved.size());
   };
   RowMajor by_state(n, 2 * n), by_strut(n, plant.struts.size()), by_tyre(n, plant.tyres.size());
-  by_state << -matrix_of(linear_.stiffness, plant.size()), -matrix_of(linear_.damping, plant.size());
+  by_state << -matrix_of(linear_.stiffness, plant.size()),
+      -matrix_of(linear_.damping, plant.size());
   for (std::size_t s = 0; s < plant.struts.size(); ++s)
     by_strut.col(static_cast<Eigen::Index>(s)) = -vector_of(plant.struts[s].row);
   for (std::size_t w = 0; w < plant.tyres.size(); ++w)
@@ -46,7 +47,8 @@ PlantForces::PlantForces(const Plant& plant, const GroundMotion& ground)
   }
   const Eigen::PartialPivLU<RowMajor> stiffness(matrix_of(linear_.stiffness, plant.size()));
   for (std::size_t t = 0; t < plant.tyres.size(); ++t) {
-    const Eigen::VectorXd q = stiffness.solve(plant.tyres[t].stiffness * vector_of(plant.tyres[t].row));
+    const Eigen::VectorXd q =
+        stiffness.solve(plant.tyres[t].stiffness * vector_of(plant.tyres[t].row));
     for (std::size_t k = 0; k < plant.size(); ++k)
       resting_[k * plant.tyres.size() + t] = q[static_cast<Eigen::Index>(k)];
   }
@@ -78,7 +80,8 @@ FootMotion PlantForces::foot(std::size_t tyre, double t) const noexcept {
   return ground_.foot(t, plant_.tyres[tyre].track, plant_.tyres[tyre].behind);
 }
 
-double PlantForces::tyre_load(std::size_t tyre, double t, std::span<const double> x) const noexcept {
+double PlantForces::tyre_load(std::size_t tyre, double t,
+                              std::span<const double> x) const noexcept {
   const Tyre& w = plant_.tyres[tyre];
   const FootMotion ground = foot(tyre, t);
   const double load = w.static_load + w.stiffness * (ground.height - along(w.row, x.data())) +
@@ -110,7 +113,8 @@ double PlantForces::push(std::size_t which, double t, std::span<const double> x)
   return push - std::fmin(load, 0);
 }
 
-void PlantForces::accelerate(double t, std::span<const double> x, std::span<const double> strut_forces,
+void PlantForces::accelerate(double t, std::span<const double> x,
+                             std::span<const double> strut_forces,
                              std::span<double> out) const noexcept {
   const double shake = shaken_.empty() ? 0 : ground_.acceleration(t);
   const double* a = by_state_.data();

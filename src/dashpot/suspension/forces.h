@@ -3,9 +3,9 @@
 #include <vector>
 
 #include "dashpot/suspension/ground/ground_motion.h"
-#include "dashpot/suspension/linear.h"
 #include "dashpot/suspension/mounted_damper.h"
-#include "dashpot/suspension/plant.h"
+#include "dashpot/suspension/plants/linear.h"
+#include "dashpot/suspension/plants/plant.h"
 
 namespace dashpot {
 
@@ -41,9 +41,10 @@ class PlantForces {
   /// How a tyre pushes by the road alone, and by how much less it pulls where it lets go.
   double push(std::size_t tyre, double t, std::span<const double> x) const noexcept;
 
-  std::vector<double> by_state_, by_strut_, by_tyre_;  ///< q'' row by row: by x, strut forces, tyres' pushes
-  std::vector<double> shaken_;                         ///< M e
-  std::vector<double> resting_;                        ///< size x tyres: K^-1 row k
+  std::vector<double> by_state_, by_strut_,
+      by_tyre_;                  ///< q'' row by row: by x, strut forces, tyres' pushes
+  std::vector<double> shaken_;   ///< M e
+  std::vector<double> resting_;  ///< size x tyres: K^-1 row k
 };
 
 }  // namespace dashpot

@@ -3,31 +3,36 @@
 #include <algorithm>
 #include <array>
 
-#include "dashpot/suspension/control_text.h"
+#include "dashpot/suspension/control/control_text.h"
 
 namespace dashpot {
 namespace {
 
 // clang-format off: the texts are taken in
-#include "dashpot/suspension/c_text/demanded_force.h"
-#include "dashpot/suspension/c_text/force_loop.h"
-#include "dashpot/suspension/c_text/straight_current.h"
+#include "dashpot/suspension/control/c_text/demanded_force.h"
+#include "dashpot/suspension/control/c_text/force_loop.h"
+#include "dashpot/suspension/control/c_text/straight_current.h"
 // clang-format on
 
 }  // namespace
 
 ParameterTable force_loop_settings() {
   static constexpr std::array kRows{
-      ParameterRow{"proportional", "1", 0, 0, 100, "of the force that is missed, added to the wanted one"},
+      ParameterRow{"proportional", "1", 0, 0, 100,
+                   "of the force that is missed, added to the wanted one"},
       ParameterRow{"integral", "1/s", 0, 0, 1e5,
                    "of its integral, which stands still at a limit of the current"},
       ParameterRow{"derivative", "s", 0, 0, 1, "of its change"}};
   return kRows;
 }
 
-CommandPath::CommandPath(const MountedDamper& damper, const ControlLimits& limits, double deflection)
-    : damper_(&damper), limits_(limits), inverse_state_(damper.inverse ? damper.inverse->state_size() : 0) {
-  if (damper.inverse) damper.inverse->rest(damper.at_damper({deflection, 0, damper.current}), inverse_state_);
+CommandPath::CommandPath(const MountedDamper& damper, const ControlLimits& limits,
+                         double deflection)
+    : damper_(&damper),
+      limits_(limits),
+      inverse_state_(damper.inverse ? damper.inverse->state_size() : 0) {
+  if (damper.inverse)
+    damper.inverse->rest(damper.at_damper({deflection, 0, damper.current}), inverse_state_);
 }
 
 double CommandPath::wanted_force(const DamperDemand& demand, const DamperInput& now, double force) {
@@ -59,7 +64,8 @@ double CommandPath::command(const DamperDemand& demand, const DamperInput& now, 
   return straight_current(&demand, now.velocity, &limits_);
 }
 
-DamperState::DamperState(const MountedDamper& damper, const ControlLimits& limits, double deflection)
+DamperState::DamperState(const MountedDamper& damper, const ControlLimits& limits,
+                         double deflection)
     : damper_(&damper),
       path_(damper, limits, deflection),
       driver_(damper.driver),

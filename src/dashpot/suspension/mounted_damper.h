@@ -8,12 +8,12 @@
 #include "dashpot/damper/driver.h"
 #include "dashpot/damper/inverse/inverse.h"
 #include "dashpot/damper/model.h"
-#include "dashpot/suspension/controller.h"
+#include "dashpot/suspension/control/controller.h"
 
 namespace dashpot {
 
-/// Corrects a wanted force by what the measured one misses. Its integral stands still while the current is at
-/// one of its limits.
+/// Corrects a wanted force by what the measured one misses. Its integral stands still while the
+/// current is at one of its limits.
 struct ForceLoop {
   double proportional = 0;  ///< 1
   double integral = 0;      ///< 1/s
@@ -26,12 +26,13 @@ ParameterTable force_loop_settings();
 struct MountedDamper {
   std::shared_ptr<const DamperModel> model;
   DriverOptions driver;
-  /// Wanted force -> current. Without it damping is mapped in a straight line onto the driver's currents, and
-  /// a force is that damping which gives it at this speed.
+  /// Wanted force -> current. Without it damping is mapped in a straight line onto the driver's
+  /// currents, and a force is that damping which gives it at this speed.
   std::shared_ptr<const InverseModel> inverse;
   ForceLoop loop;
-  double current = 0;       ///< A, commanded where there is no controller
-  double motion_ratio = 1;  ///< the damper's travel over the strut's; its force counts there by as much
+  double current = 0;  ///< A, commanded where there is no controller
+  double motion_ratio =
+      1;  ///< the damper's travel over the strut's; its force counts there by as much
   /// This piece's force over its model's, as built: neither inverse nor controller knows of it.
   double force_factor = 1;
 
@@ -61,14 +62,14 @@ class CommandPath {
   std::array<double, 3> missed_{};  // of the force loop
 };
 
-/// Its moving parts: states of model, driver, inverse and force loop. Motions and forces are the strut's.
-/// Copied to try a step.
+/// Its moving parts: states of model, driver, inverse and force loop. Motions and forces are the
+/// strut's. Copied to try a step.
 class DamperState {
  public:
   DamperState(const MountedDamper& damper, const ControlLimits& limits, double deflection);
 
-  /// A new demand at this deflection and velocity, with this measured force: sets the driver's command.
-  /// Whether that is another one than before.
+  /// A new demand at this deflection and velocity, with this measured force: sets the driver's
+  /// command. Whether that is another one than before.
   bool demand(const DamperDemand& demand, const DamperInput& now, double force);
   /// From one instant to another one dt later.
   void advance(const DamperInput& from, const DamperInput& to, double dt) noexcept;
@@ -82,7 +83,9 @@ class DamperState {
   }
   const DamperModel& model() const noexcept { return *damper_->model; }
   std::span<const double> model_state() const noexcept { return state_; }
-  void put_model_state(const double* state) noexcept { std::copy_n(state, state_.size(), state_.begin()); }
+  void put_model_state(const double* state) noexcept {
+    std::copy_n(state, state_.size(), state_.begin());
+  }
   /// Without the model.
   void advance_coil(double dt) noexcept { driver_.advance(dt, driver_state_); }
   /// Whether the coil's current stays as it is while no command comes.

@@ -14,7 +14,8 @@ namespace {
 
 constexpr double kSteepest = 1e12;  // N*s/m
 
-void require_curve(const std::string& name, const std::vector<double>& v, const std::vector<double>& f) {
+void require_curve(const std::string& name, const std::vector<double>& v,
+                   const std::vector<double>& f) {
   if (v.size() < 2 || f.size() != v.size())
     throw Error(name, "a curve of " + std::to_string(std::min(v.size(), f.size())) + " points",
                 "two at least");
@@ -33,7 +34,8 @@ void require_curve(const std::string& name, const std::vector<double>& v, const 
 /// Of a curve that rises or falls wherever its points do, and has no kink.
 std::vector<double> monotone_slopes(const std::vector<double>& x, const std::vector<double>& y) {
   std::vector<double> secant;
-  for (std::size_t k = 1; k < x.size(); ++k) secant.push_back((y[k] - y[k - 1]) / (x[k] - x[k - 1]));
+  for (std::size_t k = 1; k < x.size(); ++k)
+    secant.push_back((y[k] - y[k - 1]) / (x[k] - x[k - 1]));
   std::vector<double> slope{secant.front()};
   for (std::size_t k = 1; k < secant.size(); ++k) {
     const double before = x[k] - x[k - 1], after = x[k + 1] - x[k];
@@ -45,7 +47,8 @@ std::vector<double> monotone_slopes(const std::vector<double>& x, const std::vec
   return slope;
 }
 
-std::vector<double> column_of(const RawTable& table, const ColumnUses& uses, const std::string& channel) {
+std::vector<double> column_of(const RawTable& table, const ColumnUses& uses,
+                              const std::string& channel) {
   const auto use = std::ranges::find(uses.used, channel, &ColumnUse::channel);
   if (use == uses.used.end())
     throw Error(table.file, "has no column '" + channel + "'; it has " + table.column_list(),
@@ -58,7 +61,8 @@ std::vector<double> column_of(const RawTable& table, const ColumnUses& uses, con
 
 }  // namespace
 
-PassiveCurve::PassiveCurve(std::string name, std::vector<double> velocity, std::vector<double> force)
+PassiveCurve::PassiveCurve(std::string name, std::vector<double> velocity,
+                           std::vector<double> force)
     : name_(std::move(name)), velocity_(std::move(velocity)), force_(std::move(force)) {
   require_curve(name_, velocity_, force_);
   slope_ = monotone_slopes(velocity_, force_);
@@ -69,7 +73,8 @@ double PassiveCurve::force(const DamperInput& input, std::span<const double>) co
   if (v <= velocity_.front()) return force_.front() + slope_.front() * (v - velocity_.front());
   if (v >= velocity_.back()) return force_.back() + slope_.back() * (v - velocity_.back());
   const auto above = std::upper_bound(velocity_.begin(), velocity_.end(), v) - velocity_.begin();
-  const auto k = static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(above, 1, std::ssize(velocity_) - 1));
+  const auto k =
+      static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(above, 1, std::ssize(velocity_) - 1));
   const double h = velocity_[k] - velocity_[k - 1], t = (v - velocity_[k - 1]) / h, u = 1 - t;
   return u * u * ((1 + 2 * t) * force_[k - 1] + t * h * slope_[k - 1]) +
          t * t * ((1 + 2 * u) * force_[k] - u * h * slope_[k]);
@@ -91,11 +96,12 @@ std::vector<std::string> passive_curve_names() { return data_names("curves", ".c
 PassiveCurve load_passive_curve(const std::string& name_or_path) {
   const std::vector<std::string> known = passive_curve_names();
   const bool shipped = std::ranges::find(known, name_or_path) != known.end();
-  const std::filesystem::path path =
-      shipped ? data_folder("curves") / (name_or_path + ".csv") : std::filesystem::path(name_or_path);
+  const std::filesystem::path path = shipped ? data_folder("curves") / (name_or_path + ".csv")
+                                             : std::filesystem::path(name_or_path);
   const RawTable table = read_tables(path).front();
   const ColumnUses uses = understand_columns(table, {}, {});
-  return {path.stem().string(), column_of(table, uses, "velocity"), column_of(table, uses, "force")};
+  return {path.stem().string(), column_of(table, uses, "velocity"),
+          column_of(table, uses, "force")};
 }
 
 }  // namespace dashpot

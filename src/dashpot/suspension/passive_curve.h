@@ -8,12 +8,13 @@
 
 namespace dashpot {
 
-/// A passive damper by its measured force over velocity: monotone between the points (Fritsch and Carlson,
-/// SIAM J. Numerical Analysis 17 (1980) 238), straight on beyond them, blind to current and displacement.
+/// A passive damper by its measured force over velocity: monotone between the points (Fritsch and
+/// Carlson, SIAM J. Numerical Analysis 17 (1980) 238), straight on beyond them, blind to current
+/// and displacement.
 class PassiveCurve final : public DamperModel {
  public:
-  /// velocity m/s, rising; force N, one per velocity. Throws Error on less than two points, on velocities
-  /// that do not rise, on numbers that are not finite.
+  /// velocity m/s, rising; force N, one per velocity. Throws Error on less than two points, on
+  /// velocities that do not rise, on numbers that are not finite.
   PassiveCurve(std::string name, std::vector<double> velocity, std::vector<double> force);
 
   std::string kind() const override { return "curve"; }
@@ -22,7 +23,8 @@ class PassiveCurve final : public DamperModel {
   std::size_t parameter_count() const noexcept override { return force_.size(); }
   std::size_t state_size() const noexcept override { return 0; }
   void rest(const DamperInput&, std::span<double>) const noexcept override {}
-  void advance(const DamperInput&, const DamperInput&, double, std::span<double>) const noexcept override {}
+  void advance(const DamperInput&, const DamperInput&, double,
+               std::span<double>) const noexcept override {}
   double force(const DamperInput& input, std::span<const double> state) const noexcept override;
   std::unique_ptr<DamperModel> with_offset(double newton) const override;
   Value to_json() const override;
@@ -37,8 +39,8 @@ class PassiveCurve final : public DamperModel {
 
 /// Names of the curves that come with Dashpot, in alphabetical order.
 std::vector<std::string> passive_curve_names();
-/// One of those, or a file with the columns velocity and force in units that it states. Throws Error with
-/// what is missing.
+/// One of those, or a file with the columns velocity and force in units that it states. Throws
+/// Error with what is missing.
 PassiveCurve load_passive_curve(const std::string& name_or_path);
 
 }  // namespace dashpot

@@ -13,8 +13,8 @@ RowMajor matrix_of(const std::vector<double>& values, std::size_t n) {
   return Eigen::Map<const RowMajor>(values.data(), size, size);
 }
 
-/// The part of x after `time` by x at the begin and by g, g' and g'' / 2 there: one exponential of the chain
-/// x' = A x + B g, g' = g1, g1' = 2 g2.
+/// The part of x after `time` by x at the begin and by g, g' and g'' / 2 there: one exponential of
+/// the chain x' = A x + B g, g' = g1, g1' = 2 g2.
 RowMajor by_derivatives(const LinearPlant& plant, double time) {
   const auto n = static_cast<Eigen::Index>(plant.size);
   const RowMajor inverse = matrix_of(plant.mass, plant.size).inverse();
@@ -31,7 +31,8 @@ RowMajor by_derivatives(const LinearPlant& plant, double time) {
 /// The same by g at the begin, the middle and the end of a step of length h.
 std::vector<double> by_values(const RowMajor& rows, std::size_t size, double h) {
   const auto n = static_cast<Eigen::Index>(size);
-  const auto g0 = rows.middleCols(2 * n, n), g1 = rows.middleCols(3 * n, n), g2 = rows.middleCols(4 * n, n);
+  const auto g0 = rows.middleCols(2 * n, n), g1 = rows.middleCols(3 * n, n),
+             g2 = rows.middleCols(4 * n, n);
   RowMajor out(2 * n, 5 * n);
   out << rows.leftCols(2 * n), g0 - 3 / h * g1 + 2 / (h * h) * g2, 4 / h * g1 - 4 / (h * h) * g2,
       -1 / h * g1 + 2 / (h * h) * g2;

@@ -2,12 +2,12 @@
 #include <span>
 #include <vector>
 
-#include "dashpot/suspension/linear.h"
+#include "dashpot/suspension/plants/linear.h"
 
 namespace dashpot {
 
-/// Exact step of M q'' + C q' + K q = g(t) for a force g that is a parabola through its values at the begin,
-/// the middle and the end of the step. x = [q, q'].
+/// Exact step of M q'' + C q' + K q = g(t) for a force g that is a parabola through its values at
+/// the begin, the middle and the end of the step. x = [q, q'].
 class Propagator {
  public:
   /// step: s, above 0.
@@ -15,10 +15,12 @@ class Propagator {
 
   double step() const noexcept { return step_; }
   /// x at the middle and at the end; g N, one per coordinate. Allocates nothing.
-  void middle(std::span<const double> x, const double* const g[3], std::span<double> out) const noexcept {
+  void middle(std::span<const double> x, const double* const g[3],
+              std::span<double> out) const noexcept {
     apply(middle_, x, g, out);
   }
-  void end(std::span<const double> x, const double* const g[3], std::span<double> out) const noexcept {
+  void end(std::span<const double> x, const double* const g[3],
+           std::span<double> out) const noexcept {
     apply(end_, x, g, out);
   }
 

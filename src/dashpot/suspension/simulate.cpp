@@ -36,10 +36,10 @@ class Simulation {
         output_step_(output_step(setting, options)),
         forces_(setting.plant, setting.ground),
         state_(PlantState::at_rest(setting.plant, setting.dampers, options.limits)),
-        integrator_(
-            forces_,
-            {options.relative_tolerance, options.absolute_tolerance, options.step.value_or(0), !options.step},
-            state_),
+        integrator_(forces_,
+                    {options.relative_tolerance, options.absolute_tolerance,
+                     options.step.value_or(0), !options.step},
+                    state_),
         sensors_(options.sensors, setting.plant.struts.size(), options.limits.sample_time),
         writer_(setting.plant, forces_, setting.ground,
                 static_cast<std::size_t>(options.duration / output_step_) + 2),
@@ -103,7 +103,8 @@ class Simulation {
     bool changed = false;
     for (std::size_t s = 0; s < signals_.size(); ++s)
       changed |= state_.dampers[s].demand(
-          demands_[s], {signals_[s].deflection, signals_[s].deflection_velocity, state_.dampers[s].current()},
+          demands_[s],
+          {signals_[s].deflection, signals_[s].deflection_velocity, state_.dampers[s].current()},
           signals_[s].force);
     if (changed) integrator_.refresh(state_);
   }
@@ -133,14 +134,16 @@ class Simulation {
     trace.record = writer_.take();
     trace.steps = integrator_.counts().steps;
     trace.evaluations = integrator_.counts().evaluations;
-    const auto first = trace.diverged_at ? 0
-                                         : std::ranges::lower_bound(trace.record.time, options_.discard) -
-                                               trace.record.time.begin();
+    const auto first = trace.diverged_at
+                           ? 0
+                           : std::ranges::lower_bound(trace.record.time, options_.discard) -
+                                 trace.record.time.begin();
     trace.contact_lost = contact_lost(trace.record, plant, static_cast<std::size_t>(first));
     const double stopped = stops_met(trace.record, plant, static_cast<std::size_t>(first));
     if (trace.contact_lost > 0)
-      trace.warnings.push_back((plant.tyres_may_lift ? "a tyre has no contact in "
-                                                     : "a tyre pulls at the road, which none can, in ") +
+      trace.warnings.push_back((plant.tyres_may_lift
+                                    ? "a tyre has no contact in "
+                                    : "a tyre pulls at the road, which none can, in ") +
                                share(trace.contact_lost));
     if (stopped > 0) trace.warnings.push_back("a stop is met in " + share(stopped));
     if (integrator_.counts().missed > 0)
@@ -170,7 +173,8 @@ class Simulation {
 void require_fitting(const Setting& setting, const SimulateOptions& options) {
   const Plant& plant = setting.plant;
   if (setting.dampers.size() != plant.struts.size())
-    throw Error(plant.name, "has " + std::to_string(plant.struts.size()) + " places for dampers, not " +
+    throw Error(plant.name, "has " + std::to_string(plant.struts.size()) +
+                                " places for dampers, not " +
                                 std::to_string(setting.dampers.size()));
   for (const MountedDamper& damper : setting.dampers)
     if (!damper.model) throw Error(plant.name, "a damper has no model");

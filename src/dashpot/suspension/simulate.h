@@ -5,11 +5,11 @@
 
 #include "dashpot/base/monitor.h"
 #include "dashpot/record/record.h"
-#include "dashpot/suspension/controller.h"
+#include "dashpot/suspension/control/controller.h"
+#include "dashpot/suspension/control/sensors.h"
 #include "dashpot/suspension/ground/ground_motion.h"
 #include "dashpot/suspension/mounted_damper.h"
-#include "dashpot/suspension/plant.h"
-#include "dashpot/suspension/sensors.h"
+#include "dashpot/suspension/plants/plant.h"
 
 namespace dashpot {
 
@@ -18,7 +18,8 @@ struct SimulateOptions {
   double output_step = 0;  ///< s, of the trace; 0: the controller's sample time, or 1 ms
   double discard = 0;      ///< s at the begin, which the shares of the time leave out
   double relative_tolerance = 1e-6, absolute_tolerance = 1e-9;
-  std::optional<double> step;  ///< s, at most, without control of the error; none: as the tolerances ask
+  std::optional<double>
+      step;  ///< s, at most, without control of the error; none: as the tolerances ask
   SensorOptions sensors;
   ControlLimits limits;
   Monitor monitor;
@@ -33,8 +34,9 @@ struct Setting {
 };
 
 /// Everything that happened, as a record: per coordinate q, q' and q''; per point its height and
-/// acceleration; per strut deflection, velocity, force, current, command; per tyre road height, deflection,
-/// load. "body", "body_velocity", "body_acceleration", "suspension_force", "tyre_load" ...
+/// acceleration; per strut deflection, velocity, force, current, command; per tyre road height,
+/// deflection, load. "body", "body_velocity", "body_acceleration", "suspension_force", "tyre_load"
+/// ...
 struct Trace {
   Record record;
   std::optional<double> diverged_at;  ///< s; the record ends there
@@ -47,10 +49,11 @@ struct Trace {
 /// Throws Error where the parts do not fit together.
 void require_fitting(const Setting& setting, const SimulateOptions& options);
 
-/// From rest on the ground as it is at t = 0. Between samples of the controller, instants of the output and
-/// jumps of the ground, which are met exactly, the linear part moves exactly under forces that are parabolas
-/// within a step (Propagator), found by iteration: of fourth order where forces are smooth, and no damper's
-/// own stiffness shortens the step. Throws Error as require_fitting().
+/// From rest on the ground as it is at t = 0. Between samples of the controller, instants of the
+/// output and jumps of the ground, which are met exactly, the linear part moves exactly under
+/// forces that are parabolas within a step (Propagator), found by iteration: of fourth order where
+/// forces are smooth, and no damper's own stiffness shortens the step. Throws Error as
+/// require_fitting().
 Trace simulate(const Setting& setting, const SimulateOptions& options);
 
 }  // namespace dashpot

@@ -16,7 +16,8 @@ std::string name_of(const Vehicle& vehicle) {
   std::string text = join(names, "; ");
   if (vehicle.limits.current_min < vehicle.limits.current_max) {
     const std::string drive = format_number(vehicle.dampers.front().current);
-    text += vehicle.drive_unit.empty() ? " at drive " + drive : " at " + drive + ' ' + vehicle.drive_unit;
+    text += vehicle.drive_unit.empty() ? " at drive " + drive
+                                       : " at " + drive + ' ' + vehicle.drive_unit;
   }
   return text;
 }
@@ -35,7 +36,8 @@ SimulatedRun run_vehicle(const std::shared_ptr<const Vehicle>& vehicle, const Gr
                    .warnings = {}};
   run.measures = ride_measures(*vehicle, ground, run.trace, settings.discard);
   run.warnings = run.trace.warnings;
-  for (std::string& warning : domain_warnings(domain_use(*vehicle, run.trace), options.allowed_outside))
+  for (std::string& warning :
+       domain_warnings(domain_use(*vehicle, run.trace), options.allowed_outside))
     run.warnings.push_back(std::move(warning));
   return run;
 }
@@ -56,8 +58,8 @@ VehicleWords passive_words(const VehicleWords& words, const std::string& against
     passive.dampers = {against};
     return passive;
   }
-  const bool all_ideal =
-      std::ranges::all_of(words.dampers, [](const std::string& d) { return trim(d).starts_with("ideal"); });
+  const bool all_ideal = std::ranges::all_of(
+      words.dampers, [](const std::string& d) { return trim(d).starts_with("ideal"); });
   const Vehicle held = make_vehicle(passive);
   if (all_ideal && held.set.damping)
     passive.dampers = {"viscous,damping=" + format_exact(held.set.damping->nominal)};

@@ -14,7 +14,8 @@ struct SimulatedRun {
   std::shared_ptr<const Vehicle> vehicle;
   Trace trace;
   std::vector<RideMeasure> measures;
-  std::vector<std::string> warnings;  ///< the trace's, and dampers that were asked beyond their data
+  std::vector<std::string>
+      warnings;  ///< the trace's, and dampers that were asked beyond their data
 };
 
 struct RunOptions {
@@ -31,9 +32,9 @@ SimulatedRun run_vehicle(const std::shared_ptr<const Vehicle>& vehicle, const Gr
 /// What to call it: the controller, or the dampers and what drives them.
 std::string name_of(const Vehicle& vehicle);
 
-/// The same plant without a controller, to compare with. against: a damper's words; or "current=..." for the
-/// same dampers at that current; empty: the plant's nominal damping where the dampers are ideal, else the
-/// same dampers at half of their current. Throws Error(where, ...).
+/// The same plant without a controller, to compare with. against: a damper's words; or
+/// "current=..." for the same dampers at that current; empty: the plant's nominal damping where the
+/// dampers are ideal, else the same dampers at half of their current. Throws Error(where, ...).
 VehicleWords passive_words(const VehicleWords& words, const std::string& against);
 
 }  // namespace dashpot

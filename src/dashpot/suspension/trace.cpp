@@ -58,7 +58,8 @@ TraceWriter::TraceWriter(const Plant& plant, const PlantForces& forces, const Gr
 }
 
 double contact_lost(const Record& trace, const Plant& plant, std::size_t first) {
-  return share_marked(trace, plant.tyres, "_load", first, [](const Tyre&, double load) { return load <= 0; });
+  return share_marked(trace, plant.tyres, "_load", first,
+                      [](const Tyre&, double load) { return load <= 0; });
 }
 
 double stops_met(const Record& trace, const Plant& plant, std::size_t first) {

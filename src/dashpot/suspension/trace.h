@@ -10,7 +10,8 @@ namespace dashpot {
 /// Writes what a plant does, sample by sample, into the channels of a Trace.
 class TraceWriter {
  public:
-  TraceWriter(const Plant& plant, const PlantForces& forces, const GroundMotion& ground, std::size_t samples);
+  TraceWriter(const Plant& plant, const PlantForces& forces, const GroundMotion& ground,
+              std::size_t samples);
   void write(const PlantState& state);
   Record take() { return std::move(record_); }
 
@@ -24,7 +25,8 @@ class TraceWriter {
   std::size_t place_ = 0;
 };
 
-/// Shares of the samples from `first` on: in which some tyre has no load or pulls; in which some stop is met.
+/// Shares of the samples from `first` on: in which some tyre has no load or pulls; in which some
+/// stop is met.
 double contact_lost(const Record& trace, const Plant& plant, std::size_t first);
 double stops_met(const Record& trace, const Plant& plant, std::size_t first);
 

@@ -16,7 +16,8 @@ namespace {
 
 PlantSet load_plant(const std::string& plant, const NamedValues& values) {
   if (plant.find_first_of("./") == std::string::npos) return load_plant_set(plant, values);
-  return parse_plant_set(read_file(plant), plant, std::filesystem::path(plant).stem().string(), values);
+  return parse_plant_set(read_file(plant), plant, std::filesystem::path(plant).stem().string(),
+                         values);
 }
 
 }  // namespace
@@ -25,14 +26,17 @@ PlantSet load_plant(const VehicleWords& words) {
   PlantSet set = load_plant(words.plant, {});
   if (words.values.empty()) return set;
   if (set.kind.empty())
-    throw Error(words.where, set.name + " has matrices, no parameter '" + words.values.front() + "'");
+    throw Error(words.where,
+                set.name + " has matrices, no parameter '" + words.values.front() + "'");
   const PlantModel& model = find_plant_model(set.kind);
   NamedValues values;
   for (const std::string& text : words.values) {
     const std::size_t equals = text.find('=');
     const std::string name(trim(text.substr(0, equals)));
-    if (equals == std::string::npos) throw Error(words.where, "'" + text + "' sets nothing", "name=value");
-    const ParameterRow& row = model.parameters[row_named(model.parameters, name, model.name, words.where)];
+    if (equals == std::string::npos)
+      throw Error(words.where, "'" + text + "' sets nothing", "name=value");
+    const ParameterRow& row =
+        model.parameters[row_named(model.parameters, name, model.name, words.where)];
     values.emplace_back(name, parse_value(row, text.substr(equals + 1), words.where));
   }
   return load_plant(words.plant, values);
@@ -43,15 +47,16 @@ namespace {
 std::vector<ChosenDamper> choose_dampers(const VehicleWords& words, const PlantSet& set) {
   std::vector<std::string> texts = words.dampers;
   if (texts.empty()) {
-    if (!set.damping) throw Error(words.where, set.name + " states no damper of its own", "name one");
+    if (!set.damping)
+      throw Error(words.where, set.name + " states no damper of its own", "name one");
     texts = {"ideal,damping_min=" + format_exact(set.damping->least) +
              ",damping_max=" + format_exact(set.damping->greatest)};
   }
   const std::size_t places = set.plant.struts.size();
   if (texts.size() != 1 && texts.size() != places)
     throw Error(words.where,
-                std::to_string(texts.size()) + " dampers for the " + std::to_string(places) + " struts of " +
-                    set.name,
+                std::to_string(texts.size()) + " dampers for the " + std::to_string(places) +
+                    " struts of " + set.name,
                 "one for all, or one for each");
   std::vector<ChosenDamper> chosen;
   for (const std::string& text : texts) chosen.push_back(choose_damper(text, words.where));
@@ -74,38 +79,42 @@ DriveRange drive_range(const std::vector<ChosenDamper>& dampers, const VehicleWo
   const ChosenDamper* first = nullptr;
   for (const ChosenDamper& damper : dampers) {
     if (damper.is_passive()) continue;
-    const bool alike = !first || (damper.drive_unit == range.unit && damper.drive_min == range.low &&
-                                  (words.current_max > 0 || damper.drive_max == range.high));
+    const bool alike =
+        !first || (damper.drive_unit == range.unit && damper.drive_min == range.low &&
+                   (words.current_max > 0 || damper.drive_max == range.high));
     if (!alike)
-      throw Error(words.where, first->name + " and " + damper.name + " are not driven over the same range",
+      throw Error(words.where,
+                  first->name + " and " + damper.name + " are not driven over the same range",
                   "dampers that one current suits; a common greatest one may be stated");
     if (!first) range = {damper.drive_unit, damper.drive_min, damper.drive_max};
     first = first ? first : &damper;
   }
   if (words.current_max > 0 && first) range.high = words.current_max;
   if (first && !(range.low < range.high))
-    throw Error(words.where, "a greatest drive of " + range.text(range.high) + " is not above the least, " +
-                                 range.text(range.low));
+    throw Error(words.where, "a greatest drive of " + range.text(range.high) +
+                                 " is not above the least, " + range.text(range.low));
   return range;
 }
 
-std::string damping_note(const ChosenDamper& damper, const DampingRange& damping, const DriveRange& drive) {
+std::string damping_note(const ChosenDamper& damper, const DampingRange& damping,
+                         const DriveRange& drive) {
   const auto [amplitude, speed] = reference_stroke(damper);
   std::string text = damper.name + ": ";
   if (damper.is_passive())
     text += format_number(damping.nominal) + " N*s/m";
   else
-    text += format_number(damping.least) + " to " + format_number(damping.greatest) + " N*s/m between " +
-            format_number(drive.low) + " and " + drive.text(drive.high);
-  return text + " at the strut, equivalent over a sine of " + format_number(1000 * amplitude) + " mm at " +
-         format_number(speed) + " m/s of the damper";
+    text += format_number(damping.least) + " to " + format_number(damping.greatest) +
+            " N*s/m between " + format_number(drive.low) + " and " + drive.text(drive.high);
+  return text + " at the strut, equivalent over a sine of " + format_number(1000 * amplitude) +
+         " mm at " + format_number(speed) + " m/s of the damper";
 }
 
 /// What the controller knows of the dampers: the mean over those that it drives.
 ControlLimits control_limits(const std::vector<ChosenDamper>& dampers, const DriveRange& drive,
                              const VehicleWords& words, std::vector<std::string>& notes) {
   ControlLimits limits{0, 0, drive.low, drive.high, words.sample_time};
-  if (!(words.sample_time > 0)) throw Error(words.where, "the controller's sample time is not above 0");
+  if (!(words.sample_time > 0))
+    throw Error(words.where, "the controller's sample time is not above 0");
   double driven = 0;
   std::vector<std::string> told;
   for (const ChosenDamper& damper : dampers) {
@@ -123,17 +132,21 @@ ControlLimits control_limits(const std::vector<ChosenDamper>& dampers, const Dri
   return limits;
 }
 
-std::shared_ptr<const InverseModel> make_inverse(const ChosenDamper& damper, const DriverOptions& driver,
+std::shared_ptr<const InverseModel> make_inverse(const ChosenDamper& damper,
+                                                 const DriverOptions& driver,
                                                  const VehicleWords& words) {
-  const InverseLimits limits{driver.current_min, driver.current_max, words.sample_time, driver.lag_rate};
+  const InverseLimits limits{driver.current_min, driver.current_max, words.sample_time,
+                             driver.lag_rate};
   if (words.inverse.find_first_of("./") == std::string::npos)
     return find_inverse(words.inverse, words.where).make(*damper.model, limits);
   return std::make_shared<HistoryNetwork>(load_inverse(words.inverse).network, limits);
 }
 
-MountedDamper mount(const ChosenDamper& damper, const DriveRange& drive, const VehicleWords& words) {
-  MountedDamper mounted{
-      .model = damper.model, .motion_ratio = damper.motion_ratio, .force_factor = damper.force_factor};
+MountedDamper mount(const ChosenDamper& damper, const DriveRange& drive,
+                    const VehicleWords& words) {
+  MountedDamper mounted{.model = damper.model,
+                        .motion_ratio = damper.motion_ratio,
+                        .force_factor = damper.force_factor};
   if (damper.is_passive()) return mounted;
   mounted.driver = {.current_min = drive.low,
                     .current_max = drive.high,
@@ -141,10 +154,10 @@ MountedDamper mount(const ChosenDamper& damper, const DriveRange& drive, const V
   if (!words.inverse.empty()) mounted.inverse = make_inverse(damper, mounted.driver, words);
   if (!words.force_loop.empty()) {
     if (words.inverse.empty())
-      throw Error(words.where, "a force loop needs an inverse, which turns its force into a current",
-                  "numeric");
-    const std::vector<double> gains =
-        parse_values(force_loop_settings(), split(words.force_loop, ','), "the force loop", words.where);
+      throw Error(words.where,
+                  "a force loop needs an inverse, which turns its force into a current", "numeric");
+    const std::vector<double> gains = parse_values(
+        force_loop_settings(), split(words.force_loop, ','), "the force loop", words.where);
     mounted.loop = {gains[0], gains[1], gains[2]};
   }
   mounted.current = words.controller.empty() ? std::max(words.current, drive.low) : drive.low;
@@ -154,9 +167,11 @@ MountedDamper mount(const ChosenDamper& damper, const DriveRange& drive, const V
 void add_controller(Vehicle& vehicle, const DriveRange& drive, const VehicleWords& words) {
   if (words.controller.empty()) return;
   if (!(drive.low < drive.high))
-    throw Error(words.where, "'" + words.controller + "' has nothing to control: every damper is passive",
+    throw Error(words.where,
+                "'" + words.controller + "' has nothing to control: every damper is passive",
                 "a damper that a current drives");
-  vehicle.controller = make_controller(words.controller, {vehicle.limits, vehicle.set.plant}, words.where);
+  vehicle.controller =
+      make_controller(words.controller, {vehicle.limits, vehicle.set.plant}, words.where);
   vehicle.controller_name = words.controller;
   if (words.sensors.in_car && needs_plant_state(words.controller))
     throw Error(words.where, "'" + words.controller + "' feeds back what no sensor of a car tells",
@@ -166,25 +181,30 @@ void add_controller(Vehicle& vehicle, const DriveRange& drive, const VehicleWord
 }  // namespace
 
 SimulateOptions Vehicle::options(double duration) const {
-  // The weighting of accelerations reaches to 100 Hz: every millisecond, or an even part of a sample.
+  // The weighting of accelerations reaches to 100 Hz: every millisecond, or an even part of a
+  // sample.
   const double parts = std::max(1.0, std::ceil(limits.sample_time / 1e-3 - 1e-9));
-  return {
-      .duration = duration, .output_step = limits.sample_time / parts, .sensors = sensors, .limits = limits};
+  return {.duration = duration,
+          .output_step = limits.sample_time / parts,
+          .sensors = sensors,
+          .limits = limits};
 }
 
 Vehicle make_vehicle(const VehicleWords& words) {
   Vehicle vehicle{.set = load_plant(words), .sensors = words.sensors};
   if (!vehicle.set.verified)
-    vehicle.notes.push_back("the numbers of " + vehicle.set.name + " are an example: " + vehicle.set.reason);
+    vehicle.notes.push_back("the numbers of " + vehicle.set.name +
+                            " are an example: " + vehicle.set.reason);
   const std::vector<ChosenDamper> chosen = choose_dampers(words, vehicle.set);
   const DriveRange drive = drive_range(chosen, words);
   if (drive.low < drive.high && !(words.current <= drive.high))
-    throw Error(words.where, "a drive of " + drive.text(words.current) + " is beyond the greatest, " +
-                                 drive.text(drive.high));
+    throw Error(words.where, "a drive of " + drive.text(words.current) +
+                                 " is beyond the greatest, " + drive.text(drive.high));
   vehicle.drive_unit = drive.unit;
   for (const ChosenDamper& damper : chosen) {
     for (const std::string& note : damper.notes)
-      if (std::ranges::find(vehicle.notes, note) == vehicle.notes.end()) vehicle.notes.push_back(note);
+      if (std::ranges::find(vehicle.notes, note) == vehicle.notes.end())
+        vehicle.notes.push_back(note);
     vehicle.dampers.push_back(mount(damper, drive, words));
     vehicle.damper_names.push_back(damper.name);
     vehicle.domains.push_back(damper.domain);

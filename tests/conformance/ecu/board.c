@@ -1,5 +1,5 @@
-/* Start, clock and voice of a Cortex-M4F that qemu makes: floating point on, SysTick as a counter of
- * instructions, words out by semihosting. */
+/* Start, clock and voice of a Cortex-M4F that qemu makes: floating point on, SysTick as a counter
+ * of instructions, words out by semihosting. */
 #include "board.h"
 
 extern uint32_t data_load, data_start, data_end, bss_start, bss_end, stack_top;

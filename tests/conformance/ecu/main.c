@@ -1,6 +1,6 @@
-/* Steps each model of models.h through the run there, by its NAME_next. Prints per model, on a line: its
- * name, the largest difference of its force from the library's in 1e-12 of the span, the instructions of the
- * longest step, and the bytes of stack that a step took. */
+/* Steps each model of models.h through the run there, by its NAME_next. Prints per model, on a
+ * line: its name, the largest difference of its force from the library's in 1e-12 of the span, the
+ * instructions of the longest step, and the bytes of stack that a step took. */
 #include "board.h"
 #include "models.h"
 

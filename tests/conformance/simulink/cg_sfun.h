@@ -1,5 +1,5 @@
-/* Stands at the end of an S-function: steps it along the run of run.h, as Simulink does, with outputs asked
- * for twice. */
+/* Stands at the end of an S-function: steps it along the run of run.h, as Simulink does, with
+ * outputs asked for twice. */
 #include <math.h>
 #include <stdio.h>
 
@@ -12,7 +12,8 @@ int main(void) {
   size_t k;
   mdlInitializeSizes(S);
   mdlInitializeSampleTimes(S);
-  if (S->input_width != 3 || S->output_width != 1 || S->work_width[0] > 64 || S->sample_time != SAMPLE_TIME)
+  if (S->input_width != 3 || S->output_width != 1 || S->work_width[0] > 64 ||
+      S->sample_time != SAMPLE_TIME)
     return 2;
   mdlInitializeConditions(S);
   for (k = 0; k < sizeof kRun / sizeof kRun[0]; ++k) {

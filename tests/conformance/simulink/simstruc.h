@@ -1,4 +1,5 @@
-/* As much of Simulink's interface to an S-function as the exported one uses: its own numbers, no Simulink. */
+/* As much of Simulink's interface to an S-function as the exported one uses: its own numbers, no
+ * Simulink. */
 #ifndef SIMSTRUC_H
 #define SIMSTRUC_H
 #include <stddef.h>
@@ -9,7 +10,8 @@ typedef const real_T* const* InputRealPtrsType;
 enum { SS_DOUBLE };
 
 typedef struct SimStruct {
-  int parameters, input_ports, output_ports, input_width, output_width, feedthrough, sample_times, works;
+  int parameters, input_ports, output_ports, input_width, output_width, feedthrough, sample_times,
+      works;
   double sample_time, offset_time;
   const real_T* inputs[3];
   real_T output;

@@ -25,7 +25,8 @@ InverseNetwork linear(std::vector<Tap> taps, std::vector<double> weights, double
 
 constexpr InverseLimits kLimits{.current_max = 10};  // 1 ms
 
-std::vector<double> commands(const HistoryNetwork& inverse, const std::vector<InverseInput>& inputs) {
+std::vector<double> commands(const HistoryNetwork& inverse,
+                             const std::vector<InverseInput>& inputs) {
   std::vector<double> state(inverse.state_size()), answers;
   inverse.rest({}, state);
   for (const InverseInput& input : inputs) answers.push_back(inverse.command(input, state));
@@ -35,19 +36,19 @@ std::vector<double> commands(const HistoryNetwork& inverse, const std::vector<In
 }  // namespace
 
 TEST_CASE("inverse network: each tap reads its own signal, so many steps ago") {
-  const HistoryNetwork inverse(linear({{Displacement, 0}, {Velocity, 1}, {Force, 2}}, {1, 10, 100}, 0),
-                               kLimits);
+  const HistoryNetwork inverse(
+      linear({{Displacement, 0}, {Velocity, 1}, {Force, 2}}, {1, 10, 100}, 0), kLimits);
   // Steps of 2 ms at commands each 1 ms: v is seen 2 commands later, the force 4 commands later.
-  const std::vector<double> answers =
-      commands(inverse, {{.wanted = 0.03, .displacement = 0.5, .velocity = 0.2}, {}, {}, {}, {}, {}});
+  const std::vector<double> answers = commands(
+      inverse, {{.wanted = 0.03, .displacement = 0.5, .velocity = 0.2}, {}, {}, {}, {}, {}});
   const double expected[] = {0.5, 0, 2, 0, 3, 0};
   for (std::size_t k = 0; k < answers.size(); ++k) CHECK_CLOSE(answers[k], expected[k], 0, 1e-12);
 }
 
 TEST_CASE("inverse network: it feeds back its own answer, not the coil's current") {
   const HistoryNetwork inverse(linear({{Current, 1}, {Force, 0}}, {0.5, 1}, 0), kLimits);
-  const std::vector<double> answers =
-      commands(inverse, {{.wanted = 4, .current = 9}, {.current = 9}, {.current = 9}, {}, {.current = 9}});
+  const std::vector<double> answers = commands(
+      inverse, {{.wanted = 4, .current = 9}, {.current = 9}, {.current = 9}, {}, {.current = 9}});
   const double expected[] = {4, 0, 2, 0, 1};
   for (std::size_t k = 0; k < answers.size(); ++k) CHECK_CLOSE(answers[k], expected[k], 0, 1e-12);
 }
@@ -69,8 +70,8 @@ TEST_CASE("inverse network: within the limits and what it was taught; its rate o
 TEST_CASE("inverse network: what overflows gives the least current, and is forgotten in time") {
   constexpr double kHuge = std::numeric_limits<double>::max();
   InverseNetwork network = linear({{Force, 0}, {Velocity, 0}}, {3, -3}, 0);
-  const std::vector<double> answers =
-      commands(HistoryNetwork(network, kLimits), {{.wanted = kHuge, .velocity = kHuge}, {.wanted = 1}});
+  const std::vector<double> answers = commands(
+      HistoryNetwork(network, kLimits), {{.wanted = kHuge, .velocity = kHuge}, {.wanted = 1}});
   CHECK(answers[0] == 0);  // infinity less infinity
   CHECK_CLOSE(answers[1], 3, 0, 1e-12);
 }
@@ -85,9 +86,11 @@ TEST_CASE("inverse network: what cannot work is refused") {
         std::string::npos);
   CHECK(message(good, {.sample_time = 4e-3}).find("steps of 2 ms") != std::string::npos);
   CHECK(message(good, {.current_max = 10, .sample_time = 1.0 / 3004.8}).empty());  // 6.01 samples
-  CHECK(message(good, {.current_min = 11, .current_max = 12}).find("none of which") != std::string::npos);
-  CHECK(message(linear({{Current, 0}}, {1}, 0)).find("a delay of 0 steps of the current; 1 to 100") !=
+  CHECK(message(good, {.current_min = 11, .current_max = 12}).find("none of which") !=
         std::string::npos);
+  CHECK(
+      message(linear({{Current, 0}}, {1}, 0)).find("a delay of 0 steps of the current; 1 to 100") !=
+      std::string::npos);
   CHECK(message(linear({{Force, 101}}, {1}, 0)).find("a delay of 101 steps") != std::string::npos);
   CHECK(message(linear({{Force, 0}}, {1, 2}, 0)).find("weights") != std::string::npos);
   InverseNetwork bad = good;

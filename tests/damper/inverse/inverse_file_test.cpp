@@ -48,7 +48,8 @@ TEST_CASE("inverse file: read back bit for bit, and the same currents") {
     other.rest({}, others);
     Random random(3);
     for (int k = 0; k < 100; ++k) {
-      const InverseInput input{1000 * random.normal(), 0.01 * random.normal(), 0.1 * random.normal(), 0.5, 0};
+      const InverseInput input{1000 * random.normal(), 0.01 * random.normal(),
+                               0.1 * random.normal(), 0.5, 0};
       CHECK(one.command(input, state) == other.command(input, others));
     }
   }
@@ -62,12 +63,14 @@ TEST_CASE("inverse file: what is wrong is named with its key") {
        "is 'dashpot-model', not a file of an inverse; write dashpot-inverse"},
       {"\"version\": 1", "\"version\": 2", "version 2 is not known here"},
       {"\"sample_time\": 0.005", "\"sample_time\": -1", "its step is not between"},
-      {"\"signal\": \"force\"", "\"signal\": \"forse\"", "unknown signal 'forse'; did you mean 'force'?"},
+      {"\"signal\": \"force\"", "\"signal\": \"forse\"",
+       "unknown signal 'forse'; did you mean 'force'?"},
       {"\"signal\": \"force\"", "\"signal\": \"current\"", "a delay of 0 steps of the current"},
       {"\"delay\": 0", "\"delay\": 0.5", "its delay is no number of steps"},
       {"\"unit\": \"V\"", "\"unit\": \"A\"", "unit is 'A'; write V"},
       {"\"layers\"", "\"layer\"", "layers"},
-      {"\"name\": \"static\",", "\"name\": \"static\", \"rate_max\": -2,", "its rate limit is below 0"},
+      {"\"name\": \"static\",", "\"name\": \"static\", \"rate_max\": -2,",
+       "its rate limit is below 0"},
       {"\"quality\"", "\"qualities\"", "qualities"},
   };
   for (const auto& c : cases) {

@@ -3,19 +3,20 @@
 #include <vector>
 
 #include "dashpot/damper/inverse/inverse.h"
-#include "dashpot/damper/law_model.h"
+#include "dashpot/damper/kinds/law/law_model.h"
 
 // What the tests of the inverses share.
 
 /// One call of an inverse whose state starts from rest at the input's motion and current.
-inline double first_command(const dashpot::InverseModel& inverse, const dashpot::InverseInput& input) {
+inline double first_command(const dashpot::InverseModel& inverse,
+                            const dashpot::InverseInput& input) {
   std::vector<double> state(inverse.state_size());
   inverse.rest({input.displacement, input.velocity, input.current}, state);
   return inverse.command(input, state);
 }
 
-/// Every parameter that by default depends on the current grows linearly with it, from a quarter of its
-/// example value to the whole at 1 A.
+/// Every parameter that by default depends on the current grows linearly with it, from a quarter of
+/// its example value to the whole at 1 A.
 inline dashpot::LawModel driven(const dashpot::Law& law, double lag_rate) {
   using namespace dashpot;
   Dependence d;
@@ -51,7 +52,8 @@ class CountingModel final : public dashpot::DamperModel {
                std::span<double> state) const noexcept override {
     model_->advance(from, to, dt, state);
   }
-  double force(const dashpot::DamperInput& input, std::span<const double> state) const noexcept override {
+  double force(const dashpot::DamperInput& input,
+               std::span<const double> state) const noexcept override {
     ++*count_;
     return model_->force(input, state);
   }

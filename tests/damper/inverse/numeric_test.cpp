@@ -7,7 +7,7 @@
 #include "dashpot/damper/inverse/wanted.h"
 #include "dashpot/damper/parameter_set.h"
 #include "dashpot/damper/registry.h"
-#include "dashpot/identify/track.h"
+#include "dashpot/identify/judge/track.h"
 #include "support.h"
 
 using namespace dashpot;
@@ -18,9 +18,10 @@ LawModel bingham(std::vector<double> friction) {
   const Form form = friction.size() == 1   ? Form::Constant
                     : friction.size() == 2 ? Form::Linear
                                            : Form::Quadratic;
-  return LawModel(find_law("bingham"),
-                  {{Form::Constant, form, Form::Constant, Form::Constant}, {{1000}, friction, {20}, {0}}},
-                  "A", 0);
+  return LawModel(
+      find_law("bingham"),
+      {{Form::Constant, form, Form::Constant, Form::Constant}, {{1000}, friction, {20}, {0}}}, "A",
+      0);
 }
 
 }  // namespace
@@ -30,20 +31,23 @@ TEST_CASE("numeric inverse: the closed form of Bingham, from either side and at 
   for (const double v : {0.1, -0.3})
     for (const double i : {0.0, 0.001, 0.7, 1.3, 2.0}) {
       const double wanted = 1000 * v + std::copysign(100 + 800 * i, v) + 20;
-      CHECK_CLOSE(first_command(inverse, {.wanted = wanted, .velocity = v, .current = 1}), i, 0, 1e-5);
+      CHECK_CLOSE(first_command(inverse, {.wanted = wanted, .velocity = v, .current = 1}), i, 0,
+                  1e-5);
     }
   CHECK(first_command(inverse, {.wanted = 1e6, .velocity = 0.1}) == 2);
   CHECK(first_command(inverse, {.wanted = -1e6, .velocity = 0.1, .current = 1}) == 0);
 }
 
 TEST_CASE("numeric inverse: it stays on the rising side, also when warm") {
-  const NumericInverse inverse(bingham({100, 1000, -250}), {.current_max = 4});  // back to 100 N at 4 A
+  const NumericInverse inverse(bingham({100, 1000, -250}),
+                               {.current_max = 4});  // back to 100 N at 4 A
   std::vector<double> state(inverse.state_size());
   inverse.rest({}, state);
   for (int k = 0; k < 400; ++k) {
     const double i = 1 + 0.95 * std::sin(0.05 * k), v = k % 90 < 45 ? 0.1 : -0.1;
     const double wanted = 1000 * v + std::copysign(100 + 1000 * i - 250 * i * i, v) + 20;
-    CHECK_CLOSE(inverse.command({.wanted = wanted, .velocity = v, .current = i}, state), i, 0, 1e-3);
+    CHECK_CLOSE(inverse.command({.wanted = wanted, .velocity = v, .current = i}, state), i, 0,
+                1e-3);
   }
 }
 
@@ -57,22 +61,26 @@ TEST_CASE("input that is not finite keeps the present current, and the inverse r
   const NumericInverse inverse(model, {.current_max = 2.25});
   std::vector<double> state(inverse.state_size());
   inverse.rest({}, state);
-  const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
+  const double nan = std::numeric_limits<double>::quiet_NaN(),
+               inf = std::numeric_limits<double>::infinity();
   for (const double bad : {nan, inf, -inf}) {
     CHECK(inverse.command({.wanted = bad, .current = 0.5}, state) == 0.5);
     CHECK(inverse.command({.wanted = 100, .velocity = bad, .current = 5}, state) == 2.25);
     CHECK(inverse.command({.wanted = 100, .velocity = 0.1, .current = bad}, state) >= 0);
   }
-  CHECK(std::isfinite(inverse.command({.wanted = 100, .displacement = 1e300, .velocity = -1e300}, state)));
+  CHECK(std::isfinite(
+      inverse.command({.wanted = 100, .displacement = 1e300, .velocity = -1e300}, state)));
   for (int k = 0; k < 200; ++k)
     inverse.command({.wanted = 900, .displacement = 1e-4 * k, .velocity = 0.1}, state);
-  CHECK(inverse.command({.wanted = 900, .displacement = 0.02, .velocity = 0.1, .current = 1}, state) > 0.5);
+  CHECK(inverse.command({.wanted = 900, .displacement = 0.02, .velocity = 0.1, .current = 1},
+                        state) > 0.5);
 }
 
 TEST_CASE("the command leads a lagging coil so that it arrives one sample later") {
   const InverseLimits limits{.current_max = 2, .sample_time = 2e-3, .lag_rate = 100};
   const NumericInverse inverse(bingham({100, 800}), limits);
-  const double command = first_command(inverse, {.wanted = 1020, .velocity = 0.1, .current = 0.95});  // 1 A
+  const double command =
+      first_command(inverse, {.wanted = 1020, .velocity = 0.1, .current = 0.95});  // 1 A
   CHECK_CLOSE(0.95 + (command - 0.95) * (1 - std::exp(-0.2)), 1.0, 0, 1e-5);
 }
 

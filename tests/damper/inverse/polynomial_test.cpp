@@ -13,14 +13,15 @@ namespace {
 
 /// MODELS.md 4.8: the values of Lozoya and Tudon.
 LawModel sp_lozoya() {
-  return LawModel(
-      find_law("semi_phenomenological"),
-      {{Form::Linear, Form::Constant, Form::Constant, Form::Constant, Form::Constant, Form::Constant},
-       {{0, 600.95}, {37.85}, {22.15}, {2830.86}, {-7897.21}, {0}}},
-      "A", 0);
+  return LawModel(find_law("semi_phenomenological"),
+                  {{Form::Linear, Form::Constant, Form::Constant, Form::Constant, Form::Constant,
+                    Form::Constant},
+                   {{0, 600.95}, {37.85}, {22.15}, {2830.86}, {-7897.21}, {0}}},
+                  "A", 0);
 }
 
-/// Bingham with c0 = 1000 + 500 i and the friction 100 + 1000 i - 250 i^2, whose summit lies at 2 A.
+/// Bingham with c0 = 1000 + 500 i and the friction 100 + 1000 i - 250 i^2, whose summit lies at 2
+/// A.
 LawModel parabola() {
   return LawModel(find_law("bingham"),
                   {{Form::Linear, Form::Quadratic, Form::Constant, Form::Constant},
@@ -57,11 +58,12 @@ TEST_CASE("Bingham: I from f_c(I) = (F - c0 v - f0) sgn v, on the rising side of
 }
 
 TEST_CASE("a cubic dependence: the least current that gives the force") {
-  const LawModel model(
-      find_law("bingham"),
-      {{Form::Constant, Form::Cubic, Form::Constant, Form::Constant}, {{0}, {100, 600, -900, 400}, {0}, {0}}},
-      "A", 0);
-  // 600 i - 900 i^2 + 400 i^3 rises to 125 at 0.5 and falls to 100 at 1: 120 N is met three times in 0
+  const LawModel model(find_law("bingham"),
+                       {{Form::Constant, Form::Cubic, Form::Constant, Form::Constant},
+                        {{0}, {100, 600, -900, 400}, {0}, {0}}},
+                       "A", 0);
+  // 600 i - 900 i^2 + 400 i^3 rises to 125 at 0.5 and falls to 100 at 1: 120 N is met three times
+  // in 0
   // ... 1.5.
   const PolynomialInverse inverse(model, {.current_max = 1.5});
   CHECK(inverse.degree() == 3);

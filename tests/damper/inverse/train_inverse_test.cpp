@@ -31,12 +31,14 @@ InverseRun closed_form_run(double frequency, double phase) {
 
 TEST_CASE("run on a model: the weight is the squared effect of the current, in closed form") {
   const LawModel model = driven(find_law("bingham"), 0);
-  // 'driven' lets its c0 and its friction fc go from a quarter to the whole of their values: c0 |v| + fc.
+  // 'driven' lets its c0 and its friction fc go from a quarter to the whole of their values: c0 |v|
+  // + fc.
   const auto value = [](std::string_view name) {
     return std::ranges::find(find_law("bingham").params, name, &ParamInfo::name)->value;
   };
   const double effect = 0.75 * (value("c0") * 0.1 + value("f_c"));
-  const std::vector<DamperInput> inputs{{0, 0.1, 0}, {1e-4, 0.1, 0.5}, {2e-4, -0.1, 1}, {1e-4, 0, 0.5}};
+  const std::vector<DamperInput> inputs{
+      {0, 0.1, 0}, {1e-4, 0.1, 0.5}, {2e-4, -0.1, 1}, {1e-4, 0, 0.5}};
   const InverseRun run = run_on_model(model, "hand", inputs, {});
   REQUIRE(run.size() == 4);
   for (std::size_t k = 0; k < 3; ++k) CHECK_CLOSE(run.weight[k], effect * effect, 1e-9, 0);
@@ -80,8 +82,9 @@ TEST_CASE("train: a static network finds the inverse in closed form where the cu
   CHECK(again.network.mlp.parameters == taught.network.mlp.parameters);
   InverseTraining threads = options;
   threads.threads = 2;
-  CHECK(train_inverse(find_inverse_network("static"), runs, others, threads).network.mlp.parameters ==
-        taught.network.mlp.parameters);
+  CHECK(
+      train_inverse(find_inverse_network("static"), runs, others, threads).network.mlp.parameters ==
+      taught.network.mlp.parameters);
 }
 
 TEST_CASE("train: a network with feedback that saw true currents only is worse in free run") {

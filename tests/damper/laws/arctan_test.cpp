@@ -3,7 +3,8 @@
 #include "support.h"
 
 namespace {
-constexpr Arctan kDamper{.f_y = 600, .kappa = 80, .v_h = 0.01, .c = 1000, .a_s = 0.05, .r = 200, .f0 = 20};
+constexpr Arctan kDamper{
+    .f_y = 600, .kappa = 80, .v_h = 0.01, .c = 1000, .a_s = 0.05, .r = 200, .f0 = 20};
 
 double force(double v, double a) {
   const double z = v - a / kDamper.r;

@@ -16,5 +16,6 @@ TEST_CASE("Bingham's smooth friction is within the stated 0.5 % beyond three v_s
   CHECK(bingham_force(&smooth, 0, 0, nullptr) == 0);
   CHECK(bingham_force(&smooth, 0, 0.01, nullptr) < 80);  // 100 tanh(1) = 76.2
   for (const double v : {-0.3, -0.0301, 0.0301, 0.1})
-    CHECK_CLOSE(bingham_force(&smooth, 0, v, nullptr), bingham_force(&sharp, 0, v, nullptr), 0.005, 0);
+    CHECK_CLOSE(bingham_force(&smooth, 0, v, nullptr), bingham_force(&sharp, 0, v, nullptr), 0.005,
+                0);
 }

@@ -17,6 +17,7 @@ TEST_CASE("with C_pr below C_po the biviscous law stays continuous and dissipati
   for (double v = -0.2; v < 0.2; v += 1e-3) {
     const double here = biviscous_force(&damper, 0, v, nullptr);
     CHECK(here * v >= 0);
-    CHECK_CLOSE(biviscous_force(&damper, 0, v + 1e-3, nullptr), here, 0, 2.001);  // no steeper than C_po
+    CHECK_CLOSE(biviscous_force(&damper, 0, v + 1e-3, nullptr), here, 0,
+                2.001);  // no steeper than C_po
   }
 }

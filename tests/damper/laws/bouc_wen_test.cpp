@@ -15,7 +15,8 @@ TEST_CASE("Bouc-Wen: TC-4.4") {
   CHECK_CLOSE(found[0].state[0], 7.7459667e-3, 0, 5e-11);
 }
 
-TEST_CASE("Bouc-Wen: one step is the whole way, whatever n and the direction, as many small ones tell") {
+TEST_CASE(
+    "Bouc-Wen: one step is the whole way, whatever n and the direction, as many small ones tell") {
   const Law& law = find_law("bouc_wen");
   Random random(2);
   for (const double n : {1.0, 2.0})
@@ -30,7 +31,8 @@ TEST_CASE("Bouc-Wen: one step is the whole way, whatever n and the direction, as
       REQUIRE(law.step(p, x, v, h, &once) == 1);
       constexpr int kSteps = 2000;
       for (int k = 0; k < kSteps; ++k) {  // Heun's method: its error is of the order of 1e-6 here
-        const double v0 = v[0] + (v[1] - v[0]) * k / kSteps, v1 = v[0] + (v[1] - v[0]) * (k + 1) / kSteps;
+        const double v0 = v[0] + (v[1] - v[0]) * k / kSteps,
+                     v1 = v[0] + (v[1] - v[0]) * (k + 1) / kSteps;
         double a, b;
         law.derivative(p, 0, v0, &z, &a);
         const double trial_z = z + h / kSteps * a;
@@ -42,13 +44,15 @@ TEST_CASE("Bouc-Wen: one step is the whole way, whatever n and the direction, as
     }
 }
 
-TEST_CASE("Bouc-Wen: z_max, and z has no scale: alpha/s, s A, gamma/s and beta/s give the same force") {
+TEST_CASE(
+    "Bouc-Wen: z_max, and z has no scale: alpha/s, s A, gamma/s and beta/s give the same force") {
   const BoucWen one{88000, 5000, 2500, 0.038, 1e6, 1e6, 120, 2, 0};
   BoucWen other = one;
   other.alpha /= 3, other.A *= 3, other.gamma /= 3, other.beta /= 3;
   CHECK_CLOSE(bouc_wen_travel(&one, 0, 1), 7.7459667e-3, 0, 5e-11);
   for (const double s : {1e-5, 3e-4, -2e-3}) {
     const double z = bouc_wen_travel(&one, 0.001, s), z3 = bouc_wen_travel(&other, 0.003, s);
-    CHECK_CLOSE(bouc_wen_force(&other, 0.01, 0.1, &z3), bouc_wen_force(&one, 0.01, 0.1, &z), 1e-13, 0);
+    CHECK_CLOSE(bouc_wen_force(&other, 0.01, 0.1, &z3), bouc_wen_force(&one, 0.01, 0.1, &z), 1e-13,
+                0);
   }
 }

@@ -13,9 +13,12 @@ TEST_CASE("the restoring-force surface gives the force of TC-4.12") {
 
 TEST_CASE("each coefficient multiplies its own pair: T_j(cos h) = cos(j h)") {
   double Chebyshev::* const coefficients[3][6] = {
-      {&Chebyshev::f0, &Chebyshev::c01, &Chebyshev::c02, &Chebyshev::c03, &Chebyshev::c04, &Chebyshev::c05},
-      {&Chebyshev::c10, &Chebyshev::c11, &Chebyshev::c12, &Chebyshev::c13, &Chebyshev::c14, &Chebyshev::c15},
-      {&Chebyshev::c20, &Chebyshev::c21, &Chebyshev::c22, &Chebyshev::c23, &Chebyshev::c24, &Chebyshev::c25}};
+      {&Chebyshev::f0, &Chebyshev::c01, &Chebyshev::c02, &Chebyshev::c03, &Chebyshev::c04,
+       &Chebyshev::c05},
+      {&Chebyshev::c10, &Chebyshev::c11, &Chebyshev::c12, &Chebyshev::c13, &Chebyshev::c14,
+       &Chebyshev::c15},
+      {&Chebyshev::c20, &Chebyshev::c21, &Chebyshev::c22, &Chebyshev::c23, &Chebyshev::c24,
+       &Chebyshev::c25}};
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 6; ++j) {
       Chebyshev p{};

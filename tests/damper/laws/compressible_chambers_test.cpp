@@ -4,7 +4,7 @@
 #include <numbers>
 #include <vector>
 
-#include "dashpot/damper/law_model.h"
+#include "dashpot/damper/kinds/law/law_model.h"
 #include "dashpot/damper/laws/plate_bingham.h"
 #include "dashpot/damper/registry.h"
 #include "support.h"
@@ -41,11 +41,13 @@ TEST_CASE("compressible_chambers: at a steady speed it carries the force of plat
     double dz;
     compressible_chambers_derivative(&p, 0, v, &z, &dz);
     CHECK_CLOSE(dz, 0, 0, 1e-12);
-    CHECK_CLOSE(compressible_chambers_force(&p, 0, v, &z), p.k * z + std::copysign(20, v) + 3, 1e-15, 0);
+    CHECK_CLOSE(compressible_chambers_force(&p, 0, v, &z), p.k * z + std::copysign(20, v) + 3,
+                1e-15, 0);
   }
 }
 
-TEST_CASE("compressible_chambers: below the yield force it is a spring, of stiffness 2 beta A^2 / V") {
+TEST_CASE(
+    "compressible_chambers: below the yield force it is a spring, of stiffness 2 beta A^2 / V") {
   const CompressibleChambers p{.c0 = 1120, .f_y = 800, .k = 2.5e6, .f_f = 0, .f0 = 0};
   const double z = 799.0 / p.k;
   double dz;
@@ -54,7 +56,9 @@ TEST_CASE("compressible_chambers: below the yield force it is a spring, of stiff
   CHECK_CLOSE(compressible_chambers_force(&p, 0, 0.03, &z), 799, 1e-14, 0);
 }
 
-TEST_CASE("compressible_chambers: its own step agrees with small explicit ones, and stands any stiffness") {
+TEST_CASE(
+    "compressible_chambers: its own step agrees with small explicit ones, and stands any "
+    "stiffness") {
   const std::vector<double> stiff = {1120, 800, 2e7, 20, 0};  // 18e3 / s
   const std::vector<double> coarse = forces(stiff, 500), fine = forces(stiff, 50000);
   double worst = 0;
@@ -70,7 +74,8 @@ TEST_CASE("compressible_chambers: its own step agrees with small explicit ones, 
 }
 
 TEST_CASE(
-    "compressible_chambers: with little viscosity it tends to TC-5.3, zero force at 7.5 mm after reversal") {
+    "compressible_chambers: with little viscosity it tends to TC-5.3, zero force at 7.5 mm after "
+    "reversal") {
   const std::vector<double> force = forces({0.1, 1000, 4e5, 0, 0}, 4000);
   for (std::size_t k = 1000; k < 2000; ++k) {
     if (force[k - 1] <= 0 || force[k] > 0) continue;

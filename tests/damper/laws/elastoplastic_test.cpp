@@ -2,7 +2,7 @@
 
 #include <numbers>
 
-#include "dashpot/damper/law_model.h"
+#include "dashpot/damper/kinds/law/law_model.h"
 #include "dashpot/damper/registry.h"
 #include "support.h"
 
@@ -19,7 +19,9 @@ DamperInput sine(double t) {
 
 }  // namespace
 
-TEST_CASE("elastoplastic: TC-5.3, where the force crosses zero after reversal and the energy of a cycle") {
+TEST_CASE(
+    "elastoplastic: TC-5.3, where the force crosses zero after reversal and the energy of a "
+    "cycle") {
   const LawModel model = LawModel::constant(find_law("elastoplastic"), {0, 1000, 4e5, 0});
   for (const int samples : {500, 4000}) {
     const double h = 1.0 / samples;
@@ -44,7 +46,8 @@ TEST_CASE("elastoplastic: its own step is exact, turn by turn") {
   const Elastoplastic p{.c0 = 0, .f_y = 1000, .k = 4e5, .f0 = 0};  // gives way at 2.5 mm
   const double x[] = {0, 0}, there[] = {1, -1}, on[] = {0.1, 0.3};
   double z = 2e-3;
-  elastoplastic_step(&p, x, there, 0.004, &z);  // 1 mm on, 1 mm back: yields first, so 1.5 mm is left
+  elastoplastic_step(&p, x, there, 0.004,
+                     &z);  // 1 mm on, 1 mm back: yields first, so 1.5 mm is left
   CHECK_CLOSE(z, 1.5e-3, 1e-12, 0);
   elastoplastic_step(&p, x, on, 0.001, &z);
   CHECK_CLOSE(z, 1.7e-3, 1e-12, 0);
@@ -52,7 +55,8 @@ TEST_CASE("elastoplastic: its own step is exact, turn by turn") {
   CHECK_CLOSE(elastoplastic_force(&p, 0, 0, &z), 1000, 1e-14, 0);
 }
 
-TEST_CASE("elastoplastic: a stretch beyond the limit is not felt, and goes back while something moves") {
+TEST_CASE(
+    "elastoplastic: a stretch beyond the limit is not felt, and goes back while something moves") {
   const Elastoplastic p{.c0 = 100, .f_y = 1000, .k = 4e5, .f0 = 5};
   const double z = 3e-3;
   double dz;

@@ -8,7 +8,8 @@ using namespace dashpot;
 
 TEST_CASE("extended Bingham: TC-4.2") {
   // MODELS.md 4.2
-  const LawModel model = LawModel::constant(find_law("extended_bingham"), {5000, 500, 20000, 1e5, 2e5, -50});
+  const LawModel model =
+      LawModel::constant(find_law("extended_bingham"), {5000, 500, 20000, 1e5, 2e5, -50});
   const auto found = at_times(model, {0.01, 1}, {0.05, 0.2, 0.5, 1, 2}, 1e-5);
   check_forces(found, {444.95724, 520.3396, -668.90861, 559.19951, 561.11618});
   CHECK(found[0].state[0] == 0);
@@ -33,13 +34,15 @@ TEST_CASE("extended Bingham: the own step meets TC-4.2 with an error of second o
   CHECK_CLOSE(force_at_half_second(5000), -668.90861, 0, 1e-4);
 }
 
-TEST_CASE("extended Bingham: at any stiffness and step it settles on a standstill, on the yield force") {
+TEST_CASE(
+    "extended Bingham: at any stiffness and step it settles on a standstill, on the yield force") {
   const Law& law = find_law("extended_bingham");
   Random random(8);
   for (int trial = 0; trial < 500; ++trial) {
     const double c0 = std::pow(10, random.uniform(-2, 6)), h = std::pow(10, random.uniform(-5, 1));
     const double p[] = {c0, 500, 1e4, 1e5, std::pow(10, random.uniform(3, 10)), 0};
-    const double moving[] = {0, 0.1 * random.normal()}, still[] = {moving[1], moving[1]}, v[] = {0, 0};
+    const double moving[] = {0, 0.1 * random.normal()}, still[] = {moving[1], moving[1]},
+                 v[] = {0, 0};
     double z[] = {0, 0};
     REQUIRE(law.step(p, moving, v, h, z) == 1);
     double force = std::abs(law.force(p, still[0], 0, z));

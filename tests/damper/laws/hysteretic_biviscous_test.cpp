@@ -26,7 +26,9 @@ TEST_CASE("the hysteretic biviscous law gives the forces of TC-4.3 on both branc
 }
 
 TEST_CASE("the knees of the rising branch stand at -v1 and v2 of TC-4.3") {
-  const auto slope = [](double v) { return (force(kDamper, v + 1e-7, 1e6) - force(kDamper, v, 1e6)) / 1e-7; };
+  const auto slope = [](double v) {
+    return (force(kDamper, v + 1e-7, 1e6) - force(kDamper, v, 1e6)) / 1e-7;
+  };
   for (const double knee : {-0.011458333, 0.021875}) {
     const bool lower = knee < 0;
     CHECK_CLOSE(slope(knee - 1e-6), lower ? 2000 : 50000, 1e-4, 0);
@@ -34,7 +36,8 @@ TEST_CASE("the knees of the rising branch stand at -v1 and v2 of TC-4.3") {
   }
 }
 
-TEST_CASE("at rest the hysteretic biviscous force lies midway and does not jump with the sign of noise") {
+TEST_CASE(
+    "at rest the hysteretic biviscous force lies midway and does not jump with the sign of noise") {
   CHECK(force(kDamper, 0, 0) == 0);
   // s = 1e-6 / 0.05 moves the steep line by 2e-5 v0
   CHECK_CLOSE(force(kDamper, 0, 1e-6), -50000 * 0.005 * 2e-5, 1e-6, 0);

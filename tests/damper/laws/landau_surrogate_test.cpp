@@ -16,7 +16,8 @@ TEST_CASE("Landau surrogate: TC-4.15") {
 }
 
 TEST_CASE(
-    "Landau surrogate: without cubic terms p is a linear lag, of which the own step is of second order") {
+    "Landau surrogate: without cubic terms p is a linear lag, of which the own step is of second "
+    "order") {
   const double p[] = {1, 0, 0.01, 0.1, 2, 0, 1e-3 * 1e-9, 0};
   const auto after = [&](int steps) {
     const double x[] = {0, 0};
@@ -34,7 +35,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "Landau surrogate: a long step lands where p is balanced; too long a one between wells is refused") {
+    "Landau surrogate: a long step lands where p is balanced; too long a one between wells is "
+    "refused") {
   const Law& law = find_law("landau_surrogate");
   Random random(6);
   const double x[] = {0, 0};

@@ -28,7 +28,8 @@ TEST_CASE("the map passes through its knots and is straight between them") {
     CHECK_CLOSE(force(speed[k]), 5 + pull[k], 1e-12, 0);
     CHECK_CLOSE(force(-speed[k]), 5 + push[k], 0, 1e-12);
     const double before = k ? speed[k - 1] : 0;
-    CHECK_CLOSE(force((speed[k] + before) / 2), 5 + (pull[k] + (k ? pull[k - 1] : 0)) / 2, 1e-12, 0);
+    CHECK_CLOSE(force((speed[k] + before) / 2), 5 + (pull[k] + (k ? pull[k - 1] : 0)) / 2, 1e-12,
+                0);
   }
 }
 

@@ -48,7 +48,9 @@ TEST_CASE("Spencer's set in cm and in SI give the forces of TC-4.5") {
 TEST_CASE("the states of TC-4.5 at 1.5 V") {
   std::vector<double> at_50_ms;
   simulate(load_parameters("spencer1997"), {0.015, 2.5, 1.5}, 0.05, kStep,
-           [&](double, const DamperInput&, double, const std::vector<double>& state) { at_50_ms = state; });
+           [&](double, const DamperInput&, double, const std::vector<double>& state) {
+             at_50_ms = state;
+           });
   CHECK_CLOSE(at_50_ms[0], 2.0075591e-3, 0, 1e-10);
   CHECK_CLOSE(at_50_ms[1], 6.4389483e-3, 0, 1e-10);
   CHECK_CLOSE(at_50_ms[2], 1.4998877, 0, 1e-7);
@@ -89,11 +91,14 @@ TEST_CASE("Lai and Liao's set gives the forces of TC-4.5b") {
 TEST_CASE("the own step is finite and keeps |z| below z_max, whatever the parameters and n") {
   const Law& law = load_parameters("spencer1997").law();
   Random random(9);
-  const auto size = [&](double low, double high) { return std::pow(10, random.uniform(low, high)); };
+  const auto size = [&](double low, double high) {
+    return std::pow(10, random.uniform(low, high));
+  };
   for (int trial = 0; trial < 20000; ++trial) {
     const double n = trial % 3 ? trial % 3 : random.uniform(1, 20), gamma = size(-2, 12);
     const double beta = trial % 5 ? size(-6, 12) : 0, A = size(-3, 5);
-    const double p[] = {size(-9, 9), size(-10, 8), size(-1, 9), size(-10, 8), 0, 0, gamma, beta, A, n, 0};
+    const double p[] = {
+        size(-9, 9), size(-10, 8), size(-1, 9), size(-10, 8), 0, 0, gamma, beta, A, n, 0};
     const double z_max = std::pow(A / (gamma + beta), 1 / n);
     const double x[] = {0, 0.01 * random.normal()}, v[] = {random.normal(), random.normal()};
     double z[] = {0, z_max * random.uniform(-1, 1)};
@@ -119,7 +124,8 @@ TEST_CASE("the current-driven set with cubic laws: TC-4.5c") {
     CHECK_CLOSE(p[model.law().index_of("alpha")], 1e3 * printed.alpha, 1e-7, 0);
     CHECK_CLOSE(p[model.law().index_of("c0")], 1e3 * printed.c0, 1e-7, 0);
     CHECK_CLOSE(p[model.law().index_of("c1")], 1e3 * printed.c1, 1e-7, 0);
-    check_forces(at_times(model, {0.01, 1, printed.current}, {0.05, 0.1, 0.3, 0.5}, 1e-5), printed.forces);
+    check_forces(at_times(model, {0.01, 1, printed.current}, {0.05, 0.1, 0.3, 0.5}, 1e-5),
+                 printed.forces);
   }
 }
 
@@ -129,25 +135,28 @@ TEST_CASE("the 200 kN set with n = 10 and z without a unit: TC-4.6b") {
     std::vector<double> forces;
   };
   const ParameterSet set = load_parameter_set("yang2002");
-  const LawModel settled(set.model.law(), set.model.parameters(), "A", 0);  // the coil at its current
-  for (const Case& printed : {Case{0.5,
-                                   79580,
-                                   946714.38,
-                                   21765847,
-                                   {151704.4, 78714.493, -154574.62, -78981.973, 154299.83, 135253.71}},
-                              Case{2,
-                                   136010,
-                                   1055641,
-                                   41217518,
-                                   {221603.25, 136893.9, -224904.63, -137156.49, 224636.75, 202827.55}}}) {
+  const LawModel settled(set.model.law(), set.model.parameters(), "A",
+                         0);  // the coil at its current
+  for (const Case& printed :
+       {Case{0.5,
+             79580,
+             946714.38,
+             21765847,
+             {151704.4, 78714.493, -154574.62, -78981.973, 154299.83, 135253.71}},
+        Case{2,
+             136010,
+             1055641,
+             41217518,
+             {221603.25, 136893.9, -224904.63, -137156.49, 224636.75, 202827.55}}}) {
     CAPTURE(printed.current);
     std::vector<double> p(settled.law().params.size());
     settled.parameters_at(printed.current, p.data());
     CHECK_CLOSE(p[settled.law().index_of("alpha")], printed.alpha, 0, 0.5);
     CHECK_CLOSE(p[settled.law().index_of("c0")], printed.c0, 0, 0.5);
     CHECK_CLOSE(p[settled.law().index_of("c1")], printed.c1, 0, 0.5);
-    check_forces(at_times(settled, {0.0254, 0.5, printed.current}, {0.1, 0.5, 1, 1.5, 2, 2.25}, 2.5e-5),
-                 printed.forces, 1e-3);
+    check_forces(
+        at_times(settled, {0.0254, 0.5, printed.current}, {0.1, 0.5, 1, 1.5, 2, 2.25}, 2.5e-5),
+        printed.forces, 1e-3);
   }
   std::vector<double> at_zero(settled.law().params.size());
   settled.parameters_at(0, at_zero.data());
@@ -163,11 +172,13 @@ TEST_CASE("both forms of the force agree: through the elements and through the d
     const double z[2] = {random.uniform(-0.03, 0.03), random.uniform(-0.007, 0.007)};
     double dz[2];
     modified_bouc_wen_derivative(&p, x, v, z, dz);
-    CHECK_CLOSE(modified_bouc_wen_force(&p, x, v, z), p.c1 * dz[0] + p.k1 * (x - p.x0) + p.f0, 1e-12, 1e-9);
+    CHECK_CLOSE(modified_bouc_wen_force(&p, x, v, z), p.c1 * dz[0] + p.k1 * (x - p.x0) + p.f0,
+                1e-12, 1e-9);
   }
 }
 
-TEST_CASE("the exponent: the fast path for n = 2 is the limit of the general one, and n = 1 works") {
+TEST_CASE(
+    "the exponent: the fast path for n = 2 is the limit of the general one, and n = 1 works") {
   const double z[2] = {0.001, -0.004};
   double fast[2], general[2];
   ModifiedBoucWen p{118250, 2625, 28742.5, 4690, 500, 0, 3.63e6, 3.63e6, 301, 2, 0};
@@ -190,5 +201,6 @@ TEST_CASE("z has no scale: alpha/s, s A, gamma/s and beta/s give the same force"
   const double s = 1.0 / 301;
   p[0] /= s, p[6] /= s, p[7] /= s, p[8] *= s;
   const auto after = forces(LawModel::constant(law, p), {0.015, 2.5, 0});
-  for (std::size_t k = 0; k < before.size(); ++k) CHECK_CLOSE(after[k].force, before[k].force, 1e-9, 1e-9);
+  for (std::size_t k = 0; k < before.size(); ++k)
+    CHECK_CLOSE(after[k].force, before[k].force, 1e-9, 1e-9);
 }

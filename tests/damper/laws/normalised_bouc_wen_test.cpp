@@ -9,7 +9,8 @@ using namespace dashpot;
 
 TEST_CASE("normalised Bouc-Wen: TC-4.13") {
   // MODELS.md 4.13, in SI: 0.8 N*s/mm, 50 N, 0.5 mm^-1
-  const LawModel model = LawModel::constant(find_law("normalised_bouc_wen"), {800, 50, 500, 0.75, 2, 0});
+  const LawModel model =
+      LawModel::constant(find_law("normalised_bouc_wen"), {800, 50, 500, 0.75, 2, 0});
   const auto found = at_times(model, {0.012375, 0.8403}, {0.05, 0.2, 0.5, 1, 2});
   check_states(found, 0, {0.92382516, 0.99995799, -0.98166159, 0.098737168, -1});
   check_forces(found, {96.650114, 75.735427, -94.911018, 33.027465, -72.07687});
@@ -19,8 +20,12 @@ TEST_CASE("normalised Bouc-Wen: any n steps with bounded w and an error of secon
   const Law& law = find_law("normalised_bouc_wen");
   Random random(4);
   for (int trial = 0; trial < 2000; ++trial) {
-    const double p[] = {
-        0, 1, 1e3, trial % 2 ? random.uniform(0.5, 3) : random.uniform(0.5, 1000), random.uniform(1, 20), 0};
+    const double p[] = {0,
+                        1,
+                        1e3,
+                        trial % 2 ? random.uniform(0.5, 3) : random.uniform(0.5, 1000),
+                        random.uniform(1, 20),
+                        0};
     const double x[] = {0, 0}, v[] = {random.normal(), random.normal()};
     double w = random.uniform(-1, 1);
     REQUIRE(law.step(p, x, v, std::pow(10, random.uniform(-6, 2)), &w) == 1);
@@ -41,7 +46,8 @@ TEST_CASE("normalised Bouc-Wen: any n steps with bounded w and an error of secon
   for (const double n : {1.0, 2.0}) CHECK_CLOSE(after(n, 1), after(n + 1e-9, 4096), 0, 1e-6);
 }
 
-TEST_CASE("normalised Bouc-Wen: w = z / z_max of the law with gamma and beta, a negative beta too") {
+TEST_CASE(
+    "normalised Bouc-Wen: w = z / z_max of the law with gamma and beta, a negative beta too") {
   for (const double beta : {300.0, 0.0, -250.0}) {
     const BoucWen other{1, 0, 0, 0, 1000, beta, 5, 2, 0};
     const double z_max = std::sqrt(5 / (1000 + beta)), sigma = 1000 / (1000 + beta);

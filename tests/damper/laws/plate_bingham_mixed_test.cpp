@@ -15,9 +15,11 @@ TEST_CASE("plate_bingham_mixed: the Newtonian force with the drag of the land is
 }
 
 TEST_CASE(
-    "plate_bingham_mixed: the value of MODELS 5.1 against the flow, plus the drag; plate_bingham when a = "
+    "plate_bingham_mixed: the value of MODELS 5.1 against the flow, plus the drag; plate_bingham "
+    "when a = "
     "0") {
-  // T = 2/3 and |V| = a / 2 = 0.05 at c0 |v| = 1; the drag's closed form is tested with plate_wall_drag.
+  // T = 2/3 and |V| = a / 2 = 0.05 at c0 |v| = 1; the drag's closed form is tested with
+  // plate_wall_drag.
   const double pressure = 2.90979824,
                drag = 0.1 * (pressure / 2 + 0.1 / 12 * pressure / (pressure - 4.0 / 3));
   const PlateBinghamMixed p{.c0 = 1, .f_y = 4.0 / 3, .a = 0.1, .f0 = 0.5, .v_s = 0};

@@ -26,10 +26,11 @@ TEST_CASE("plate_herschel_bulkley gives the pressures of TC-5.2, times the pisto
   CHECK_CLOSE(pressure(0.5, 15, 0.3), 289923.66, 3e-8, 0);
 }
 
-TEST_CASE("plate_herschel_bulkley with n = 1 is plate_bingham, and the offset alone at standstill") {
+TEST_CASE(
+    "plate_herschel_bulkley with n = 1 is plate_bingham, and the offset alone at standstill") {
   const PlateHerschelBulkley p{.f_v = 300, .f_y = 800, .n = 1, .v_r = 0.25, .f0 = 7, .v_s = 0.001};
   const PlateBingham bingham{.c0 = 1200, .f_y = 800, .f0 = 7, .v_s = 0.001};
   for (const double v : {-0.5, -1e-4, 0.0, 1e-6, 0.03, 2.0})
-    CHECK_CLOSE(plate_herschel_bulkley_force(&p, 0, v, nullptr), plate_bingham_force(&bingham, 0, v, nullptr),
-                1e-12, 0);
+    CHECK_CLOSE(plate_herschel_bulkley_force(&p, 0, v, nullptr),
+                plate_bingham_force(&bingham, 0, v, nullptr), 1e-12, 0);
 }

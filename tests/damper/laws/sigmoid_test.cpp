@@ -7,7 +7,8 @@ double force(const Sigmoid& damper, double v, double a) {
   const double z = v - a / damper.r;
   return sigmoid_force(&damper, 0, v, &z);
 }
-constexpr Sigmoid kDamper{.f_m = 900, .k_a = 120, .k_v = 1.5, .v_h = 0.008, .a_s = 0.05, .r = 200, .f0 = 0};
+constexpr Sigmoid kDamper{
+    .f_m = 900, .k_a = 120, .k_v = 1.5, .v_h = 0.008, .a_s = 0.05, .r = 200, .f0 = 0};
 }  // namespace
 
 TEST_CASE("the sigmoid gives the forces of TC-4.10") {

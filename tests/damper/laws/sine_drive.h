@@ -4,7 +4,7 @@
 #include <numbers>
 #include <vector>
 
-#include "dashpot/damper/law_model.h"
+#include "dashpot/damper/kinds/law/law_model.h"
 #include "support.h"
 
 /// The motion of the test cases: x = X sin(2 pi f t) at a constant drive.
@@ -20,9 +20,11 @@ struct Sine {
   }
 };
 
-/// Calls visit(t, input, force, state) at every step, from the zero state (no current in the coil) on.
+/// Calls visit(t, input, force, state) at every step, from the zero state (no current in the coil)
+/// on.
 template <class Visit>
-void simulate(const dashpot::LawModel& model, const Sine& sine, double duration, double step, Visit visit) {
+void simulate(const dashpot::LawModel& model, const Sine& sine, double duration, double step,
+              Visit visit) {
   std::vector<double> state(model.state_size());
   model.rest({}, state);
   const auto steps = std::llround(duration / step);
@@ -44,11 +46,12 @@ struct Simulated {
 inline std::vector<Simulated> at_times(const dashpot::LawModel& model, const Sine& sine,
                                        const std::vector<double>& times, double step = 5e-6) {
   std::vector<Simulated> found;
-  simulate(model, sine, times.back(), step,
-           [&](double t, const dashpot::DamperInput&, double force, const std::vector<double>& state) {
-             for (const double wanted : times)
-               if (std::abs(t - wanted) < step / 2) found.push_back({t, force, state});
-           });
+  simulate(
+      model, sine, times.back(), step,
+      [&](double t, const dashpot::DamperInput&, double force, const std::vector<double>& state) {
+        for (const double wanted : times)
+          if (std::abs(t - wanted) < step / 2) found.push_back({t, force, state});
+      });
   return found;
 }
 
@@ -57,8 +60,8 @@ inline double half_digit(double printed, int digits = 8) {
   return 0.5 * std::pow(10, std::floor(std::log10(std::abs(printed))) - (digits - 1));
 }
 
-/// Forces against printed ones of eight significant digits; `drive_error` N is what a sine taken as straight
-/// lines between steps may add.
+/// Forces against printed ones of eight significant digits; `drive_error` N is what a sine taken as
+/// straight lines between steps may add.
 inline void check_forces(const std::vector<Simulated>& found, const std::vector<double>& printed,
                          double drive_error = 1e-6) {
   REQUIRE(found.size() == printed.size());

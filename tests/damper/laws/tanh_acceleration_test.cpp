@@ -2,11 +2,12 @@
 
 #include <numbers>
 
-#include "dashpot/damper/law_model.h"
+#include "dashpot/damper/kinds/law/law_model.h"
 #include "dashpot/damper/registry.h"
 #include "support.h"
 
-TEST_CASE("tanh of velocity and acceleration: its closed form, with the acceleration of the state") {
+TEST_CASE(
+    "tanh of velocity and acceleration: its closed form, with the acceleration of the state") {
   const TanhAcceleration damper{.f_y = 900, .kappa = 50, .tau = 0.01, .c = 2000, .r = 200, .f0 = 7};
   const auto force = [&](double v, double a) {
     const double z = v - a / damper.r;
@@ -17,11 +18,12 @@ TEST_CASE("tanh of velocity and acceleration: its closed form, with the accelera
   CHECK_CLOSE(force(0.03, 1), 7 + 60 + 900 * std::tanh(1.0), 1e-12, 0);
 }
 
-TEST_CASE("its filter gives the acceleration of a sine, smaller and later as a first-order lag says") {
+TEST_CASE(
+    "its filter gives the acceleration of a sine, smaller and later as a first-order lag says") {
   // f_y = 0 but for a line: kappa so small that tanh is its argument, F = f_y kappa (v - tau a)
   const double r = 200, tau = 0.01, kappa = 1e-3, w = 2 * std::numbers::pi * 3;
-  const dashpot::LawModel model =
-      dashpot::LawModel::constant(dashpot::find_law("tanh_acceleration"), {1e3, kappa, tau, 0, r, 0});
+  const dashpot::LawModel model = dashpot::LawModel::constant(
+      dashpot::find_law("tanh_acceleration"), {1e3, kappa, tau, 0, r, 0});
   const auto input = [&](double t) { return dashpot::DamperInput{0, 0.01 * std::sin(w * t), 0}; };
   std::vector<double> state(1);
   model.rest(input(0), state);

@@ -16,6 +16,7 @@ TEST_CASE("Kwok's law gives the forces of TC-4.7") {
 TEST_CASE("the sign of the stroke is zero at its centre") {
   const TanhKwok damper{.c = 0, .k = 0, .alpha = 10, .beta = 1, .delta = 0.5, .f0 = 0};
   CHECK(tanh_kwok_force(&damper, 0, 0, nullptr) == 0);
-  CHECK(tanh_kwok_force(&damper, 1e-12, 0, nullptr) == -tanh_kwok_force(&damper, -1e-12, 0, nullptr));
+  CHECK(tanh_kwok_force(&damper, 1e-12, 0, nullptr) ==
+        -tanh_kwok_force(&damper, -1e-12, 0, nullptr));
   CHECK_CLOSE(tanh_kwok_force(&damper, 1e-12, 0, nullptr), 10 * std::tanh(0.5), 1e-15, 0);
 }

@@ -14,7 +14,8 @@ TEST_CASE("viscous and Dahl: TC-4.13, 0 V") {
 
 TEST_CASE("viscous and Dahl is the normalised Bouc-Wen law with sigma = 1, n = 1") {
   const LawModel one = LawModel::constant(find_law("viscous_dahl"), {768.2, 57.42, 27450, 5});
-  const LawModel other = LawModel::constant(find_law("normalised_bouc_wen"), {768.2, 57.42, 27450, 1, 1, 5});
+  const LawModel other =
+      LawModel::constant(find_law("normalised_bouc_wen"), {768.2, 57.42, 27450, 1, 1, 5});
   const auto a = at_times(one, {0.012375, 0.8403}, {0.05, 0.31, 0.5, 0.93}, 1e-3);
   const auto b = at_times(other, {0.012375, 0.8403}, {0.05, 0.31, 0.5, 0.93}, 1e-3);
   for (std::size_t k = 0; k < a.size(); ++k) CHECK_CLOSE(a[k].force, b[k].force, 1e-12, 0);

@@ -25,7 +25,8 @@ TEST_CASE("a helical spring is 64 R^3 n, as printed twice as stiff: TC-3.1") {
   CHECK_CLOSE(spring_stiffness_as_printed(&spring), 2962.5, 1e-12, 0);
 }
 
-TEST_CASE("a description runs the paper's chain: the data set's yield stresses within 12 Pa, TC-3.2b") {
+TEST_CASE(
+    "a description runs the paper's chain: the data set's yield stresses within 12 Pa, TC-3.2b") {
   const double published[] = {2440.53,    20122.8539, 34514.5968, 44913.555,
                               51685.2669, 55789.03,   58081.95,   59176.47};
   for (int k = 0; k < 8; ++k)
@@ -37,7 +38,8 @@ TEST_CASE("a description of 122EG has the data set's four points at its currents
   damper.fluid = &find_fluid("122EG");
   damper.yield_law = YieldLaw::DataSet;
   const double published[] = {779.93, 21101.58, 30174.10, 33500};
-  for (int k = 0; k < 4; ++k) CHECK_CLOSE(fluid_state(damper, 0.25 * k).yield_stress, published[k], 0, 12);
+  for (int k = 0; k < 4; ++k)
+    CHECK_CLOSE(fluid_state(damper, 0.25 * k).yield_stress, published[k], 0, 12);
 }
 
 TEST_CASE("the paper's hydraulics, dimensionally right: TC-3.3") {
@@ -56,7 +58,8 @@ TEST_CASE("the paper's hydraulics, dimensionally right: TC-3.3") {
   const double wall = p.gap_area / p.piston_area;
   const double newtonian = plate_newtonian_pressure(&gap, 0.28, p.flow);
   const double moving = plate_moving_wall_pressure(newtonian, 0, wall);
-  CHECK_CLOSE(p.piston_area * (moving + plate_wall_drag(moving, newtonian, 0, wall)), 0.82367092, 1e-7, 0);
+  CHECK_CLOSE(p.piston_area * (moving + plate_wall_drag(moving, newtonian, 0, wall)), 0.82367092,
+              1e-7, 0);
 }
 
 TEST_CASE("a filled circuit balances its ampere-turns") {
@@ -66,8 +69,10 @@ TEST_CASE("a filled circuit balances its ampere-turns") {
     const double b = p.core_flux_density;
     const double steel =
         b * damper.saturation / (damper.saturation - b) / (damper.permeability * DASHPOT_MU0);
-    CHECK_CLOSE(steel * damper.core_length + p.field * p.magnetic_gap, damper.turns * current, 1e-9, 0);
-    CHECK_CLOSE(p.flux_density, carlson_flux_density(damper.fluid->volume_fraction, p.field), 1e-8, 0);
+    CHECK_CLOSE(steel * damper.core_length + p.field * p.magnetic_gap, damper.turns * current, 1e-9,
+                0);
+    CHECK_CLOSE(p.flux_density, carlson_flux_density(damper.fluid->volume_fraction, p.field), 1e-8,
+                0);
     CHECK(b < damper.saturation);
     // N phi = L I
     CHECK_CLOSE(damper.turns * p.flux, p.inductance * current, 1e-9, 0);
@@ -81,7 +86,8 @@ TEST_CASE("a coil's resistance is that of its wire") {
   CHECK_CLOSE(coil_resistance(&coil, 393.15), 2.1899720 * 1.393, 1e-6, 0);
 }
 
-TEST_CASE("without current the dynamic range is 1, with it more; the force changes side with the speed") {
+TEST_CASE(
+    "without current the dynamic range is 1, with it more; the force changes side with the speed") {
   const DamperDescription damper = named_description("passenger_car");
   CHECK_CLOSE(evaluate_physics(damper, {.velocity = 0.1}).dynamic_range, 1, 1e-12, 0);
   const DamperPhysics out = evaluate_physics(damper, {.current = 2, .velocity = 0.1});
@@ -92,14 +98,15 @@ TEST_CASE("without current the dynamic range is 1, with it more; the force chang
 }
 
 TEST_CASE("a description is read with its units, written and read again") {
-  DamperDescription damper =
-      parse_description("name: mine\nfluid: 140CG\ngap: 0.8 mm\nbore_diameter: 4cm\nturns: 200\n", "my.yaml");
+  DamperDescription damper = parse_description(
+      "name: mine\nfluid: 140CG\ngap: 0.8 mm\nbore_diameter: 4cm\nturns: 200\n", "my.yaml");
   CHECK_CLOSE(damper.gap, 8e-4, 1e-15, 0);
   CHECK_CLOSE(damper.bore_diameter, 0.04, 1e-15, 0);
   damper.name = "two\nlines, \"quoted\", a \\ and a \xc3\xa9";
   const DamperDescription again = parse_description(format_description(damper), "again.yaml");
   CHECK(again.name == damper.name);
-  for (const DescriptionField& field : description_fields()) CHECK(again.*field.field == damper.*field.field);
+  for (const DescriptionField& field : description_fields())
+    CHECK(again.*field.field == damper.*field.field);
   CHECK(again.fluid == damper.fluid);
   CHECK(description_names().size() >= 2);
 }
@@ -110,7 +117,8 @@ TEST_CASE("what cannot be is refused, with what would be right") {
   CHECK(refusal("gap: wide\n").find("is not a number") != std::string::npos);
   CHECK(refusal("gap: -1 mm\n").find("gap is -0.001 m") != std::string::npos);
   CHECK(refusal("rod_diameter: 50 mm\n").find("less than the bore") != std::string::npos);
-  CHECK(refusal("fluid: 132DG\nyield: paper\n").find("no yield stress of 132DG") != std::string::npos);
+  CHECK(refusal("fluid: 132DG\nyield: paper\n").find("no yield stress of 132DG") !=
+        std::string::npos);
   CHECK(refusal("flow: plates\n").find("did you mean 'plate'") != std::string::npos);
 }
 

@@ -5,15 +5,17 @@
 using namespace dashpot;
 
 TEST_CASE(
-    "Carlson's yield stress and flux density are those of TC-5.4, and the field for a flux density is the "
+    "Carlson's yield stress and flux density are those of TC-5.4, and the field for a flux density "
+    "is the "
     "inverse") {
   struct Row {
     const char* fluid;
     double stress[3], flux_density[3];
   };
-  const Row rows[] = {{"122EG", {8283.4174, 15145.526, 23057.32}, {0.23394204, 0.38266174, 0.5730757}},
-                      {"132DG", {14661.88, 26808.005, 40812.101}, {0.32443677, 0.51857981, 0.74323811}},
-                      {"140CG", {20600.172, 37665.667, 57341.642}, {0.39968837, 0.63160354, 0.884738}}};
+  const Row rows[] = {
+      {"122EG", {8283.4174, 15145.526, 23057.32}, {0.23394204, 0.38266174, 0.5730757}},
+      {"132DG", {14661.88, 26808.005, 40812.101}, {0.32443677, 0.51857981, 0.74323811}},
+      {"140CG", {20600.172, 37665.667, 57341.642}, {0.39968837, 0.63160354, 0.884738}}};
   for (const Row& row : rows) {
     const double phi = find_fluid(row.fluid).volume_fraction;
     for (int k = 0; k < 3; ++k) {
@@ -47,9 +49,11 @@ TEST_CASE("the family paper's table 1 gives TC-5.4b, holds its maximum, and says
     CHECK_CLOSE(family_yield_stress(fluid.family, field), 59456.1, 1e-6, 0);
   CHECK(family_warnings(fluid, 200e3).size() == 1);
   CHECK(family_warnings(fluid, 300e3).at(1) ==
-        "the yield stress of 140CG is held at 59.46 kPa above 218.8 kA/m, where the polynomial of the paper "
+        "the yield stress of 140CG is held at 59.46 kPa above 218.8 kA/m, where the polynomial of "
+        "the paper "
         "falls");
-  CHECK(family_warnings(find_fluid("122EG"), 100e3).at(0).find("factor of 2 to 2.7") != std::string::npos);
+  CHECK(family_warnings(find_fluid("122EG"), 100e3).at(0).find("factor of 2 to 2.7") !=
+        std::string::npos);
   CHECK(family_warnings(find_fluid("132DG"), 1e6).empty());
 }
 

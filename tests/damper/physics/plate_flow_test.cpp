@@ -19,8 +19,9 @@ double herschel_bulkley(double n, double consistency, double v) {
                                          plate_yield_pressure(&kGap, 20122.8539), n);
 }
 
-/// Flow rate and stress at the moving wall, by the velocity profile itself: plates at y = 0 (at rest) and y =
-/// 1 (moving at -u), viscosity 1, pressure gradient 1 driving towards +: stress s(y) = s0 - y.
+/// Flow rate and stress at the moving wall, by the velocity profile itself: plates at y = 0 (at
+/// rest) and y = 1 (moving at -u), viscosity 1, pressure gradient 1 driving towards +: stress s(y)
+/// = s0 - y.
 struct Profile {
   double flow, wall_stress, wall_speed;
 };
@@ -59,15 +60,18 @@ TEST_CASE("P(T) has the digits of TC-5.1, and stays the largest root for T from 
   for (double t = 1e-12; t <= 1e12; t *= 3) {
     const long double p = number(t), d = p - 2.0L * t;
     CHECK(d > 0);
-    // (p - 2t)^2 (p + t) = p^2 is the cubic; an error of p in its last digit is one of p / d digits in d
-    CHECK_CLOSE(static_cast<double>(d * d * (p + t) / (p * p)), 1, 1e-15 * static_cast<double>(4 + p / d), 0);
+    // (p - 2t)^2 (p + t) = p^2 is the cubic; an error of p in its last digit is one of p / d digits
+    // in d
+    CHECK_CLOSE(static_cast<double>(d * d * (p + t) / (p * p)), 1,
+                1e-15 * static_cast<double>(4 + p / d), 0);
   }
 }
 
 TEST_CASE("flow for a pressure is the inverse; up to the yield pressure nothing flows") {
   for (const double yield : {0.0, 0.3, 1.0, 1e3})
     for (const double flow : {1e-3, 0.1, 1.0, 50.0})
-      CHECK_CLOSE(plate_bingham_newtonian(plate_bingham_pressure(flow, yield), yield), flow, 1e-9, 0);
+      CHECK_CLOSE(plate_bingham_newtonian(plate_bingham_pressure(flow, yield), yield), flow, 1e-9,
+                  0);
   CHECK(plate_bingham_newtonian(2, 2) == 0);
   CHECK(plate_bingham_newtonian(0, 2) == 0);
   CHECK(plate_bingham_newtonian(0, 0) == 0);
@@ -77,14 +81,17 @@ TEST_CASE("Gavin's approximation: TC-5.1's value, and at most 2.21 % off, at T =
   CHECK_CLOSE(plate_gavin_pressure(1, 2 * 1.3581607), 4.6914498, 2e-8, 0);
   double worst = 0, where = 0;
   for (double t = 1e-3; t <= 1000; t *= 1.002) {
-    const double error = std::abs(plate_gavin_pressure(1, 2 * t) / plate_bingham_pressure(1, 2 * t) - 1);
+    const double error =
+        std::abs(plate_gavin_pressure(1, 2 * t) / plate_bingham_pressure(1, 2 * t) - 1);
     if (error > worst) worst = error, where = t;
   }
   CHECK_CLOSE(worst, 0.0221, 0, 5e-5);
   CHECK_CLOSE(where, 19.5, 0.03, 0);
 }
 
-TEST_CASE("a wall that moves against the flow: the value of section 5.1, and the Newtonian force of TC-3.3") {
+TEST_CASE(
+    "a wall that moves against the flow: the value of section 5.1, and the Newtonian force of "
+    "TC-3.3") {
   CHECK_CLOSE(plate_moving_wall_pressure(1, 4.0 / 3, 0.1), 2.90979824, 1e-7, 0);
   const double wall = kGap.width * kGap.height / kArea, v = 0.034;
   const double newtonian = plate_newtonian_pressure(&kGap, kViscosity, kArea * v);
@@ -95,7 +102,8 @@ TEST_CASE("a wall that moves against the flow: the value of section 5.1, and the
 
 TEST_CASE("pressure and drag of the moving wall are those of the velocity profile, integrated") {
   for (const double yield : {0.05, 0.2, 0.4})
-    for (const double lean : {0.5, 0.48, 0.46}) {  // stress at the wall at rest; 0.5: both walls at rest
+    for (const double lean :
+         {0.5, 0.48, 0.46}) {  // stress at the wall at rest; 0.5: both walls at rest
       const Profile at = profile(lean, yield);
       const double newtonian = 12 * at.flow, yielding = 2 * yield, wall = at.wall_speed / at.flow;
       const double p = plate_moving_wall_pressure(newtonian, yielding, wall);
@@ -129,5 +137,6 @@ TEST_CASE("shear mode: Bingham's stress, and Papanastasiou's smooth one that ten
   CHECK_CLOSE(plate_shear_stress(0.28, 1000, 340, 0), 1095.2, 1e-15, 0);
   CHECK(plate_shear_stress(0.28, 1000, 0, 0) == 0);
   CHECK_CLOSE(plate_shear_stress(0, 1000, 2, 0.5), 1000 * (1 - std::exp(-1.0)), 1e-14, 0);
-  CHECK_CLOSE(plate_shear_stress(0.28, 1000, 340, 1), plate_shear_stress(0.28, 1000, 340, 0), 1e-15, 0);
+  CHECK_CLOSE(plate_shear_stress(0.28, 1000, 340, 1), plate_shear_stress(0.28, 1000, 340, 0), 1e-15,
+              0);
 }

@@ -35,7 +35,9 @@ TEST_CASE("tables in the shapes that people have") {
   const Shape shapes[] = {
       {"plain", "t,x,F\n0,1.5,2\n0.1,2.5,-3\n", {"t", "x", "F"}},
       {"byte order mark, CRLF", "\xEF\xBB\xBFt,x,F\r\n0,1.5,2\r\n0.1,2.5,-3\r\n", {"t", "x", "F"}},
-      {"quotes, trailing commas", "\"t\",\"x, raw\",\"F\",\n0,1.5,2,\n0.1,2.5,-3,\n", {"t", "x, raw", "F"}},
+      {"quotes, trailing commas",
+       "\"t\",\"x, raw\",\"F\",\n0,1.5,2,\n0.1,2.5,-3,\n",
+       {"t", "x, raw", "F"}},
       {"semicolons, decimal commas", "t;x;F\n0;1,5;2\n0,1;2,5;-3\n", {"t", "x", "F"}},
       {"tabs", "t\tx\tF\n0\t1.5\t2\n0.1\t2.5\t-3", {"t", "x", "F"}},
       {"tabs, decimal commas", "t\tx\tF\n0\t1,5\t2\n0,1\t2,5\t-3", {"t", "x", "F"}},
@@ -117,7 +119,8 @@ TEST_CASE("a file longer than the read block keeps every row") {
 TEST_CASE("0 bytes") {
   const TemporaryFolder folder;
   const auto path = folder.write("empty.csv", "");
-  CHECK(message_of([&] { read_tables(path); }).find("empty.csv: is empty (0 bytes)") != std::string::npos);
+  CHECK(message_of([&] { read_tables(path); }).find("empty.csv: is empty (0 bytes)") !=
+        std::string::npos);
 }
 
 // The sanitizers judge this test; any Error is a right answer.
@@ -126,9 +129,11 @@ TEST_CASE("arbitrary bytes never crash the text readers") {
   Random random(7);
   const std::string alphabet = "0123456789.,;\t\n\r \"#-+eE[]()tF\xC3\xA9";
   for (int round = 0; round < 400; ++round) {
-    std::string text = round % 3 == 0 ? "Header Size:  7\nSampling Interval: 0.1\na, b, Events\n" : "";
+    std::string text =
+        round % 3 == 0 ? "Header Size:  7\nSampling Interval: 0.1\na, b, Events\n" : "";
     for (std::size_t k = random.index(400); k > 0; --k)
-      text += round % 5 == 0 ? static_cast<char>(random.next()) : alphabet[random.index(alphabet.size())];
+      text += round % 5 == 0 ? static_cast<char>(random.next())
+                             : alphabet[random.index(alphabet.size())];
     const auto path = folder.write("bytes.csv", text);
     try {
       read_tables(path);

@@ -15,7 +15,8 @@ namespace {
 /// A file of x (3 numbers), F (3 x 2), Ts and a text, written with the MAT library itself.
 std::filesystem::path write_mat(const TemporaryFolder& folder, mat_ft version,
                                 matio_compression compression) {
-  const auto path = folder.path() / (std::to_string(version) + "-" + std::to_string(compression) + ".mat");
+  const auto path =
+      folder.path() / (std::to_string(version) + "-" + std::to_string(compression) + ".mat");
   mat_t* file = Mat_CreateVer(path.c_str(), nullptr, version);
   REQUIRE(file);
   double x[] = {1, 2, 3}, force[] = {10, 20, 30, 40, 50, 60}, step[] = {0.01};
@@ -68,8 +69,9 @@ TEST_CASE("fields of a structure are columns") {
     std::size_t one[] = {1, 1}, four[] = {4, 1};
     const char* fields[] = {"force", nullptr};
     matvar_t* variable = Mat_VarCreateStruct2("test", 2, one, fields);
-    Mat_VarSetStructFieldByName(variable, "force", 0,
-                                Mat_VarCreate("force", MAT_C_DOUBLE, MAT_T_DOUBLE, 2, four, force, 0));
+    Mat_VarSetStructFieldByName(
+        variable, "force", 0,
+        Mat_VarCreate("force", MAT_C_DOUBLE, MAT_T_DOUBLE, 2, four, force, 0));
     Mat_VarWrite(file, variable, MAT_COMPRESSION_NONE);
     Mat_VarFree(variable);
     Mat_Close(file);
@@ -102,7 +104,8 @@ TEST_CASE("a MAT file that promises more than it holds is refused before anythin
   std::string bytes = read_file(write_mat(folder, MAT_FT_MAT5, MAT_COMPRESSION_NONE));
   bytes[128 + 8 + 16 + 8 + 3] = 0x40;  // the rows of x: 2^30 + 3
   const auto path = folder.write("huge.mat", bytes);
-  CHECK(message_of([&] { read_mat(path); }).find("damaged or cut off MAT file") != std::string::npos);
+  CHECK(message_of([&] { read_mat(path); }).find("damaged or cut off MAT file") !=
+        std::string::npos);
 }
 
 // The sanitizers and the memory limit judge this test; any Error is a right answer.
@@ -127,7 +130,9 @@ TEST_CASE("damaged MAT files never crash") {
 TEST_CASE("a file of version 7.3 that was cut off says so at every length") {
   const TemporaryFolder folder;
   const std::string whole = read_file(write_mat(folder, MAT_FT_MAT73, MAT_COMPRESSION_NONE));
-  for (const std::size_t left : {std::size_t{20}, std::size_t{530}, whole.size() / 2, whole.size() - 1})
-    CHECK(message_of([&] { read_mat(folder.write("cut.mat", whole.substr(0, left))); }).find("cut off") !=
-          std::string::npos);
+  for (const std::size_t left :
+       {std::size_t{20}, std::size_t{530}, whole.size() / 2, whole.size() - 1})
+    CHECK(message_of([&] {
+            read_mat(folder.write("cut.mat", whole.substr(0, left)));
+          }).find("cut off") != std::string::npos);
 }

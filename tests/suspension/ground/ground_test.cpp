@@ -14,14 +14,14 @@ namespace {
 
 constexpr double kTurn = 2 * std::numbers::pi;
 
-/// One-sided density of x at n cycle/m: power of its Fourier sum over lines around n, Hann windows that
-/// overlap by half (Welch).
+/// One-sided density of x at n cycle/m: power of its Fourier sum over lines around n, Hann windows
+/// that overlap by half (Welch).
 double density_at(const std::vector<double>& x, double spacing, double n, std::size_t window) {
   double power = 0, squares = 0;
   int windows = 0;
   for (std::size_t k = 0; k < window; ++k)
-    squares +=
-        std::pow(0.5 - 0.5 * std::cos(kTurn * static_cast<double>(k) / static_cast<double>(window)), 2);
+    squares += std::pow(
+        0.5 - 0.5 * std::cos(kTurn * static_cast<double>(k) / static_cast<double>(window)), 2);
   for (std::size_t first = 0; first + window <= x.size(); first += window / 2, ++windows) {
     double re = 0, im = 0;
     for (std::size_t k = 0; k < window; ++k) {
@@ -98,8 +98,8 @@ TEST_CASE("left and right agree in long waves, not in short ones, and are as rou
   for (std::size_t k = 0; k < road.tracks[0].size(); ++k)
     apart.push_back(road.tracks[0][k] - road.tracks[1][k]);
   CHECK_CLOSE(deviation_db(road.tracks[1], 0.05, options.roughness), 0, 0, 1);
-  // Density of the difference over twice that of a track: 1 - coherence, 1 - x K_1(x) with x = 2 pi n t:
-  // 0.0158 at n = 0.012, and all but 1 at n = 1.
+  // Density of the difference over twice that of a track: 1 - coherence, 1 - x K_1(x) with x = 2 pi
+  // n t: 0.0158 at n = 0.012, and all but 1 at n = 1.
   CHECK(density_at(apart, 0.05, 0.02, 4096) < 0.2 * road_density(256e-6, 0.02));
   CHECK_CLOSE(density_at(apart, 0.05, 1, 4096) / (2 * road_density(256e-6, 1)), 1, 0.35, 0);
 }
@@ -114,7 +114,8 @@ TEST_CASE("the same seed gives the same road, another one another") {
 }
 
 TEST_CASE("chirps and bump: TC-9.3") {
-  const GroundPointer linear = make_ground("chirp", 1), exponential = make_ground("exponential_chirp", 1);
+  const GroundPointer linear = make_ground("chirp", 1),
+                      exponential = make_ground("exponential_chirp", 1);
   const double t[] = {1, 7.3, 29.9};
   const double expected[] = {-0.01782013, -0.0038401627, -4.0837866e-4};
   const double expected_exponential[] = {-0.0039991681, -0.01056263, -0.011447506};
@@ -133,8 +134,10 @@ TEST_CASE("chirps and bump: TC-9.3") {
   CHECK_CLOSE(bump->foot(0.25, 0, 1).height, height(*bump, 0.15), 1e-12, 0);
 }
 
-TEST_CASE("a road driven over begins level, comes later to the rear, and its rate is its height's") {
-  const GroundPointer road = make_ground("iso8608,class=d,speed=36km/h,length=200,track_width=1.5", 3);
+TEST_CASE(
+    "a road driven over begins level, comes later to the rear, and its rate is its height's") {
+  const GroundPointer road =
+      make_ground("iso8608,class=d,speed=36km/h,length=200,track_width=1.5", 3);
   CHECK(height(*road, 0) == 0);
   CHECK_CLOSE(road->foot(5.27, 0, 2.7).height, road->foot(5, 0, 0).height, 0, 1e-12);
   CHECK(road->foot(5, 1, 0).height != road->foot(5, 0, 0).height);
@@ -163,20 +166,25 @@ TEST_CASE("the measured road and the earthquakes can be read") {
 }
 
 TEST_CASE("ground that cannot be made is refused, with what would be right") {
-  const auto refusal = [](const std::string& text) { return message_of([&] { make_ground(text, 1); }); };
+  const auto refusal = [](const std::string& text) {
+    return message_of([&] { make_ground(text, 1); });
+  };
   CHECK(refusal("iso8606").find("did you mean 'iso8608'") != std::string::npos);
   CHECK(refusal("iso8608,class=Z").find("A (smooth) to H") != std::string::npos);
   CHECK(refusal("iso8608,speed=3kg").find("not a unit of it") != std::string::npos);
   CHECK(refusal("step,hight=3cm").find("did you mean 'height'") != std::string::npos);
   const TemporaryFolder folder;
   write_file(folder.path() / "road.csv", "s (m),z (m),q\n0,0,0\n1,0,0\n2,0,0\n");
-  CHECK(message_of([&] { load_road(folder.path() / "road.csv"); }).find("in pairs") != std::string::npos);
+  CHECK(message_of([&] { load_road(folder.path() / "road.csv"); }).find("in pairs") !=
+        std::string::npos);
   write_file(folder.path() / "back.csv", "s (m),z (m)\n0,0\n1,0\n0.5,0\n");
   CHECK(message_of([&] { load_road(folder.path() / "back.csv"); }).find("does not rise in row 3") !=
         std::string::npos);
   write_file(folder.path() / "quake.csv", "time,a\n0,0\n0.02,0.1\n0.04,20.1kilo\n0.06,0\n");
-  CHECK(message_of([&] { load_earthquake(folder.path() / "quake.csv"); }).find("row 3 of 'a' is no number") !=
-        std::string::npos);
+  CHECK(message_of([&] {
+          load_earthquake(folder.path() / "quake.csv");
+        }).find("row 3 of 'a' is no number") != std::string::npos);
   write_file(folder.path() / "far.csv", "s (m),z (m)\n0,0\n1,1e200\n2,0\n");
-  CHECK(message_of([&] { load_road(folder.path() / "far.csv"); }).find(" is 1e+200") != std::string::npos);
+  CHECK(message_of([&] { load_road(folder.path() / "far.csv"); }).find(" is 1e+200") !=
+        std::string::npos);
 }

@@ -13,7 +13,9 @@ SimulatedRun run_of(const VehicleWords& words, const std::string& ground, double
   return run_vehicle(vehicle, *make_ground(ground, 1), {.duration = duration});
 }
 
-double value(const SimulatedRun& run, const char* name) { return measure_named(run.measures, name); }
+double value(const SimulatedRun& run, const char* name) {
+  return measure_named(run.measures, name);
+}
 
 }  // namespace
 
@@ -64,22 +66,32 @@ TEST_CASE("what to compare with: the nominal damping, half of the current, or as
   CHECK(name_of(make_vehicle(passive_words(real, ""))) == "spencer1997 at 1.125 V");
 }
 
-TEST_CASE("three-storey benchmark in El Centro: passive rows within 2 %, clipped-optimal row within 15 %") {
+TEST_CASE(
+    "three-storey benchmark in El Centro: passive rows within 2 %, clipped-optimal row within 15 "
+    "%") {
   const auto folder = shared_data("earthquake");
   if (folder.empty()) return;
   const std::string ground =
       "earthquake,file=" + (folder / "el_centro_g.dat").string() + ",unit=g0,time_scale=0.2";
-  // MODELS.md 8.5: displacement cm, drift cm, acceleration cm/s^2 of each floor; N. The passive rows as an
-  // independent simulation has them with this record; the last one as published by Dyke et al. (recalled),
-  // whose LQG sees accelerations: ours feeds back the state, at prices that come near their peaks.
+  // MODELS.md 8.5: displacement cm, drift cm, acceleration cm/s^2 of each floor; N. The passive
+  // rows as an independent simulation has them with this record; the last one as published by Dyke
+  // et al. (recalled), whose LQG sees accelerations: ours feeds back the state, at prices that come
+  // near their peaks.
   const char* const optimal =
       "clipped_optimal,deflection=0,tyre_deflection=0,force=0.01,top_acceleration=1000";
   const struct {
     const char* controller;
     double voltage, tolerance, x[3], drift[3], acceleration[3], force;
-  } rows[] = {{"", 0, 0.02, {0.2113, 0.3581, 0.4547}, {0.211, 0.154, 0.104}, {419.5, 489.6, 725.1}, 259.5},
-              {"", 2.25, 0.02, {0.0788, 0.1953, 0.3057}, {0.079, 0.157, 0.111}, {281.8, 499.6, 770.4}, 982.0},
-              {optimal, 0, 0.15, {0.114, 0.185, 0.212}, {0.114, 0.090, 0.101}, {696, 739, 703}, 941}};
+  } rows[] = {
+      {"", 0, 0.02, {0.2113, 0.3581, 0.4547}, {0.211, 0.154, 0.104}, {419.5, 489.6, 725.1}, 259.5},
+      {"",
+       2.25,
+       0.02,
+       {0.0788, 0.1953, 0.3057},
+       {0.079, 0.157, 0.111},
+       {281.8, 499.6, 770.4},
+       982.0},
+      {optimal, 0, 0.15, {0.114, 0.185, 0.212}, {0.114, 0.090, 0.101}, {696, 739, 703}, 941}};
   for (const auto& row : rows) {
     CAPTURE(row.controller);
     CAPTURE(row.voltage);
@@ -92,7 +104,8 @@ TEST_CASE("three-storey benchmark in El Centro: passive rows within 2 %, clipped
       const std::string floor = "floor_" + std::to_string(k + 1);
       CHECK_CLOSE(value(run, floor.c_str()), 10 * row.x[k], row.tolerance, 0);
       CHECK_CLOSE(value(run, (floor + "_drift").c_str()), 10 * row.drift[k], row.tolerance, 0);
-      CHECK_CLOSE(value(run, (floor + "_acceleration").c_str()), row.acceleration[k] / 100, row.tolerance, 0);
+      CHECK_CLOSE(value(run, (floor + "_acceleration").c_str()), row.acceleration[k] / 100,
+                  row.tolerance, 0);
     }
     CHECK_CLOSE(value(run, "damper_force"), row.force, row.tolerance, 0);
   }

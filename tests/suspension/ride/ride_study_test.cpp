@@ -2,9 +2,9 @@
 
 #include <numbers>
 
-#include "dashpot/output/ride_document.h"
+#include "dashpot/report/ride_document.h"
 #include "dashpot/suspension/ground/ground_sequences.h"
-#include "dashpot/suspension/linear.h"
+#include "dashpot/suspension/plants/linear.h"
 #include "support.h"
 
 using namespace dashpot;
@@ -35,7 +35,8 @@ RideStudyOptions small_study() {
 
 }  // namespace
 
-TEST_CASE("gains by a sine and by a chirp are those of the frequency response, where all is linear") {
+TEST_CASE(
+    "gains by a sine and by a chirp are those of the frequency response, where all is linear") {
   const Vehicle vehicle = make_vehicle({.dampers = {"viscous,damping=1500"}});
   const double f = 4;
   const LinearGains exact = linear_gains(1500, f);
@@ -149,5 +150,6 @@ TEST_CASE("all laws that suit a vehicle are taken, the others named with the rea
   const RideStudy study = study_ride(options);
   CHECK(study.controlled.size() >= 9);
   REQUIRE(!study.left_out.empty());
-  CHECK(study.left_out[0].find("is left out: vehicle: 'clipped_lqr' feeds back") != std::string::npos);
+  CHECK(study.left_out[0].find("is left out: vehicle: 'clipped_lqr' feeds back") !=
+        std::string::npos);
 }

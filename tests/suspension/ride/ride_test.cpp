@@ -11,8 +11,8 @@ using namespace dashpot;
 
 namespace {
 
-/// The one-sensor paper's quarter car with a linear damper, on a step of 3 cm, by Runge-Kutta in steps of 0.1
-/// ms.
+/// The one-sensor paper's quarter car with a linear damper, on a step of 3 cm, by Runge-Kutta in
+/// steps of 0.1 ms.
 struct StepResponse {
   std::vector<double> acceleration, tyre;
 };
@@ -34,7 +34,8 @@ StepResponse step_response(double c) {
       out.acceleration.push_back(k1[2]);
       out.tyre.push_back(x[1] - 0.03);
     }
-    const State k2 = slope(moved(x, k1, h / 2)), k3 = slope(moved(x, k2, h / 2)), k4 = slope(moved(x, k3, h));
+    const State k2 = slope(moved(x, k1, h / 2)), k3 = slope(moved(x, k2, h / 2)),
+                k4 = slope(moved(x, k3, h));
     for (std::size_t i = 0; i < 4; ++i) x[i] += h / 6 * (k1[i] + 2 * (k2[i] + k3[i]) + k4[i]);
   }
   return out;
@@ -59,7 +60,9 @@ TEST_CASE("settling time, decay ratio and deviation of a step: TC-10.2") {
   const auto acceleration = [](const StepResponse& r) {
     return step_measures(r.acceleration, 1e-3, 0, 0.05 * greatest(r.acceleration));
   };
-  const auto tyre = [](const StepResponse& r) { return step_measures(r.tyre, 1e-3, 0, 0.05 * 0.03); };
+  const auto tyre = [](const StepResponse& r) {
+    return step_measures(r.tyre, 1e-3, 0, 0.05 * 0.03);
+  };
   CHECK_CLOSE(acceleration(nominal).settling_time, 0.703, 0, 1.1e-3);
   CHECK_CLOSE(tyre(nominal).settling_time, 0.360, 0, 1.1e-3);
   CHECK_CLOSE(*acceleration(nominal).decay_ratio, 0.077995, 1e-4, 0);
@@ -75,9 +78,10 @@ TEST_CASE("settling time, decay ratio and deviation of a step: TC-10.2") {
 TEST_CASE("the weightings of ISO 2631-1: TC-10.3") {
   const double f[] = {0.5, 0.63, 0.8,  1,  1.25, 1.6, 2,    2.5, 3.15, 4,  5, 6.3,
                       8,   10,   12.5, 16, 20,   25,  31.5, 40,  50,   63, 80};
-  const double wk[] = {0.418246, 0.458668, 0.476976, 0.482473, 0.484549, 0.494247, 0.531411, 0.630518,
-                       0.803971, 0.967181, 1.038826, 1.054377, 1.036366, 0.988406, 0.902309, 0.768699,
-                       0.635923, 0.512717, 0.404751, 0.314400, 0.245790, 0.186082, 0.132372};
+  const double wk[] = {0.418246, 0.458668, 0.476976, 0.482473, 0.484549, 0.494247,
+                       0.531411, 0.630518, 0.803971, 0.967181, 1.038826, 1.054377,
+                       1.036366, 0.988406, 0.902309, 0.768699, 0.635923, 0.512717,
+                       0.404751, 0.314400, 0.245790, 0.186082, 0.132372};
   for (int k = 0; k < 23; ++k)
     CHECK_CLOSE(std::abs(weighting_response(find_weighting("Wk"), f[k])), wk[k], 0, 6e-7);
   const double fd[] = {1, 2, 4, 8, 20}, wd[] = {1.011017, 0.890243, 0.511912, 0.253125, 0.100154};

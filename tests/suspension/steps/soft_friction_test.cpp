@@ -1,6 +1,6 @@
 #include "dashpot/suspension/steps/soft_friction.h"
 
-#include "dashpot/damper/law_model.h"
+#include "dashpot/damper/kinds/law/law_model.h"
 #include "dashpot/damper/registry.h"
 #include "support.h"
 
@@ -9,7 +9,8 @@ using namespace dashpot;
 TEST_CASE("friction that jumps is seen, and then sets in along a straight line") {
   // F = 1000 v + 100 tanh(v / v_s) N.
   const auto bingham = [](double speed) {
-    return std::make_shared<LawModel>(LawModel::constant(find_law("bingham"), {1000, 100, 0, speed}));
+    return std::make_shared<LawModel>(
+        LawModel::constant(find_law("bingham"), {1000, 100, 0, speed}));
   };
   CHECK(jumps_at_rest(*bingham(0), 0, 1));
   CHECK(!jumps_at_rest(*bingham(1e-3), 0, 1));

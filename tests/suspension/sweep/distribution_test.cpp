@@ -44,7 +44,8 @@ TEST_CASE("a uniform distribution has the moments of one") {
 }
 
 TEST_CASE(
-    "a normal distribution that is cut off has the moments of one (closed form of the truncated normal)") {
+    "a normal distribution that is cut off has the moments of one (closed form of the truncated "
+    "normal)") {
   const Distribution whole = read("{normal: 400 kg, sd: 10 %}");
   CHECK_CLOSE(mean_of(whole), 400, 1e-6, 0);
   CHECK_CLOSE(std::sqrt(variance_of(whole)), 40, 1e-3, 0);
@@ -54,7 +55,8 @@ TEST_CASE(
   const double a = -0.5, b = 2.5, z = share_below(b) - share_below(a);
   const double shift = (bell(a) - bell(b)) / z;
   CHECK_CLOSE(mean_of(cut), 400 + 40 * shift, 1e-6, 0);
-  CHECK_CLOSE(variance_of(cut), 1600 * (1 + (a * bell(a) - b * bell(b)) / z - shift * shift), 1e-4, 0);
+  CHECK_CLOSE(variance_of(cut), 1600 * (1 + (a * bell(a) - b * bell(b)) / z - shift * shift), 1e-4,
+              0);
   CHECK(cut.at(1e-15) >= 380);
   CHECK(cut.at(1 - 1e-15) <= 500);
 }
@@ -62,7 +64,8 @@ TEST_CASE(
 TEST_CASE("far in the tail a cut normal distribution keeps its digits") {
   // P(Z > 5.5 | Z > 5) = 0.0662469 (ratio of complementary error functions)
   const Distribution tail = read("{normal: 100, sd: 10, from: 150, to: 300}");
-  CHECK_CLOSE(tail.at(1 - std::erfc(5.5 / std::sqrt(2.0)) / std::erfc(5 / std::sqrt(2.0))), 155, 1e-9, 0);
+  CHECK_CLOSE(tail.at(1 - std::erfc(5.5 / std::sqrt(2.0)) / std::erfc(5 / std::sqrt(2.0))), 155,
+              1e-9, 0);
 }
 
 TEST_CASE("a log-normal distribution has its median and its coefficient of variation") {
@@ -82,7 +85,8 @@ TEST_CASE("of a list every value is drawn alike") {
 
 TEST_CASE("a distribution that makes no sense is refused with file, line and what would be right") {
   const std::pair<std::string, std::string> cases[] = {
-      {"{uniform: [500 kg, 300 kg]}", "test.yaml:1: the range of sprung_mass is empty: 500 kg to 300 kg"},
+      {"{uniform: [500 kg, 300 kg]}",
+       "test.yaml:1: the range of sprung_mass is empty: 500 kg to 300 kg"},
       {"{uniform: [300 kg]}", "has 1 ends; two: uniform: [from, to]"},
       {"{uniform: [-5 kg, 300 kg]}", "sprung_mass is -5 kg; between 1 and 1e+06 kg"},
       {"{normal: 400 kg}", "a distribution needs 'sd'"},
@@ -98,6 +102,7 @@ TEST_CASE("a distribution that makes no sense is refused with file, line and wha
     CAPTURE(message);
     CHECK_MESSAGE(message.find(part) != std::string::npos, part);
   }
-  CHECK(message_of([] { read("{uniform: [10, 100]}", kCount); }).find("waves is a whole number; a list") !=
-        std::string::npos);
+  CHECK(message_of([] {
+          read("{uniform: [10, 100]}", kCount);
+        }).find("waves is a whole number; a list") != std::string::npos);
 }

@@ -2,7 +2,7 @@
 
 #include <set>
 
-#include "dashpot/damper/law_model.h"
+#include "dashpot/damper/kinds/law/law_model.h"
 #include "dashpot/damper/model_file.h"
 #include "dashpot/damper/registry.h"
 #include "dashpot/suspension/sweep/inputs.h"
@@ -43,7 +43,8 @@ TEST_CASE("the requests that come with Dashpot can be read, and their first vehi
     for (std::size_t c = 0; c < request.controllers.size(); ++c)
       CHECK(!make_vehicle(vehicle_words(request, c, draw)).dampers.empty());
   }
-  CHECK(message_of([] { named_sweep("comfrt"); }).find("did you mean 'comfort'") != std::string::npos);
+  CHECK(message_of([] { named_sweep("comfrt"); }).find("did you mean 'comfort'") !=
+        std::string::npos);
 }
 
 TEST_CASE("a request's words become vehicles and roads") {
@@ -55,7 +56,8 @@ TEST_CASE("a request's words become vehicles and roads") {
   CHECK(request.vehicles() == 40);
   CHECK(request.controllers[request.baseline].name == "passive");
   const SweepDraw draw = draw_vehicle(request, 3);
-  const VehicleWords passive = vehicle_words(request, 0, draw), mix1 = vehicle_words(request, 1, draw);
+  const VehicleWords passive = vehicle_words(request, 0, draw),
+                     mix1 = vehicle_words(request, 1, draw);
   CHECK(passive.values == std::vector<std::string>{"sprung_mass=350"});
   CHECK(passive.dampers.front() == "viscous,damping=1500,damping=1200");
   CHECK(mix1.dampers.front() == "ideal,damping_min=300,damping_max=3900");
@@ -72,8 +74,10 @@ TEST_CASE("the force of a model file scatters as it is built, and so does the la
   save_model({.model = model.with_offset(0), .domain = {-0.1, 0.1, -1, 1, 0, 1}},
              folder.path() / "damper.json");
   const SweepRequest request = parse_sweep(
-      "plant: savaresi_spelta\ndampers: \"./damper.json,motion_ratio=0.8\"\nroad: iso8608_fft\nsamples: 50\n"
-      "vary:\n  damper.force_factor: {lognormal: 1, sd: 8 %}\n  lag_rate: {normal: 200, sd: 10 %}\n",
+      "plant: savaresi_spelta\ndampers: \"./damper.json,motion_ratio=0.8\"\nroad: "
+      "iso8608_fft\nsamples: 50\n"
+      "vary:\n  damper.force_factor: {lognormal: 1, sd: 8 %}\n  lag_rate: {normal: 200, sd: 10 "
+      "%}\n",
       "test.yaml", folder.path());
   std::set<double> factors;
   for (std::size_t k = 0; k < 50; ++k) {
@@ -107,7 +111,8 @@ TEST_CASE("a vehicle depends on the seed and its number alone") {
 
 TEST_CASE("Sobol's points fill every cell once, whatever the seed") {
   const SweepRequest request = parsed(
-      "seed: 42\nvary:\n  sprung_mass: {uniform: [300, 500]}\n  tyre_stiffness: {uniform: [1e5, 2e5]}\n");
+      "seed: 42\nvary:\n  sprung_mass: {uniform: [300, 500]}\n  tyre_stiffness: {uniform: [1e5, "
+      "2e5]}\n");
   std::vector<double> mass, tyre;
   for (std::size_t k = 0; k < 64; ++k) {
     const SweepDraw draw = draw_vehicle(request, k);
@@ -120,8 +125,8 @@ TEST_CASE("Sobol's points fill every cell once, whatever the seed") {
 }
 
 TEST_CASE("every place of a grid has the same samples, on the same roads") {
-  const SweepRequest request =
-      parsed("samples: 3\nvary:\n  sprung_mass: {uniform: [300, 500]}\ngrid:\n  road.class: [A, C, E]\n");
+  const SweepRequest request = parsed(
+      "samples: 3\nvary:\n  sprung_mass: {uniform: [300, 500]}\ngrid:\n  road.class: [A, C, E]\n");
   for (std::size_t sample = 0; sample < 3; ++sample) {
     const SweepDraw first = draw_vehicle(request, 3 * sample);
     for (std::size_t place = 0; place < 3; ++place) {
@@ -137,7 +142,8 @@ TEST_CASE("every place of a grid has the same samples, on the same roads") {
   CHECK(draw_vehicle(listed, 1).road_seed == 6);
 }
 
-TEST_CASE("a request that cannot be understood is refused with file, line and what would be right") {
+TEST_CASE(
+    "a request that cannot be understood is refused with file, line and what would be right") {
   const std::pair<std::string, std::string> cases[] = {
       {"sampels: 5\n", "test.yaml:7: a sweep has an unknown key 'sampels'"},
       {"samples: 0\n", "samples is 0; between 1 and"},
@@ -154,10 +160,12 @@ TEST_CASE("a request that cannot be understood is refused with file, line and wh
       {"vary:\n  road.class: [I]\n", "unknown class 'I' of roads; A (smooth) to H"},
       {"vary:\n  damper.dampign: [10]\n", "did you mean 'damper.damping'"},
       {"vary:\n  mix1.corner: [10]\n", "mix1 has no parameter 'corner'"},
-      {"vary:\n  passive.crossover: [10]\n", "'passive' has no controller whose 'crossover' could vary"},
+      {"vary:\n  passive.crossover: [10]\n",
+       "'passive' has no controller whose 'crossover' could vary"},
       {"vary:\n  mix2.crossover: [10]\n", "nothing here is called 'mix2'; did you mean 'mix1'"},
       {"vary:\n  current: [1 A]\ngrid:\n  current: [1 A]\n", "current varies twice"},
-      {"vary:\n  road.class: [A]\n  road.roughness: [1e-6]\n", "both road.class and road.roughness vary"}};
+      {"vary:\n  road.class: [A]\n  road.roughness: [1e-6]\n",
+       "both road.class and road.roughness vary"}};
   for (const auto& [more, part] : cases) {
     const std::string message = message_of([&] { parsed(more); });
     CAPTURE(message);

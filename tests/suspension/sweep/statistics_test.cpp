@@ -14,7 +14,8 @@ TEST_CASE("quantiles with the ranks that tables of order statistics give") {
   std::iota(values.begin(), values.end(), 1.0);
   const Quantile median = quantile_of(values, 0.5);
   CHECK(median.value == 50.5);
-  // 95 % for the median of 100 values: the 40th to the 61st (Conover, Practical Nonparametric Statistics)
+  // 95 % for the median of 100 values: the 40th to the 61st (Conover, Practical Nonparametric
+  // Statistics)
   CHECK(median.low == 40);
   CHECK(median.high == 61);
   CHECK(quantile_of(values, 0.05).value == 5.95);  // as numpy.percentile(range(1, 101), 5)

@@ -4,7 +4,7 @@
 #include <cstring>
 
 #include "dashpot/base/error.h"
-#include "dashpot/identify/trial_store.h"
+#include "dashpot/identify/search/trial_store.h"
 #include "dashpot/suspension/ground/ground_sequences.h"
 #include "dashpot/suspension/ride/ride.h"
 #include "dashpot/suspension/ride/weighting.h"
@@ -31,14 +31,16 @@ SweepRequest example(std::size_t samples, const std::string& more = {}) {
       "test.yaml");
 }
 
-Sweep run(const SweepRequest& request, const fs::path& file, SweepOptions options = {.threads = 1}) {
+Sweep run(const SweepRequest& request, const fs::path& file,
+          SweepOptions options = {.threads = 1}) {
   SweepStore store(file, request, "this program");
   return sweep(request, store, options);
 }
 
 bool same_bits(const Sweep& a, const Sweep& b) {
   for (std::size_t c = 0; c < a.rides.size(); ++c)
-    if (std::memcmp(a.rides[c].data(), b.rides[c].data(), a.rides[c].size() * sizeof(RideMeasures)) != 0)
+    if (std::memcmp(a.rides[c].data(), b.rides[c].data(),
+                    a.rides[c].size() * sizeof(RideMeasures)) != 0)
       return false;
   return a.rides.size() == b.rides.size();
 }
@@ -72,8 +74,8 @@ TEST_CASE("a sweep's measures are those of simulate() and of the ride's own func
       squares += (load[k] - rest) * (load[k] - rest);
     }
     CHECK_CLOSE(ride.greatest_travel, greatest, 1e-4, 0);
-    CHECK_CLOSE(ride.tyre_load_index, std::sqrt(squares / static_cast<double>(travel.size() - 200)) / rest,
-                1e-4, 0);
+    CHECK_CLOSE(ride.tyre_load_index,
+                std::sqrt(squares / static_cast<double>(travel.size() - 200)) / rest, 1e-4, 0);
     CHECK(ride.stops_met == 0);
     CHECK(!ride.has_diverged());
   }
@@ -129,14 +131,18 @@ TEST_CASE("another sweep's file is refused with what differs") {
   const TemporaryFolder folder;
   const fs::path file = folder.path() / "sweep.sqlite";
   run(example(2), file);
-  const auto message = [&](const SweepRequest& request) { return message_of([&] { run(request, file); }); };
+  const auto message = [&](const SweepRequest& request) {
+    return message_of([&] { run(request, file); });
+  };
   SweepRequest other = example(2);
   other.seed = 2;
-  CHECK(message(other).find("holds another sweep (seed: '1' there, '2' here)") != std::string::npos);
+  CHECK(message(other).find("holds another sweep (seed: '1' there, '2' here)") !=
+        std::string::npos);
   other = example(2);
   other.inputs.pop_back();
   CHECK(message(other).find("holds another sweep (inputs: ") != std::string::npos);
-  CHECK(message_of([&] { TrialStore(file, {}); }).find("holds no results of a search") != std::string::npos);
+  CHECK(message_of([&] { TrialStore(file, {}); }).find("holds no results of a search") !=
+        std::string::npos);
   SweepStore::remove(file);
   CHECK(!fs::exists(file));
 }
@@ -146,8 +152,10 @@ TEST_CASE("what does not fit together is told before anything rides") {
   const auto message = [&](const std::string& yaml) {
     return message_of([&] { run(parse_sweep(yaml, "test.yaml"), folder.path() / "sweep.sqlite"); });
   };
-  CHECK(message("plant: savaresi_spelta\nroad: iso8608_fft\ncontrollers: {wild: {controller: skyhok}}\n")
-            .find("test.yaml, wild: unknown controller 'skyhok'") != std::string::npos);
-  CHECK(message("plant: savaresi_spelta\nroad: iso8608_fft\ndampers: nothing\n").find("unknown damper") !=
-        std::string::npos);
+  CHECK(
+      message(
+          "plant: savaresi_spelta\nroad: iso8608_fft\ncontrollers: {wild: {controller: skyhok}}\n")
+          .find("test.yaml, wild: unknown controller 'skyhok'") != std::string::npos);
+  CHECK(message("plant: savaresi_spelta\nroad: iso8608_fft\ndampers: nothing\n")
+            .find("unknown damper") != std::string::npos);
 }

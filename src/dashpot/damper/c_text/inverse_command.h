@@ -1,7 +1,8 @@
-/* From a wanted force to a command that stays within the limits, as C99 text that the library takes in and
- * the C export ships. Declared before: InverseInput and InverseModel, of which inverse_least, inverse_most
- * and inverse_lead (how far beyond the wanted change the command goes, so that a coil that lags is there one
- * sample later) are asked, and inverse_wanted: the current that should flow.
+/* From a wanted force to a command that stays within the limits, as C99 text that the library takes
+ * in and the C export ships. Declared before: InverseInput and InverseModel, of which
+ * inverse_least, inverse_most and inverse_lead (how far beyond the wanted change the command goes,
+ * so that a coil that lags is there one sample later) are asked, and inverse_wanted: the current
+ * that should flow.
  */
 
 /* What is no number becomes the least current. */
@@ -10,7 +11,8 @@ static inline double inverse_within(const InverseModel* m, double current) {
 }
 
 /* Where the input is not finite, the present current. */
-static inline double inverse_command(const InverseModel* m, const InverseInput* input, double* state) {
+static inline double inverse_command(const InverseModel* m, const InverseInput* input,
+                                     double* state) {
   const double held = inverse_within(m, input->current);
   double command = held;
   if ((isfinite(input->wanted) != 0) && (isfinite(input->displacement) != 0) &&

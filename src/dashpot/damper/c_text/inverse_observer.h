@@ -1,8 +1,9 @@
-/* A free run of a model beside the damper, as C99 text that the library takes in and the C export ships.
- * Declared before: DamperInput, InverseInput and Observer, of which are asked observed_states (numbers in the
- * model's state), observed_rest, observed_advance and observed_force (of the model, without the lag of its
- * coil), observer_step (s between two commands), observer_lags (whether the coil does) and observer_horizon
- * (steps ahead at which currents are judged).
+/* A free run of a model beside the damper, as C99 text that the library takes in and the C export
+ * ships. Declared before: DamperInput, InverseInput and Observer, of which are asked
+ * observed_states (numbers in the model's state), observed_rest, observed_advance and
+ * observed_force (of the model, without the lag of its coil), observer_step (s between two
+ * commands), observer_lags (whether the coil does) and observer_horizon (steps ahead at which
+ * currents are judged).
  *
  * Its state: the model's own, room to try, and the last displacement, velocity and current.
  */

@@ -1,6 +1,6 @@
-/* The inverse in closed form where the force is a polynomial of the current, as C99 text that the library
- * takes in and the C export ships. Declared before: what inverse_observer.h and polynomial_pieces.h define,
- * root_search.h with RootError as PolynomialError, and ROOT_TOLERANCE.
+/* The inverse in closed form where the force is a polynomial of the current, as C99 text that the
+ * library takes in and the C export ships. Declared before: what inverse_observer.h and
+ * polynomial_pieces.h define, root_search.h with RootError as PolynomialError, and ROOT_TOLERANCE.
  */
 
 /* What the inverse knows beside the observer. */
@@ -10,8 +10,8 @@ typedef struct PolynomialNumbers {
   double negligible;  /* N, less than which no current changes anything */
 } PolynomialNumbers;
 
-static inline void polynomial_force(const Observer* m, const PolynomialNumbers* p, const InverseInput* input,
-                                    double* state, double* c) {
+static inline void polynomial_force(const Observer* m, const PolynomialNumbers* p,
+                                    const InverseInput* input, double* state, double* c) {
   double f[4] = {0, 0, 0, 0};
   int k;
   for (k = 0; k <= p->degree; ++k) {
@@ -20,8 +20,8 @@ static inline void polynomial_force(const Observer* m, const PolynomialNumbers* 
   polynomial_through(f, p->degree, c);
 }
 
-/* Of several currents that give the force, the least; where none does, the one that comes nearest; where
- * current has no effect, the present one. */
+/* Of several currents that give the force, the least; where none does, the one that comes nearest;
+ * where current has no effect, the present one. */
 static inline double polynomial_wanted(const Observer* m, const PolynomialNumbers* p,
                                        const InverseInput* input, double* state) {
   PolynomialError error;

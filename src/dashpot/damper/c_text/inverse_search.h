@@ -1,5 +1,6 @@
-/* The inverse of any model by search, as C99 text that the library takes in and the C export ships. Declared
- * before: what inverse_observer.h defines, and root_search.h with RootError as SearchError.
+/* The inverse of any model by search, as C99 text that the library takes in and the C export ships.
+ * Declared before: what inverse_observer.h defines, and root_search.h with RootError as
+ * SearchError.
  */
 
 /* What the search knows beside the observer. */
@@ -11,11 +12,11 @@ typedef struct SearchNumbers {
 #define SEARCH_CELLS 8        /* of the current range, each searched for a crossing */
 #define SEARCH_TOLERANCE 1e-5 /* of the force's change over a bracket */
 
-/* The least current that gives the force; where none does, the one that comes nearest; where current has no
- * effect, the present one. own: the last solution, and +1 or -1 as its error rose or fell with current, 0
- * where there was none. */
-static inline double search_wanted(const Observer* m, const SearchNumbers* p, const InverseInput* input,
-                                   double* state, double* own) {
+/* The least current that gives the force; where none does, the one that comes nearest; where
+ * current has no effect, the present one. own: the last solution, and +1 or -1 as its error rose or
+ * fell with current, 0 where there was none. */
+static inline double search_wanted(const Observer* m, const SearchNumbers* p,
+                                   const InverseInput* input, double* state, double* own) {
   const double range = p->most - p->least;
   double answer = input->current;
   int done = 0, k;
@@ -24,7 +25,8 @@ static inline double search_wanted(const Observer* m, const SearchNumbers* p, co
   error.observer = m;
   error.input = input;
   error.state = state;
-  /* Beside the last solution first, on the same side of a force that rises and falls with current. */
+  /* Beside the last solution first, on the same side of a force that rises and falls with current.
+   */
   if (own[1] != 0) {
     RootBracket beside;
     beside.low = fmax(p->least, own[0] - (range / (2 * SEARCH_CELLS)));

@@ -1,7 +1,8 @@
-/* How a law's states and the current in its coil are brought over one step of a simulation, as C99 text that
- * the library takes in and the C export ships, both behind law_path.h. Declared before, for the law at work:
- * LawParameters, law_parameters (at a current), law_states (how many), law_rate (its bound, 1/s),
- * law_explicit_step, and law_has_own_step, law_own_step_is_exact, law_own_step (0 where it does not apply).
+/* How a law's states and the current in its coil are brought over one step of a simulation, as C99
+ * text that the library takes in and the C export ships, both behind law_path.h. Declared before,
+ * for the law at work: LawParameters, law_parameters (at a current), law_states (how many),
+ * law_rate (its bound, 1/s), law_explicit_step, and law_has_own_step, law_own_step_is_exact,
+ * law_own_step (0 where it does not apply).
  */
 
 /* The law's own step, `count` times; 0 where the law has none for these parameters. */
@@ -23,8 +24,8 @@ static inline int law_own_steps(const LawModel* m, const LawPath* path, int coun
 }
 
 /* Classical Runge-Kutta, `count` times; `start`: the parameters at the path's start. */
-static inline void law_explicit_steps(const LawModel* m, const LawPath* path, const LawParameters* start,
-                                      int count, double* z) {
+static inline void law_explicit_steps(const LawModel* m, const LawPath* path,
+                                      const LawParameters* start, int count, double* z) {
   const double h = path->dt / count;
   LawParameters middle, ends[2];
   const LawParameters* stages[3];
@@ -53,14 +54,15 @@ static inline void law_explicit_steps(const LawModel* m, const LawPath* path, co
   }
 }
 
-/* The states over the step in as many steps of their own as the law's rate asks for: classical Runge-Kutta,
- * or the law's own step where that would take many. */
+/* The states over the step in as many steps of their own as the law's rate asks for: classical
+ * Runge-Kutta, or the law's own step where that would take many. */
 static inline void law_integrate(const LawModel* m, const LawPath* path, double* z) {
-  /* Runge-Kutta is stable up to rate * step = 2.78 on the real axis. Where the cap is reached the run
-   * diverges, and shows it, instead of taking hours. */
+  /* Runge-Kutta is stable up to rate * step = 2.78 on the real axis. Where the cap is reached the
+   * run diverges, and shows it, instead of taking hours. */
   const double step_limit = 2, most_steps = 200;
-  /* A law's own step costs about two explicit ones and serves for six: measured on the modified Bouc-Wen law,
-   * the error of both then is that of inputs taken as straight lines between samples. */
+  /* A law's own step costs about two explicit ones and serves for six: measured on the modified
+   * Bouc-Wen law, the error of both then is that of inputs taken as straight lines between samples.
+   */
   const double many_steps = 3, own_step_ratio = 6;
   const int exact = law_own_step_is_exact(m);
   int done = 0;
@@ -90,8 +92,8 @@ static inline void law_integrate(const LawModel* m, const LawPath* path, double*
 }
 
 /* `state`: the law's states, then the current in the coil when it lags. */
-static inline void law_advance(const LawModel* m, const DamperInput* from, const DamperInput* to, double dt,
-                               double* state) {
+static inline void law_advance(const LawModel* m, const DamperInput* from, const DamperInput* to,
+                               double dt, double* state) {
   const int states = law_states(m), lags = (law_lag_rate(m) > 0) ? 1 : 0;
   const LawPath path = law_path(m, from, to, dt, (lags != 0) ? state[states] : 0);
   if (lags != 0) {

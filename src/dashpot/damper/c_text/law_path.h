@@ -1,10 +1,10 @@
-/* Motion and coil current over one step of a simulation, as C99 text that the library takes in and the C
- * export ships. Declared before: LawModel, DamperInput, law_lag_rate (1/s, of the coil; 0: none) and
- * law_follows_current (whether a parameter depends on the current).
+/* Motion and coil current over one step of a simulation, as C99 text that the library takes in and
+ * the C export ships. Declared before: LawModel, DamperInput, law_lag_rate (1/s, of the coil; 0:
+ * none) and law_follows_current (whether a parameter depends on the current).
  */
 
-/* The command is linear in time; so is the coil's current, but for a deviation that decays at the lag rate:
- * this is exact. */
+/* The command is linear in time; so is the coil's current, but for a deviation that decays at the
+ * lag rate: this is exact. */
 typedef struct LawPath {
   double x, v, i; /* at its start; i: what the coil's current tends to */
   double x_slope, v_slope, i_slope;
@@ -13,8 +13,8 @@ typedef struct LawPath {
   int varies; /* the law's parameters do, with the coil's current */
 } LawPath;
 
-static inline LawPath law_path(const LawModel* m, const DamperInput* from, const DamperInput* to, double dt,
-                               double coil_current) {
+static inline LawPath law_path(const LawModel* m, const DamperInput* from, const DamperInput* to,
+                               double dt, double coil_current) {
   const double lag_rate = law_lag_rate(m);
   LawPath path;
   path.x = from->displacement;
@@ -33,7 +33,8 @@ static inline LawPath law_path(const LawModel* m, const DamperInput* from, const
       path.deviation = 0;
     }
   }
-  path.varies = (law_follows_current(m) != 0) && ((path.i_slope != 0) || (path.deviation != 0)) ? 1 : 0;
+  path.varies =
+      (law_follows_current(m) != 0) && ((path.i_slope != 0) || (path.deviation != 0)) ? 1 : 0;
   return path;
 }
 

@@ -1,10 +1,10 @@
-/* A step that laws are integrated by, as C99 text that the library takes in once per law and the C export
- * ships. Declared before: LawParameters, law_derivative and LAW_MOST_STATES.
+/* A step that laws are integrated by, as C99 text that the library takes in once per law and the C
+ * export ships. Declared before: LawParameters, law_derivative and LAW_MOST_STATES.
  */
 
 /* One classical Runge-Kutta step of length h, with p, x and v at its start, middle and end. */
-static inline void law_runge_kutta(const LawParameters* const* p, const double* x, const double* v, double h,
-                                   int count, double* z) {
+static inline void law_runge_kutta(const LawParameters* const* p, const double* x, const double* v,
+                                   double h, int count, double* z) {
   double k1[LAW_MOST_STATES] = {0}, k2[LAW_MOST_STATES] = {0}, k3[LAW_MOST_STATES] = {0};
   double k4[LAW_MOST_STATES] = {0}, trial[LAW_MOST_STATES];
   const double half = h / 2;

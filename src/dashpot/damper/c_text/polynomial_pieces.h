@@ -1,5 +1,5 @@
-/* c[0] + c[1] s + c[2] s^2 + c[3] s^3 over s = 0 ... 1, as C99 text that the library takes in and the C
- * export ships. */
+/* c[0] + c[1] s + c[2] s^2 + c[3] s^3 over s = 0 ... 1, as C99 text that the library takes in and
+ * the C export ships. */
 
 static inline double polynomial_at(const double* c, double s) {
   return c[0] + (s * (c[1] + (s * (c[2] + (s * c[3])))));
@@ -25,7 +25,8 @@ static inline void polynomial_through(const double* f, int degree, double* c) {
   }
 }
 
-/* Where its slope vanishes within (0, 1), with 0 and 1: increasing, four at most. Returns how many. */
+/* Where its slope vanishes within (0, 1), with 0 and 1: increasing, four at most. Returns how many.
+ */
 static inline int monotone_pieces(const double* c, double* places) {
   const double a = 3 * c[3], b = 2 * c[2], root = (b * b) - (4 * a * c[1]);
   int count = 1;

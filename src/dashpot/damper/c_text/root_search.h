@@ -1,5 +1,6 @@
-/* Where a function crosses zero, as C99 text that the library takes in and the C export ships. Declared
- * before: RootError, root_error(f, place), and ROOT_NARROW: as near as numbers come, of a bracket's width.
+/* Where a function crosses zero, as C99 text that the library takes in and the C export ships.
+ * Declared before: RootError, root_error(f, place), and ROOT_NARROW: as near as numbers come, of a
+ * bracket's width.
  */
 
 /* A function's values at two places. */
@@ -12,11 +13,13 @@ static inline int bracket_holds(const RootBracket* b) {
   return ((b->f_low <= 0) != (b->f_high <= 0)) && (isnan(b->f_low + b->f_high) == 0);
 }
 
-/* Where f crosses zero in a bracket that holds a crossing: secants that keep the bracket (Illinois), halving
- * it where they gain little. Right for a jump, too. 60 steps at most. */
-static inline double root_crossing(const RootError* f, const RootBracket* bracket, double tolerance) {
+/* Where f crosses zero in a bracket that holds a crossing: secants that keep the bracket
+ * (Illinois), halving it where they gain little. Right for a jump, too. 60 steps at most. */
+static inline double root_crossing(const RootError* f, const RootBracket* bracket,
+                                   double tolerance) {
   RootBracket b = *bracket;
-  const double enough = tolerance * fabs(b.f_high - b.f_low), narrow = ROOT_NARROW * (b.high - b.low);
+  const double enough = tolerance * fabs(b.f_high - b.f_low),
+               narrow = ROOT_NARROW * (b.high - b.low);
   double x = b.low;
   int kept = 0, found = 0, k; /* kept: -1, the low end was, by the last step; 1: the high end */
   for (k = 0; (k < 60) && (found == 0); ++k) {
@@ -50,9 +53,10 @@ typedef struct FirstRoot {
   double variation; /* greatest less least f, where nothing crosses */
 } FirstRoot;
 
-/* The first crossing between neighbours of `places` (increasing, at least two), or where f comes nearest to
- * zero. */
-static inline FirstRoot first_root(const RootError* f, const double* places, int count, double tolerance) {
+/* The first crossing between neighbours of `places` (increasing, at least two), or where f comes
+ * nearest to zero. */
+static inline FirstRoot first_root(const RootError* f, const double* places, int count,
+                                   double tolerance) {
   FirstRoot found = {0, 0, 0, 0};
   double nearest, least, greatest;
   RootBracket b;

@@ -7,15 +7,18 @@
 
 #include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
-#include "dashpot/damper/neural/mlp_json.h"
+#include "dashpot/damper/nets/mlp_json.h"
 
 namespace dashpot {
 namespace {
 
-constexpr std::array<std::string_view, 4> kSignalNames{"displacement", "velocity", "force", "current"};
+constexpr std::array<std::string_view, 4> kSignalNames{"displacement", "velocity", "force",
+                                                       "current"};
 constexpr auto kCurrent = static_cast<std::size_t>(Tap::Signal::Current);
 
-bool is_range(double low, double high) { return std::isfinite(low) && std::isfinite(high) && low < high; }
+bool is_range(double low, double high) {
+  return std::isfinite(low) && std::isfinite(high) && low < high;
+}
 
 InverseNetwork usable(InverseNetwork network) {
   require_usable(network, network.name);
@@ -24,7 +27,9 @@ InverseNetwork usable(InverseNetwork network) {
 
 }  // namespace
 
-std::string_view name_of(Tap::Signal signal) { return kSignalNames[static_cast<std::size_t>(signal)]; }
+std::string_view name_of(Tap::Signal signal) {
+  return kSignalNames[static_cast<std::size_t>(signal)];
+}
 
 Tap::Signal tap_signal_named(std::string_view name, const std::string& where) {
   const auto found = std::ranges::find(kSignalNames, name);
@@ -35,7 +40,8 @@ Tap::Signal tap_signal_named(std::string_view name, const std::string& where) {
 }
 
 bool InverseNetwork::feeds_back() const {
-  return std::ranges::any_of(taps, [](const Tap& tap) { return tap.signal == Tap::Signal::Current; });
+  return std::ranges::any_of(taps,
+                             [](const Tap& tap) { return tap.signal == Tap::Signal::Current; });
 }
 
 std::size_t InverseNetwork::stride(double sample_time) const {
@@ -53,12 +59,13 @@ void require_usable(const InverseNetwork& network, const std::string& where) {
   for (const Tap& tap : taps) {
     const int least = tap.signal == Tap::Signal::Current ? 1 : 0;
     if (tap.delay < least || tap.delay > InverseNetwork::kMostDelay)
-      throw Error(
-          where,
-          "a delay of " + std::to_string(tap.delay) + " steps of the " + std::string(name_of(tap.signal)),
-          std::to_string(least) + " to " + std::to_string(InverseNetwork::kMostDelay));
+      throw Error(where,
+                  "a delay of " + std::to_string(tap.delay) + " steps of the " +
+                      std::string(name_of(tap.signal)),
+                  std::to_string(least) + " to " + std::to_string(InverseNetwork::kMostDelay));
   }
-  if (!(spacing >= 1e-5 && spacing <= 1)) throw Error(where, "its step is not between 1e-5 and 1 s");
+  if (!(spacing >= 1e-5 && spacing <= 1))
+    throw Error(where, "its step is not between 1e-5 and 1 s");
   if (!is_range(current_min, current_max)) throw Error(where, "its currents are no range");
   if (!(rate_max >= 0 && std::isfinite(rate_max))) throw Error(where, "its rate limit is below 0");
   require_shape(mlp, taps.size(), where);
@@ -73,8 +80,9 @@ HistoryNetwork::HistoryNetwork(InverseNetwork network, const InverseLimits& limi
       most_change_(network_.rate_max > 0 ? network_.rate_max * limits.sample_time
                                          : std::numeric_limits<double>::infinity()) {
   if (!(low_ < high_))
-    throw Error(network_.name, "was taught currents of " + format_number(network_.current_min) + " ... " +
-                                   format_number(network_.current_max) + ", none of which the driver gives");
+    throw Error(network_.name, "was taught currents of " + format_number(network_.current_min) +
+                                   " ... " + format_number(network_.current_max) +
+                                   ", none of which the driver gives");
   const std::size_t stride = network_.stride(limits.sample_time);
   for (const Tap& tap : network_.taps) {
     const std::size_t row = static_cast<std::size_t>(tap.delay) * stride;
@@ -88,7 +96,8 @@ void HistoryNetwork::rest(const DamperInput& input, std::span<double> state) con
   for (std::size_t k = 0; k < rows_; ++k) std::ranges::copy(row, state.begin() + k * kSignals);
 }
 
-double HistoryNetwork::wanted_current(const InverseInput& input, std::span<double> state) const noexcept {
+double HistoryNetwork::wanted_current(const InverseInput& input,
+                                      std::span<double> state) const noexcept {
   std::copy_backward(state.begin(), state.end() - kSignals, state.end());
   const double last = state[kSignals + kCurrent];
   const std::array row{input.displacement, input.velocity, input.wanted, last};

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "dashpot/damper/inverse/inverse.h"
-#include "dashpot/damper/neural/mlp_evaluator.h"
+#include "dashpot/damper/nets/mlp_evaluator.h"
 
 namespace dashpot {
 
@@ -11,8 +11,8 @@ namespace dashpot {
 struct Tap {
   enum class Signal { Displacement, Velocity, Force, Current };
   Signal signal;
-  int delay =
-      0;  ///< in steps of InverseNetwork::spacing; a current, its own answer, is at least one step old
+  int delay = 0;  ///< in steps of InverseNetwork::spacing; a current, its own answer, is at least
+                  ///< one step old
   bool operator==(const Tap&) const = default;
 };
 
@@ -25,11 +25,12 @@ Tap::Signal tap_signal_named(std::string_view name, const std::string& where);
 struct InverseNetwork {
   static constexpr int kMostDelay = 100;
 
-  std::string name;                         ///< of its preset
-  std::vector<Tap> taps;                    ///< the network's inputs, in its order
-  double spacing = 5e-3;                    ///< s between two delays
-  double current_min = 0, current_max = 1;  ///< A or V, where it was taught: it answers nothing beyond
-  double rate_max = 0;                      ///< A/s, of its answer; 0: none
+  std::string name;       ///< of its preset
+  std::vector<Tap> taps;  ///< the network's inputs, in its order
+  double spacing = 5e-3;  ///< s between two delays
+  double current_min = 0,
+         current_max = 1;  ///< A or V, where it was taught: it answers nothing beyond
+  double rate_max = 0;     ///< A/s, of its answer; 0: none
   Mlp mlp;
 
   bool feeds_back() const;
@@ -40,21 +41,23 @@ struct InverseNetwork {
 /// Throws Error(where, ...) on taps, numbers or a shape that no network can have.
 void require_usable(const InverseNetwork& network, const std::string& where);
 
-/// The network at work, in free run on its own past answers. Never NaN: input that is not finite is not
-/// looked at, and what overflows gives the least current.
+/// The network at work, in free run on its own past answers. Never NaN: input that is not finite is
+/// not looked at, and what overflows gives the least current.
 class HistoryNetwork final : public InverseModel {
  public:
-  /// Throws Error where the network is not usable, the sample time cannot serve its delays, or its currents
-  /// are not among the limits.
+  /// Throws Error where the network is not usable, the sample time cannot serve its delays, or its
+  /// currents are not among the limits.
   HistoryNetwork(InverseNetwork network, const InverseLimits& limits);
 
   std::string name() const override { return network_.name; }
   std::size_t state_size() const noexcept override { return kSignals * rows_; }
   void rest(const DamperInput& input, std::span<double> state) const noexcept override;
   const InverseNetwork& network() const { return network_; }
-  double least() const { return low_; }                ///< A, that it answers
-  double most() const { return high_; }                ///< A
-  double most_change() const { return most_change_; }  ///< A, from one answer to the next; may be infinite
+  double least() const { return low_; }  ///< A, that it answers
+  double most() const { return high_; }  ///< A
+  double most_change() const {
+    return most_change_;
+  }  ///< A, from one answer to the next; may be infinite
   const std::vector<std::size_t>& places() const { return places_; }  ///< in the state, one per tap
 
  protected:

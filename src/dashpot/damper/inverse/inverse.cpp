@@ -32,9 +32,10 @@ inline double inverse_wanted(const InverseModel* m, const InverseInput* input, d
 InverseModel::InverseModel(const InverseLimits& limits) : limits_(limits) {
   const auto& [low, high, sample_time, lag_rate] = limits;
   if (!(std::isfinite(low) && std::isfinite(high) && low < high))
-    throw Error("inverse",
-                "the currents " + format_number(low) + " ... " + format_number(high) + " are no range",
-                "give the least current first");
+    throw Error(
+        "inverse",
+        "the currents " + format_number(low) + " ... " + format_number(high) + " are no range",
+        "give the least current first");
   if (!(sample_time > 0 && std::isfinite(sample_time) && lag_rate >= 0 && std::isfinite(lag_rate)))
     throw Error("inverse", "the sample time must be above 0, and the lag rate 0 or above");
   lead_ = lag_rate > 0 ? -1 / std::expm1(-lag_rate * sample_time) : 1;

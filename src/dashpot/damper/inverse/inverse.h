@@ -20,15 +20,15 @@ struct InverseInput {
 struct InverseLimits {
   double current_min = 0, current_max = 1;  ///< A (or V)
   double sample_time = 1e-3;                ///< s between two commands
-  /// 1/s, the coil's first-order lag; 0: it is there at once. The command goes beyond the current that is
-  /// meant, so that the coil is there one sample later, as far as the limits allow. It aims at a current, not
-  /// at the force one sample ahead: where the motion turns the force jumps, but the current that gives it
-  /// does not.
+  /// 1/s, the coil's first-order lag; 0: it is there at once. The command goes beyond the current
+  /// that is meant, so that the coil is there one sample later, as far as the limits allow. It aims
+  /// at a current, not at the force one sample ahead: where the motion turns the force jumps, but
+  /// the current that gives it does not.
   double lag_rate = 0;
 };
 
-/// Wanted force in, current out: of equal rank to DamperModel. The description is immutable; the state is a
-/// flat array of the caller's.
+/// Wanted force in, current out: of equal rank to DamperModel. The description is immutable; the
+/// state is a flat array of the caller's.
 class InverseModel {
  public:
   /// Throws Error when the limits are no range or the sample time is not above 0.
@@ -40,8 +40,8 @@ class InverseModel {
   /// State after a long rest at the input's displacement and current.
   virtual void rest(const DamperInput&, std::span<double>) const noexcept {}
 
-  /// Current to command now, A, always within the limits. Where the input is not finite, it is the present
-  /// current. Allocates nothing.
+  /// Current to command now, A, always within the limits. Where the input is not finite, it is the
+  /// present current. Allocates nothing.
   double command(const InverseInput& input, std::span<double> state) const noexcept;
 
   const InverseLimits& limits() const { return limits_; }
@@ -51,7 +51,8 @@ class InverseModel {
  protected:
   friend struct InverseText;
   /// Current that should flow; may leave the limits or be NaN. The input is finite.
-  virtual double wanted_current(const InverseInput& input, std::span<double> state) const noexcept = 0;
+  virtual double wanted_current(const InverseInput& input,
+                                std::span<double> state) const noexcept = 0;
 
  private:
   InverseLimits limits_;

@@ -5,7 +5,7 @@
 #include "dashpot/base/error.h"
 #include "dashpot/base/file.h"
 #include "dashpot/damper/file_parts.h"
-#include "dashpot/damper/neural/mlp_json.h"
+#include "dashpot/damper/nets/mlp_json.h"
 
 namespace dashpot {
 namespace {
@@ -42,7 +42,8 @@ InverseNetwork read_network(const Value& value, double sample_time, const Domain
                          .current_max = domain.current_max,
                          .rate_max = 0,
                          .mlp = {}};
-  for (const Value& item : reader.required("inputs").items()) network.taps.push_back(read_tap(item));
+  for (const Value& item : reader.required("inputs").items())
+    network.taps.push_back(read_tap(item));
   network.rate_max = reader.number("rate_max", 0);
   network.mlp = read_mlp(reader);
   reader.finish();

@@ -44,20 +44,24 @@ std::string number_of(std::string_view name, double value) {
 }  // namespace
 
 double MotionRange::speed() const {
-  // Noise up to f has the deviation 2 pi f / sqrt(3) of its own; it hardly exceeds two and a half of them.
+  // Noise up to f has the deviation 2 pi f / sqrt(3) of its own; it hardly exceeds two and a half
+  // of them.
   return 2.5 * (amplitude / 2) * 2 * std::numbers::pi * frequency / std::numbers::sqrt3;
 }
 
 std::vector<BenchTest> teaching_tests(const MotionRange& range, const InverseLimits& limits,
                                       std::uint64_t seed) {
-  const std::string size = number_of("amplitude", range.amplitude) + number_of("speed_max", range.speed());
-  const std::string band = number_of("frequency_max", 2 * range.frequency) + number_of("duration", kDuration);
+  const std::string size =
+      number_of("amplitude", range.amplitude) + number_of("speed_max", range.speed());
+  const std::string band =
+      number_of("frequency_max", 2 * range.frequency) + number_of("duration", kDuration);
   const DriveFrame frame{limits.current_min, limits.current_max, kDuration, seed};
   return {noise_test(range, limits, seed),
           under_sequence(sequence_test("RP" + size + band, seed), "ICPS", frame),
           under_sequence(sequence_test("FM" + size + band, seed), "APRBS", frame),
-          under_sequence(sequence_test("TPNVS" + size + number_of("speed_min", range.speed() / 10), seed),
-                         "APRBS", frame)};
+          under_sequence(
+              sequence_test("TPNVS" + size + number_of("speed_min", range.speed() / 10), seed),
+              "APRBS", frame)};
 }
 
 InverseRun run_on_model(const DamperModel& forward, const std::string& name,
@@ -84,7 +88,8 @@ InverseRun run_on_model(const DamperModel& forward, const std::string& name,
   return run;
 }
 
-InverseRun run_on_model(const DamperModel& forward, const BenchTest& test, const InverseLimits& limits) {
+InverseRun run_on_model(const DamperModel& forward, const BenchTest& test,
+                        const InverseLimits& limits) {
   std::vector<DamperInput> inputs;
   const auto samples = static_cast<std::size_t>(test.motion.duration / limits.sample_time);
   for (std::size_t k = 0; k < samples; ++k) {

@@ -20,22 +20,24 @@ struct InverseRun {
 /// How far and how fast a damper is moved to teach or to judge an inverse.
 struct MotionRange {
   double amplitude = 0.02;  ///< m
-  double frequency = 3;     ///< Hz, highest of a random motion with twice its deviation as the amplitude
-  double speed() const;     ///< m/s, what such a motion hardly exceeds
+  double frequency =
+      3;  ///< Hz, highest of a random motion with twice its deviation as the amplitude
+  double speed() const;  ///< m/s, what such a motion hardly exceeds
 };
 
-/// Tests over the range and all currents: band-limited noise as Chang and Zhou used it, a road, a chirp and
-/// strokes of constant speed, each under another random current.
+/// Tests over the range and all currents: band-limited noise as Chang and Zhou used it, a road, a
+/// chirp and strokes of constant speed, each under another random current.
 std::vector<BenchTest> teaching_tests(const MotionRange& range, const InverseLimits& limits,
                                       std::uint64_t seed);
 
-/// What the model gives along inputs at equal steps of limits.sample_time, without its coil's lag. Where only
-/// its states feel the current, the force is the one at the Observer's horizon. A sample weighs (dF/di)^2, so
-/// that an error of the current counts as the error of the force that it makes: next to nothing where the
-/// motion turns. Throws Error when the model diverges.
+/// What the model gives along inputs at equal steps of limits.sample_time, without its coil's lag.
+/// Where only its states feel the current, the force is the one at the Observer's horizon. A sample
+/// weighs (dF/di)^2, so that an error of the current counts as the error of the force that it
+/// makes: next to nothing where the motion turns. Throws Error when the model diverges.
 InverseRun run_on_model(const DamperModel& forward, const std::string& name,
                         const std::vector<DamperInput>& inputs, const InverseLimits& limits);
 /// The same along a test.
-InverseRun run_on_model(const DamperModel& forward, const BenchTest& test, const InverseLimits& limits);
+InverseRun run_on_model(const DamperModel& forward, const BenchTest& test,
+                        const InverseLimits& limits);
 
 }  // namespace dashpot

@@ -29,11 +29,11 @@ std::vector<InverseNetworkPreset> make_presets() {
        .title = "Motion, wanted force and its own past current",
        .equation = "i(k) = net(x(k), x(k-1), v(k), v(k-1), f(k), f(k-1), i(k-1)),  7-14-1, tanh",
        .source = "after Chang, Zhou 2002, J. Structural Engineering 128(2), 231-239",
-       .remarks =
-           "The kinds of inputs are those of the source as recalled, delays and size are ours; nothing "
-           "is pruned.",
-       .taps =
-           joined({taps(Displacement, 0, 1), taps(Velocity, 0, 1), taps(Force, 0, 1), taps(Current, 1, 1)}),
+       .remarks = "The kinds of inputs are those of the source as recalled, delays and size are "
+                  "ours; nothing "
+                  "is pruned.",
+       .taps = joined({taps(Displacement, 0, 1), taps(Velocity, 0, 1), taps(Force, 0, 1),
+                       taps(Current, 1, 1)}),
        .hidden = {14}},
       {.name = "history",
        .title = "Motion and wanted force with their past, no feedback",
@@ -45,9 +45,10 @@ std::vector<InverseNetworkPreset> make_presets() {
       {.name = "metered",
        .title = "Without a velocity sensor",
        .equation = "i(k) = net(x(k) ... x(k-3), f(k) ... f(k-3), i(k-1), i(k-2)),  10-14-1, tanh",
-       .source =
-           "after Metered, Bonello, Oyadiji 2010, Mechanical Systems and Signal Processing 24(3), 676-694",
-       .remarks = "The kinds of inputs are those of the source as recalled, delays and size are ours. Past "
+       .source = "after Metered, Bonello, Oyadiji 2010, Mechanical Systems and Signal Processing "
+                 "24(3), 676-694",
+       .remarks = "The kinds of inputs are those of the source as recalled, delays and size are "
+                  "ours. Past "
                   "displacements stand for the velocity.",
        .taps = joined({taps(Displacement, 0, 3), taps(Force, 0, 3), taps(Current, 1, 2)}),
        .hidden = {14}},
@@ -68,11 +69,12 @@ std::vector<InverseNetworkPreset> make_presets() {
       {.name = "zapateiro",
        .title = "The present and its own past current",
        .equation = "i(k) = net(x(k), v(k), f(k), i(k-1)),  4-14-1, tanh",
-       .source =
-           "after Zapateiro et al. 2009, cited by the one-sensor paper for its recurrent inverse network",
-       .remarks = "The source was not at hand: this is the least network of that kind, not its figures.",
-       .taps =
-           joined({taps(Displacement, 0, 0), taps(Velocity, 0, 0), taps(Force, 0, 0), taps(Current, 1, 1)}),
+       .source = "after Zapateiro et al. 2009, cited by the one-sensor paper for its recurrent "
+                 "inverse network",
+       .remarks =
+           "The source was not at hand: this is the least network of that kind, not its figures.",
+       .taps = joined({taps(Displacement, 0, 0), taps(Velocity, 0, 0), taps(Force, 0, 0),
+                       taps(Current, 1, 1)}),
        .hidden = {14}},
   };
 }
@@ -86,7 +88,8 @@ std::span<const InverseNetworkPreset> inverse_network_presets() {
 
 std::vector<std::string> inverse_network_names() {
   std::vector<std::string> names;
-  for (const InverseNetworkPreset& preset : inverse_network_presets()) names.emplace_back(preset.name);
+  for (const InverseNetworkPreset& preset : inverse_network_presets())
+    names.emplace_back(preset.name);
   return names;
 }
 

@@ -19,6 +19,7 @@ struct InverseNetworkPreset {
 std::span<const InverseNetworkPreset> inverse_network_presets();
 std::vector<std::string> inverse_network_names();
 /// Throws Error "unknown inverse network 'zhou'; did you mean ...; known: ...".
-const InverseNetworkPreset& find_inverse_network(std::string_view name, const std::string& where = {});
+const InverseNetworkPreset& find_inverse_network(std::string_view name,
+                                                 const std::string& where = {});
 
 }  // namespace dashpot

@@ -15,7 +15,8 @@ struct SearchError {
 
 using RootError = SearchError;
 inline double root_error(const RootError* e, double current) {
-  return e->observer->force(current, *e->input, {e->state, e->observer->state_size()}) - e->input->wanted;
+  return e->observer->force(current, *e->input, {e->state, e->observer->state_size()}) -
+         e->input->wanted;
 }
 inline void observer_follow(const Observer* m, const InverseInput* input, double* state) {
   m->follow(*input, {state, m->state_size()});
@@ -38,7 +39,8 @@ void NumericInverse::rest(const DamperInput& input, std::span<double> state) con
   state[observer_.state_size() + 1] = 0;
 }
 
-double NumericInverse::wanted_current(const InverseInput& input, std::span<double> state) const noexcept {
+double NumericInverse::wanted_current(const InverseInput& input,
+                                      std::span<double> state) const noexcept {
   const SearchNumbers numbers{limits().current_min, limits().current_max, negligible()};
   return search_wanted(&observer_, &numbers, &input, state.data(), &state[observer_.state_size()]);
 }

@@ -3,9 +3,10 @@
 
 namespace dashpot {
 
-/// The least current at which the forward model gives the wanted force, found by search: for any model. A
-/// free run of the model, driven by the coil's current, supplies its states. Where no current gives the
-/// force, the one that comes nearest; where current has no effect, the present one.
+/// The least current at which the forward model gives the wanted force, found by search: for any
+/// model. A free run of the model, driven by the coil's current, supplies its states. Where no
+/// current gives the force, the one that comes nearest; where current has no effect, the present
+/// one.
 class NumericInverse final : public InverseModel {
  public:
   NumericInverse(const DamperModel& forward, const InverseLimits& limits);
@@ -21,7 +22,8 @@ class NumericInverse final : public InverseModel {
   double wanted_current(const InverseInput& input, std::span<double> state) const noexcept override;
 
  private:
-  static constexpr std::size_t kOwn = 2;  // the last solution; +1 or -1: its error rose or fell with current
+  static constexpr std::size_t kOwn =
+      2;  // the last solution; +1 or -1: its error rose or fell with current
 
   Observer observer_;
 };

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <vector>
 
-#include "dashpot/damper/hybrid_model.h"
+#include "dashpot/damper/kinds/hybrid/hybrid_model.h"
 
 namespace dashpot {
 namespace {
@@ -22,8 +22,8 @@ inline int observer_horizon(const Observer* m) { return m->steps(); }
 inline void observed_rest(const Observer* m, const DamperInput* input, double* state) {
   m->model().rest(*input, {state, m->model().state_size()});
 }
-inline void observed_advance(const Observer* m, const DamperInput* from, const DamperInput* to, double dt,
-                             double* state) {
+inline void observed_advance(const Observer* m, const DamperInput* from, const DamperInput* to,
+                             double dt, double* state) {
   m->model().advance(*from, *to, dt, {state, m->model().state_size()});
 }
 inline double observed_force(const Observer* m, const DamperInput* input, const double* state) {
@@ -53,8 +53,8 @@ Observer::Observer(const DamperModel& model, const InverseLimits& limits)
     force_max_ = std::max({force_max_, std::abs(low), std::abs(high)});
     effect_ = std::max(effect_, std::abs(high - low));
   });
-  // Where the effect of a held current still grows as the square of time, a command aimed at a shorter
-  // horizon would swing from limit to limit.
+  // Where the effect of a held current still grows as the square of time, a command aimed at a
+  // shorter horizon would swing from limit to limit.
   constexpr double kSettling = 0.4;
   double here = mean_effect();
   for (int next = 1; next <= kMostSteps; next *= 2) {
@@ -84,18 +84,22 @@ void Observer::follow(const InverseInput& input, std::span<double> state) const 
   observer_follow(this, &input, state.data());
 }
 
-double Observer::force(double current, const InverseInput& input, std::span<double> state) const noexcept {
+double Observer::force(double current, const InverseInput& input,
+                       std::span<double> state) const noexcept {
   return observer_force(this, current, &input, state.data());
 }
 
-void Observer::probe(const std::function<void(const InverseInput&, std::span<double>)>& visit) const {
+void Observer::probe(
+    const std::function<void(const InverseInput&, std::span<double>)>& visit) const {
   constexpr double kAmplitude = 0.02, kFrequency = 1;  // m, Hz
   constexpr int kSteps = 400, kVisits = 20;            // over one and a half periods
   constexpr double w = 2 * std::numbers::pi * kFrequency;
-  const double h = 1.5 / kFrequency / kSteps, half = 0.5 * (limits_.current_min + limits_.current_max);
+  const double h = 1.5 / kFrequency / kSteps,
+               half = 0.5 * (limits_.current_min + limits_.current_max);
   std::vector<double> state(state_size());
   const auto at = [&](int k) {
-    return DamperInput{-kAmplitude * std::cos(w * k * h), kAmplitude * w * std::sin(w * k * h), half};
+    return DamperInput{-kAmplitude * std::cos(w * k * h), kAmplitude * w * std::sin(w * k * h),
+                       half};
   };
   rest(at(0), state);
   for (int k = 0; k < kSteps; ++k) {
@@ -108,7 +112,8 @@ void Observer::probe(const std::function<void(const InverseInput&, std::span<dou
 double Observer::mean_effect() const {
   double sum = 0;
   probe([&](const InverseInput& input, std::span<double> state) {
-    sum += std::abs(force(limits_.current_max, input, state) - force(limits_.current_min, input, state));
+    sum += std::abs(force(limits_.current_max, input, state) -
+                    force(limits_.current_min, input, state));
   });
   return sum;
 }

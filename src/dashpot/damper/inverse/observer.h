@@ -14,12 +14,12 @@ struct BareDamper {
 };
 BareDamper without_coil_lag(const DamperModel& model);
 
-/// Follows a damper in free run, and answers what its force would be at another current. Its state begins
-/// with the model's own.
+/// Follows a damper in free run, and answers what its force would be at another current. Its state
+/// begins with the model's own.
 class Observer {
  public:
-  /// The model without its coil's lag; where that still needs time to answer to the current (only its states
-  /// feel it), currents are judged by the force at the end of a horizon.
+  /// The model without its coil's lag; where that still needs time to answer to the current (only
+  /// its states feel it), currents are judged by the force at the end of a horizon.
   Observer(const DamperModel& model, const InverseLimits& limits);
 
   std::size_t state_size() const noexcept;
@@ -31,11 +31,13 @@ class Observer {
 
   const DamperModel& model() const { return *model_; }  ///< without its coil's lag
   const InverseLimits& limits() const { return limits_; }
-  int steps() const { return steps_; }                             ///< of the horizon, each a sample long
+  int steps() const { return steps_; }  ///< of the horizon, each a sample long
   double horizon() const { return steps_ * limits_.sample_time; }  ///< s
   /// What the model does on a sine of 20 mm at 1 Hz, to size tolerances and gains.
-  double force_max() const { return force_max_; }    ///< N, the largest |F| at any current
-  double current_effect() const { return effect_; }  ///< N, the largest difference that the current makes
+  double force_max() const { return force_max_; }  ///< N, the largest |F| at any current
+  double current_effect() const {
+    return effect_;
+  }  ///< N, the largest difference that the current makes
 
   /// Calls visit(input, state) at instants along that sine, at half the current range.
   void probe(const std::function<void(const InverseInput&, std::span<double>)>& visit) const;

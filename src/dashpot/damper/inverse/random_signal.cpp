@@ -26,7 +26,8 @@ double RandomSignal::at(double t) const {
 
 double RandomSignal::derivative(double t) const {
   double sum = 0;
-  for (std::size_t k = 0; k < rate_.size(); ++k) sum += rate_[k] * std::cos(rate_[k] * t + phase_[k]);
+  for (std::size_t k = 0; k < rate_.size(); ++k)
+    sum += rate_[k] * std::cos(rate_[k] * t + phase_[k]);
   return kAmplitude * sum;
 }
 

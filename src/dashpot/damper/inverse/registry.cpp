@@ -35,7 +35,8 @@ Inverse make_network(std::string_view preset, std::string_view name, const Dampe
   training.samples = 2000;  // it is waited for
   training.rounds = 2;
   training.iterations = 60;
-  training.spacing = limits.sample_time * std::max(1.0, std::round(training.spacing / limits.sample_time));
+  training.spacing =
+      limits.sample_time * std::max(1.0, std::round(training.spacing / limits.sample_time));
   training.current_min = limits.current_min;
   training.current_max = limits.current_max;
   std::vector<InverseRun> runs[2];
@@ -56,50 +57,53 @@ Inverse make_neural_displacement(const DamperModel& forward, const InverseLimits
 }
 
 constexpr std::array kSchemes{
-    InverseScheme{.name = "clipped_optimal",
-                  .title = "Clipped-optimal",
-                  .equation = "i = i_max H((f_c - f) f),  H(0) = 0",
-                  .source = "Dyke, Spencer, Sain, Carlson 1996, Smart Materials and Structures 5, 565-575",
-                  .remarks = "Needs the measured force. Where it is exactly 0, the current stays off.",
-                  .needs_force = true,
-                  .make = make_switching<SwitchingInverse::Rule::ClippedOptimal>},
-    InverseScheme{.name = "heaviside",
-                  .title = "Heaviside step on the wanted dissipation",
-                  .equation = "i = i_max H(f_c v),  H(0) = 0",
-                  .source = "common in semi-active control; no single source",
-                  .remarks = "Neither model nor force sensor: full current whenever the damper can help.",
+    InverseScheme{
+        .name = "clipped_optimal",
+        .title = "Clipped-optimal",
+        .equation = "i = i_max H((f_c - f) f),  H(0) = 0",
+        .source = "Dyke, Spencer, Sain, Carlson 1996, Smart Materials and Structures 5, 565-575",
+        .remarks = "Needs the measured force. Where it is exactly 0, the current stays off.",
+        .needs_force = true,
+        .make = make_switching<SwitchingInverse::Rule::ClippedOptimal>},
+    InverseScheme{
+        .name = "heaviside",
+        .title = "Heaviside step on the wanted dissipation",
+        .equation = "i = i_max H(f_c v),  H(0) = 0",
+        .source = "common in semi-active control; no single source",
+        .remarks = "Neither model nor force sensor: full current whenever the damper can help.",
+        .needs_force = false,
+        .make = make_switching<SwitchingInverse::Rule::Heaviside>},
+    InverseScheme{
+        .name = "modified_clipped_optimal",
+        .title = "Modified clipped-optimal",
+        .equation = "i = min(i_max, i_max |f_c| / f_max) H((f_c - f) f),  H(0) = 0",
+        .source = "Yoshida, Dyke 2004, J. Engineering Mechanics 130(4), 386-397",
+        .remarks = "f_max is the largest force of the forward model on a sine of 20 mm at 1 Hz.",
+        .needs_force = true,
+        .make = make_switching<SwitchingInverse::Rule::ModifiedClippedOptimal>},
+    InverseScheme{.name = "neural",
+                  .title = "Network from motion, wanted force and past current",
+                  .equation = "the network chang_zhou of 'dashpot invert'",
+                  .source = "after Chang, Zhou 2002, J. Structural Engineering 128(2), 231-239",
+                  .remarks =
+                      "Taught on the forward model when it is made: motions to 3 Hz, +-2 cm, "
+                      "random currents. Steps "
+                      "of 5 ms. 'dashpot invert' teaches it over a range of yours and keeps it.",
                   .needs_force = false,
-                  .make = make_switching<SwitchingInverse::Rule::Heaviside>},
-    InverseScheme{.name = "modified_clipped_optimal",
-                  .title = "Modified clipped-optimal",
-                  .equation = "i = min(i_max, i_max |f_c| / f_max) H((f_c - f) f),  H(0) = 0",
-                  .source = "Yoshida, Dyke 2004, J. Engineering Mechanics 130(4), 386-397",
-                  .remarks = "f_max is the largest force of the forward model on a sine of 20 mm at 1 Hz.",
-                  .needs_force = true,
-                  .make = make_switching<SwitchingInverse::Rule::ModifiedClippedOptimal>},
-    InverseScheme{
-        .name = "neural",
-        .title = "Network from motion, wanted force and past current",
-        .equation = "the network chang_zhou of 'dashpot invert'",
-        .source = "after Chang, Zhou 2002, J. Structural Engineering 128(2), 231-239",
-        .remarks =
-            "Taught on the forward model when it is made: motions to 3 Hz, +-2 cm, random currents. Steps "
-            "of 5 ms. 'dashpot invert' teaches it over a range of yours and keeps it.",
-        .needs_force = false,
-        .make = make_neural},
-    InverseScheme{
-        .name = "neural_displacement",
-        .title = "Network without a velocity sensor",
-        .equation = "the network metered of 'dashpot invert'",
-        .source =
-            "after Metered, Bonello, Oyadiji 2010, Mechanical Systems and Signal Processing 24(3), 676-694",
-        .remarks = "As neural, but the past displacements stand for the velocity.",
-        .needs_force = false,
-        .make = make_neural_displacement},
+                  .make = make_neural},
+    InverseScheme{.name = "neural_displacement",
+                  .title = "Network without a velocity sensor",
+                  .equation = "the network metered of 'dashpot invert'",
+                  .source = "after Metered, Bonello, Oyadiji 2010, Mechanical Systems and Signal "
+                            "Processing 24(3), 676-694",
+                  .remarks = "As neural, but the past displacements stand for the velocity.",
+                  .needs_force = false,
+                  .make = make_neural_displacement},
     InverseScheme{
         .name = "numeric",
         .title = "Search on the forward model",
-        .equation = "least i in [i_min, i_max] with F(x, v, i, z) = f_c;  z from a free run of the model",
+        .equation =
+            "least i in [i_min, i_max] with F(x, v, i, z) = f_c;  z from a free run of the model",
         .source = "Dashpot",
         .remarks = "For every model. Bracketed and warm-started.",
         .needs_force = false,
@@ -107,21 +111,25 @@ constexpr std::array kSchemes{
     InverseScheme{
         .name = "polynomial",
         .title = "Closed form where the force is a polynomial of the current",
-        .equation = "least i in [i_min, i_max] with  c0 + c1 i + c2 i^2 + c3 i^3 = f_c,  c(x, v, z)",
-        .source = "Choi, Lee, Park 2001, J. Sound and Vibration 245(2), 375-383, for one law; here for all",
-        .remarks = "For laws that are linear in parameters which are polynomials of the current: Bingham, "
-                   "hyperbolic tangent, semi-phenomenological, polynomial, LuGre.",
+        .equation =
+            "least i in [i_min, i_max] with  c0 + c1 i + c2 i^2 + c3 i^3 = f_c,  c(x, v, z)",
+        .source = "Choi, Lee, Park 2001, J. Sound and Vibration 245(2), 375-383, for one law; here "
+                  "for all",
+        .remarks =
+            "For laws that are linear in parameters which are polynomials of the current: Bingham, "
+            "hyperbolic tangent, semi-phenomenological, polynomial, LuGre.",
         .needs_force = false,
         .make = make_model<PolynomialInverse>},
-    InverseScheme{.name = "signum",
-                  .title = "Signum, continuous state",
-                  .equation = "i = sat(G (f_c - f) sgn f),  G = 10 i_max / f_max",
-                  .source = "Sims, Stanway, Johnson, Peel, Bullough 1999, as recalled",
-                  .remarks =
-                      "Needs the measured force; with G without limit it is clipped-optimal. f_max as in "
-                      "modified_clipped_optimal.",
-                  .needs_force = true,
-                  .make = make_switching<SwitchingInverse::Rule::Signum>},
+    InverseScheme{
+        .name = "signum",
+        .title = "Signum, continuous state",
+        .equation = "i = sat(G (f_c - f) sgn f),  G = 10 i_max / f_max",
+        .source = "Sims, Stanway, Johnson, Peel, Bullough 1999, as recalled",
+        .remarks =
+            "Needs the measured force; with G without limit it is clipped-optimal. f_max as in "
+            "modified_clipped_optimal.",
+        .needs_force = true,
+        .make = make_switching<SwitchingInverse::Rule::Signum>},
 };
 
 }  // namespace

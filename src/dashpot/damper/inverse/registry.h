@@ -14,9 +14,10 @@ struct InverseScheme {
   std::string_view name, title, equation, source, remarks;
   /// Whether the measured force is an input.
   bool needs_force = false;
-  /// The inverse of this damper. A coil lag of the model's own is left to InverseLimits::lag_rate. Throws
-  /// Error where the scheme does not apply.
-  std::unique_ptr<InverseModel> (*make)(const DamperModel& forward, const InverseLimits& limits) = nullptr;
+  /// The inverse of this damper. A coil lag of the model's own is left to InverseLimits::lag_rate.
+  /// Throws Error where the scheme does not apply.
+  std::unique_ptr<InverseModel> (*make)(const DamperModel& forward,
+                                        const InverseLimits& limits) = nullptr;
 };
 
 /// Every scheme, in alphabetical order.

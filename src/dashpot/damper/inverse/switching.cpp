@@ -29,7 +29,8 @@ SwitchingInverse::SwitchingInverse(Rule rule, const InverseLimits& limits, doubl
 
 std::string SwitchingInverse::name() const { return kNames[static_cast<std::size_t>(rule_)]; }
 
-double SwitchingInverse::wanted_current(const InverseInput& input, std::span<double>) const noexcept {
+double SwitchingInverse::wanted_current(const InverseInput& input,
+                                        std::span<double>) const noexcept {
   double share = 0;  // of the current range
   switch (rule_) {
     case Rule::ClippedOptimal:
@@ -45,7 +46,8 @@ double SwitchingInverse::wanted_current(const InverseInput& input, std::span<dou
       share = signum_share(&input, force_max_);
       break;
   }
-  return limits().current_min + std::clamp(share, 0.0, 1.0) * (limits().current_max - limits().current_min);
+  return limits().current_min +
+         std::clamp(share, 0.0, 1.0) * (limits().current_max - limits().current_min);
 }
 
 }  // namespace dashpot

@@ -3,8 +3,8 @@
 
 namespace dashpot {
 
-/// Schemes that need no model of the damper: they switch or scale the current by what force is wanted and
-/// what force or motion is measured. Currents count from the least one of the limits.
+/// Schemes that need no model of the damper: they switch or scale the current by what force is
+/// wanted and what force or motion is measured. Currents count from the least one of the limits.
 class SwitchingInverse final : public InverseModel {
  public:
   enum class Rule {
@@ -13,8 +13,8 @@ class SwitchingInverse final : public InverseModel {
     Heaviside,               ///< full when f_c v > 0
     Signum                   ///< gain (f_c - f) sgn f, within the limits
   };
-  /// force_max: N, the damper's largest force; sets the gain 10 / force_max (of the current range) too.
-  /// Throws Error when it is not above 0.
+  /// force_max: N, the damper's largest force; sets the gain 10 / force_max (of the current range)
+  /// too. Throws Error when it is not above 0.
   SwitchingInverse(Rule rule, const InverseLimits& limits, double force_max);
 
   std::string name() const override;

@@ -19,7 +19,8 @@ std::size_t first_sample(const InverseNetwork& network, const InverseRun& run) {
   return static_cast<std::size_t>(longest) * network.stride(run.sample_time);
 }
 
-double signal_of(const InverseRun& run, std::size_t k, Tap::Signal signal, const std::vector<double>& fed) {
+double signal_of(const InverseRun& run, std::size_t k, Tap::Signal signal,
+                 const std::vector<double>& fed) {
   switch (signal) {
     case Tap::Signal::Displacement:
       return run.inputs[k].displacement;
@@ -41,9 +42,10 @@ double mean_weight(std::span<const InverseRun> runs) {
   return samples > 0 ? sum / samples : 0;
 }
 
-/// Draws samples at equal steps of the summed weight, so that a plain mean over them is the weighted one.
-TrainingSamples drawn(const InverseNetwork& network, std::span<const InverseRun> runs, const Currents& fed,
-                      const InverseTraining& options, std::size_t count) {
+/// Draws samples at equal steps of the summed weight, so that a plain mean over them is the
+/// weighted one.
+TrainingSamples drawn(const InverseNetwork& network, std::span<const InverseRun> runs,
+                      const Currents& fed, const InverseTraining& options, std::size_t count) {
   const double floor = options.least_weight * mean_weight(runs);
   const auto weight = [&](const InverseRun& run, std::size_t k) {
     return run.weight[k] > 0 ? run.weight[k] + floor : 0;
@@ -71,8 +73,10 @@ TrainingSamples drawn(const InverseNetwork& network, std::span<const InverseRun>
   return samples;
 }
 
-/// Mean and standard deviation of every `stride`th value from `first` on; a constant gets the scale 1.
-std::pair<double, double> moments(const std::vector<double>& values, std::size_t first, std::size_t stride) {
+/// Mean and standard deviation of every `stride`th value from `first` on; a constant gets the
+/// scale 1.
+std::pair<double, double> moments(const std::vector<double>& values, std::size_t first,
+                                  std::size_t stride) {
   double sum = 0, squares = 0, count = 0;
   for (std::size_t k = first; k < values.size(); k += stride, ++count) sum += values[k];
   const double mean = sum / count;
@@ -125,7 +129,8 @@ Currents all_answers(const InverseNetwork& network, std::span<const InverseRun> 
 }  // namespace
 
 std::vector<double> answers(const InverseNetwork& network, const InverseRun& run) {
-  const HistoryNetwork inverse(network, {network.current_min, network.current_max, run.sample_time, 0});
+  const HistoryNetwork inverse(network,
+                               {network.current_min, network.current_max, run.sample_time, 0});
   std::vector<double> state(inverse.state_size()), currents;
   inverse.rest(run.inputs.front(), state);
   for (std::size_t k = 0; k < run.size(); ++k) {
@@ -136,7 +141,8 @@ std::vector<double> answers(const InverseNetwork& network, const InverseRun& run
   return currents;
 }
 
-double weighted_error(std::span<const InverseRun> runs, std::span<const std::vector<double>> currents) {
+double weighted_error(std::span<const InverseRun> runs,
+                      std::span<const std::vector<double>> currents) {
   double squares = 0, weights = 0;
   for (std::size_t r = 0; r < runs.size(); ++r)
     for (std::size_t k = 0; k < runs[r].size(); ++k) {
@@ -147,14 +153,16 @@ double weighted_error(std::span<const InverseRun> runs, std::span<const std::vec
   return weights > 0 ? std::sqrt(squares / weights) : 0;
 }
 
-TaughtInverse train_inverse(const InverseNetworkPreset& preset, std::span<const InverseRun> training,
+TaughtInverse train_inverse(const InverseNetworkPreset& preset,
+                            std::span<const InverseRun> training,
                             std::span<const InverseRun> left_out, const InverseTraining& options) {
   InverseNetwork network = untrained(preset, options);
   Currents fed = true_currents(training), fed_left_out = true_currents(left_out);
   TaughtInverse best;
   for (int round = 0; round < (network.feeds_back() ? 1 + options.rounds : 1); ++round) {
     const TrainingSamples samples = drawn(network, training, fed, options, options.samples);
-    const TrainingSamples others = drawn(network, left_out, fed_left_out, options, options.samples / 3);
+    const TrainingSamples others =
+        drawn(network, left_out, fed_left_out, options, options.samples / 3);
     if (round == 0) standardise(network.mlp, samples);
     TrainOptions train_options;
     train_options.max_iterations = options.iterations;
@@ -168,7 +176,8 @@ TaughtInverse train_inverse(const InverseNetworkPreset& preset, std::span<const 
     fed = all_answers(network, training);
     fed_left_out = all_answers(network, left_out);
     const double error = weighted_error(left_out, fed_left_out);
-    if (round == 0 || error < best.left_out_rmse) best = {network, weighted_error(training, fed), error};
+    if (round == 0 || error < best.left_out_rmse)
+      best = {network, weighted_error(training, fed), error};
   }
   return best;
 }

@@ -12,11 +12,13 @@ struct InverseTraining {
   double spacing = 5e-3;  ///< s between two delays
   double current_min = 0, current_max = 1;
   std::size_t samples = 6000;  ///< drawn from all runs in proportion to their weights
-  double least_weight = 0.02;  ///< of the mean one: where the current makes no difference, it keeps in order
+  double least_weight =
+      0.02;  ///< of the mean one: where the current makes no difference, it keeps in order
   double weight_decay = 1e-6;
   int iterations = 150;  ///< of Levenberg-Marquardt, per round
-  /// Beyond the first: with the fed-back currents that the network itself gave along the runs. The true ones
-  /// nearly are the answer, so that a network which only saw those clings to its own mistakes.
+  /// Beyond the first: with the fed-back currents that the network itself gave along the runs. The
+  /// true ones nearly are the answer, so that a network which only saw those clings to its own
+  /// mistakes.
   int rounds = 3;
   std::uint64_t seed = 1;
   int threads = 1;
@@ -29,14 +31,17 @@ struct TaughtInverse {
   double training_rmse = 0, left_out_rmse = 0;  ///< A, weighted as the runs are
 };
 
-/// Levenberg-Marquardt with early stopping on the left-out runs; of the rounds the one that is best there in
-/// free run. Throws Error when the runs' samples cannot serve the delays or no sample counts.
-TaughtInverse train_inverse(const InverseNetworkPreset& preset, std::span<const InverseRun> training,
+/// Levenberg-Marquardt with early stopping on the left-out runs; of the rounds the one that is best
+/// there in free run. Throws Error when the runs' samples cannot serve the delays or no sample
+/// counts.
+TaughtInverse train_inverse(const InverseNetworkPreset& preset,
+                            std::span<const InverseRun> training,
                             std::span<const InverseRun> left_out, const InverseTraining& options);
 
 /// The network's currents along a run, in free run.
 std::vector<double> answers(const InverseNetwork& network, const InverseRun& run);
 /// Root of the weighted mean squared error of currents along runs, A.
-double weighted_error(std::span<const InverseRun> runs, std::span<const std::vector<double>> currents);
+double weighted_error(std::span<const InverseRun> runs,
+                      std::span<const std::vector<double>> currents);
 
 }  // namespace dashpot

@@ -23,8 +23,9 @@ Motion sampled(const MotionOptions& options, At at) {
       throw Error("motion", "amplitude, frequency, duration and sample time must be above 0");
   const double samples = std::floor(duration / sample_time) + 1;
   if (!(samples <= kMostSamples))
-    throw Error("motion", "it would have " + format_number(samples) + " samples",
-                "at most " + format_number(kMostSamples) + ": a shorter one or a lower sample rate");
+    throw Error(
+        "motion", "it would have " + format_number(samples) + " samples",
+        "at most " + format_number(kMostSamples) + ": a shorter one or a lower sample rate");
   Motion motion;
   motion.sample_time = sample_time;
   for (double k = 0; k < samples; ++k) {
@@ -35,7 +36,8 @@ Motion sampled(const MotionOptions& options, At at) {
   return motion;
 }
 
-std::vector<double> force_at_held_current(const DamperModel& damper, const Motion& motion, double current) {
+std::vector<double> force_at_held_current(const DamperModel& damper, const Motion& motion,
+                                          double current) {
   const auto at = [&](std::size_t k) {
     return DamperInput{motion.displacement[k], motion.velocity[k], current};
   };
@@ -55,8 +57,8 @@ Motion sine_motion(const MotionOptions& options) {
   Motion motion = sampled(options, [&](double t) {
     return std::pair{-options.amplitude * std::cos(w * t), options.amplitude * w * std::sin(w * t)};
   });
-  motion.description =
-      format_number(1000 * options.amplitude) + " mm at " + format_number(options.frequency) + " Hz";
+  motion.description = format_number(1000 * options.amplitude) + " mm at " +
+                       format_number(options.frequency) + " Hz";
   return motion;
 }
 
@@ -64,10 +66,12 @@ Motion random_motion(const MotionOptions& options) {
   Random random(options.seed);
   const RandomSignal signal(random, 0, options.frequency);
   const double sigma = options.amplitude / 2;
-  Motion motion = sampled(
-      options, [&](double t) { return std::pair{sigma * signal.at(t), sigma * signal.derivative(t)}; });
-  motion.description = "random motion, +-" + format_number(1000 * options.amplitude) + " mm, 0 to " +
-                       format_number(options.frequency) + " Hz, seed " + std::to_string(options.seed);
+  Motion motion = sampled(options, [&](double t) {
+    return std::pair{sigma * signal.at(t), sigma * signal.derivative(t)};
+  });
+  motion.description = "random motion, +-" + format_number(1000 * options.amplitude) +
+                       " mm, 0 to " + format_number(options.frequency) + " Hz, seed " +
+                       std::to_string(options.seed);
   return motion;
 }
 
@@ -87,7 +91,8 @@ std::vector<double> admissible_force(const DamperModel& damper, const Motion& mo
 std::vector<double> sine_force(double amplitude, double frequency, const Motion& motion) {
   std::vector<double> force;
   for (std::size_t k = 0; k < motion.size(); ++k)
-    force.push_back(amplitude * std::sin(kTwoPi * frequency * static_cast<double>(k) * motion.sample_time));
+    force.push_back(amplitude *
+                    std::sin(kTwoPi * frequency * static_cast<double>(k) * motion.sample_time));
   return force;
 }
 

@@ -27,8 +27,8 @@ struct MotionOptions {
 Motion sine_motion(const MotionOptions& options);
 Motion random_motion(const MotionOptions& options);
 
-/// A force trace that the damper can give: a share, random and band-limited (Hz), of the way between its
-/// forces at the least and at the greatest current, each held over the whole motion.
+/// A force trace that the damper can give: a share, random and band-limited (Hz), of the way
+/// between its forces at the least and at the greatest current, each held over the whole motion.
 std::vector<double> admissible_force(const DamperModel& damper, const Motion& motion,
                                      const InverseLimits& limits, double band, std::uint64_t seed);
 

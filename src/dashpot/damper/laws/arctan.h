@@ -3,10 +3,10 @@
  *   F  = (2 / pi) f_y atan(kappa (v - v_h s)) + c v + f0
  *   z' = r (v - z),   a = r (v - z),   s = a / sqrt(a^2 + a_s^2)
  *
- * v m/s (extension positive), a m/s^2 its filtered derivative; F N, same sign as v. State: z m/s. At rest
- * z = v. After the algebraic model of S. Cesmeci, T. Engin, Int. J. Mech. Sci. 52 (2010) 1036-1046, whose
- * exact form was not at hand: this form is our own. s is a smooth sgn(a): at a = 0, thus at rest, the force
- * lies midway between the branches and does not jump.
+ * v m/s (extension positive), a m/s^2 its filtered derivative; F N, same sign as v. State: z m/s.
+ * At rest z = v. After the algebraic model of S. Cesmeci, T. Engin, Int. J. Mech. Sci. 52 (2010)
+ * 1036-1046, whose exact form was not at hand: this form is our own. s is a smooth sgn(a): at a =
+ * 0, thus at rest, the force lies midway between the branches and does not jump.
  */
 #ifndef DASHPOT_LAW_ARCTAN_H
 #define DASHPOT_LAW_ARCTAN_H
@@ -27,7 +27,8 @@ static inline void arctan_rest(const Arctan* p, double x, double v, double* z) {
   z[0] = v;
 }
 
-static inline void arctan_derivative(const Arctan* p, double x, double v, const double* z, double* dz) {
+static inline void arctan_derivative(const Arctan* p, double x, double v, const double* z,
+                                     double* dz) {
   (void)x;
   dz[0] = p->r * (v - z[0]);
 }

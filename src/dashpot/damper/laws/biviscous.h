@@ -4,9 +4,10 @@
  *   F = C_po v + F_y sgn(v)   beyond;              + f0 everywhere
  *
  * v m/s (extension positive); F N, same sign as v. No internal state, no hysteresis.
- * Written as C_pr v held between C_po v - F_y and C_po v + F_y, which is the same where C_pr > C_po, and
- * stays finite, continuous and dissipative where a fit strays from that. Source: R. Stanway, J. L. Sproston,
- * A. K. El-Wahed, Smart Mater. Struct. 5 (1996) 464-482. Differs from it: f0.
+ * Written as C_pr v held between C_po v - F_y and C_po v + F_y, which is the same where C_pr >
+ * C_po, and stays finite, continuous and dissipative where a fit strays from that. Source: R.
+ * Stanway, J. L. Sproston, A. K. El-Wahed, Smart Mater. Struct. 5 (1996) 464-482. Differs from it:
+ * f0.
  */
 #ifndef DASHPOT_LAW_BIVISCOUS_H
 #define DASHPOT_LAW_BIVISCOUS_H

@@ -4,11 +4,11 @@
  *   F  = c0 v + k0 (x - x0) + alpha z + f0
  *
  * x m, v m/s (extension positive); F N, same sign as v. State: z m, at rest 0.
- * gamma multiplies |v| z: gamma and beta change places between papers. z may be rescaled by any s > 0 with
- * alpha / s, s A, gamma / s^(n-1), beta / s^(n-1): only three of alpha, A, gamma, beta are independent. |z|
- * settles at z_max = (A / (gamma + beta))^(1/n). Source: Y. K. Wen, J. Eng. Mech. Div. 102 (1976) 249-263; as
- * written by B. F. Spencer, S. J. Dyke, M. K. Sain, J. D. Carlson, J. Eng. Mech. 123 (1997) 230-238. Differs
- * from it: f0.
+ * gamma multiplies |v| z: gamma and beta change places between papers. z may be rescaled by any s >
+ * 0 with alpha / s, s A, gamma / s^(n-1), beta / s^(n-1): only three of alpha, A, gamma, beta are
+ * independent. |z| settles at z_max = (A / (gamma + beta))^(1/n). Source: Y. K. Wen, J. Eng. Mech.
+ * Div. 102 (1976) 249-263; as written by B. F. Spencer, S. J. Dyke, M. K. Sain, J. D. Carlson, J.
+ * Eng. Mech. 123 (1997) 230-238. Differs from it: f0.
  */
 #ifndef DASHPOT_LAW_BOUC_WEN_H
 #define DASHPOT_LAW_BOUC_WEN_H
@@ -31,7 +31,8 @@ static inline double bouc_wen_z_max(double A, double gamma, double beta, double 
   return n == 2 ? sqrt(ratio) : pow(ratio, 1 / n);
 }
 
-static inline void bouc_wen_derivative(const BoucWen* p, double x, double v, const double* z, double* dz) {
+static inline void bouc_wen_derivative(const BoucWen* p, double x, double v, const double* z,
+                                       double* dz) {
   const double u = fabs(z[0]), power = p->n == 2 ? u : pow(u, p->n - 1);
   (void)x;
   dz[0] = p->A * v - power * (p->gamma * fabs(v) * z[0] + p->beta * v * u);

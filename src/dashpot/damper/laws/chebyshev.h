@@ -1,14 +1,15 @@
-/* Restoring-force surface: the force as a sum of products of Chebyshev polynomials of position and velocity.
+/* Restoring-force surface: the force as a sum of products of Chebyshev polynomials of position and
+ * velocity.
  *
  *   F = sum over i = 0 ... 2, j = 0 ... 5 of c_ij T_i(x') T_j(v'),   c_00 = f0
  *   x' = (x - x_mid) / x_half,   v' = v / v_half,   both held within -1 ... 1
  *   T_0 = 1,   T_1(s) = s,   T_k+1 = 2 s T_k - T_k-1
  *
- * x m, v m/s (extension positive); F N, same sign as v. No internal state: hysteresis shows as far as
- * position tells the branches apart. Outside the data a polynomial explodes, so x' and v' are held at their
- * edge. The terms with i + j odd are those of a damper that pulls as it pushes. Source: S. F. Masri, T. K.
- * Caughey, J. Appl. Mech. 46 (1979) 433-447; used for these dampers by H. P. Gavin (2001).
- * Differs from them: the edge.
+ * x m, v m/s (extension positive); F N, same sign as v. No internal state: hysteresis shows as far
+ * as position tells the branches apart. Outside the data a polynomial explodes, so x' and v' are
+ * held at their edge. The terms with i + j odd are those of a damper that pulls as it pushes.
+ * Source: S. F. Masri, T. K. Caughey, J. Appl. Mech. 46 (1979) 433-447; used for these dampers by
+ * H. P. Gavin (2001). Differs from them: the edge.
  */
 #ifndef DASHPOT_LAW_CHEBYSHEV_H
 #define DASHPOT_LAW_CHEBYSHEV_H

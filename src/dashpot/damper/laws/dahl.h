@@ -4,9 +4,9 @@
  *   F  = kappa_w w + f0
  *
  * v m/s (extension positive); F N, same sign as v. State: w, at rest 0.
- * Independent of speed: a damper needs viscous_dahl. Source: P. R. Dahl, AIAA Journal 14 (1976) 1675-1682, in
- * the normalised notation of F. Ikhouane, J. Rodellar, Systems with Hysteresis (Wiley 2007). Differs from
- * them: f0.
+ * Independent of speed: a damper needs viscous_dahl. Source: P. R. Dahl, AIAA Journal 14 (1976)
+ * 1675-1682, in the normalised notation of F. Ikhouane, J. Rodellar, Systems with Hysteresis (Wiley
+ * 2007). Differs from them: f0.
  */
 #ifndef DASHPOT_LAW_DAHL_H
 #define DASHPOT_LAW_DAHL_H
@@ -38,7 +38,9 @@ static inline double dahl_move(double rho, double w, double s) {
   return w + (w - (s < 0 ? -1 : 1)) * expm1(-rho * fabs(s));
 }
 
-static inline double dahl_travel(const Dahl* p, double w, double s) { return dahl_move(p->rho, w, s); }
+static inline double dahl_travel(const Dahl* p, double w, double s) {
+  return dahl_move(p->rho, w, s);
+}
 
 /* 1/s: how fast w settles at speed v */
 static inline double dahl_rate(const Dahl* p, double v) { return p->rho * fabs(v); }

@@ -1,14 +1,15 @@
-/* From coil current to force by physics: magnetic circuit, field in the fluid, yield stress, flow through the
- * gap.
+/* From coil current to force by physics: magnetic circuit, field in the fluid, yield stress, flow
+ * through the gap.
  *
- *   B_c = mu0 turns |i| / (core_length / permeability + gap_length),   B = B_sat B_c / (B_c + B_sat)
- *   H = a1 B + a3 B^3,   tau = b0 + b1 H + b2 H^2 + b3 H^3, held at its maximum tau_max:   the fluid
- * MRF-140CG F = sgn(v) (G + f_f) + f0,   G as in plate_bingham with Y = f_m tau / tau_max
+ *   B_c = mu0 turns |i| / (core_length / permeability + gap_length),   B = B_sat B_c / (B_c +
+ * B_sat) H = a1 B + a3 B^3,   tau = b0 + b1 H + b2 H^2 + b3 H^3, held at its maximum tau_max:   the
+ * fluid MRF-140CG F = sgn(v) (G + f_f) + f0,   G as in plate_bingham with Y = f_m tau / tau_max
  *
- * v m/s (extension positive); F N, same sign as v, sgn(0) = 0; i A. No internal state, no hysteresis.
- * f_m = 2 tau_max L A / h, c0 = 12 eta L A^2 / (w h^3). The area of the circuit cancels. Source: equations 2
- * to 11 and table 1 of the family paper (Duchanoy et al. 2019). Differs from it: tau is held beyond its
- * maximum; the flow is the exact one of plate_bingham in place of its equations 13 to 15; friction f_f.
+ * v m/s (extension positive); F N, same sign as v, sgn(0) = 0; i A. No internal state, no
+ * hysteresis. f_m = 2 tau_max L A / h, c0 = 12 eta L A^2 / (w h^3). The area of the circuit
+ * cancels. Source: equations 2 to 11 and table 1 of the family paper (Duchanoy et al. 2019).
+ * Differs from it: tau is held beyond its maximum; the flow is the exact one of plate_bingham in
+ * place of its equations 13 to 15; friction f_f.
  */
 #ifndef DASHPOT_LAW_FIELD_CHAIN_H
 #define DASHPOT_LAW_FIELD_CHAIN_H
@@ -31,16 +32,20 @@ typedef struct FieldChain {
 
 /* Pa */
 static inline double field_chain_yield_stress(const FieldChain* p) {
-  const MagneticCircuit circuit = {p->turns, p->core_length, p->gap_length, 1, p->permeability, p->B_sat, 1};
-  return family_yield_stress(&kFamily140CG,
-                             family_field(&kFamily140CG, circuit_flux_density(&circuit, fabs(p->current))));
+  const MagneticCircuit circuit = {
+      p->turns, p->core_length, p->gap_length, 1, p->permeability, p->B_sat, 1};
+  return family_yield_stress(
+      &kFamily140CG, family_field(&kFamily140CG, circuit_flux_density(&circuit, fabs(p->current))));
 }
 
 static inline double field_chain_force(const FieldChain* p, double x, double v, const double* z) {
   const double largest = family_yield_stress(&kFamily140CG, kFamily140CG.held_field);
-  const double yielding = p->f_m * field_chain_yield_stress(p) / largest, onset = plate_onset(v, p->v_s);
+  const double yielding = p->f_m * field_chain_yield_stress(p) / largest,
+               onset = plate_onset(v, p->v_s);
   (void)x, (void)z;
-  return plate_side(v) * (plate_bingham_pressure(p->c0 * fabs(v), yielding * onset) + p->f_f * onset) + p->f0;
+  return plate_side(v) *
+             (plate_bingham_pressure(p->c0 * fabs(v), yielding * onset) + p->f_f * onset) +
+         p->f0;
 }
 
 #endif

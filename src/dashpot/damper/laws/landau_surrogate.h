@@ -1,11 +1,12 @@
-/* Landau surrogate: an order parameter that follows the velocity late, as in a theory of phase transitions.
+/* Landau surrogate: an order parameter that follows the velocity late, as in a theory of phase
+ * transitions.
  *
  *   tau p' = v / v_r - (k1 p + k3 p^3 + k5 p^5)
  *   F      = f_y p + c v + f0
  *
  * v m/s (extension positive); F N, same sign as v. State: p, at rest 0.
- * k1 > 0: a smooth lag; k1 < 0: two wells, between which p jumps. Source: none, an own example of the kind.
- * It is not the model of Wang and Kamath (2006), whose equations were not at hand.
+ * k1 > 0: a smooth lag; k1 < 0: two wells, between which p jumps. Source: none, an own example of
+ * the kind. It is not the model of Wang and Kamath (2006), whose equations were not at hand.
  */
 #ifndef DASHPOT_LAW_LANDAU_SURROGATE_H
 #define DASHPOT_LAW_LANDAU_SURROGATE_H
@@ -27,20 +28,21 @@ static inline void landau_surrogate_rest(const LandauSurrogate* p, double x, dou
   z[0] = 0;
 }
 
-static inline void landau_surrogate_derivative(const LandauSurrogate* p, double x, double v, const double* z,
-                                               double* dz) {
+static inline void landau_surrogate_derivative(const LandauSurrogate* p, double x, double v,
+                                               const double* z, double* dz) {
   const double q = z[0] * z[0];
   (void)x;
   dz[0] = (v / p->v_r - z[0] * (p->k1 + q * (p->k3 + q * p->k5))) / p->tau;
 }
 
-static inline double landau_surrogate_force(const LandauSurrogate* p, double x, double v, const double* z) {
+static inline double landau_surrogate_force(const LandauSurrogate* p, double x, double v,
+                                            const double* z) {
   (void)x;
   return p->f_y * z[0] + p->c * v + p->f0;
 }
 
-/* The order parameter q with q + g (k1 q + k3 q^3 + k5 q^5) = drive, by Newton's method from `guess`. The
- * left side grows, and bends away from 0, so that no step overshoots but the first. */
+/* The order parameter q with q + g (k1 q + k3 q^3 + k5 q^5) = drive, by Newton's method from
+ * `guess`. The left side grows, and bends away from 0, so that no step overshoots but the first. */
 static inline double landau_surrogate_implicit(const LandauSurrogate* p, double g, double drive,
                                                double guess) {
   double q = guess;
@@ -55,11 +57,11 @@ static inline double landau_surrogate_implicit(const LandauSurrogate* p, double 
   return q;
 }
 
-/* p after a step of length h in which v goes linearly from v[0] to v[1], by the two-stage diagonally implicit
- * Runge-Kutta method of second order, which damps what is stiff at any length; returns 0, with p untouched,
- * where the step is too long for the time in which the wells part. */
-static inline int landau_surrogate_step(const LandauSurrogate* p, const double* x, const double* v, double h,
-                                        double* z) {
+/* p after a step of length h in which v goes linearly from v[0] to v[1], by the two-stage
+ * diagonally implicit Runge-Kutta method of second order, which damps what is stiff at any length;
+ * returns 0, with p untouched, where the step is too long for the time in which the wells part. */
+static inline int landau_surrogate_step(const LandauSurrogate* p, const double* x, const double* v,
+                                        double h, double* z) {
   const double share = 1 - 0.70710678118654752; /* 1 - 1/sqrt(2) */
   const double g = share * h / p->tau;
   double drive, slope, start;

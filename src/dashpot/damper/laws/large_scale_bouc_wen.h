@@ -4,10 +4,10 @@
  *   v_f' = a = r (v - v_f)
  *   F  = m a + a1 exp(-(a2 |v|)^p) v + k x + alpha z + f0
  *
- * x m, v m/s (extension positive); F N, same sign as v. States: z m, v_f m/s; at rest z = 0, v_f = v.
- * The acceleration is that of the velocity behind a first-order filter of rate r: far above the motion's own
- * frequencies it is x''. Source: G. Yang, B. F. Spencer, H. J. Jung, J. D. Carlson, J. Eng. Mech. 130 (2004)
- * 1107-1114. Differs from it: the filter.
+ * x m, v m/s (extension positive); F N, same sign as v. States: z m, v_f m/s; at rest z = 0, v_f =
+ * v. The acceleration is that of the velocity behind a first-order filter of rate r: far above the
+ * motion's own frequencies it is x''. Source: G. Yang, B. F. Spencer, H. J. Jung, J. D. Carlson, J.
+ * Eng. Mech. 130 (2004) 1107-1114. Differs from it: the filter.
  */
 #ifndef DASHPOT_LAW_LARGE_SCALE_BOUC_WEN_H
 #define DASHPOT_LAW_LARGE_SCALE_BOUC_WEN_H
@@ -35,7 +35,8 @@ static inline BoucWen large_scale_bouc_wen_loop(const LargeScaleBoucWen* p) {
   return loop;
 }
 
-static inline void large_scale_bouc_wen_rest(const LargeScaleBoucWen* p, double x, double v, double* z) {
+static inline void large_scale_bouc_wen_rest(const LargeScaleBoucWen* p, double x, double v,
+                                             double* z) {
   (void)p, (void)x;
   z[0] = 0;
   z[1] = v;
@@ -61,8 +62,8 @@ static inline double large_scale_bouc_wen_travel(const LargeScaleBoucWen* p, dou
 }
 
 /* The filter's output is a straight line, too, but for a deviation that decays. */
-static inline void large_scale_bouc_wen_filter(const LargeScaleBoucWen* p, const double* v, double h,
-                                               double* z) {
+static inline void large_scale_bouc_wen_filter(const LargeScaleBoucWen* p, const double* v,
+                                               double h, double* z) {
   const double behind = (v[1] - v[0]) / (h * p->r);
   z[1] = v[1] - behind + (z[1] - v[0] + behind) * exp(-p->r * h);
 }

@@ -1,13 +1,13 @@
 /* Look-up map: the force over velocity, straight between knots.
  *
- *   F(0) = f0,   F(v_max k) = f0 + p1 ... p6 and F(-v_max k) = f0 + n1 ... n6 at k = 1/32, 1/16, 1/8, 1/4,
- * 1/2, 1
+ *   F(0) = f0,   F(v_max k) = f0 + p1 ... p6 and F(-v_max k) = f0 + n1 ... n6 at k = 1/32, 1/16,
+ * 1/8, 1/4, 1/2, 1
  *
- * v m/s (extension positive); F N, same sign as v. No internal state, no hysteresis. The knots are denser
- * where the force bends. Beyond v_max the last slope goes on, as a damper's viscous force does, or the last
- * force where that slope falls. The sides are apart from each other: car dampers differ in extension and
- * compression. Source: the force-velocity
- * diagrams of damper makers; no publication.
+ * v m/s (extension positive); F N, same sign as v. No internal state, no hysteresis. The knots are
+ * denser where the force bends. Beyond v_max the last slope goes on, as a damper's viscous force
+ * does, or the last force where that slope falls. The sides are apart from each other: car dampers
+ * differ in extension and compression. Source: the force-velocity diagrams of damper makers; no
+ * publication.
  */
 #ifndef DASHPOT_LAW_LOOKUP_MAP_H
 #define DASHPOT_LAW_LOOKUP_MAP_H

@@ -1,15 +1,15 @@
-/* Modified Bouc-Wen (phenomenological model): a Bouc-Wen element and a dashpot c0 in series with a dashpot
- * c1.
+/* Modified Bouc-Wen (phenomenological model): a Bouc-Wen element and a dashpot c0 in series with a
+ * dashpot c1.
  *
  *   y' = (alpha z + c0 v + k0 (x - y)) / (c0 + c1)
  *   z' = A w - gamma |w| z |z|^(n-1) - beta w |z|^n,   w = v - y'
  *   F  = alpha z + c0 w + k0 (x - y) + k1 (x - x0) + f0   ( = c1 y' + k1 (x - x0) + f0 )
  *
  * x m, v m/s (extension positive); F N, same sign as v. States: y m, z m. At rest y = x and z = 0.
- * gamma multiplies |w| z: gamma and beta change places between papers. z may be rescaled by any s > 0 with
- * alpha / s, s A, gamma / s^(n-1), beta / s^(n-1): only three of alpha, A, gamma, beta are independent. |z|
- * settles at (A / (gamma + beta))^(1/n). Source: B. F. Spencer, S. J. Dyke, M. K. Sain, J. D. Carlson, J.
- * Eng. Mech. 123 (1997) 230-238. Differs from it: f0, which is 0 there.
+ * gamma multiplies |w| z: gamma and beta change places between papers. z may be rescaled by any s >
+ * 0 with alpha / s, s A, gamma / s^(n-1), beta / s^(n-1): only three of alpha, A, gamma, beta are
+ * independent. |z| settles at (A / (gamma + beta))^(1/n). Source: B. F. Spencer, S. J. Dyke, M. K.
+ * Sain, J. D. Carlson, J. Eng. Mech. 123 (1997) 230-238. Differs from it: f0, which is 0 there.
  */
 #ifndef DASHPOT_LAW_MODIFIED_BOUC_WEN_H
 #define DASHPOT_LAW_MODIFIED_BOUC_WEN_H
@@ -41,16 +41,17 @@ static inline double modified_bouc_wen_series_speed(const ModifiedBoucWen* p, do
   return (p->alpha * z[1] + p->c0 * v + p->k0 * (x - z[0])) * ease;
 }
 
-static inline void modified_bouc_wen_derivative(const ModifiedBoucWen* p, double x, double v, const double* z,
-                                                double* dz) {
+static inline void modified_bouc_wen_derivative(const ModifiedBoucWen* p, double x, double v,
+                                                const double* z, double* dz) {
   const double dy = modified_bouc_wen_series_speed(p, x, v, z);
   const double w = v - dy;
   dz[0] = dy;
-  dz[1] =
-      p->A * w - modified_bouc_wen_power(p, z[1]) * (p->gamma * fabs(w) * z[1] + p->beta * w * fabs(z[1]));
+  dz[1] = p->A * w -
+          modified_bouc_wen_power(p, z[1]) * (p->gamma * fabs(w) * z[1] + p->beta * w * fabs(z[1]));
 }
 
-static inline double modified_bouc_wen_force(const ModifiedBoucWen* p, double x, double v, const double* z) {
+static inline double modified_bouc_wen_force(const ModifiedBoucWen* p, double x, double v,
+                                             const double* z) {
   const double w = v - modified_bouc_wen_series_speed(p, x, v, z);
   return p->alpha * z[1] + p->c0 * w + p->k0 * (x - z[0]) + p->k1 * (x - p->x0) + p->f0;
 }
@@ -63,12 +64,12 @@ static inline void modified_bouc_wen_rest(const ModifiedBoucWen* p, double x, do
   z[1] = 0;
 }
 
-/* States after a step of length h in which x and v go linearly from x[0], v[0] to x[1], v[1]. Second order,
- * stable and bounded at any length: z travels exactly along its loop, over the distance w h at whose speed w
- * the equation of y' holds in the mean. In the direction of motion that equation is monotone, so Newton's
- * method within a bracket finds w. */
-static inline int modified_bouc_wen_step(const ModifiedBoucWen* p, const double* x, const double* v, double h,
-                                         double* z) {
+/* States after a step of length h in which x and v go linearly from x[0], v[0] to x[1], v[1].
+ * Second order, stable and bounded at any length: z travels exactly along its loop, over the
+ * distance w h at whose speed w the equation of y' holds in the mean. In the direction of motion
+ * that equation is monotone, so Newton's method within a bracket finds w. */
+static inline int modified_bouc_wen_step(const ModifiedBoucWen* p, const double* x, const double* v,
+                                         double h, double* z) {
   const double z_max = bouc_wen_z_max(p->A, p->gamma, p->beta, p->n);
   const double sigma = p->gamma / (p->gamma + p->beta);
   const double mean_v = 0.5 * (v[0] + v[1]);
@@ -79,7 +80,8 @@ static inline int modified_bouc_wen_step(const ModifiedBoucWen* p, const double*
   const double z0 = side * z[1], share = 0.5 * p->alpha;
   double low = 0, high = (side * push - p->alpha * z0) / drag;
   double w =
-      high * drag / (drag + share * h * p->A * fmax(0, normalised_bouc_wen_slope(sigma, p->n, z0 / z_max)));
+      high * drag /
+      (drag + share * h * p->A * fmax(0, normalised_bouc_wen_slope(sigma, p->n, z0 / z_max)));
   double z1 = z0;
   int k;
   for (k = 0; k < 60; ++k) {

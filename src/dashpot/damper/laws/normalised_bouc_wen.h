@@ -4,9 +4,9 @@
  *   F  = kappa_x v + kappa_w w + f0
  *
  * v m/s (extension positive); F N, same sign as v. State: w, at rest 0.
- * The same as z' = A v - gamma |v| z |z|^(n-1) - beta v |z|^n with rho = A / z_max, sigma = gamma / (gamma +
- * beta), w = z / z_max, z_max = (A / (gamma + beta))^(1/n). sigma > 1 is a negative beta. Source: F.
- * Ikhouane, J. Rodellar, Systems with Hysteresis (Wiley 2007). Differs from it: f0.
+ * The same as z' = A v - gamma |v| z |z|^(n-1) - beta v |z|^n with rho = A / z_max, sigma = gamma /
+ * (gamma + beta), w = z / z_max, z_max = (A / (gamma + beta))^(1/n). sigma > 1 is a negative beta.
+ * Source: F. Ikhouane, J. Rodellar, Systems with Hysteresis (Wiley 2007). Differs from it: f0.
  */
 #ifndef DASHPOT_LAW_NORMALISED_BOUC_WEN_H
 #define DASHPOT_LAW_NORMALISED_BOUC_WEN_H
@@ -32,13 +32,16 @@ static inline double normalised_bouc_wen_slope(double sigma, double n, double w)
 }
 
 #ifndef DASHPOT_LAW_IN_LANES /* branches that differ from lane to lane */
-static inline void normalised_bouc_wen_rest(const NormalisedBoucWen* p, double x, double v, double* z) {
+static inline void normalised_bouc_wen_rest(const NormalisedBoucWen* p, double x, double v,
+                                            double* z) {
   (void)p, (void)x, (void)v;
   z[0] = 0;
 }
 
-/* For any n: each step goes along the straight line that touches the slope at its start, in closed form. */
-static inline double normalised_bouc_wen_travel_by_tangents(double sigma, double n, double w, double s) {
+/* For any n: each step goes along the straight line that touches the slope at its start, in closed
+ * form. */
+static inline double normalised_bouc_wen_travel_by_tangents(double sigma, double n, double w,
+                                                            double s) {
   const double fastest = n * (w > 0 ? 1 : fmax(1, fabs(2 * sigma - 1)));
   const int count = 1 + (int)fmin(4 * s * fastest, 31);
   int k;
@@ -51,8 +54,10 @@ static inline double normalised_bouc_wen_travel_by_tangents(double sigma, double
   return w;
 }
 
-/* w < 0 after a travel of s >= 0 towards larger w, n = 1 or 2; what is left of s when w arrives at 0 */
-static inline double normalised_bouc_wen_travel_below_zero(double sigma, double n, double w, double* s) {
+/* w < 0 after a travel of s >= 0 towards larger w, n = 1 or 2; what is left of s when w arrives at
+ * 0 */
+static inline double normalised_bouc_wen_travel_below_zero(double sigma, double n, double w,
+                                                           double* s) {
   const double b = 2 * sigma - 1, r = sqrt(fabs(b));
   double to_zero;
   if (b == 0)
@@ -90,7 +95,8 @@ static inline double normalised_bouc_wen_rise(double sigma, double n, double w, 
 
 /* w after a travel of s = rho x of either sign */
 static inline double normalised_bouc_wen_move(double sigma, double n, double w, double s) {
-  return s >= 0 ? normalised_bouc_wen_rise(sigma, n, w, s) : -normalised_bouc_wen_rise(sigma, n, -w, -s);
+  return s >= 0 ? normalised_bouc_wen_rise(sigma, n, w, s)
+                : -normalised_bouc_wen_rise(sigma, n, -w, -s);
 }
 
 static inline double normalised_bouc_wen_travel(const NormalisedBoucWen* p, double w, double s) {

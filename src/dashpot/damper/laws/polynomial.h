@@ -3,13 +3,14 @@
  *   F  = f0 + d0 s + (m1 + d1 s) u + (m2 + d2 s) u^2 + ... + (m6 + d6 s) u^6,   u = v / v_max
  *   z' = r (v - z),   a = r (v - z),   s = a / sqrt(a^2 + a_s^2)
  *
- * v m/s (extension positive), a m/s^2 its filtered derivative; F N, same sign as v. State: z m/s. At rest
- * z = v. u is held within -1 ... 1: beyond the data a polynomial of order 6 explodes. Source: S. B. Choi, S.
- * K. Lee, Y. P. Park, J. Sound Vib. 245 (2001) 375-383, which writes F = sum a_k v^k with a set a_k for a > 0
- * and another for a < 0: a_k = (m_k + d_k) / v_max^k and (m_k - d_k) / v_max^k, with m_0 = f0, the mean of
- * both a_0. A damper that pulls as it pushes has m2, m4, m6, d1, d3, d5 and f0 zero. Differs from the source:
- * the limit of u, and the smooth s in place of sgn(a), so that at a = 0, thus at rest, the force lies midway
- * between the branches and does not jump.
+ * v m/s (extension positive), a m/s^2 its filtered derivative; F N, same sign as v. State: z m/s.
+ * At rest z = v. u is held within -1 ... 1: beyond the data a polynomial of order 6 explodes.
+ * Source: S. B. Choi, S. K. Lee, Y. P. Park, J. Sound Vib. 245 (2001) 375-383, which writes F = sum
+ * a_k v^k with a set a_k for a > 0 and another for a < 0: a_k = (m_k + d_k) / v_max^k and (m_k -
+ * d_k) / v_max^k, with m_0 = f0, the mean of both a_0. A damper that pulls as it pushes has m2, m4,
+ * m6, d1, d3, d5 and f0 zero. Differs from the source: the limit of u, and the smooth s in place of
+ * sgn(a), so that at a = 0, thus at rest, the force lies midway between the branches and does not
+ * jump.
  */
 #ifndef DASHPOT_LAW_POLYNOMIAL_H
 #define DASHPOT_LAW_POLYNOMIAL_H
@@ -50,8 +51,10 @@ static inline double polynomial_force(const Polynomial* p, double x, double v, c
   const double a = p->r * (v - z[0]);
   const double s = a / sqrt(a * a + p->a_s * p->a_s);
   const double u = fmin(fmax(v / p->v_max, -1), 1);
-  const double mean = u * (p->m1 + u * (p->m2 + u * (p->m3 + u * (p->m4 + u * (p->m5 + u * p->m6)))));
-  const double half = p->d0 + u * (p->d1 + u * (p->d2 + u * (p->d3 + u * (p->d4 + u * (p->d5 + u * p->d6)))));
+  const double mean =
+      u * (p->m1 + u * (p->m2 + u * (p->m3 + u * (p->m4 + u * (p->m5 + u * p->m6)))));
+  const double half =
+      p->d0 + u * (p->d1 + u * (p->d2 + u * (p->d3 + u * (p->d4 + u * (p->d5 + u * p->d6)))));
   (void)x;
   return p->f0 + mean + s * half;
 }

@@ -1,13 +1,13 @@
-/* Semi-phenomenological (SP) law: a hyperbolic tangent of velocity and position beside a dashpot and a
- * spring.
+/* Semi-phenomenological (SP) law: a hyperbolic tangent of velocity and position beside a dashpot
+ * and a spring.
  *
  *   F = alpha tanh(a1 v + a2 x) + b1 v + b2 x + f0
  *
- * x m, v m/s (extension positive); F N, same sign as v. No internal state. a2 > 0 turns the loop the right
- * way round; b2 < 0 is a negative stiffness. Assumes a motion centred on x = 0: subtract the mean stroke.
- * Source: S. Guo, S. Yang, C. Pan, J. Intell. Mater. Syst. Struct. 17 (2006) 3-14, in the form of the
- * one-sensor paper (alpha = f_c i) and of C. Poussot-Vassal's damper model. Differs from them: f0, and that
- * any coefficient may depend on the current.
+ * x m, v m/s (extension positive); F N, same sign as v. No internal state. a2 > 0 turns the loop
+ * the right way round; b2 < 0 is a negative stiffness. Assumes a motion centred on x = 0: subtract
+ * the mean stroke. Source: S. Guo, S. Yang, C. Pan, J. Intell. Mater. Syst. Struct. 17 (2006) 3-14,
+ * in the form of the one-sensor paper (alpha = f_c i) and of C. Poussot-Vassal's damper model.
+ * Differs from them: f0, and that any coefficient may depend on the current.
  */
 #ifndef DASHPOT_LAW_SEMI_PHENOMENOLOGICAL_H
 #define DASHPOT_LAW_SEMI_PHENOMENOLOGICAL_H

@@ -3,11 +3,12 @@
  *   F  = f_m tanh(k_a (v - v_h s) / 2) (1 + k_v |v|) + f0
  *   z' = r (v - z),   a = r (v - z),   s = a / sqrt(a^2 + a_s^2)
  *
- * v m/s (extension positive), a m/s^2 its filtered derivative; F N, same sign as v. State: z m/s. At rest
- * z = v. tanh(w / 2) is the source's (1 - e^-w) / (1 + e^-w) without its overflow. Source: X. Q. Ma, E. R.
- * Wang, S. Rakheja, C.-Y. Su, Proc. 41st IEEE Conf. Decision and Control (2002); the symmetric core of it,
- * with constant v_h. Differs from it: f0, and the smooth s in place of sgn(a), so that at a = 0, thus at
- * rest, the force lies midway between the branches and does not jump.
+ * v m/s (extension positive), a m/s^2 its filtered derivative; F N, same sign as v. State: z m/s.
+ * At rest z = v. tanh(w / 2) is the source's (1 - e^-w) / (1 + e^-w) without its overflow. Source:
+ * X. Q. Ma, E. R. Wang, S. Rakheja, C.-Y. Su, Proc. 41st IEEE Conf. Decision and Control (2002);
+ * the symmetric core of it, with constant v_h. Differs from it: f0, and the smooth s in place of
+ * sgn(a), so that at a = 0, thus at rest, the force lies midway between the branches and does not
+ * jump.
  */
 #ifndef DASHPOT_LAW_SIGMOID_H
 #define DASHPOT_LAW_SIGMOID_H
@@ -28,7 +29,8 @@ static inline void sigmoid_rest(const Sigmoid* p, double x, double v, double* z)
   z[0] = v;
 }
 
-static inline void sigmoid_derivative(const Sigmoid* p, double x, double v, const double* z, double* dz) {
+static inline void sigmoid_derivative(const Sigmoid* p, double x, double v, const double* z,
+                                      double* dz) {
   (void)x;
   dz[0] = p->r * (v - z[0]);
 }

@@ -5,32 +5,36 @@
 namespace dashpot {
 
 extern const Law kTanhAcceleration;
-const Law kTanhAcceleration =
-    state_law<TanhAcceleration, tanh_acceleration_force, tanh_acceleration_derivative, tanh_acceleration_rest,
-              tanh_acceleration_rate>({
-        .name = "tanh_acceleration",
-        .title = "Hyperbolic tangent of velocity and acceleration",
-        .equation = "F = f_y tanh(kappa (v - tau a)) + c v + f0\n"
-                    "z' = r (v - z), a = r (v - z)",
-        .source = "our own smooth variant of the sigmoid law (Ma, Wang, Rakheja, Su 2002); defaults: our fit "
-                  "of public recordings of a 1.6 kN damper at 1 A",
-        .remarks = "The width of the loop grows with the acceleration, as measured ones do: the best of the "
-                   "algebraic laws on sines of several frequencies.",
-        .states = {{"v_f", "m/s"}},
-        .params =
-            {
-                {&TanhAcceleration::f_y, "f_y", "N", 1034.51, 0, 1e6, 0.6, Form::Quadratic, "yield force"},
-                {&TanhAcceleration::kappa, "kappa", "s/m", 99.3466, 1e-3, 1e6, 10, Form::Constant,
-                 "steepness"},
-                {&TanhAcceleration::tau, "tau", "s", 7.65641e-3, 0, 1, 0.03, Form::Constant,
-                 "delay of the force behind velocity"},
-                {&TanhAcceleration::c, "c", "N*s/m", 6256.33, 0, 1e8, 0.4, Form::Linear, "viscous damping"},
-                {&TanhAcceleration::r, "r", "1/s", 200, 1, 1e4, 200, Form::Constant,
-                 "rate of the filter that gives the acceleration", Fit::Fixed},
-                {&TanhAcceleration::f0, "f0", "N", 1.446, -1e6, 1e6, 0, Form::Constant, "offset force",
-                 Fit::Bias},
-            },
-        .needs_displacement = false,
-    });
+const Law kTanhAcceleration = state_law<TanhAcceleration, tanh_acceleration_force,
+                                        tanh_acceleration_derivative, tanh_acceleration_rest,
+                                        tanh_acceleration_rate>({
+    .name = "tanh_acceleration",
+    .title = "Hyperbolic tangent of velocity and acceleration",
+    .equation = "F = f_y tanh(kappa (v - tau a)) + c v + f0\n"
+                "z' = r (v - z), a = r (v - z)",
+    .source =
+        "our own smooth variant of the sigmoid law (Ma, Wang, Rakheja, Su 2002); defaults: our fit "
+        "of public recordings of a 1.6 kN damper at 1 A",
+    .remarks =
+        "The width of the loop grows with the acceleration, as measured ones do: the best of the "
+        "algebraic laws on sines of several frequencies.",
+    .states = {{"v_f", "m/s"}},
+    .params =
+        {
+            {&TanhAcceleration::f_y, "f_y", "N", 1034.51, 0, 1e6, 0.6, Form::Quadratic,
+             "yield force"},
+            {&TanhAcceleration::kappa, "kappa", "s/m", 99.3466, 1e-3, 1e6, 10, Form::Constant,
+             "steepness"},
+            {&TanhAcceleration::tau, "tau", "s", 7.65641e-3, 0, 1, 0.03, Form::Constant,
+             "delay of the force behind velocity"},
+            {&TanhAcceleration::c, "c", "N*s/m", 6256.33, 0, 1e8, 0.4, Form::Linear,
+             "viscous damping"},
+            {&TanhAcceleration::r, "r", "1/s", 200, 1, 1e4, 200, Form::Constant,
+             "rate of the filter that gives the acceleration", Fit::Fixed},
+            {&TanhAcceleration::f0, "f0", "N", 1.446, -1e6, 1e6, 0, Form::Constant, "offset force",
+             Fit::Bias},
+        },
+    .needs_displacement = false,
+});
 
 }  // namespace dashpot

@@ -2,10 +2,10 @@
  *
  *   F = A1 tanh(A3 w) + A2 w + f0,   w = v + (V0 / X0) x
  *
- * x m, v m/s (extension positive); F N, same sign as v. V0, X0: critical velocity and displacement of the
- * hysteresis; only their ratio matters. V0 > 0 turns the loop the right way round. Assumes a motion centred
- * on x = 0: subtract the mean stroke. Source: S. Guo, S. Yang, C. Pan, J. Intell. Mater. Syst. Struct. 17
- * (2006) 3-14. Differs from it: f0.
+ * x m, v m/s (extension positive); F N, same sign as v. V0, X0: critical velocity and displacement
+ * of the hysteresis; only their ratio matters. V0 > 0 turns the loop the right way round. Assumes a
+ * motion centred on x = 0: subtract the mean stroke. Source: S. Guo, S. Yang, C. Pan, J. Intell.
+ * Mater. Syst. Struct. 17 (2006) 3-14. Differs from it: f0.
  */
 #ifndef DASHPOT_LAW_TANH_GUO_H
 #define DASHPOT_LAW_TANH_GUO_H

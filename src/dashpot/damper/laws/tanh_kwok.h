@@ -3,9 +3,10 @@
  *   F = c v + k x + alpha tanh(beta v + delta sgn(x)) + f0,   sgn(0) = 0
  *
  * x m, v m/s (extension positive); F N, same sign as v.
- * The sign of x carries the history of a motion that is centred on x = 0: subtract the mean stroke first. The
- * force jumps where the stroke crosses zero, visibly so at low speed. Source: N. M. Kwok, Q. P. Ha, T. H.
- * Nguyen, J. Li, B. Samali, Sensors and Actuators A 132 (2006) 441-451. Differs from it: nothing.
+ * The sign of x carries the history of a motion that is centred on x = 0: subtract the mean stroke
+ * first. The force jumps where the stroke crosses zero, visibly so at low speed. Source: N. M.
+ * Kwok, Q. P. Ha, T. H. Nguyen, J. Li, B. Samali, Sensors and Actuators A 132 (2006) 441-451.
+ * Differs from it: nothing.
  */
 #ifndef DASHPOT_LAW_TANH_KWOK_H
 #define DASHPOT_LAW_TANH_KWOK_H

@@ -22,8 +22,8 @@ static inline void viscous_dahl_rest(const ViscousDahl* p, double x, double v, d
   z[0] = 0;
 }
 
-static inline void viscous_dahl_derivative(const ViscousDahl* p, double x, double v, const double* z,
-                                           double* dz) {
+static inline void viscous_dahl_derivative(const ViscousDahl* p, double x, double v,
+                                           const double* z, double* dz) {
   (void)x;
   dz[0] = p->rho * (v - fabs(v) * z[0]);
 }

@@ -18,37 +18,44 @@ using D = DamperDescription;
 constexpr std::array kFields{
     DescriptionField{&D::bore_diameter, "bore_diameter", "m", 0.046, 1e-3, 1, "of the cylinder"},
     DescriptionField{&D::rod_diameter, "rod_diameter", "m", 0.012, 0, 1, "of the piston rod"},
-    DescriptionField{&D::gap, "gap", "m", 1e-3, 5e-5, 0.01, "height of the gap that the fluid flows through"},
-    DescriptionField{&D::slot_diameter, "slot_diameter", "m", 0, 0, 1,
-                     "inner diameter of an annular slot in the piston; 0: the gap lies around the piston"},
-    DescriptionField{&D::slot_share, "slot_share", "1", 1, 0.01, 1, "of the circumference that is open"},
+    DescriptionField{&D::gap, "gap", "m", 1e-3, 5e-5, 0.01,
+                     "height of the gap that the fluid flows through"},
+    DescriptionField{
+        &D::slot_diameter, "slot_diameter", "m", 0, 0, 1,
+        "inner diameter of an annular slot in the piston; 0: the gap lies around the piston"},
+    DescriptionField{&D::slot_share, "slot_share", "1", 1, 0.01, 1,
+                     "of the circumference that is open"},
     DescriptionField{&D::pole_length, "pole_length", "m", 0.02, 1e-4, 1,
                      "length of gap in which the field acts"},
-    DescriptionField{&D::passive_length, "passive_length", "m", 0.015, 0, 1, "length of gap without field"},
+    DescriptionField{&D::passive_length, "passive_length", "m", 0.015, 0, 1,
+                     "length of gap without field"},
     DescriptionField{&D::piston_area, "piston_area", "m^2", 0, 0, 1,
                      "that displaces fluid; 0: bore less rod less gap"},
     DescriptionField{&D::gap_area, "gap_area", "m^2", 0, 0, 1,
                      "cross-section of the gap; 0: from the diameters"},
     DescriptionField{&D::viscosity, "viscosity", "Pa*s", 0, 0, 100,
                      "at 40 degC; 0: from the fluid's data sheet"},
-    DescriptionField{
-        &D::viscosity_exponent, "viscosity_exponent", "1/K", 0, 0, 0.2,
-        "share of the viscosity that each kelvin above 40 degC takes; 0: none (data sheets of MR fluids "
-        "give one temperature)"},
+    DescriptionField{&D::viscosity_exponent, "viscosity_exponent", "1/K", 0, 0, 0.2,
+                     "share of the viscosity that each kelvin above 40 degC takes; 0: none (data "
+                     "sheets of MR fluids "
+                     "give one temperature)"},
     DescriptionField{&D::temperature, "temperature", "K", 313.15, 200, 500, "of fluid and coil"},
     DescriptionField{&D::yield_stress, "yield_stress", "Pa", 0, 0, 1e6,
                      "in place of magnetic circuit and fluid; 0: from these"},
     DescriptionField{&D::carrier, "carrier", "1", 1, 0.5, 2,
                      "factor of Carlson's law: 1 hydrocarbon, 1.16 water, 0.95 silicone oil"},
     DescriptionField{&D::turns, "turns", "1", 150, 1, 1e5, "of the coil"},
-    DescriptionField{&D::wire_diameter, "wire_diameter", "m", 5e-4, 2e-5, 0.01, "of the coil's copper"},
+    DescriptionField{&D::wire_diameter, "wire_diameter", "m", 5e-4, 2e-5, 0.01,
+                     "of the coil's copper"},
     DescriptionField{&D::turn_length, "turn_length", "m", 0.09, 1e-3, 10, "mean length of a turn"},
     DescriptionField{&D::window_area, "window_area", "m^2", 6e-5, 0, 1,
                      "room for the coil in section; 0: not checked"},
-    DescriptionField{&D::resistivity, "resistivity", "ohm*m", 1.72e-8, 1e-9, 1e-4, "of the wire at 20 degC"},
+    DescriptionField{&D::resistivity, "resistivity", "ohm*m", 1.72e-8, 1e-9, 1e-4,
+                     "of the wire at 20 degC"},
     DescriptionField{&D::resistivity_coefficient, "resistivity_coefficient", "1/K", 3.93e-3, 0, 0.1,
                      "of the wire"},
-    DescriptionField{&D::core_length, "core_length", "m", 0.06, 1e-4, 10, "of the magnetic path in steel"},
+    DescriptionField{&D::core_length, "core_length", "m", 0.06, 1e-4, 10,
+                     "of the magnetic path in steel"},
     DescriptionField{&D::core_area, "core_area", "m^2", 3.5e-4, 1e-8, 1,
                      "of steel that the flux passes, at its narrowest"},
     DescriptionField{&D::pole_area, "pole_area", "m^2", 0, 0, 1,
@@ -56,11 +63,14 @@ constexpr std::array kFields{
     DescriptionField{&D::magnetic_gap, "magnetic_gap", "m", 0, 0, 1,
                      "of the magnetic path across the gap; 0: twice the gap"},
     DescriptionField{&D::permeability, "permeability", "1", 2000, 1, 1e6, "relative, of the steel"},
-    DescriptionField{&D::saturation, "saturation", "T", 1.5, 0.1, 3, "flux density that the steel tends to"},
-    DescriptionField{&D::shear_modulus, "shear_modulus", "Pa", 79e9, 1e6, 1e12, "of the spring's wire"},
+    DescriptionField{&D::saturation, "saturation", "T", 1.5, 0.1, 3,
+                     "flux density that the steel tends to"},
+    DescriptionField{&D::shear_modulus, "shear_modulus", "Pa", 79e9, 1e6, 1e12,
+                     "of the spring's wire"},
     DescriptionField{&D::spring_wire, "spring_wire", "m", 0, 0, 0.1,
                      "diameter of the spring's wire; 0: no spring"},
-    DescriptionField{&D::spring_radius, "spring_radius", "m", 0.02, 1e-4, 1, "of the spring's helix"},
+    DescriptionField{&D::spring_radius, "spring_radius", "m", 0.02, 1e-4, 1,
+                     "of the spring's helix"},
     DescriptionField{&D::spring_coils, "spring_coils", "1", 8, 0.5, 1000, "active ones"},
     DescriptionField{&D::friction, "friction", "N", 0, 0, 1e5, "of seals and guides"},
     DescriptionField{&D::stroke, "stroke", "m", 0.05, 1e-4, 10, "from end to end"}};
@@ -70,10 +80,13 @@ struct LawWord {
   std::string_view word;
   Law law;
 };
-constexpr std::array kYieldLaws{LawWord{"carlson", YieldLaw::Carlson}, LawWord{"paper", YieldLaw::Paper},
+constexpr std::array kYieldLaws{LawWord{"carlson", YieldLaw::Carlson},
+                                LawWord{"paper", YieldLaw::Paper},
                                 LawWord{"data_set", YieldLaw::DataSet}};
-constexpr std::array kCircuitLaws{LawWord{"filled", CircuitLaw::Filled}, LawWord{"paper", CircuitLaw::Paper}};
-constexpr std::array kFlowLaws{LawWord{"plate", FlowLaw::Plate}, LawWord{"moving_wall", FlowLaw::MovingWall},
+constexpr std::array kCircuitLaws{LawWord{"filled", CircuitLaw::Filled},
+                                  LawWord{"paper", CircuitLaw::Paper}};
+constexpr std::array kFlowLaws{LawWord{"plate", FlowLaw::Plate},
+                               LawWord{"moving_wall", FlowLaw::MovingWall},
                                LawWord{"paper", FlowLaw::Paper}};
 
 template <class Words, class Law>
@@ -102,8 +115,10 @@ std::string_view word_of(const Words& words, Law law) {
 void require_within(double value, const DescriptionField& field, const std::string& where) {
   if (value >= field.lower && value <= field.upper) return;
   throw Error(
-      where, std::string(field.name) + " is " + format_number(value) + " " + std::string(field.unit),
-      format_number(field.lower) + " ... " + format_number(field.upper) + " " + std::string(field.unit));
+      where,
+      std::string(field.name) + " is " + format_number(value) + " " + std::string(field.unit),
+      format_number(field.lower) + " ... " + format_number(field.upper) + " " +
+          std::string(field.unit));
 }
 
 }  // namespace
@@ -135,11 +150,13 @@ void require_possible(const DamperDescription& d, const std::string& where) {
   if (d.rod_diameter >= d.bore_diameter)
     throw Error(where, "rod_diameter is " + millimetres(d.rod_diameter),
                 "less than the bore, " + millimetres(d.bore_diameter));
-  const double outer = d.slot_diameter > 0 ? d.slot_diameter + 2 * d.gap : d.rod_diameter + 2 * d.gap;
+  const double outer =
+      d.slot_diameter > 0 ? d.slot_diameter + 2 * d.gap : d.rod_diameter + 2 * d.gap;
   if (outer >= d.bore_diameter && !(d.piston_area > 0 && d.gap_area > 0))
-    throw Error(where,
-                "no piston is left between slot or rod, gap and a bore of " + millimetres(d.bore_diameter),
-                "a wider bore or a smaller gap");
+    throw Error(
+        where,
+        "no piston is left between slot or rod, gap and a bore of " + millimetres(d.bore_diameter),
+        "a wider bore or a smaller gap");
   if (d.yield_law != YieldLaw::Carlson && !d.fluid->family)
     throw Error(where, "the family paper has no yield stress of " + std::string(d.fluid->name),
                 "yield: carlson, or fluid: 122EG or 140CG");
@@ -179,7 +196,8 @@ std::vector<std::string> description_names() { return data_names("dampers", ".ya
 
 std::string format_description(const DamperDescription& d) {
   // What JSON quotes, YAML reads.
-  std::string text = "name: " + format_json(Value(d.name), false) + "\nfluid: " + std::string(d.fluid->name) +
+  std::string text = "name: " + format_json(Value(d.name), false) +
+                     "\nfluid: " + std::string(d.fluid->name) +
                      "\nyield: " + std::string(word_of(kYieldLaws, d.yield_law)) +
                      "\ncircuit: " + std::string(word_of(kCircuitLaws, d.circuit_law)) +
                      "\nflow: " + std::string(word_of(kFlowLaws, d.flow_law)) + '\n';

@@ -14,7 +14,7 @@ namespace dashpot {
 enum class YieldLaw {
   Carlson,  ///< Carlson's empirical law, for any fluid
   Paper,    ///< the family paper's polynomials, held where they turn over: 122EG and 140CG
-  DataSet   ///< the inputs of the family paper's data: for 122EG its four points, for 140CG as Paper
+  DataSet  ///< the inputs of the family paper's data: for 122EG its four points, for 140CG as Paper
 };
 /// How the flux density follows the coil's current.
 enum class CircuitLaw {
@@ -28,7 +28,8 @@ enum class FlowLaw {
   Paper        ///< equations 13 to 15 of the family paper, dimensionally right
 };
 
-/// A damper as its drawing, its coil and its fluid say. SI. A field of 0 that says so follows from others.
+/// A damper as its drawing, its coil and its fluid say. SI. A field of 0 that says so follows from
+/// others.
 struct DamperDescription {
   std::string name;
   const Fluid* fluid = nullptr;
@@ -60,8 +61,8 @@ double read_field(const Value& value, const DescriptionField& field);
 /// Throws Error(where, "unknown field ...").
 const DescriptionField& find_description_field(std::string_view name, const std::string& where);
 
-/// YAML: "gap: 1 mm", "turns: 150", "fluid: 140CG", "flow: plate". Throws Error that names file and line.
-/// What cannot be together (a rod wider than the bore) is refused too.
+/// YAML: "gap: 1 mm", "turns: 150", "fluid: 140CG", "flow: plate". Throws Error that names file and
+/// line. What cannot be together (a rod wider than the bore) is refused too.
 DamperDescription parse_description(std::string_view text, const std::string& source);
 DamperDescription load_description(const std::filesystem::path& path);
 /// One that comes with Dashpot, of data/dampers.

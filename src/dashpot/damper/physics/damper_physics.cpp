@@ -20,8 +20,8 @@ constexpr double kPi = std::numbers::pi;
 
 constexpr std::array kQuantities{
     PhysicsQuantity{&P::spring_stiffness, "spring", "stiffness", "N/m", "G d^4 / (64 R^3 n)"},
-    PhysicsQuantity{&P::spring_stiffness_as_printed, "spring", "as the family paper prints it", "N/m",
-                    "G d^4 / (32 R^3 n)"},
+    PhysicsQuantity{&P::spring_stiffness_as_printed, "spring", "as the family paper prints it",
+                    "N/m", "G d^4 / (32 R^3 n)"},
     PhysicsQuantity{&P::spring_force, "spring", "force of the spring", "N", "K x"},
     PhysicsQuantity{&P::pole_area, "magnetic circuit", "pole area", "m^2", "A_pole"},
     PhysicsQuantity{&P::magnetic_gap, "magnetic circuit", "gap in the magnetic path", "m", "l_g"},
@@ -30,8 +30,10 @@ constexpr std::array kQuantities{
     PhysicsQuantity{&P::gap_reluctance, "magnetic circuit", "reluctance of the gap", "A/Wb",
                     "R_g = l_g / (mu A)"},
     PhysicsQuantity{&P::flux, "magnetic circuit", "flux", "Wb", "phi"},
-    PhysicsQuantity{&P::core_flux_density, "magnetic circuit", "flux density in the core", "T", "B_c"},
-    PhysicsQuantity{&P::core_saturation, "magnetic circuit", "share of saturation", "1", "B_c / B_sat"},
+    PhysicsQuantity{&P::core_flux_density, "magnetic circuit", "flux density in the core", "T",
+                    "B_c"},
+    PhysicsQuantity{&P::core_saturation, "magnetic circuit", "share of saturation", "1",
+                    "B_c / B_sat"},
     PhysicsQuantity{&P::flux_density, "magnetic circuit", "flux density in the gap", "T", "B_o"},
     PhysicsQuantity{&P::resistance, "coil", "resistance", "ohm", "rho l / A"},
     PhysicsQuantity{&P::inductance, "coil", "inductance", "H", "N phi / I"},
@@ -39,14 +41,16 @@ constexpr std::array kQuantities{
     PhysicsQuantity{&P::voltage, "coil", "voltage", "V", "R I"},
     PhysicsQuantity{&P::power, "coil", "heat", "W", "R I^2"},
     PhysicsQuantity{&P::current_density, "coil", "current density in the wire", "A/m^2", "I / A"},
-    PhysicsQuantity{&P::coil_fill, "coil", "share of its room that is copper", "1", "N A / A_window"},
+    PhysicsQuantity{&P::coil_fill, "coil", "share of its room that is copper", "1",
+                    "N A / A_window"},
     PhysicsQuantity{&P::field, "fluid", "field", "A/m", "H(B_o)"},
     PhysicsQuantity{&P::yield_stress, "fluid", "yield stress", "Pa", "T_y(H)"},
     PhysicsQuantity{&P::viscosity, "fluid", "viscosity", "Pa*s", "eta"},
     PhysicsQuantity{&P::piston_area, "hydraulics", "piston area", "m^2", "A_p"},
     PhysicsQuantity{&P::gap_area, "hydraulics", "gap area", "m^2", "A_g"},
     PhysicsQuantity{&P::gap_width, "hydraulics", "gap width", "m", "w = A_g / h"},
-    PhysicsQuantity{&P::moving_area, "hydraulics", "area of the moving flow", "m^2", "A_rm = A_p + A_g / 2"},
+    PhysicsQuantity{&P::moving_area, "hydraulics", "area of the moving flow", "m^2",
+                    "A_rm = A_p + A_g / 2"},
     PhysicsQuantity{&P::flow, "hydraulics", "flow", "m^3/s", "Q = A_p |v|"},
     PhysicsQuantity{&P::newtonian_pressure, "hydraulics", "pressure without yield stress", "Pa",
                     "12 eta L Q / (w h^3)"},
@@ -56,16 +60,18 @@ constexpr std::array kQuantities{
                     "12 eta L_0 Q / (w h^3)"},
     PhysicsQuantity{&P::pressure, "hydraulics", "pressure of the Bingham fluid, fixed walls", "Pa",
                     "P^3 - (1 + 3T) P^2 + 4 T^3 = 0"},
-    PhysicsQuantity{&P::viscous_force, "force", "viscous force of the family paper, eq. 13 x L A_p", "N",
-                    "12 eta L A_p A_rm v / (A_g h^2)"},
+    PhysicsQuantity{&P::viscous_force, "force", "viscous force of the family paper, eq. 13 x L A_p",
+                    "N", "12 eta L A_p A_rm v / (A_g h^2)"},
     PhysicsQuantity{&P::yield_factor, "force", "its factor c", "1", "2.07 + 1 / (1 + 0.4 T)"},
-    PhysicsQuantity{&P::yield_force, "force", "its force of the field, eq. 15", "N", "c T_y A_p L / h"},
+    PhysicsQuantity{&P::yield_force, "force", "its force of the field, eq. 15", "N",
+                    "c T_y A_p L / h"},
     PhysicsQuantity{&P::plate_force, "force", "exact plate flow", "N", "A_p dp"},
     PhysicsQuantity{&P::moving_wall_force, "force", "exact, the wall moving against the flow", "N",
                     "A_p dp + drag"},
     PhysicsQuantity{&P::force, "force", "force, with friction and spring", "N", "F"},
     PhysicsQuantity{&P::off_force, "force", "the same without current", "N", "F(0 A)"},
-    PhysicsQuantity{&P::dynamic_range, "force", "dynamic range, spring left out", "1", "F / F(0 A)"}};
+    PhysicsQuantity{&P::dynamic_range, "force", "dynamic range, spring left out", "1",
+                    "F / F(0 A)"}};
 
 double slot_mean_diameter(const DamperDescription& d) {
   return d.slot_diameter > 0 ? d.slot_diameter + d.gap : d.bore_diameter - d.gap;
@@ -75,7 +81,8 @@ void add_shape(const DamperDescription& d, DamperPhysics& p) {
   const double circumference = d.slot_share * kPi * slot_mean_diameter(d);
   p.gap_area = d.gap_area > 0 ? d.gap_area : circumference * d.gap;
   p.gap_width = p.gap_area / d.gap;
-  const double inside = 0.25 * kPi * (d.bore_diameter * d.bore_diameter - d.rod_diameter * d.rod_diameter);
+  const double inside =
+      0.25 * kPi * (d.bore_diameter * d.bore_diameter - d.rod_diameter * d.rod_diameter);
   p.piston_area = d.piston_area > 0 ? d.piston_area : inside - p.gap_area;
   p.moving_area = p.piston_area + 0.5 * p.gap_area;
   p.pole_area = d.pole_area > 0 ? d.pole_area : 0.5 * d.pole_length * circumference;
@@ -103,12 +110,15 @@ double yield_stress_of(const DamperDescription& d, double field) {
 /// saturation: B = B_sat b / (b + B_sat) with b = mu H.
 double ampere_turns(const DamperDescription& d, const DamperPhysics& shape, double core) {
   const double steel = core * d.saturation / (d.saturation - core) / (d.permeability * DASHPOT_MU0);
-  return steel * d.core_length + field_of(d, core * d.core_area / shape.pole_area) * shape.magnetic_gap;
+  return steel * d.core_length +
+         field_of(d, core * d.core_area / shape.pole_area) * shape.magnetic_gap;
 }
 
 /// The core's flux density: between none and what the steel alone would carry.
-double filled_core_flux_density(const DamperDescription& d, const DamperPhysics& shape, double current) {
-  const double wanted = d.turns * current, steel = d.permeability * DASHPOT_MU0 * wanted / d.core_length;
+double filled_core_flux_density(const DamperDescription& d, const DamperPhysics& shape,
+                                double current) {
+  const double wanted = d.turns * current,
+               steel = d.permeability * DASHPOT_MU0 * wanted / d.core_length;
   const double most = d.saturation * steel / (steel + d.saturation);
   const auto off = [&](double core) { return ampere_turns(d, shape, core) - wanted; };
   return find_root(off, {0, -wanted}, {most, off(most)}, 1e-14 * wanted);
@@ -131,16 +141,18 @@ FluidState fluid_state(const DamperDescription& d, const DamperPhysics& shape, d
 }
 
 /// Where there is no current, what a small one sees.
-void add_circuit(const DamperDescription& d, double current, const FluidState& at_current, DamperPhysics& p) {
+void add_circuit(const DamperDescription& d, double current, const FluidState& at_current,
+                 DamperPhysics& p) {
   constexpr double kSmall = 1e-6;
   const double seen = std::max(std::abs(current), kSmall);
   const FluidState state = seen > kSmall ? at_current : fluid_state(d, p, kSmall);
   const MagneticCircuit circuit = circuit_of(d, p);
   const double turns_current = d.turns * seen, flux = state.core_flux_density * d.core_area;
   p.core_reluctance = core_reluctance(&circuit);
-  p.gap_reluctance =
-      d.circuit_law == CircuitLaw::Paper ? gap_reluctance(&circuit) : state.field * p.magnetic_gap / flux;
-  const Coil coil{d.turns, d.wire_diameter, d.turn_length, d.resistivity, d.resistivity_coefficient};
+  p.gap_reluctance = d.circuit_law == CircuitLaw::Paper ? gap_reluctance(&circuit)
+                                                        : state.field * p.magnetic_gap / flux;
+  const Coil coil{d.turns, d.wire_diameter, d.turn_length, d.resistivity,
+                  d.resistivity_coefficient};
   p.resistance = coil_resistance(&coil, d.temperature);
   p.inductance = coil_inductance(&coil, turns_current / flux);
   p.time_constant = coil_time_constant(p.inductance, p.resistance);
@@ -163,7 +175,8 @@ void add_fluid(const DamperDescription& d, const FluidState& state, DamperPhysic
 
 void add_flow(const DamperDescription& d, double velocity, DamperPhysics& p) {
   const double speed = std::abs(velocity);
-  const PlateGap active{d.pole_length, p.gap_width, d.gap}, passive{d.passive_length, p.gap_width, d.gap};
+  const PlateGap active{d.pole_length, p.gap_width, d.gap},
+      passive{d.passive_length, p.gap_width, d.gap};
   p.flow = p.piston_area * speed;
   p.newtonian_pressure = plate_newtonian_pressure(&active, p.viscosity, p.flow);
   p.passive_pressure = plate_newtonian_pressure(&passive, p.viscosity, p.flow);
@@ -176,12 +189,13 @@ void add_flow(const DamperDescription& d, double velocity, DamperPhysics& p) {
   const double moving = plate_moving_wall_pressure(p.newtonian_pressure, p.yield_pressure, wall);
   const double drag = plate_wall_drag(moving, p.newtonian_pressure, p.yield_pressure, wall);
   const double passive_moving = (1 + 0.5 * wall) * p.passive_pressure;
-  p.moving_wall_force = p.piston_area * (moving + drag + passive_moving +
-                                         plate_wall_drag(passive_moving, p.passive_pressure, 0, wall));
+  p.moving_wall_force =
+      p.piston_area * (moving + drag + passive_moving +
+                       plate_wall_drag(passive_moving, p.passive_pressure, 0, wall));
 
   const double length = d.pole_length + d.passive_length;
-  p.viscous_force =
-      12 * p.viscosity * length * p.piston_area * p.moving_area * speed / (p.gap_area * d.gap * d.gap);
+  p.viscous_force = 12 * p.viscosity * length * p.piston_area * p.moving_area * speed /
+                    (p.gap_area * d.gap * d.gap);
   const double ratio = p.yield_pressure / (2 * p.newtonian_pressure);  // T
   p.yield_factor = 2.07 + 1 / (1 + 0.4 * ratio);
   p.yield_force = p.yield_factor * p.yield_stress * p.piston_area * d.pole_length / d.gap;
@@ -219,10 +233,12 @@ DamperPhysics evaluate_physics(const DamperDescription& d, const DamperOperation
   add_fluid(d, fluid_state(d, off, 0), off);
   add_flow(d, operation.velocity, off);
   const double side = plate_side(operation.velocity);
-  const double damping = flow_force(d, p) + d.friction, off_damping = flow_force(d, off) + d.friction;
+  const double damping = flow_force(d, p) + d.friction,
+               off_damping = flow_force(d, off) + d.friction;
   p.force = side * damping + p.spring_force;
   p.off_force = side * off_damping + p.spring_force;
-  p.dynamic_range = off_damping > 0 ? damping / off_damping : std::numeric_limits<double>::infinity();
+  p.dynamic_range =
+      off_damping > 0 ? damping / off_damping : std::numeric_limits<double>::infinity();
   return p;
 }
 
@@ -243,8 +259,9 @@ std::vector<std::string> physics_warnings(const DamperDescription& d, const Damp
                        " A/mm^2; more than 10 overheats it when it lasts");
   const double diameter = slot_mean_diameter(d);
   if (d.gap > 0.05 * diameter)
-    warnings.push_back("the gap is " + format_number(100 * d.gap / diameter, 3) +
-                       " % of its diameter: plates stand for an annulus to the order of its square only");
+    warnings.push_back(
+        "the gap is " + format_number(100 * d.gap / diameter, 3) +
+        " % of its diameter: plates stand for an annulus to the order of its square only");
   if (d.viscosity_exponent == 0 && std::abs(d.temperature - 313.15) > 1)
     warnings.push_back(
         "the viscosity is that at 40 degC: state viscosity_exponent to have it follow the "

@@ -14,10 +14,12 @@ struct DamperPhysics {
   double pole_area = 0, magnetic_gap = 0, core_reluctance = 0, gap_reluctance = 0, flux = 0;
   double core_flux_density = 0, core_saturation = 0, flux_density = 0, field = 0;
   double yield_stress = 0, viscosity = 0;
-  double resistance = 0, inductance = 0, time_constant = 0, voltage = 0, power = 0, current_density = 0;
+  double resistance = 0, inductance = 0, time_constant = 0, voltage = 0, power = 0,
+         current_density = 0;
   double coil_fill = 0;
   double flow = 0, newtonian_pressure = 0, yield_pressure = 0, passive_pressure = 0, pressure = 0;
-  double viscous_force = 0, yield_factor = 0, yield_force = 0, plate_force = 0, moving_wall_force = 0;
+  double viscous_force = 0, yield_factor = 0, yield_force = 0, plate_force = 0,
+         moving_wall_force = 0;
   double spring_stiffness = 0, spring_stiffness_as_printed = 0, spring_force = 0;
   double force = 0, off_force = 0, dynamic_range = 0;
 };
@@ -37,11 +39,13 @@ struct DamperOperation {
   double displacement = 0;  ///< m, from where the spring is free
 };
 
-/// The description must be possible (require_possible). The same equations as the laws plate_bingham and
-/// field_chain. Signs as a damper's: force positive when it resists extension.
-DamperPhysics evaluate_physics(const DamperDescription& description, const DamperOperation& operation);
+/// The description must be possible (require_possible). The same equations as the laws
+/// plate_bingham and field_chain. Signs as a damper's: force positive when it resists extension.
+DamperPhysics evaluate_physics(const DamperDescription& description,
+                               const DamperOperation& operation);
 
-/// Flux density in the gap and field in the fluid that a current drives; the yield stress that comes of them.
+/// Flux density in the gap and field in the fluid that a current drives; the yield stress that
+/// comes of them.
 struct FluidState {
   double core_flux_density = 0, flux_density = 0;  ///< T
   double field = 0;                                ///< A/m
@@ -49,7 +53,9 @@ struct FluidState {
 };
 FluidState fluid_state(const DamperDescription& description, double current);
 
-/// What a user should know of the numbers: laws outside their range, a coil that does not fit, saturation.
-std::vector<std::string> physics_warnings(const DamperDescription& description, const DamperPhysics& physics);
+/// What a user should know of the numbers: laws outside their range, a coil that does not fit,
+/// saturation.
+std::vector<std::string> physics_warnings(const DamperDescription& description,
+                                          const DamperPhysics& physics);
 
 }  // namespace dashpot

@@ -8,7 +8,8 @@
 
 namespace dashpot {
 
-const FamilyFluid kFamily122EG = {{233.446e3, 205.765e3}, {3886, 0.039, 1.267e-8, -6.876e-15}, 2120e3};
+const FamilyFluid kFamily122EG = {
+    {233.446e3, 205.765e3}, {3886, 0.039, 1.267e-8, -6.876e-15}, 2120e3};
 
 namespace {
 
@@ -18,7 +19,9 @@ constexpr std::array kFluids{
     Fluid{"140CG", 0.280, 3540, 3740, 0.8544, 0.40, false, &kFamily140CG},
 };
 
-std::string kilo(double value, const std::string& unit) { return format_number(value / 1000) + " k" + unit; }
+std::string kilo(double value, const std::string& unit) {
+  return format_number(value / 1000) + " k" + unit;
+}
 
 }  // namespace
 
@@ -42,7 +45,8 @@ double measured_yield_stress_122eg(double field) {
       {{0, 779.93}, {102.83e3, 21101.58}, {188.43e3, 30174.10}, {261.83e3, 33500}}};
   for (std::size_t k = 1; k < kPoints.size(); ++k) {
     const Point &a = kPoints[k - 1], &b = kPoints[k];
-    if (field < b.field) return a.stress + (b.stress - a.stress) * (field - a.field) / (b.field - a.field);
+    if (field < b.field)
+      return a.stress + (b.stress - a.stress) * (field - a.field) / (b.field - a.field);
   }
   return kPoints.back().stress;
 }
@@ -58,7 +62,8 @@ std::vector<std::string> family_warnings(const Fluid& fluid, double largest_fiel
         " in the paper's table 1 is lower than Carlson's law and the authors' own data set by a "
         "factor of 2 to 2.7; use either of these");
   else
-    warnings.push_back("the yield stress of " + name + " without field, " + kilo(table.yield[0], "Pa") +
+    warnings.push_back("the yield stress of " + name + " without field, " +
+                       kilo(table.yield[0], "Pa") +
                        ", comes from the polynomial's fit, not from the fluid");
   if (largest_field > table.held_field)
     warnings.push_back("the yield stress of " + name + " is held at " +

@@ -27,8 +27,8 @@ std::span<const Fluid> fluids();
 /// Throws Error "unknown fluid '140CH'; did you mean ...".
 const Fluid& find_fluid(std::string_view name, const std::string& where = {});
 
-/// Yield stress of 122EG, Pa, as the input files of the family paper's data set have it, in place of the
-/// paper's polynomial: four points, straight between them, held beyond the last.
+/// Yield stress of 122EG, Pa, as the input files of the family paper's data set have it, in place
+/// of the paper's polynomial: four points, straight between them, held beyond the last.
 double measured_yield_stress_122eg(double field);
 
 /// What is wrong with the family paper's polynomials for this fluid up to a field in A/m, in words.

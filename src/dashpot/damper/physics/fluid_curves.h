@@ -1,5 +1,5 @@
-/* Field, flux density and yield stress of magnetorheological fluids, as C99: laws and C export share this
- * text. H A/m, B T, yield stress Pa; H and B >= 0, but family_field is odd.
+/* Field, flux density and yield stress of magnetorheological fluids, as C99: laws and C export
+ * share this text. H A/m, B T, yield stress Pa; H and B >= 0, but family_field is odd.
  */
 #ifndef DASHPOT_FLUID_CURVES_H
 #define DASHPOT_FLUID_CURVES_H
@@ -7,8 +7,9 @@
 
 #define DASHPOT_MU0 1.25663706212e-6 /* T*m/A, permeability of vacuum */
 
-/* Carlson's empirical laws for iron particles of volume fraction phi (MR fluids and devices in the real
- * world, Int. J. Mod. Phys. B 19 (2005) 1463-1470). carrier: 1.0 hydrocarbon, 1.16 water, 0.95 silicone oil.
+/* Carlson's empirical laws for iron particles of volume fraction phi (MR fluids and devices in the
+ * real world, Int. J. Mod. Phys. B 19 (2005) 1463-1470). carrier: 1.0 hydrocarbon, 1.16 water, 0.95
+ * silicone oil.
  */
 static inline double carlson_yield_stress(double phi, double carrier, double field) {
   return carrier * 271700 * pow(phi, 1.5239) * tanh(6.33e-6 * field);
@@ -32,8 +33,8 @@ static inline double carlson_field(double phi, double flux_density) {
   return y / DASHPOT_MU0;
 }
 
-/* Table 1 of the family paper (Duchanoy et al. 2019), in SI, without what is round-off there: c0, c2 and c4
- * of H(B), which is odd. */
+/* Table 1 of the family paper (Duchanoy et al. 2019), in SI, without what is round-off there: c0,
+ * c2 and c4 of H(B), which is odd. */
 typedef struct FamilyFluid {
   double field[2];   /* H = field[0] B + field[1] B^3 */
   double yield[4];   /* tau = yield[0] + yield[1] H + ... */

@@ -1,5 +1,6 @@
-/* A coil on a steel core with a gap, as C99: laws and C export share this text. Equations 2 to 8 of the
- * family paper (Duchanoy et al. 2019); its permeability coefficient is read as the relative one times mu0.
+/* A coil on a steel core with a gap, as C99: laws and C export share this text. Equations 2 to 8 of
+ * the family paper (Duchanoy et al. 2019); its permeability coefficient is read as the relative one
+ * times mu0.
  */
 #ifndef DASHPOT_MAGNETIC_CIRCUIT_H
 #define DASHPOT_MAGNETIC_CIRCUIT_H
@@ -8,13 +9,14 @@
 #include "fluid_curves.h"
 
 typedef struct MagneticCircuit {
-  double turns;            /* 1 */
-  double core_length;      /* m, of the path in steel */
-  double gap_length;       /* m, of the path across the gap */
-  double area;             /* m^2, of the cross-section */
-  double permeability;     /* 1, relative, of the steel */
-  double saturation;       /* T, flux density that the steel tends to */
-  double gap_permeability; /* 1, relative: 1 as in the source; of the fluid where it fills the gap */
+  double turns;        /* 1 */
+  double core_length;  /* m, of the path in steel */
+  double gap_length;   /* m, of the path across the gap */
+  double area;         /* m^2, of the cross-section */
+  double permeability; /* 1, relative, of the steel */
+  double saturation;   /* T, flux density that the steel tends to */
+  double
+      gap_permeability; /* 1, relative: 1 as in the source; of the fluid where it fills the gap */
 } MagneticCircuit;
 
 /* A/Wb */
@@ -30,8 +32,8 @@ static inline double magnetic_flux(const MagneticCircuit* c, double current) {
   return c->turns * current / (core_reluctance(c) + gap_reluctance(c));
 }
 
-/* T, odd in the flux density without saturation: B_sat B / (|B| + B_sat). A very soft knee, which halves B at
- * B = B_sat: a fit, not physics. */
+/* T, odd in the flux density without saturation: B_sat B / (|B| + B_sat). A very soft knee, which
+ * halves B at B = B_sat: a fit, not physics. */
 static inline double saturated_flux_density(double flux_density, double saturation) {
   return saturation * flux_density / (fabs(flux_density) + saturation);
 }

@@ -68,8 +68,8 @@ class RowAppender {
     const std::size_t expected = table_.columns.size();
     if (cells_.size() <= expected) return;
     throw Error(table_.file + ":" + std::to_string(line),
-                "has " + std::to_string(cells_.size()) + " cells, the table has " + std::to_string(expected) +
-                    " columns",
+                "has " + std::to_string(cells_.size()) + " cells, the table has " +
+                    std::to_string(expected) + " columns",
                 "write one sample per line with the same separator everywhere");
   }
 
@@ -83,31 +83,35 @@ class RowAppender {
 void reserve_rows(RawTable& table, const LineSource& source) {
   const double rows = source.bytes_in_file() / std::max(source.bytes_per_line(), 1.0);
   if (rows > 1e5 && rows < 1e10)
-    for (RawColumn& column : table.columns) column.values.reserve(static_cast<std::size_t>(1.1 * rows));
+    for (RawColumn& column : table.columns)
+      column.values.reserve(static_cast<std::size_t>(1.1 * rows));
 }
 
 /// Columns at the end without a name and without a number come from trailing separators.
 void drop_empty_columns(RawTable& table) {
   const auto empty = [](const RawColumn& column) {
-    return column.name.empty() &&
-           std::all_of(column.values.begin(), column.values.end(), [](double v) { return std::isnan(v); });
+    return column.name.empty() && std::all_of(column.values.begin(), column.values.end(),
+                                              [](double v) { return std::isnan(v); });
   };
   while (table.columns.size() > 1 && empty(table.columns.back())) table.columns.pop_back();
 }
 
-bool is_utf16(std::string_view head) { return head.starts_with("\xFF\xFE") || head.starts_with("\xFE\xFF"); }
+bool is_utf16(std::string_view head) {
+  return head.starts_with("\xFF\xFE") || head.starts_with("\xFE\xFF");
+}
 
 }  // namespace
 
 bool is_csv(const fs::path&, std::string_view extension, std::string_view head) {
   constexpr std::string_view kExtensions[] = {".csv", ".txt", ".tsv", ".dat", ".asc", ".log", ""};
   const bool text = head.find('\0') == std::string_view::npos || is_utf16(head);
-  return text &&
-         std::find(std::begin(kExtensions), std::end(kExtensions), extension) != std::end(kExtensions);
+  return text && std::find(std::begin(kExtensions), std::end(kExtensions), extension) !=
+                     std::end(kExtensions);
 }
 
 std::vector<RawTable> read_csv(const fs::path& path) {
-  if (is_utf16(read_head(path, 2))) throw Error(path.string(), "is UTF-16 text", "save it as UTF-8");
+  if (is_utf16(read_head(path, 2)))
+    throw Error(path.string(), "is UTF-16 text", "save it as UTF-8");
   LineSource source(path);
   std::vector<std::string> head;
   while (head.size() < kSniffedLines) {
@@ -119,7 +123,8 @@ std::vector<RawTable> read_csv(const fs::path& path) {
   RawTable table = empty_table(dialect, path.string());
   reserve_rows(table, source);
   RowAppender appender(table, dialect);
-  for (std::size_t k = dialect.first_data_line; k < head.size(); ++k) appender.append(head[k], k + 1);
+  for (std::size_t k = dialect.first_data_line; k < head.size(); ++k)
+    appender.append(head[k], k + 1);
   while (const auto line = source.next()) appender.append(*line, source.line());
   drop_empty_columns(table);
   std::vector<RawTable> tables;

@@ -24,7 +24,8 @@ void drop_trailing_empty(Cells& cells) {
   while (!cells.empty() && cells.back().empty()) cells.pop_back();
 }
 
-/// At least half of the cells that hold something are numbers: dates and events may stand beside them.
+/// At least half of the cells that hold something are numbers: dates and events may stand beside
+/// them.
 bool holds_numbers(const Cells& cells, char decimal) {
   std::size_t numbers = 0, filled = 0;
   for (const std::string_view cell : cells) {
@@ -45,12 +46,14 @@ struct Guess {
 
   /// Lines that fit, times the share of their cells that are numbers; then the number of numbers.
   std::pair<double, std::size_t> rank() const {
-    const double share = static_cast<double>(numbers) / static_cast<double>(std::max<std::size_t>(filled, 1));
+    const double share =
+        static_cast<double>(numbers) / static_cast<double>(std::max<std::size_t>(filled, 1));
     return {static_cast<double>(data_lines) * share, numbers};
   }
 };
 
-/// How well a separator and a decimal sign explain the lines: data lines with one common cell count.
+/// How well a separator and a decimal sign explain the lines: data lines with one common cell
+/// count.
 Guess try_dialect(const std::vector<std::string>& lines, char separator, char decimal) {
   Guess guess;
   guess.dialect.separator = separator;
@@ -77,7 +80,8 @@ Guess try_dialect(const std::vector<std::string>& lines, char separator, char de
 
 std::string bare_unit(std::string_view cell) {
   cell = trim(cell);
-  if (cell.size() > 1 && (cell.front() == '[' || cell.front() == '(')) cell = cell.substr(1, cell.size() - 2);
+  if (cell.size() > 1 && (cell.front() == '[' || cell.front() == '('))
+    cell = cell.substr(1, cell.size() - 2);
   return std::string(trim(cell));
 }
 
@@ -93,8 +97,8 @@ bool is_units_row(const Cells& cells) {
 }
 
 /// The cells of the last line before `before` that can head `columns` columns; its index or npos.
-std::size_t find_header(const std::vector<std::string>& lines, const CsvDialect& dialect, std::size_t before,
-                        std::size_t columns, Cells& cells) {
+std::size_t find_header(const std::vector<std::string>& lines, const CsvDialect& dialect,
+                        std::size_t before, std::size_t columns, Cells& cells) {
   // Only the nearest line that holds something is a header: junk stands further up.
   for (std::size_t k = before; k-- > 0;) {
     const std::string_view line = strip_comment(lines[k]);
@@ -103,8 +107,8 @@ std::size_t find_header(const std::vector<std::string>& lines, const CsvDialect&
     Cells filled = cells;
     drop_trailing_empty(filled);
     if (filled.empty()) continue;
-    const bool fits =
-        filled.size() <= columns && filled.size() + 1 >= columns && !holds_numbers(cells, dialect.decimal);
+    const bool fits = filled.size() <= columns && filled.size() + 1 >= columns &&
+                      !holds_numbers(cells, dialect.decimal);
     return fits && (columns > 1 || cells.size() == 1) ? k : std::string::npos;
   }
   return std::string::npos;
@@ -125,7 +129,8 @@ void read_header(const std::vector<std::string>& lines, std::size_t columns, Csv
       cells = above;
     }
   }
-  for (std::size_t k = 0; k < std::min(columns, cells.size()); ++k) dialect.names[k] = std::string(cells[k]);
+  for (std::size_t k = 0; k < std::min(columns, cells.size()); ++k)
+    dialect.names[k] = std::string(cells[k]);
 }
 
 }  // namespace
@@ -142,14 +147,17 @@ void split_cells(std::string_view line, char separator, std::vector<std::string_
   cells.clear();
   if (blanks) line = trim(line);
   for (std::size_t start = 0;; ++start) {
-    while (start < line.size() && (line[start] == ' ' || (line[start] == '\t' && separator != '\t'))) ++start;
+    while (start < line.size() &&
+           (line[start] == ' ' || (line[start] == '\t' && separator != '\t')))
+      ++start;
     const bool quoted = start < line.size() && line[start] == '"';
     const std::size_t close = quoted ? line.find('"', start + 1) : std::string_view::npos;
     const std::size_t from = close == std::string_view::npos ? start : close + 1;
-    const std::size_t end =
-        std::min(blanks ? line.find_first_of(" \t", from) : line.find(separator, from), line.size());
-    cells.push_back(close == std::string_view::npos ? trim_right(line.substr(start, end - start))
-                                                    : trim(line.substr(start + 1, close - start - 1)));
+    const std::size_t end = std::min(
+        blanks ? line.find_first_of(" \t", from) : line.find(separator, from), line.size());
+    cells.push_back(close == std::string_view::npos
+                        ? trim_right(line.substr(start, end - start))
+                        : trim(line.substr(start + 1, close - start - 1)));
     start = end;
     if (end == line.size()) return;
   }

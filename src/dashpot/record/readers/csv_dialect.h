@@ -14,8 +14,8 @@ struct CsvDialect {
   std::vector<std::string> units;   ///< from a row of units; "" where there is none
 };
 
-/// Splits one line into cells, trimmed and without their quotes. Cells point into `line`. A quoted cell
-/// ends at its next quote: no number and no sensible name contains one.
+/// Splits one line into cells, trimmed and without their quotes. Cells point into `line`. A quoted
+/// cell ends at its next quote: no number and no sensible name contains one.
 void split_cells(std::string_view line, char separator, std::vector<std::string_view>& cells);
 
 /// A comment or an empty line holds no sample.

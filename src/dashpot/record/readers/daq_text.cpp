@@ -38,7 +38,8 @@ Header read_header(LineSource& source, const std::string& file) {
     const double value = parse_number(line->substr(colon + 1)).value_or(0);
     if (key == "Header Size") lines = value;
     if (key == "Sampling Interval") header.sample_time = value;
-    if (key == "Sampling Rate" && header.sample_time <= 0 && value > 0) header.sample_time = 1 / value;
+    if (key == "Sampling Rate" && header.sample_time <= 0 && value > 0)
+      header.sample_time = 1 / value;
     if (key == "Sample Count") header.sample_count = value;
   } while (static_cast<double>(source.line()) < lines);
   const std::string where = file + ":" + std::to_string(source.line());
@@ -46,12 +47,14 @@ Header read_header(LineSource& source, const std::string& file) {
     throw Error(where, "the header does not end with the names of the columns",
                 "its last line is like 'Sample Number, Date/Time, CHANNEL0, CHANNEL1, Events'");
   if (!(header.sample_time > 0) || !std::isfinite(header.sample_time))
-    throw Error(where, "the header states no sampling interval", "a line 'Sampling Interval:  0.005' in s");
+    throw Error(where, "the header states no sampling interval",
+                "a line 'Sampling Interval:  0.005' in s");
   header.names.pop_back();
   return header;
 }
 
-RawTable begin_part(const Header& header, const std::string& file, std::size_t index, std::size_t line) {
+RawTable begin_part(const Header& header, const std::string& file, std::size_t index,
+                    std::size_t line) {
   RawTable table;
   table.file = file;
   table.part_index = index;
@@ -63,7 +66,8 @@ RawTable begin_part(const Header& header, const std::string& file, std::size_t i
 
 void append_row(RawTable& part, const std::vector<std::string_view>& cells, std::size_t line) {
   const std::size_t row = part.rows();
-  if (part.lines.back().second + row - part.lines.back().first != line) part.lines.emplace_back(row, line);
+  if (part.lines.back().second + row - part.lines.back().first != line)
+    part.lines.emplace_back(row, line);
   for (std::size_t k = 0; k < part.columns.size(); ++k) {
     const std::string_view cell = k < cells.size() ? cells[k] : std::string_view();
     const auto value = parse_number(cell);
@@ -77,8 +81,8 @@ void append_row(RawTable& part, const std::vector<std::string_view>& cells, std:
 void name_parts(std::vector<RawTable>& parts) {
   std::size_t first = 1;
   for (RawTable& part : parts) {
-    part.part = "part " + std::to_string(part.part_index + 1) + ", rows " + std::to_string(first) + "-" +
-                std::to_string(first + part.rows() - 1);
+    part.part = "part " + std::to_string(part.part_index + 1) + ", rows " + std::to_string(first) +
+                "-" + std::to_string(first + part.rows() - 1);
     first += part.rows();
   }
 }
@@ -100,15 +104,18 @@ std::vector<RawTable> read_daq_text(const fs::path& path) {
     if (trim(*line).empty()) continue;
     split_cells(*line, ',', cells);
     const bool resumes = cells.size() > header.names.size() && lower(cells.back()) == "daq resume";
-    if (parts.empty() || resumes) parts.push_back(begin_part(header, file, parts.size(), source.line()));
+    if (parts.empty() || resumes)
+      parts.push_back(begin_part(header, file, parts.size(), source.line()));
     append_row(parts.back(), cells, source.line());
     ++rows;
   }
-  if (parts.empty()) throw Error(file, "has a header but no samples", "copy it again from the data logger");
+  if (parts.empty())
+    throw Error(file, "has a header but no samples", "copy it again from the data logger");
   name_parts(parts);
   if (header.sample_count > 0 && static_cast<double>(rows) != header.sample_count)
     parts.back().notes.push_back("the header promises " + format_number(header.sample_count, 9) +
-                                 " samples, the file has " + std::to_string(rows) + ": it was cut off");
+                                 " samples, the file has " + std::to_string(rows) +
+                                 ": it was cut off");
   return parts;
 }
 

@@ -24,15 +24,19 @@ constexpr Field kConditions[] = {{"viscocidad", "viscosity", "Pa*s"},
                                  {"h", "gap", "m"},
                                  {"L", "pole_length", "m"}};
 
-fs::path inputs_of(const fs::path& path) { return path.parent_path() / ("inp_" + path.filename().string()); }
+fs::path inputs_of(const fs::path& path) {
+  return path.parent_path() / ("inp_" + path.filename().string());
+}
 
 RawTable read_record(const Value& value, const std::string& file) {
   RawTable table;
   table.file = file;
   ObjectReader reader(value, "a record of the family data");
   for (const Field& field : kColumns) {
-    RawColumn column{
-        std::string(field.key), std::string(field.unit), reader.required(field.key).as_numbers(), {}};
+    RawColumn column{std::string(field.key),
+                     std::string(field.unit),
+                     reader.required(field.key).as_numbers(),
+                     {}};
     for (std::size_t k = 0; k < column.values.size() && !column.bad; ++k)
       if (!std::isfinite(column.values[k])) column.bad = BadCell{k, "not a finite number"};
     if (!table.columns.empty() && column.values.size() != table.rows())
@@ -51,8 +55,10 @@ void add_conditions(std::vector<RawTable>& levels, const Value& value) {
   const std::vector<double> yield = reader.required("Ty").as_numbers();
   if (yield.size() < levels.size())
     throw Error(value.where(), "'Ty' has " + std::to_string(yield.size()) +
-                                   " field levels, the recordings have " + std::to_string(levels.size()));
-  for (std::size_t k = 0; k < levels.size(); ++k) levels[k].conditions.emplace_back("yield_stress", yield[k]);
+                                   " field levels, the recordings have " +
+                                   std::to_string(levels.size()));
+  for (std::size_t k = 0; k < levels.size(); ++k)
+    levels[k].conditions.emplace_back("yield_stress", yield[k]);
   for (const Field& field : kConditions) {
     const double number = reader.number(field.key);
     for (RawTable& level : levels) level.conditions.emplace_back(field.name, number);
@@ -84,7 +90,8 @@ std::vector<RawTable> read_family_json(const fs::path& path) {
       levels.push_back(std::move(table));
     }
     const Value* damper = inputs.find(key);
-    if (!damper) throw Error(inputs_file, "has no damper '" + key + "'", "one entry per damper of " + file);
+    if (!damper)
+      throw Error(inputs_file, "has no damper '" + key + "'", "one entry per damper of " + file);
     add_conditions(levels, *damper);
     for (RawTable& level : levels) tables.push_back(std::move(level));
   }

@@ -36,7 +36,8 @@ std::size_t read_some(gzFile_s* file, char* to, std::size_t room, const std::str
 
 }  // namespace
 
-LineSource::LineSource(const fs::path& path) : path_(path.string()), file_(open(path)), buffer_(kBlock) {
+LineSource::LineSource(const fs::path& path)
+    : path_(path.string()), file_(open(path)), buffer_(kBlock) {
   std::error_code error;
   const auto size = fs::file_size(path, error);
   file_size_ = error ? 0 : static_cast<double>(size);
@@ -56,8 +57,9 @@ std::optional<std::string_view> LineSource::next() {
     const auto* end_of_line = static_cast<const char*>(std::memchr(from, line_end_, end_ - begin_));
     if (!end_of_line && fill()) continue;
     if (!end_of_line && begin_ == end_) return std::nullopt;
-    std::string_view text(buffer_.data() + begin_,
-                          end_of_line ? static_cast<std::size_t>(end_of_line - from) : end_ - begin_);
+    std::string_view text(
+        buffer_.data() + begin_,
+        end_of_line ? static_cast<std::size_t>(end_of_line - from) : end_ - begin_);
     begin_ += text.size() + (end_of_line ? 1 : 0);
     consumed_ += text.size() + 1;
     if (!text.empty() && text.back() == '\r') text.remove_suffix(1);

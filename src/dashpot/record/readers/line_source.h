@@ -10,7 +10,8 @@ struct gzFile_s;
 
 namespace dashpot {
 
-/// The lines of a text file (plain or gzip), read block by block: memory does not grow with the file.
+/// The lines of a text file (plain or gzip), read block by block: memory does not grow with the
+/// file.
 class LineSource {
  public:
   explicit LineSource(const std::filesystem::path& path);
@@ -18,9 +19,9 @@ class LineSource {
   LineSource(const LineSource&) = delete;
   LineSource& operator=(const LineSource&) = delete;
 
-  /// The next line without its end (LF, CRLF or both mixed; CR in a file without LF), or nothing at the end.
-  /// Valid until the next call. Throws Error on a damaged file, and on a line too long for a table of
-  /// numbers.
+  /// The next line without its end (LF, CRLF or both mixed; CR in a file without LF), or nothing at
+  /// the end. Valid until the next call. Throws Error on a damaged file, and on a line too long for
+  /// a table of numbers.
   std::optional<std::string_view> next();
   std::size_t line() const { return line_; }  ///< number of the line that next() gave, from 1
   double bytes_per_line() const;              ///< mean so far

@@ -70,7 +70,8 @@ std::vector<double> numbers_of(const matvar_t& variable, std::size_t count) {
 }
 
 bool is_numeric(const matvar_t& variable) {
-  return variable.class_type >= MAT_C_DOUBLE && variable.class_type <= MAT_C_UINT64 && !variable.isComplex;
+  return variable.class_type >= MAT_C_DOUBLE && variable.class_type <= MAT_C_UINT64 &&
+         !variable.isComplex;
 }
 
 /// Collects real arrays, into structures of one element too; names what it passes over.
@@ -119,7 +120,8 @@ class Collector {
 std::size_t common_length(const std::vector<Array>& arrays) {
   std::map<std::size_t, std::size_t> columns;
   for (const Array& array : arrays)
-    if (array.length() > 1 && array.width() <= kMostColumns) columns[array.length()] += array.width();
+    if (array.length() > 1 && array.width() <= kMostColumns)
+      columns[array.length()] += array.width();
   std::size_t best = 0, most = 0;
   for (const auto& [length, count] : columns)
     if (count >= most) best = length, most = count;
@@ -155,9 +157,9 @@ RawTable to_table(Collector collector, const std::string& file) {
     } else if (array.length() == length && array.width() <= kMostColumns) {
       add_columns(table, array);
     } else {
-      table.notes.push_back("variable '" + array.name + "' passed over: " + std::to_string(array.rows) +
-                            " x " + std::to_string(array.columns) + " values, the recording has " +
-                            std::to_string(length));
+      table.notes.push_back(
+          "variable '" + array.name + "' passed over: " + std::to_string(array.rows) + " x " +
+          std::to_string(array.columns) + " values, the recording has " + std::to_string(length));
     }
   }
   if (table.columns.empty())
@@ -173,7 +175,8 @@ bool is_mat(const fs::path&, std::string_view extension, std::string_view head) 
 
 std::vector<RawTable> read_mat(const fs::path& path) {
   const std::string file = path.string();
-  if (path.extension() == ".gz") throw Error(file, "is a packed MAT file", "unpack it with gunzip first");
+  if (path.extension() == ".gz")
+    throw Error(file, "is a packed MAT file", "unpack it with gunzip first");
   const std::string head = read_head(path, kMat73Head);
   if (head.starts_with("MATLAB 7.3"))
     check_mat73(head, fs::file_size(path), file);

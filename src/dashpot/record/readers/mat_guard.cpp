@@ -16,7 +16,13 @@ constexpr int kDeepest = 8;
 
 // Types of elements and classes of arrays in the version 5 format.
 enum Element : std::uint32_t { kInt8 = 1, kInt32 = 5, kUint32 = 6, kMatrix = 14, kCompressed = 15 };
-enum Class : std::uint32_t { kCell = 1, kStruct = 2, kChar = 4, kFirstNumeric = 6, kLastNumeric = 15 };
+enum Class : std::uint32_t {
+  kCell = 1,
+  kStruct = 2,
+  kChar = 4,
+  kFirstNumeric = 6,
+  kLastNumeric = 15
+};
 
 [[noreturn]] void damaged(const std::string& file, const std::string& what) {
   throw Error(file, "damaged or cut off MAT file: " + what, "copy it again from its source");
@@ -61,7 +67,8 @@ class Cursor {
     }
     const std::uint32_t size = u32(what);
     const Part part{word, take(size, what)};
-    if (word != kMatrix && word != kCompressed) take(std::min<std::size_t>((8 - size % 8) % 8, left()), what);
+    if (word != kMatrix && word != kCompressed)
+      take(std::min<std::size_t>((8 - size % 8) % 8, left()), what);
     return part;
   }
 
@@ -101,8 +108,9 @@ void check_numbers(Cursor& cursor, std::size_t count, const char* what) {
   const std::size_t size = element_size(part.type);
   if (size == 0) damaged(cursor.file(), std::string(what) + " is of no known number type");
   if (part.data.size() / size < count)
-    damaged(cursor.file(), std::string(what) + " should hold " + std::to_string(count) + " numbers, " +
-                               std::to_string(part.data.size() / size) + " are there");
+    damaged(cursor.file(), std::string(what) + " should hold " + std::to_string(count) +
+                               " numbers, " + std::to_string(part.data.size() / size) +
+                               " are there");
 }
 
 void check_matrix(std::string_view bytes, const Cursor& outer, int depth);
@@ -138,7 +146,8 @@ void check_structure(Cursor& cursor, std::size_t count, int depth) {
   const Cursor::Part length_part = cursor.element("the length of field names");
   if (length_part.type != kInt32 || length_part.data.size() < 4)
     damaged(cursor.file(), "a structure without the length of its field names");
-  const std::uint32_t length = Cursor(length_part.data, cursor.swap(), cursor.file()).u32("a length");
+  const std::uint32_t length =
+      Cursor(length_part.data, cursor.swap(), cursor.file()).u32("a length");
   const Cursor::Part names = cursor.element("the field names");
   if (length == 0 || length > 4096 || names.data.size() % length != 0)
     damaged(cursor.file(), "field names of impossible length");
@@ -153,14 +162,17 @@ void check_matrix(std::string_view bytes, const Cursor& outer, int depth) {
     damaged(outer.file(), "structures nested more than " + std::to_string(kDeepest) + " deep");
   Cursor cursor(bytes, outer.swap(), outer.file());
   const Cursor::Part flags = cursor.element("the flags of an array");
-  if (flags.type != kUint32 || flags.data.size() != 8) damaged(cursor.file(), "an array without flags");
+  if (flags.type != kUint32 || flags.data.size() != 8)
+    damaged(cursor.file(), "an array without flags");
   const std::uint32_t word = Cursor(flags.data, cursor.swap(), cursor.file()).u32("flags");
   const std::uint32_t array_class = word & 0xff;
-  const bool numeric = array_class == kChar || (array_class >= kFirstNumeric && array_class <= kLastNumeric);
+  const bool numeric =
+      array_class == kChar || (array_class >= kFirstNumeric && array_class <= kLastNumeric);
   if (!numeric && array_class != kCell && array_class != kStruct) return;  // never opened
   const std::size_t count = count_elements(cursor);
   const Cursor::Part name = cursor.element("the name of an array");
-  if (name.type != kInt8 || name.data.size() > 4096) damaged(cursor.file(), "an array without a proper name");
+  if (name.type != kInt8 || name.data.size() > 4096)
+    damaged(cursor.file(), "an array without a proper name");
   if (array_class == kStruct) return check_structure(cursor, count, depth);
   if (array_class == kCell) {
     if (count > cursor.left() / 8)
@@ -219,7 +231,8 @@ void check_version4(std::string_view bytes, const std::string& file) {
     const std::uint32_t complex = cursor.u32("a header"), name = cursor.u32("a header");
     const std::uint32_t precision = type / 10 % 10;
     if (type > 4999 || precision > 5 || type % 10 > 2 || complex > 1 || name == 0 || name > 4096)
-      throw Error(file, "is not a MAT file", "it starts neither like version 4 nor like version 5 or 7.3");
+      throw Error(file, "is not a MAT file",
+                  "it starts neither like version 4 nor like version 5 or 7.3");
     cursor.take(name, "a name");
     const std::size_t size = kSizes[precision] * (complex + 1);
     if (columns != 0 && rows > cursor.left() / size / columns)
@@ -239,7 +252,8 @@ void check_mat(std::string_view bytes, const std::string& file) {
 }
 
 void check_mat73(std::string_view head, std::uintmax_t file_size, const std::string& file) {
-  constexpr std::size_t kSuperblock = 512, kPlaces[] = {40, 44, 28, 28};  // of the length, by version
+  constexpr std::size_t kSuperblock = 512,
+                        kPlaces[] = {40, 44, 28, 28};  // of the length, by version
   if (head.size() < kMat73Head) damaged(file, "it ends inside its header");
   const std::string_view block = head.substr(kSuperblock);
   const auto version = static_cast<unsigned char>(block[8]);
@@ -248,7 +262,8 @@ void check_mat73(std::string_view head, std::uintmax_t file_size, const std::str
   std::uint64_t length;
   std::memcpy(&length, block.data() + kPlaces[version], sizeof length);
   if (length > file_size)
-    damaged(file, "it should have " + std::to_string(length) + " bytes and has " + std::to_string(file_size));
+    damaged(file, "it should have " + std::to_string(length) + " bytes and has " +
+                      std::to_string(file_size));
 }
 
 }  // namespace dashpot

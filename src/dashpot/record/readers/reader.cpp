@@ -42,7 +42,8 @@ std::vector<RawTable> read_tables(const fs::path& path) {
     throw Error(path.string(), "is empty (0 bytes)", "copy it again from its source");
   const Reader* reader = find_reader(path);
   if (!reader)
-    throw Error(path.string(), "is not a recording that Dashpot can read", "it reads " + known_formats());
+    throw Error(path.string(), "is not a recording that Dashpot can read",
+                "it reads " + known_formats());
   return reader->read(path);
 }
 

@@ -14,7 +14,8 @@ namespace dashpot {
 struct Reader {
   std::string_view name;
   std::string_view extensions;  ///< what folders are searched for, for people: ".csv .txt"
-  bool (*recognises)(const std::filesystem::path& path, std::string_view extension, std::string_view head);
+  bool (*recognises)(const std::filesystem::path& path, std::string_view extension,
+                     std::string_view head);
   std::vector<RawTable> (*read)(const std::filesystem::path& path);
 };
 

@@ -7,7 +7,8 @@
 namespace dashpot {
 
 bool RawTable::named() const {
-  return std::any_of(columns.begin(), columns.end(), [](const RawColumn& c) { return !c.name.empty(); });
+  return std::any_of(columns.begin(), columns.end(),
+                     [](const RawColumn& c) { return !c.name.empty(); });
 }
 
 std::string RawTable::where(std::size_t row) const {

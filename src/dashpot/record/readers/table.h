@@ -22,8 +22,8 @@ struct BadCell {
   std::string text;  ///< "" when the cell is empty
 };
 
-/// A column of a file as it stands there. A cell that is not a finite number is NaN in `values`; only
-/// when the column is used is that an error.
+/// A column of a file as it stands there. A cell that is not a finite number is NaN in `values`;
+/// only when the column is used is that an error.
 struct RawColumn {
   std::string name;  ///< "" in a file without names
   std::string unit;  ///< from a units row or fixed by the format; "" when the name may hold it
@@ -38,10 +38,12 @@ struct RawTable {
   std::size_t part_index = 0;  ///< counts the parts of one group from 0
   std::string group;           ///< "" or what the parts of one group share: a damper's key
   std::vector<RawColumn> columns;
-  std::vector<std::pair<std::string, double>> scalars;     ///< single numbers beside the columns: Ts
-  std::optional<double> sample_time;                       ///< s, when the format itself states it
-  std::vector<std::pair<std::string, double>> conditions;  ///< SI, when the format itself states them
-  std::vector<std::pair<std::size_t, std::size_t>> lines;  ///< (row, line) where the numbering jumps
+  std::vector<std::pair<std::string, double>> scalars;  ///< single numbers beside the columns: Ts
+  std::optional<double> sample_time;                    ///< s, when the format itself states it
+  std::vector<std::pair<std::string, double>>
+      conditions;  ///< SI, when the format itself states them
+  std::vector<std::pair<std::size_t, std::size_t>>
+      lines;  ///< (row, line) where the numbering jumps
   std::vector<std::string> notes;
 
   std::size_t rows() const { return columns.empty() ? 0 : columns.front().values.size(); }

@@ -11,7 +11,8 @@
 namespace dashpot {
 namespace {
 
-double straight(const std::vector<double>& v, const std::vector<double>& f, std::size_t k, double at) {
+double straight(const std::vector<double>& v, const std::vector<double>& f, std::size_t k,
+                double at) {
   return f[k] + (f[k + 1] - f[k]) * (at - v[k]) / (v[k + 1] - v[k]);
 }
 
@@ -48,20 +49,22 @@ double ForceRange::force_against(double free, double by_force, double share) con
 
 double ForceRange::share(double v, double f) const noexcept {
   const std::size_t k = place_of(velocity, v);
-  const double least = straight(velocity, soft, k, v), wide = straight(velocity, hard, k, v) - least;
+  const double least = straight(velocity, soft, k, v),
+               wide = straight(velocity, hard, k, v) - least;
   return wide == 0 ? 0 : std::clamp((f - least) / wide, 0.0, 1.0);
 }
 
 ForceRange damping_range(double least, double greatest) {
   if (!(least <= greatest))
-    throw Error("damping range", "least " + format_number(least) + ", greatest " + format_number(greatest));
+    throw Error("damping range",
+                "least " + format_number(least) + ", greatest " + format_number(greatest));
   return {{-1, 0, 1}, {-least, 0, least}, {-greatest, 0, greatest}};
 }
 
 namespace {
 
-/// Least of -(F - a v)(F - b v) over both edges of a range: what is missing to 0 is the limit's constant.
-/// q is concave in F, so the edges decide; on a straight piece it is a parabola in v.
+/// Least of -(F - a v)(F - b v) over both edges of a range: what is missing to 0 is the limit's
+/// constant. q is concave in F, so the edges decide; on a straight piece it is a parabola in v.
 double shortfall(const ForceRange& range, double a, double b) {
   double least = 0;
   const auto& v = range.velocity;
@@ -106,7 +109,9 @@ std::vector<ForceLimit> force_limits(const ForceRange& range) {
     const double missing = shortfall(range, least, greatest);
     if (!(least >= 0) || !std::isfinite(missing)) continue;
     const ForceLimit limit{-1, least + greatest, -least * greatest, -missing};
-    const auto same = [&](const ForceLimit& other) { return other.fv == limit.fv && other.vv == limit.vv; };
+    const auto same = [&](const ForceLimit& other) {
+      return other.fv == limit.fv && other.vv == limit.vv;
+    };
     if (std::none_of(limits.begin(), limits.end(), same)) limits.push_back(limit);
   }
   if (limits.empty()) throw Error("clairvoyant bound", "the range of forces is not dissipative");
@@ -122,7 +127,8 @@ ForceRange model_range(const DamperModel& model, double current_min, double curr
                 "a model without states, as 'network'");
   if (!(velocity_max > 0 && current_min < current_max))
     throw Error(model.name(), "a range up to " + format_number(velocity_max) + " m/s between " +
-                                  format_number(current_min) + " and " + format_number(current_max) + " A");
+                                  format_number(current_min) + " and " +
+                                  format_number(current_max) + " A");
   constexpr int kVelocities = 60, kCurrents = 20;  // either way
   ForceRange range;
   for (int k = -kVelocities; k <= kVelocities; ++k) {

@@ -5,15 +5,16 @@
 
 namespace dashpot {
 
-/// What a semi-active damper can give at a velocity: any force between its softest and its hardest. Straight
-/// between the velocities of the table, and straight on outside.
+/// What a semi-active damper can give at a velocity: any force between its softest and its hardest.
+/// Straight between the velocities of the table, and straight on outside.
 struct ForceRange {
   std::vector<double> velocity;    ///< m/s, ascending
   std::vector<double> soft, hard;  ///< N, positive when they resist extension
 
   /// soft + share (hard - soft), N; share 0 ... 1.
   double force(double velocity, double share) const noexcept;
-  /// The same where the force itself slows the motion: the force at velocity `free` + by_force force.
+  /// The same where the force itself slows the motion: the force at velocity `free` + by_force
+  /// force.
   double force_against(double free, double by_force, double share) const noexcept;
   /// How hard a force is, 0 ... 1, at a velocity; 0 where soft and hard are one.
   double share(double velocity, double force) const noexcept;
@@ -28,7 +29,8 @@ ForceRange damping_range(double least, double greatest);
 /// Of a damper without memory: from its least force to its greatest over the currents, A; beyond
 /// velocity_max in proportion to the velocity.
 /// Throws Error where the model has states, and at limits that make no sense.
-ForceRange model_range(const DamperModel& model, double current_min, double current_max, double velocity_max);
+ForceRange model_range(const DamperModel& model, double current_min, double current_max,
+                       double velocity_max);
 /// Whether there is anything to choose.
 bool has_width(const ForceRange& range);
 
@@ -37,8 +39,8 @@ bool has_width(const ForceRange& range);
 struct ForceLimit {
   double ff = 0, fv = 0, vv = 0, one = 0;
 };
-/// Those that hold a range in, of the form (F - a v)(b v - F) + one: of a range of damping the exact one.
-/// Each is checked along every straight piece of the range.
+/// Those that hold a range in, of the form (F - a v)(b v - F) + one: of a range of damping the
+/// exact one. Each is checked along every straight piece of the range.
 std::vector<ForceLimit> force_limits(const ForceRange& range);
 
 }  // namespace dashpot

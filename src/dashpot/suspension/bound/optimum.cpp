@@ -24,7 +24,8 @@ double at(const SmallMatrix<1, 6>& row, const State& z) {
   return sum;
 }
 
-/// Along cells under forces as choose(cell, state, softest, hardest) asks for, clipped to the range.
+/// Along cells under forces as choose(cell, state, softest, hardest) asks for, clipped to the
+/// range.
 template <class Choose>
 Path run(const SampledPlant& car, const ForceRange& range, const RideIndex& index, Choose choose) {
   Path path;
@@ -33,7 +34,8 @@ Path run(const SampledPlant& car, const ForceRange& range, const RideIndex& inde
   for (std::size_t cell = 0; cell < car.cells(); ++cell) {
     const AffineCar now = car.over(cell);
     const double free = at(now.speed, z), by_force = now.speed(0, kForce);
-    const double soft = range.force_against(free, by_force, 0), hard = range.force_against(free, by_force, 1);
+    const double soft = range.force_against(free, by_force, 0),
+                 hard = range.force_against(free, by_force, 1);
     const double force =
         std::clamp(choose(cell, z, free, by_force), std::min(soft, hard), std::max(soft, hard));
     const double a = at(now.acceleration, z) + now.acceleration(0, kForce) * force;
@@ -51,8 +53,8 @@ Path run(const SampledPlant& car, const ForceRange& range, const RideIndex& inde
 }
 
 /// A law per cell that is best when forces at an end of the range stay at that end.
-std::vector<Law> sweep_back(const SampledPlant& car, const ForceRange& range, const RideIndex& index,
-                            const Path& path) {
+std::vector<Law> sweep_back(const SampledPlant& car, const ForceRange& range,
+                            const RideIndex& index, const Path& path) {
   std::vector<Law> laws(car.cells());
   SmallMatrix<5, 5> value;
   for (std::size_t cell = car.cells(); cell-- > 0;) {
@@ -66,7 +68,8 @@ std::vector<Law> sweep_back(const SampledPlant& car, const ForceRange& range, co
     const State& z = path.states[cell];
     const double free = at(now.speed, z), by_force = now.speed(0, kForce);
     const double wanted = (law * z)(0, 0);
-    const double soft = range.force_against(free, by_force, 0), hard = range.force_against(free, by_force, 1);
+    const double soft = range.force_against(free, by_force, 0),
+                 hard = range.force_against(free, by_force, 1);
     const bool outside = wanted < std::min(soft, hard) || wanted > std::max(soft, hard);
     if (outside) {
       const bool is_hard = std::abs(wanted - hard) < std::abs(wanted - soft);

@@ -16,9 +16,9 @@ struct Course {
 Course follow_shares(const SampledPlant& car, const ForceRange& range, const RideIndex& index,
                      const std::vector<double>& shares);
 
-/// From a course to a better one, until none is found: a Riccati sweep back along the course, in which a
-/// force at an end of its range stays there and one inside is free, gives a law per cell; a run forward
-/// follows it, clipped to the range, as far as the index falls.
+/// From a course to a better one, until none is found: a Riccati sweep back along the course, in
+/// which a force at an end of its range stays there and one inside is free, gives a law per cell; a
+/// run forward follows it, clipped to the range, as far as the index falls.
 Course improve(const SampledPlant& car, const ForceRange& range, const RideIndex& index,
                const Course& course);
 

@@ -5,8 +5,8 @@
 
 namespace dashpot {
 
-/// The damper that a range describes. What is its current is the share, 0 softest ... 1 hardest; without
-/// memory.
+/// The damper that a range describes. What is its current is the share, 0 softest ... 1 hardest;
+/// without memory.
 class RangeDamper final : public DamperModel {
  public:
   explicit RangeDamper(ForceRange range) : range_(std::move(range)) {}
@@ -17,7 +17,8 @@ class RangeDamper final : public DamperModel {
   std::size_t parameter_count() const noexcept override { return 2 * range_.velocity.size(); }
   std::size_t state_size() const noexcept override { return 0; }
   void rest(const DamperInput&, std::span<double>) const noexcept override {}
-  void advance(const DamperInput&, const DamperInput&, double, std::span<double>) const noexcept override {}
+  void advance(const DamperInput&, const DamperInput&, double,
+               std::span<double>) const noexcept override {}
   double force(const DamperInput& input, std::span<const double>) const noexcept override {
     return range_.force(input.velocity, input.current);
   }

@@ -33,7 +33,8 @@ void add_limit(Form& form, double weight, const ForceLimit& limit, const SmallMa
 Form integrand(const AffineCar& car, const std::vector<ForceLimit>& limits, const RideIndex& index,
                const double* multipliers) {
   Form form = price(car, index);
-  for (std::size_t j = 0; j < limits.size(); ++j) add_limit(form, -multipliers[j], limits[j], car.speed);
+  for (std::size_t j = 0; j < limits.size(); ++j)
+    add_limit(form, -multipliers[j], limits[j], car.speed);
   return form;
 }
 
@@ -46,7 +47,8 @@ Minimum minimum_over_force(const Form& form) {
   Minimum out;
   for (std::size_t j = 0; j < 5; ++j) out.law(0, j) = -form(kForce, j) / form(kForce, kForce);
   for (std::size_t i = 0; i < 5; ++i)
-    for (std::size_t j = 0; j < 5; ++j) out.value(i, j) = form(i, j) + form(i, kForce) * out.law(0, j);
+    for (std::size_t j = 0; j < 5; ++j)
+      out.value(i, j) = form(i, j) + form(i, kForce) * out.law(0, j);
   return out;
 }
 
@@ -64,12 +66,13 @@ void add_value(Form& form, const Value5& p, const SmallMatrix<5, 6>& motion, boo
     }
 }
 
-// The certificate: the Riccati equation in continuous time, by Runge-Kutta in as many steps as a cell needs.
+// The certificate: the Riccati equation in continuous time, by Runge-Kutta in as many steps as a
+// cell needs.
 
 class Certificate {
  public:
-  Certificate(const SampledPlant& car, const std::vector<ForceLimit>& limits, const RideIndex& index,
-              const Multipliers& multipliers)
+  Certificate(const SampledPlant& car, const std::vector<ForceLimit>& limits,
+              const RideIndex& index, const Multipliers& multipliers)
       : car_(car), limits_(limits), index_(index), multipliers_(multipliers) {}
 
   std::optional<double> minimum() {
@@ -80,7 +83,8 @@ class Certificate {
   }
 
  private:
-  /// A cell in `steps_` steps and in twice as many, until both agree; the next cell begins with half.
+  /// A cell in `steps_` steps and in twice as many, until both agree; the next cell begins with
+  /// half.
   bool back_over(std::size_t cell, Value5& p) {
     constexpr int kMost = 256;
     constexpr double kAgree = 1e-10;
@@ -138,8 +142,9 @@ class Certificate {
   int steps_ = 1;
 };
 
-// The search for multipliers, on cells over which the force is held. A little noise keeps it off the edge,
-// where the minimum of L falls to minus infinity: value + noise * sum of tr P falls there first, smoothly.
+// The search for multipliers, on cells over which the force is held. A little noise keeps it off
+// the edge, where the minimum of L falls to minus infinity: value + noise * sum of tr P falls there
+// first, smoothly.
 
 class Dual {
  public:
@@ -166,8 +171,8 @@ class Dual {
     return std::isfinite(out);
   }
 
-  /// Its slope by each multiplier, at the multipliers of the last value(): less the mean of each limit under
-  /// the law.
+  /// Its slope by each multiplier, at the multipliers of the last value(): less the mean of each
+  /// limit under the law.
   void slope(const Multipliers& multipliers, std::span<double> out) const {
     std::fill(out.begin(), out.end(), 0.0);
     Value5 moment;  // of [q, q', 1]
@@ -179,7 +184,8 @@ class Dual {
         Form limit;
         add_limit(limit, car_.step(), limits_[j], car.speed);
         double mean = 0;
-        for (std::size_t k = 0; k < limit.values.size(); ++k) mean += limit.values[k] * joint.values[k];
+        for (std::size_t k = 0; k < limit.values.size(); ++k)
+          mean += limit.values[k] * joint.values[k];
         out[cell / multipliers.block * limits_.size() + j] -= mean;
       }
       moment = car.motion * joint * transposed(car.motion);
@@ -206,7 +212,8 @@ class Dual {
   std::vector<SmallMatrix<1, 5>> law_;
 };
 
-/// Mean squares of [q, q'] under a force in proportion to the speed: how far this car moves on this road.
+/// Mean squares of [q, q'] under a force in proportion to the speed: how far this car moves on this
+/// road.
 std::array<double, 4> typical_motion(const SampledPlant& car, double damping) {
   std::array<double, 4> sum{};
   SmallMatrix<5, 1> z;
@@ -232,8 +239,8 @@ double middle_damping(const std::vector<ForceLimit>& limits) {
 }
 
 /// The same multipliers on blocks of another length, over cells of another plant on the same road.
-Multipliers on_blocks(const Multipliers& from, const SampledPlant& from_car, const SampledPlant& car,
-                      std::size_t block) {
+Multipliers on_blocks(const Multipliers& from, const SampledPlant& from_car,
+                      const SampledPlant& car, std::size_t block) {
   Multipliers to{.block = block, .limits = from.limits, .values = {}};
   const double ratio = car.step() / from_car.step();
   for (std::size_t cell = 0; cell < car.cells(); cell += block) {
@@ -273,13 +280,15 @@ Multipliers climb(Dual& dual, Multipliers multipliers, int iterations) {
 
 }  // namespace
 
-std::optional<double> certified_minimum(const SampledPlant& car, const std::vector<ForceLimit>& limits,
+std::optional<double> certified_minimum(const SampledPlant& car,
+                                        const std::vector<ForceLimit>& limits,
                                         const RideIndex& index, const Multipliers& multipliers) {
   return Certificate(car, limits, index, multipliers).minimum();
 }
 
-Relaxation relax(const SampledPlant& car, const SampledPlant& coarse, const std::vector<ForceLimit>& limits,
-                 const RideIndex& index, const RelaxationOptions& options) {
+Relaxation relax(const SampledPlant& car, const SampledPlant& coarse,
+                 const std::vector<ForceLimit>& limits, const RideIndex& index,
+                 const RelaxationOptions& options) {
   const double by_force = coarse.at(0, 0).acceleration(0, kForce);
   const double natural = index.comfort * by_force * by_force + index.holding;
   const std::array<double, 4> motion = typical_motion(coarse, middle_damping(limits));
@@ -289,14 +298,16 @@ Relaxation relax(const SampledPlant& car, const SampledPlant& coarse, const std:
     return Dual(coarse, limits, index, noise);
   };
   Dual much = shaken(1e-2), little = shaken(1e-4);
-  const Multipliers constant = climb(
-      much, {coarse.cells(), limits.size(), std::vector<double>(limits.size(), natural)}, options.iterations);
+  const Multipliers constant =
+      climb(much, {coarse.cells(), limits.size(), std::vector<double>(limits.size(), natural)},
+            options.iterations);
   Multipliers found = constant;
   for (std::size_t block = 8 * options.block; block >= options.block; block /= 2)
     found = climb(much, on_blocks(found, coarse, coarse, block), options.iterations);
   found = climb(little, found, options.iterations);
 
-  // A climb may end at an edge that only its cells have: then the constants pull it back, or less of them.
+  // A climb may end at an edge that only its cells have: then the constants pull it back, or less
+  // of them.
   const double duration = car.step() * static_cast<double>(car.cells());
   const auto cells = static_cast<std::size_t>(
       std::max(1.0, std::round(static_cast<double>(options.block) * coarse.step() / car.step())));

@@ -7,7 +7,7 @@
 
 #include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
-#include "dashpot/suspension/linear.h"
+#include "dashpot/suspension/plants/linear.h"
 
 namespace dashpot {
 namespace {
@@ -16,11 +16,14 @@ constexpr std::size_t kOne = 4, kForce = 5;  // places in [q, q', 1, F]
 
 void require_quarter_car(const Plant& plant) {
   const std::string right = "a quarter car without stops, friction and lifting tyre";
-  if (plant.size() != 2 || plant.struts.size() != 1 || plant.tyres.size() != 1 || plant.struts[0].track)
+  if (plant.size() != 2 || plant.struts.size() != 1 || plant.tyres.size() != 1 ||
+      plant.struts[0].track)
     throw Error(plant.name, "has no clairvoyant bound", right);
   const Strut& strut = plant.struts[0];
-  if (plant.tyres_may_lift || strut.friction > 0 || strut.extension_stop > 0 || strut.compression_stop > 0)
-    throw Error(plant.name, "is not linear but for its damper: the clairvoyant bound asks for that", right);
+  if (plant.tyres_may_lift || strut.friction > 0 || strut.extension_stop > 0 ||
+      strut.compression_stop > 0)
+    throw Error(plant.name, "is not linear but for its damper: the clairvoyant bound asks for that",
+                right);
 }
 
 /// A row over [q, q', 1, F], looked at after a motion.
@@ -34,12 +37,13 @@ SmallMatrix<1, 6> after(const SmallMatrix<1, 6>& row, const SmallMatrix<5, 6>& m
 
 }  // namespace
 
-SampledPlant::SampledPlant(const Plant& plant, const GroundMotion& ground, double duration, double step)
+SampledPlant::SampledPlant(const Plant& plant, const GroundMotion& ground, double duration,
+                           double step)
     : step_(step) {
   require_quarter_car(plant);
   if (!(step > 0 && duration >= step))
-    throw Error("clairvoyant bound",
-                "a duration of " + format_number(duration) + " s in steps of " + format_number(step) + " s");
+    throw Error("clairvoyant bound", "a duration of " + format_number(duration) +
+                                         " s in steps of " + format_number(step) + " s");
   set_rates(plant);
   end_ = flow(step);
   middle_ = flow(step / 2);
@@ -107,8 +111,8 @@ SampledPlant::Flow SampledPlant::flow(double time) const {
   return out;
 }
 
-void SampledPlant::drive(AffineCar& car, const SmallMatrix<5, 1>& change, const SmallMatrix<5, 1>& state,
-                         double push) const noexcept {
+void SampledPlant::drive(AffineCar& car, const SmallMatrix<5, 1>& change,
+                         const SmallMatrix<5, 1>& state, double push) const noexcept {
   for (std::size_t i = 0; i < 4; ++i) {
     car.motion(i, kOne) = change(i, 0);
     car.acceleration(0, kOne) += rates_.acceleration(0, i) * state(i, 0);
@@ -129,11 +133,12 @@ AffineCar SampledPlant::at(std::size_t cell, double into) const noexcept {
 
 AffineCar SampledPlant::over(std::size_t cell) const noexcept {
   const Road& road = road_[cell];
-  const double push = stiffness_ * road.height + damping_ * road.slope, rising = stiffness_ * road.slope;
+  const double push = stiffness_ * road.height + damping_ * road.slope,
+               rising = stiffness_ * road.slope;
   AffineCar car{end_.motion, after(rates_.acceleration, middle_.motion),
                 after(rates_.tyre_force, middle_.motion), after(rates_.speed, middle_.motion)};
-  drive(car, push * end_.constant + rising * end_.rising, push * middle_.constant + rising * middle_.rising,
-        push + 0.5 * step_ * rising);
+  drive(car, push * end_.constant + rising * end_.rising,
+        push * middle_.constant + rising * middle_.rising, push + 0.5 * step_ * rising);
   return car;
 }
 

@@ -3,29 +3,30 @@
 
 #include "dashpot/numerics/small_matrix.h"
 #include "dashpot/suspension/ground/ground_motion.h"
-#include "dashpot/suspension/plant.h"
+#include "dashpot/suspension/plants/plant.h"
 
 namespace dashpot {
 
-/// What is to be small: comfort * mean(body acceleration^2) + holding * mean(tyre force^2), of the tyre's
-/// force the part beyond its static load.
+/// What is to be small: comfort * mean(body acceleration^2) + holding * mean(tyre force^2), of the
+/// tyre's force the part beyond its static load.
 struct RideIndex {
   double comfort = 1;  ///< 1/(m/s^2)^2
   double holding = 0;  ///< 1/N^2
 };
 
-/// A quarter car as it moves under a damper's force F. All rows stand over [q, q', 1, F]: what is affine in
-/// state and force is linear in these.
+/// A quarter car as it moves under a damper's force F. All rows stand over [q, q', 1, F]: what is
+/// affine in state and force is linear in these.
 struct AffineCar {
   SmallMatrix<5, 6> motion;  ///< of [q, q', 1]: its rate, or its value one step later
-  SmallMatrix<1, 6> acceleration, tyre_force, speed;  ///< of the body, beyond the static load, of the damper
+  SmallMatrix<1, 6> acceleration, tyre_force,
+      speed;  ///< of the body, beyond the static load, of the damper
 };
 
 /// A quarter car on its road, cell by cell of one step. Within a cell the road is straight.
 class SampledPlant {
  public:
-  /// Throws Error at a plant that is not linear but for its one damper: not a quarter car, a tyre that may
-  /// lift, stops, friction; and at times that make no sense.
+  /// Throws Error at a plant that is not linear but for its one damper: not a quarter car, a tyre
+  /// that may lift, stops, friction; and at times that make no sense.
   SampledPlant(const Plant& plant, const GroundMotion& ground, double duration, double step);
 
   std::size_t cells() const noexcept { return road_.size(); }
@@ -39,7 +40,8 @@ class SampledPlant {
   struct Road {
     double height, slope;  ///< m at the begin of the cell, m/s
   };
-  /// After some time, by [q, q', 1, F] and by the tyre's push: 1 N that stays, and one that rises by 1 N/s.
+  /// After some time, by [q, q', 1, F] and by the tyre's push: 1 N that stays, and one that rises
+  /// by 1 N/s.
   struct Flow {
     SmallMatrix<5, 6> motion;
     SmallMatrix<5, 1> constant, rising;

@@ -45,15 +45,17 @@ class Chirp final : public GroundMotion {
   Chirp(double amplitude, double f0, double f1, double duration, bool exponential)
       : amplitude_(amplitude), f0_(f0), f1_(f1), duration_(duration), exponential_(exponential) {}
   std::string description() const override {
-    return std::string(exponential_ ? "exponential" : "linear") + " chirp of " + with_unit(amplitude_, "m") +
-           ", " + format_number(f0_) + " ... " + with_unit(f1_, "Hz") + " in " + with_unit(duration_, "s");
+    return std::string(exponential_ ? "exponential" : "linear") + " chirp of " +
+           with_unit(amplitude_, "m") + ", " + format_number(f0_) + " ... " + with_unit(f1_, "Hz") +
+           " in " + with_unit(duration_, "s");
   }
   double duration() const noexcept override { return duration_; }
   FootMotion foot(double t, std::size_t, double) const noexcept override {
     if (t < 0 || t > duration_) return {};
-    const ChirpPoint now =
-        exponential_ ? exponential_chirp(f0_, f1_, duration_, t) : linear_chirp(f0_, f1_, duration_, t);
-    return {amplitude_ * std::sin(now.phase), amplitude_ * kTurn * now.frequency * std::cos(now.phase)};
+    const ChirpPoint now = exponential_ ? exponential_chirp(f0_, f1_, duration_, t)
+                                        : linear_chirp(f0_, f1_, duration_, t);
+    return {amplitude_ * std::sin(now.phase),
+            amplitude_ * kTurn * now.frequency * std::cos(now.phase)};
   }
   std::vector<double> jumps(double) const override { return {duration_}; }
 
@@ -75,7 +77,8 @@ class Bump final : public GroundMotion {
   FootMotion foot(double t, std::size_t, double behind) const noexcept override {
     const double s = speed_ * t - behind - at_, rate = kTurn / length_;
     if (s <= 0 || s >= length_) return {};
-    return {0.5 * height_ * (1 - std::cos(rate * s)), 0.5 * height_ * rate * speed_ * std::sin(rate * s)};
+    return {0.5 * height_ * (1 - std::cos(rate * s)),
+            0.5 * height_ * rate * speed_ * std::sin(rate * s)};
   }
 
  private:
@@ -121,7 +124,8 @@ GroundPointer sine_ground(double amplitude, double frequency) {
   return std::make_unique<Sine>(amplitude, frequency);
 }
 
-GroundPointer chirp_ground(double amplitude, double f0, double f1, double duration, bool exponential) {
+GroundPointer chirp_ground(double amplitude, double f0, double f1, double duration,
+                           bool exponential) {
   return std::make_unique<Chirp>(amplitude, f0, f1, duration, exponential);
 }
 
@@ -129,7 +133,8 @@ GroundPointer bump_ground(double height, double length, double speed, double at)
   return std::make_unique<Bump>(height, length, speed, at);
 }
 
-GroundPointer shaking_ground(std::string description, double sample_time, std::vector<double> acceleration) {
+GroundPointer shaking_ground(std::string description, double sample_time,
+                             std::vector<double> acceleration) {
   return std::make_unique<Shaking>(std::move(description), sample_time, std::move(acceleration));
 }
 

@@ -12,14 +12,16 @@ struct FootMotion {
   double height = 0, velocity = 0;  ///< m, m/s
 };
 
-/// What moves the feet of a plant: the road under each track as it passes, or ground that shakes. Immutable.
+/// What moves the feet of a plant: the road under each track as it passes, or ground that shakes.
+/// Immutable.
 class GroundMotion {
  public:
   virtual ~GroundMotion() = default;
   virtual std::string description() const = 0;  ///< "iso8608: class C, speed 20 m/s, ..."
   /// s, from when on it only repeats or stays.
   virtual double duration() const noexcept { return std::numeric_limits<double>::infinity(); }
-  /// Under a tyre on `track` (0 left or only, 1 right), `behind` metres behind the first axle, at t s.
+  /// Under a tyre on `track` (0 left or only, 1 right), `behind` metres behind the first axle, at t
+  /// s.
   virtual FootMotion foot(double t, std::size_t track, double behind) const noexcept = 0;
   /// The same at t, t + step, ... `out` holds how many.
   virtual void feet(double t, double step, std::size_t track, double behind,
@@ -27,7 +29,9 @@ class GroundMotion {
     for (std::size_t k = 0; k < out.size(); ++k)
       out[k] = foot(t + step * static_cast<double>(k), track, behind);
   }
-  virtual double acceleration(double) const noexcept { return 0; }  ///< m/s^2, of the ground, at t s
+  virtual double acceleration(double) const noexcept {
+    return 0;
+  }  ///< m/s^2, of the ground, at t s
   /// Whether it is an acceleration, which plants without tyres ask for, and not a height.
   virtual bool shakes() const noexcept { return false; }
   /// Whether it is alike all along, a road or a sine: its begin may be left out of measures.

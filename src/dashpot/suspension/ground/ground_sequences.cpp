@@ -11,13 +11,16 @@
 namespace dashpot {
 namespace {
 
-constexpr ParameterRow kRoughness{"roughness", "m^3", 256e-6,
-                                  1e-9,        1,     "G_d at 0.1 cycle/m; class=A ... H stands for it"};
+constexpr ParameterRow kRoughness{
+    "roughness", "m^3", 256e-6, 1e-9, 1, "G_d at 0.1 cycle/m; class=A ... H stands for it"};
 constexpr ParameterRow kSpeed{"speed", "m/s", 20, 0.1, 200, "of the vehicle"};
 constexpr ParameterRow kLength{"length", "m", 1000, 1, 1e6, "of the road"};
-constexpr ParameterRow kLeast{"wave_number_min", "1/m", 0.011, 1e-4, 100, "longest wave: 1 over this"};
-constexpr ParameterRow kGreatest{"wave_number_max", "1/m", 2.83, 1e-3, 1000, "shortest wave: 1 over this"};
-constexpr ParameterRow kTrackWidth{"track_width", "m", 0, 0, 10, "between left and right; 0: one track"};
+constexpr ParameterRow kLeast{"wave_number_min",          "1/m", 0.011, 1e-4, 100,
+                              "longest wave: 1 over this"};
+constexpr ParameterRow kGreatest{"wave_number_max",           "1/m", 2.83, 1e-3, 1000,
+                                 "shortest wave: 1 over this"};
+constexpr ParameterRow kTrackWidth{
+    "track_width", "m", 0, 0, 10, "between left and right; 0: one track"};
 constexpr ParameterRow kAmplitude{"amplitude", "m", 0.01, 1e-6, 10, "of the sine"};
 constexpr ParameterRow kFrom{"from", "Hz", 0.5, 1e-3, 1000, "first frequency"};
 constexpr ParameterRow kTo{"to", "Hz", 20, 1e-3, 1000, "last frequency"};
@@ -61,17 +64,18 @@ GroundPointer make_filtered_road(std::span<const double> values, std::uint64_t s
 }
 
 const std::array kSequences{
-    GroundSequence{
-        {.name = "bump",
-         .title = "One bump",
-         .equation = "z = (height / 2) (1 - cos(2 pi s / length)), 0 <= s <= length",
-         .source = "common practice",
-         .remarks = "",
-         .params = {{"height", "m", 0.08, -1, 1, "at its middle"},
-                    {"length", "m", 3, 0.01, 100, "along the way"},
-                    kSpeed,
-                    {"at", "m", 10, 0, 1e5, "where it begins"}}},
-        [](std::span<const double> v, std::uint64_t) { return bump_ground(v[0], v[1], v[2], v[3]); }},
+    GroundSequence{{.name = "bump",
+                    .title = "One bump",
+                    .equation = "z = (height / 2) (1 - cos(2 pi s / length)), 0 <= s <= length",
+                    .source = "common practice",
+                    .remarks = "",
+                    .params = {{"height", "m", 0.08, -1, 1, "at its middle"},
+                               {"length", "m", 3, 0.01, 100, "along the way"},
+                               kSpeed,
+                               {"at", "m", 10, 0, 1e5, "where it begins"}}},
+                   [](std::span<const double> v, std::uint64_t) {
+                     return bump_ground(v[0], v[1], v[2], v[3]);
+                   }},
     GroundSequence{
         {.name = "chirp",
          .title = "Linear chirp",
@@ -79,7 +83,9 @@ const std::array kSequences{
          .source = kChirps,
          .remarks = "",
          .params = {{"amplitude", "m", 0.02, 1e-6, 10, "of the sine"}, kFrom, kTo, kDuration}},
-        [](std::span<const double> v, std::uint64_t) { return chirp_ground(v[0], v[1], v[2], v[3], false); }},
+        [](std::span<const double> v, std::uint64_t) {
+          return chirp_ground(v[0], v[1], v[2], v[3], false);
+        }},
     GroundSequence{
         {.name = "exponential_chirp",
          .title = "Exponential chirp",
@@ -87,21 +93,29 @@ const std::array kSequences{
          .source = kChirps,
          .remarks = "As long in each octave.",
          .params = {{"amplitude", "m", 0.02, 1e-6, 10, "of the sine"}, kFrom, kTo, kDuration}},
-        [](std::span<const double> v, std::uint64_t) { return chirp_ground(v[0], v[1], v[2], v[3], true); }},
+        [](std::span<const double> v, std::uint64_t) {
+          return chirp_ground(v[0], v[1], v[2], v[3], true);
+        }},
     GroundSequence{
         {.name = "filtered_noise",
          .title = "ISO 8608 road, filtered white noise",
-         .equation = "z' = -2 pi n_min z + 2 pi n0 sqrt(G_d) w along the way, w of one-sided density 1",
+         .equation =
+             "z' = -2 pi n_min z + 2 pi n0 sqrt(G_d) w along the way, w of one-sided density 1",
          .source = "ISO 8608",
          .remarks = "Quick to make; one track; rolls off below wave_number_min.",
-         .params = {kRoughness, kSpeed, kLength, kLeast, {"spacing", "m", 0.05, 1e-3, 1, "between points"}}},
+         .params = {kRoughness,
+                    kSpeed,
+                    kLength,
+                    kLeast,
+                    {"spacing", "m", 0.05, 1e-3, 1, "between points"}}},
         make_filtered_road},
     GroundSequence{
         {.name = "iso8608",
          .title = "ISO 8608 road, sum of cosines",
          .equation = "z = sum sqrt(2 G_d(n) dn) cos(2 pi n s + phi),  G_d(n) = G_d(n0) (n / n0)^-2",
          .source = "ISO 8608",
-         .remarks = "With a track width, left and right are those of an isotropic surface. The first metres "
+         .remarks = "With a track width, left and right are those of an isotropic surface. The "
+                    "first metres "
                     "rise from level.",
          .params = {kRoughness,
                     kSpeed,
@@ -111,30 +125,31 @@ const std::array kSequences{
                     kTrackWidth,
                     {"waves", "1", 1000, 10, 1e5, "cosines", true}}},
         make_cosine_road},
+    GroundSequence{{.name = "iso8608_fft",
+                    .title = "ISO 8608 road, sum of harmonics by Fourier transform",
+                    .equation = "z = sum sqrt(2 G_d(n) / L) cos(2 pi n s + phi), n = 1/L, 2/L, ...",
+                    .source = "ISO 8608",
+                    .remarks = "A hundredth of the work of the sum of cosines; repeats itself "
+                               "after L, the length in points "
+                               "rounded up to a power of two.",
+                    .params = {kRoughness, kSpeed, kLength, kLeast, kGreatest, kTrackWidth}},
+                   make_harmonic_road},
     GroundSequence{
-        {.name = "iso8608_fft",
-         .title = "ISO 8608 road, sum of harmonics by Fourier transform",
-         .equation = "z = sum sqrt(2 G_d(n) / L) cos(2 pi n s + phi), n = 1/L, 2/L, ...",
-         .source = "ISO 8608",
-         .remarks =
-             "A hundredth of the work of the sum of cosines; repeats itself after L, the length in points "
-             "rounded up to a power of two.",
-         .params = {kRoughness, kSpeed, kLength, kLeast, kGreatest, kTrackWidth}},
-        make_harmonic_road},
-    GroundSequence{{.name = "sine",
-                    .title = "Sine",
-                    .equation = "z = A sin(2 pi f t)",
-                    .source = "common practice",
-                    .remarks = "",
-                    .params = {kAmplitude, {"frequency", "Hz", 1, 1e-3, 1000, ""}}},
-                   [](std::span<const double> v, std::uint64_t) { return sine_ground(v[0], v[1]); }},
-    GroundSequence{{.name = "step",
-                    .title = "Step",
-                    .equation = "z = height from `at` on",
-                    .source = "the one-sensor paper steps by 3 cm",
-                    .remarks = "",
-                    .params = {{"height", "m", 0.03, -1, 1, "of the step"}, {"at", "s", 0, 0, 1e5, "when"}}},
-                   [](std::span<const double> v, std::uint64_t) { return step_ground(v[0], v[1]); }}};
+        {.name = "sine",
+         .title = "Sine",
+         .equation = "z = A sin(2 pi f t)",
+         .source = "common practice",
+         .remarks = "",
+         .params = {kAmplitude, {"frequency", "Hz", 1, 1e-3, 1000, ""}}},
+        [](std::span<const double> v, std::uint64_t) { return sine_ground(v[0], v[1]); }},
+    GroundSequence{
+        {.name = "step",
+         .title = "Step",
+         .equation = "z = height from `at` on",
+         .source = "the one-sensor paper steps by 3 cm",
+         .remarks = "",
+         .params = {{"height", "m", 0.03, -1, 1, "of the step"}, {"at", "s", 0, 0, 1e5, "when"}}},
+        [](std::span<const double> v, std::uint64_t) { return step_ground(v[0], v[1]); }}};
 
 /// "class=C" as "roughness=0.000256".
 std::string without_class(const std::string& text) {
@@ -157,7 +172,8 @@ const GroundSequence& find_ground_sequence(std::string_view name, const std::str
     known.emplace_back(sequence.info.name);
   }
   for (const RecordedGround& kind : recorded_grounds()) known.emplace_back(kind.name);
-  throw Error(where, "unknown motion of the ground '" + std::string(name) + "'", suggest(name, known));
+  throw Error(where, "unknown motion of the ground '" + std::string(name) + "'",
+              suggest(name, known));
 }
 
 GroundPointer make_ground(const std::string& text, std::uint64_t seed, const std::string& where) {
@@ -168,7 +184,8 @@ GroundPointer make_ground(const std::string& text, std::uint64_t seed, const std
   const GroundSequence& sequence = find_ground_sequence(trim(parts.front()), where);
   for (std::string& part : parts) part = without_class(part);
   return sequence.make(
-      parse_values(sequence.info.params, std::span(parts).subspan(1), sequence.info.name, where), seed);
+      parse_values(sequence.info.params, std::span(parts).subspan(1), sequence.info.name, where),
+      seed);
 }
 
 }  // namespace dashpot

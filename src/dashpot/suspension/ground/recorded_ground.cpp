@@ -31,7 +31,8 @@ const std::array kRecorded{
         .remarks = "For buildings; a file with time in s and acceleration at equal steps.",
         .settings = {{"file", "with the record", ""},
                      {"unit", "of the acceleration: m/s^2, g0", "m/s^2"},
-                     {"time_scale", "0.2: five times as fast, for a model of a fifth of the size", "1"}},
+                     {"time_scale", "0.2: five times as fast, for a model of a fifth of the size",
+                      "1"}},
         .make = make_earthquake},
     RecordedGround{.name = "measured",
                    .title = "Measured road profile",
@@ -58,11 +59,13 @@ GroundPointer make_recorded_ground(const RecordedGround& kind, std::span<const s
     const std::string name(trim(part.substr(0, equals)));
     const auto found = std::ranges::find(known, name);
     if (found == known.end() || equals == std::string::npos)
-      throw Error(where, std::string(kind.name) + " has no parameter '" + name + "'", suggest(name, known));
+      throw Error(where, std::string(kind.name) + " has no parameter '" + name + "'",
+                  suggest(name, known));
     values[static_cast<std::size_t>(found - known.begin())] = trim(part.substr(equals + 1));
   }
   if (values.front().empty())
-    throw Error(where, std::string(kind.name) + " names no file", std::string(kind.name) + ",file=...");
+    throw Error(where, std::string(kind.name) + " names no file",
+                std::string(kind.name) + ",file=...");
   return kind.make(values, where);
 }
 

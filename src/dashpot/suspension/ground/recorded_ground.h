@@ -11,7 +11,8 @@ namespace dashpot {
 /// A motion of the ground that comes from a file, known by name.
 struct RecordedGround {
   struct Setting {
-    std::string_view name, meaning, value;  ///< value: the default; empty: must be stated, or is found
+    std::string_view name, meaning,
+        value;  ///< value: the default; empty: must be stated, or is found
   };
   std::string_view name, title, remarks;
   std::vector<Setting> settings;

@@ -30,11 +30,13 @@ const std::vector<double>& numbers_of(const RawColumn& column, const std::string
   };
   if (column.bad) throw refused(column.bad->row, "no number");
   for (std::size_t k = 0; k < column.values.size(); ++k)
-    if (!(std::abs(column.values[k]) <= kGreatest)) throw refused(k, format_number(column.values[k]));
+    if (!(std::abs(column.values[k]) <= kGreatest))
+      throw refused(k, format_number(column.values[k]));
   return column.values;
 }
 
-std::vector<double> in_metres(const RawColumn& column, std::string_view stated, const std::string& file) {
+std::vector<double> in_metres(const RawColumn& column, std::string_view stated,
+                              const std::string& file) {
   const std::vector<double>& numbers = numbers_of(column, file);
   const Unit unit = require_unit(unit_text(column, stated), file);
   if (unit.dimension != require_unit("m", file).dimension)
@@ -96,12 +98,14 @@ GroundPointer load_earthquake(const std::filesystem::path& path, std::string_vie
   const std::string file = path.string();
   const RawTable table = read_tables(path).front();
   if (table.columns.size() < 2)
-    throw Error(file, "has " + std::to_string(table.columns.size()) + " columns", "time and acceleration");
+    throw Error(file, "has " + std::to_string(table.columns.size()) + " columns",
+                "time and acceleration");
   const std::vector<double>& time = numbers_of(table.columns[0], file);
   require_rising(time, file, "the time");
   const Unit unit = require_unit(unit_stated.empty() ? "m/s^2" : unit_stated, file);
   if (unit.dimension != require_unit("m/s^2", file).dimension)
-    throw Error(file, "'" + std::string(unit_stated) + "' does not count an acceleration", "m/s^2 or g0");
+    throw Error(file, "'" + std::string(unit_stated) + "' does not count an acceleration",
+                "m/s^2 or g0");
   std::vector<double> acceleration;
   for (const double a : numbers_of(table.columns[1], file)) acceleration.push_back(unit.factor * a);
   const double step = (time.back() - time.front()) / static_cast<double>(time.size() - 1);

@@ -15,15 +15,15 @@ namespace {
 
 constexpr double kTurn = 2 * std::numbers::pi;
 
-/// Heights at points, a cubic between each two with central slopes. One more at each end mirrors the track
-/// there, so that it is level where the road goes on level.
+/// Heights at points, a cubic between each two with central slopes. One more at each end mirrors
+/// the track there, so that it is level where the road goes on level.
 struct TrackPoints {
   const double* z;
   double last;        ///< place of the last but the mirrored one, from 0
   double per_second;  ///< how many pass
 };
-/// Places first, heights then: a place waits for conversions, and two short loops overlap more than a long
-/// one.
+/// Places first, heights then: a place waits for conversions, and two short loops overlap more than
+/// a long one.
 void pass_over(const TrackPoints& track, double begin, double step, std::span<FootMotion> out) {
   constexpr std::size_t kChunk = 64;
   double share[kChunk];
@@ -52,7 +52,8 @@ class DrivenRoad final : public GroundMotion {
  public:
   DrivenRoad(RoadProfile profile, double speed)
       : profile_(std::move(profile)), speed_(speed), points_per_second_(speed / profile_.spacing) {
-    for (const std::vector<double>& heights : profile_.tracks) points_.push_back(mirrored_at_ends(heights));
+    for (const std::vector<double>& heights : profile_.tracks)
+      points_.push_back(mirrored_at_ends(heights));
   }
   bool is_steady() const noexcept override { return true; }
   std::string description() const override {
@@ -86,7 +87,8 @@ class DrivenRoad final : public GroundMotion {
   std::vector<std::vector<double>> points_;  ///< of each track
 };
 
-/// Begins level and at 0, over a twentieth of a second's way at most: a car does not fall onto the road.
+/// Begins level and at 0, over a twentieth of a second's way at most: a car does not fall onto the
+/// road.
 void begin_level(RoadProfile& road) {
   constexpr double kRamp = 5;  // m
   const auto count = static_cast<std::size_t>(std::min(kRamp, 0.1 * road.length()) / road.spacing);
@@ -97,9 +99,10 @@ void begin_level(RoadProfile& road) {
     }
 }
 
-/// Each cosine turns by a constant angle from point to point; several points at once, since each turn waits
-/// for the one before.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
+/// Each cosine turns by a constant angle from point to point; several points at once, since each
+/// turn waits for the one before.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
+    !defined(__SANITIZE_ADDRESS__)
 [[gnu::target_clones("default", "avx2", "avx512f")]]  // the same sums, side by side
 #endif
 void add_wave(std::vector<double>& heights, double spacing, const RoadWave& wave) {
@@ -129,10 +132,10 @@ double shared_part(double wave_number, double width) {
 
 void require_usable(const RoadOptions& o) {
   if (!(o.spacing > 0 && o.length > 2 * o.spacing))
-    throw Error(
-        "road",
-        "a length of " + format_number(o.length) + " m in steps of " + format_number(o.spacing) + " m",
-        "more than two steps");
+    throw Error("road",
+                "a length of " + format_number(o.length) + " m in steps of " +
+                    format_number(o.spacing) + " m",
+                "more than two steps");
   if (!(o.wave_number_min > 0 && o.wave_number_min < o.wave_number_max))
     throw Error("road",
                 "wave numbers from " + format_number(o.wave_number_min) + " to " +
@@ -213,8 +216,10 @@ RoadProfile harmonic_road(const RoadOptions& o) {
   for (auto& track : lines) track.resize(points / 2);
   Random random(o.seed);
   const auto first = static_cast<std::size_t>(std::ceil(o.wave_number_min / step));
-  for (std::size_t k = first; k < points / 2 && step * static_cast<double>(k) <= o.wave_number_max; ++k) {
-    const double n = step * static_cast<double>(k), amplitude = wave_amplitude(o.roughness, n, step);
+  for (std::size_t k = first; k < points / 2 && step * static_cast<double>(k) <= o.wave_number_max;
+       ++k) {
+    const double n = step * static_cast<double>(k),
+                 amplitude = wave_amplitude(o.roughness, n, step);
     lines[0][k] = std::polar(amplitude, random.uniform(0, kTurn));
     if (lines.size() < 2) continue;
     const double shared = shared_part(n, o.track_width);

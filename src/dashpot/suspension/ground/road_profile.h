@@ -18,8 +18,9 @@ struct RoadProfile {
   double length() const { return spacing * static_cast<double>(tracks.front().size() - 1); }
 };
 
-/// A profile driven over at `speed` m/s from its begin: a cubic through its points, level before and after.
-/// Tyres on a second track of a profile that has one see the first. Throws Error on less than two points.
+/// A profile driven over at `speed` m/s from its begin: a cubic through its points, level before
+/// and after. Tyres on a second track of a profile that has one see the first. Throws Error on less
+/// than two points.
 GroundPointer drive_over(RoadProfile profile, double speed);
 
 /// ISO 8608: G_d(n) = G_d(n0) (n / n0)^-2, n0 = 0.1 cycle/m, one-sided.
@@ -40,27 +41,28 @@ struct RoadOptions {
   double spacing = 0.02;                                   ///< m between the points of the profile
   double wave_number_min = 0.011, wave_number_max = 2.83;  ///< cycle/m
   std::size_t waves = 1000;                                ///< of a sum of cosines
-  double track_width = 0;                                  ///< m between left and right; 0: one track
+  double track_width = 0;  ///< m between left and right; 0: one track
   std::uint64_t seed = 1;
 };
-/// Sum of cosines of equal steps in n, random phases, amplitudes sqrt(2 G_d dn). With two tracks, those of an
-/// isotropic surface: the part that both share is the coherence 2 pi n t K_1(2 pi n t) of Kamash and Robson
-/// (Vehicle System Dynamics 1978, recalled).
+/// Sum of cosines of equal steps in n, random phases, amplitudes sqrt(2 G_d dn). With two tracks,
+/// those of an isotropic surface: the part that both share is the coherence 2 pi n t K_1(2 pi n t)
+/// of Kamash and Robson (Vehicle System Dynamics 1978, recalled).
 RoadProfile cosine_road(const RoadOptions& options);
 /// The amplitude of one of its waves.
 double wave_amplitude(double roughness, double wave_number, double step);
 
-/// The same by a fast Fourier transform: waves are all those within the band of which a whole number fits
-/// into the road's length, rounded up; `waves` is not looked at. A hundredth of the work.
+/// The same by a fast Fourier transform: waves are all those within the band of which a whole
+/// number fits into the road's length, rounded up; `waves` is not looked at. A hundredth of the
+/// work.
 RoadProfile harmonic_road(const RoadOptions& options);
 
-/// White noise through a first-order filter along the way, z' = -2 pi n_min z + 2 pi n0 sqrt(G_d) w, with w
-/// of one-sided density 1: as the filtered noise over time at any speed. wave_number_max is that of its
-/// points.
+/// White noise through a first-order filter along the way, z' = -2 pi n_min z + 2 pi n0 sqrt(G_d)
+/// w, with w of one-sided density 1: as the filtered noise over time at any speed. wave_number_max
+/// is that of its points.
 RoadProfile filtered_road(const RoadOptions& options);
 
-/// Measured profile: a file whose columns stand in pairs, distance and height, a pair per track; units from
-/// the columns' names, else stated. Throws Error with what is missing.
+/// Measured profile: a file whose columns stand in pairs, distance and height, a pair per track;
+/// units from the columns' names, else stated. Throws Error with what is missing.
 RoadProfile load_road(const std::filesystem::path& path, std::string_view distance_unit = {},
                       std::string_view height_unit = {});
 

@@ -17,14 +17,16 @@ struct RaisedGround final : GroundMotion {
 
 }  // namespace
 
-LanePilot::LanePilot(std::span<const BatchVehicle* const> vehicles, std::size_t lanes) : lanes_(lanes) {
+LanePilot::LanePilot(std::span<const BatchVehicle* const> vehicles, std::size_t lanes)
+    : lanes_(lanes) {
   for (const BatchVehicle* vehicle : vehicles) {
     const Setting& setting = vehicle->setting;
-    drivers_.push_back({vehicle,
-                        Sensors(vehicle->sensors, 1, vehicle->limits.sample_time),
-                        CommandPath(setting.dampers[0], vehicle->limits, 0),
-                        std::vector<double>(setting.controller ? setting.controller->state_size() : 0),
-                        {}});
+    drivers_.push_back(
+        {vehicle,
+         Sensors(vehicle->sensors, 1, vehicle->limits.sample_time),
+         CommandPath(setting.dampers[0], vehicle->limits, 0),
+         std::vector<double>(setting.controller ? setting.controller->state_size() : 0),
+         {}});
     if (!setting.controller) continue;
     setting.controller->reset(drivers_.back().state);
     PlantForces(setting.plant, RaisedGround()).resting_place(0, drivers_.back().resting);
@@ -33,20 +35,24 @@ LanePilot::LanePilot(std::span<const BatchVehicle* const> vehicles, std::size_t 
 
 void LanePilot::take(LaneRide& ride) {
   ride.pilot = this;
-  ride.ground = [](void* self, std::size_t lane, std::size_t first, double* heights, double* rates) {
+  ride.ground = [](void* self, std::size_t lane, std::size_t first, double* heights,
+                   double* rates) {
     static_cast<LanePilot*>(self)->ground(lane, first, heights, rates);
   };
   if (drivers_.front().vehicle->setting.controller)
-    ride.control = [](void* self, const double* signals, double* commands, const std::int64_t* which) {
+    ride.control = [](void* self, const double* signals, double* commands,
+                      const std::int64_t* which) {
       static_cast<LanePilot*>(self)->control(signals, commands, which);
     };
 }
 
-void LanePilot::ground(std::size_t lane, std::size_t first, double* heights, double* rates) noexcept {
+void LanePilot::ground(std::size_t lane, std::size_t first, double* heights,
+                       double* rates) noexcept {
   const BatchVehicle& vehicle = *drivers_[std::min(lane, drivers_.size() - 1)].vehicle;
   const Tyre& tyre = vehicle.setting.plant.tyres[0];
   const double half = 0.5 * sample_time_of(vehicle);
-  vehicle.setting.ground.feet(half * static_cast<double>(first), half, tyre.track, tyre.behind, feet_);
+  vehicle.setting.ground.feet(half * static_cast<double>(first), half, tyre.track, tyre.behind,
+                              feet_);
   for (std::size_t k = 0; k < kLaneNodes; ++k) {
     heights[k * lanes_ + lane] = feet_[k].height;
     rates[k * lanes_ + lane] = feet_[k].velocity;
@@ -71,8 +77,8 @@ double LanePilot::command(Driver& driver, const double* signals, double before) 
                      .current = signal(kCurrent)};
   DamperInput seen{signal(kDeflection), signal(kDeflectionVelocity), signal(kCurrent)};
   const std::array<double, 4> x{signal(kBody) - driver.resting[0] * signal(kGround),
-                                signal(kWheel) - driver.resting[1] * signal(kGround), signal(kBodyVelocity),
-                                signal(kWheelVelocity)};
+                                signal(kWheel) - driver.resting[1] * signal(kGround),
+                                signal(kBodyVelocity), signal(kWheelVelocity)};
   const bool ideal = driver.sensors.ideal();
   if (!ideal) {
     driver.sensors.measure({&strut, 1});

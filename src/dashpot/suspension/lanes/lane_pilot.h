@@ -2,7 +2,7 @@
 #include <span>
 #include <vector>
 
-#include "dashpot/suspension/batch.h"
+#include "dashpot/suspension/lanes/batch.h"
 #include "dashpot/suspension/lanes/ride.h"
 
 namespace dashpot {

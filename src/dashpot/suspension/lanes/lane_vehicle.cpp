@@ -5,9 +5,9 @@
 #include <limits>
 
 #include "dashpot/base/text.h"
-#include "dashpot/damper/law_model.h"
-#include "dashpot/damper/neural/network_model.h"
-#include "dashpot/suspension/linear.h"
+#include "dashpot/damper/kinds/law/law_model.h"
+#include "dashpot/damper/kinds/network/network_model.h"
+#include "dashpot/suspension/plants/linear.h"
 
 namespace dashpot {
 namespace {
@@ -16,16 +16,18 @@ constexpr double kLongestSample = 2.5e-3;  // s: what the weighting of ISO 2631-
 
 std::string against_plant(const Plant& plant) {
   using Row = std::vector<double>;
-  const bool quarter_car = plant.size() == 2 && plant.struts.size() == 1 && plant.tyres.size() == 1 &&
-                           plant.ground.empty() && !plant.struts[0].track &&
-                           plant.struts[0].row == Row{1, -1} && plant.struts[0].body_row == Row{1, 0} &&
-                           plant.tyres[0].row == Row{0, 1};
+  const bool quarter_car = plant.size() == 2 && plant.struts.size() == 1 &&
+                           plant.tyres.size() == 1 && plant.ground.empty() &&
+                           !plant.struts[0].track && plant.struts[0].row == Row{1, -1} &&
+                           plant.struts[0].body_row == Row{1, 0} && plant.tyres[0].row == Row{0, 1};
   return quarter_car ? "" : "the plant is no quarter car";
 }
 
 std::string against_network(const NetworkModel& model) {
   if (model.members().size() > 1) return "its network is one of several";
-  return model.members()[0].layers.size() > LaneNetwork::kMostLayers ? "its network has too many layers" : "";
+  return model.members()[0].layers.size() > LaneNetwork::kMostLayers
+             ? "its network has too many layers"
+             : "";
 }
 
 std::string against_law(const LawModel& model) {
@@ -49,8 +51,10 @@ std::string against_damper(const MountedDamper& damper) {
 }
 
 std::string against_ground(const BatchVehicle& vehicle) {
-  const std::vector<double> jumps = vehicle.setting.ground.jumps(vehicle.setting.plant.tyres[0].behind);
-  return std::any_of(jumps.begin(), jumps.end(), [](double t) { return t > 0; }) ? "its road jumps" : "";
+  const std::vector<double> jumps =
+      vehicle.setting.ground.jumps(vehicle.setting.plant.tyres[0].behind);
+  return std::any_of(jumps.begin(), jumps.end(), [](double t) { return t > 0; }) ? "its road jumps"
+                                                                                 : "";
 }
 
 /// The plant's own part: M q'' = -K q - C q' - row F + tyre P.
@@ -62,8 +66,10 @@ void set_plant(const Plant& plant, QuarterCarNumbers<double>& n) {
                                 {-m[2] / determinant, m[0] / determinant}};
   for (std::size_t i = 0; i < 2; ++i) {
     for (std::size_t k = 0; k < 2; ++k) {
-      n.by_state[i][k] = -(inverse[i][0] * linear.stiffness[k] + inverse[i][1] * linear.stiffness[2 + k]);
-      n.by_state[i][2 + k] = -(inverse[i][0] * linear.damping[k] + inverse[i][1] * linear.damping[2 + k]);
+      n.by_state[i][k] =
+          -(inverse[i][0] * linear.stiffness[k] + inverse[i][1] * linear.stiffness[2 + k]);
+      n.by_state[i][2 + k] =
+          -(inverse[i][0] * linear.damping[k] + inverse[i][1] * linear.damping[2 + k]);
     }
     n.by_force[i] = inverse[i][1] - inverse[i][0];
     n.by_push[i] = inverse[i][1];
@@ -73,7 +79,9 @@ void set_plant(const Plant& plant, QuarterCarNumbers<double>& n) {
 void set_limits(const Plant& plant, QuarterCarNumbers<double>& n) {
   const Tyre& tyre = plant.tyres[0];
   const Strut& strut = plant.struts[0];
-  const auto travel = [](double stop) { return stop > 0 ? stop : std::numeric_limits<double>::infinity(); };
+  const auto travel = [](double stop) {
+    return stop > 0 ? stop : std::numeric_limits<double>::infinity();
+  };
   n.tyre_stiffness = tyre.stiffness;
   n.tyre_damping = tyre.damping;
   n.static_load = tyre.static_load;
@@ -90,7 +98,9 @@ void set_network(const NetworkModel& model, LaneVehicle& lane) {
   LaneNetwork& shape = lane.shape.network;
   shape.count = mlp.layers.size() - 1;
   for (std::size_t i = 0; i < model.inputs().size(); ++i)
-    shape.inputs[i] = model.inputs()[i] == "displacement" ? 0 : model.inputs()[i] == "velocity" ? 1 : 2;
+    shape.inputs[i] = model.inputs()[i] == "displacement" ? 0
+                      : model.inputs()[i] == "velocity"   ? 1
+                                                          : 2;
   for (std::size_t l = 0; l < shape.count; ++l)
     shape.layers[l] = {mlp.layers[l], mlp.layers[l + 1], mlp.activation(l + 1)};
   lane.damper = mlp.parameters;
@@ -103,8 +113,8 @@ void set_law(const LawModel& model, LaneVehicle& lane) {
   const std::size_t count = model.law().params.size();
   lane.shape.kind = LaneDamperKind::Law;
   const std::span names = lane_law_table();
-  lane.shape.law =
-      static_cast<std::size_t>(std::find(names.begin(), names.end(), model.law().name) - names.begin());
+  lane.shape.law = static_cast<std::size_t>(
+      std::find(names.begin(), names.end(), model.law().name) - names.begin());
   lane.damper.assign(kPowers * count, 0);
   for (std::size_t k = 0; k < count; ++k)
     for (std::size_t power = 0; power < model.parameters().coefficients[k].size(); ++power)
@@ -114,7 +124,8 @@ void set_law(const LawModel& model, LaneVehicle& lane) {
 
 /// Command, the currents in coil and model, the law's states: after a long rest.
 std::vector<double> start_of(const MountedDamper& damper, const LaneVehicle& lane) {
-  const double command = std::clamp(damper.current, damper.driver.current_min, damper.driver.current_max);
+  const double command =
+      std::clamp(damper.current, damper.driver.current_min, damper.driver.current_max);
   std::vector<double> state(damper.model->state_size());
   damper.model->rest({0, 0, damper.current}, state);
   double inner = command;
@@ -156,8 +167,8 @@ LaneVehicle lane_vehicle(const BatchVehicle& vehicle) {
     set_law(dynamic_cast<const LawModel&>(*damper.model), lane);
   const Strut& strut = plant.struts[0];
   lane.shape.lags = (lane.numbers.driver_lag > 0) + (lane.numbers.model_lag > 0);
-  lane.shape.resists_more =
-      plant.tyres_may_lift || strut.friction > 0 || strut.extension_stop > 0 || strut.compression_stop > 0;
+  lane.shape.resists_more = plant.tyres_may_lift || strut.friction > 0 ||
+                            strut.extension_stop > 0 || strut.compression_stop > 0;
   lane.shape.controlled = vehicle.setting.controller != nullptr;
   lane.shape.sample_time = sample_time_of(vehicle);
   lane.start = start_of(damper, lane);

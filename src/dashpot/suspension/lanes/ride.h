@@ -4,16 +4,17 @@
 #include <span>
 #include <string_view>
 
-#include "dashpot/damper/neural/kernel.h"
+#include "dashpot/damper/nets/kernel.h"
 
-// What passes between simulate_batch and the loops over lanes, which are compiled once per instruction set.
+// What passes between simulate_batch and the loops over lanes, which are compiled once per
+// instruction set.
 namespace dashpot {
 
 /// Everything that one vehicle's equations need, or (Number: a vector) those of a vehicle per lane.
 template <class Number>
 struct QuarterCarNumbers {
-  // q'' = by_state x + by_force F + by_push P;  x = body, wheel and their speeds, F of the strut, P of the
-  // road
+  // q'' = by_state x + by_force F + by_push P;  x = body, wheel and their speeds, F of the strut, P
+  // of the road
   Number by_state[2][4], by_force[2], by_push[2];
   Number tyre_stiffness, tyre_damping, static_load;
   Number may_lift;  ///< 1 or 0
@@ -23,7 +24,8 @@ struct QuarterCarNumbers {
 
 enum class LaneDamperKind { Network, Law };
 
-/// A static network of one output; plain arrays, since the loops call nothing of the standard library.
+/// A static network of one output; plain arrays, since the loops call nothing of the standard
+/// library.
 struct LaneNetwork {
   static constexpr std::size_t kMostLayers = 6;
   struct Layer {
@@ -41,23 +43,27 @@ struct LaneNetwork {
 struct LaneRide {
   LaneDamperKind kind = LaneDamperKind::Network;
   const LaneNetwork* network = nullptr;
-  std::size_t law = 0;        ///< its place in lane_law_table()
-  std::size_t lags = 0;       ///< of driver and model, on the way to the current that drives the damper
+  std::size_t law = 0;   ///< its place in lane_law_table()
+  std::size_t lags = 0;  ///< of driver and model, on the way to the current that drives the damper
   bool resists_more = false;  ///< some strut has stops or friction, some tyre may lift
   double relative_tolerance = 0, absolute_tolerance = 0;
   double sample_time = 0;
   std::size_t samples = 0, discarded = 0;
   const double* numbers = nullptr;
-  const double* damper = nullptr;  ///< weights as Mlp's; or the law's parameters at powers 0 ... 3 of current
-  const double* start = nullptr;   ///< the command, the coil's current, the model's, then the law's states
+  const double* damper =
+      nullptr;  ///< weights as Mlp's; or the law's parameters at powers 0 ... 3 of current
+  const double* start =
+      nullptr;  ///< the command, the coil's current, the model's, then the law's states
   const double* weighting = nullptr;  ///< b0, b1, b2, a1, a2 of each of kWeightingSections
 
   void* pilot = nullptr;
   /// Height and rate under a lane at kLaneNodes half samples from number `first` on, into rows.
-  void (*ground)(void* pilot, std::size_t lane, std::size_t first, double* heights, double* rates) = nullptr;
-  /// LaneSignal rows in, commands out: what the driver's limits leave of them. Only lanes of which `which` is
-  /// not 0. Null: the commands stay.
-  void (*control)(void* pilot, const double* signals, double* commands, const std::int64_t* which) = nullptr;
+  void (*ground)(void* pilot, std::size_t lane, std::size_t first, double* heights,
+                 double* rates) = nullptr;
+  /// LaneSignal rows in, commands out: what the driver's limits leave of them. Only lanes of which
+  /// `which` is not 0. Null: the commands stay.
+  void (*control)(void* pilot, const double* signals, double* commands,
+                  const std::int64_t* which) = nullptr;
 
   double* results = nullptr;  ///< LaneResult rows
   double* trace = nullptr;    ///< samples + 1 times LaneTrace rows; or null

@@ -16,7 +16,8 @@ const RideKernel& ride_kernel(std::size_t vehicles) {
 }
 
 std::span<const std::string_view> lane_law_table() {
-  static constexpr std::array<std::string_view, 3> kNames{"bingham", "bouc_wen", "modified_bouc_wen"};
+  static constexpr std::array<std::string_view, 3> kNames{"bingham", "bouc_wen",
+                                                          "modified_bouc_wen"};
   return kNames;
 }
 

@@ -1,4 +1,4 @@
-#include "dashpot/suspension/assemble.h"
+#include "dashpot/suspension/plants/assemble.h"
 
 namespace dashpot {
 namespace {
@@ -9,7 +9,8 @@ enum Row { kStoreys, kMass, kStiffness, kDamping };
 Plant make(std::span<const double> p) {
   const auto n = static_cast<std::size_t>(p[kStoreys]);
   Plant plant;
-  for (std::size_t k = 0; k < n; ++k) plant.coordinates.push_back({"floor_" + std::to_string(k + 1), "m"});
+  for (std::size_t k = 0; k < n; ++k)
+    plant.coordinates.push_back({"floor_" + std::to_string(k + 1), "m"});
   plant.mass = diagonal(std::vector<double>(n, p[kMass]));
   plant.damping = plant.stiffness = diagonal(std::vector<double>(n));
   for (std::size_t k = 0; k < n; ++k) {
@@ -33,9 +34,11 @@ const PlantModel kBuilding{
     .name = "building",
     .title = "Building: storeys in a row, a damper under the first floor",
     .equation = "M x'' + C x' + K x = -row F - M 1 a_ground,  x relative to the ground",
-    .source = "Dyke, Spencer, Sain and Carlson, Smart Mater. Struct. 5 (1996) 565, for the arrangement",
+    .source =
+        "Dyke, Spencer, Sain and Carlson, Smart Mater. Struct. 5 (1996) 565, for the arrangement",
     .remarks =
-        "All storeys alike. The three-storey benchmark with its own matrices is the set dyke_spencer1996.",
+        "All storeys alike. The three-storey benchmark with its own matrices is the set "
+        "dyke_spencer1996.",
     .parameters = {{"storeys", "1", 3, 1, 50, "from the ground up", true},
                    {"mass", "kg", 98.3, 0.1, 1e9, "of each floor"},
                    {"stiffness", "N/m", 6.84e5, 1, 1e12, "of each storey"},

@@ -1,6 +1,6 @@
 #include <array>
 
-#include "dashpot/suspension/assemble.h"
+#include "dashpot/suspension/plants/assemble.h"
 
 namespace dashpot {
 namespace {
@@ -38,8 +38,8 @@ Plant make(std::span<const double> p) {
   Plant plant;
   plant.coordinates = {{"body", "m"}, {"pitch", "rad"}, {"roll", "rad"}};
   for (const char* name : names) plant.coordinates.push_back({std::string(name) + "_wheel", "m"});
-  plant.mass =
-      diagonal({p[kMass], p[kPitchInertia], p[kRollInertia], p[kWheel], p[kWheel], p[kWheel], p[kWheel]});
+  plant.mass = diagonal(
+      {p[kMass], p[kPitchInertia], p[kRollInertia], p[kWheel], p[kWheel], p[kWheel], p[kWheel]});
   plant.damping = plant.stiffness = diagonal(std::vector<double>(7));
   for (std::size_t k = 0; k < 4; ++k) {
     const bool front = k < 2;
@@ -49,12 +49,13 @@ Plant make(std::span<const double> p) {
                            .wheel_row = unit(3 + k),
                            .stiffness = p[front ? kFrontSpring : kRearSpring],
                            .damping = p[front ? kFrontDamping : kRearDamping]});
-    plant.tyres.push_back({.name = names[k],
-                           .row = unit(3 + k),
-                           .stiffness = p[kTyre],
-                           .static_load = (0.5 * p[kMass] * (front ? b : a) / (a + b) + p[kWheel]) * g,
-                           .track = k % 2,
-                           .behind = front ? 0 : a + b});
+    plant.tyres.push_back(
+        {.name = names[k],
+         .row = unit(3 + k),
+         .stiffness = p[kTyre],
+         .static_load = (0.5 * p[kMass] * (front ? b : a) / (a + b) + p[kWheel]) * g,
+         .track = k % 2,
+         .behind = front ? 0 : a + b});
     plant.points.push_back({"body_" + std::string(names[k]), corner});
   }
   plant.tyres_may_lift = p[kLift] != 0;
@@ -67,10 +68,13 @@ extern const PlantModel kFullCar;
 const PlantModel kFullCar{
     .name = "full_car",
     .title = "Full car: body with pitch and roll, four wheels",
-    .equation = "e_i = z - x_i theta + y_i phi - z_ui,  x = (a, a, -b, -b),  y = (t_f, -t_f, t_r, -t_r) / 2",
+    .equation =
+        "e_i = z - x_i theta + y_i phi - z_ui,  x = (a, a, -b, -b),  y = (t_f, -t_f, t_r, -t_r) / "
+        "2",
     .source = "Ikenaga et al. 2000, recalled",
     .remarks =
-        "theta > 0 lowers the front, phi > 0 lifts the left. The source's track of 3 m is not a car's: 1.5 m "
+        "theta > 0 lowers the front, phi > 0 lifts the left. The source's track of 3 m is not a "
+        "car's: 1.5 m "
         "stands here. Left wheels meet the road's first track, right ones its second.",
     .parameters = {{"mass", "kg", 1500, 1, 1e6, "of the body"},
                    {"pitch_inertia", "kg*m^2", 2160, 0.1, 1e7, "of the body"},
@@ -81,8 +85,10 @@ const PlantModel kFullCar{
                    {"front_damping", "N*s/m", 0, 0, 1e7, "of linear dampers beside those in place"},
                    {"rear_damping", "N*s/m", 0, 0, 1e7, "of linear dampers beside those in place"},
                    {"tyre_stiffness", "N/m", 190000, 1, 1e10, "of each tyre"},
-                   {"front_distance", "m", 1.4, 0.01, 100, "from the centre of mass to the front axle"},
-                   {"rear_distance", "m", 1.7, 0.01, 100, "from the centre of mass to the rear axle"},
+                   {"front_distance", "m", 1.4, 0.01, 100,
+                    "from the centre of mass to the front axle"},
+                   {"rear_distance", "m", 1.7, 0.01, 100,
+                    "from the centre of mass to the rear axle"},
                    {"front_track", "m", 1.5, 0.01, 100, "between the front wheels"},
                    {"rear_track", "m", 1.5, 0.01, 100, "between the rear wheels"},
                    {"tyres_may_lift", "1", 0, 0, 1, "1: tyres only push", true}},

@@ -1,4 +1,4 @@
-#include "dashpot/suspension/assemble.h"
+#include "dashpot/suspension/plants/assemble.h"
 
 namespace dashpot {
 namespace {
@@ -58,19 +58,20 @@ const PlantModel kHalfCar{
     .equation = "e_f = z - a theta - z_uf,  e_r = z + b theta - z_ur;  forces along e at both",
     .source = "a public half-car model",
     .remarks = "theta > 0 lowers the front. The road reaches the rear wheel a + b later.",
-    .parameters = {{"mass", "kg", 690, 1, 1e6, "of the body"},
-                   {"inertia", "kg*m^2", 1222, 0.1, 1e7, "of the body in pitch"},
-                   {"front_wheel_mass", "kg", 40, 0.1, 1e5, ""},
-                   {"rear_wheel_mass", "kg", 45, 0.1, 1e5, ""},
-                   {"front_stiffness", "N/m", 17000, 0, 1e9, "of the front spring"},
-                   {"rear_stiffness", "N/m", 22000, 0, 1e9, "of the rear spring"},
-                   {"front_damping", "N*s/m", 0, 0, 1e7, "of a linear damper beside the one in place"},
-                   {"rear_damping", "N*s/m", 0, 0, 1e7, "of a linear damper beside the one in place"},
-                   {"front_tyre_stiffness", "N/m", 200000, 1, 1e10, ""},
-                   {"rear_tyre_stiffness", "N/m", 200000, 1, 1e10, ""},
-                   {"front_distance", "m", 1.3, 0.01, 100, "from the centre of mass to the front axle"},
-                   {"rear_distance", "m", 1.5, 0.01, 100, "from the centre of mass to the rear axle"},
-                   {"tyres_may_lift", "1", 0, 0, 1, "1: tyres only push", true}},
+    .parameters =
+        {{"mass", "kg", 690, 1, 1e6, "of the body"},
+         {"inertia", "kg*m^2", 1222, 0.1, 1e7, "of the body in pitch"},
+         {"front_wheel_mass", "kg", 40, 0.1, 1e5, ""},
+         {"rear_wheel_mass", "kg", 45, 0.1, 1e5, ""},
+         {"front_stiffness", "N/m", 17000, 0, 1e9, "of the front spring"},
+         {"rear_stiffness", "N/m", 22000, 0, 1e9, "of the rear spring"},
+         {"front_damping", "N*s/m", 0, 0, 1e7, "of a linear damper beside the one in place"},
+         {"rear_damping", "N*s/m", 0, 0, 1e7, "of a linear damper beside the one in place"},
+         {"front_tyre_stiffness", "N/m", 200000, 1, 1e10, ""},
+         {"rear_tyre_stiffness", "N/m", 200000, 1, 1e10, ""},
+         {"front_distance", "m", 1.3, 0.01, 100, "from the centre of mass to the front axle"},
+         {"rear_distance", "m", 1.5, 0.01, 100, "from the centre of mass to the rear axle"},
+         {"tyres_may_lift", "1", 0, 0, 1, "1: tyres only push", true}},
     .make = make};
 
 }  // namespace dashpot

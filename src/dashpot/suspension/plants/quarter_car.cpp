@@ -1,4 +1,4 @@
-#include "dashpot/suspension/assemble.h"
+#include "dashpot/suspension/plants/assemble.h"
 
 namespace dashpot {
 namespace {
@@ -46,13 +46,16 @@ extern const PlantModel kQuarterCar;
 const PlantModel kQuarterCar{
     .name = "quarter_car",
     .title = "Quarter car: body and wheel",
-    .equation = "m_s z_s'' = -k_s (z_s - z_us) - F,\nm_us z_us'' = k_s (z_s - z_us) - k_t (z_us - z_r) + F",
+    .equation =
+        "m_s z_s'' = -k_s (z_s - z_us) - F,\nm_us z_us'' = k_s (z_s - z_us) - k_t (z_us - z_r) + F",
     .source = "the one-sensor paper, equations 3 and 4, table 7",
-    .remarks = "The paper's tyre pulls as well as it pushes; with tyres_may_lift = 1 it only pushes.",
+    .remarks =
+        "The paper's tyre pulls as well as it pushes; with tyres_may_lift = 1 it only pushes.",
     .parameters = {{"sprung_mass", "kg", 387, 1, 1e6, "body on this wheel"},
                    {"unsprung_mass", "kg", 139.5, 0.1, 1e5, "wheel and axle"},
                    {"spring_stiffness", "N/m", 37300, 0, 1e9, "of the suspension"},
-                   {"suspension_damping", "N*s/m", 0, 0, 1e7, "of a linear damper beside the one in place"},
+                   {"suspension_damping", "N*s/m", 0, 0, 1e7,
+                    "of a linear damper beside the one in place"},
                    {"tyre_stiffness", "N/m", 295200, 1, 1e10, "of the tyre"},
                    {"tyre_damping", "N*s/m", 0, 0, 1e7, "of the tyre"},
                    {"friction", "N", 0, 0, 1e5, "of the suspension"},

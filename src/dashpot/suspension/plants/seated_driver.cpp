@@ -1,4 +1,4 @@
-#include "dashpot/suspension/assemble.h"
+#include "dashpot/suspension/plants/assemble.h"
 
 namespace dashpot {
 namespace {
@@ -35,7 +35,8 @@ extern const PlantModel kSeatedDriver;
 const PlantModel kSeatedDriver{
     .name = "seated_driver",
     .title = "Seated driver: thigh, lower torso, chest and head on a seat that moves",
-    .equation = "seat -- k1, c1 -- thigh -- k2, c2 -- lower torso -- k3, c3 -- chest -- k4, c4 -- head",
+    .equation =
+        "seat -- k1, c1 -- thigh -- k2, c2 -- lower torso -- k3, c3 -- chest -- k4, c4 -- head",
     .source = "Boileau and Rakheja 1998, recalled",
     .remarks = "The ground's height is that of the seat's base.",
     .parameters = {{"thigh_mass", "kg", 12.78, 0.1, 1000, ""},

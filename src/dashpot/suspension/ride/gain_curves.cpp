@@ -37,7 +37,8 @@ GainPoint no_gain(double frequency) {
   return point;
 }
 
-SimulateOptions simulate_options(const Vehicle& vehicle, double duration, const GainOptions& options) {
+SimulateOptions simulate_options(const Vehicle& vehicle, double duration,
+                                 const GainOptions& options) {
   SimulateOptions settings = vehicle.options(duration);
   settings.relative_tolerance = options.relative_tolerance;
   settings.monitor = options.monitor;
@@ -69,7 +70,8 @@ std::vector<double> usual_frequencies() {
 GainPoint gain_by_sine(const Vehicle& vehicle, double f, const GainOptions& options) {
   const int periods = std::max(4, static_cast<int>(std::lround(options.counted * f)));
   const GroundPointer sine = sine_ground(options.amplitude, f);
-  const SimulateOptions settings = simulate_options(vehicle, options.settling + periods / f, options);
+  const SimulateOptions settings =
+      simulate_options(vehicle, options.settling + periods / f, options);
   const Trace trace = simulate(vehicle.on(*sine), settings);
   if (trace.diverged_at) return no_gain(f);
   const auto [signals, road] = responses_of(vehicle.set.plant, trace);
@@ -79,7 +81,8 @@ GainPoint gain_by_sine(const Vehicle& vehicle, double f, const GainOptions& opti
   return point;
 }
 
-std::vector<GainPoint> gains_by_chirp(const Vehicle& vehicle, const std::vector<double>& frequencies,
+std::vector<GainPoint> gains_by_chirp(const Vehicle& vehicle,
+                                      const std::vector<double>& frequencies,
                                       const GainOptions& options) {
   const double f0 = frequencies.front() / kBeyond, f1 = frequencies.back() * kBeyond;
   const double duration = options.chirp;

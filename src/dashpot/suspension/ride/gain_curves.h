@@ -7,8 +7,8 @@
 
 namespace dashpot {
 
-/// What one frequency of the road makes of a vehicle; gains over the height of the road. Of the first
-/// coordinate, the first tyre and the first strut.
+/// What one frequency of the road makes of a vehicle; gains over the height of the road. Of the
+/// first coordinate, the first tyre and the first strut.
 struct GainPoint {
   double frequency = 0;                                   ///< Hz
   Gain body_acceleration, body, tyre_deflection, travel;  ///< 1/s^2, 1, 1, 1
@@ -26,9 +26,11 @@ struct GainOptions {
 /// On a steady sine. Not finite where the run diverged.
 GainPoint gain_by_sine(const Vehicle& vehicle, double frequency, const GainOptions& options);
 
-/// On one exponential chirp over all of them, each read over four periods about the instant at which the
-/// chirp has that frequency: quicker, and coarser where resonances are sharp. frequencies: Hz, ascending.
-std::vector<GainPoint> gains_by_chirp(const Vehicle& vehicle, const std::vector<double>& frequencies,
+/// On one exponential chirp over all of them, each read over four periods about the instant at
+/// which the chirp has that frequency: quicker, and coarser where resonances are sharp.
+/// frequencies: Hz, ascending.
+std::vector<GainPoint> gains_by_chirp(const Vehicle& vehicle,
+                                      const std::vector<double>& frequencies,
                                       const GainOptions& options);
 
 /// 18 from 0.5 to 20 Hz, with both resonances of usual quarter cars.

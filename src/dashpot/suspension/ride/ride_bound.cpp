@@ -11,9 +11,10 @@ ForceRange possible_forces(const Vehicle& vehicle, double speed, const std::stri
   if (!(least < greatest))
     throw Error(where, "nothing drives this damper", "a damper with a range of currents");
   if (damper.model->state_size() > 0)
-    throw Error(where,
-                vehicle.damper_names.front() + " has a memory: it has no range of forces by velocity alone",
-                "an ideal damper, or a model without states");
+    throw Error(
+        where,
+        vehicle.damper_names.front() + " has a memory: it has no range of forces by velocity alone",
+        "an ideal damper, or a model without states");
   // Whether the plant is one of which a bound is known.
   SampledPlant(vehicle.set.plant, *step_ground(0.01, 0), 0.01, 1e-3);
   const double ratio = damper.motion_ratio;

@@ -29,7 +29,8 @@ class Reading {
         ground_(ground),
         trace_(trace),
         dt_(trace.record.size() > 1 ? trace.record.time[1] - trace.record.time[0] : 1),
-        first_(std::min(trace.record.size(), static_cast<std::size_t>(std::lround(discard / dt_)))) {}
+        first_(
+            std::min(trace.record.size(), static_cast<std::size_t>(std::lround(discard / dt_)))) {}
 
   std::vector<RideMeasure> on_tyres() {
     add_comfort();
@@ -43,7 +44,8 @@ class Reading {
   std::vector<RideMeasure> of_building() {
     const Plant& plant = vehicle_.set.plant;
     const Samples shaking = samples("ground_acceleration");
-    std::vector<double> below(shaking.size(), 0), drift(shaking.size()), acceleration(shaking.size());
+    std::vector<double> below(shaking.size(), 0), drift(shaking.size()),
+        acceleration(shaking.size());
     for (const Coordinate& floor : plant.coordinates) {
       const Samples x = samples(floor.name), a = samples(floor.name + "_acceleration");
       for (std::size_t k = 0; k < x.size(); ++k) {
@@ -84,7 +86,8 @@ class Reading {
     double load = 0, peak = 0, deflection = 0;
     for (const Tyre& tyre : vehicle_.set.plant.tyres) {
       std::vector<double> dynamic;
-      for (const double value : samples(tyre.name + "_load")) dynamic.push_back(value - tyre.static_load);
+      for (const double value : samples(tyre.name + "_load"))
+        dynamic.push_back(value - tyre.static_load);
       load = std::max(load, root_mean_square(dynamic) / tyre.static_load);
       peak = std::max(peak, greatest(dynamic) / tyre.static_load);
       deflection = std::max(deflection, greatest(samples(tyre.name + "_deflection")));
@@ -125,7 +128,8 @@ class Reading {
         count > 0 ? 100 * sum / static_cast<double>(count) : kNone);
   }
 
-  /// Of the first coordinate's acceleration, to 5 % of its peak, and of the first tyre, to 5 % of the step.
+  /// Of the first coordinate's acceleration, to 5 % of its peak, and of the first tyre, to 5 % of
+  /// the step.
   void add_step(double at) {
     const auto begin = static_cast<std::size_t>(std::lround(at / dt_));
     const auto since = [&](const std::string& channel) {
@@ -139,7 +143,8 @@ class Reading {
       add("settling", body + " acceleration, settled to 5 % of its peak", "s", step.settling_time);
       add("decay_ratio", body + " acceleration, second over first peak", "1",
           step.decay_ratio.value_or(kNone));
-      add("deviation", body + " acceleration, greatest", "m/s^2", std::abs(step.greatest_deviation));
+      add("deviation", body + " acceleration, greatest", "m/s^2",
+          std::abs(step.greatest_deviation));
     }
     const double height = std::abs(ground_.foot(INFINITY, 0, 0).height);
     const Samples tyre = since(vehicle_.set.plant.tyres.front().name + "_deflection");
@@ -164,8 +169,8 @@ double usual_discard(const GroundMotion& ground, double duration) {
   return ground.is_steady() && duration >= 15 ? 5 : 0;
 }
 
-std::vector<RideMeasure> ride_measures(const Vehicle& vehicle, const GroundMotion& ground, const Trace& trace,
-                                       double discard) {
+std::vector<RideMeasure> ride_measures(const Vehicle& vehicle, const GroundMotion& ground,
+                                       const Trace& trace, double discard) {
   if (trace.record.size() < 2) return {};
   Reading reading(vehicle, ground, trace, trace.diverged_at ? 0 : discard);
   return vehicle.set.plant.tyres.empty() ? reading.of_building() : reading.on_tyres();

@@ -68,7 +68,8 @@ std::vector<double> chirp_frequencies(const std::vector<double>& sines) {
   constexpr int kPoints = 120;
   std::vector<double> f;
   for (int k = 0; k <= kPoints; ++k)
-    f.push_back(sines.front() * std::pow(sines.back() / sines.front(), static_cast<double>(k) / kPoints));
+    f.push_back(sines.front() *
+                std::pow(sines.back() / sines.front(), static_cast<double>(k) / kPoints));
   return f;
 }
 
@@ -85,13 +86,15 @@ class Tasks {
         place.sines[k] = gain_by_sine(*vehicle, options_.frequencies[k], gain_options());
       });
     tasks_.push_back([this, vehicle, &place] {
-      place.chirp = gains_by_chirp(*vehicle, chirp_frequencies(options_.frequencies), gain_options());
+      place.chirp =
+          gains_by_chirp(*vehicle, chirp_frequencies(options_.frequencies), gain_options());
     });
     tasks_.push_back([this, vehicle, &place] {
       place.road = run_vehicle(vehicle, road_, run_options(options_.road_duration));
     });
-    tasks_.push_back(
-        [this, vehicle, &place] { place.step = run_vehicle(vehicle, *step_, run_options(kStepDuration)); });
+    tasks_.push_back([this, vehicle, &place] {
+      place.step = run_vehicle(vehicle, *step_, run_options(kStepDuration));
+    });
   }
 
   void add(const SharedVehicle& vehicle, TradeOff& place) {
@@ -170,9 +173,10 @@ void add_bound(RideStudy& study, const Vehicle& vehicle, const GroundMotion& roa
   const Plant& plant = vehicle.set.plant;
   const RideStudyOptions& options = study.options;
   options.monitor.report("bound what is possible", 0);
-  study.front = front_of_ride(plant, road, possible_forces(vehicle, greatest_speed(study), kBound),
-                              ride_squares(study.passive.road.trace, plant),
-                              {.duration = options.road_duration, .starts = {}, .threads = options.threads});
+  study.front =
+      front_of_ride(plant, road, possible_forces(vehicle, greatest_speed(study), kBound),
+                    ride_squares(study.passive.road.trace, plant),
+                    {.duration = options.road_duration, .starts = {}, .threads = options.threads});
 }
 
 }  // namespace
@@ -188,7 +192,8 @@ RideStudy study_ride(const RideStudyOptions& options) {
   RideStudy study{.options = options};
   const std::vector<SharedVehicle> vehicles = make_vehicles(options, study.left_out);
   require_rideable(options, *vehicles.front());
-  if (options.bound) possible_forces(*vehicles.back(), 1, kBound);  // refused now rather than in the end
+  if (options.bound)
+    possible_forces(*vehicles.back(), 1, kBound);  // refused now rather than in the end
   const std::vector<SharedVehicle> held = make_held(options, vehicles.back()->limits);
   const GroundPointer road = make_ground(options.road, options.seed, "--road");
   study.ground = road->description();

@@ -17,10 +17,10 @@ struct RideStudyOptions {
   std::vector<double> frequencies = usual_frequencies();  ///< Hz
   GainOptions gains;  ///< its tolerance and monitor are those of the study
   std::string road = "iso8608,class=C";
-  double road_duration = 30;      ///< s
-  double step_height = 0.03;      ///< m
-  std::size_t held = 12;          ///< currents of the same dampers without control, for the trade-off
-  bool bound = false;             ///< also what is possible on the road: a quarter car's
+  double road_duration = 30;  ///< s
+  double step_height = 0.03;  ///< m
+  std::size_t held = 12;      ///< currents of the same dampers without control, for the trade-off
+  bool bound = false;         ///< also what is possible on the road: a quarter car's
   double allowed_outside = 0.05;  ///< share of the time that a damper may be outside its data
   double relative_tolerance = 1e-6;
   std::uint64_t seed = 1;
@@ -49,12 +49,13 @@ struct RideStudy {
   std::vector<RiddenVehicle> controlled;
   std::vector<TradeOff> held;         ///< the same dampers, softest first
   std::vector<std::string> left_out;  ///< of "all", and why
-  /// What is possible on the road, where it was asked for: from comfort alone to road holding alone.
+  /// What is possible on the road, where it was asked for: from comfort alone to road holding
+  /// alone.
   std::vector<ClairvoyantBound> front;
 };
 
-/// Throws Error where the plant has no tyres, where its dampers cannot be driven, at unknown words, where a
-/// bound is asked for and none is known.
+/// Throws Error where the plant has no tyres, where its dampers cannot be driven, at unknown words,
+/// where a bound is asked for and none is known.
 RideStudy study_ride(const RideStudyOptions& options);
 
 /// sqrt of the integral of the squared fundamental gains by sines over frequency.

@@ -22,12 +22,15 @@ constexpr std::array kWeightings{
     Weighting{"Wc", "seat back, horizontal", 0.4, 100, 8, 8, 0.63, 0, 1, 0, 1},
     Weighting{"Wd", "seated or standing, horizontal", 0.4, 100, 2, 2, 0.63, 0, 1, 0, 1},
     Weighting{"We", "rotation", 0.4, 100, 1, 1, 0.63, 0, 1, 0, 1},
-    Weighting{"Wf", "motion sickness, vertical", 0.08, 0.63, kInfinity, 0.25, 0.86, 0.0625, 0.8, 0.1, 0.8},
-    Weighting{"Wj", "head of a lying person", 0.4, 100, kInfinity, kInfinity, 1, 3.75, 0.91, 5.32, 0.91},
-    Weighting{"Wk", "seated or standing, vertical", 0.4, 100, 12.5, 12.5, 0.63, 2.37, 0.91, 3.35, 0.91}};
+    Weighting{"Wf", "motion sickness, vertical", 0.08, 0.63, kInfinity, 0.25, 0.86, 0.0625, 0.8,
+              0.1, 0.8},
+    Weighting{"Wj", "head of a lying person", 0.4, 100, kInfinity, kInfinity, 1, 3.75, 0.91, 5.32,
+              0.91},
+    Weighting{"Wk", "seated or standing, vertical", 0.4, 100, 12.5, 12.5, 0.63, 2.37, 0.91, 3.35,
+              0.91}};
 
-/// (n0 + n1 s + n2 s^2) / (d0 + d1 s + d2 s^2), and the frequency in rad/s that its digital form keeps
-/// exactly.
+/// (n0 + n1 s + n2 s^2) / (d0 + d1 s + d2 s^2), and the frequency in rad/s that its digital form
+/// keeps exactly.
 struct Section {
   double n0, n1, n2, d0, d1, d2, kept;
 };
@@ -56,8 +59,9 @@ double gain_of(const Weighting& w) { return w.name == "Wb" ? 1.024 : 1; }
 Biquad digital(const Section& s, double dt) {
   const double k = s.kept / std::tan(0.5 * s.kept * dt), kk = k * k;
   const double d = s.d0 + s.d1 * k + s.d2 * kk;
-  return {(s.n0 + s.n1 * k + s.n2 * kk) / d, 2 * (s.n0 - s.n2 * kk) / d, (s.n0 - s.n1 * k + s.n2 * kk) / d,
-          2 * (s.d0 - s.d2 * kk) / d, (s.d0 - s.d1 * k + s.d2 * kk) / d};
+  return {(s.n0 + s.n1 * k + s.n2 * kk) / d, 2 * (s.n0 - s.n2 * kk) / d,
+          (s.n0 - s.n1 * k + s.n2 * kk) / d, 2 * (s.d0 - s.d2 * kk) / d,
+          (s.d0 - s.d1 * k + s.d2 * kk) / d};
 }
 
 void filter_in_place(const Biquad& b, std::vector<double>& x) {
@@ -104,7 +108,8 @@ std::complex<double> weighting_response(const Weighting& weighting, double f) {
 
 std::vector<Biquad> weighting_filter(const Weighting& weighting, double dt) {
   if (!(dt > 0 && dt <= 0.25 / weighting.f2))
-    throw Error("weighting " + std::string(weighting.name), "a sample time of " + format_number(dt) + " s",
+    throw Error("weighting " + std::string(weighting.name),
+                "a sample time of " + format_number(dt) + " s",
                 format_number(0.25 / weighting.f2) + " s at most");
   std::vector<Biquad> cascade;
   for (const Section& part : sections_of(weighting)) cascade.push_back(digital(part, dt));
@@ -118,12 +123,12 @@ std::vector<double> weigh(const Weighting& weighting, std::span<const double> si
   return out;
 }
 
-RideComfort ride_comfort(const Weighting& weighting, std::span<const double> acceleration, double dt,
-                         double discard) {
+RideComfort ride_comfort(const Weighting& weighting, std::span<const double> acceleration,
+                         double dt, double discard) {
   const auto first = static_cast<std::size_t>(std::lround(discard / dt));
   if (first >= acceleration.size())
-    throw Error("ride comfort",
-                "the signal lasts no longer than the " + format_number(discard) + " s that are discarded");
+    throw Error("ride comfort", "the signal lasts no longer than the " + format_number(discard) +
+                                    " s that are discarded");
   const std::vector<double> weighted = weigh(weighting, acceleration, dt);
   const std::span kept = std::span(weighted).subspan(first);
   RideComfort comfort{.rms = root_mean_square(acceleration.subspan(first)),

@@ -8,8 +8,8 @@
 
 namespace dashpot {
 
-/// A frequency weighting of ISO 2631-1: band limits, transition and upward step. Frequencies in Hz; infinity
-/// or 0 where a part is missing.
+/// A frequency weighting of ISO 2631-1: band limits, transition and upward step. Frequencies in Hz;
+/// infinity or 0 where a part is missing.
 struct Weighting {
   std::string_view name, meaning;
   double f1, f2;          ///< band limits, both of quality 1 / sqrt 2
@@ -23,8 +23,8 @@ const Weighting& find_weighting(std::string_view name, const std::string& where 
 
 /// H at f Hz.
 std::complex<double> weighting_response(const Weighting& weighting, double f);
-/// The signal through the filter, from rest. dt s; each part by the bilinear transform, pre-warped at its own
-/// frequency. Throws Error where dt is too long for the band: above 1 / (4 f2).
+/// The signal through the filter, from rest. dt s; each part by the bilinear transform, pre-warped
+/// at its own frequency. Throws Error where dt is too long for the band: above 1 / (4 f2).
 std::vector<double> weigh(const Weighting& weighting, std::span<const double> signal, double dt);
 
 /// That filter as a cascade. Throws Error likewise.
@@ -41,7 +41,7 @@ struct RideComfort {
       const;  ///< "a little uncomfortable": bands that overlap in the standard; recalled
 };
 /// The first `discard` seconds are the filter's own start and do not count.
-RideComfort ride_comfort(const Weighting& weighting, std::span<const double> acceleration, double dt,
-                         double discard = 5);
+RideComfort ride_comfort(const Weighting& weighting, std::span<const double> acceleration,
+                         double dt, double discard = 5);
 
 }  // namespace dashpot

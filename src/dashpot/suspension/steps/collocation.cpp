@@ -15,7 +15,8 @@ constexpr double kConverged = 0.02;  // tolerances that the last iteration may m
 constexpr double kGain = 3;
 
 bool is_finite(const std::vector<double>& values) {
-  return std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
+  return std::all_of(values.begin(), values.end(),
+                     [](double value) { return std::isfinite(value); });
 }
 
 struct Node {
@@ -54,7 +55,8 @@ class Collocation final : public StepMethod {
     const double begin = now_.state.time, length = end - begin;
     if (!(length > 0)) return true;
     const int least = options_.longest_step > 0 ? halvings(length, options_.longest_step) : 0;
-    level_ = options_.controls_error && usual_ > 0 ? std::max(halvings(length, usual_), least) : least;
+    level_ =
+        options_.controls_error && usual_ > 0 ? std::max(halvings(length, usual_), least) : least;
     double done = 0;  // share of the stretch
     while (done < 1) {
       const double share = std::exp2(-level_), h = length * share;
@@ -81,10 +83,12 @@ class Collocation final : public StepMethod {
     const double whole = step(now_, h, middle_, whole_);
     step(now_, 0.5 * h, middle_, half_);
     const double halves = step(half_, 0.5 * h, middle_, end_);
-    return whole <= 1 && halves <= 1 ? distance(whole_.state.x, end_.state.x) / kGain : kNotConverged;
+    return whole <= 1 && halves <= 1 ? distance(whole_.state.x, end_.state.x) / kGain
+                                     : kNotConverged;
   }
 
-  /// `to` becomes the state h later, by way of `middle`; how far the last iteration moved it, in tolerances.
+  /// `to` becomes the state h later, by way of `middle`; how far the last iteration moved it, in
+  /// tolerances.
   double step(const Node& from, double h, Node& middle, Node& to) {
     ++counts_.steps;
     const Propagator& exact = propagator(h);
@@ -112,7 +116,8 @@ class Collocation final : public StepMethod {
     for (std::size_t s = 0; s < from.dampers.size(); ++s) {
       const DamperState& start = from.dampers[s];
       const DamperInput a = forces_.strut_motion(s, from.time, from.x, start.current());
-      const DamperInput b = forces_.strut_motion(s, middle.time, middle.x, start.current_after(0.5 * h));
+      const DamperInput b =
+          forces_.strut_motion(s, middle.time, middle.x, start.current_after(0.5 * h));
       const DamperInput c = forces_.strut_motion(s, to.time, to.x, start.current_after(h));
       middle.dampers[s] = start;
       middle.dampers[s].advance(a, b, 0.5 * h);
@@ -124,7 +129,8 @@ class Collocation final : public StepMethod {
   void evaluate(PlantState& state) {
     ++counts_.evaluations;
     for (std::size_t s = 0; s < state.dampers.size(); ++s) {
-      const DamperInput motion = forces_.strut_motion(s, state.time, state.x, state.dampers[s].current());
+      const DamperInput motion =
+          forces_.strut_motion(s, state.time, state.x, state.dampers[s].current());
       state.damper_forces[s] = state.dampers[s].force(motion);
       state.strut_forces[s] = state.damper_forces[s] + forces_.strut_extra(s, motion);
     }
@@ -139,8 +145,8 @@ class Collocation final : public StepMethod {
         size = std::max(size, std::abs(b[k]));
         apart = std::max(apart, std::abs(a[k] - b[k]));
       }
-      greatest =
-          std::max(greatest, apart / (options_.absolute_tolerance + options_.relative_tolerance * size));
+      greatest = std::max(
+          greatest, apart / (options_.absolute_tolerance + options_.relative_tolerance * size));
     }
     return greatest;
   }
@@ -172,7 +178,8 @@ class Collocation final : public StepMethod {
 
 }  // namespace
 
-std::unique_ptr<StepMethod> make_collocation(const PlantForces& forces, const IntegratorOptions& options,
+std::unique_ptr<StepMethod> make_collocation(const PlantForces& forces,
+                                             const IntegratorOptions& options,
                                              const PlantState& start) {
   return std::make_unique<Collocation>(forces, options, start);
 }

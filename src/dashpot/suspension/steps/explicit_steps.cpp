@@ -3,7 +3,7 @@
 #include <cmath>
 #include <utility>
 
-#include "dashpot/suspension/plant_equations.h"
+#include "dashpot/suspension/plants/plant_equations.h"
 #include "dashpot/suspension/steps/step_control.h"
 
 namespace dashpot {
@@ -25,7 +25,8 @@ constexpr double kOff[kStages] = {71.0 / 57600,      0,          -71.0 / 16695, 
 
 class ExplicitSteps final : public StepMethod {
  public:
-  ExplicitSteps(const PlantForces& forces, const IntegratorOptions& options, const PlantState& start)
+  ExplicitSteps(const PlantForces& forces, const IntegratorOptions& options,
+                const PlantState& start)
       : equations_(forces, start),
         options_(options),
         size_(equations_.size()),
@@ -74,10 +75,12 @@ class ExplicitSteps final : public StepMethod {
     equations_.rates(after, y.data(), &k_[stage * size_]);
   }
   template <std::size_t... kBefore>
-  void sum(std::vector<double>& out, double h, const double* weights, std::index_sequence<kBefore...>) const {
+  void sum(std::vector<double>& out, double h, const double* weights,
+           std::index_sequence<kBefore...>) const {
     const double* k = k_.data();
     const std::size_t n = size_;
-    for (std::size_t i = 0; i < n; ++i) out[i] = y_[i] + h * ((weights[kBefore] * k[kBefore * n + i]) + ...);
+    for (std::size_t i = 0; i < n; ++i)
+      out[i] = y_[i] + h * ((weights[kBefore] * k[kBefore * n + i]) + ...);
   }
   template <std::size_t kStage>
   void stage(double done, double h, std::vector<double>& at) {
@@ -113,7 +116,8 @@ class ExplicitSteps final : public StepMethod {
 
 }  // namespace
 
-std::unique_ptr<StepMethod> make_explicit_steps(const PlantForces& forces, const IntegratorOptions& options,
+std::unique_ptr<StepMethod> make_explicit_steps(const PlantForces& forces,
+                                                const IntegratorOptions& options,
                                                 const PlantState& start) {
   return std::make_unique<ExplicitSteps>(forces, options, start);
 }

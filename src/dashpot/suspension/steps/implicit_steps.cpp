@@ -4,7 +4,7 @@
 
 #include <Eigen/Dense>
 
-#include "dashpot/suspension/plant_equations.h"
+#include "dashpot/suspension/plants/plant_equations.h"
 #include "dashpot/suspension/steps/step_control.h"
 
 namespace dashpot {
@@ -28,7 +28,8 @@ constexpr double kSlopes[kStages][kStages - 1] = {
     {-2.430093356833875, -0.2063599157091915},
     {-0.1073529058151375, -9.594562251023355, -20.47028614809616},
     {7.496443313967647, -10.24680431464352, -33.99990352819905, 11.70890893206160},
-    {8.083246795921522, -7.981132988064893, -31.52159432874371, 16.31930543123136, -6.058818238834054}};
+    {8.083246795921522, -7.981132988064893, -31.52159432874371, 16.31930543123136,
+     -6.058818238834054}};
 
 using Vector = Eigen::VectorXd;
 using Matrix = Eigen::MatrixXd;
@@ -36,9 +37,11 @@ using Index = Eigen::Index;
 
 class ImplicitSteps final : public StepMethod {
  public:
-  ImplicitSteps(const PlantForces& forces, const IntegratorOptions& options, const PlantState& start)
+  ImplicitSteps(const PlantForces& forces, const IntegratorOptions& options,
+                const PlantState& start)
       : equations_(forces, start), options_(options), size_(static_cast<Index>(equations_.size())) {
-    for (Vector* vector : {&y_, &f_, &trial_, &slope_, &by_time_, &error_}) *vector = Vector::Zero(size_);
+    for (Vector* vector : {&y_, &f_, &trial_, &slope_, &by_time_, &error_})
+      *vector = Vector::Zero(size_);
     for (Vector& u : u_) u = Vector::Zero(size_);
     jacobian_ = Matrix::Zero(size_, size_);
   }
@@ -126,7 +129,9 @@ class ImplicitSteps final : public StepMethod {
 
   double distance() const {
     return error_in_tolerances(
-        {equations_.coordinates(), {y_.data(), equations_.size()}, {trial_.data(), equations_.size()}},
+        {equations_.coordinates(),
+         {y_.data(), equations_.size()},
+         {trial_.data(), equations_.size()}},
         options_, [&](std::size_t k) { return std::abs(error_[static_cast<Index>(k)]); },
         [](std::size_t) { return 0.0; });
   }
@@ -143,7 +148,8 @@ class ImplicitSteps final : public StepMethod {
 
 }  // namespace
 
-std::unique_ptr<StepMethod> make_implicit_steps(const PlantForces& forces, const IntegratorOptions& options,
+std::unique_ptr<StepMethod> make_implicit_steps(const PlantForces& forces,
+                                                const IntegratorOptions& options,
                                                 const PlantState& start) {
   return std::make_unique<ImplicitSteps>(forces, options, start);
 }

@@ -15,11 +15,12 @@ PlantState PlantState::at_rest(const Plant& plant, const std::vector<MountedDamp
   return state;
 }
 
-Integrator::Integrator(const PlantForces& forces, const IntegratorOptions& options, const PlantState& start) {
-  const bool flows =
-      std::ranges::all_of(start.dampers, [](const DamperState& damper) { return damper.model().flows(); });
-  method_ =
-      (flows && options.controls_error ? make_switching_steps : make_collocation)(forces, options, start);
+Integrator::Integrator(const PlantForces& forces, const IntegratorOptions& options,
+                       const PlantState& start) {
+  const bool flows = std::ranges::all_of(
+      start.dampers, [](const DamperState& damper) { return damper.model().flows(); });
+  method_ = (flows && options.controls_error ? make_switching_steps : make_collocation)(
+      forces, options, start);
 }
 
 bool Integrator::advance(PlantState& state, double end) {

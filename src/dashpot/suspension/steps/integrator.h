@@ -5,16 +5,17 @@
 
 namespace dashpot {
 
-/// Brings a plant through smooth stretches of time: with the error controlled by explicit or implicit steps
-/// where every damper's states have rates, else by collocation, which takes fixed steps, too.
+/// Brings a plant through smooth stretches of time: with the error controlled by explicit or
+/// implicit steps where every damper's states have rates, else by collocation, which takes fixed
+/// steps, too.
 class Integrator {
  public:
   Integrator(const PlantForces& forces, const IntegratorOptions& options, const PlantState& start);
 
   /// Forces at the state's own instant: after a new current or a jump of the ground.
   void refresh(PlantState& state) { method_->refresh(state); }
-  /// From the state's instant to `end`, by way of the instants at which a coil's current has a corner. False
-  /// where it is no longer finite.
+  /// From the state's instant to `end`, by way of the instants at which a coil's current has a
+  /// corner. False where it is no longer finite.
   bool advance(PlantState& state, double end);
 
   const StepCounts& counts() const { return method_->counts(); }

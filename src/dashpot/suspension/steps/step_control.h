@@ -7,13 +7,14 @@
 
 namespace dashpot {
 
-/// How much longer the next step may be, by the error of one, in tolerances, and its power of the length.
+/// How much longer the next step may be, by the error of one, in tolerances, and its power of the
+/// length.
 inline double step_factor(double error, double power) {
   return std::isfinite(error) ? std::clamp(0.9 * std::pow(error, -power), 0.2, 5.0) : 0.2;
 }
 
-/// The shortest step within a stretch. Where it misses the tolerance it doubles, to 1/64 of the stretch at
-/// most: a force that jumps costs an error, which is told, and not hours.
+/// The shortest step within a stretch. Where it misses the tolerance it doubles, to 1/64 of the
+/// stretch at most: a force that jumps costs an error, which is told, and not hours.
 class Allowance {
  public:
   explicit Allowance(double stretch) : shortest_(stretch / 4096), longest_(stretch / 64) {}
@@ -30,10 +31,12 @@ struct StepEnds {
   std::span<const double> from, to;
 };
 
-/// The error of a step, in tolerances; error(k) of component k, moved(k) by how much a state moves in it.
-/// Displacements are measured against each other, and so are speeds; a damper's states one by one.
+/// The error of a step, in tolerances; error(k) of component k, moved(k) by how much a state moves
+/// in it. Displacements are measured against each other, and so are speeds; a damper's states one
+/// by one.
 template <class Error, class Moved>
-double error_in_tolerances(const StepEnds& ends, const IntegratorOptions& options, Error error, Moved moved) {
+double error_in_tolerances(const StepEnds& ends, const IntegratorOptions& options, Error error,
+                           Moved moved) {
   const auto worse = [](double a, double b) { return b > a || std::isnan(b) ? b : a; };
   const auto of = [&](double off, double size) {
     return off / (options.absolute_tolerance + options.relative_tolerance * size);
@@ -49,8 +52,8 @@ double error_in_tolerances(const StepEnds& ends, const IntegratorOptions& option
     greatest = worse(greatest, of(off, size));
   }
   for (std::size_t k = 2 * n; k < ends.from.size(); ++k)
-    greatest =
-        worse(greatest, of(error(k), std::max(std::abs(ends.from[k]), std::abs(ends.to[k])) + moved(k)));
+    greatest = worse(
+        greatest, of(error(k), std::max(std::abs(ends.from[k]), std::abs(ends.to[k])) + moved(k)));
   return greatest;
 }
 

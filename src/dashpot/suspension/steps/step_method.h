@@ -33,7 +33,8 @@ struct StepCounts {
   std::size_t missed = 0;  ///< steps whose error stayed above the tolerance, short as they were
 };
 
-/// A way to go through a stretch of time in which no current jumps and no corner of its course lies.
+/// A way to go through a stretch of time in which no current jumps and no corner of its course
+/// lies.
 class StepMethod {
  public:
   virtual ~StepMethod() = default;
@@ -45,24 +46,29 @@ class StepMethod {
   StepCounts counts_;
 };
 
-/// The linear part moves exactly (Propagator) under forces that are parabolas within a step, found by
-/// iteration: order 4 where forces are smooth, and no damper's own stiffness shortens the step. The error is
-/// controlled by taking each step once whole and once in halves. For any damper.
-std::unique_ptr<StepMethod> make_collocation(const PlantForces& forces, const IntegratorOptions& options,
+/// The linear part moves exactly (Propagator) under forces that are parabolas within a step, found
+/// by iteration: order 4 where forces are smooth, and no damper's own stiffness shortens the step.
+/// The error is controlled by taking each step once whole and once in halves. For any damper.
+std::unique_ptr<StepMethod> make_collocation(const PlantForces& forces,
+                                             const IntegratorOptions& options,
                                              const PlantState& start);
 
-/// Order 5 with an error of order 4 (Dormand, Prince, J. Comput. Appl. Math. 6 (1980) 19) of motions and of
-/// the dampers' states, for dampers that flow (DamperModel::flows).
-std::unique_ptr<StepMethod> make_explicit_steps(const PlantForces& forces, const IntegratorOptions& options,
+/// Order 5 with an error of order 4 (Dormand, Prince, J. Comput. Appl. Math. 6 (1980) 19) of
+/// motions and of the dampers' states, for dampers that flow (DamperModel::flows).
+std::unique_ptr<StepMethod> make_explicit_steps(const PlantForces& forces,
+                                                const IntegratorOptions& options,
                                                 const PlantState& start);
 
-/// RODAS (Hairer, Wanner, Solving Ordinary Differential Equations II, 1996), linearly implicit, order 4 with
-/// an error of order 3, for the same dampers: hysteresis that is stiff at high speed asks for no short steps.
-std::unique_ptr<StepMethod> make_implicit_steps(const PlantForces& forces, const IntegratorOptions& options,
+/// RODAS (Hairer, Wanner, Solving Ordinary Differential Equations II, 1996), linearly implicit,
+/// order 4 with an error of order 3, for the same dampers: hysteresis that is stiff at high speed
+/// asks for no short steps.
+std::unique_ptr<StepMethod> make_implicit_steps(const PlantForces& forces,
+                                                const IntegratorOptions& options,
                                                 const PlantState& start);
 
 /// The cheaper one of these two at each time.
-std::unique_ptr<StepMethod> make_switching_steps(const PlantForces& forces, const IntegratorOptions& options,
+std::unique_ptr<StepMethod> make_switching_steps(const PlantForces& forces,
+                                                 const IntegratorOptions& options,
                                                  const PlantState& start);
 
 }  // namespace dashpot

@@ -3,11 +3,12 @@
 namespace dashpot {
 namespace {
 
-/// Stretches go by explicit steps. Where these become many, implicit ones are tried, and whichever asked for
-/// less goes on; the other one is tried again from time to time.
+/// Stretches go by explicit steps. Where these become many, implicit ones are tried, and whichever
+/// asked for less goes on; the other one is tried again from time to time.
 class SwitchingSteps final : public StepMethod {
  public:
-  SwitchingSteps(const PlantForces& forces, const IntegratorOptions& options, const PlantState& start)
+  SwitchingSteps(const PlantForces& forces, const IntegratorOptions& options,
+                 const PlantState& start)
       : explicit_(make_explicit_steps(forces, options, start)),
         implicit_(make_implicit_steps(forces, options, start)) {
     std::size_t size = start.x.size();
@@ -32,8 +33,9 @@ class SwitchingSteps final : public StepMethod {
   }
 
  private:
-  static constexpr std::size_t kStages = 8;  // of an implicit step, with the slopes by time and at its end
-  static constexpr int kPatience = 16;       // stretches
+  static constexpr std::size_t kStages =
+      8;  // of an implicit step, with the slopes by time and at its end
+  static constexpr int kPatience = 16;  // stretches
 
   bool by_explicit(PlantState& state, double end) {
     if (!explicit_knows_) explicit_->refresh(state);
@@ -56,8 +58,8 @@ class SwitchingSteps final : public StepMethod {
   }
 
   std::unique_ptr<StepMethod> explicit_, implicit_;
-  /// Of an implicit step, in evaluations: its Jacobian, its stages, and linear algebra, measured on a quarter
-  /// car.
+  /// Of an implicit step, in evaluations: its Jacobian, its stages, and linear algebra, measured on
+  /// a quarter car.
   double implicit_cost_;
   double by_explicit_ = 0, by_implicit_ = 0;  ///< of the last stretch that each one took
   bool stiff_ = false, explicit_knows_ = false;
@@ -66,7 +68,8 @@ class SwitchingSteps final : public StepMethod {
 
 }  // namespace
 
-std::unique_ptr<StepMethod> make_switching_steps(const PlantForces& forces, const IntegratorOptions& options,
+std::unique_ptr<StepMethod> make_switching_steps(const PlantForces& forces,
+                                                 const IntegratorOptions& options,
                                                  const PlantState& start) {
   return std::make_unique<SwitchingSteps>(forces, options, start);
 }

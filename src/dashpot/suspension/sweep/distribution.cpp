@@ -41,9 +41,11 @@ double positive(double number, const Value& at) {
 
 /// "5 %" of `whole`, or a quantity.
 double read_spread(const Value& value, const ParameterRow& row, double whole) {
-  const bool relative = value.kind() == Value::Kind::String && trim(value.as_string()).ends_with('%');
-  const double number = relative ? std::abs(whole) * parse_quantity(value.as_string(), "1", value.where())
-                                 : read_quantity(value, row.unit);
+  const bool relative =
+      value.kind() == Value::Kind::String && trim(value.as_string()).ends_with('%');
+  const double number =
+      relative ? std::abs(whole) * parse_quantity(value.as_string(), "1", value.where())
+               : read_quantity(value, row.unit);
   return positive(number, value);
 }
 
@@ -55,7 +57,8 @@ void read_uniform(const Value& value, const ParameterRow& row, Distribution& dis
   distribution.to = read_within(value.items()[1], row);
 }
 
-void read_bell(ObjectReader& reader, const Value& centre, const ParameterRow& row, Distribution& d) {
+void read_bell(ObjectReader& reader, const Value& centre, const ParameterRow& row,
+               Distribution& d) {
   d.centre = read_within(centre, row);
   const Value& spread = reader.required("sd");
   d.spread = read_spread(spread, row, d.centre);
@@ -74,14 +77,15 @@ void require_wide(const Distribution& d, const Value& value, const ParameterRow&
   const std::string unit(row.unit);
   if (!(d.from < d.to))
     throw Error(value.where(),
-                "the range of " + std::string(row.name) + " is empty: " + with_unit(d.from, unit) + " to " +
-                    with_unit(d.to, unit),
+                "the range of " + std::string(row.name) + " is empty: " + with_unit(d.from, unit) +
+                    " to " + with_unit(d.to, unit),
                 "from less than to");
   if (d.kind == Distribution::Kind::Normal &&
       (d.from > d.centre + 6 * d.spread || d.to < d.centre - 6 * d.spread))
     throw Error(value.where(), "is cut off where the distribution has nothing",
                 "from and to within 6 sd of the mean");
-  if (row.whole) throw Error(value.where(), std::string(row.name) + " is a whole number", "a list of values");
+  if (row.whole)
+    throw Error(value.where(), std::string(row.name) + " is a whole number", "a list of values");
 }
 
 }  // namespace
@@ -91,12 +95,14 @@ double Distribution::at(double u) const {
     case Kind::Uniform:
       return from + u * (to - from);
     case Kind::Normal:
-      return std::clamp(centre + spread * normal_between((from - centre) / spread, (to - centre) / spread, u),
-                        from, to);
+      return std::clamp(
+          centre + spread * normal_between((from - centre) / spread, (to - centre) / spread, u),
+          from, to);
     case Kind::LogNormal: {
       const double low = from > 0 ? std::log(from / centre) / spread : -INFINITY;
-      return std::clamp(centre * std::exp(spread * normal_between(low, std::log(to / centre) / spread, u)),
-                        from, to);
+      return std::clamp(
+          centre * std::exp(spread * normal_between(low, std::log(to / centre) / spread, u)), from,
+          to);
     }
     case Kind::OneOf:
       break;
@@ -109,10 +115,11 @@ std::string Distribution::description(const std::string& unit) const {
   const std::string range = format_number(from) + " ... " + with_unit(to, unit);
   if (kind == Kind::Uniform) return "uniform, " + range;
   if (kind == Kind::Normal)
-    return "normal, " + format_number(centre) + " +- " + with_unit(spread, unit) + ", within " + range;
+    return "normal, " + format_number(centre) + " +- " + with_unit(spread, unit) + ", within " +
+           range;
   if (kind == Kind::LogNormal)
-    return "log-normal, median " + with_unit(centre, unit) + ", factor " + format_number(std::exp(spread)) +
-           ", within " + range;
+    return "log-normal, median " + with_unit(centre, unit) + ", factor " +
+           format_number(std::exp(spread)) + ", within " + range;
   std::vector<std::string> texts;
   for (const double value : values) texts.push_back(format_number(value));
   return "one of " + join(texts, ", ") + (unit == "1" ? "" : " " + unit);
@@ -122,7 +129,8 @@ Distribution read_values(const Value& value, const ParameterRow& row) {
   Distribution distribution{.kind = Distribution::Kind::OneOf};
   for (const Value& item : value.items()) distribution.values.push_back(read_within(item, row));
   if (distribution.values.empty())
-    throw Error(value.where(), "no " + std::string(row.name) + " to choose from", "a list of values");
+    throw Error(value.where(), "no " + std::string(row.name) + " to choose from",
+                "a list of values");
   return distribution;
 }
 

@@ -20,12 +20,13 @@ struct Distribution {
 
   /// The value below which the share u of all lies, 0 < u < 1.
   double at(double u) const;
-  std::string description(const std::string& unit) const;  ///< "normal, 400 +- 40 kg, 300 ... 500 kg"
+  std::string description(
+      const std::string& unit) const;  ///< "normal, 400 +- 40 kg, 300 ... 500 kg"
 };
 
-/// A list of values; {uniform: [a, b]}, {normal: mean, sd: s}, {lognormal: median, sd: s}: sd in the unit or,
-/// for these two, in % of the mean or median; from and to cut a distribution off, which lies within the row's
-/// bounds in any case. Throws Error that names file and line.
+/// A list of values; {uniform: [a, b]}, {normal: mean, sd: s}, {lognormal: median, sd: s}: sd in
+/// the unit or, for these two, in % of the mean or median; from and to cut a distribution off,
+/// which lies within the row's bounds in any case. Throws Error that names file and line.
 Distribution read_distribution(const Value& value, const ParameterRow& row);
 /// A list of values within the row's bounds.
 Distribution read_values(const Value& value, const ParameterRow& row);

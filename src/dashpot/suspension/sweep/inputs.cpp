@@ -21,12 +21,15 @@ namespace {
 using Target = SweepInput::Target;
 
 constexpr double kMostSeed = 4294967295.0;  // a double holds it, and so does every table
-constexpr ParameterRow kSeedRow{"road.seed", "1", 1, 0, kMostSeed, "of the road's random numbers", true};
+constexpr ParameterRow kSeedRow{"road.seed", "1", 1, 0, kMostSeed, "of the road's random numbers",
+                                true};
 constexpr ParameterRow kCurrentRow{"current", "A", 0, -100, 100, "where there is no controller"};
 constexpr ParameterRow kLagRow{"lag_rate", "1/s", 0, 0, 1e6, "of the coil; 0: none"};
 constexpr ParameterRow kSpeedRow{"speed", "m/s", 20, 0.1, 200, "of the vehicle"};
 
-std::string first_word(const std::string& text) { return std::string(trim(split(text, ',').front())); }
+std::string first_word(const std::string& text) {
+  return std::string(trim(split(text, ',').front()));
+}
 
 std::vector<ParameterRow> law_rows(const Law& law) {
   std::vector<ParameterRow> rows;
@@ -64,13 +67,15 @@ ParameterRow damper_row(SweepInput& input, const SweepRequest& request, const st
       }
   if (!input.dampers.empty()) return found;
   if (known.empty())
-    throw Error(where, "the dampers are those of the plant, which cannot be told '" + parameter + "'",
+    throw Error(where,
+                "the dampers are those of the plant, which cannot be told '" + parameter + "'",
                 "name dampers: \"ideal,damping_min=300,damping_max=3900\"");
   throw Error(where, "no damper here has a parameter '" + parameter + "'",
               suggest("damper." + parameter, known));
 }
 
-ParameterRow plant_row(const VehicleWords& words, const std::string& name, const std::string& where) {
+ParameterRow plant_row(const VehicleWords& words, const std::string& name,
+                       const std::string& where) {
   const PlantSet set = load_plant(words);
   if (set.kind.empty()) throw Error(where, set.name + " has matrices, no parameter '" + name + "'");
   const PlantModel& model = find_plant_model(set.kind);
@@ -79,15 +84,16 @@ ParameterRow plant_row(const VehicleWords& words, const std::string& name, const
     if (row.name == name) return row;
     known.emplace_back(row.name);
   }
-  known.insert(known.end(),
-               {"road.class", "road.speed", "road.seed", "damper.force_factor", "current", "lag_rate"});
+  known.insert(known.end(), {"road.class", "road.speed", "road.seed", "damper.force_factor",
+                             "current", "lag_rate"});
   throw Error(where, "nothing of a vehicle is known as '" + name + "'", suggest(name, known));
 }
 
 ParameterRow controller_row(const SweepController& controller, const std::string& parameter,
                             const std::string& where) {
   if (controller.words.controller.empty())
-    throw Error(where, "'" + controller.name + "' has no controller whose '" + parameter + "' could vary");
+    throw Error(where,
+                "'" + controller.name + "' has no controller whose '" + parameter + "' could vary");
   const ControlLaw& law = find_control_law(first_word(controller.words.controller), where);
   return law.parameters[row_named(law.parameters, parameter, law.name, where)];
 }
@@ -141,7 +147,9 @@ ParameterRow find_target(SweepInput& input, const SweepRequest& request, const s
 }
 
 /// Mixes numbers so that any change of any gives others (splitmix64's last step).
-std::uint64_t mixed(std::uint64_t a, std::uint64_t b) { return Random(a ^ (b * 0x9e3779b97f4a7c15)).next(); }
+std::uint64_t mixed(std::uint64_t a, std::uint64_t b) {
+  return Random(a ^ (b * 0x9e3779b97f4a7c15)).next();
+}
 
 std::uint64_t number_of(const std::string& name) {  // FNV-1a
   std::uint64_t hash = 0xcbf29ce484222325;
@@ -150,10 +158,12 @@ std::uint64_t number_of(const std::string& name) {  // FNV-1a
 }
 
 /// In the middle of its cell of 2^53, so neither 0 nor 1.
-double unit_interval(std::uint64_t bits) { return (static_cast<double>(bits >> 12) + 0.5) * 0x1.0p-52; }
+double unit_interval(std::uint64_t bits) {
+  return (static_cast<double>(bits >> 12) + 0.5) * 0x1.0p-52;
+}
 
-/// Where every drawn input stands between 0 and 1. Each has random numbers of its own by its name, so that
-/// one more does not move the others.
+/// Where every drawn input stands between 0 and 1. Each has random numbers of its own by its name,
+/// so that one more does not move the others.
 std::vector<double> drawn_shares(const SweepRequest& request, std::size_t sample) {
   std::vector<const SweepInput*> drawn;
   for (const SweepInput& input : request.inputs)
@@ -195,8 +205,8 @@ std::string with_length(const std::string& road, const SweepRequest& request) {
 
 }  // namespace
 
-SweepInput read_sweep_input(const std::string& name, const Value& value, const SweepRequest& request,
-                            bool on_grid) {
+SweepInput read_sweep_input(const std::string& name, const Value& value,
+                            const SweepRequest& request, bool on_grid) {
   SweepInput input{.name = name};
   input.on_grid = on_grid;
   if (name == "road.class") return road_classes(std::move(input), value);
@@ -230,7 +240,8 @@ SweepDraw draw_vehicle(const SweepRequest& request, std::size_t vehicle) {
   const std::size_t places = request.grid_size(), sample = vehicle / places;
   std::size_t place = vehicle % places;
   SweepDraw draw{.vehicle = vehicle};
-  draw.road_seed = request.road_seed.value_or(mixed(mixed(request.seed, sample), number_of("road")) >> 32);
+  draw.road_seed =
+      request.road_seed.value_or(mixed(mixed(request.seed, sample), number_of("road")) >> 32);
   const std::vector<double> shares = drawn_shares(request, sample);
   auto share = shares.begin();
   for (const SweepInput& input : request.inputs) {
@@ -241,12 +252,14 @@ SweepDraw draw_vehicle(const SweepRequest& request, std::size_t vehicle) {
     } else {
       draw.values.push_back(input.distribution.at(*share++));
     }
-    if (input.target == Target::RoadSeed) draw.road_seed = static_cast<std::uint64_t>(draw.values.back());
+    if (input.target == Target::RoadSeed)
+      draw.road_seed = static_cast<std::uint64_t>(draw.values.back());
   }
   return draw;
 }
 
-VehicleWords vehicle_words(const SweepRequest& request, std::size_t controller, const SweepDraw& draw) {
+VehicleWords vehicle_words(const SweepRequest& request, std::size_t controller,
+                           const SweepDraw& draw) {
   VehicleWords words = request.controllers[controller].words;
   for (std::size_t k = 0; k < request.inputs.size(); ++k) {
     const SweepInput& input = request.inputs[k];
@@ -291,8 +304,9 @@ bool varies_dampers(const SweepRequest& request, std::size_t controller) {
   return std::ranges::any_of(request.inputs, [&](const SweepInput& input) {
     return input.target == Target::Current || input.target == Target::LagRate ||
            (input.target == Target::Damper &&
-            std::ranges::any_of(request.controllers[controller].words.dampers,
-                                [&](const std::string& damper) { return input.is_told_to(damper); }));
+            std::ranges::any_of(
+                request.controllers[controller].words.dampers,
+                [&](const std::string& damper) { return input.is_told_to(damper); }));
   });
 }
 

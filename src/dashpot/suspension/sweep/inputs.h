@@ -8,10 +8,10 @@
 namespace dashpot {
 
 /// What varies under that name: "sprung_mass" of the plant, "road.speed", "damper.damping",
-/// "mix1.crossover" of a controller, "current". Reads how. The request's controllers and road are there
-/// already. Throws Error that names file and line.
-SweepInput read_sweep_input(const std::string& name, const Value& value, const SweepRequest& request,
-                            bool on_grid);
+/// "mix1.crossover" of a controller, "current". Reads how. The request's controllers and road are
+/// there already. Throws Error that names file and line.
+SweepInput read_sweep_input(const std::string& name, const Value& value,
+                            const SweepRequest& request, bool on_grid);
 
 /// One vehicle of a sweep: values of its inputs, in their order, and the seed of its road.
 struct SweepDraw {
@@ -20,12 +20,13 @@ struct SweepDraw {
   std::uint64_t road_seed = 1;
 };
 
-/// The vehicles of a request. Vehicle k depends on the request's seed and on k alone, so that more samples go
-/// on where fewer end; a sample's drawn values are the same at every place of the grid.
+/// The vehicles of a request. Vehicle k depends on the request's seed and on k alone, so that more
+/// samples go on where fewer end; a sample's drawn values are the same at every place of the grid.
 SweepDraw draw_vehicle(const SweepRequest& request, std::size_t vehicle);
 
 /// The draw in words, for one of the controllers, and its road.
-VehicleWords vehicle_words(const SweepRequest& request, std::size_t controller, const SweepDraw& draw);
+VehicleWords vehicle_words(const SweepRequest& request, std::size_t controller,
+                           const SweepDraw& draw);
 std::string road_words(const SweepRequest& request, const SweepDraw& draw);
 
 /// Whether the controller's dampers differ from vehicle to vehicle.

@@ -22,13 +22,15 @@ constexpr std::array kMeasures{
     SweepMeasure{"vibration_dose", "m/s^1.75", "Vibration dose", "VDV: fourth-power dose, by Wk",
                  &M::vibration_dose},
     SweepMeasure{"tyre_load_index", "1", "Tyre load index",
-                 "root mean square of the load that moves over the load at rest", &M::tyre_load_index},
-    SweepMeasure{"contact_lost", "1", "Contact lost", "share of the time in which some tyre has no load",
-                 &M::contact_lost},
+                 "root mean square of the load that moves over the load at rest",
+                 &M::tyre_load_index},
+    SweepMeasure{"contact_lost", "1", "Contact lost",
+                 "share of the time in which some tyre has no load", &M::contact_lost},
     SweepMeasure{"travel", "m", "Travel", "root mean square of the suspension's", &M::travel},
-    SweepMeasure{"greatest_travel", "m", "Greatest travel", "greatest magnitude of the suspension's",
-                 &M::greatest_travel},
-    SweepMeasure{"stops_met", "1", "Stops met", "share of the time in which a stop is met", &M::stops_met},
+    SweepMeasure{"greatest_travel", "m", "Greatest travel",
+                 "greatest magnitude of the suspension's", &M::greatest_travel},
+    SweepMeasure{"stops_met", "1", "Stops met", "share of the time in which a stop is met",
+                 &M::stops_met},
     SweepMeasure{"energy", "J", "Energy", "taken by the dampers", &M::energy},
     SweepMeasure{"current", "A", "Current",
                  "mean over time and dampers; V, or a place from 0 to 1, where that drives them",
@@ -49,7 +51,8 @@ double tyre_load_index(const Plant& plant, const Trace& trace, std::size_t first
   for (const Tyre& tyre : plant.tyres) {
     const std::span load = kept(trace, tyre.name + "_load", first);
     double squares = 0;
-    for (const double value : load) squares += (value - tyre.static_load) * (value - tyre.static_load);
+    for (const double value : load)
+      squares += (value - tyre.static_load) * (value - tyre.static_load);
     const double rms = std::sqrt(squares / static_cast<double>(load.size()));
     greatest = std::max(greatest, rms / tyre.static_load);
   }
@@ -57,12 +60,13 @@ double tyre_load_index(const Plant& plant, const Trace& trace, std::size_t first
 }
 
 bool has_stops(const Plant& plant) {
-  return std::ranges::any_of(plant.struts,
-                             [](const Strut& s) { return s.extension_stop > 0 || s.compression_stop > 0; });
+  return std::ranges::any_of(
+      plant.struts, [](const Strut& s) { return s.extension_stop > 0 || s.compression_stop > 0; });
 }
 
 bool has_domain(const Vehicle& vehicle) {
-  return std::ranges::any_of(vehicle.domains, [](const auto& domain) { return domain.has_value(); });
+  return std::ranges::any_of(vehicle.domains,
+                             [](const auto& domain) { return domain.has_value(); });
 }
 
 }  // namespace
@@ -75,21 +79,23 @@ RideMeasures measure_ride(const Vehicle& vehicle, const BatchResult& result, dou
   if (result.diverged_at) return {.diverged_at = *result.diverged_at};
   const Plant& plant = vehicle.set.plant;
   const BatchMeasures& m = result.measures;
-  RideMeasures measures{.body_acceleration = m.body_acceleration,
-                        .weighted_acceleration = m.weighted_acceleration,
-                        .vibration_dose = m.vibration_dose,
-                        .tyre_load_index = plant.tyres.empty() ? 0 : m.tyre_load / plant.tyres[0].static_load,
-                        .contact_lost = m.contact_lost,
-                        .travel = m.deflection,
-                        .greatest_travel = m.greatest_deflection,
-                        .stops_met = 0,
-                        .energy = m.energy,
-                        .current = m.current,
-                        .outside_data = 0};
+  RideMeasures measures{
+      .body_acceleration = m.body_acceleration,
+      .weighted_acceleration = m.weighted_acceleration,
+      .vibration_dose = m.vibration_dose,
+      .tyre_load_index = plant.tyres.empty() ? 0 : m.tyre_load / plant.tyres[0].static_load,
+      .contact_lost = m.contact_lost,
+      .travel = m.deflection,
+      .greatest_travel = m.greatest_deflection,
+      .stops_met = 0,
+      .energy = m.energy,
+      .current = m.current,
+      .outside_data = 0};
   if (!needs_trace(vehicle)) return measures;
   const Trace trace{.record = result.trace};
   const std::vector<double>& time = trace.record.time;
-  const auto first = static_cast<std::size_t>(std::ranges::lower_bound(time, discard) - time.begin());
+  const auto first =
+      static_cast<std::size_t>(std::ranges::lower_bound(time, discard) - time.begin());
   if (plant.tyres.size() > 1) measures.tyre_load_index = tyre_load_index(plant, trace, first);
   measures.stops_met = stops_met(trace.record, plant, first);
   for (const DomainUse& use : domain_use(vehicle, trace))
@@ -99,6 +105,8 @@ RideMeasures measure_ride(const Vehicle& vehicle, const BatchResult& result, dou
 
 std::span<const SweepMeasure> sweep_measures() { return kMeasures; }
 
-std::span<const SweepMeasure> judged_measures() { return std::span(kMeasures).first(kMeasures.size() - 1); }
+std::span<const SweepMeasure> judged_measures() {
+  return std::span(kMeasures).first(kMeasures.size() - 1);
+}
 
 }  // namespace dashpot

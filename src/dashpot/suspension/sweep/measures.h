@@ -4,13 +4,13 @@
 #include <span>
 #include <string_view>
 
-#include "dashpot/suspension/batch.h"
+#include "dashpot/suspension/lanes/batch.h"
 #include "dashpot/suspension/vehicle.h"
 
 namespace dashpot {
 
-/// What a ride of a sweep comes to. Of several struts and tyres the worst one counts; not a number where the
-/// ride diverged.
+/// What a ride of a sweep comes to. Of several struts and tyres the worst one counts; not a number
+/// where the ride diverged.
 struct RideMeasures {
   static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   double body_acceleration = kNone, weighted_acceleration = kNone, vibration_dose = kNone;
@@ -30,7 +30,8 @@ std::span<const SweepMeasure> sweep_measures();
 /// Those that a ride is judged by: all but the last.
 std::span<const SweepMeasure> judged_measures();
 
-/// Whether its measures take more than simulate_batch() sums up: stops, limits of data, several tyres.
+/// Whether its measures take more than simulate_batch() sums up: stops, limits of data, several
+/// tyres.
 bool needs_trace(const Vehicle& vehicle);
 /// Of what happened from `discard` s on; with the trace where it is needed.
 RideMeasures measure_ride(const Vehicle& vehicle, const BatchResult& result, double discard);

@@ -53,14 +53,16 @@ SensorOptions read_sensors(const Value& value) {
   SensorOptions sensors;
   if (value.kind() == Value::Kind::String) {
     if (value.as_string() != "in_car" && value.as_string() != "ideal")
-      throw Error(value.where(), "unknown sensors '" + value.as_string() + "'", "ideal, in_car or {...}");
+      throw Error(value.where(), "unknown sensors '" + value.as_string() + "'",
+                  "ideal, in_car or {...}");
     sensors.in_car = value.as_string() == "in_car";
     return sensors;
   }
   ObjectReader reader(value, "sensors");
   sensors.in_car = reader.boolean("in_car", true);
   read_into(reader, {"acceleration_noise", "m/s^2", 0, 0, 100}, sensors.acceleration_noise);
-  read_into(reader, {"acceleration_resolution", "m/s^2", 0, 0, 100}, sensors.acceleration_resolution);
+  read_into(reader, {"acceleration_resolution", "m/s^2", 0, 0, 100},
+            sensors.acceleration_resolution);
   read_into(reader, {"deflection_noise", "m", 0, 0, 1}, sensors.deflection_noise);
   read_into(reader, {"deflection_resolution", "m", 0, 0, 1}, sensors.deflection_resolution);
   read_into(reader, {"delay", "s", 0, 0, 1}, sensors.delay);
@@ -92,16 +94,17 @@ void read_words(ObjectReader& reader, VehicleWords& words, const fs::path& folde
 
 void read_values(const Value& value, VehicleWords& words) {
   for (const auto& [name, member] : value.members())
-    words.values.push_back(
-        name + '=' +
-        (member.kind() == Value::Kind::Number ? format_exact(member.as_number()) : member.as_string()));
+    words.values.push_back(name + '=' +
+                           (member.kind() == Value::Kind::Number ? format_exact(member.as_number())
+                                                                 : member.as_string()));
 }
 
 std::vector<SweepController> read_controllers(const Value& value, const VehicleWords& common,
                                               const fs::path& folder) {
   std::vector<SweepController> controllers;
   for (const auto& [name, member] : value.members()) {
-    if (name.empty() || name == "road" || name == "damper" || name.find_first_of(".,\"") != std::string::npos)
+    if (name.empty() || name == "road" || name == "damper" ||
+        name.find_first_of(".,\"") != std::string::npos)
       throw Error(member.where(), "'" + name + "' cannot be the name of a controller",
                   "a word of its own, as passive");
     SweepController controller{name, common};
@@ -111,7 +114,8 @@ std::vector<SweepController> read_controllers(const Value& value, const VehicleW
     controllers.push_back(std::move(controller));
   }
   if (controllers.empty())
-    throw Error(value.where(), "there is no controller", "controllers: {skyhook: {controller: skyhook}}");
+    throw Error(value.where(), "there is no controller",
+                "controllers: {skyhook: {controller: skyhook}}");
   return controllers;
 }
 
@@ -141,7 +145,8 @@ void read_drawing(ObjectReader& reader, SweepRequest& request) {
   if (const Value* value = reader.optional("drawing")) {
     const std::string& name = value->as_string();
     if (name != "sobol" && name != "plain")
-      throw Error(value->where(), "unknown drawing '" + name + "'", suggest(name, {"sobol", "plain"}));
+      throw Error(value->where(), "unknown drawing '" + name + "'",
+                  suggest(name, {"sobol", "plain"}));
     request.drawing = name == "sobol" ? SweepRequest::Drawing::Sobol : SweepRequest::Drawing::Plain;
   }
   if (reader.optional("road_seed")) read_count(reader, kRoadSeed, request.road_seed.emplace());
@@ -156,7 +161,8 @@ void require_consistent(const SweepRequest& request, const std::string& source) 
            (input.target == SweepInput::Target::Road && input.parameter == "roughness");
   };
   if (std::ranges::count_if(request.inputs, is_road) > 1)
-    throw Error(source, "both road.class and road.roughness vary, which are the same", "one of them");
+    throw Error(source, "both road.class and road.roughness vary, which are the same",
+                "one of them");
 }
 
 }  // namespace

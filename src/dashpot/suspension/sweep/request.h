@@ -22,7 +22,7 @@ struct SweepInput {
   std::string unit, meaning;
   Distribution distribution;
   std::vector<std::string> words;  ///< what the values 0, 1 ... stand for: "B", "C"; empty: numbers
-  bool on_grid = false;            ///< every value with every sample, instead of one drawn per sample
+  bool on_grid = false;  ///< every value with every sample, instead of one drawn per sample
 
   std::string description() const;
   bool is_told_to(const std::string& damper) const;
@@ -49,17 +49,18 @@ struct SweepRequest {
   std::size_t samples = 1000;
   std::uint64_t seed = 1;
   Drawing drawing = Drawing::Sobol;
-  double duration = 30;         ///< s
-  double discard = 5;           ///< s at the begin, which measures leave out
-  double outside_limit = 0.05;  ///< share of the time outside a damper's data from which on a run is flagged
+  double duration = 30;  ///< s
+  double discard = 5;    ///< s at the begin, which measures leave out
+  double outside_limit =
+      0.05;  ///< share of the time outside a damper's data from which on a run is flagged
   double relative_tolerance = 1e-6;
 
   std::size_t grid_size() const;  ///< vehicles per sample
   std::size_t vehicles() const { return samples * grid_size(); }
 };
 
-/// YAML as docs/sweep.md describes; `folder`: where files that it names are looked for. Throws Error that
-/// names file and line.
+/// YAML as docs/sweep.md describes; `folder`: where files that it names are looked for. Throws
+/// Error that names file and line.
 SweepRequest parse_sweep(std::string_view text, const std::string& source,
                          const std::filesystem::path& folder = {});
 SweepRequest load_sweep(const std::filesystem::path& path);

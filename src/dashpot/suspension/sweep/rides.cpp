@@ -5,8 +5,8 @@
 #include <span>
 
 #include "dashpot/base/error.h"
-#include "dashpot/suspension/batch.h"
 #include "dashpot/suspension/ground/ground_sequences.h"
+#include "dashpot/suspension/lanes/batch.h"
 
 namespace dashpot {
 namespace {
@@ -17,7 +17,8 @@ void require_ground(const GroundMotion& ground, const Plant& plant, const SweepR
   if (plant.tyres.empty() && !ground.shakes())
     throw Error(request.source, "'" + request.road + "' moves no building", "earthquake,file=...");
   if (plant.ground.empty() && ground.shakes())
-    throw Error(request.source, "'" + request.road + "' shakes buildings, not the " + plant.name, "a road");
+    throw Error(request.source, "'" + request.road + "' shakes buildings, not the " + plant.name,
+                "a road");
 }
 
 GroundPointer make_road(const SweepRequest& request, const SweepDraw& draw) {
@@ -38,7 +39,8 @@ SweepRider::SweepRider(const SweepRequest& request) : request_(request) {
   require_ground(*make_road(request, first), examples_.front().set.plant, request);
 }
 
-/// Dampers that are those of every vehicle are shared: their models are large, and their limits take work.
+/// Dampers that are those of every vehicle are shared: their models are large, and their limits
+/// take work.
 Vehicle SweepRider::make(const Task& task, const SweepDraw& draw) const {
   const VehicleWords words = vehicle_words(request_, task.controller, draw);
   if (varies_dampers(request_, task.controller)) return make_vehicle(words);
@@ -52,11 +54,13 @@ Vehicle SweepRider::make(const Task& task, const SweepDraw& draw) const {
                   .limits = example.limits,
                   .sensors = words.sensors};
   if (example.controller)
-    vehicle.controller = make_controller(words.controller, {vehicle.limits, vehicle.set.plant}, words.where);
+    vehicle.controller =
+        make_controller(words.controller, {vehicle.limits, vehicle.set.plant}, words.where);
   return vehicle;
 }
 
-std::vector<SweepStore::Ride> SweepRider::ride(const std::vector<Task>& tasks, const Monitor& monitor) const {
+std::vector<SweepStore::Ride> SweepRider::ride(const std::vector<Task>& tasks,
+                                               const Monitor& monitor) const {
   std::map<std::size_t, GroundPointer> grounds;  // a vehicle's controllers meet the same road
   std::vector<Vehicle> vehicles;
   vehicles.reserve(tasks.size());
@@ -78,11 +82,12 @@ std::vector<SweepStore::Ride> SweepRider::ride(const std::vector<Task>& tasks, c
   std::vector<SweepStore::Ride> rides;
   for (std::size_t first = 0; first < tasks.size(); first += most) {
     const std::size_t count = std::min(most, tasks.size() - first);
-    const std::vector<BatchResult> results = simulate_batch(std::span(batch).subspan(first, count), options);
+    const std::vector<BatchResult> results =
+        simulate_batch(std::span(batch).subspan(first, count), options);
     for (std::size_t k = 0; k < count; ++k) {
       const Task& task = tasks[first + k];
-      rides.push_back(
-          {task.controller, task.vehicle, measure_ride(vehicles[first + k], results[k], request_.discard)});
+      rides.push_back({task.controller, task.vehicle,
+                       measure_ride(vehicles[first + k], results[k], request_.discard)});
     }
   }
   return rides;

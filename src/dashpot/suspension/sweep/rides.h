@@ -8,11 +8,12 @@
 
 namespace dashpot {
 
-/// Makes vehicles of a request and drives them over their roads, some at a time. Immutable once made.
+/// Makes vehicles of a request and drives them over their roads, some at a time. Immutable once
+/// made.
 class SweepRider {
  public:
-  /// Tries every controller with the first vehicle. Throws Error on words that nothing is known by and on
-  /// parts that do not fit together.
+  /// Tries every controller with the first vehicle. Throws Error on words that nothing is known by
+  /// and on parts that do not fit together.
   explicit SweepRider(const SweepRequest& request);
 
   /// Which vehicle under which controller.

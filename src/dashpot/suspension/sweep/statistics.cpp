@@ -19,7 +19,8 @@ std::vector<double> ranks(const std::vector<double>& values) {
   for (std::size_t first = 0; first < order.size();) {
     std::size_t last = first;
     while (last < order.size() && values[order[last]] == values[order[first]]) ++last;
-    for (std::size_t k = first; k < last; ++k) result[order[k]] = 0.5 * static_cast<double>(first + 1 + last);
+    for (std::size_t k = first; k < last; ++k)
+      result[order[k]] = 0.5 * static_cast<double>(first + 1 + last);
     first = last;
   }
   return result;
@@ -48,7 +49,8 @@ Quantile quantile_of(std::span<const double> sorted, double share) {
   Quantile quantile{.value = sorted[below]};
   if (below + 1 < count)
     quantile.value += (place - static_cast<double>(below)) * (sorted[below + 1] - sorted[below]);
-  // Of `count` values, B lie below the quantile, B binomial: x_(j) is above it with P(B < j), rank j from 1.
+  // Of `count` values, B lie below the quantile, B binomial: x_(j) is above it with P(B < j), rank
+  // j from 1.
   const boost::math::binomial_distribution<> below_it(static_cast<double>(count), share);
   const double tail = 0.5 * (1 - kSweepConfidence);
   auto j = static_cast<std::size_t>(boost::math::quantile(below_it, tail)) + 1;
@@ -97,7 +99,8 @@ double chance_correlation(std::size_t pairs) {
   return pairs > 1 ? std::min(1.0, z / std::sqrt(static_cast<double>(pairs - 1))) : 1;
 }
 
-std::vector<double> measure_values(const Sweep& sweep, std::size_t controller, const SweepMeasure& measure) {
+std::vector<double> measure_values(const Sweep& sweep, std::size_t controller,
+                                   const SweepMeasure& measure) {
   std::vector<double> values;
   for (const RideMeasures& ride : sweep.rides[controller]) values.push_back(ride.*measure.field);
   return values;
@@ -109,7 +112,8 @@ std::vector<double> input_values(const Sweep& sweep, std::size_t input) {
   return values;
 }
 
-std::vector<double> baseline_ratios(const Sweep& sweep, std::size_t controller, const SweepMeasure& measure) {
+std::vector<double> baseline_ratios(const Sweep& sweep, std::size_t controller,
+                                    const SweepMeasure& measure) {
   std::vector<double> ratios = measure_values(sweep, controller, measure);
   const std::vector<double> base = measure_values(sweep, sweep.request.baseline, measure);
   for (std::size_t k = 0; k < ratios.size(); ++k) ratios[k] /= base[k];  // 0 / 0: neither does

@@ -15,11 +15,12 @@ constexpr double kSweepConfidence = 0.95;
 /// The value below which a share of all vehicles lies, told from some of them.
 struct Quantile {
   double value = 0;
-  /// Where it lies with kSweepConfidence, whatever the distribution: order statistics at binomial ranks. None
-  /// where there are too few values.
+  /// Where it lies with kSweepConfidence, whatever the distribution: order statistics at binomial
+  /// ranks. None where there are too few values.
   std::optional<double> low, high;
 };
-/// sorted: rising, not empty. Between order statistics in a straight line (Hyndman and Fan's type 7).
+/// sorted: rising, not empty. Between order statistics in a straight line (Hyndman and Fan's type
+/// 7).
 Quantile quantile_of(std::span<const double> sorted, double share);
 
 /// The finite ones, rising.
@@ -34,17 +35,19 @@ struct SweepSpread {
 /// Nothing where no value is finite.
 std::optional<SweepSpread> spread_of(std::vector<double> values);
 
-/// Spearman's: how monotonously y follows x, -1 ... 1. Pairs with a number that is not finite do not count;
-/// nothing with fewer than 3 pairs or where one of the two does not vary.
+/// Spearman's: how monotonously y follows x, -1 ... 1. Pairs with a number that is not finite do
+/// not count; nothing with fewer than 3 pairs or where one of the two does not vary.
 std::optional<double> rank_correlation(std::span<const double> x, std::span<const double> y);
 /// Magnitude that chance reaches with a probability of 1 - kSweepConfidence at most.
 double chance_correlation(std::size_t pairs);
 
 /// Values of a sweep, by vehicle.
-std::vector<double> measure_values(const Sweep& sweep, std::size_t controller, const SweepMeasure& measure);
+std::vector<double> measure_values(const Sweep& sweep, std::size_t controller,
+                                   const SweepMeasure& measure);
 std::vector<double> input_values(const Sweep& sweep, std::size_t input);
 /// The measure over the baseline's, vehicle by vehicle.
-std::vector<double> baseline_ratios(const Sweep& sweep, std::size_t controller, const SweepMeasure& measure);
+std::vector<double> baseline_ratios(const Sweep& sweep, std::size_t controller,
+                                    const SweepMeasure& measure);
 std::size_t diverged_rides(const Sweep& sweep, std::size_t controller);
 
 }  // namespace dashpot

@@ -25,8 +25,9 @@ std::string with_files(const std::string& text) {
 std::string sensor_text(const SensorOptions& s) {
   if (!s.in_car) return "ideal";
   std::string text = "in a car";
-  for (const double figure : {s.acceleration_noise, s.acceleration_resolution, s.deflection_noise,
-                              s.deflection_resolution, s.delay, s.integration_corner, s.derivative_corner})
+  for (const double figure :
+       {s.acceleration_noise, s.acceleration_resolution, s.deflection_noise,
+        s.deflection_resolution, s.delay, s.integration_corner, s.derivative_corner})
     text += ' ' + format_exact(figure);
   return text;
 }
@@ -75,7 +76,8 @@ NamedTexts basis_of(const SweepRequest& request, const std::string& program) {
 
 ResultKind kind() {
   std::string tables = "CREATE TABLE ride (controller TEXT NOT NULL, vehicle INTEGER NOT NULL";
-  for (const SweepMeasure& measure : sweep_measures()) tables += ", " + std::string(measure.name) + " REAL";
+  for (const SweepMeasure& measure : sweep_measures())
+    tables += ", " + std::string(measure.name) + " REAL";
   return {"sweep", 1, tables + ", PRIMARY KEY (vehicle, controller)) STRICT, WITHOUT ROWID;"};
 }
 
@@ -84,7 +86,8 @@ ResultKind kind() {
 SweepStore::SweepStore(const std::filesystem::path& path, const SweepRequest& request,
                        const std::string& program)
     : vehicles_(request.vehicles()), file_(path, kind(), basis_of(request, program)) {
-  for (const SweepController& controller : request.controllers) keys_.push_back(key_of(controller.words));
+  for (const SweepController& controller : request.controllers)
+    keys_.push_back(key_of(controller.words));
 }
 
 void SweepStore::remove(const std::filesystem::path& path) { ResultFile::remove(path, kind()); }
@@ -99,7 +102,8 @@ std::vector<SweepStore::Ride> SweepStore::load() const {
       Ride ride{.vehicle = static_cast<std::size_t>(select.getColumn(1).getInt64())};
       int column = 2;
       for (const SweepMeasure& measure : sweep_measures()) {
-        const SQLite::Column value = select.getColumn(column++);  // SQLite keeps not-a-number as null
+        const SQLite::Column value =
+            select.getColumn(column++);  // SQLite keeps not-a-number as null
         ride.measures.*measure.field =
             value.isNull() ? std::numeric_limits<double>::quiet_NaN() : value.getDouble();
       }

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "dashpot/identify/result_file.h"
+#include "dashpot/base/result_file.h"
 #include "dashpot/suspension/sweep/measures.h"
 #include "dashpot/suspension/sweep/request.h"
 
@@ -14,9 +14,10 @@ namespace dashpot {
 /// controllers of the same sweep go into the same file. Safe from several threads.
 class SweepStore {
  public:
-  /// program: what tells one build of the program from the next. Throws Error when the file holds another
-  /// sweep, naming what differs.
-  SweepStore(const std::filesystem::path& path, const SweepRequest& request, const std::string& program);
+  /// program: what tells one build of the program from the next. Throws Error when the file holds
+  /// another sweep, naming what differs.
+  SweepStore(const std::filesystem::path& path, const SweepRequest& request,
+             const std::string& program);
   /// Throws away what the file holds. Throws Error when it is in use.
   static void remove(const std::filesystem::path& path);
 

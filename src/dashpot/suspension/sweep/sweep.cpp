@@ -11,7 +11,8 @@
 namespace dashpot {
 namespace {
 
-constexpr std::size_t kBlock = 32;  // vehicles, under all controllers: lanes are full, a kill loses little
+constexpr std::size_t kBlock =
+    32;  // vehicles, under all controllers: lanes are full, a kill loses little
 
 using Tasks = std::vector<SweepRider::Task>;
 
@@ -69,10 +70,12 @@ Sweep sweep(const SweepRequest& request, SweepStore& store, const SweepOptions& 
     options.monitor.check();
     const std::vector<SweepStore::Ride> rides = rider.ride(blocks[b], options.monitor);
     store.save(rides);
-    for (const SweepStore::Ride& ride : rides) result.rides[ride.controller][ride.vehicle] = ride.measures;
+    for (const SweepStore::Ride& ride : rides)
+      result.rides[ride.controller][ride.vehicle] = ride.measures;
     tally.add(rides.size());
   });
-  result.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  result.wall_seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return result;
 }
 

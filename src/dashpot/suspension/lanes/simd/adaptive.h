@@ -4,8 +4,8 @@
 namespace dashpot {
 namespace {
 
-/// The method of Dormand and Prince, order 5 with an error of order 4 (J. Comput. Appl. Math. 6 (1980) 19),
-/// every lane in steps of its own length.
+/// The method of Dormand and Prince, order 5 with an error of order 4 (J. Comput. Appl. Math. 6
+/// (1980) 19), every lane in steps of its own length.
 template <class Damper, std::size_t kLags>
 class AdaptiveSteps {
   using Car = QuarterCarLanes<Damper>;
@@ -17,7 +17,8 @@ class AdaptiveSteps {
   };
 
  public:
-  AdaptiveSteps(const LaneRide& ride, Car& car) : ride_(ride), car_(car), next_(all(ride.sample_time)) {}
+  AdaptiveSteps(const LaneRide& ride, Car& car)
+      : ride_(ride), car_(car), next_(all(ride.sample_time)) {}
 
   /// Forces at the begin of a sample, after the command has changed in some lanes.
   [[gnu::noinline, gnu::flatten]] void refresh(const State& state, Lane command, LaneMask changed,
@@ -62,7 +63,8 @@ class AdaptiveSteps {
     const Lane* x = s.x;
     if constexpr (kLags > 0) car_.damper.set_current(s.currents.inner);
     if constexpr (kLags == 1)
-      out.d[4 + kStates] = (car_.numbers.driver_lag + car_.numbers.model_lag) * (command - s.currents.inner);
+      out.d[4 + kStates] =
+          (car_.numbers.driver_lag + car_.numbers.model_lag) * (command - s.currents.inner);
     if constexpr (kLags == 2) {
       out.d[4 + kStates] = car_.numbers.model_lag * (s.currents.coil - s.currents.inner);
       out.d[5 + kStates] = car_.numbers.driver_lag * (command - s.currents.coil);
@@ -92,29 +94,33 @@ class AdaptiveSteps {
   static void take(State& state, const State& end, LaneMask accepted) {
     for (std::size_t k = 0; k < 4; ++k) state.x[k] = accepted ? end.x[k] : state.x[k];
     for (std::size_t k = 0; k < kStates; ++k) state.z[k] = accepted ? end.z[k] : state.z[k];
-    if constexpr (kLags > 0) state.currents.inner = accepted ? end.currents.inner : state.currents.inner;
-    if constexpr (kLags > 1) state.currents.coil = accepted ? end.currents.coil : state.currents.coil;
+    if constexpr (kLags > 0)
+      state.currents.inner = accepted ? end.currents.inner : state.currents.inner;
+    if constexpr (kLags > 1)
+      state.currents.coil = accepted ? end.currents.coil : state.currents.coil;
   }
 
   /// A step of length h from `begin` (share of the sample) on; its error in tolerances.
-  [[gnu::noinline, gnu::flatten]] Lane attempt(const State& from, Lane h, Lane command, const RoadPush& road,
-                                               Lane begin, State& end, Slope& k7) {
+  [[gnu::noinline, gnu::flatten]] Lane attempt(const State& from, Lane h, Lane command,
+                                               const RoadPush& road, Lane begin, State& end,
+                                               Slope& k7) {
     const Lane share = h / ride_.sample_time;
     const Slope& k1 = first_;
     const auto at = [&](double c) { return road.at(begin + c * share); };
     State trial;
     each_of(from, trial, [&](Lane y, std::size_t k) { return y + h * (0.2 * k1.d[k]); });
     const Slope k2 = slope(trial, command, at(0.2));
-    each_of(from, trial,
-            [&](Lane y, std::size_t k) { return y + h * (3.0 / 40 * k1.d[k] + 9.0 / 40 * k2.d[k]); });
+    each_of(from, trial, [&](Lane y, std::size_t k) {
+      return y + h * (3.0 / 40 * k1.d[k] + 9.0 / 40 * k2.d[k]);
+    });
     const Slope k3 = slope(trial, command, at(0.3));
     each_of(from, trial, [&](Lane y, std::size_t k) {
       return y + h * (44.0 / 45 * k1.d[k] - 56.0 / 15 * k2.d[k] + 32.0 / 9 * k3.d[k]);
     });
     const Slope k4 = slope(trial, command, at(0.8));
     each_of(from, trial, [&](Lane y, std::size_t k) {
-      return y + h * (19372.0 / 6561 * k1.d[k] - 25360.0 / 2187 * k2.d[k] + 64448.0 / 6561 * k3.d[k] -
-                      212.0 / 729 * k4.d[k]);
+      return y + h * (19372.0 / 6561 * k1.d[k] - 25360.0 / 2187 * k2.d[k] +
+                      64448.0 / 6561 * k3.d[k] - 212.0 / 729 * k4.d[k]);
     });
     const Slope k5 = slope(trial, command, at(8.0 / 9));
     each_of(from, trial, [&](Lane y, std::size_t k) {
@@ -135,14 +141,15 @@ class AdaptiveSteps {
     return distance(from, end, off, k1, h);
   }
 
-  /// Heights are measured against each other, and so are speeds; damper and currents one by one, each against
-  /// what it is and what it moves by.
-  Lane distance(const State& from, const State& end, const State& off, const Slope& k1, Lane h) const {
+  /// Heights are measured against each other, and so are speeds; damper and currents one by one,
+  /// each against what it is and what it moves by.
+  Lane distance(const State& from, const State& end, const State& off, const Slope& k1,
+                Lane h) const {
     const double absolute = ride_.absolute_tolerance, relative = ride_.relative_tolerance;
     const auto of = [&](Lane error, Lane size) { return error / (absolute + relative * size); };
     const auto pair = [&](std::size_t k) {
-      const Lane size =
-          fmax(fmax(fabs(from.x[k]), fabs(from.x[k + 1])), fmax(fabs(end.x[k]), fabs(end.x[k + 1])));
+      const Lane size = fmax(fmax(fabs(from.x[k]), fabs(from.x[k + 1])),
+                             fmax(fabs(end.x[k]), fabs(end.x[k + 1])));
       return of(fmax(fabs(off.x[k]), fabs(off.x[k + 1])), size);
     };
     Lane greatest = fmax(pair(0), pair(2));

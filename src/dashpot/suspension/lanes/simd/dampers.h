@@ -5,8 +5,8 @@
 namespace dashpot {
 namespace {
 
-/// A static network, one set of weights per lane. The current's part of the first layer is added up once for
-/// all motions at that current.
+/// A static network, one set of weights per lane. The current's part of the first layer is added up
+/// once for all motions at that current.
 class NetworkLanes {
  public:
   static constexpr std::size_t kStates = 0;
@@ -32,7 +32,8 @@ class NetworkLanes {
   }
   void derivative(Lane, Lane, const Lane*, Lane*) const {}
 
-  [[gnu::noinline]] Lane force(Lane x, Lane v, const Lane*) const {  // too long to have six times in a step
+  [[gnu::noinline]] Lane force(Lane x, Lane v,
+                               const Lane*) const {  // too long to have six times in a step
     if (by_displacement_ == kNone)
       return respond([&](std::size_t n) { return biases_[n] + weight(n, by_velocity_) * v; });
     if (by_velocity_ == kNone)
@@ -58,7 +59,8 @@ class NetworkLanes {
                    behind(layer, weights_));
     Lane room[2][kMaxWidth];
     with_activation(layer.activation, [&]<Activation kKind>() {
-      for (std::size_t n = 0; n < layer.outputs; ++n) room[0][n] = activated<kKind, double>(first(n));
+      for (std::size_t n = 0; n < layer.outputs; ++n)
+        room[0][n] = activated<kKind, double>(first(n));
     });
     return respond_behind(room);
   }
@@ -100,11 +102,14 @@ class NetworkLanes {
     return all_ones_ - 2 * fractions;
   }
   static Lane ended(const LaneNetwork::Layer& last, Lane sum, const double* weights) {
-    with_activation(last.activation, [&]<Activation kKind>() { sum = activated<kKind, double>(sum); });
+    with_activation(last.activation,
+                    [&]<Activation kKind>() { sum = activated<kKind, double>(sum); });
     return raw(sum, behind(last, weights));
   }
   /// In raw units: scale and mean stand behind the last layer's weights.
-  static Lane raw(Lane output, const double* scale) { return load(scale) * output + load(scale + kWidth); }
+  static Lane raw(Lane output, const double* scale) {
+    return load(scale) * output + load(scale + kWidth);
+  }
 
   const LaneNetwork& shape_;
   const double* weights_;
@@ -135,8 +140,8 @@ class LawLanes {
       const double* at = by_power_ + k * kWidth;
       constexpr std::size_t kStep = kParameters * kWidth;
       const Lane value =
-          load(at) +
-          current * (load(at + kStep) + current * (load(at + 2 * kStep) + current * load(at + 3 * kStep)));
+          load(at) + current * (load(at + kStep) +
+                                current * (load(at + 2 * kStep) + current * load(at + 3 * kStep)));
       __builtin_memcpy(reinterpret_cast<char*>(&law_) + k * sizeof value, &value, sizeof value);
     }
   }

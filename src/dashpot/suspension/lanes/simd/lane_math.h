@@ -1,8 +1,8 @@
 #pragma once
-#include "dashpot/damper/neural/simd/activations.h"
+#include "dashpot/damper/nets/simd/activations.h"
 
-// What the text of a damper law calls, for lanes. Where a lane's function is not worth vector code, the
-// library's own is called for each.
+// What the text of a damper law calls, for lanes. Where a lane's function is not worth vector code,
+// the library's own is called for each.
 namespace dashpot {
 namespace {
 
@@ -29,7 +29,9 @@ inline bool any(LaneMask mask) {
 /// a < b ? a : b, so b where one of them is a NaN.
 #if DASHPOT_LANE_BYTES == 64
 inline Lane smaller(Lane a, Lane b) { return _mm512_maskz_min_pd(0xFF, a, b); }
-inline Lanes<float> smaller(Lanes<float> a, Lanes<float> b) { return _mm512_maskz_min_ps(0xFFFF, a, b); }
+inline Lanes<float> smaller(Lanes<float> a, Lanes<float> b) {
+  return _mm512_maskz_min_ps(0xFFFF, a, b);
+}
 #elif DASHPOT_LANE_BYTES == 32
 inline Lane smaller(Lane a, Lane b) { return _mm256_min_pd(a, b); }
 inline Lanes<float> smaller(Lanes<float> a, Lanes<float> b) { return _mm256_min_ps(a, b); }
@@ -48,7 +50,9 @@ inline Lane fmax(double a, Lane b) { return larger(all(a), b); }
 inline Lane fmin(Lane a, Lane b) { return smaller(a, b); }
 inline Lane fmin(Lane a, double b) { return fmin(a, all(b)); }
 inline Lane fmin(double a, Lane b) { return fmin(all(a), b); }
-inline Lane fabs(Lane x) { return __builtin_bit_cast(Lane, __builtin_bit_cast(LaneMask, x) & INT64_MAX); }
+inline Lane fabs(Lane x) {
+  return __builtin_bit_cast(Lane, __builtin_bit_cast(LaneMask, x) & INT64_MAX);
+}
 inline Lane sqrt(Lane x) { return root(x); }
 inline Lane tanh(Lane x) { return tanh_lanes<double>(x); }
 
@@ -70,21 +74,22 @@ inline Lane pow(Lane base, Lane power) {
   return base;
 }
 
-/// 2^r, |r| at most 1/2: a polynomial that meets it where Chebyshev's has zeros. Even and odd powers by
-/// themselves: what counts is how long one takes.
+/// 2^r, |r| at most 1/2: a polynomial that meets it where Chebyshev's has zeros. Even and odd
+/// powers by themselves: what counts is how long one takes.
 inline Lane power_of_two(Lane r) {
   const Lane square = r * r;
   const Lane even =
-      (((1.325964524488711e-06 * square + 0.0001540343375125101) * square + 0.009618129193934313) * square +
+      (((1.325964524488711e-06 * square + 0.0001540343375125101) * square + 0.009618129193934313) *
+           square +
        0.2402265069564034) *
           square +
       1;
-  const Lane odd =
-      (((1.0205905413765595e-07 * square + 1.5252672924850737e-05) * square + 0.0013333558200794592) *
-           square +
-       0.05550410866465167) *
-          square +
-      0.6931471805599462;
+  const Lane odd = (((1.0205905413765595e-07 * square + 1.5252672924850737e-05) * square +
+                     0.0013333558200794592) *
+                        square +
+                    0.05550410866465167) *
+                       square +
+                   0.6931471805599462;
   return odd * r + even;
 }
 inline Lanes<float> power_of_two(Lanes<float> r) {
@@ -99,7 +104,8 @@ template <class Real>
 [[gnu::always_inline]] inline Lanes<Real> exp_of_twice(Lanes<Real> x) {
   using A = Arithmetic<Real>;
   using V = Lanes<Real>;
-  constexpr Real kTwoLog2E = static_cast<Real>(2.88539008177792681472), kRound = A::kRound + A::kBias;
+  constexpr Real kTwoLog2E = static_cast<Real>(2.88539008177792681472),
+                 kRound = A::kRound + A::kBias;
   const V y = larger(V{} - A::kTanhOne, smaller(V{} + A::kTanhOne, x));  // a NaN passes
   const V shifted = y * kTwoLog2E + kRound;
   const auto bits = __builtin_bit_cast(typename LaneTypes<Real>::Integers, shifted) << A::kMantissa;

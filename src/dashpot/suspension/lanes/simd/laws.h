@@ -1,8 +1,8 @@
 #pragma once
 #include "dashpot/suspension/lanes/simd/dampers.h"
 
-// The laws' own text once more, with a number per lane for each double. It includes nothing but math.h, which
-// is here already, so that nothing else sees this.
+// The laws' own text once more, with a number per lane for each double. It includes nothing but
+// math.h, which is here already, so that nothing else sees this.
 #include <math.h>
 #define DASHPOT_LAW_IN_LANES
 #define double Lane

@@ -4,7 +4,8 @@
 namespace dashpot {
 namespace {
 
-/// The driver's current in the coil, and the one that drives the model behind one or both of their lags.
+/// The driver's current in the coil, and the one that drives the model behind one or both of their
+/// lags.
 struct Currents {
   Lane coil{}, inner{};
 };
@@ -27,7 +28,9 @@ class QuarterCarLanes {
       : damper(ride), numbers(*reinterpret_cast<const Numbers*>(ride.numbers)), ride_(ride) {}
 
   /// Force of the damper at its present current, N.
-  Lane damper_force(const Lane* x, const Lane* z) const { return damper.force(x[0] - x[1], x[2] - x[3], z); }
+  Lane damper_force(const Lane* x, const Lane* z) const {
+    return damper.force(x[0] - x[1], x[2] - x[3], z);
+  }
   /// What else acts along the strut.
   Lane strut_extra(const Lane* x) const {
     if (!ride_.resists_more) return Lane{};
@@ -35,14 +38,16 @@ class QuarterCarLanes {
     const Lane stopped = d > numbers.extension_stop      ? d - numbers.extension_stop
                          : d < -numbers.compression_stop ? d + numbers.compression_stop
                                                          : Lane{};
-    return numbers.friction * tanh(numbers.friction_slope * (x[2] - x[3])) + numbers.stop_stiffness * stopped;
+    return numbers.friction * tanh(numbers.friction_slope * (x[2] - x[3])) +
+           numbers.stop_stiffness * stopped;
   }
   /// Force of a tyre by the road alone, of a given height and rate.
   Lane push(Lane height, Lane rate) const {
     return numbers.tyre_stiffness * height + numbers.tyre_damping * rate;
   }
   Lane tyre_load(const Lane* x, Lane pushed) const {
-    return numbers.static_load + pushed - numbers.tyre_stiffness * x[1] - numbers.tyre_damping * x[3];
+    return numbers.static_load + pushed - numbers.tyre_stiffness * x[1] -
+           numbers.tyre_damping * x[3];
   }
   /// The same where the tyre lets go instead of pulling.
   Lane push_on_wheel(const Lane* x, Lane pushed) const {
@@ -56,7 +61,9 @@ class QuarterCarLanes {
            (numbers.by_force[k] * strut + numbers.by_push[k] * pushed);
   }
   /// The current that drives the damper.
-  Lane driving(const Currents& currents) const { return ride_.lags > 0 ? currents.inner : currents.coil; }
+  Lane driving(const Currents& currents) const {
+    return ride_.lags > 0 ? currents.inner : currents.coil;
+  }
 
   Damper damper;
   using Numbers = QuarterCarNumbers<Lane>;
@@ -66,12 +73,13 @@ class QuarterCarLanes {
   const LaneRide& ride_;
 };
 
-/// The road's push within a sample: a parabola through its begin, middle and end and, so that its slopes
-/// there are the road's, twist u (u - 1/2) (u - 1), u = 0 ... 1.
+/// The road's push within a sample: a parabola through its begin, middle and end and, so that its
+/// slopes there are the road's, twist u (u - 1/2) (u - 1), u = 0 ... 1.
 struct RoadPush {
   Lane node[3]{}, twist{};
   Lane at(Lane u) const {
-    const Lane slope = 4 * node[1] - 3 * node[0] - node[2], bend = 2 * (node[0] + node[2]) - 4 * node[1];
+    const Lane slope = 4 * node[1] - 3 * node[0] - node[2],
+               bend = 2 * (node[0] + node[2]) - 4 * node[1];
     return node[0] + u * (slope + u * bend + (u - 0.5) * (u - 1) * twist);
   }
   /// Terms of its series around u.

@@ -20,9 +20,11 @@ void run_with(const LaneRide& ride) {
   }
 }
 
-constexpr double kFinestOfFloats = 5e-7;  ///< the tolerance above which a force may be of single precision
+constexpr double kFinestOfFloats =
+    5e-7;  ///< the tolerance above which a force may be of single precision
 
-/// Whether a network's force is a function of velocity alone that TanhNeurons have, and all else is smooth.
+/// Whether a network's force is a function of velocity alone that TanhNeurons have, and all else is
+/// smooth.
 bool has_series(const LaneRide& ride) {
   const LaneNetwork& network = *ride.network;
   bool by_velocity = false, by_displacement = false;
@@ -30,8 +32,8 @@ bool has_series(const LaneRide& ride) {
     by_velocity = by_velocity || network.inputs[i] == 1;
     by_displacement = by_displacement || network.inputs[i] == 0;
   }
-  return by_velocity && !by_displacement && ride.lags == 0 && !ride.resists_more && network.count == 2 &&
-         network.layers[0].activation == Activation::Tanh &&
+  return by_velocity && !by_displacement && ride.lags == 0 && !ride.resists_more &&
+         network.count == 2 && network.layers[0].activation == Activation::Tanh &&
          network.layers[1].activation == Activation::Identity;
 }
 

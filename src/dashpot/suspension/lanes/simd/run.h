@@ -5,8 +5,8 @@
 namespace dashpot {
 namespace {
 
-/// From rest, sample by sample. Each lane goes on as soon as it has reached the end of a sample: none waits
-/// for another that takes more steps.
+/// From rest, sample by sample. Each lane goes on as soon as it has reached the end of a sample:
+/// none waits for another that takes more steps.
 template <class Damper, class Steps>
 class LaneRun {
  public:
@@ -14,7 +14,8 @@ class LaneRun {
       : ride_(ride), car_(ride), steps_(ride, car_), tally_(ride, car_.numbers.static_load) {
     command_ = load(ride.start);
     state_.currents = {load(ride.start + kWidth), load(ride.start + 2 * kWidth)};
-    for (std::size_t k = 0; k < Damper::kStates; ++k) state_.z[k] = load(ride.start + (3 + k) * kWidth);
+    for (std::size_t k = 0; k < Damper::kStates; ++k)
+      state_.z[k] = load(ride.start + (3 + k) * kWidth);
     car_.damper.set_current(car_.driving(state_.currents));
   }
 
@@ -49,7 +50,8 @@ class LaneRun {
     if (any(ends))
       for (std::size_t lane = 0; lane < kWidth; ++lane)
         if (ends[lane])
-          ride_.ground(ride_.pilot, lane, 2 * static_cast<std::size_t>(place_[lane]), heights_, rates_);
+          ride_.ground(ride_.pilot, lane, 2 * static_cast<std::size_t>(place_[lane]), heights_,
+                       rates_);
     together_ = !any(place_ != place_[0]);
     Lane height[3], rate[3];
     for (std::size_t node = 0; node < 3; ++node) {
@@ -57,8 +59,8 @@ class LaneRun {
       rate[node] = at_node(rates_, node);
       road_.node[node] = car_.push(height[node], rate[node]);
     }
-    road_.twist =
-        car_.numbers.tyre_stiffness * (ride_.sample_time * (rate[0] + rate[2]) - 2 * (height[2] - height[0]));
+    road_.twist = car_.numbers.tyre_stiffness *
+                  (ride_.sample_time * (rate[0] + rate[2]) - 2 * (height[2] - height[0]));
     height_ = height[0];
   }
   Lane at_node(const double* of, std::size_t node) const {
@@ -85,11 +87,13 @@ class LaneRun {
     signals[kWheel] = x[1];
     signals[kGround] = height_;
     const Lane before = command_;
-    ride_.control(ride_.pilot, reinterpret_cast<const double*>(signals), reinterpret_cast<double*>(&command_),
+    ride_.control(ride_.pilot, reinterpret_cast<const double*>(signals),
+                  reinterpret_cast<double*>(&command_),
                   reinterpret_cast<const std::int64_t*>(&which));
     const LaneMask changed = command_ != before;
     if (!any(changed)) return;
-    state_.currents.coil = changed & !(car_.numbers.driver_lag > 0) ? command_ : state_.currents.coil;
+    state_.currents.coil =
+        changed & !(car_.numbers.driver_lag > 0) ? command_ : state_.currents.coil;
     car_.damper.set_current(car_.driving(state_.currents));
     steps_.refresh(state_, command_, changed, road_.node[0]);
   }
@@ -97,8 +101,8 @@ class LaneRun {
   void record(LaneMask which) {
     const Lane* x = state_.x;
     const Lane load_here = car_.tyre_load(x, car_.push_on_wheel(x, road_.node[0]));
-    tally_.add({steps_.acceleration(0), load_here, x[1] - height_, x[0] - x[1], x[2] - x[3], steps_.force(),
-                state_.currents.coil},
+    tally_.add({steps_.acceleration(0), load_here, x[1] - height_, x[0] - x[1], x[2] - x[3],
+                steps_.force(), state_.currents.coil},
                which, place_ >= static_cast<std::int64_t>(ride_.discarded));
     if (!ride_.trace) return;
     const Lane rows[kLaneTraces] = {x[0],
@@ -137,7 +141,8 @@ class LaneRun {
   LaneMask place_{};      ///< the sample in which each lane is
   bool together_ = true;  ///< in the same one
   Lane lost_at_{};        ///< sample; 0: not
-  // at the nodes, half a sample apart, from the last sample on whose number is a multiple of kLaneAhead
+  // at the nodes, half a sample apart, from the last sample on whose number is a multiple of
+  // kLaneAhead
   alignas(64) double heights_[kLaneNodes * kWidth];
   alignas(64) double rates_[kLaneNodes * kWidth];
 };

@@ -5,10 +5,10 @@
 namespace dashpot {
 namespace {
 
-/// A network of one layer of tanh neurons, of velocity and perhaps current, as the function of velocity that
-/// it is near a point: its Taylor polynomial. An exponential and half a division per neuron give all
-/// coefficients, since the derivatives of tanh are polynomials of tanh. Real: what the neurons calculate in;
-/// of float, a vector holds two neurons of all vehicles.
+/// A network of one layer of tanh neurons, of velocity and perhaps current, as the function of
+/// velocity that it is near a point: its Taylor polynomial. An exponential and half a division per
+/// neuron give all coefficients, since the derivatives of tanh are polynomials of tanh. Real: what
+/// the neurons calculate in; of float, a vector holds two neurons of all vehicles.
 template <class Real>
 class TanhNeurons {
  public:
@@ -18,7 +18,8 @@ class TanhNeurons {
   explicit TanhNeurons(const LaneRide& ride) {
     const LaneNetwork::Layer& layer = ride.network->layers[0];
     const double *biases = ride.damper + layer.inputs * layer.outputs * kWidth,
-                 *out = biases + layer.outputs * kWidth, *scale = out + (layer.outputs + 1) * kWidth;
+                 *out = biases + layer.outputs * kWidth,
+                 *scale = out + (layer.outputs + 1) * kWidth;
     for (std::size_t n = 0; n < layer.outputs; ++n) {
       Neurons& to = neurons_[n / kTogether];
       const std::size_t place = n % kTogether * kWidth;
@@ -42,15 +43,16 @@ class TanhNeurons {
     const Vector i = spread(current);
     for (Neurons* n = neurons_; n < end_; ++n) n->at_rest = n->bias + n->by_current * i;
   }
-  /// The force around a velocity, N, or its first terms. Two sums share a division, which takes longer than
-  /// all else.
+  /// The force around a velocity, N, or its first terms. Two sums share a division, which takes
+  /// longer than all else.
   template <std::size_t kCount>
   void expand(Lane velocity, Lane (&force)[kCount]) const {
     Vector sum[kCount]{};
     const Vector v = spread(velocity);
     for (const Neurons* n = neurons_; n < end_; n += 2) {
       const Vector a = 1 + exp_of_twice<Real>(n[0].at_rest + n[0].by_velocity * v),
-                   b = 1 + exp_of_twice<Real>(n[1].at_rest + n[1].by_velocity * v), less = 2 / (a * b);
+                   b = 1 + exp_of_twice<Real>(n[1].at_rest + n[1].by_velocity * v),
+                   less = 2 / (a * b);
       add(n[0], 1 - less * b, sum);
       add(n[1], 1 - less * a, sum);
     }

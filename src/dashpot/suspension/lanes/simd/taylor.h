@@ -5,9 +5,9 @@
 namespace dashpot {
 namespace {
 
-/// Taylor's series of the motion in time, for what is smooth all along a sample. A step costs one expansion
-/// of the damper, and its length follows before it is taken from the last term, as in A. Jorba, M. Zou, Exp.
-/// Math. 14 (2005) 99.
+/// Taylor's series of the motion in time, for what is smooth all along a sample. A step costs one
+/// expansion of the damper, and its length follows before it is taken from the last term, as in A.
+/// Jorba, M. Zou, Exp. Math. 14 (2005) 99.
 template <class Damper>
 class TaylorSteps {
   using Car = QuarterCarLanes<Damper>;
@@ -113,10 +113,11 @@ class TaylorSteps {
       return fmax(fabs(x[k][i]), fabs(x[k][i + 1]));
     };
     const auto error = [&](std::size_t i) {
-      return greatest(kOrder, i) /
-             (ride_.absolute_tolerance + ride_.relative_tolerance * (greatest(0, i) + greatest(1, i)));
+      return greatest(kOrder, i) / (ride_.absolute_tolerance +
+                                    ride_.relative_tolerance * (greatest(0, i) + greatest(1, i)));
     };
-    const Lane off = fmax(error(0), error(2)), square = left * left, here = off * (square * square) * square;
+    const Lane off = fmax(error(0), error(2)), square = left * left,
+               here = off * (square * square) * square;
     const LaneMask whole = here <= 1;
     if (!any(~whole)) return left;
     const Lane shorter = fmin(fmax(0.9 * about_fifth_root_below(off), kLeast), left);

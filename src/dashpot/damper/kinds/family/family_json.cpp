@@ -1,0 +1,131 @@
+#include "dashpot/base/error.h"
+#include "dashpot/base/text.h"
+#include "dashpot/damper/kinds/family/family_model.h"
+#include "dashpot/damper/nets/mlp_json.h"
+
+namespace dashpot {
+namespace {
+
+constexpr std::string_view kMark = "mark", kRefuse = "refuse";
+
+Value domain_json(const std::vector<Family::Range>& domain) {
+  Value out = Value::object();
+  for (const Family::Range& range : domain)
+    for (const MemberField& field : member_fields())
+      if (field.field == range.field)
+        out.add(std::string(field.name),
+                Value::object({{"min", range.min}, {"max", range.max}, {"unit", field.unit}}));
+  return out;
+}
+
+std::vector<Family::Range> read_domain(const Value& value) {
+  std::vector<Family::Range> domain;
+  ObjectReader reader(value, "the domain of a family");
+  for (const MemberField& field : member_fields()) {
+    if (!field.required) continue;
+    ObjectReader ends(reader.required(field.name), "the domain of " + std::string(field.name));
+    domain.push_back({field.field, ends.number("min"), ends.number("max")});
+    if (const std::string unit = ends.string("unit"); unit != field.unit)
+      throw Error(value.where(), "unit is '" + unit + "'", "write " + std::string(field.unit));
+    ends.finish();
+    if (!(domain.back().min <= domain.back().max)) throw Error(value.where(), "min is above max");
+  }
+  reader.finish();
+  return domain;
+}
+
+std::unique_ptr<FamilyForce> read_network(const Value& value, ObjectReader& reader) {
+  std::vector<std::string> inputs;
+  for (const Value& item : reader.required("inputs").items()) inputs.push_back(item.as_string());
+  std::vector<Mlp> members;
+  for (const Value& item : reader.required("members").items()) {
+    ObjectReader member(item, "a network of a family");
+    members.push_back(read_mlp(member));
+    member.finish();
+  }
+  reader.finish();
+  return std::make_unique<FamilyNetwork>(std::move(inputs), std::move(members), value.where());
+}
+
+FamilyGates::Quantities read_quantities(const Value& value) {
+  const std::vector<double> numbers = value.as_numbers();
+  FamilyGates::Quantities q{};
+  if (numbers.size() != q.size())
+    throw Error(value.where(), "has " + std::to_string(numbers.size()) + " numbers",
+                "field, fluid, gap, length");
+  std::copy(numbers.begin(), numbers.end(), q.begin());
+  return q;
+}
+
+std::unique_ptr<FamilyForce> read_gates(const Value& value, ObjectReader& reader) {
+  FamilyGates gates;
+  gates.bank.path_rates = reader.required("path_rates").as_numbers();
+  gates.bank.velocity_rates = reader.required("velocity_rates").as_numbers();
+  gates.soft_speeds = reader.required("soft_speeds").as_numbers();
+  gates.half_current = reader.number("half_current");
+  gates.mean = read_quantities(reader.required("mean"));
+  gates.scale = read_quantities(reader.required("scale"));
+  gates.term_scale = reader.required("term_scale").as_numbers();
+  gates.weights = reader.required("weights").as_numbers();
+  reader.finish();
+  return std::make_unique<GatedFamily>(std::move(gates), value.where());
+}
+
+FamilyBaseline read_baseline(const Value& value) {
+  ObjectReader reader(value, "the first principles of a family");
+  const Value& target = reader.required("target");
+  const FamilyBaseline baseline{family_target_named(target.as_string(), target.where()),
+                                reader.number("share"), reader.number("onset")};
+  reader.finish();
+  if (!(baseline.onset > 0)) throw Error(value.where(), "onset is not a positive number");
+  return baseline;
+}
+
+OutsideFamily read_outside(const Value& value) {
+  if (value.as_string() == kMark) return OutsideFamily::Mark;
+  if (value.as_string() == kRefuse) return OutsideFamily::Refuse;
+  throw Error(value.where(), "unknown '" + value.as_string() + "'", "mark or refuse");
+}
+
+}  // namespace
+
+std::unique_ptr<FamilyForce> family_force_from_json(const Value& value) {
+  ObjectReader reader(value, "the learned part of a family");
+  const Value& kind = reader.required("kind");
+  if (kind.as_string() == "network") return read_network(value, reader);
+  if (kind.as_string() == "gates") return read_gates(value, reader);
+  throw Error(kind.where(), "unknown kind '" + kind.as_string() + "'", "network or gates");
+}
+
+Value FamilyModel::to_json() const {
+  const FamilyBaseline& baseline = family_->baseline;
+  return Value::object({{"name", family_->name},
+                        {"member", dashpot::to_json(member_)},
+                        {"domain", domain_json(family_->domain)},
+                        {"outside", family_->outside == OutsideFamily::Mark ? kMark : kRefuse},
+                        {"build_spread", family_->build_spread},
+                        {"baseline", Value::object({{"target", name_of(baseline.target)},
+                                                    {"share", baseline.share},
+                                                    {"onset", baseline.onset}})},
+                        {"force", family_->force->to_json()},
+                        {"offset", offset_}});
+}
+
+std::unique_ptr<FamilyModel> family_model_from_json(const Value& value) {
+  ObjectReader reader(value, "a model of a family");
+  auto family = std::make_shared<Family>();
+  family->name = reader.string("name");
+  FamilyMember member = read_member(reader.required("member"));
+  family->domain = read_domain(reader.required("domain"));
+  family->outside = read_outside(reader.required("outside"));
+  family->build_spread = reader.number("build_spread");
+  family->baseline = read_baseline(reader.required("baseline"));
+  family->force = family_force_from_json(reader.required("force"));
+  const double offset = reader.number("offset");
+  reader.finish();
+  if (!(family->build_spread >= 0))
+    throw Error(value.where(), "build_spread is negative", "0 or more");
+  return std::make_unique<FamilyModel>(std::move(family), std::move(member), offset);
+}
+
+}  // namespace dashpot

@@ -1,0 +1,59 @@
+#pragma once
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "dashpot/base/value.h"
+#include "dashpot/damper/model.h"
+
+namespace dashpot {
+
+struct DamperDescription;
+
+/// Yield stress of a fluid over the coil's current: straight between the points, held beyond them.
+/// One point: the same at any current. Even in the current.
+struct YieldCurve {
+  std::vector<double> currents;  ///< A, ascending, from 0 on
+  std::vector<double> stresses;  ///< Pa
+  double at(double current) const noexcept;
+};
+
+/// One damper of a family, as the records' conditions state it. SI.
+struct FamilyMember {
+  double piston_area = 0, gap_area = 0;  ///< m^2
+  double gap = 0, pole_length = 0;       ///< m
+  double viscosity = 0;                  ///< Pa*s
+  double spring_stiffness = 0;           ///< N/m
+  double build = 0;                      ///< standard deviations from the mean build of this design
+  YieldCurve yield;
+};
+
+/// One row of the table that names a member's numbers; the yield stress, a curve, stands beside it.
+struct MemberField {
+  std::string_view name, unit;
+  double FamilyMember::* field;
+  bool required;  ///< and positive
+};
+std::span<const MemberField> member_fields();
+constexpr std::string_view kYieldStress = "yield_stress";  ///< Pa, a condition of each record
+
+const double* find_condition(const Conditions& conditions, std::string_view name);
+
+/// The member with the values that the conditions have in place of its own; other conditions are
+/// passed over. Throws Error(where, ...) at one that cannot be.
+FamilyMember with_conditions(FamilyMember member, const Conditions& conditions,
+                             const std::string& where);
+/// Throws Error(where, "has no condition 'gap', which ...") unless the conditions state a whole
+/// member.
+void require_member(const Conditions& conditions, const std::string& where);
+
+/// The member that a drawing, a coil and a fluid make, with its yield stress up to a current, A; or
+/// at these, ascending from 0 on.
+FamilyMember member_of(const DamperDescription& description, double largest_current);
+FamilyMember member_of(const DamperDescription& description, std::span<const double> currents);
+
+Value to_json(const FamilyMember& member);
+FamilyMember read_member(const Value& value);
+
+}  // namespace dashpot

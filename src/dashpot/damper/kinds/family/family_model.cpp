@@ -1,0 +1,112 @@
+#include "dashpot/damper/kinds/family/family_model.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "dashpot/base/error.h"
+#include "dashpot/base/text.h"
+
+namespace dashpot {
+
+FamilyModel::FamilyModel(std::shared_ptr<const Family> family, FamilyMember member, double offset)
+    : family_(std::move(family)),
+      member_(std::move(member)),
+      offset_(offset),
+      strength_(1 + family_->build_spread * member_.build) {}
+
+bool FamilyModel::needs_displacement() const noexcept {
+  return family_->force->needs_displacement() ||
+         (family_->baseline.target != FamilyTarget::Total && member_.spring_stiffness != 0);
+}
+
+void FamilyModel::rest(const DamperInput& input, std::span<double> state) const noexcept {
+  family_->force->rest(input, state);
+}
+
+void FamilyModel::advance(const DamperInput& from, const DamperInput& to, double dt,
+                          std::span<double> state) const noexcept {
+  family_->force->advance(from, to, dt, state);
+}
+
+double FamilyModel::force(const DamperInput& input, std::span<const double> state) const noexcept {
+  return strength_ * told(input, state) + offset_;
+}
+
+double FamilyModel::told(const DamperInput& input, std::span<const double> state) const noexcept {
+  return family_->baseline.force(member_, input) + family_->force->force(member_, input, state);
+}
+
+bool FamilyModel::is_ensemble() const noexcept {
+  return family_->build_spread > 0 || family_->force->is_ensemble();
+}
+
+double FamilyModel::flow(const DamperInput& input, std::span<const double> state,
+                         std::span<double> rates) const noexcept {
+  family_->force->flow(input, state, rates);
+  return force(input, state);
+}
+
+double FamilyModel::spread(const DamperInput& input, std::span<const double> state) const noexcept {
+  return std::hypot(family_->build_spread * told(input, state),
+                    strength_ * family_->force->spread(member_, input));
+}
+
+std::unique_ptr<DamperModel> FamilyModel::with_offset(double newton) const {
+  return std::make_unique<FamilyModel>(family_, member_, offset_ + newton);
+}
+
+std::shared_ptr<const FamilyModel> FamilyModel::with_member(const FamilyMember& member) const {
+  auto model = std::make_shared<const FamilyModel>(family_, member, offset_);
+  if (family_->outside == OutsideFamily::Refuse)
+    if (const std::vector<std::string> outside = model->extrapolations(); !outside.empty())
+      throw Error(name(), "cannot tell of this damper: " + join(outside, "; "),
+                  "a member within the family, or a model that marks what lies outside");
+  return model;
+}
+
+std::unique_ptr<FamilyModel> FamilyModel::with_outside(OutsideFamily outside) const {
+  auto family = std::make_shared<Family>(*family_);
+  family->outside = outside;
+  return std::make_unique<FamilyModel>(std::move(family), member_, offset_);
+}
+
+std::shared_ptr<const DamperModel> FamilyModel::specialised(const Conditions& conditions) const {
+  bool any = find_condition(conditions, kYieldStress) != nullptr;
+  for (const MemberField& field : member_fields())
+    any = any || find_condition(conditions, field.name);
+  return any ? with_member(with_conditions(member_, conditions, name())) : nullptr;
+}
+
+double Family::Range::excess(double value) const noexcept {
+  constexpr double kRounding = 1e-6;
+  const double beyond = std::max(min - value, value - max);
+  return std::abs(beyond) <= kRounding * max ? 0 : beyond;
+}
+
+double FamilyModel::extrapolation() const noexcept {
+  double most = -1;
+  bool any = false;
+  for (const Family::Range& range : family_->domain) {
+    const double beyond = range.excess(member_.*range.field);
+    if (beyond == 0) continue;
+    most = std::max(most, beyond / (range.max > range.min ? range.max - range.min : range.max));
+    any = true;
+  }
+  return any ? most : 0;
+}
+
+std::vector<std::string> FamilyModel::extrapolations() const {
+  std::vector<std::string> outside;
+  for (const Family::Range& range : family_->domain) {
+    const double value = member_.*range.field;
+    if (range.excess(value) <= 0) continue;
+    for (const MemberField& field : member_fields())
+      if (field.field == range.field)
+        outside.push_back(std::string(field.name) + " is " + format_number(value) + " " +
+                          std::string(field.unit) + ", the family has " + format_number(range.min) +
+                          " to " + format_number(range.max));
+  }
+  return outside;
+}
+
+}  // namespace dashpot

@@ -1,0 +1,83 @@
+#pragma once
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "dashpot/damper/kinds/family/family_baseline.h"
+#include "dashpot/damper/kinds/family/family_force.h"
+
+namespace dashpot {
+
+/// What happens where a member lies outside the numbers that its family was fitted on.
+enum class OutsideFamily { Mark, Refuse };
+
+/// What the members of a family share.
+struct Family {
+  struct Range {
+    double FamilyMember::* field;
+    double min = 0, max = 0;
+    /// By how much a value lies outside; negative within, 0 at an end but for rounding.
+    double excess(double value) const noexcept;
+  };
+  std::string name;
+  std::shared_ptr<const FamilyForce> force;
+  FamilyBaseline baseline;
+  double build_spread =
+      0;  ///< standard deviation of a new damper's force from its design's, as a share
+  std::vector<Range> domain;  ///< of the dampers that it was fitted on: each required field
+  OutsideFamily outside = OutsideFamily::Mark;
+};
+
+/// A member of a family of dampers: force = (1 + build_spread build) (first principles + learned
+/// part) + offset. What simulates it sees one damper; specialised() gives another one of the
+/// family.
+class FamilyModel final : public DamperModel {
+ public:
+  FamilyModel(std::shared_ptr<const Family> family, FamilyMember member, double offset = 0);
+
+  std::string kind() const override { return "family"; }
+  std::string name() const override { return family_->name; }
+  bool needs_displacement() const noexcept override;
+  std::size_t parameter_count() const noexcept override {
+    return family_->force->parameter_count();
+  }
+  std::size_t state_size() const noexcept override { return family_->force->state_size(); }
+  void rest(const DamperInput& input, std::span<double> state) const noexcept override;
+  void advance(const DamperInput& from, const DamperInput& to, double dt,
+               std::span<double> state) const noexcept override;
+  double force(const DamperInput& input, std::span<const double> state) const noexcept override;
+  bool flows() const noexcept override { return true; }
+  double flow(const DamperInput& input, std::span<const double> state,
+              std::span<double> rates) const noexcept override;
+  /// By how much a new damper of this design differs from their mean, and networks from theirs.
+  bool is_ensemble() const noexcept override;
+  double spread(const DamperInput& input, std::span<const double> state) const noexcept override;
+  std::unique_ptr<DamperModel> with_offset(double newton) const override;
+  Value to_json() const override;
+  /// Throws Error where such a member is outside the family, and that is to be refused.
+  std::shared_ptr<const DamperModel> specialised(const Conditions& conditions) const override;
+  std::vector<std::string> extrapolations() const override;
+  /// How far this damper lies outside of the family, in shares of its ranges; within negative: how
+  /// far the nearest end is, those left out at which it lies.
+  double extrapolation() const noexcept;
+
+  const Family& family() const { return *family_; }
+  const FamilyMember& member() const { return member_; }
+  double offset() const { return offset_; }
+  double strength() const { return strength_; }  ///< times which the force is, by its build
+  /// Another member, as specialised().
+  std::shared_ptr<const FamilyModel> with_member(const FamilyMember& member) const;
+  std::unique_ptr<FamilyModel> with_outside(OutsideFamily outside) const;
+
+ private:
+  /// Of the mean build.
+  double told(const DamperInput& input, std::span<const double> state) const noexcept;
+
+  std::shared_ptr<const Family> family_;
+  FamilyMember member_;
+  double offset_, strength_;
+};
+
+std::unique_ptr<FamilyModel> family_model_from_json(const Value& value);
+
+}  // namespace dashpot

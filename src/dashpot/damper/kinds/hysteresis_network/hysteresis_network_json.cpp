@@ -1,0 +1,32 @@
+#include "dashpot/damper/kinds/hysteresis_network/hysteresis_network.h"
+#include "dashpot/damper/nets/gated_network_json.h"
+
+namespace dashpot {
+namespace {
+
+BankNetwork read_member(const Value& value) {
+  ObjectReader reader(value, "a member");
+  BankNetwork member;
+  member.bank.path_rates = reader.required("path_rates").as_numbers();
+  member.bank.velocity_rates = reader.required("velocity_rates").as_numbers();
+  member.bank.current_rates = reader.required("current_rates").as_numbers();
+  member.network = read_network(reader, member.bank.current_rates.size());
+  reader.finish();
+  return member;
+}
+
+}  // namespace
+
+Value BankNetwork::to_json() const {
+  Value out = Value::object({{"path_rates", Value::array(bank.path_rates)},
+                             {"velocity_rates", Value::array(bank.velocity_rates)},
+                             {"current_rates", Value::array(bank.current_rates)}});
+  add_network(out, network);
+  return out;
+}
+
+std::unique_ptr<HysteresisNetwork> hysteresis_network_from_json(const Value& value) {
+  return state_network_from_json<HysteresisNetwork>(value, "a state network", read_member);
+}
+
+}  // namespace dashpot

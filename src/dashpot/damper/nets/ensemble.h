@@ -1,0 +1,42 @@
+#pragma once
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "dashpot/damper/nets/mlp_evaluator.h"
+
+namespace dashpot {
+
+/// A network and how its training went.
+struct TrainedMlp {
+  Mlp mlp;
+  TrainReport report;
+};
+
+/// Trains `count` copies of a network from the starts that belong to seed, seed + 1, ...
+/// `train_one` trains the k-th in place. Side by side; the same whatever the number of threads.
+std::vector<TrainedMlp> train_from_starts(
+    const Mlp& mlp, std::size_t count, std::uint64_t seed, int threads,
+    const std::function<TrainReport(Mlp& mlp, std::size_t k)>& train_one);
+
+/// The one that did best: on what was left out when something was, else on its training samples.
+/// One whose training went to infinity is the worst.
+TrainedMlp& best_of(std::span<TrainedMlp> trained);
+
+/// Networks that answer together.
+class MlpEnsemble {
+ public:
+  explicit MlpEnsemble(const std::vector<Mlp>& members);
+
+  struct Answer {
+    double mean = 0;
+    double spread = 0;  ///< standard deviation over the members; 0 with one
+  };
+  /// At one raw input. Allocates nothing.
+  Answer evaluate(const double* input) const noexcept;
+
+ private:
+  std::vector<MlpEvaluator<double>> members_;
+};
+
+}  // namespace dashpot

@@ -1,0 +1,162 @@
+#include "dashpot/damper/nets/free_run_search.h"
+
+#include <cmath>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+
+namespace dashpot {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr Index kBlock = 256;  // samples of which a Gram matrix is made at a time
+
+/// Gram matrix of [J r] per sample, the records' offsets at their best taken out, and these
+/// offsets.
+struct System {
+  MatrixXd gram;
+  std::vector<double> offsets;
+  double offset_price = 0;  ///< per sample, among the squares
+
+  double squares() const { return gram(gram.rows() - 1, gram.cols() - 1); }
+};
+
+class GramSink final : public RowSink {
+ public:
+  GramSink(Index columns, const FreeRunSearchOptions& options)
+      : options_(options),
+        gram_(MatrixXd::Zero(columns, columns)),
+        block_(columns, kBlock),
+        sums_(VectorXd::Zero(columns)) {}
+
+  double* row() override {
+    if (filled_ == kBlock) flush();
+    return block_.col(filled_++).data();
+  }
+
+  void end_record() override {
+    flush();
+    const double centring = options_.offsets && n_ > 0 ? 1 / (n_ * (1 + options_.offset_decay)) : 0;
+    gram_.selfadjointView<Eigen::Lower>().rankUpdate(sums_, -centring);
+    const double offset = -centring * sums_[sums_.size() - 1];
+    system_.offsets.push_back(offset);
+    system_.offset_price += options_.offset_decay * n_ * offset * offset;
+    count_ += n_;
+    n_ = 0;
+    sums_.setZero();
+  }
+
+  System system() {
+    system_.gram = gram_.selfadjointView<Eigen::Lower>();
+    system_.gram /= count_;
+    system_.offset_price /= count_;
+    return std::move(system_);
+  }
+
+ private:
+  void flush() {
+    if (filled_ == 0) return;
+    const auto rows = block_.leftCols(filled_);
+    gram_.selfadjointView<Eigen::Lower>().rankUpdate(rows);
+    sums_ += rows.rowwise().sum();
+    n_ += static_cast<double>(filled_);
+    filled_ = 0;
+  }
+
+  const FreeRunSearchOptions& options_;
+  MatrixXd gram_, block_;
+  VectorXd sums_;
+  Index filled_ = 0;
+  double n_ = 0, count_ = 0;  ///< samples of this record, of all before
+  System system_;
+};
+
+class Search {
+ public:
+  Search(const FreeRunProblem& problem, const FreeRunSearchOptions& options)
+      : problem_(problem),
+        options_(options),
+        prices_(VectorXd::Map(problem.prices.data(), size())),
+        anchors_(VectorXd::Map(problem.anchors.data(), size())),
+        x_(VectorXd::Map(problem.start.data(), size())),
+        at_(linearise(x_)) {}
+
+  const VectorXd& unknowns() const { return x_; }
+  const System& system() const { return at_; }
+  double cost() const { return cost_of(at_, x_); }
+  bool stuck() const { return damping_ > 1e9; }
+  VectorXd half_gradient() const {
+    return at_.gram.topRightCorner(size(), 1) + (x_ - anchors_).cwiseProduct(prices_);
+  }
+
+  /// Tries one step; true when it lowers the cost and was taken.
+  bool step() {
+    MatrixXd matrix = at_.gram.topLeftCorner(size(), size());
+    matrix.diagonal() += prices_;
+    const VectorXd descent = -half_gradient();
+    MatrixXd damped = matrix;
+    damped.diagonal() *= 1 + damping_;
+    const VectorXd step = damped.llt().solve(descent), trial = x_ + step;
+    const double predicted = 2 * step.dot(descent) - step.dot(matrix * step);
+    System system = linearise(trial);
+    const double gain = (cost() - cost_of(system, trial)) / predicted;
+    if (!(gain > 0)) {
+      damping_ *= growth_;
+      growth_ *= 2;
+      return false;
+    }
+    damping_ *= gain > 0.75 ? 0.2 : gain > 0.25 ? 1 : 2;
+    growth_ = 2;
+    x_ = trial;
+    at_ = std::move(system);
+    return true;
+  }
+
+ private:
+  Index size() const { return static_cast<Index>(problem_.start.size()); }
+
+  System linearise(const VectorXd& x) const {
+    GramSink sink(size() + 1, options_);
+    problem_.linearise({x.begin(), x.end()}, sink);
+    return sink.system();
+  }
+
+  double cost_of(const System& system, const VectorXd& x) const {
+    return system.squares() + (x - anchors_).cwiseAbs2().dot(prices_);
+  }
+
+  const FreeRunProblem& problem_;
+  const FreeRunSearchOptions& options_;
+  VectorXd prices_, anchors_, x_;
+  System at_;
+  double damping_ = 0.01, growth_ = 2;
+};
+
+}  // namespace
+
+FreeRunSearchResult search(const FreeRunProblem& problem, const FreeRunSearchOptions& options) {
+  constexpr std::size_t kWindow = 3;  // steps over which the cost must still fall
+  Search search(problem, options);
+  FreeRunSearchResult result;
+  std::vector<double> costs{search.cost()};
+  while (!result.converged && result.iterations < options.max_iterations) {
+    if (options.on_iteration) options.on_iteration();
+    ++result.iterations;
+    if (search.step()) costs.push_back(search.cost());
+    const bool level = costs.size() > kWindow && costs[costs.size() - 1 - kWindow] - costs.back() <
+                                                     options.tolerance * costs.back();
+    result.converged = level || search.stuck();
+  }
+  const VectorXd gradient = search.half_gradient();
+  result.unknowns.assign(search.unknowns().begin(), search.unknowns().end());
+  result.half_gradient.assign(gradient.begin(), gradient.end());
+  result.offsets = search.system().offsets;
+  result.cost = search.cost();
+  result.rms = std::sqrt(std::max(0.0, search.system().squares() - search.system().offset_price));
+  return result;
+}
+
+}  // namespace dashpot

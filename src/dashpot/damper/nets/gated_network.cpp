@@ -1,0 +1,136 @@
+#include "dashpot/damper/nets/gated_network.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+#include "dashpot/base/error.h"
+#include "dashpot/base/random.h"
+#include "dashpot/damper/nets/tanh.h"
+
+namespace dashpot {
+namespace {
+
+constexpr std::size_t kMaxGates = 1 + GatedNetwork::kMaxCurrents +
+                                  GatedNetwork::kMaxCurrents * (GatedNetwork::kMaxCurrents + 1) / 2;
+
+bool is_positive(double value) { return value > 0 && std::isfinite(value); }
+
+void require_count(std::size_t count, std::size_t right, const std::string& what,
+                   const std::string& where) {
+  if (count != right)
+    throw Error(where, "has " + std::to_string(count) + " " + what,
+                "its states need " + std::to_string(right));
+}
+
+}  // namespace
+
+void GatedNetwork::require_sound(std::size_t signal_count, const std::string& where) const {
+  require_count(signals.size(), signal_count, "signals", where);
+  for (const Signal& signal : signals) {
+    if (!is_positive(signal.scale))
+      throw Error(where, "the scale of a signal is not a positive number");
+    if (!(signal.low <= signal.high))
+      throw Error(where, "the range of a signal does not go upwards");
+  }
+  if (neurons.size() % neuron_stride() != 0)
+    throw Error(where, "has " + std::to_string(neurons.size()) + " weights of neurons",
+                "each neuron needs " + std::to_string(neuron_stride()));
+  require_count(gates.size(), term_count() * gate_count(), "weights of gates", where);
+  if (!is_positive(output_scale)) throw Error(where, "the output scale is not a positive number");
+}
+
+void GatedNetwork::fill_gates(const double* u, double* c) const noexcept {
+  *c++ = 1;
+  for (std::size_t m = 0; m < currents; ++m) *c++ = u[m];
+  for (std::size_t m = 0; m < currents; ++m)
+    for (std::size_t n = 0; n <= m; ++n) *c++ = u[m] * u[n];
+}
+
+double GatedNetwork::evaluate(const double* raw) const noexcept {
+  std::array<double, kMaxSignals> linear, held;
+  for (std::size_t k = 0; k < signals.size(); ++k) {
+    linear[k] = (raw[k] - signals[k].mean) / signals[k].scale;
+    held[k] = std::clamp(linear[k], signals[k].low, signals[k].high);
+  }
+  return output_scale * sum(linear.data(), held.data());
+}
+
+double GatedNetwork::evaluate_held(const double* raw) const noexcept {
+  std::array<double, kMaxSignals> held;
+  for (std::size_t k = 0; k < signals.size(); ++k)
+    held[k] =
+        std::clamp((raw[k] - signals[k].mean) / signals[k].scale, signals[k].low, signals[k].high);
+  return output_scale * sum(held.data(), held.data());
+}
+
+/// linear: the motions as they stand among the terms; held: what gates and neurons see.
+double GatedNetwork::sum(const double* linear, const double* held) const noexcept {
+  std::array<double, kMaxGates> c;
+  fill_gates(&held[motions()], c.data());
+  const std::size_t count = gate_count();
+  const double* gate = gates.data();
+  double sum = 0;
+  const auto add = [&](double term) {
+    sum += term * std::inner_product(gate, gate + count, c.begin(), 0.0);
+    gate += count;
+  };
+  add(1);
+  for (std::size_t k = 0; k < motions(); ++k) add(linear[k]);
+  for (const double *w = neurons.data(), *end = w + neurons.size(); w != end; w += neuron_stride())
+    add(branchless_tanh(std::inner_product(w, w + signals.size(), held, w[signals.size()])));
+  return sum;
+}
+
+double GatedNetwork::differentiate(const double* z, double* by_parameters,
+                                   double* by_signals) const noexcept {
+  const std::size_t count = signals.size(), first_current = motions(), width = gate_count();
+  const double* u = z + first_current;
+  std::array<double, kMaxGates> c, by_c{};
+  fill_gates(u, c.data());
+  std::fill_n(by_signals, count, 0.0);
+  const double* gate = gates.data();
+  double* by_gate = by_parameters + neurons.size();
+  double sum = 0;
+  const auto add = [&](double term) {  // returns the derivative of the output by the term
+    const double gain = std::inner_product(gate, gate + width, c.begin(), 0.0);
+    for (std::size_t k = 0; k < width; ++k) {
+      by_c[k] += term * *gate++;
+      *by_gate++ = term * c[k];
+    }
+    sum += term * gain;
+    return gain;
+  };
+  add(1);
+  for (std::size_t k = 0; k < first_current; ++k) by_signals[k] += add(z[k]);
+  for (const double *w = neurons.data(), *end = w + neurons.size(); w != end;
+       w += neuron_stride()) {
+    const double t = branchless_tanh(std::inner_product(w, w + count, z, w[count]));
+    const double delta = add(t) * (1 - t * t);
+    for (std::size_t k = 0; k < count; ++k) {
+      *by_parameters++ = delta * z[k];
+      by_signals[k] += delta * w[k];
+    }
+    *by_parameters++ = delta;
+  }
+  const double *by_current = &by_c[1], *by_product = &by_c[1 + currents];
+  for (std::size_t m = 0; m < currents; ++m) {
+    by_signals[first_current + m] += *by_current++;
+    for (std::size_t n = 0; n <= m; ++n, ++by_product) {
+      by_signals[first_current + m] += *by_product * u[n];
+      by_signals[first_current + n] += *by_product * u[m];
+    }
+  }
+  return sum;
+}
+
+void GatedNetwork::initialise(std::size_t hidden_neurons, std::uint64_t seed) {
+  Random random(seed);
+  const double reach = 1 / std::sqrt(static_cast<double>(signals.size()));
+  neurons.resize(hidden_neurons * neuron_stride());
+  for (double& weight : neurons) weight = random.normal() * reach;
+  gates.assign(term_count() * gate_count(), 0.0);
+}
+
+}  // namespace dashpot

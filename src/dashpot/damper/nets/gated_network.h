@@ -1,0 +1,65 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace dashpot {
+
+/// A small network whose output is a polynomial of second order in some of its inputs, the currents
+/// u, and of any shape in the others, the motions z:
+///   F = sum_j (sum_k G_jk c_k(u)) t_j,   t = [1, z, tanh(W [z, u] + b)],   c = [1, u_m, u_m u_n]
+/// Signals stand in one array, motions first. Odd in the motions but for b, the current's part of W
+/// and the first row of G.
+struct GatedNetwork {
+  /// standardised = (raw - mean) / scale, held within low ... high: beyond the data, current and
+  /// neurons stay as at their edge. The motions themselves, among t, are not held: they go on along
+  /// straight lines.
+  struct Signal {
+    double mean = 0, scale = 1;
+    double low = -1, high = 1;  ///< standardised
+  };
+  std::vector<Signal> signals;  ///< motions, then currents
+  std::size_t currents = 0;     ///< how many of them are currents
+  std::vector<double> neurons;  ///< per neuron: weights of the signals, then b
+  std::vector<double> gates;    ///< G, row by row
+  double output_scale = 1;
+
+  static constexpr std::size_t kMaxSignals = 32, kMaxCurrents = 4;
+
+  std::size_t motions() const noexcept { return signals.size() - currents; }
+  std::size_t neuron_stride() const noexcept { return signals.size() + 1; }
+  std::size_t hidden() const noexcept { return neurons.size() / neuron_stride(); }
+  std::size_t gate_count() const noexcept {
+    return 1 + currents + currents * (currents + 1) / 2;
+  }  ///< of c
+  std::size_t term_count() const noexcept { return 1 + motions() + hidden(); }
+  std::size_t parameter_count() const noexcept {
+    return neurons.size() + term_count() * gate_count();
+  }
+
+  /// Throws Error(where, ...) when the parts do not fit together or to that many signals.
+  void require_sound(std::size_t signal_count, const std::string& where) const;
+
+  /// Output at raw signals, in raw units. Allocates nothing.
+  double evaluate(const double* raw) const noexcept;
+  /// The same with the motions among t held, too.
+  double evaluate_held(const double* raw) const noexcept;
+  /// Standardised output at standardised signals, none held.
+  double output(const double* standardised) const noexcept {
+    return sum(standardised, standardised);
+  }
+  /// The same and its derivatives: by `neurons`, then
+  /// `gates`, and by the signals.
+  double differentiate(const double* standardised, double* by_parameters,
+                       double* by_signals) const noexcept;
+
+  /// Neurons from the seed, gates 0. The signals must be set.
+  void initialise(std::size_t hidden, std::uint64_t seed);
+
+ private:
+  double sum(const double* linear, const double* held) const noexcept;
+  void fill_gates(const double* currents, double* c) const noexcept;
+};
+
+}  // namespace dashpot

@@ -1,0 +1,11 @@
+#pragma once
+#include "dashpot/base/value.h"
+#include "dashpot/damper/nets/gated_network.h"
+
+namespace dashpot {
+
+/// Adds a network's keys to a member of a state network.
+void add_network(Value& member, const GatedNetwork& network);
+GatedNetwork read_network(ObjectReader& member, std::size_t currents);
+
+}  // namespace dashpot

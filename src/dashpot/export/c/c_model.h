@@ -1,0 +1,84 @@
+#pragma once
+#include <cmath>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "dashpot/damper/model.h"
+
+namespace dashpot {
+
+class FamilyModel;
+class FuzzyModel;
+class HybridModel;
+class HysteresisNetwork;
+class LawModel;
+class NarxModel;
+class NetworkModel;
+class StateSpaceModel;
+struct GatedNetwork;
+struct HysteresisBank;
+struct Mlp;
+
+/// A kind of model as C code in double precision that defines, static,
+///   void   model_rest(const DamperInput* input, double* state)
+///   void   model_advance(const DamperInput* from, const DamperInput* to, double dt, double* state)
+///   double model_force(const DamperInput* input, const double* state)
+struct CModel {
+  std::string code;
+  bool has_derivatives = false;  ///< also void model_derivatives(input, state, double* derivatives)
+};
+
+/// A number of a model that whoever runs its C code may set.
+struct CParameter {
+  std::string name, unit, meaning;
+  double value = 0;
+  double lower = -HUGE_VAL, upper = HUGE_VAL;
+};
+std::vector<CParameter> c_parameters(const LawModel& model);
+
+/// Throws Error for a model of which no C code is known. `settable`: the parameters of a law stand
+/// behind its state, in the order of c_parameters() and then a lag rate also where it is 0;
+/// model_defaults(state) writes them.
+CModel c_model(const DamperModel& model, bool settable = false);
+
+// One per kind; `stem` in place of "model" where a law is a part of something.
+CModel c_law(const LawModel& model, const std::string& stem = "model", bool settable = false);
+CModel c_network(const NetworkModel& model);
+CModel c_narx(const NarxModel& model);
+CModel c_hysteresis_network(const HysteresisNetwork& model);
+CModel c_state_space(const StateSpaceModel& model);
+CModel c_fuzzy(const FuzzyModel& model);
+CModel c_hybrid(const HybridModel& model);
+CModel c_family(const FamilyModel& model);
+
+// Parts that several kinds have: C definitions whose names begin with `name`.
+
+/// Tables of numbers, which must not be empty for C: then one 0 stands there.
+std::string c_table(const std::string& name, std::span<const double> values);
+std::string c_table(const std::string& name, const std::vector<int>& values);
+/// The text of perceptrons as wide as the widest of these, their tables and an array `kMlps`.
+std::string c_mlps(std::span<const Mlp> members);
+/// The text of such networks and their tables, and an array `kNetworks`.
+std::string c_gated_networks(const std::vector<const GatedNetwork*>& networks);
+/// The text of banks and their tables, and an array `kBanks`.
+std::string c_banks(const std::vector<const HysteresisBank*>& banks);
+
+/// How a header ends that began with a guard and extern "C".
+constexpr const char* kCHeaderEnd = R"(
+#ifdef __cplusplus
+}
+#endif
+
+#endif
+)";
+
+/// The functions of a model without a state.
+std::string c_stateless(const std::string& stem);
+
+/// `text` with each @name@ replaced.
+std::string filled(std::string text,
+                   const std::vector<std::pair<std::string, std::string>>& values);
+
+}  // namespace dashpot

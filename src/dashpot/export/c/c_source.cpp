@@ -1,0 +1,192 @@
+#include "dashpot/export/c/c_source.h"
+
+#include <algorithm>
+
+#include "dashpot/base/text.h"
+#include "dashpot/damper/kinds/law/law_model.h"
+#include "dashpot/damper/registry.h"
+#include "dashpot/export/c/c_model.h"
+#include "dashpot/export/export_run.h"
+
+namespace dashpot {
+namespace {
+
+constexpr std::size_t kTestSteps = 200;
+
+constexpr const char* kHeader = R"(/* @title@.
+ *
+ * @what@
+ * Inputs: displacement m and velocity m/s, extension positive; command @unit@. Output: force N, positive when it
+ * resists extension. Known for displacements @x_min@ ... @x_max@ m,
+ * velocities @v_min@ ... @v_max@ m/s, commands @i_min@ ... @i_max@ @unit@; beyond, the model extrapolates.
+ *
+ *   damper_model model;
+ *   damper_reset(&model, &input);
+ *   for (;;) force = damper_step(&model, &input);
+ *
+ * C99 with math.h: no heap, no files, no variables outside a damper_model. Made by Dashpot @version@:
+ *   @command@
+ * MISRA C:2012, deviations: @deviations@
+ */
+#ifndef DAMPER_H
+#define DAMPER_H
+
+#define DAMPER_STATE_SIZE @size@ /* numbers in the state@unused@ */
+#define DAMPER_SAMPLE_TIME @sample_time@ /* s, of damper_step */
+
+)";
+
+constexpr const char* kDerivatives = R"(
+/* Time derivatives of the state, for a simulator that integrates it: the input's own slope is not needed. */
+void damper_derivatives(const damper_input* input, const double* state, double* derivatives);
+)";
+
+constexpr const char* kDefaults = R"(
+/* Writes the parameters, which stand behind the state, as they were identified: before anything else. */
+void damper_defaults(double* state);
+)";
+
+constexpr const char* kTest =
+    R"(/* Steps through a run and compares the force with the one that Dashpot @version@ computed in double precision.
+ * Returns 0 when they agree within @tolerance@ of the force's span. */
+#include "@prefix@.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#define STEPS @steps@
+
+/* displacement m, velocity m/s, command, force N */
+static const double kRun[STEPS][4] = {
+@rows@};
+
+int main(void) {
+  damper_model model;
+  double largest = 0.0, low = kRun[0][3], high = kRun[0][3];
+  int k;
+  for (k = 0; k < STEPS; ++k) {
+    const damper_input input = {kRun[k][0], kRun[k][1], kRun[k][2]};
+    double force;
+    if (k == 0) {
+      damper_reset(&model, &input);
+      force = damper_force(&input, model.state);
+    } else {
+      force = damper_step(&model, &input);
+    }
+    largest = fmax(largest, fabs(force - kRun[k][3]));
+    low = fmin(low, kRun[k][3]);
+    high = fmax(high, kRun[k][3]);
+  }
+  printf("largest difference %g N, span of the force %g N\n", (double)largest, (double)(high - low));
+  return (largest <= @tolerance@ * (high - low)) ? 0 : 1;
+}
+)";
+
+std::string rows_of(const ExportedModel& model, double sample_time) {
+  const std::vector<DamperInput> run = export_run(model.domain, sample_time, kTestSteps);
+  const std::vector<double> force = force_along(model.model, run, sample_time);
+  std::string rows;
+  for (std::size_t k = 0; k < run.size(); ++k)
+    rows += "    " +
+            c_numbers(std::vector{run[k].displacement, run[k].velocity, run[k].current, force[k]}) +
+            ",\n";
+  return rows;
+}
+
+std::vector<std::pair<std::string, std::string>> facts(const ExportedModel& model,
+                                                       const ExportOptions& options,
+                                                       const CSource& source) {
+  const Domain& d = model.domain;
+  return {{"title", title_of(model.model)},
+          {"prefix", source.prefix},
+          {"unit", model.drive_unit},
+          {"x_min", format_number(d.displacement_min)},
+          {"x_max", format_number(d.displacement_max)},
+          {"v_min", format_number(d.velocity_min)},
+          {"v_max", format_number(d.velocity_max)},
+          {"i_min", format_number(d.current_min)},
+          {"i_max", format_number(d.current_max)},
+          {"version", options.version},
+          {"deviations", std::string(c_deviations())},
+          {"size", std::to_string(std::max<std::size_t>(1, source.state_size))},
+          {"unused", source.state_size == 0 ? ": one that is not used" : ""},
+          {"sample_time", c_number(source.sample_time)},
+          {"steps", std::to_string(kTestSteps)},
+          {"tolerance", options.c_precision() == CPrecision::Single ? "1e-5" : "1e-12"}};
+}
+
+std::vector<CSource::Variable> states_of(const DamperModel& model) {
+  std::vector<CSource::Variable> states;
+  if (const auto* law = dynamic_cast<const LawModel*>(&model)) {
+    for (const StateInfo& state : law->law().states)
+      states.push_back(
+          {std::string(state.name), std::string(state.unit), "internal state of the law"});
+    if (law->lag_rate() > 0)
+      states.push_back({"coil_current", law->drive_unit(), "current in the coil"});
+  }
+  return states;
+}
+
+}  // namespace
+
+std::string title_of(const DamperModel& model) {
+  for (const std::vector<std::string>& names : {model_names(), more_model_names()})
+    if (std::ranges::find(names, model.name()) != names.end())
+      return std::string(model_info(model.name()).title);
+  return model.name();
+}
+
+CSource c_source(const ExportedModel& model, const ExportOptions& options) {
+  const auto* law =
+      options.settable_parameters ? dynamic_cast<const LawModel*>(&model.model) : nullptr;
+  const CModel code = c_model(model.model, law != nullptr);
+  const bool single = options.c_precision() == CPrecision::Single;
+  CSource source{
+      .prefix = export_name(model, options),
+      .real = single ? "float" : "double",
+      .state_size = model.model.state_size(),
+      .inputs = {{"displacement", "m", "extension positive"},
+                 {"velocity", "m/s", "extension positive"},
+                 {"current", model.drive_unit, "command to the coil"}},
+      .outputs = {{"force", "N", "positive when it resists extension"}},
+      .states = code.has_derivatives ? states_of(model.model) : std::vector<CSource::Variable>{},
+      .sample_time = export_sample_time(model, options),
+      .grid = model.model.feedback_step()};
+  if (law) {
+    source.parameters = c_parameters(*law);
+    source.first_parameter = source.state_size;
+    source.state_size += source.parameters.size() + (law->lag_rate() > 0 ? 0 : 1);
+  }
+  const std::string own = with_texts(code.code);
+  require_free_names(source.prefix, own);
+  const auto finished = [&](const std::string& text) {
+    return with_prefix(in_precision(text, single ? CPrecision::Single : CPrecision::Double),
+                       source.prefix);
+  };
+  std::vector<std::pair<std::string, std::string>> values = facts(model, options, source);
+  source.header = filled(
+      finished(filled(kHeader, values) + std::string(c_text("damper_api.h")) +
+               (code.has_derivatives ? kDerivatives : "") + (law ? kDefaults : "") + kCHeaderEnd),
+      {{"what", in_comment(model.origin)}, {"command", in_comment(options.command)}});
+  source.source = finished(
+      "#include \"" + source.prefix +
+      ".h\"\n\n#include <math.h>\n\ntypedef damper_input DamperInput;\n\n" + own +
+      std::string(c_text("damper_api.c")) +
+      (law ? "\nvoid damper_defaults(double* state) { model_defaults(state); }\n" : "") +
+      (code.has_derivatives
+           ? "\nvoid damper_derivatives(const damper_input* input, const double* state, double* "
+             "derivatives) {\n  model_derivatives(input, state, derivatives);\n}\n"
+           : ""));
+  values.emplace_back("rows", rows_of(model, source.sample_time));
+  source.test = finished(filled(kTest, values));
+  return source;
+}
+
+std::vector<ExportedFile> write_c_source(const ExportedModel& model, const ExportOptions& options) {
+  const CSource source = c_source(model, options);
+  return {{source.prefix + ".h", source.header},
+          {source.prefix + ".c", source.source},
+          {source.prefix + "_test.c", source.test}};
+}
+
+}  // namespace dashpot

@@ -1,0 +1,43 @@
+#pragma once
+#include "dashpot/export/c/c_model.h"
+#include "dashpot/export/exporter.h"
+
+namespace dashpot {
+
+/// A model as C99 without heap, files or globals that change. Names begin with `prefix`:
+///   <prefix>_input {displacement, velocity, current}, <prefix>_model {input,
+///   state[<PREFIX>_STATE_SIZE]} <prefix>_init, _reset, _step, _advance      on a <prefix>_model
+///   <prefix>_rest, _move, _force                on inputs and an array of the state
+///   <prefix>_derivatives(input, state, derivatives)   where `states` is not empty
+/// Everything is declared, with comments, in the header.
+struct CSource {
+  struct Variable {
+    std::string name, unit, meaning;
+  };
+  std::string prefix;
+  std::string header, source;  ///< <prefix>.h, <prefix>.c
+  std::string test;  ///< <prefix>_test.c: a main that steps through a run and checks the force
+  std::string real;  ///< "double" or "float"
+  std::size_t state_size = 0;     ///< numbers in the state
+  std::vector<Variable> inputs;   ///< the fields of <prefix>_input, in their order
+  std::vector<Variable> outputs;  ///< the force
+  std::vector<Variable>
+      states;  ///< of a law: continuous states, the first of the state; else empty
+  /// Where ExportOptions::settable_parameters: they follow in the state; <prefix>_defaults(state)
+  /// writes them.
+  std::vector<CParameter> parameters;
+  std::size_t first_parameter = 0;  ///< where in the state
+  double sample_time = 0;           ///< s, of <prefix>_step
+  double grid = 0;                  ///< s: the model remembers at such steps; 0: at any
+};
+
+/// As the registry has it; a design of the user's has its name alone.
+std::string title_of(const DamperModel& model);
+
+/// Throws Error where the model cannot become C.
+CSource c_source(const ExportedModel& model, const ExportOptions& options);
+
+/// The three files.
+std::vector<ExportedFile> write_c_source(const ExportedModel& model, const ExportOptions& options);
+
+}  // namespace dashpot

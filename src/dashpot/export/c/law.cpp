@@ -1,0 +1,258 @@
+#include <algorithm>
+
+#include "dashpot/base/error.h"
+#include "dashpot/damper/kinds/law/law_model.h"
+#include "dashpot/export/c/c_model.h"
+#include "dashpot/export/c/c_text.h"
+
+namespace dashpot {
+namespace {
+
+constexpr std::string_view kLagRate = "lag_rate";
+
+/// A parameter as an expression in `current`: with its coefficients as they are or, when they can
+/// be set, as fields of `m`.
+std::string expression(const LawModel& model, std::size_t k, bool settable) {
+  const std::vector<double>& c = model.parameters().coefficients[k];
+  const Form form = model.parameters().forms[k];
+  const bool fields = settable && model.law().params[k].fit != Fit::Drive;
+  const auto term = [&](std::size_t index) {
+    return fields ? "m->" + coefficient_name(model.law().params[k].name, form, index)
+                  : c_number(c[index]);
+  };
+  if (form == Form::Exponential)
+    return term(1) + " + (" +
+           (fields ? "(" + term(0) + " - " + term(1) + ")" : c_number(c[0] - c[1])) + " * exp(" +
+           (fields ? "-" + term(2) : c_number(-c[2])) + " * current))";
+  std::string sum = term(c.size() - 1);
+  for (std::size_t power = c.size() - 1; power-- > 0;)
+    sum = term(power) + " + (current * " + (power + 2 == c.size() ? sum : "(" + sum + ")") + ")";
+  return sum;
+}
+
+/// What stays the same while the law works. Where it can be set it stands behind the state.
+std::string constants(const LawModel& model, bool settable) {
+  std::string fields, values;
+  if (settable)
+    for (const CParameter& parameter : c_parameters(model)) {
+      if (parameter.name == kLagRate) continue;
+      fields += "  double " + parameter.name + "; /* " + parameter.unit + " */\n";
+      values += c_number(parameter.value) + ", ";
+    }
+  std::string code = "typedef struct LawModel {\n" + fields +
+                     "  double lag_rate; /* 1/s, of the coil; 0: none */\n} LawModel;\n\n"
+                     "static const LawModel kLaw = {" +
+                     values + c_number(model.lag_rate()) + "};\n\n";
+  if (settable)
+    code +=
+        "static inline const LawModel* law_behind(const double* state) {\n"
+        "  return (const LawModel*)(const void*)(state + @size@);\n}\n\n"
+        "static void @stem@_defaults(double* state) { memcpy(state + @size@, &kLaw, sizeof kLaw); "
+        "}\n\n";
+  return filled(code, {{"size", std::to_string(model.state_size())}});
+}
+
+std::string parameter_function(const LawModel& model, bool settable) {
+  std::string lines;
+  for (std::size_t k = 0; k < model.law().params.size(); ++k) {
+    const ParamInfo& info = model.law().params[k];
+    lines += "  p->" + std::string(info.name) + " = " + expression(model, k, settable) + "; /* " +
+             std::string(info.unit) + ", " + std::string(info.meaning) + " */\n";
+  }
+  return "/* The parameters at a current in the coil. */\n"
+         "static inline void law_parameters(const LawModel* m, double current, LawParameters* p) "
+         "{\n"
+         "  (void)m;\n" +
+         std::string(model.follows_current() ? "" : "  (void)current;\n") + lines + "}\n\n";
+}
+
+/// What the text of the integrator asks for.
+constexpr const char* kSteps = R"(static inline int law_states(const LawModel* m) {
+  (void)m;
+  return @states@;
+}
+
+static inline double law_rate(const LawModel* m, const LawParameters* p, double speed) {
+  (void)m;
+  return @law@_rate(p, speed);
+}
+
+static inline int law_has_own_step(const LawModel* m) {
+  (void)m;
+  return @has_step@;
+}
+
+static inline int law_own_step_is_exact(const LawModel* m) {
+  (void)m;
+  return @exact@;
+}
+
+static inline int law_own_step(const LawModel* m, const LawParameters* p, const double* x, const double* v,
+                               double h, double* z) {
+  (void)m;
+@own_step@}
+
+static inline void law_explicit_step(const LawModel* m, const LawParameters* const* p, const double* x,
+                                     const double* v, double h, double* z) {
+  (void)m;
+  law_runge_kutta(p, x, v, h, @states@, z);
+}
+
+)";
+
+std::string own_step(const Law& law) {
+  const std::string name(law.name);
+  if (!law.step) return "  (void)p;\n  (void)x;\n  (void)v;\n  (void)h;\n  (void)z;\n  return 0;\n";
+  if (!law.exact_step) return "  return " + name + "_step(p, x, v, h, z);\n";
+  const bool filters = c_text(name + ".h").find(' ' + name + "_filter(") != std::string_view::npos;
+  return "  (void)x;\n  z[0] = law_travel_step(p, v, h, z[0]);\n" +
+         std::string(filters ? "  " + name + "_filter(p, v, h, z);\n" : "") + "  return 1;\n";
+}
+
+/// From the law's derivative to law_advance().
+std::string integration(const Law& law) {
+  const std::string name(law.name), states = std::to_string(law.states.size());
+  std::string code =
+      "#define LAW_MOST_STATES " + states +
+      "\n\nstatic inline void law_derivative(const LawParameters* p, double x, double v, const "
+      "double* z, double* dz) {\n  " +
+      name + "_derivative(p, x, v, z, dz);\n}\n\n" + "#include \"law_runge_kutta.h\"\n";
+  if (law.exact_step)
+    code +=
+        "static inline double law_travel(const LawParameters* p, double z, double s) {\n  return " +
+        name + "_travel(p, z, s);\n}\n\n" + "#include \"law_travel.h\"\n";
+  code += filled(kSteps, {{"states", states},
+                          {"law", name},
+                          {"has_step", law.step ? "1" : "0"},
+                          {"exact", law.exact_step ? "1" : "0"},
+                          {"own_step", own_step(law)}});
+  return code + "#include \"law_path.h\"\n#include \"law_integrate.h\"\n";
+}
+
+constexpr const char* kCoilAlone =
+    R"(static void @stem@_advance(const DamperInput* from, const DamperInput* to, double dt,
+                          double* state) {
+  const LawPath path = law_path(@law_model@, from, to, dt, state[0]);
+  state[0] = law_path_current(&path, dt);
+}
+
+)";
+
+constexpr const char* kNoState =
+    R"(static void @stem@_advance(const DamperInput* from, const DamperInput* to, double dt,
+                          double* state) {
+  (void)from;
+  (void)to;
+  (void)dt;
+  (void)state;
+}
+
+)";
+
+constexpr const char* kAdvance =
+    R"(static void @stem@_advance(const DamperInput* from, const DamperInput* to, double dt,
+                          double* state) {
+  law_advance(@law_model@, from, to, dt, state);
+}
+
+)";
+
+std::string advance_function(const LawModel& model) {
+  if (!model.law().states.empty()) return kAdvance;
+  return model.lag_rate() > 0 ? kCoilAlone : kNoState;
+}
+
+std::string rest_function(const LawModel& model) {
+  std::string code = "static void @stem@_rest(const DamperInput* input, double* state) {\n";
+  if (model.law().rest)
+    code +=
+        "  LawParameters p;\n"
+        "  law_parameters(@law_model@, input->current, &p);\n"
+        "  @law@_rest(&p, input->displacement, input->velocity, state);\n";
+  if (model.lag_rate() > 0) code += "  state[@states@] = input->current; /* in the coil */\n";
+  if (model.state_size() == 0) code += "  (void)input;\n  (void)state;\n";
+  return code + "}\n\n";
+}
+
+std::string force_function(const LawModel& model) {
+  return "static double @stem@_force(const DamperInput* input, const double* state) {\n"
+         "  LawParameters p;\n"
+         "  law_parameters(@law_model@, " +
+         std::string(model.lag_rate() > 0 ? "state[@states@]" : "input->current") +
+         ", &p);\n"
+         "  return @law@_force(&p, input->displacement, input->velocity, state);\n"
+         "}\n\n";
+}
+
+std::string derivative_function(const LawModel& model) {
+  std::string code =
+      "static void @stem@_derivatives(const DamperInput* input, const double* state, double* "
+      "derivatives) "
+      "{\n";
+  if (!model.law().states.empty())
+    code += "  LawParameters p;\n  law_parameters(@law_model@, " +
+            std::string(model.lag_rate() > 0 ? "state[@states@]" : "input->current") +
+            ", &p);\n"
+            "  @law@_derivative(&p, input->displacement, input->velocity, state, derivatives);\n";
+  if (model.lag_rate() > 0)
+    code +=
+        "  derivatives[@states@] = (@law_model@)->lag_rate * (input->current - state[@states@]);\n";
+  return code + "}\n\n";
+}
+
+}  // namespace
+
+std::vector<CParameter> c_parameters(const LawModel& model) {
+  std::vector<CParameter> parameters;
+  const Dependence& values = model.parameters();
+  for (std::size_t k = 0; k < model.law().params.size(); ++k) {
+    const ParamInfo& info = model.law().params[k];
+    if (info.fit == Fit::Drive) continue;
+    const Form form = values.forms[k];
+    for (std::size_t index = 0; index < values.coefficients[k].size(); ++index) {
+      CParameter& row = parameters.emplace_back();
+      row = {coefficient_name(info.name, form, index),
+             coefficient_unit(info.unit, form, index, model.drive_unit()),
+             std::string(info.meaning), values.coefficients[k][index]};
+      if (form == Form::Constant) {
+        row.lower = info.lower;
+        row.upper = info.upper;
+      }
+    }
+  }
+  constexpr double kSlowest = 1e-3, kFastest = 1e6;  // 1/s
+  if (model.lag_rate() > 0)
+    parameters.push_back({std::string(kLagRate), "1/s",
+                          "of the coil: its current follows the command at this rate",
+                          model.lag_rate(), std::min(kSlowest, model.lag_rate()),
+                          std::max(kFastest, model.lag_rate())});
+  return parameters;
+}
+
+CModel c_law(const LawModel& model, const std::string& stem, bool settable) {
+  const Law& law = model.law();
+  const std::string name(law.name);
+  if (!has_c_text(name + ".h")) throw Error(name, "its law has no C text in this build of Dashpot");
+  std::string code = (settable ? "#include <string.h>\n\n#include \"" : "#include \"") + name +
+                     ".h\"\n" + "typedef " + pascal_case(name) + " LawParameters;\n\n" +
+                     constants(model, settable) + parameter_function(model, settable);
+  if (model.state_size() > 0)
+    code +=
+        "static inline double law_lag_rate(const LawModel* m) {\n  return m->lag_rate;\n}\n\n"
+        "static inline int law_follows_current(const LawModel* m) {\n  (void)m;\n  return " +
+        std::string(model.follows_current() ? "1" : "0") + ";\n}\n\n";
+  if (!law.states.empty())
+    code += integration(law);
+  else if (model.lag_rate() > 0)
+    code += "#include \"law_path.h\"\n";
+  const bool has_derivatives = model.state_size() > 0 && stem == "model";
+  code = filled(code + rest_function(model) + advance_function(model) + force_function(model) +
+                    (has_derivatives ? derivative_function(model) : ""),
+                {{"law_model", settable ? "law_behind(state)" : "&kLaw"},
+                 {"stem", stem},
+                 {"law", name},
+                 {"states", std::to_string(law.states.size())}});
+  return {code, has_derivatives};
+}
+
+}  // namespace dashpot

@@ -1,0 +1,120 @@
+#include "dashpot/export/exporter.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+
+#include "dashpot/base/error.h"
+#include "dashpot/base/text.h"
+#include "dashpot/export/c/c_block.h"
+#include "dashpot/export/c/c_source.h"
+#include "dashpot/export/c/c_wrappers.h"
+#include "dashpot/export/fmu/fmu.h"
+#include "dashpot/export/onnx/onnx.h"
+#include "dashpot/export/tables/force_map.h"
+
+namespace dashpot {
+namespace {
+
+std::vector<ExportedFile> write_c(const CBlockMaker& block, const ExportOptions& options) {
+  return write_c_block(block(options), options.command);
+}
+
+constexpr std::array kExporters{
+    Exporter{"c", "C99 for an ECU or a simulator", "every model, inverse and controller",
+             "NAME.h, NAME.c and NAME_test.c, a main that checks them along a run", write_c_source,
+             write_c},
+    Exporter{"dpr", "TeimOrbit damper curves of multibody programs",
+             "every model, its states settled",
+             "NAME_00.dpr ..., one curve of settled force over velocity per current", write_dpr},
+    Exporter{
+        "fmu2", "FMU of FMI 2.0 for a simulator",
+        "every model, inverse and controller; model exchange for laws and models without a state",
+        "NAME_fmi2.fmu with its sources and a binary for Linux", write_fmu2, write_fmu2_block},
+    Exporter{
+        "fmu3", "FMU of FMI 3.0 for a simulator",
+        "every model, inverse and controller; model exchange for laws and models without a state",
+        "NAME_fmi3.fmu with its sources and a binary for Linux", write_fmu3, write_fmu3_block},
+    Exporter{"mex", "C for MATLAB and Octave", "every model",
+             "NAME.h, NAME.c and NAME_mex.c, which takes a matrix of inputs", write_mex},
+    Exporter{"modelica", "Modelica package", "every model",
+             "NAME/package.mo with a block and a force element, and its C code", write_modelica},
+    Exporter{"onnx", "ONNX graphs for a runtime of networks", "every model, inverse and controller",
+             "NAME.onnx, one step with its state, and NAME_rest.onnx, where a run begins",
+             write_onnx, write_onnx_block},
+    Exporter{"sfunction", "C for Simulink", "every model",
+             "NAME.h, NAME.c and NAME_sfun.c, a level-2 S-function", write_sfunction},
+    Exporter{"tables", "look-up tables", "every model, its states settled",
+             "NAME_force.csv, NAME_current.csv (its inverse) and NAME.mat with both",
+             write_tables}};
+
+bool is_c_name(const std::string& name) {
+  const auto is_word = [](char c) {
+    return c == '_' || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+  };
+  return !name.empty() && !(name[0] >= '0' && name[0] <= '9') && std::ranges::all_of(name, is_word);
+}
+
+}  // namespace
+
+Domain usual_domain(double current_min, double current_max) {
+  return {-0.025, 0.025, -0.5, 0.5, current_min, current_max};
+}
+
+std::span<const Exporter> exporters() { return kExporters; }
+
+const Exporter& find_exporter(std::string_view name, const std::string& where) {
+  std::vector<std::string> known;
+  for (const Exporter& exporter : kExporters) {
+    if (exporter.name == name) return exporter;
+    known.emplace_back(exporter.name);
+  }
+  throw Error(where, "unknown format '" + std::string(name) + "'", suggest(name, known));
+}
+
+ExportedModel exported_model(const ModelFile& file) {
+  const Provenance& from = file.provenance;
+  ExportedModel exported{.model = *file.model,
+                         .drive_unit = file.drive_unit,
+                         .domain = file.domain,
+                         .sample_time = file.sample_time,
+                         .origin = from.created.empty()
+                                       ? from.dataset + ": " + from.citation
+                                       : "Identified from " + from.dataset + ", " + from.created};
+  Domain& domain = exported.domain;
+  if (!(domain.velocity_min < domain.velocity_max))
+    domain = usual_domain(domain.current_min, domain.current_max);
+  return exported;
+}
+
+std::string usual_compiler() {
+  const char* usual = std::getenv("CC");
+  return usual && *usual != '\0' ? usual : "cc";
+}
+
+double export_sample_time(const ExportedModel& model, const ExportOptions& options) {
+  constexpr double kUsual = 1e-3;
+  for (const double time : {options.sample_time, model.model.feedback_step(), model.sample_time}) {
+    if (time == 0) continue;
+    if (!(time > 0 && std::isfinite(time)))
+      throw Error("sample time", "is " + format_number(time) + " s", "a positive number");
+    return time;
+  }
+  return kUsual;
+}
+
+std::string c_name(const std::string& name) {
+  if (!is_c_name(name))
+    throw Error("name", "'" + name + "' cannot begin names in C",
+                "letters, digits and _, no digit first");
+  return name;
+}
+
+std::string export_name(const ExportedModel& model, const ExportOptions& options) {
+  std::string name = options.name.empty() ? model.model.name() + "_damper" : options.name;
+  if (options.name.empty()) std::ranges::replace(name, '+', '_');
+  return c_name(name);
+}
+
+}  // namespace dashpot

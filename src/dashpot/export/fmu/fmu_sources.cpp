@@ -1,0 +1,91 @@
+#include "dashpot/export/c/c_model.h"
+#include "dashpot/export/fmu/fmu.h"
+
+namespace dashpot {
+namespace {
+
+/// What c/fmu.h asks of whatever is at work.
+constexpr const char* kHeader = R"(/* What is at work in this FMU. Made by @tool@. */
+#ifndef FMU_MODEL_H
+#define FMU_MODEL_H
+
+#include "damper.h"
+
+#define FMU_TOKEN "@token@"
+#define FMU_EXCHANGES @exchanges@ /* whether model exchange is possible */
+#define FMU_DIFFERENTIABLE @differentiable@
+#define FMU_INPUTS @inputs@
+#define FMU_OUTPUTS @outputs@
+#define FMU_STATES @states@ /* continuous ones, the first of the state */
+#define FMU_PARAMETERS @parameters@
+#define FMU_FIRST_PARAMETER @first_parameter@ /* in the state */
+#define FMU_SAMPLE_TIME @sample_time@ /* s */
+
+/* By value reference. */
+static const char* const fmu_names[] = {
+@names@};
+static const double fmu_nominals[] = @nominals@;
+
+/* Of the parameters; the last row is unused. */
+static const double fmu_ranges[][2] = {
+@ranges@    {0.0, 0.0}};
+
+@definitions@
+#include "@interface@"
+
+#endif
+)";
+
+/// C has no number for infinity.
+std::string bound(double value) {
+  return std::isfinite(value) ? c_number(value) : value > 0 ? "HUGE_VAL" : "-HUGE_VAL";
+}
+
+std::string model_header(const Fmu& fmu) {
+  using Role = FmuVariable::Role;
+  std::string names, ranges;
+  std::vector<double> nominals;
+  for (const FmuVariable& variable : fmu.variables) {
+    names += "    \"" + variable.name + "\",\n";
+    nominals.push_back(variable.nominal);
+    if (variable.role == Role::Parameter)
+      ranges += "    {" + bound(variable.lower) + ", " + bound(variable.upper) + "},\n";
+  }
+  const auto count = [&](Role role) { return std::to_string(fmu.count(role)); };
+  return filled(kHeader, {{"tool", fmu.tool},
+                          {"token", fmu.token},
+                          {"exchanges", fmu.exchanges ? "1" : "0"},
+                          {"differentiable", fmu.sampled ? "0" : "1"},
+                          {"inputs", count(Role::Input)},
+                          {"outputs", count(Role::Output)},
+                          {"states", count(Role::State)},
+                          {"parameters", count(Role::Parameter)},
+                          {"first_parameter", std::to_string(fmu.first_parameter)},
+                          {"sample_time", c_number(fmu.sample_time)},
+                          {"names", names},
+                          {"nominals", c_numbers(nominals)},
+                          {"ranges", ranges},
+                          {"definitions", fmu.definitions},
+                          {"interface", fmu.interface}});
+}
+
+}  // namespace
+
+std::vector<ExportedFile> fmu_sources(const Fmu& fmu) {
+  std::vector<ExportedFile> files = fmu.code;
+  files.push_back({"fmu_model.h", model_header(fmu)});
+  std::vector<std::string> texts{"fmu.h",     "fmu_between.h",  fmu.interface,
+                                 "fmu_run.h", "fmu_snapshot.h", "fmu_derivative.h"};
+  if (fmu.version == 2)
+    texts.emplace_back("fmi2.c");
+  else
+    texts.insert(texts.end(), {"fmi3_types.h", "fmi3_absent.h", "fmi3.c"});
+  for (const std::string& text : texts) files.push_back({text, std::string(c_text(text))});
+  return files;
+}
+
+std::vector<std::string> fmu_translation_units(const Fmu& fmu) {
+  return {"damper.c", fmu.version == 2 ? "fmi2.c" : "fmi3.c"};
+}
+
+}  // namespace dashpot

@@ -1,0 +1,34 @@
+#pragma once
+#include <vector>
+
+#include "dashpot/export/exporter.h"
+
+namespace dashpot {
+
+/// The force over velocity and command, once everything has settled.
+struct ForceMap {
+  std::vector<double> velocity;  ///< m/s, ascending, denser about 0
+  std::vector<double> current;   ///< A or V, ascending
+  std::vector<double> force;     ///< N, a row per velocity, a column per current
+
+  double at(std::size_t v, std::size_t i) const { return force[v * current.size() + i]; }
+};
+
+/// Each from a stroke at constant velocity and command, from rest, that ends at the middle of the
+/// domain: what dampers' makers plot. Throws Error where the model gives no finite force.
+ForceMap force_map(const ExportedModel& model, double sample_time);
+
+/// The command over velocity and wanted force: the least one at which the map has the force, or the
+/// one that comes nearest.
+struct CurrentMap {
+  std::vector<double> velocity, force;  ///< m/s; N, ascending
+  std::vector<double> current;          ///< A or V, a row per velocity, a column per force
+};
+CurrentMap inverse_of(const ForceMap& map);
+
+/// NAME_force.csv, NAME_current.csv and NAME.mat with both.
+std::vector<ExportedFile> write_tables(const ExportedModel& model, const ExportOptions& options);
+/// One TeimOrbit file per current.
+std::vector<ExportedFile> write_dpr(const ExportedModel& model, const ExportOptions& options);
+
+}  // namespace dashpot

@@ -1,0 +1,196 @@
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "dashpot/base/error.h"
+#include "dashpot/damper/kinds/family/family_model.h"
+#include "dashpot/identify/fit/family_gates_fit.h"
+#include "dashpot/identify/fit/fit.h"
+#include "dashpot/identify/fit/network_trainer.h"
+#include "dashpot/identify/fit/training_samples.h"
+
+namespace dashpot {
+namespace {
+
+// What the user leaves open of the paper's network and its training. Without a price of weights
+// networks learn the builds of their training by heart, which a new damper does not share.
+constexpr double kRate = 5e-3, kL2 = 5e-3;
+constexpr std::size_t kBatch = 100, kEpochs = 200;
+
+std::vector<FamilyRecord> family_records(const std::vector<Record>& training,
+                                         const std::string& drive_unit) {
+  std::vector<FamilyRecord> records;
+  for (const Record& record : training) {
+    require_member(record.conditions, record.name);
+    records.push_back({with_conditions({}, record.conditions, record.name),
+                       damper_inputs(record, drive_unit), record.time,
+                       record.channel("force").samples, record.warm_up});
+  }
+  return records;
+}
+
+/// What the records of a fluid say of the yield stress at their currents.
+YieldCurve yield_of(const std::vector<FamilyRecord>& records, double viscosity) {
+  std::vector<std::pair<double, double>> points;
+  for (const FamilyRecord& record : records)
+    if (record.member.viscosity == viscosity)
+      points.emplace_back(std::abs(record.inputs.front().current),
+                          record.member.yield.stresses.front());
+  std::ranges::sort(points);
+  YieldCurve curve;
+  for (const auto& [current, stress] : points) {
+    if (!curve.currents.empty() && curve.currents.back() == current) continue;
+    curve.currents.push_back(current);
+    curve.stresses.push_back(stress);
+  }
+  return curve;
+}
+
+std::vector<Family::Range> domain_of(const std::vector<FamilyRecord>& records) {
+  std::vector<Family::Range> domain;
+  for (const MemberField& field : member_fields()) {
+    if (!field.required) continue;
+    Family::Range range{field.field, INFINITY, -INFINITY};
+    for (const FamilyRecord& record : records) {
+      range.min = std::min(range.min, record.member.*field.field);
+      range.max = std::max(range.max, record.member.*field.field);
+    }
+    domain.push_back(range);
+  }
+  return domain;
+}
+
+/// The share of the plate flow that leaves the least of the forces.
+FamilyBaseline fitted_baseline(FamilyTarget target, const std::vector<FamilyRecord>& records) {
+  constexpr double kOnset = 0.1;  // of the top speed
+  double top = 0, across = 0, square = 0;
+  for (const FamilyRecord& record : records)
+    for (const DamperInput& input : record.inputs) top = std::max(top, std::abs(input.velocity));
+  FamilyBaseline baseline{target, 1, top > 0 ? kOnset * top : 1};
+  if (target != FamilyTarget::Residual) return baseline;
+  for (const FamilyRecord& record : records)
+    for (std::size_t k = record.first; k < record.force.size(); ++k) {
+      const double flow = baseline.force(record.member, record.inputs[k]);
+      across += flow * record.force[k];
+      square += flow * flow;
+    }
+  if (square > 0) baseline.share = across / square;
+  return baseline;
+}
+
+TrainingSamples samples_of(const FamilyPreset& preset, const FamilyBaseline& baseline,
+                           const std::vector<FamilyRecord>& records) {
+  std::vector<FamilyInput> reads;
+  for (const std::string& input : preset.inputs)
+    reads.push_back(family_input_named(input, std::string(preset.name)));
+  TrainingSamples samples;
+  for (const FamilyRecord& record : records)
+    for (std::size_t k = record.first; k < record.force.size(); ++k) {
+      const DamperInput& input = record.inputs[k];
+      for (const FamilyInput read : reads) samples.inputs.push_back(read(record.member, input));
+      samples.targets.push_back(record.force[k] - baseline.force(record.member, input));
+    }
+  return samples;
+}
+
+Mlp standardised(const FamilyPreset& preset, const NetworkDesign& design,
+                 const TrainingSamples& samples) {
+  const std::vector<std::size_t>& hidden = design.hidden.empty() ? preset.hidden : design.hidden;
+  Mlp mlp;
+  mlp.layers.push_back(preset.inputs.size());
+  mlp.layers.insert(mlp.layers.end(), hidden.begin(), hidden.end());
+  mlp.layers.push_back(1);
+  mlp.activations.assign(mlp.layers.size() - 2, design.activation.value_or(Activation::Relu));
+  mlp.activations.push_back(Activation::Identity);
+  for (std::size_t k = 0; k < preset.inputs.size(); ++k) {
+    const auto [mean, scale] = mean_and_scale(samples.inputs, k, preset.inputs.size());
+    mlp.input_mean.push_back(mean);
+    mlp.input_scale.push_back(scale);
+  }
+  std::tie(mlp.output_mean, mlp.output_scale) = mean_and_scale(samples.targets, 0, 1);
+  return mlp;
+}
+
+struct LearnedForce {
+  std::shared_ptr<const FamilyForce> force;  ///< none where the training failed
+  double build_spread = 0;
+};
+
+/// The design with what it leaves open as the family's networks learn.
+NetworkDesign completed(NetworkDesign design) {
+  if (design.trainer.value_or(Trainer::Adam) != Trainer::Adam) return design;
+  design.trainer = Trainer::Adam;
+  design.rate = design.rate.value_or(kRate);
+  design.batch = design.batch.value_or(kBatch);
+  design.epochs = design.epochs.value_or(kEpochs);
+  design.l2 = design.l2.value_or(kL2);
+  return design;
+}
+
+LearnedForce fit_networks(const FamilyPreset& preset, const FamilyBaseline& baseline,
+                          const std::vector<Record>& training, const std::string& drive_unit,
+                          const IdentifyOptions& asked, FitReport& report) {
+  IdentifyOptions options = asked;
+  options.network = completed(asked.network);
+  // Of several starts the one that fits best is not the one that foretells best.
+  if (options.network.patience.value_or(0) == 0) options.starts = 1;
+  const SamplesOf samples_of_records = [&](const std::vector<Record>& records) {
+    return samples_of(preset, baseline, family_records(records, drive_unit));
+  };
+  const Mlp start = standardised(preset, options.network, samples_of_records(training));
+  TrainedEnsemble trained = train_networks(start, training, samples_of_records, options);
+  report.status = trained.status;
+  report.message = trained.message;
+  report.iterations = trained.iterations;
+  if (trained.status == FitReport::Status::Failed) return {};
+  return {std::make_shared<FamilyNetwork>(preset.inputs, std::move(trained.members))};
+}
+
+LearnedForce fit_gates(const FamilyPreset& preset, const std::vector<FamilyRecord>& records,
+                       const IdentifyOptions& options, FitReport& report) {
+  FamilyGatesFit fit = fit_family_gates(preset, records, options.monitor);
+  report.parameters.push_back(
+      {"build_spread", "1",
+       "standard deviation of a new damper's force from its design's, as a share", fit.build_spread,
+       fit.spread_low, fit.spread_high});
+  report.status = FitReport::Status::Converged;
+  report.message = "solved";
+  report.iterations = 1;
+  return {std::make_shared<GatedFamily>(std::move(fit.gates)), fit.build_spread};
+}
+
+double rmse_of(const FamilyModel& model, const std::vector<Record>& training,
+               const std::string& drive_unit, const IdentifyOptions& options) {
+  return evaluate(model, training, drive_unit,
+                  {.offset = options.offset, .threads = options.threads})
+      .pooled.rmse;
+}
+
+}  // namespace
+
+FitReport fit_family(const FamilyPreset& preset, const std::vector<Record>& training,
+                     const std::string& drive_unit, const IdentifyOptions& options) {
+  options.monitor.check();
+  const std::vector<FamilyRecord> records = family_records(training, drive_unit);
+  FitReport report;
+  Family family;
+  family.name = preset.name;
+  family.domain = domain_of(records);
+  family.baseline = fitted_baseline(preset.target, records);
+  const LearnedForce learned =
+      preset.inputs.empty()
+          ? fit_gates(preset, records, options, report)
+          : fit_networks(preset, family.baseline, training, drive_unit, options, report);
+  if (!learned.force) return report;
+  family.force = learned.force;
+  family.build_spread = learned.build_spread;
+  FamilyMember member = records.front().member;
+  member.yield = yield_of(records, member.viscosity);
+  const auto model =
+      std::make_shared<FamilyModel>(std::make_shared<Family>(std::move(family)), member);
+  report.training_rmse = rmse_of(*model, training, drive_unit, options);
+  report.model = model;
+  return report;
+}
+
+}  // namespace dashpot

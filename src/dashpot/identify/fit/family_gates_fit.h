@@ -1,0 +1,30 @@
+#pragma once
+#include <vector>
+
+#include "dashpot/base/monitor.h"
+#include "dashpot/damper/kinds/family/family_force.h"
+#include "dashpot/damper/registry.h"
+
+namespace dashpot {
+
+/// One record of a member of a family.
+struct FamilyRecord {
+  FamilyMember member;
+  std::vector<DamperInput> inputs;
+  std::vector<double> time, force;
+  std::size_t first = 0;  ///< scored from here on
+};
+
+/// Weights and what was found on the way to them.
+struct FamilyGatesFit {
+  FamilyGates gates;
+  double build_spread = 0;  ///< from designs that were left out; 0 where there is one
+  double spread_low = 0, spread_high = 0;  ///< its 95 % interval
+};
+
+/// Ridge with prices from leaving designs out of these records: all dampers of one geometry, or of
+/// one fluid where there is one geometry. The offset of a record is not a nuisance here.
+FamilyGatesFit fit_family_gates(const FamilyPreset& preset,
+                                const std::vector<FamilyRecord>& records, const Monitor& monitor);
+
+}  // namespace dashpot

@@ -1,0 +1,152 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "dashpot/base/error.h"
+#include "dashpot/base/parallel.h"
+#include "dashpot/damper/nets/train_bank.h"
+#include "dashpot/identify/fit/bank_records.h"
+#include "dashpot/identify/fit/fit.h"
+#include "dashpot/identify/fit/member_report.h"
+#include "dashpot/identify/fit/starting_bank.h"
+#include "dashpot/identify/fit/trials.h"
+
+namespace dashpot {
+namespace {
+
+constexpr std::size_t kSamples = 8000;                  // of a fit, every k-th; the states see all
+constexpr std::size_t kTrialSamples = 2500;             // of a trial of a decay
+constexpr int kIterations = 60, kTrialIterations = 25;  // stopping early, too, keeps weights small
+constexpr std::array kDecays{1e-3, 1e-4, 1e-5};
+
+using Records = std::vector<const BankRecord*>;
+
+/// Mean square of each of the bank's signals over all records.
+std::vector<double> mean_squares(const HysteresisBank& bank, const Records& records) {
+  std::vector<double> squares(bank.signal_count()), signals(bank.signal_count()),
+      state(bank.size());
+  double samples = 0;
+  for (const BankRecord* record : records) {
+    bank.rest(record->inputs.front(), state);
+    for (std::size_t k = 0; k < record->inputs.size(); ++k) {
+      if (k > 0)
+        bank.advance(record->inputs[k - 1], record->inputs[k],
+                     record->time[k] - record->time[k - 1], state);
+      bank.read(record->inputs[k], state, signals.data());
+      for (std::size_t i = 0; i < signals.size(); ++i) squares[i] += signals[i] * signals[i];
+    }
+    samples += static_cast<double>(record->inputs.size());
+  }
+  for (double& square : squares) square /= samples;
+  return squares;
+}
+
+GatedNetwork standardised(const HysteresisBank& bank, const Records& records,
+                          const DriveRange& drive) {
+  const std::vector<double> squares = mean_squares(bank, records);
+  GatedNetwork network;
+  network.currents = bank.current_rates.size();
+  for (std::size_t k = 0; k + network.currents < squares.size(); ++k) {
+    const bool is_dahl = k >= 1 && k <= bank.path_rates.size();  // -1 ... 1 as it is
+    network.signals.push_back({.scale = is_dahl || squares[k] == 0 ? 1 : std::sqrt(squares[k])});
+  }
+  const double half = (drive.high - drive.low) / 2;
+  network.signals.resize(squares.size(), {.mean = drive.low + half, .scale = half > 0 ? half : 1});
+  network.output_scale = force_deviation(records);
+  return network;
+}
+
+std::size_t hidden_of(const StateNetworkPreset& preset, const NetworkDesign& design) {
+  if (design.hidden.size() > 1)
+    throw Error("--network hidden", std::string(preset.name) + " has one hidden layer",
+                "give one number, as hidden=8");
+  return design.hidden.empty() ? preset.hidden : design.hidden.front();
+}
+
+/// One preset on one set of records.
+class BankFit {
+ public:
+  BankFit(const StateNetworkPreset& preset, const std::vector<Record>& training,
+          const std::string& drive_unit, const IdentifyOptions& options)
+      : options_(options),
+        hidden_(hidden_of(preset, options.network)),
+        members_(options.network.members.value_or(preset.members)),
+        iterations_(static_cast<int>(options.network.epochs.value_or(kIterations))),
+        records_(bank_records(training, drive_unit)) {
+    for (const BankRecord& record : records_) all_.push_back(&record);
+    const DriveRange drive = drive_range(training, drive_unit);
+    start_.bank = starting_bank({preset.path_states, preset.velocity_lags, preset.current_lags},
+                                all_, drive.varies);
+    start_.network = standardised(start_.bank, all_, drive);
+    decay_ = options.network.l2 ? *options.network.l2 : best_decay(Trials(training, drive_unit));
+  }
+
+  struct Member {
+    BankNetwork network;
+    BankTrainReport report;
+  };
+
+  /// Members differ in their random start alone.
+  std::vector<Member> members() const {
+    std::vector<Member> members(members_);
+    parallel_for(members.size(), options_.threads, [&](std::size_t k) {
+      members[k] = fit(all_, kSamples, {decay_, iterations_, k});
+    });
+    return members;
+  }
+
+ private:
+  /// The price of weights with which trials foretell best what was held back from them.
+  double best_decay(const Trials& trials) const {
+    return trials.best_price(
+        kDecays, options_.threads, [this](const BankTrial& trial, double decay) {
+          const Effort effort{decay, std::min(kTrialIterations, iterations_)};
+          const BankNetwork found = fit(trial.training, kTrialSamples, effort).network;
+          double squares = 0;
+          for (const BankRecord* record : trial.held_back)
+            squares += squares_left(found, *record, options_.offset == OffsetMode::Record);
+          return squares;
+        });
+  }
+
+  struct Effort {
+    double decay;
+    int iterations;
+    std::uint64_t start = 0;
+  };
+  Member fit(const Records& records, std::size_t most_samples, Effort effort) const {
+    const BankTrainOptions options{
+        .max_iterations = effort.iterations,
+        .weight_decay = effort.decay,
+        .offsets = options_.offset == OffsetMode::Record,
+        .stride = (scored_samples(records) + most_samples - 1) / most_samples,
+        .on_iteration = [this] { options_.monitor.check(); }};
+    Member member{start_, {}};
+    member.network.network.initialise(hidden_, options_.seed + effort.start);
+    member.report = train(member.network, records, options);
+    return member;
+  }
+
+  const IdentifyOptions& options_;
+  std::size_t hidden_, members_;
+  int iterations_;
+  std::vector<BankRecord> records_;
+  Records all_;
+  BankNetwork start_;
+  double decay_ = 0;
+};
+
+}  // namespace
+
+FitReport fit_state_network(const StateNetworkPreset& preset, const std::vector<Record>& training,
+                            const std::string& drive_unit, const IdentifyOptions& options) {
+  const std::vector<BankFit::Member> members =
+      BankFit(preset, training, drive_unit, options).members();
+  FitReport report = report_of_members(members);
+  std::vector<BankNetwork> networks;
+  for (const BankFit::Member& member : members) networks.push_back(member.network);
+  report.model = std::make_shared<HysteresisNetwork>(std::string(preset.name), std::move(networks));
+  return report;
+}
+
+}  // namespace dashpot

@@ -1,0 +1,249 @@
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "dashpot/base/text.h"
+#include "dashpot/identify/fit/fit.h"
+#include "dashpot/identify/fit/law_residuals.h"
+#include "dashpot/identify/fit/law_solution.h"
+#include "dashpot/identify/fit/uncertainty.h"
+#include "dashpot/numerics/global_search.h"
+
+namespace dashpot {
+namespace {
+
+constexpr double kNormal95 = 1.959963984540054;  // two-sided 95 % point of the normal distribution
+
+/// How much of each record the starts are tried on. A law without a memory needs no samples in a
+/// row, one with a memory gets the first part: all of small data, a fifth of large ones.
+Thinning trial_thinning(const Law& law, const std::vector<Record>& training, bool lags) {
+  constexpr double kEnoughSamples = 8000, kLeastShare = 0.2;
+  double samples = 0;
+  for (const Record& record : training) samples += static_cast<double>(record.size());
+  if (law.states.empty() && !lags)
+    return {.stride = static_cast<std::size_t>(std::max(1.0, samples / kEnoughSamples))};
+  return {.share = std::clamp(kEnoughSamples / samples, kLeastShare, 1.0)};
+}
+
+/// The fit of one law: its unknowns, the records and what was asked for.
+struct Task {
+  const Law& law;
+  const std::vector<Record>& training;
+  const std::string& drive_unit;
+  const IdentifyOptions& options;
+  LawUnknowns unknowns;
+
+  LawResiduals residuals(const Thinning& thinning) const {
+    return {unknowns, training, drive_unit, options.offset, thinning};
+  }
+};
+
+/// The best point that a global search finds within some times the expected size of each unknown.
+std::vector<double> searched_start(const Task& task, const LeastSquaresProblem& problem) {
+  constexpr double kWidest = 5;
+  std::vector<double> start = task.unknowns.start(), lower = problem.lower, upper = problem.upper;
+  for (std::size_t k = 0; k < start.size(); ++k) {
+    lower[k] = std::max(lower[k], start[k] > 0 ? std::min(0.0, start[k]) : start[k] - kWidest);
+    upper[k] = std::min(upper[k], start[k] < 0 ? std::max(0.0, start[k]) : start[k] + kWidest);
+  }
+  std::vector<double> residuals(problem.residuals);
+  const auto cost = [&](std::span<const double> x) {
+    task.options.monitor.check();
+    if (!problem.residual(x, residuals)) return static_cast<double>(INFINITY);
+    return std::inner_product(residuals.begin(), residuals.end(), residuals.begin(), 0.0);
+  };
+  return global_search(cost, {lower, upper}, std::move(start), task.options.search,
+                       task.options.seed);
+}
+
+/// Tries several starts on a part of the data and returns the most promising end point.
+std::vector<double> best_start(const Task& task) {
+  constexpr double kTolerance = 1e-2, kHopeless = 2;
+  constexpr int kIterations = 15, kHopelessAfter = 5;
+  const LawResiduals residuals =
+      task.residuals(trial_thinning(task.law, task.training, task.unknowns.fits_lag()));
+  const LeastSquaresProblem problem = residuals.problem(0, task.options.threads);
+  Random random(task.options.seed);
+  std::vector<std::vector<double>> starts = {task.unknowns.start()};
+  if (task.options.search > 0) starts.push_back(searched_start(task, problem));
+  while (starts.size() < static_cast<std::size_t>(task.options.starts))
+    starts.push_back(task.unknowns.start(&random));
+  std::vector<double> best = starts.front();
+  double best_cost = INFINITY;
+  const auto attempt = [&](const std::vector<double>& start) {
+    LeastSquaresOptions solver = solver_options(task.options, kIterations, kTolerance);
+    if (std::isfinite(best_cost)) {
+      solver.hopeless_after = kHopelessAfter;
+      solver.hopeless_cost = kHopeless * best_cost;
+    }
+    const LeastSquaresReport tried = solve(problem, start, solver);
+    if (!std::isfinite(tried.cost) || tried.cost >= best_cost) return;
+    best_cost = tried.cost;
+    best = tried.x;
+  };
+  for (const std::vector<double>& start : starts) attempt(start);
+  return best;
+}
+
+Noise noise_at(const Task& task, const LawResiduals& residuals, std::span<const double> x) {
+  std::vector<double> errors(residuals.size());
+  if (!residuals.evaluate(x, errors)) return {};
+  double squares = 0;
+  for (const double error : errors) squares += error * error;
+  const std::size_t used =
+      std::min(residuals.size() - 1, task.unknowns.size() + task.training.size());
+  const double length = correlation_length(errors, residuals.segments());
+  return {std::sqrt(squares / static_cast<double>(residuals.size())),
+          independent_variances(errors, residuals.segments(), used),
+          std::sqrt(length * squares / static_cast<double>(residuals.size() - used))};
+}
+
+/// The end of a fit, with those unknowns moved off their bounds that nothing holds there: going
+/// back would hardly change the cost, as far as its slope tells.
+std::vector<double> off_slack_bounds(const Task& task, const LeastSquaresReport& end) {
+  constexpr double kSlack = 1e-3;
+  std::vector<double> x = task.unknowns.off_bounds(end.x);
+  for (std::size_t k = 0; k < end.gradient.size(); ++k)
+    if (std::abs(end.gradient[k] * (x[k] - end.x[k])) > kSlack * end.cost) x[k] = end.x[k];
+  return x;
+}
+
+/// From x on, on all data. An early step too long may have thrown an unknown against a bound where
+/// nothing pulls it back: those get one more chance from inside.
+LeastSquaresReport solve_twice(const Task& task, const LeastSquaresProblem& problem,
+                               std::vector<double> x) {
+  constexpr int kIterations = 100, kSecondIterations = 20, kHopelessAfter = 3;
+  constexpr double kTolerance = 1e-6, kHopeless = 1.02;
+  LeastSquaresOptions solver = solver_options(task.options, kIterations, kTolerance);
+  LeastSquaresReport first = solve(problem, std::move(x), solver);
+  const std::vector<double> freed = off_slack_bounds(task, first);
+  if (freed == first.x || !std::isfinite(first.cost)) return first;
+  solver.max_iterations = kSecondIterations;
+  solver.hopeless_after = kHopelessAfter;
+  solver.hopeless_cost = kHopeless * first.cost;
+  const LeastSquaresReport second = solve(problem, freed, solver);
+  if (second.cost >= first.cost) return first;
+  return second.converged
+             ? second
+             : solve(problem, second.x, solver_options(task.options, kIterations, kTolerance));
+}
+
+/// Priors are weighed against the residuals' noise, which the fit itself tells: so it is done again
+/// until the noise stays.
+LawSolution solve_all(const Task& task) {
+  constexpr int kRounds = 4;
+  constexpr double kSameNoise = 0.02;
+  const LawResiduals residuals = task.residuals({});
+  LawSolution end{task.unknowns, {}, {}};
+  std::vector<double> x = best_start(task);
+  if (!task.unknowns.priors().empty()) end.noise = noise_at(task, residuals, x);
+  for (int round = 0; round < kRounds; ++round) {
+    const double assumed = end.noise.independent;
+    end.solved = solve_twice(task, residuals.problem(assumed, task.options.threads), std::move(x));
+    end.noise = noise_at(task, residuals, end.solved.x);
+    if (assumed == 0 || std::abs(end.noise.independent - assumed) <= kSameNoise * assumed) break;
+    x = end.solved.x;
+  }
+  return end;
+}
+
+std::vector<FittedParameter> fitted_parameters(
+    const std::vector<LawUnknowns::Coefficient>& coefficients, const Covariance& covariance) {
+  std::vector<FittedParameter> parameters;
+  for (const auto& c : coefficients) {
+    FittedParameter p{.name = c.name, .unit = c.unit, .meaning = c.meaning, .value = c.value};
+    p.fixed = c.weights.empty();
+    p.at_bound = c.at_bound;
+    const double spread =
+        p.fixed ? 0 : kNormal95 * std::sqrt(covariance.variance(c.first, c.weights));
+    p.low = c.value - spread;
+    p.high = c.value + spread;
+    const auto touches = [&](std::size_t unknown) {
+      return unknown >= c.first && unknown < c.first + c.weights.size();
+    };
+    p.weak =
+        std::any_of(covariance.without_effect.begin(), covariance.without_effect.end(), touches);
+    for (const auto& group : covariance.confounded)
+      p.weak |= std::any_of(group.begin(), group.end(), touches);
+    parameters.push_back(std::move(p));
+  }
+  return parameters;
+}
+
+/// Names of the coefficients that hang on these unknowns, each once.
+std::vector<std::string> names_of(const std::vector<std::size_t>& unknowns,
+                                  const std::vector<LawUnknowns::Coefficient>& coefficients) {
+  std::vector<std::string> names;
+  for (const auto& c : coefficients)
+    for (const std::size_t u : unknowns)
+      if (u >= c.first && u < c.first + c.weights.size()) {
+        names.push_back(c.name);
+        break;
+      }
+  return names;
+}
+
+std::vector<std::string> warnings_of(const std::vector<LawUnknowns::Coefficient>& coefficients,
+                                     const Covariance& covariance) {
+  std::vector<std::string> warnings;
+  for (const auto& c : coefficients)
+    if (c.at_bound)
+      warnings.push_back(c.name + " = " + format_number(c.value) + " " + c.unit +
+                         " stands at a bound of its range");
+  if (const auto names = names_of(covariance.without_effect, coefficients); !names.empty())
+    warnings.push_back(join(names, ", ") + (names.size() == 1 ? " has" : " have") +
+                       " no effect on these data");
+  for (const auto& group : covariance.confounded)
+    warnings.push_back(join(names_of(group, coefficients), " and ") +
+                       " cannot be told apart on these data");
+  return warnings;
+}
+
+}  // namespace
+
+LeastSquaresOptions solver_options(const IdentifyOptions& options, int iterations,
+                                   double tolerance) {
+  LeastSquaresOptions solver;
+  solver.max_iterations = iterations;
+  solver.function_tolerance = tolerance;
+  solver.threads = options.threads;
+  solver.on_iteration = [&options](int, double) { options.monitor.check(); };
+  return solver;
+}
+
+FitReport::Status status_of(const LeastSquaresReport& solved) {
+  if (solved.x.empty() || !std::isfinite(solved.cost)) return FitReport::Status::Failed;
+  return solved.converged ? FitReport::Status::Converged : FitReport::Status::IterationLimit;
+}
+
+LawSolution solve_law(const Law& law, const std::vector<Record>& training,
+                      const std::string& drive_unit, const IdentifyOptions& options,
+                      std::string_view model) {
+  return solve_all({law, training, drive_unit, options,
+                    LawUnknowns(law, data_scale(training, drive_unit), drive_unit, options.offset,
+                                options.choices, model)});
+}
+
+FitReport fit_law(const Law& law, const std::vector<Record>& training,
+                  const std::string& drive_unit, const IdentifyOptions& options) {
+  const auto [unknowns, solved, noise] = solve_law(law, training, drive_unit, options);
+  FitReport report;
+  report.status = status_of(solved);
+  report.message = solved.message;
+  report.iterations = solved.iterations;
+  if (report.status == FitReport::Status::Failed) return report;
+
+  report.model = std::make_shared<LawModel>(unknowns.model(solved.x));
+  report.training_rmse = noise.rms;
+  std::vector<double> variances = noise.variances;
+  if (!unknowns.priors().empty()) variances.push_back(noise.independent * noise.independent);
+  const Covariance spread = covariance(solved.part_matrices, variances, unknowns.size());
+  const auto coefficients = unknowns.coefficients(solved.x);
+  report.parameters = fitted_parameters(coefficients, spread);
+  report.warnings = unknowns.warnings();
+  for (std::string& warning : warnings_of(coefficients, spread))
+    report.warnings.push_back(std::move(warning));
+  return report;
+}
+
+}  // namespace dashpot

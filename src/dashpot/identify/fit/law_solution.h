@@ -1,0 +1,35 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "dashpot/identify/fit/law_unknowns.h"
+#include "dashpot/identify/identify.h"
+#include "dashpot/numerics/least_squares.h"
+
+namespace dashpot {
+
+/// What a fitted model leaves over.
+struct Noise {
+  double rms = 0;                 ///< N
+  std::vector<double> variances;  ///< N^2, of one independent residual in each record
+  double independent =
+      0;  ///< N, standard deviation of one independent residual: many correlated ones make one
+};
+
+/// A law fitted to all records: the unknowns at their best. `model` as LawUnknowns has it.
+struct LawSolution {
+  LawUnknowns unknowns;
+  LeastSquaresReport solved;
+  Noise noise;
+};
+LawSolution solve_law(const Law& law, const std::vector<Record>& training,
+                      const std::string& drive_unit, const IdentifyOptions& options,
+                      std::string_view model = {});
+
+FitReport::Status status_of(const LeastSquaresReport& solved);
+
+/// Passes the options' threads and monitor on.
+LeastSquaresOptions solver_options(const IdentifyOptions& options, int iterations,
+                                   double tolerance);
+
+}  // namespace dashpot

@@ -1,0 +1,62 @@
+#include <tuple>
+
+#include "dashpot/damper/kinds/network/network_model.h"
+#include "dashpot/identify/fit/fit.h"
+#include "dashpot/identify/fit/network_trainer.h"
+#include "dashpot/identify/fit/training_samples.h"
+
+namespace dashpot {
+namespace {
+
+double input_of(const DamperInput& input, std::string_view name) {
+  if (name == "displacement") return input.displacement;
+  return name == "velocity" ? input.velocity : input.current;
+}
+
+Mlp standardised(const NetworkPreset& preset, const NetworkDesign& design,
+                 const TrainingSamples& samples) {
+  const std::vector<std::size_t>& hidden = design.hidden.empty() ? preset.hidden : design.hidden;
+  Mlp mlp;
+  mlp.layers.push_back(preset.inputs.size());
+  mlp.layers.insert(mlp.layers.end(), hidden.begin(), hidden.end());
+  mlp.layers.push_back(1);
+  mlp.activations.assign(hidden.size(), design.activation.value_or(Activation::Tanh));
+  mlp.activations.push_back(Activation::Identity);
+  mlp.parameters.resize(Mlp::parameter_count(mlp.layers));
+  for (std::size_t k = 0; k < preset.inputs.size(); ++k) {
+    const auto [mean, scale] = mean_and_scale(samples.inputs, k, preset.inputs.size());
+    mlp.input_mean.push_back(mean);
+    mlp.input_scale.push_back(scale);
+  }
+  std::tie(mlp.output_mean, mlp.output_scale) = mean_and_scale(samples.targets, 0, 1);
+  return mlp;
+}
+
+}  // namespace
+
+FitReport fit_network(const NetworkPreset& preset, const std::vector<Record>& training,
+                      const std::string& drive_unit, const IdentifyOptions& options) {
+  const auto rows = [&](const std::vector<DamperInput>& inputs, const std::vector<double>&) {
+    std::vector<double> values;
+    for (const DamperInput& input : inputs)
+      for (const std::string& name : preset.inputs) values.push_back(input_of(input, name));
+    return values;
+  };
+  const SamplesOf samples_of = [&](const std::vector<Record>& records) {
+    return training_samples(records, drive_unit, options.offset, rows);
+  };
+  const Mlp start = standardised(preset, options.network, samples_of(training));
+  TrainedEnsemble trained = train_networks(start, training, samples_of, options);
+
+  FitReport report;
+  report.status = trained.status;
+  report.message = trained.message;
+  report.iterations = trained.iterations;
+  report.training_rmse = trained.rmse;
+  if (trained.status == FitReport::Status::Failed) return report;
+  report.model = std::make_shared<NetworkModel>(std::string(preset.name), preset.inputs,
+                                                std::move(trained.members));
+  return report;
+}
+
+}  // namespace dashpot

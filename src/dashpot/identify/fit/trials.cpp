@@ -1,0 +1,40 @@
+#include "dashpot/identify/fit/trials.h"
+
+#include <algorithm>
+
+#include "dashpot/base/parallel.h"
+#include "dashpot/identify/fit/bank_records.h"
+#include "dashpot/record/split.h"
+
+namespace dashpot {
+
+Trials::Trials(const std::vector<Record>& training, const std::string& drive_unit) {
+  for (const Fold& fold : trial_folds(training)) {
+    BankTrial trial;
+    trial.training = keep(bank_records(fold.training, drive_unit));
+    trial.held_back = keep(bank_records(fold.left_out, drive_unit));
+    trials_.push_back(std::move(trial));
+  }
+}
+
+std::vector<const BankRecord*> Trials::keep(std::vector<BankRecord> records) {
+  std::vector<const BankRecord*> pointers;
+  for (const BankRecord& record : kept_.emplace_back(std::move(records)))
+    pointers.push_back(&record);
+  return pointers;
+}
+
+double Trials::best_price(
+    std::span<const double> prices, int threads,
+    const std::function<double(const BankTrial&, double)>& squares_left) const {
+  std::vector<double> squares(prices.size() * trials_.size());
+  parallel_for(squares.size(), threads, [&](std::size_t k) {
+    squares[k] = squares_left(trials_[k / prices.size()], prices[k % prices.size()]);
+  });
+  std::vector<double> sums(prices.size());
+  for (std::size_t k = 0; k < squares.size(); ++k) sums[k % prices.size()] += squares[k];
+  return prices[static_cast<std::size_t>(std::min_element(sums.begin(), sums.end()) -
+                                         sums.begin())];
+}
+
+}  // namespace dashpot

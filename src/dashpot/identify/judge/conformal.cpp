@@ -1,0 +1,150 @@
+#include "dashpot/identify/judge/conformal.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dashpot {
+namespace {
+
+constexpr double kSpeedShares[] = {0.05, 0.25,
+                                   0.6};  ///< of the largest |v|: pre-yield, low, middle, high
+constexpr std::size_t kMostLevels = 8;  ///< more constant levels of the drive than this share knots
+constexpr int kKnots = 4;               ///< over the range of a drive that varies
+constexpr double kLeaning = 200;        ///< samples that a class borrows from the wider one
+
+template <class Visit>
+void for_each_scored(const RecordResult& r, const Visit& visit) {
+  if (r.diverged_at) return;
+  for (std::size_t k = r.warm_up; k < r.measured.size(); ++k)
+    visit(DamperInput{0, r.velocity[k], r.drive[k]}, std::abs(r.measured[k] - r.modelled[k]), k);
+}
+
+std::vector<double> drive_knots(const std::vector<RecordResult>& records) {
+  std::vector<double> knots;
+  bool varies = false;
+  double low = INFINITY, high = -INFINITY;
+  for (const RecordResult& r : records) {
+    varies = varies || !r.drive_level;
+    if (r.drive_level) knots.push_back(*r.drive_level);
+    for (const double drive : r.drive) low = std::min(low, drive), high = std::max(high, drive);
+  }
+  std::ranges::sort(knots);
+  knots.erase(std::unique(knots.begin(), knots.end()), knots.end());
+  if (!varies && knots.size() <= kMostLevels) return knots;
+  knots = {low};
+  for (int k = 1; k < kKnots && high > low; ++k)
+    knots.push_back(low + (high - low) * k / (kKnots - 1));
+  return knots;
+}
+
+std::size_t nearest(const std::vector<double>& knots, double value) {
+  const auto closer = [&](double a, double b) { return std::abs(a - value) < std::abs(b - value); };
+  return static_cast<std::size_t>(std::ranges::min_element(knots, closer) - knots.begin());
+}
+
+struct Mean {
+  double sum = 0, n = 0;
+  void add(double value) { sum += value, ++n; }
+  double leaning_on(double wider) const { return (sum + kLeaning * wider) / (n + kLeaning); }
+};
+
+}  // namespace
+
+std::optional<ForceBand> error_shape(const std::vector<RecordResult>& training) {
+  double fastest = 0, largest_force = 0;
+  for (const RecordResult& r : training)
+    for_each_scored(r, [&](const DamperInput& input, double, std::size_t) {
+      fastest = std::max(fastest, std::abs(input.velocity));
+    });
+  for (const RecordResult& r : training)
+    for (const double force : r.measured) largest_force = std::max(largest_force, std::abs(force));
+  ForceBand shape;
+  shape.spread =
+      std::ranges::any_of(training, [](const RecordResult& r) { return !r.spread.empty(); }) ? 1
+                                                                                             : 0;
+  for (const double share : kSpeedShares)
+    if (fastest > 0) shape.speeds.push_back(share * fastest);
+  shape.drives = drive_knots(training);
+
+  const std::size_t columns = shape.drives.size();
+  Mean all;
+  std::vector<Mean> bands(shape.speeds.size() + 1), cells(bands.size() * columns);
+  for (const RecordResult& r : training)
+    for_each_scored(r, [&](const DamperInput& input, double error, std::size_t) {
+      const auto band = static_cast<std::size_t>(
+          std::ranges::upper_bound(shape.speeds, std::abs(input.velocity)) - shape.speeds.begin());
+      all.add(error);
+      bands[band].add(error);
+      cells[band * columns + nearest(shape.drives, input.current)].add(error);
+    });
+  if (all.n == 0) return std::nullopt;
+  // A model without any error would have a band without a width, which no factor could open.
+  const double least = 1e-9 * std::max(largest_force, 1e-9);
+  for (std::size_t k = 0; k < cells.size(); ++k)
+    shape.half_width.push_back(
+        std::max(least, cells[k].leaning_on(bands[k / columns].leaning_on(all.sum / all.n))));
+  return shape;
+}
+
+ErrorGroups relative_errors(const std::vector<RecordResult>& left_out, const ForceBand& shape) {
+  ErrorGroups groups;
+  for (const RecordResult& r : left_out) {
+    std::vector<double> group;
+    for_each_scored(r, [&](const DamperInput& input, double error, std::size_t k) {
+      group.push_back(error / shape.half_width_at(input, r.spread_at(k)));
+    });
+    if (!group.empty()) groups.push_back(std::move(group));
+  }
+  return groups;
+}
+
+std::optional<double> conformal_factor(const std::vector<ErrorGroups>& parts, double level) {
+  struct Weighted {
+    double error, weight;
+  };
+  std::vector<Weighted> errors;
+  double counted = 0;
+  for (const ErrorGroups& groups : parts) {
+    counted += groups.empty() ? 0 : 1;
+    for (const std::vector<double>& group : groups)
+      for (const double error : group)
+        errors.push_back({error, 1 / static_cast<double>((group.size() + 1) * groups.size())});
+  }
+  std::ranges::sort(errors, {}, &Weighted::error);
+  constexpr double kRounding = 1e-9;  // of sums of weights
+  double reached = 0;
+  for (const Weighted& e : errors)
+    if ((reached += e.weight) >= counted * (level - kRounding)) return e.error;
+  return std::nullopt;
+}
+
+std::optional<double> widening(const std::vector<ErrorGroups>& parts, double level) {
+  if (parts.size() == 1) {
+    if (parts.front().size() < 2) return 1;
+    std::vector<ErrorGroups> records;
+    for (const std::vector<double>& record : parts.front()) records.push_back({record});
+    return widening(records, level);
+  }
+  std::vector<ErrorGroups> beside_others = parts;
+  for (std::size_t part = 0; part < parts.size(); ++part) {
+    std::vector<ErrorGroups> others = parts;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(part));
+    const std::optional<double> factor = conformal_factor(others, level);
+    if (!factor) return std::nullopt;
+    for (std::vector<double>& group : beside_others[part])
+      for (double& error : group) error /= *factor;
+  }
+  return conformal_factor(beside_others, level);
+}
+
+std::optional<ForceBand> conformal_band(const std::optional<ForceBand>& shape,
+                                        const std::vector<ErrorGroups>& parts) {
+  const std::optional<double> factor = conformal_factor(parts), wider = widening(parts);
+  if (!shape || !factor || !wider) return std::nullopt;
+  ForceBand band = shape->scaled(*factor * *wider);
+  band.level = kCoverage;
+  for (const ErrorGroups& groups : parts) band.records += groups.size();
+  return band;
+}
+
+}  // namespace dashpot

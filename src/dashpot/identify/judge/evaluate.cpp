@@ -1,0 +1,328 @@
+#include "dashpot/identify/judge/evaluate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "dashpot/base/error.h"
+#include "dashpot/base/parallel.h"
+#include "dashpot/base/text.h"
+#include "dashpot/identify/judge/one_step.h"
+
+namespace dashpot {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+std::string_view drive_channel(std::string_view drive_unit) {
+  return drive_unit == "V" ? "voltage" : "current";
+}
+
+const std::vector<double>& drive_samples(const Record& record, std::string_view drive_unit) {
+  const std::string_view name = drive_channel(drive_unit);
+  if (const Channel* drive = record.find(name)) return drive->samples;
+  throw Error(record.name, "has no known " + std::string(name),
+              "give it as a column, in the file name (run_0.5" + std::string(drive_unit) +
+                  ".csv), in manifest.csv or in a dataset file");
+}
+
+const double* known_offset(const EvaluateOptions& options, const std::string& record) {
+  for (const auto& [name, offset] : options.known_offsets)
+    if (name == record) return &offset;
+  return nullptr;
+}
+
+/// Mean of measured - modelled over the scored samples.
+double mean_error(const RecordResult& result) {
+  double sum = 0;
+  for (std::size_t k = result.warm_up; k < result.measured.size(); ++k)
+    sum += result.measured[k] - result.modelled[k];
+  return sum / static_cast<double>(result.measured.size() - result.warm_up);
+}
+
+ErrorSums error_sums(const RecordResult& result, double offset) {
+  ErrorSums sums;
+  for (std::size_t k = result.warm_up; k < result.measured.size(); ++k)
+    sums.add(result.measured[k], result.modelled[k] + offset);
+  return sums;
+}
+
+Coverage coverage_of(const RecordResult& r) {
+  Coverage coverage;
+  if (!r.band || r.diverged_at) return coverage;
+  for (std::size_t k = r.warm_up; k < r.measured.size(); ++k) {
+    const double half = r.band->half_width_at({0, r.velocity[k], r.drive[k]}, r.spread_at(k));
+    coverage.inside += std::abs(r.measured[k] - r.modelled[k]) <= half;
+    coverage.width += 2 * half;
+  }
+  coverage.samples = r.sums.n;
+  coverage.force_min = r.sums.force_min;
+  coverage.force_max = r.sums.force_max;
+  return coverage;
+}
+
+double energy_error_percent(const RecordResult& r) {
+  const std::span time(r.time), velocity(r.velocity), measured(r.measured), modelled(r.modelled);
+  const double truth = dissipated_energy(time.subspan(r.warm_up), velocity.subspan(r.warm_up),
+                                         measured.subspan(r.warm_up));
+  const double model = dissipated_energy(time.subspan(r.warm_up), velocity.subspan(r.warm_up),
+                                         modelled.subspan(r.warm_up));
+  return 100 * (model - truth) / std::abs(truth);
+}
+
+RecordResult evaluate_record(const DamperModel& model, const Record& record,
+                             std::string_view drive_unit, const EvaluateOptions& options) {
+  RecordResult result;
+  result.record = record.name;
+  result.condition = record.condition;
+  result.drive_level = record.drive_level;
+  result.warm_up = record.warm_up;
+  result.band = options.band;
+  result.time = record.time;
+  result.measured = record.channel("force").samples;
+  result.velocity = record.channel("velocity").samples;
+  result.drive = drive_samples(record, drive_unit);
+  if (const Channel* displacement = record.find("displacement"))
+    result.displacement = displacement->samples;
+
+  const std::shared_ptr<const DamperModel> specialised = model.specialised(record.conditions);
+  const DamperModel& damper = specialised ? *specialised : model;
+  result.extrapolations = damper.extrapolations();
+  FreeRun run = free_run(damper, damper_inputs(record, drive_unit), record.time);
+  result.modelled = std::move(run.force);
+  result.spread = std::move(run.spread);
+  result.diverged_at = run.diverged_at;
+  if (result.diverged_at) return result;
+
+  if (const double* known = known_offset(options, record.name)) {
+    result.offset = *known;
+  } else if (options.offset == OffsetMode::Record) {
+    result.offset = mean_error(result);
+  }
+  result.sums = error_sums(result, result.offset);
+  result.sums_without_offset = error_sums(result, 0);
+  result.one_step = one_step_errors(damper, record, drive_unit, result.offset);
+  result.metrics = metrics(result.sums);
+  result.metrics_without_offset = metrics(result.sums_without_offset);
+  for (double& force : result.modelled) force += result.offset;
+  result.energy_error = energy_error_percent(result);
+  return result;
+}
+
+/// Where |v| is divided, as shares of the largest |v| in the records.
+constexpr struct {
+  std::string_view name;
+  double low, high;
+} kBands[] = {{"pre-yield, |v| below 5 % of the largest", 0, 0.05},
+              {"low, 5-25 %", 0.05, 0.25},
+              {"middle, 25-60 %", 0.25, 0.6},
+              {"high, above 60 %", 0.6, 1}};
+
+std::vector<BandResult> velocity_bands(const std::vector<RecordResult>& records) {
+  double fastest = 0;
+  for (const RecordResult& r : records)
+    for (const double v : r.velocity) fastest = std::max(fastest, std::abs(v));
+  std::vector<BandResult> bands;
+  for (const auto& band : kBands) {
+    const bool last = band.high == 1;
+    ErrorSums sums;
+    for (const RecordResult& r : records) {
+      if (r.diverged_at) continue;
+      for (std::size_t k = r.warm_up; k < r.measured.size(); ++k) {
+        const double share = std::abs(r.velocity[k]) / fastest;
+        if (share >= band.low && (share < band.high || last))
+          sums.add(r.measured[k], r.modelled[k]);
+      }
+    }
+    bands.push_back(
+        {std::string(band.name), band.low * fastest, band.high * fastest, metrics(sums)});
+  }
+  return bands;
+}
+
+/// Errors of the scored samples whose drive lies in [low, high); the upper end belongs to the last
+/// range.
+ErrorSums sums_at_drive(const std::vector<RecordResult>& records, double low, double high,
+                        bool last) {
+  ErrorSums sums;
+  for (const RecordResult& r : records) {
+    if (r.diverged_at) continue;
+    for (std::size_t k = r.warm_up; k < r.measured.size(); ++k)
+      if (r.drive[k] >= low && (r.drive[k] < high || (last && r.drive[k] <= high)))
+        sums.add(r.measured[k], r.modelled[k]);
+  }
+  return sums;
+}
+
+std::vector<DriveResult> by_quarter_of_drive(const std::vector<RecordResult>& records) {
+  constexpr int kQuarters = 4;
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const RecordResult& r : records)
+    for (const double drive : r.drive) low = std::min(low, drive), high = std::max(high, drive);
+  std::vector<DriveResult> results;
+  for (int q = 0; q < kQuarters; ++q) {
+    const double from = low + (high - low) * q / kQuarters,
+                 to = low + (high - low) * (q + 1) / kQuarters;
+    const ErrorSums sums = sums_at_drive(records, from, to, q + 1 == kQuarters);
+    if (sums.n > 0) results.push_back({from, to, metrics(sums)});
+  }
+  return results;
+}
+
+std::vector<DriveResult> by_drive(const std::vector<RecordResult>& records) {
+  std::map<double, ErrorSums> levels;
+  for (const RecordResult& r : records) {
+    if (!r.drive_level) return by_quarter_of_drive(records);
+    if (!r.diverged_at) levels[*r.drive_level].add(r.sums);
+  }
+  std::vector<DriveResult> results;
+  for (const auto& [level, sums] : levels) results.push_back({level, level, metrics(sums)});
+  return results;
+}
+
+/// The figures over all records; those that diverged are counted, never averaged.
+Evaluation summarise(std::vector<RecordResult> records) {
+  Evaluation evaluation;
+  evaluation.records = std::move(records);
+  ErrorSums sums, without, one_step;
+  for (RecordResult& r : evaluation.records) {
+    if (r.diverged_at) {
+      ++evaluation.diverged;
+      continue;
+    }
+    r.coverage = coverage_of(r);
+    evaluation.coverage.add(r.coverage);
+    sums.add(r.sums);
+    without.add(r.sums_without_offset);
+    one_step.add(r.one_step);
+    evaluation.mean_esr += r.metrics.esr;
+    evaluation.mean_energy_error += std::abs(r.energy_error);
+    if (r.metrics.esr >= evaluation.worst_esr) {
+      evaluation.worst_esr = r.metrics.esr;
+      evaluation.worst_record = r.record;
+    }
+  }
+  const auto judged = static_cast<double>(evaluation.records.size() - evaluation.diverged);
+  evaluation.mean_esr /= judged;
+  evaluation.mean_energy_error /= judged;
+  evaluation.pooled = metrics(sums);
+  evaluation.pooled_without_offset = metrics(without);
+  if (one_step.n > 0) evaluation.one_step = metrics(one_step);
+  evaluation.bands = velocity_bands(evaluation.records);
+  evaluation.drive = by_drive(evaluation.records);
+  return evaluation;
+}
+
+}  // namespace
+
+double Coverage::percent() const {
+  return 100 * static_cast<double>(inside) / static_cast<double>(samples);
+}
+
+double Coverage::mean_width() const { return width / static_cast<double>(samples); }
+
+double Coverage::mean_width_percent() const { return 100 * mean_width() / (force_max - force_min); }
+
+void Coverage::add(const Coverage& other) {
+  if (other.samples == 0) return;
+  force_min = samples ? std::min(force_min, other.force_min) : other.force_min;
+  force_max = samples ? std::max(force_max, other.force_max) : other.force_max;
+  samples += other.samples;
+  inside += other.inside;
+  width += other.width;
+}
+
+const RecordResult* Evaluation::worst_covered() const {
+  const RecordResult* worst = nullptr;
+  for (const RecordResult& r : records)
+    if (r.coverage.samples && (!worst || r.coverage.percent() < worst->coverage.percent()))
+      worst = &r;
+  return worst;
+}
+
+std::vector<DamperInput> damper_inputs(const Record& record, std::string_view drive_unit) {
+  const std::vector<double>& velocity = record.channel("velocity").samples;
+  const std::vector<double>& drive = drive_samples(record, drive_unit);
+  const Channel* displacement = record.find("displacement");
+  std::vector<DamperInput> inputs(record.size());
+  for (std::size_t k = 0; k < inputs.size(); ++k)
+    inputs[k] = {displacement ? displacement->samples[k] : 0.0, velocity[k], drive[k]};
+  return inputs;
+}
+
+DriveRange drive_range(const std::vector<Record>& records, std::string_view drive_unit) {
+  DriveRange range;
+  std::vector<double> samples, levels;
+  for (const Record& record : records) {
+    const std::vector<double>& drive = drive_samples(record, drive_unit);
+    samples.insert(samples.end(), drive.begin(), drive.end());
+    if (record.drive_level)
+      levels.push_back(*record.drive_level);
+    else
+      range.varies = true;
+  }
+  if (samples.empty()) return range;
+  std::sort(samples.begin(), samples.end());
+  std::sort(levels.begin(), levels.end());
+  range.levels =
+      static_cast<std::size_t>(std::unique(levels.begin(), levels.end()) - levels.begin());
+  const std::size_t margin = range.varies ? samples.size() / 200 : 0;
+  range.low = samples[margin];
+  range.high = samples[samples.size() - 1 - margin];
+  return range;
+}
+
+Domain domain_of(const std::vector<Record>& records, std::string_view drive_unit) {
+  const DriveRange drive = drive_range(records, drive_unit);
+  Domain domain{INFINITY, -INFINITY, INFINITY, -INFINITY, drive.low, drive.high};
+  for (const Record& record : records)
+    for (const DamperInput& input : damper_inputs(record, drive_unit)) {
+      domain.displacement_min = std::min(domain.displacement_min, input.displacement);
+      domain.displacement_max = std::max(domain.displacement_max, input.displacement);
+      domain.velocity_min = std::min(domain.velocity_min, input.velocity);
+      domain.velocity_max = std::max(domain.velocity_max, input.velocity);
+    }
+  return domain;
+}
+
+FreeRun free_run(const DamperModel& model, const std::vector<DamperInput>& inputs,
+                 const std::vector<double>& time) {
+  FreeRun run;
+  if (inputs.empty()) return run;
+  run.force.resize(inputs.size());
+  if (model.is_ensemble()) run.spread.resize(inputs.size());
+  std::vector<double> state(model.state_size());
+  model.rest(inputs.front(), state);
+  const std::size_t usable =
+      model.run(inputs, {.time = time.data()}, state,
+                {run.force.data(), run.spread.empty() ? nullptr : run.spread.data()});
+  if (usable == inputs.size()) return run;
+  run.diverged_at = time[usable];
+  for (std::vector<double>* values : {&run.force, &run.spread})
+    std::fill(values->begin() + static_cast<std::ptrdiff_t>(std::min(usable, values->size())),
+              values->end(), kNaN);
+  return run;
+}
+
+Evaluation evaluate(const DamperModel& model, const std::vector<Record>& records,
+                    std::string_view drive_unit, const EvaluateOptions& options) {
+  for (const Record& record : records)
+    if (model.needs_displacement() && !record.find("displacement"))
+      throw Error(record.name, "has no displacement, which " + model.name() + " needs",
+                  "record it, or use a model of velocity and current only");
+  std::vector<RecordResult> results(records.size());
+  parallel_for(records.size(), options.threads, [&](std::size_t k) {
+    results[k] = evaluate_record(model, records[k], drive_unit, options);
+  });
+  return summarise(std::move(results));
+}
+
+Evaluation pool(const std::vector<Evaluation>& evaluations) {
+  std::vector<RecordResult> records;
+  for (const Evaluation& evaluation : evaluations)
+    records.insert(records.end(), evaluation.records.begin(), evaluation.records.end());
+  return summarise(std::move(records));
+}
+
+}  // namespace dashpot

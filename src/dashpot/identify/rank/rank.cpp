@@ -1,0 +1,309 @@
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+#include "dashpot/base/error.h"
+#include "dashpot/base/parallel.h"
+#include "dashpot/base/text.h"
+#include "dashpot/damper/kinds/law/law_model.h"
+#include "dashpot/damper/registry.h"
+#include "dashpot/identify/identify.h"
+#include "dashpot/identify/judge/conformal.h"
+#include "dashpot/identify/rank/fit_store.h"
+
+namespace dashpot {
+namespace {
+
+/// Whether a part is set aside for good: then the model of the only fold is the final one.
+bool is_one_division(const LeaveOut& leave_out) {
+  return leave_out.by == LeaveOut::By::Fraction || leave_out.by == LeaveOut::By::Roles;
+}
+
+/// Nanoseconds for one advance and one force as a simulation asks for them, measured over a whole
+/// record.
+double step_cost(const DamperModel& model, const Record& record, std::string_view drive_unit) {
+  const std::vector<DamperInput> inputs = damper_inputs(record, drive_unit);
+  std::vector<double> state(model.state_size()), force(inputs.size());
+  double best = INFINITY;
+  for (int repeat = 0; repeat < 3; ++repeat) {
+    const auto begin = std::chrono::steady_clock::now();
+    model.rest(inputs.front(), state);
+    model.DamperModel::run(inputs, {.time = record.time.data()}, state,
+                           {force.data()});  // not a law's own
+    const auto taken = std::chrono::steady_clock::now() - begin;
+    best = std::min(best, std::chrono::duration<double, std::nano>(taken).count() /
+                              static_cast<double>(inputs.size()));
+  }
+  return best;
+}
+
+double force_span(const std::vector<Record>& records) {
+  double low = INFINITY, high = -INFINITY;
+  for (const Record& record : records)
+    for (const double force : record.channel("force").samples)
+      low = std::min(low, force), high = std::max(high, force);
+  return high - low;
+}
+
+/// Curves of the records that a model was fitted on are shown nowhere; dozens of models would fill
+/// the memory.
+void drop_curves(Evaluation& evaluation) {
+  for (RecordResult& r : evaluation.records)
+    for (auto curve : {&RecordResult::time, &RecordResult::displacement, &RecordResult::velocity,
+                       &RecordResult::drive, &RecordResult::measured, &RecordResult::modelled,
+                       &RecordResult::spread})
+      (r.*curve) = {};
+}
+
+/// How long a fit takes beside the others: the unknowns, times what a force costs, times the number
+/// of tries.
+double expected_cost(const std::string& model, const Record& record, std::string_view drive_unit) {
+  constexpr double kNetwork = 3000;  // a training beside the fit of a law without states, measured
+  const Law* inside = law_inside(model);
+  if (!inside) return kNetwork;
+  const Law& law = *inside;
+  std::vector<double> values;
+  double unknowns = 0;
+  for (const ParamInfo& param : law.params) {
+    values.push_back(param.value);
+    if (param.fit != Fit::Fixed) unknowns += static_cast<double>(coefficient_count(param.form));
+  }
+  const double of_law =
+      unknowns * step_cost(LawModel::constant(law, values),
+                           record.slice(0, std::min<std::size_t>(record.size(), 1000)), drive_unit);
+  return is_law(model) ? of_law : of_law + kNetwork;
+}
+
+/// All fits of one ranking: for each model one per fold, then the final one.
+class RankingRun {
+ public:
+  RankingRun(const std::vector<std::string>& models, const Dataset& dataset,
+             const LeaveOut& leave_out, const IdentifyOptions& options, const FitStore* store)
+      : dataset_(dataset),
+        options_(options),
+        store_(store),
+        folds_(split(dataset, leave_out)),
+        held_back_(folds_.size() > 1 ? std::vector<Fold>()
+                                     : hold_back(folds_.front().training, leave_out)),
+        one_division_(is_one_division(leave_out)),
+        training_(one_division_ ? folds_.front().training : dataset.records),
+        domain_(domain_of(training_, dataset.drive_unit)),
+        force_span_(force_span(training_)) {
+    ranking_.leave_out = leave_out;
+    for (const Fold& fold : folds_) ranking_.folds.push_back(fold.name);
+    for (const std::string& model : models) {
+      RankedModel ranked;
+      ranked.name = model;
+      ranked.title = model_info(model).title;
+      ranked.fold_fits.resize(one_division_ ? 0 : folds_.size());
+      ranked.held_back_fits.resize(held_back_.size());
+      ranking_.models.push_back(std::move(ranked));
+    }
+  }
+
+  Ranking run() {
+    const auto begin = std::chrono::steady_clock::now();
+    const std::vector<Task> tasks = tasks_by_cost();
+    std::atomic<std::size_t> done = 0;
+    parallel_for(tasks.size(), options_.threads, [&](std::size_t k) {
+      const Task& task = tasks[k];
+      const std::string stage = task.model->name + (task.fold ? ", " + task.fold->name : "");
+      const auto share = [&] {
+        return static_cast<double>(done) / static_cast<double>(tasks.size());
+      };
+      options_.monitor.report("fitting " + stage, share());
+      *task.report = fit(task.model->name, task.fold ? task.fold->training : training_);
+      ++done;
+      options_.monitor.report("fitted " + stage, share());
+    });
+    for (RankedModel& ranked : ranking_.models) judge(ranked);
+    std::stable_sort(ranking_.models.begin(), ranking_.models.end(), better);
+    ranking_.kept_fits = kept_;
+    ranking_.wall_seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    return std::move(ranking_);
+  }
+
+ private:
+  struct Task {
+    const RankedModel* model;
+    const Fold* fold;  ///< none: the final fit
+    FitReport* report;
+    double cost;
+  };
+
+  /// The longest first, so that no core waits for it at the end.
+  std::vector<Task> tasks_by_cost() {
+    std::vector<Task> tasks;
+    for (RankedModel& ranked : ranking_.models) {
+      const double cost = expected_cost(ranked.name, training_.front(), dataset_.drive_unit);
+      tasks.push_back({&ranked, nullptr, &ranked.fit, cost});
+      for (std::size_t f = 0; f < ranked.fold_fits.size(); ++f)
+        tasks.push_back({&ranked, &folds_[f], &ranked.fold_fits[f], cost});
+      for (std::size_t f = 0; f < held_back_.size(); ++f)
+        tasks.push_back({&ranked, &held_back_[f], &ranked.held_back_fits[f], cost});
+    }
+    std::stable_sort(tasks.begin(), tasks.end(),
+                     [](const Task& a, const Task& b) { return a.cost > b.cost; });
+    return tasks;
+  }
+
+  /// As it was kept, or made now and kept.
+  FitReport fit(const std::string& model, const std::vector<Record>& training) {
+    const FitStore::Request request{model, training, dataset_.drive_unit, options_};
+    if (store_)
+      if (std::optional<FitReport> kept = store_->load(request)) {
+        ++kept_;
+        return std::move(*kept);
+      }
+    FitReport report = identify(model, training, dataset_.drive_unit, options_);
+    if (store_) store_->save(request, report);
+    return report;
+  }
+
+  const FitReport& fit_of(const RankedModel& ranked, std::size_t fold) const {
+    return ranked.fold_fits.empty() ? ranked.fit : ranked.fold_fits[fold];
+  }
+
+  Evaluation evaluate_fit(const FitReport& fit, const std::vector<Record>& records) const {
+    return evaluate(
+        *fit.model, records, dataset_.drive_unit,
+        {.offset = options_.offset, .known_offsets = fit.offsets, .threads = options_.threads});
+  }
+
+  void judge(RankedModel& ranked) const {
+    ranked.seconds = ranked.fit.seconds;
+    for (const auto* fits : {&ranked.fold_fits, &ranked.held_back_fits})
+      for (const FitReport& fit : *fits) ranked.seconds += fit.seconds;
+    std::vector<Evaluation> evaluations;
+    for (std::size_t f = 0; f < folds_.size(); ++f) {
+      const FitReport& fit = fit_of(ranked, f);
+      if (!fit.model) return fail(ranked, folds_[f].name);
+      evaluations.push_back(evaluate_fit(fit, folds_[f].left_out));
+      for (RecordResult& record : evaluations.back().records) record.left_out = true;
+    }
+    const std::vector<ErrorGroups> errors = add_bands(ranked, evaluations);
+    ranked.left_out = pool(evaluations);
+    if (!ranked.fit.model) return fail(ranked, "all records");
+    ranked.training = evaluate_fit(ranked.fit, training_);
+    ranked.band = conformal_band(error_shape(ranked.training.records), errors);
+    drop_curves(ranked.training);
+    ranked.stress = stress(*ranked.fit.model, domain_, force_span_);
+    ranked.nanoseconds_per_step =
+        step_cost(*ranked.fit.model, training_.front(), dataset_.drive_unit);
+  }
+
+  /// A model on a fold: the shape of its errors on the training part, and those on the rest in its
+  /// terms.
+  struct FoldErrors {
+    std::optional<ForceBand> shape;
+    ErrorGroups relative;
+  };
+  FoldErrors fold_errors(const FitReport& fit, const Fold& fold, const Evaluation& left_out) const {
+    FoldErrors errors{error_shape(evaluate_fit(fit, fold.training).records), {}};
+    if (errors.shape) errors.relative = relative_errors(left_out.records, *errors.shape);
+    return errors;
+  }
+
+  /// Gives each left-out record its interval, built without its fold, and returns the errors that
+  /// the final model's interval comes from.
+  std::vector<ErrorGroups> add_bands(const RankedModel& ranked,
+                                     std::vector<Evaluation>& left_out) const {
+    std::vector<FoldErrors> folds;
+    for (std::size_t f = 0; f < folds_.size(); ++f)
+      folds.push_back(fold_errors(fit_of(ranked, f), folds_[f], left_out[f]));
+    std::vector<ErrorGroups> held;
+    for (std::size_t f = 0; f < held_back_.size(); ++f)
+      if (const FitReport& fit = ranked.held_back_fits[f]; fit.model)
+        held.push_back(
+            fold_errors(fit, held_back_[f], evaluate_fit(fit, held_back_[f].left_out)).relative);
+    const auto others = [&](std::size_t left) {
+      std::vector<ErrorGroups> parts = held;
+      for (std::size_t f = 0; f < folds.size() && folds.size() > 1; ++f)
+        if (f != left) parts.push_back(folds[f].relative);
+      std::erase_if(parts, [](const ErrorGroups& part) { return part.empty(); });
+      return parts;
+    };
+    for (std::size_t f = 0; f < folds.size(); ++f) {
+      const std::optional<ForceBand> band = conformal_band(folds[f].shape, others(f));
+      for (RecordResult& record : left_out[f].records) record.band = band;
+    }
+    return others(folds.size());
+  }
+
+  static void fail(RankedModel& ranked, const std::string& where) {
+    ranked.fit.status = FitReport::Status::Failed;
+    ranked.fit.warnings.push_back("the fit on '" + where +
+                                  "' failed: the model could not be judged");
+  }
+
+  static bool better(const RankedModel& a, const RankedModel& b) {
+    const auto rank_of = [](const RankedModel& m) {
+      const bool failed = m.fit.status == FitReport::Status::Failed;
+      return std::pair(failed                    ? 2
+                       : m.left_out.diverged > 0 ? 1
+                                                 : 0,
+                       failed ? 0.0 : m.left_out.pooled.esr);
+    };
+    return rank_of(a) < rank_of(b);
+  }
+
+  const Dataset& dataset_;
+  const IdentifyOptions& options_;
+  const FitStore* store_;
+  std::vector<Fold> folds_;
+  std::vector<Fold>
+      held_back_;  ///< of the only fold's training; where there are more, they serve each other
+  bool one_division_;
+  std::vector<Record> training_;
+  Domain domain_;
+  double force_span_;
+  std::atomic<std::size_t> kept_ = 0;
+  Ranking ranking_;
+};
+
+}  // namespace
+
+Ranking rank(const std::vector<std::string>& models, const Dataset& dataset,
+             const LeaveOut& leave_out, const IdentifyOptions& options, const FitStore* store) {
+  return RankingRun(models, dataset, leave_out, options, store).run();
+}
+
+Provenance provenance_of(const Dataset& dataset, std::vector<std::string> records,
+                         const std::string& command) {
+  Provenance from;
+  from.command = command;
+  from.dataset = dataset.name;
+  from.citation = dataset.citation;
+  for (const SourceFile& source : dataset.files) from.files.push_back({source.path, source.sha256});
+  from.training_records = std::move(records);
+  return from;
+}
+
+ModelFile to_model_file(const RankedModel& ranked, const Dataset& dataset,
+                        const std::string& command) {
+  if (!ranked.fit.model) throw Error(ranked.name, "has no fitted model to save");
+  ModelFile file;
+  file.model = ranked.fit.model->with_offset(0);
+  file.drive_unit = dataset.drive_unit;
+  std::vector<Record> used;
+  std::vector<std::string> names;
+  for (const RecordResult& r : ranked.training.records) {
+    names.push_back(r.record);
+    for (const Record& record : dataset.records)
+      if (record.name == r.record) used.push_back(record);
+  }
+  file.domain = domain_of(used, dataset.drive_unit);
+  file.sample_time = used.front().sample_time;
+  for (const Record& record : used)
+    if (record.sample_time != file.sample_time) file.sample_time = 0;
+  file.provenance = provenance_of(dataset, std::move(names), command);
+  file.quality = Value::object({{"training", to_json(ranked.training.pooled)},
+                                {"left_out", to_json(ranked.left_out.pooled)}});
+  file.interval = ranked.band;
+  return file;
+}
+
+}  // namespace dashpot

@@ -1,0 +1,32 @@
+#include "dashpot/report/column_table.h"
+
+#include <cmath>
+
+#include "dashpot/base/text.h"
+#include "dashpot/report/safe_text.h"
+
+namespace dashpot {
+
+std::string csv_table(const ColumnTable& table) {
+  std::vector<std::string> titles;
+  for (const DataColumn& column : table.columns) {
+    const bool plain = column.is_text() || column.unit == "1";
+    titles.push_back(csv_field(plain ? column.name : column.name + '[' + column.unit + ']'));
+  }
+  std::string text = join(titles, ",") + '\n';
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    bool first = true;
+    for (const DataColumn& column : table.columns) {
+      if (!first) text += ',';
+      first = false;
+      if (column.is_text())
+        text += csv_field(column.texts[row]);
+      else if (std::isfinite(column.numbers[row]))
+        text += format_exact(column.numbers[row]);
+    }
+    text += '\n';
+  }
+  return text;
+}
+
+}  // namespace dashpot

@@ -1,0 +1,36 @@
+#pragma once
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace dashpot {
+
+/// A column of numbers or of texts.
+struct DataColumn {
+  std::string name, unit, meaning;  ///< unit: "1" where there is none
+  std::vector<double> numbers;      ///< not a number: nothing there
+  std::vector<std::string> texts = {};
+
+  bool is_text() const { return !texts.empty(); }
+  std::size_t size() const { return is_text() ? texts.size() : numbers.size(); }
+};
+
+/// Columns of equal length, for programs.
+struct ColumnTable {
+  std::string name, title;
+  std::vector<DataColumn> columns;
+
+  std::size_t rows() const { return columns.empty() ? 0 : columns.front().size(); }
+};
+
+/// "sprung_mass[kg]" above numbers that keep all their digits; empty where there is nothing.
+std::string csv_table(const ColumnTable& table);
+
+/// A group per table and a dataset per column, with the attributes `unit` and `meaning`;
+/// `attributes` are those of the file. The same content gives the same bytes. Throws Error where
+/// the file cannot be written.
+void write_hdf5(const std::filesystem::path& path, const std::vector<ColumnTable>& tables,
+                const std::vector<std::pair<std::string, std::string>>& attributes);
+
+}  // namespace dashpot

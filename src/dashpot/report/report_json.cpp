@@ -1,0 +1,178 @@
+#include "dashpot/report/report_json.h"
+
+#include <algorithm>
+
+#include "dashpot/report/safe_text.h"
+#include "dashpot/report/words.h"
+
+namespace dashpot {
+
+namespace {
+
+Value optional_number(const std::optional<double>& value) {
+  return value ? Value(*value) : Value();
+}
+
+Value coverage_json(const Coverage& coverage) {
+  if (coverage.samples == 0) return {};
+  return Value::object({{"coverage_percent", coverage.percent()},
+                        {"mean_width_N", coverage.mean_width()},
+                        {"mean_width_percent", coverage.mean_width_percent()}});
+}
+
+Value band_json(const std::optional<ForceBand>& band) { return band ? to_json(*band) : Value(); }
+
+Value record_json(const RecordResult& record) {
+  const std::size_t first =
+      std::min(record.warm_up, record.time.empty() ? 0 : record.time.size() - 1);
+  return Value::object({{"record", record.record},
+                        {"condition", record.condition},
+                        {"drive_level", optional_number(record.drive_level)},
+                        {"left_out", record.left_out},
+                        {"scored_from", record.time.empty() ? Value() : Value(record.time[first])},
+                        {"offset_N", record.offset},
+                        {"metrics", to_json(record.metrics)},
+                        {"metrics_without_offset", to_json(record.metrics_without_offset)},
+                        {"energy_error_percent", record.energy_error},
+                        {"interval", coverage_json(record.coverage)},
+                        {"band", band_json(record.band)},
+                        {"diverged_at", optional_number(record.diverged_at)}});
+}
+
+Value parameter_json(const FittedParameter& p) {
+  return Value::object({{"name", p.name},
+                        {"unit", p.unit},
+                        {"meaning", p.meaning},
+                        {"value", p.value},
+                        {"low", p.low},
+                        {"high", p.high},
+                        {"fixed", p.fixed},
+                        {"at_bound", p.at_bound},
+                        {"weak", p.weak}});
+}
+
+Value stress_json(const StressRun& run) {
+  if (run.seconds == 0) return {};
+  return Value::object({{"seconds", run.seconds},
+                        {"factor", kStressFactor},
+                        {"finite", run.finite},
+                        {"bounded", run.is_bounded()},
+                        {"largest_spans", run.largest_share}});
+}
+
+Value model_json(const RankedModel& model, const std::vector<std::string>& folds) {
+  Value fold_fits = Value::array();
+  for (std::size_t i = 0; i < model.fold_fits.size(); ++i) {
+    Value fit = fit_json(model.fold_fits[i]);
+    fit.add("fold", i < folds.size() ? folds[i] : "");
+    fold_fits.push_back(std::move(fit));
+  }
+  const auto& fitted = model.fit.model;
+  return Value::object({{"name", model.name},
+                        {"title", display_name(model)},
+                        {"kind", fitted ? Value(fitted->kind()) : Value()},
+                        {"parameter_count", fitted ? Value(fitted->parameter_count()) : Value()},
+                        {"nanoseconds_per_step", model.nanoseconds_per_step},
+                        {"seconds", model.seconds},
+                        {"interval", band_json(model.band)},
+                        {"stress", stress_json(model.stress)},
+                        {"fit", fit_json(model.fit)},
+                        {"fold_fits", std::move(fold_fits)},
+                        {"left_out", evaluation_json(model.left_out)},
+                        {"training", evaluation_json(model.training)}});
+}
+
+}  // namespace
+
+Value evaluation_json(const Evaluation& evaluation) {
+  Value records = Value::array(), bands = Value::array();
+  for (const RecordResult& record : evaluation.records) records.push_back(record_json(record));
+  for (const BandResult& band : evaluation.bands)
+    bands.push_back(Value::object({{"name", band.name},
+                                   {"low", band.low},
+                                   {"high", band.high},
+                                   {"metrics", to_json(band.metrics)}}));
+  Value drive = Value::array();
+  for (const DriveResult& range : evaluation.drive)
+    drive.push_back(Value::object(
+        {{"low", range.low}, {"high", range.high}, {"metrics", to_json(range.metrics)}}));
+  Value interval = coverage_json(evaluation.coverage);
+  if (const RecordResult* worst = evaluation.worst_covered()) {
+    interval.add("level_percent", 100 * worst->band->level);
+    interval.add("worst_coverage_percent", worst->coverage.percent());
+    interval.add("worst_record", worst->record);
+  }
+  Value value = Value::object({{"pooled", to_json(evaluation.pooled)},
+                               {"pooled_without_offset", to_json(evaluation.pooled_without_offset)},
+                               {"worst_esr_percent", evaluation.worst_esr},
+                               {"worst_record", evaluation.worst_record},
+                               {"mean_esr_percent", evaluation.mean_esr},
+                               {"mean_energy_error_percent", evaluation.mean_energy_error},
+                               {"diverged", evaluation.diverged},
+                               {"interval", std::move(interval)},
+                               {"bands", std::move(bands)},
+                               {"drive", std::move(drive)},
+                               {"records", std::move(records)}});
+  if (evaluation.one_step) value.add("one_step", to_json(*evaluation.one_step));
+  return value;
+}
+
+Value evaluation_json(const ModelFile& file, const Evaluation& evaluation,
+                      const std::vector<Extrapolation>& outside) {
+  Value value = evaluation_json(evaluation);
+  value.add("model", file.model->name());
+  value.add("outside_domain", to_json(outside));
+  value.add("outside_family", Value::array(outside_family(evaluation)));
+  return value;
+}
+
+Value fit_json(const FitReport& fit) {
+  Value parameters = Value::array(), offsets = Value::array();
+  for (const FittedParameter& parameter : fit.parameters)
+    parameters.push_back(parameter_json(parameter));
+  for (const auto& [record, offset] : fit.offsets)
+    offsets.push_back(Value::object({{"record", record}, {"offset_N", offset}}));
+  return Value::object({{"status", status_name(fit.status)},
+                        {"message", fit.message},
+                        {"iterations", fit.iterations},
+                        {"seconds", fit.seconds},
+                        {"training_rmse_N", fit.training_rmse},
+                        {"parameters", std::move(parameters)},
+                        {"offsets", std::move(offsets)},
+                        {"warnings", Value::array(fit.warnings)}});
+}
+
+Value dataset_json(const Dataset& dataset) {
+  Value files = Value::array();
+  for (const SourceFile& file : dataset.files)
+    files.push_back(Value::object({{"path", file.path}, {"sha256", file.sha256}}));
+  return Value::object({{"name", dataset.name},
+                        {"citation", dataset.citation},
+                        {"drive_unit", dataset.drive_unit},
+                        {"records", dataset.records.size()},
+                        {"files", std::move(files)},
+                        {"notes", Value::array(dataset.notes)}});
+}
+
+Value json_report(const ReportInput& input) {
+  const Ranking& ranking = input.ranking;
+  Value models = Value::array();
+  for (const RankedModel& model : ranking.models)
+    models.push_back(model_json(model, ranking.folds));
+  const std::optional<std::string> one_step = one_step_note(ranking);
+  return presentable(Value::object({{"format", "dashpot report 1"},
+                                    {"version", input.version},
+                                    {"date", input.date},
+                                    {"command", input.command},
+                                    {"dataset", dataset_json(input.dataset)},
+                                    {"leave_out", format_leave_out(ranking.leave_out)},
+                                    {"protocol_title", protocol_title(ranking.leave_out)},
+                                    {"protocol", protocol(ranking.leave_out, ranking.folds.size())},
+                                    {"folds", Value::array(ranking.folds)},
+                                    {"verdict", verdict(ranking)},
+                                    {"one_step", one_step ? Value(*one_step) : Value()},
+                                    {"wall_seconds", ranking.wall_seconds},
+                                    {"models", std::move(models)}}));
+}
+
+}  // namespace dashpot

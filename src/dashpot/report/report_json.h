@@ -1,0 +1,23 @@
+#pragma once
+#include "dashpot/identify/judge/extrapolation.h"
+#include "dashpot/report/report.h"
+
+namespace dashpot {
+
+/// Name, citation, files and notes of a dataset: what every page shows as provenance.
+Value dataset_json(const Dataset& dataset);
+
+/// A model's figures: pooled, by velocity band and by record.
+Value evaluation_json(const Evaluation& evaluation);
+/// And the model's name, and where it extrapolates: what `dashpot evaluate --json` prints.
+Value evaluation_json(const ModelFile& file, const Evaluation& evaluation,
+                      const std::vector<Extrapolation>& outside);
+
+/// Status, parameters with their intervals, offsets and warnings of a fit.
+Value fit_json(const FitReport& fit);
+
+/// Displayed series of all left-out records, packed, and the statistics of every residual.
+Value series_json(const Ranking& ranking);
+Value residuals_json(const Ranking& ranking);
+
+}  // namespace dashpot

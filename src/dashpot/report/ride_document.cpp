@@ -1,0 +1,304 @@
+#include "dashpot/report/ride_document.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "dashpot/base/text.h"
+#include "dashpot/report/front_parts.h"
+#include "dashpot/report/ride_figures.h"
+#include "dashpot/report/ride_parts.h"
+#include "dashpot/report/words.h"
+
+namespace dashpot {
+namespace {
+
+double on_road(const RiddenVehicle& ridden, const char* measure) {
+  return measure_named(ridden.road.measures, measure);
+}
+
+/// Every vehicle of the study, the passive one first.
+std::vector<const RiddenVehicle*> all_of(const RideStudy& study) {
+  std::vector<const RiddenVehicle*> all{&study.passive};
+  for (const RiddenVehicle& one : study.controlled) all.push_back(&one);
+  return all;
+}
+
+DocumentTable road_table(const RideStudy& study) {
+  const auto number = [](const char* title, int priority = 0) {
+    return TextColumn{.title = title, .numeric = true, .priority = priority};
+  };
+  DocumentTable table{
+      .title = "On the road",
+      .columns = {{.title = "controller"},
+                  number("a_w, m/s^2"),
+                  number("ratio"),
+                  number("tyre load, %"),
+                  number("ratio"),
+                  number("travel, mm"),
+                  number("ratio"),
+                  number("contact lost, %", 1),
+                  number("drive, %", 2)},
+      .rows = {},
+      .note = "Ratios to " + study.passive.name() +
+              ". a_w: weighted body acceleration, Wk. Tyre load: dynamic over static, rms. "
+              "Travel: greatest."};
+  for (const RiddenVehicle* one : all_of(study)) {
+    std::vector<std::string> row{one->name()};
+    for (const char* measure : {"weighted_acceleration", "tyre_load", "travel_peak"}) {
+      row.push_back(number_text(on_road(*one, measure), 3));
+      row.push_back(ratio_text(on_road(*one, measure), on_road(study.passive, measure)));
+    }
+    row.push_back(number_text(on_road(*one, "contact_lost"), 3));
+    row.push_back(number_text(on_road(*one, "current"), 3));
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+/// Bounds and optima hold for the whole of the ride, from rest on; so do the figures here.
+DocumentTable possible_table(const RideStudy& study) {
+  DocumentTable table{
+      .title = "Of what is possible",
+      .columns = {{.title = "controller"},
+                  {.title = "body rms, m/s^2", .numeric = true},
+                  {.title = "% of possible", .numeric = true},
+                  {.title = "tyre rms, N", .numeric = true},
+                  {.title = "% of possible", .numeric = true}},
+      .rows = {},
+      .note =
+          "% of possible = (passive - controller) / (passive - optimum), each aim by itself. "
+          "Bound: "
+          "no controller gets below. Optimum: simulated, the road known in advance."};
+  const Plant& plant = study.passive.road.vehicle->set.plant;
+  const ClairvoyantBound &comfort = study.front.front(), &holding = study.front.back();
+  const RideSquares passive = ride_squares(study.passive.road.trace, plant);
+  for (const RiddenVehicle* one : all_of(study)) {
+    const RideSquares squares = ride_squares(one->road.trace, plant);
+    table.rows.push_back({one->name(), number_text(std::sqrt(squares.acceleration)),
+                          possible_text(comfort, passive, squares),
+                          whole_text(std::sqrt(squares.tyre_force)),
+                          possible_text(holding, passive, squares)});
+  }
+  const auto best = [&](const char* name, double ClairvoyantBound::* value) {
+    table.rows.push_back({name, number_text(std::sqrt(comfort.*value / comfort.index.comfort)), "",
+                          whole_text(std::sqrt(holding.*value / holding.index.holding)), ""});
+  };
+  best("optimum of each", &ClairvoyantBound::optimum);
+  best("proven bound of each", &ClairvoyantBound::bound);
+  return table;
+}
+
+/// At most eight columns of them.
+std::vector<std::size_t> shown_frequencies(const std::vector<double>& f) {
+  constexpr double kTold[] = {1, 1.25, 2, 4, 8, 12, 20};
+  std::vector<std::size_t> shown;
+  for (std::size_t k = 0; k < f.size(); ++k)
+    if (std::ranges::find(kTold, f[k]) != std::end(kTold)) shown.push_back(k);
+  if (shown.size() > 3) return shown;
+  shown.clear();
+  for (std::size_t k = 0; k < f.size(); k += (f.size() + 7) / 8) shown.push_back(k);
+  return shown;
+}
+
+DocumentTable gain_table(const RideStudy& study) {
+  DocumentTable table{
+      .title = "On sines of " + format_number(1000 * study.options.gains.amplitude) + " mm",
+      .columns = {{.title = "controller"}},
+      .rows = {},
+      .note =
+          "Gain from the road's height to the body's acceleration at that frequency, "
+          "1/s^2 (fundamental). Jc, Jrh: root of the integral of the squared gain of "
+          "body acceleration and of tyre deflection over these frequencies, as ratios "
+          "to " +
+          study.passive.name() + "."};
+  const std::vector<double>& f = study.options.frequencies;
+  const std::vector<std::size_t> shown = shown_frequencies(f);
+  for (const std::size_t k : shown)
+    table.columns.push_back({.title = format_number(f[k]) + " Hz", .numeric = true});
+  table.columns.push_back({.title = "Jc", .numeric = true});
+  table.columns.push_back({.title = "Jrh", .numeric = true});
+  for (const RiddenVehicle* one : all_of(study)) {
+    std::vector<std::string> row{one->name()};
+    for (const std::size_t k : shown)
+      row.push_back(number_text(one->sines[k].body_acceleration.fundamental, 4));
+    row.push_back(ratio_text(comfort_integral(*one), comfort_integral(study.passive)));
+    row.push_back(ratio_text(holding_integral(*one), holding_integral(study.passive)));
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+/// The one-sensor paper's two wishes of a controller.
+DocumentTable limit_table(const RideStudy& study) {
+  DocumentTable table{
+      .title = "The one-sensor paper's limits",
+      .columns = {{.title = "controller"},
+                  {.title = "body acceleration to 2 Hz, greatest gain", .numeric = true},
+                  {.title = "below passive"},
+                  {.title = "tyre deflection, greatest gain", .numeric = true},
+                  {.title = "at most 2.5"}},
+      .rows = {},
+      .note =
+          "The paper asks for less body acceleration than passive up to 2 Hz, and for a gain of "
+          "the tyre's "
+          "deflection of 2.5 at most up to 20 Hz. Gains by sines, fundamental; 1/s^2 and 1."};
+  const double passive =
+      greatest_gain(study.passive, &GainPoint::body_acceleration, kPaperComfortTo);
+  for (const RiddenVehicle* one : all_of(study)) {
+    const double comfort = greatest_gain(*one, &GainPoint::body_acceleration, kPaperComfortTo);
+    const double holding = greatest_gain(*one, &GainPoint::tyre_deflection, kPaperHoldingTo);
+    table.rows.push_back({one->name(), number_text(comfort, 4),
+                          one == &study.passive ? "-"
+                          : comfort < passive   ? "yes"
+                                                : "no",
+                          number_text(holding, 3), holding <= kPaperHoldingLimit ? "yes" : "no"});
+  }
+  return table;
+}
+
+DocumentTable step_table(const RideStudy& study) {
+  DocumentTable table{
+      .title = "After a step of " + format_number(1000 * study.options.step_height) + " mm",
+      .columns = {{.title = "controller"}},
+      .rows = {},
+      .note = "Ratios to " + study.passive.name() +
+              ". Settled: the last instant outside 5 % of the peak (body acceleration) or of "
+              "the step (tyre)."};
+  const std::pair<const char*, const char*> measures[] = {
+      {"settling", "body settled, s"},
+      {"deviation", "body acceleration, m/s^2"},
+      {"tyre_settling", "tyre settled, s"},
+      {"body_acceleration", "body acceleration, rms"}};
+  for (const auto& [name, title] : measures) {
+    table.columns.push_back({.title = title, .numeric = true});
+    table.columns.push_back({.title = "ratio", .numeric = true});
+  }
+  table.columns.push_back({.title = "decay ratio", .numeric = true});
+  for (const RiddenVehicle* one : all_of(study)) {
+    std::vector<std::string> row{one->name()};
+    for (const auto& [name, title] : measures) {
+      const double value = measure_named(one->step.measures, name);
+      row.push_back(number_text(value, 3));
+      row.push_back(ratio_text(value, measure_named(study.passive.step.measures, name)));
+    }
+    row.push_back(number_text(measure_named(one->step.measures, "decay_ratio"), 2));
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+std::string verdict_of(const RideStudy& study) {
+  const auto least = [&](const char* measure) -> const RiddenVehicle& {
+    return *std::ranges::min_element(study.controlled, {}, [&](const RiddenVehicle& one) {
+      const double value = on_road(one, measure);
+      return std::isfinite(value) ? value : INFINITY;
+    });
+  };
+  const auto change = [&](const RiddenVehicle& one, const char* measure) {
+    return against_text(on_road(one, measure), on_road(study.passive, measure));
+  };
+  const auto sentence = [&](const RiddenVehicle& one, const char* what) {
+    return what + one.name() + ": " + change(one, "weighted_acceleration") +
+           " weighted acceleration, " + change(one, "tyre_load") +
+           " dynamic tyre load than passive.";
+  };
+  const RiddenVehicle &comfort = least("weighted_acceleration"), &holding = least("tyre_load");
+  if (study.controlled.size() == 1) return sentence(comfort, "");
+  if (&comfort == &holding) return sentence(comfort, "Best in comfort and in road holding is ");
+  return sentence(comfort, "Most comfortable is ") + ' ' +
+         sentence(holding, "Best on the road is ");
+}
+
+Value gains_json(const std::vector<GainPoint>& points) {
+  Value list = Value::array();
+  const auto number = [](double x) { return std::isfinite(x) ? Value(x) : Value(); };
+  const auto gain = [&](const Gain& g) {
+    return Value::object(
+        {{"variance", number(g.variance)}, {"fundamental", number(g.fundamental)}});
+  };
+  for (const GainPoint& p : points)
+    list.push_back(Value::object({{"frequency", p.frequency},
+                                  {"body_acceleration", gain(p.body_acceleration)},
+                                  {"body", gain(p.body)},
+                                  {"tyre_deflection", gain(p.tyre_deflection)},
+                                  {"travel", gain(p.travel)}}));
+  return list;
+}
+
+Value ridden_json(const RiddenVehicle& ridden) {
+  const auto measures = [](const SimulatedRun& run) {
+    Value object = Value::object();
+    for (const RideMeasure& m : run.measures)
+      object.add(m.name, std::isfinite(m.value) ? Value(m.value) : Value());
+    return object;
+  };
+  return Value::object({{"name", ridden.name()},
+                        {"comfort_integral", comfort_integral(ridden)},
+                        {"holding_integral", holding_integral(ridden)},
+                        {"road", measures(ridden.road)},
+                        {"step", measures(ridden.step)},
+                        {"sines", gains_json(ridden.sines)},
+                        {"chirp", gains_json(ridden.chirp)},
+                        {"warnings", Value::array(ridden.road.warnings)}});
+}
+
+}  // namespace
+
+Document ride_document(const RideStudy& study) {
+  const Vehicle& vehicle = *study.passive.road.vehicle;
+  Document document{
+      .title = "How it rides: " + vehicle.set.plant.title,
+      .subtitle = study.ground + ", " + format_number(study.options.road_duration) + " s",
+      .verdict = verdict_of(study),
+      .sections = {},
+      .command = {},
+      .version = {},
+      .date = {}};
+  std::vector<const SimulatedRun*> runs;
+  for (const RiddenVehicle* one : all_of(study)) runs.push_back(&one->road);
+  std::vector<std::string> remarks = run_remarks(runs);
+  remarks.insert(remarks.end(), study.left_out.begin(), study.left_out.end());
+  document.sections.push_back({.name = "road",
+                               .title = "Comfort against road holding",
+                               .paragraphs = {},
+                               .tables = {road_table(study)},
+                               .figures = {trade_off_figure(study), road_figure(study)},
+                               .remarks = std::move(remarks)});
+  if (!study.front.empty())
+    document.sections.push_back({.name = "possible",
+                                 .title = "What is possible",
+                                 .paragraphs = {},
+                                 .tables = {possible_table(study)},
+                                 .figures = {possible_figure(study)},
+                                 .remarks = {}});
+  document.sections.push_back({.name = "gains",
+                               .title = "Over frequency",
+                               .paragraphs = {},
+                               .tables = {gain_table(study), limit_table(study)},
+                               .figures = {gain_figure(study), chirp_figure(study)},
+                               .remarks = {}});
+  document.sections.push_back({.name = "step",
+                               .title = "A step of the road",
+                               .paragraphs = {},
+                               .tables = {step_table(study)},
+                               .figures = {step_figure(study)},
+                               .remarks = {}});
+  return document;
+}
+
+Value ride_json(const RideStudy& study) {
+  Value controlled = Value::array(), held = Value::array();
+  for (const RiddenVehicle& one : study.controlled) controlled.push_back(ridden_json(one));
+  for (const TradeOff& point : study.held)
+    held.push_back(Value::object({{"drive", point.setting},
+                                  {"weighted_acceleration", point.weighted},
+                                  {"tyre_load", point.tyre}}));
+  return Value::object({{"plant", study.passive.road.vehicle->set.name},
+                        {"ground", study.ground},
+                        {"passive", ridden_json(study.passive)},
+                        {"controlled", std::move(controlled)},
+                        {"held", std::move(held)},
+                        {"possible", front_json(study.front)}});
+}
+
+}  // namespace dashpot

@@ -1,0 +1,242 @@
+#include "dashpot/report/ride_figures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include "dashpot/base/text.h"
+#include "dashpot/report/front_parts.h"
+#include "dashpot/report/ride_parts.h"
+
+namespace dashpot {
+namespace {
+
+constexpr double kWhole = std::numeric_limits<double>::infinity();
+
+/// A vehicle of the study as all its curves look.
+struct Drawn {
+  const RiddenVehicle* ridden;
+  FigureSeries look;
+};
+
+std::vector<Drawn> drawn(const RideStudy& study) {
+  std::vector<Drawn> all{{&study.passive, passive_look(study.passive.name())}};
+  for (std::size_t k = 0; k < study.controlled.size(); ++k)
+    all.push_back({&study.controlled[k], controller_look(study.controlled[k].name(), k)});
+  return all;
+}
+
+using Read = std::function<double(const GainPoint&)>;
+
+Read fundamental(Gain GainPoint::* signal) {
+  return [signal](const GainPoint& point) { return (point.*signal).fundamental; };
+}
+
+FigureSeries gain_curve(const std::vector<GainPoint>& points, const Read& read, double to,
+                        FigureSeries series) {
+  for (const GainPoint& point : points)
+    if (point.frequency <= to) {
+      series.x.push_back(point.frequency);
+      series.y.push_back(read(point));
+    }
+  return series;
+}
+
+FigurePanel gain_panel(const RideStudy& study, const std::string& title, const std::string& unit,
+                       const Read& read, double to = kWhole) {
+  FigurePanel panel{title, "frequency, Hz", unit, {}};
+  for (const auto& [ridden, look] : drawn(study))
+    panel.series.push_back(gain_curve(ridden->sines, read, to, look));
+  return panel;
+}
+
+/// A level that the paper draws.
+FigureSeries limit_line(const std::string& label, double from, double to, double level) {
+  return {label, "measured", {from, to}, {level, level}, FigureSeries::Mark::Dashes, 1.6};
+}
+
+FigureSeries dot(const std::string& label, const std::string& colour, double x, double y,
+                 double size) {
+  return {label, colour, {x}, {y}, FigureSeries::Mark::Dots, size};
+}
+
+FigurePanel time_panel(const std::vector<Drawn>& vehicles, const SimulatedRun RiddenVehicle::* run,
+                       const std::string& channel, const FigurePanel& titles,
+                       const Stretch& stretch) {
+  FigurePanel panel = titles;
+  const double factor = titles.y_label == "mm" ? 1000 : 1;
+  for (const auto& [ridden, look] : vehicles)
+    panel.series.push_back(over_time(ridden->*run, channel, factor, stretch, look));
+  return panel;
+}
+
+}  // namespace
+
+double greatest_gain(const RiddenVehicle& ridden, Gain GainPoint::* signal, double to) {
+  double top = 0;
+  for (const GainPoint& point : ridden.sines)
+    if (point.frequency <= to) top = std::max(top, (point.*signal).fundamental);
+  return top;
+}
+
+DocumentFigure gain_figure(const RideStudy& study) {
+  const std::vector<double>& f = study.options.frequencies;
+  const auto &body = &GainPoint::body_acceleration, &tyre = &GainPoint::tyre_deflection;
+  std::vector<FigurePanel> panels;
+  panels.push_back(gain_panel(study, "Body acceleration", "gain, 1/s^2", fundamental(body)));
+  panels.push_back(
+      gain_panel(study, "Body acceleration at its resonance", "gain, 1/s^2", fundamental(body), 4));
+  panels.back().series.push_back(limit_line("passive, greatest to 2 Hz", f.front(), kPaperComfortTo,
+                                            greatest_gain(study.passive, body, kPaperComfortTo)));
+  panels.push_back(gain_panel(study, "Tyre deflection", "gain", fundamental(tyre)));
+  panels.back().series.push_back(limit_line("one-sensor paper: 2.5 at most", f.front(),
+                                            std::min(f.back(), kPaperHoldingTo),
+                                            kPaperHoldingLimit));
+  panels.push_back(
+      gain_panel(study, "Body displacement", "gain", fundamental(&GainPoint::body), 5));
+  panels.push_back(gain_panel(study, "Travel", "gain", fundamental(&GainPoint::travel)));
+  panels.push_back(gain_panel(study, "Body acceleration: variance over fundamental gain", "ratio",
+                              [](const GainPoint& point) {
+                                return point.body_acceleration.variance /
+                                       point.body_acceleration.fundamental;
+                              }));
+  return {
+      "gains", "Gains by sines",
+      "Fundamental gain over the road's height, " +
+          format_number(1000 * study.options.gains.amplitude) +
+          " mm. The last panel tells what a law adds at other frequencies: 1 is none; a law that "
+          "chatters shows there, and not in its fundamental.",
+      std::move(panels), 2};
+}
+
+DocumentFigure chirp_figure(const RideStudy& study) {
+  std::vector<FigurePanel> panels;
+  for (const auto& [signal, title, unit] :
+       {std::tuple{&GainPoint::body_acceleration, "Body acceleration", "gain, 1/s^2"},
+        std::tuple{&GainPoint::tyre_deflection, "Tyre deflection", "gain"}}) {
+    FigurePanel panel{title, "frequency, Hz", unit, {}};
+    for (const auto& [ridden, look] : drawn(study)) {
+      panel.series.push_back(gain_curve(ridden->chirp, fundamental(signal), kWhole, look));
+      FigureSeries sines = gain_curve(ridden->sines, fundamental(signal), kWhole, look);
+      sines.mark = FigureSeries::Mark::Dots;
+      sines.width = 2.5;
+      panel.series.push_back(std::move(sines));
+    }
+    panels.push_back(std::move(panel));
+  }
+  return {
+      "chirp", "Gains by one chirp",
+      "Lines: " + format_number(study.options.gains.chirp) +
+          " s of exponential chirp, read over four periods about each frequency. Dots: by sines.",
+      std::move(panels), 2};
+}
+
+DocumentFigure trade_off_figure(const RideStudy& study) {
+  const auto x = [&](const RiddenVehicle& one) {
+    return measure_named(one.road.measures, "weighted_acceleration");
+  };
+  const auto y = [&](const RiddenVehicle& one) {
+    return measure_named(one.road.measures, "tyre_load");
+  };
+  const double x0 = x(study.passive), y0 = y(study.passive);
+  FigurePanel panel{"",
+                    "weighted body acceleration, ratio to passive",
+                    "dynamic tyre load, ratio to passive",
+                    {}};
+  FigureSeries line{"held without control", "series-6", {}, {}, FigureSeries::Mark::Line, 1.4};
+  for (const TradeOff& point : study.held) {
+    line.x.push_back(point.weighted / x0);
+    line.y.push_back(point.tyre / y0);
+  }
+  FigureSeries dots = line;
+  dots.mark = FigureSeries::Mark::Dots;
+  dots.width = 2.5;
+  panel.series = {line, dots, dot(study.passive.name(), "measured", 1, 1, 5)};
+  for (const auto& [ridden, look] : drawn(study))
+    if (ridden != &study.passive)
+      panel.series.push_back(dot(look.label, look.colour, x(*ridden) / x0, y(*ridden) / y0, 5));
+  return {"trade-off",
+          "The trade-off on the road",
+          "To the left: more comfort; down: better road holding. The grey line is what the same "
+          "dampers do "
+          "at any one drive, from the softest to the hardest: a controller pays where it lies "
+          "below and left "
+          "of it.",
+          {std::move(panel)},
+          1};
+}
+
+DocumentFigure possible_figure(const RideStudy& study) {
+  const Plant& plant = study.passive.road.vehicle->set.plant;
+  const auto roots = [&](const RiddenVehicle& one) {
+    const RideSquares squares = ride_squares(one.road.trace, plant);
+    return RideRoots{std::sqrt(squares.acceleration), std::sqrt(squares.tyre_force)};
+  };
+  const RideRoots unit = roots(study.passive);
+  FigurePanel panel{
+      "", "body acceleration, rms, ratio to passive", "tyre force, rms, ratio to passive", {}};
+  panel.series = front_lines(study.front, unit);
+  for (const auto& [ridden, look] : drawn(study)) {
+    const RideRoots at = roots(*ridden);
+    panel.series.push_back(dot(look.label, look.colour, at.acceleration / unit.acceleration,
+                               at.tyre_force / unit.tyre_force, 5));
+  }
+  return {"possible",
+          "What is possible on this road",
+          "Below and left of the dashed line there is nothing for any controller: proven for "
+          "forces within "
+          "the damper's range, however made. The line beside it was reached in simulation, by "
+          "demands found "
+          "with the road known in advance.",
+          {std::move(panel)},
+          1};
+}
+
+DocumentFigure road_figure(const RideStudy& study) {
+  const auto least = [&](const char* measure) {
+    return std::ranges::min_element(study.controlled, {},
+                                    [&](const RiddenVehicle& one) {
+                                      return measure_named(one.road.measures, measure);
+                                    }) -
+           study.controlled.begin();
+  };
+  const std::vector<Drawn> all = drawn(study);
+  std::vector<Drawn> shown{all.front()};
+  const std::ptrdiff_t comfort = least("weighted_acceleration"), holding = least("tyre_load");
+  shown.push_back(all[static_cast<std::size_t>(comfort) + 1]);
+  if (holding != comfort) shown.push_back(all[static_cast<std::size_t>(holding) + 1]);
+  const Plant& plant = study.passive.road.vehicle->set.plant;
+  const std::string &body = plant.coordinates.front().name, &tyre = plant.tyres.front().name,
+                    &strut = plant.struts.front().name;
+  const double duration = study.options.road_duration;
+  const Stretch stretch = shown_stretch(duration, std::max(0.0, std::min(5.0, duration - 5)));
+  const auto panel = [&](const std::string& channel, const char* title, const char* unit) {
+    return time_panel(shown, &RiddenVehicle::road, channel, {title, "time, s", unit, {}}, stretch);
+  };
+  return {
+      "road",
+      "A stretch of the road",
+      "Passive, the most comfortable and the best on the road.",
+      {panel(body + "_acceleration", "Body acceleration", "m/s^2"),
+       panel(tyre + "_load", "Tyre load", "N"), panel(strut + "_deflection", "Deflection", "mm"),
+       panel(strut + "_force", "Damper force", "N")},
+      2};
+}
+
+DocumentFigure step_figure(const RideStudy& study) {
+  const Plant& plant = study.passive.road.vehicle->set.plant;
+  const Stretch stretch{0, 2};
+  const auto panel = [&](const std::string& channel, const char* title, const char* unit) {
+    return time_panel(drawn(study), &RiddenVehicle::step, channel, {title, "time, s", unit, {}},
+                      stretch);
+  };
+  return {"step",
+          "After the step",
+          "The road rises at 0 s, at once.",
+          {panel(plant.coordinates.front().name + "_acceleration", "Body acceleration", "m/s^2"),
+           panel(plant.tyres.front().name + "_deflection", "Tyre deflection", "mm")},
+          2};
+}
+
+}  // namespace dashpot

@@ -1,0 +1,73 @@
+#include "dashpot/report/ride_parts.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "dashpot/base/text.h"
+#include "dashpot/report/series.h"
+#include "dashpot/report/words.h"
+
+namespace dashpot {
+
+FigureSeries controller_look(const std::string& name, std::size_t k) {
+  constexpr std::array kColours{"series-1", "series-2", "series-3", "series-4",
+                                "series-5", "series-7", "series-8"};
+  const auto mark =
+      k / kColours.size() % 2 == 0 ? FigureSeries::Mark::Line : FigureSeries::Mark::Dashes;
+  return {name, kColours[k % kColours.size()], {}, {}, mark, 1.4};
+}
+
+FigureSeries passive_look(const std::string& name) {
+  return {name, "series-6", {}, {}, FigureSeries::Mark::Line, 1.8};
+}
+
+Stretch shown_stretch(double duration, double discard) {
+  constexpr double kShown = 5;
+  return discard > 0 ? Stretch{discard, std::min(duration, discard + kShown)}
+                     : Stretch{0, duration};
+}
+
+FigureSeries over_time(const SimulatedRun& run, const std::string& channel, double factor,
+                       const Stretch& stretch, const FigureSeries& look) {
+  constexpr std::size_t kPoints = 3000;
+  FigureSeries series = look;
+  const std::vector<double>&time = run.trace.record.time,
+        &samples = run.trace.record.channel(channel).samples;
+  const auto place = [&](double t) {
+    return static_cast<std::size_t>(std::ranges::lower_bound(time, t - 1e-9) - time.begin());
+  };
+  const std::size_t first = place(stretch.from), last = place(stretch.to);
+  if (first >= last) return series;  // it diverged before
+  const std::span<const double> shown = std::span(samples).subspan(first, last - first);
+  for (const std::size_t k : thinned_indices({shown}, kPoints)) {
+    series.x.push_back(time[first + k]);
+    series.y.push_back(factor * shown[k]);
+  }
+  return series;
+}
+
+std::string ratio_text(double value, double reference) {
+  const double ratio = value / reference;
+  if (!std::isfinite(ratio)) return "-";
+  return format_number(std::round(1000 * ratio) / 1000, 4);
+}
+
+std::string against_text(double value, double reference) {
+  const double percent = 100 * (value / reference - 1);
+  return percent_text(std::abs(percent)) + " % " + (percent < 0 ? "less" : "more");
+}
+
+std::vector<std::string> run_remarks(const std::vector<const SimulatedRun*>& runs) {
+  std::vector<std::string> remarks;
+  const auto add = [&](const std::string& remark) {
+    if (std::ranges::find(remarks, remark) == remarks.end()) remarks.push_back(remark);
+  };
+  for (const SimulatedRun* run : runs)
+    for (const std::string& warning : run->warnings) add(run->name + ": " + warning);
+  for (const SimulatedRun* run : runs)
+    for (const std::string& note : run->vehicle->notes) add(note);
+  return remarks;
+}
+
+}  // namespace dashpot

@@ -1,0 +1,86 @@
+// The report of a search for programs and as a page.
+#include "dashpot/report/page.h"
+#include "dashpot/report/report_json.h"
+#include "dashpot/report/safe_text.h"
+#include "dashpot/report/search_report.h"
+#include "dashpot/report/words.h"
+
+namespace dashpot {
+namespace {
+
+Value axis_json(const SearchAxis& axis) {
+  Value json = Value::object({{"setting", axis.setting}});
+  json.add("meaning", std::string(find_network_setting(axis.setting, axis.setting).meaning));
+  if (axis.values.empty())
+    json.add("range", Value::array({Value(axis.low), Value(axis.high)}));
+  else
+    json.add("values", Value::array(axis.values));
+  return json;
+}
+
+Value trial_json(const Trial& trial, const SearchReport& search) {
+  Value settings = Value::object();
+  for (const SearchAxis& axis : search.options.space.axes)
+    if (const std::string value =
+            find_network_setting(axis.setting, axis.setting).format(trial.design);
+        !value.empty())
+      settings.add(axis.setting, value);
+  Value folds = Value::array();
+  for (const FoldResult& fold : trial.folds) folds.push_back(metrics(fold.sums).esr);
+  return Value::object({{"design", format_design(trial.design)},
+                        {"settings", std::move(settings)},
+                        {"effort", search.rungs[trial.rung].share},
+                        {"parameters", trial.parameters},
+                        {"left_out", to_json(trial.left_out)},
+                        {"standard_error_percent", trial.standard_error},
+                        {"worst_esr_percent", trial.worst_esr},
+                        {"fold_esr_percent", std::move(folds)},
+                        {"diverged", trial.diverged},
+                        {"failure", trial.failure},
+                        {"usable", trial.is_usable()},
+                        {"finalist", search.is_finalist(trial)},
+                        {"on_front", trial.on_front},
+                        {"best", &trial == search.best()},
+                        {"smallest", &trial == search.smallest()},
+                        {"seconds", trial.seconds}});
+}
+
+}  // namespace
+
+Value json_search(const SearchInput& input) {
+  const SearchReport& search = input.search;
+  Value axes = Value::array(), trials = Value::array();
+  for (const SearchAxis& axis : search.options.space.axes) axes.push_back(axis_json(axis));
+  for (const Trial& trial : search.trials) trials.push_back(trial_json(trial, search));
+  return presentable(Value::object({{"format", "dashpot search 1"},
+                                    {"version", input.version},
+                                    {"date", input.date},
+                                    {"command", input.command},
+                                    {"dataset", dataset_json(input.dataset)},
+                                    {"leave_out", format_leave_out(search.leave_out)},
+                                    {"protocol_title", protocol_title(search.leave_out)},
+                                    {"protocol", protocol(search.leave_out, search.folds.size())},
+                                    {"folds", Value::array(search.folds)},
+                                    {"model", search.options.model},
+                                    {"fixed", format_design(search.options.space.fixed)},
+                                    {"plan", search_plan(search.rungs, search.options.effort)},
+                                    {"verdict", search_verdict(search)},
+                                    {"fits", search.results},
+                                    {"kept_fits", search.kept},
+                                    {"wall_seconds", search.wall_seconds},
+                                    {"axes", std::move(axes)},
+                                    {"trials", std::move(trials)}}));
+}
+
+std::string html_search(const SearchInput& input) {
+  constexpr std::size_t kShown = 30;  // without JavaScript
+  Value data = json_search(input);
+  data.add("page", "search");
+  data.add("series", Value::object({{"display", "All trials are shown."}}));
+  return make_page(input.dataset.name + ", Dashpot search",
+                   search_verdict(input.search) + "\n\n" +
+                       trial_table(input.search.trials, input.search, 100, kShown),
+                   data);
+}
+
+}  // namespace dashpot

@@ -1,0 +1,202 @@
+#include "dashpot/report/simulation_document.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "dashpot/base/text.h"
+#include "dashpot/report/ride_parts.h"
+#include "dashpot/report/words.h"
+#include "dashpot/suspension/ride/weighting.h"
+
+namespace dashpot {
+namespace {
+
+/// The runs as figures show them: the reference below.
+struct Shown {
+  const SimulatedRun* run;
+  FigureSeries look;
+};
+
+std::vector<Shown> shown_runs(const Simulation& s) {
+  std::vector<Shown> runs;
+  if (s.against) runs.push_back({&*s.against, passive_look(s.against->name)});
+  runs.push_back({&s.run, controller_look(s.run.name, 0)});
+  return runs;
+}
+
+DocumentTable measure_table(const Simulation& s) {
+  DocumentTable table{.title = "",
+                      .columns = {{.title = "measure", .elastic = true},
+                                  {.title = "unit"},
+                                  {.title = s.run.name, .numeric = true}},
+                      .rows = {}};
+  if (s.against) {
+    table.columns.push_back({.title = s.against->name, .numeric = true});
+    table.columns.push_back({.title = "ratio", .numeric = true});
+  }
+  for (const RideMeasure& measure : s.run.measures) {
+    std::vector<std::string> row{measure.title, measure.unit == "1" ? "" : measure.unit,
+                                 number_text(measure.value, 4)};
+    if (s.against) {
+      const double reference = measure_named(s.against->measures, measure.name);
+      row.push_back(number_text(reference, 4));
+      row.push_back(ratio_text(measure.value, reference));
+    }
+    table.rows.push_back(std::move(row));
+  }
+  if (s.discard > 0)
+    table.note =
+        "The first " + format_number(s.discard) + " s do not count: the weighting's own start.";
+  return table;
+}
+
+FigurePanel time_panel(const Simulation& s, const std::string& channel, const std::string& title,
+                       const std::string& unit, double factor = 1) {
+  FigurePanel panel{title, "time, s", unit, {}};
+  for (const auto& [run, look] : shown_runs(s))
+    if (run->trace.record.find(channel))
+      panel.series.push_back(
+          over_time(*run, channel, factor, shown_stretch(s.duration, s.discard), look));
+  return panel;
+}
+
+/// What moves the ground: the same for both runs.
+FigurePanel ground_panel(const Simulation& s, const std::string& channel, const std::string& unit,
+                         double factor) {
+  const FigureSeries look{"", "measured", {}, {}, FigureSeries::Mark::Line, 1.2};
+  return {"Ground",
+          "time, s",
+          unit,
+          {over_time(s.run, channel, factor, shown_stretch(s.duration, s.discard), look)}};
+}
+
+bool is_driven(const Vehicle& vehicle) {
+  return vehicle.limits.current_min < vehicle.limits.current_max;
+}
+
+std::vector<FigurePanel> time_panels(const Simulation& s) {
+  const Vehicle& vehicle = *s.run.vehicle;
+  const Plant& plant = vehicle.set.plant;
+  const std::string strut = plant.struts.empty() ? "" : plant.struts.front().name;
+  std::vector<FigurePanel> panels;
+  if (plant.tyres.empty()) {
+    const std::string top = plant.coordinates.back().name;
+    panels.push_back(ground_panel(s, "ground_acceleration", "m/s^2", 1));
+    panels.push_back(time_panel(s, top, top + ", displacement", "mm", 1000));
+    panels.push_back(
+        time_panel(s, top + "_acceleration", top + ", acceleration over the ground", "m/s^2"));
+  } else {
+    const std::string body = plant.coordinates.front().name, tyre = plant.tyres.front().name;
+    panels.push_back(ground_panel(s, tyre + "_road", "mm", 1000));
+    panels.push_back(time_panel(s, body + "_acceleration", body + ", acceleration", "m/s^2"));
+    panels.push_back(time_panel(s, tyre + "_load", tyre + ", load", "N"));
+  }
+  if (strut.empty()) return panels;
+  panels.push_back(time_panel(s, strut + "_deflection", strut + ", deflection", "mm", 1000));
+  panels.push_back(time_panel(s, strut + "_force", strut + ", damper force", "N"));
+  if (is_driven(vehicle)) {
+    const std::string unit = vehicle.drive_unit.empty() ? "0 to 1" : vehicle.drive_unit;
+    panels.push_back(time_panel(s, strut + "_current", strut + ", drive", unit));
+    if (s.against && !is_driven(*s.against->vehicle))
+      panels.back().series.erase(panels.back().series.begin());
+  }
+  return panels;
+}
+
+/// What the damper was asked for: force over velocity.
+DocumentFigure work_figure(const Simulation& s) {
+  FigurePanel panel{"", "velocity, m/s", "damper force, N", {}};
+  const std::string& strut = s.run.vehicle->set.plant.struts.front().name;
+  for (const auto& [run, look] : shown_runs(s)) {
+    FigureSeries dots = look;
+    dots.mark = FigureSeries::Mark::Dots;
+    const std::vector<double>&v = run->trace.record.channel(strut + "_velocity").samples,
+          &f = run->trace.record.channel(strut + "_force").samples;
+    for (std::size_t k = 0; k < v.size(); k += v.size() / 4000 + 1) {
+      dots.x.push_back(v[k]);
+      dots.y.push_back(f[k]);
+    }
+    panel.series.push_back(std::move(dots));
+  }
+  return {
+      "force-velocity", "The damper at work", "Force over velocity, sample by sample.", {panel}};
+}
+
+std::string verdict_of(const Simulation& s) {
+  if (s.run.trace.diverged_at)
+    return "It diverged at " + format_number(*s.run.trace.diverged_at) +
+           " s: nothing below can be used.";
+  if (s.run.vehicle->set.plant.tyres.empty() || !s.against) {
+    const double a = measure_named(s.run.measures, "weighted_acceleration");
+    if (!std::isfinite(a)) return "";
+    return "a_w " + format_number(a, 3) +
+           " m/s^2: " + std::string(RideComfort{.weighted_rms = a}.feeling()) +
+           " by ISO 2631-1 (bands as recalled).";
+  }
+  const auto change = [&](const char* measure) {
+    return against_text(measure_named(s.run.measures, measure),
+                        measure_named(s.against->measures, measure));
+  };
+  return "Against " + s.against->name + ": " + change("weighted_acceleration") +
+         " weighted acceleration, " + change("tyre_load") + " dynamic tyre load.";
+}
+
+}  // namespace
+
+Document simulation_document(const Simulation& s) {
+  const Vehicle& vehicle = *s.run.vehicle;
+  std::vector<const SimulatedRun*> runs{&s.run};
+  if (s.against) runs.push_back(&*s.against);
+  Document document{
+      .title = vehicle.set.plant.title.empty() ? vehicle.set.name : vehicle.set.plant.title,
+      .subtitle = s.run.name + " on " + s.ground,
+      .verdict = verdict_of(s),
+      .sections = {},
+      .command = {},
+      .version = {},
+      .date = {}};
+  std::vector<std::string> names = vehicle.damper_names;
+  names.erase(std::unique(names.begin(), names.end()), names.end());
+  document.sections.push_back(
+      {.name = "measures",
+       .title = "Measures",
+       .paragraphs = {"Ground: " + s.ground + ", " + format_number(s.duration) +
+                      " s. Damper: " + join(names, "; ") + "."},
+       .tables = {measure_table(s)},
+       .figures = {},
+       .remarks = run_remarks(runs)});
+  DocumentSection time{.name = "time", .title = "Over time", .paragraphs = {}};
+  const auto [from, to] = shown_stretch(s.duration, s.discard);
+  time.figures.push_back({"time", "From " + format_number(from) + " to " + format_number(to) + " s",
+                          "Drag to enlarge. The traces beside this page hold all of it.",
+                          time_panels(s), 2});
+  if (!vehicle.set.plant.struts.empty()) time.figures.push_back(work_figure(s));
+  document.sections.push_back(std::move(time));
+  return document;
+}
+
+Value simulation_json(const Simulation& s) {
+  const auto json_of = [](const SimulatedRun& run) {
+    Value measures = Value::array();
+    for (const RideMeasure& m : run.measures)
+      measures.push_back(
+          Value::object({{"name", m.name},
+                         {"unit", m.unit},
+                         {"value", std::isfinite(m.value) ? Value(m.value) : Value()}}));
+    return Value::object(
+        {{"name", run.name},
+         {"dampers", Value::array(run.vehicle->damper_names)},
+         {"damping_min", run.vehicle->limits.damping_min},
+         {"damping_max", run.vehicle->limits.damping_max},
+         {"measures", std::move(measures)},
+         {"diverged_at", run.trace.diverged_at ? Value(*run.trace.diverged_at) : Value()},
+         {"warnings", Value::array(run.warnings)}});
+  };
+  return Value::object({{"plant", s.run.vehicle->set.name},
+                        {"ground", s.ground},
+                        {"duration", s.duration},
+                        {"run", json_of(s.run)},
+                        {"against", s.against ? json_of(*s.against) : Value()}});
+}
+
+}  // namespace dashpot

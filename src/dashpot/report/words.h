@@ -1,0 +1,36 @@
+#pragma once
+#include <optional>
+#include <string>
+
+#include "dashpot/report/report.h"
+
+namespace dashpot {
+
+/// "3.63", "12.4", "128": percent with a resolution that fits its size; "-" when not finite.
+std::string percent_text(double value);
+/// `digits` significant digits, or "-" when not finite.
+std::string number_text(double value, int digits = 3);
+/// "2 records", "1 record".
+std::string counted(std::size_t count, const std::string& noun);
+/// "converged", "iteration_limit", "failed".
+std::string status_name(FitReport::Status status);
+/// The model's title, or its name when it has none.
+const std::string& display_name(const RankedModel& model);
+
+/// Fitted, and finite on every left-out record.
+bool is_usable(const RankedModel& model);
+
+/// There are figures of it: it was fitted and run on left-out records.
+bool is_judged(const RankedModel& model);
+
+/// One or two sentences: which model is best, how good it is on what it has not seen, and what is
+/// next.
+std::string verdict(const Ranking& ranking);
+/// How records were left out: a few words, and in full.
+std::string protocol_title(const LeaveOut& leave_out);
+std::string protocol(const LeaveOut& leave_out, std::size_t folds);
+/// The one-step errors of models that feed force back, or that there are none; nothing when models
+/// failed.
+std::optional<std::string> one_step_note(const Ranking& ranking);
+
+}  // namespace dashpot

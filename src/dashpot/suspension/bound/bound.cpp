@@ -1,0 +1,134 @@
+#include "dashpot/suspension/bound/bound.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "dashpot/base/error.h"
+#include "dashpot/base/parallel.h"
+#include "dashpot/suspension/bound/optimum.h"
+#include "dashpot/suspension/bound/relaxation.h"
+
+namespace dashpot {
+namespace {
+
+class SharePlayer final : public Controller {
+ public:
+  explicit SharePlayer(std::vector<double> shares) : shares_(std::move(shares)) {}
+  std::size_t state_size() const noexcept override { return 1; }
+  void reset(std::span<double> state) const noexcept override { state[0] = 0; }
+  void step(std::span<const StrutSignals>, std::span<const double>, std::span<double> state,
+            std::span<DamperDemand> demands) const noexcept override {
+    const auto place = std::min(static_cast<std::size_t>(state[0]), shares_.size() - 1);
+    for (DamperDemand& demand : demands) demand = {DamperDemand::Kind::Current, shares_[place]};
+    ++state[0];
+  }
+
+ private:
+  std::vector<double> shares_;
+};
+
+/// A few outputs per step: between them the body's acceleration has no jumps.
+RideSquares simulated(const Plant& plant, const GroundMotion& ground, const ForceRange& range,
+                      const std::vector<double>& shares, const BoundOptions& options) {
+  const std::vector<MountedDamper> dampers{mounted(range)};
+  const ControllerPointer player = play_shares(shares);
+  return ride_squares(
+      simulate({plant, dampers, ground, player.get()}, {.duration = options.duration,
+                                                        .output_step = options.step / 4,
+                                                        .step = {},
+                                                        .sensors = {},
+                                                        .limits = {.sample_time = options.step},
+                                                        .monitor = {}}),
+      plant);
+}
+
+double trapezes(const std::vector<double>& time, const std::vector<double>& values, double less) {
+  double sum = 0;
+  for (std::size_t k = 1; k < time.size(); ++k) {
+    const double a = values[k - 1] - less, b = values[k] - less;
+    sum += 0.5 * (a * a + b * b) * (time[k] - time[k - 1]);
+  }
+  return sum / (time.back() - time.front());
+}
+
+/// The best that some courses lead to.
+Course best_course(const SampledPlant& car, const ForceRange& range, const RideIndex& index,
+                   const std::vector<std::vector<double>>& starts) {
+  constexpr double kSteady[] = {0, 0.1, 0.3, 1};
+  Course best{.value = INFINITY, .shares = {}};
+  const auto attempt = [&](std::vector<double> shares) {
+    shares.resize(car.cells(), shares.back());
+    Course found = improve(car, range, index, {0, std::move(shares)});
+    if (found.value < best.value) best = std::move(found);
+  };
+  for (const double share : kSteady) attempt({share});
+  for (const std::vector<double>& start : starts)
+    if (!start.empty()) attempt(start);
+  return best;
+}
+
+}  // namespace
+
+RideSquares ride_squares(const Trace& trace, const Plant& plant) {
+  const Record& record = trace.record;
+  const std::string body = plant.coordinates.front().name, tyre = plant.tyres.front().name;
+  return {trapezes(record.time, record.channel(body + "_acceleration").samples, 0),
+          trapezes(record.time, record.channel(tyre + "_load").samples,
+                   plant.tyres.front().static_load)};
+}
+
+RideIndex weighted_index(double comfort, const RideSquares& reference) {
+  return {comfort / reference.acceleration, (1 - comfort) / reference.tyre_force};
+}
+
+ControllerPointer play_shares(std::vector<double> shares) {
+  if (shares.empty()) throw Error("clairvoyant bound", "there are no demands to play");
+  return std::make_unique<SharePlayer>(std::move(shares));
+}
+
+std::vector<double> shares_of(const Trace& trace, const Plant& plant, const ForceRange& range) {
+  const std::string strut = plant.struts.front().name;
+  const std::vector<double>& velocity = trace.record.channel(strut + "_velocity").samples;
+  const std::vector<double>& force = trace.record.channel(strut + "_force").samples;
+  std::vector<double> shares;
+  for (std::size_t k = 0; k < force.size(); ++k)
+    shares.push_back(range.share(velocity[k], force[k]));
+  return shares;
+}
+
+ClairvoyantBound clairvoyant_bound(const Plant& plant, const GroundMotion& ground,
+                                   const ForceRange& range, const RideIndex& index,
+                                   const BoundOptions& options) {
+  const SampledPlant car(plant, ground, options.duration, options.step);
+  ClairvoyantBound found{.index = index, .squares = {}, .shares = {}};
+  found.shares = best_course(car, range, index, options.starts).shares;
+  found.squares = simulated(plant, ground, range, found.shares, options);
+  found.optimum = found.squares.of(index);
+  // With nothing to choose there is one motion.
+  if (!has_width(range)) {
+    found.bound = found.optimum;
+    return found;
+  }
+  const SampledPlant coarse(plant, ground, options.duration, options.search_step);
+  found.bound =
+      relax(car, coarse, force_limits(range), index, {.block = 1, .iterations = options.iterations})
+          .bound;
+  return found;
+}
+
+std::vector<ClairvoyantBound> clairvoyant_front(const Plant& plant, const GroundMotion& ground,
+                                                const ForceRange& range,
+                                                const std::vector<RideIndex>& indices,
+                                                const BoundOptions& options) {
+  std::vector<ClairvoyantBound> front(indices.size());
+  parallel_for(indices.size(), options.threads, [&](std::size_t k) {
+    front[k] = clairvoyant_bound(plant, ground, range, indices[k], options);
+  });
+  return front;
+}
+
+double share_of_possible(double passive, double controller, double optimum) {
+  return (passive - controller) / (passive - optimum);
+}
+
+}  // namespace dashpot

@@ -1,0 +1,72 @@
+#pragma once
+#include <vector>
+
+#include "dashpot/suspension/bound/force_range.h"
+#include "dashpot/suspension/bound/range_damper.h"
+#include "dashpot/suspension/bound/sampled_plant.h"
+#include "dashpot/suspension/simulate.h"
+
+// What the best semi-active suspension that knew the road in advance could do on it
+// (docs/bound.md).
+namespace dashpot {
+
+/// Means over a ride.
+struct RideSquares {
+  double acceleration = 0;  ///< of the body, (m/s^2)^2
+  double tyre_force = 0;    ///< beyond the static load, N^2
+
+  double of(const RideIndex& index) const {
+    return index.comfort * acceleration + index.holding * tyre_force;
+  }
+};
+/// Of a quarter car's trace, by trapezes between its samples.
+RideSquares ride_squares(const Trace& trace, const Plant& plant);
+
+/// Comfort and road holding as shares of a reference: `comfort` of one, 1 - `comfort` of the other;
+/// the reference itself has the index 1.
+RideIndex weighted_index(double comfort, const RideSquares& reference);
+
+struct BoundOptions {
+  double duration = 10;       ///< s
+  double step = 1e-3;         ///< s, for which the optimum holds its demand
+  double search_step = 2e-3;  ///< s, of the cells on which multipliers are sought
+  int iterations = 60;        ///< of each climb to better multipliers
+  std::vector<std::vector<double>>
+      starts;  ///< shares per step that the optimum shall not fall behind
+  int threads = 0;
+};
+
+/// Of one index on one road.
+struct ClairvoyantBound {
+  RideIndex index;
+  double bound = 0;            ///< proven: no force within the range makes the index less
+  double optimum = 0;          ///< simulated: what the demands below reach
+  RideSquares squares;         ///< of the optimum
+  std::vector<double> shares;  ///< demands, per step, from softest (0) to hardest (1)
+
+  double gap() const { return optimum > 0 ? (optimum - bound) / optimum : 0; }
+};
+
+/// For every force F(t) within the range at each instant, however made, the index of this quarter
+/// car on this road, straight within steps, is at least `bound`. Throws Error at a plant that is
+/// not a linear quarter car.
+ClairvoyantBound clairvoyant_bound(const Plant& plant, const GroundMotion& ground,
+                                   const ForceRange& range, const RideIndex& index,
+                                   const BoundOptions& options);
+/// Of several indices at once: a front of comfort against road holding. The same bits on any number
+/// of threads.
+std::vector<ClairvoyantBound> clairvoyant_front(const Plant& plant, const GroundMotion& ground,
+                                                const ForceRange& range,
+                                                const std::vector<RideIndex>& indices,
+                                                const BoundOptions& options);
+
+/// How much of what is possible a controller reaches: (passive - controller) / (passive - optimum).
+double share_of_possible(double passive, double controller, double optimum);
+
+/// Shares per step of what a damper did in a trace whose output step is `step`: a start for the
+/// optimum.
+std::vector<double> shares_of(const Trace& trace, const Plant& plant, const ForceRange& range);
+/// Demands one share after another, as currents of a RangeDamper; the last one stays.
+ControllerPointer play_shares(std::vector<double> shares);
+
+}  // namespace dashpot

@@ -1,0 +1,54 @@
+#pragma once
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "dashpot/base/random.h"
+#include "dashpot/suspension/control/controller.h"
+
+namespace dashpot {
+
+/// What stands between the plant and its controller. Ideal by default: the laws see what is.
+struct SensorOptions {
+  bool in_car = false;  ///< a body accelerometer and a deflection sensor per strut; the rest is
+                        ///< made from these
+  double acceleration_noise = 0.05;       ///< m/s^2, standard deviation
+  double acceleration_resolution = 0.01;  ///< m/s^2
+  double deflection_noise = 5e-5;         ///< m, standard deviation
+  double deflection_resolution = 2e-5;    ///< m
+  double delay = 0;                       ///< s, of both, in whole samples
+  double integration_corner = 0.15;  ///< Hz: slower motions are left out of the body's velocity
+  double derivative_corner = 80;     ///< Hz: of the deflection's derivative
+  std::uint64_t seed = 1;
+};
+
+/// Sensors and filters of all struts. Mutable: noise and memories are its own.
+class Sensors {
+ public:
+  /// Throws Error on a delay, corner, noise or resolution that makes no sense.
+  Sensors(const SensorOptions& options, std::size_t struts, double sample_time);
+
+  /// One sample: the true signals become what the controller gets, in place.
+  void measure(std::span<StrutSignals> signals);
+  bool ideal() const { return !options_.in_car; }
+  /// What the body's velocity keeps from sample to sample, and what the deflection's takes over.
+  double keep() const { return keep_; }
+  double share() const { return share_; }
+
+ private:
+  struct Memory {
+    double body[2] = {}, deflection[2] = {};  ///< what their filters keep
+    bool started = false;
+    std::vector<StrutSignals> waiting;  ///< a ring of what the delay holds back
+  };
+  StrutSignals delayed(Memory& memory, const StrutSignals& now);
+  void measure(Memory& memory, StrutSignals& signals);
+
+  SensorOptions options_;
+  double dt_, keep_ = 0, share_ = 0;
+  std::size_t delay_, place_ = 0;
+  std::vector<Memory> memories_;
+  Random random_;
+};
+
+}  // namespace dashpot

@@ -1,0 +1,286 @@
+#include "dashpot/suspension/lanes/batch.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "dashpot/base/error.h"
+#include "dashpot/base/parallel.h"
+#include "dashpot/damper/nets/aligned.h"
+#include "dashpot/suspension/lanes/lane_pilot.h"
+#include "dashpot/suspension/lanes/lane_vehicle.h"
+#include "dashpot/suspension/ride/ride.h"
+#include "dashpot/suspension/ride/weighting.h"
+
+namespace dashpot {
+namespace {
+
+/// Vehicles that ride side by side, by their place in the batch.
+struct Group {
+  LaneShape shape;
+  std::vector<std::size_t> members;
+};
+
+std::size_t samples_within(double time, double step) {
+  return static_cast<std::size_t>(std::floor(time / step * (1 + 1e-12) + 1e-9));
+}
+
+/// Rows of numbers, a number per lane, from the numbers of each lane.
+class Rows {
+ public:
+  Rows(std::size_t lanes, std::size_t count) : lanes_(lanes), values_(lanes * count) {}
+  void set(std::size_t lane, std::span<const double> numbers) {
+    for (std::size_t k = 0; k < numbers.size(); ++k) values_[k * lanes_ + lane] = numbers[k];
+  }
+  double at(std::size_t row, std::size_t lane) const { return values_[row * lanes_ + lane]; }
+  double* data() { return values_.data(); }
+
+ private:
+  std::size_t lanes_;
+  AlignedVector<double> values_;
+};
+
+std::span<const double> as_numbers(const QuarterCarNumbers<double>& numbers) {
+  return {reinterpret_cast<const double*>(&numbers), sizeof numbers / sizeof(double)};
+}
+
+/// Vehicles of one shape, as many as there are lanes; their results.
+class LaneBatch {
+ public:
+  LaneBatch(std::span<const BatchVehicle> vehicles, const BatchOptions& options,
+            const LaneShape& shape, std::span<const std::size_t> members, const RideKernel& kernel)
+      : options_(options), members_(members), kernel_(kernel), lanes_(kernel.lanes) {
+    for (std::size_t lane = 0; lane < lanes_;
+         ++lane)  // the last ones again where there are too few
+      vehicles_.push_back(&vehicles[members[std::min(lane, members.size() - 1)]]);
+    ride_.kind = shape.kind;
+    ride_.law = shape.law;
+    ride_.lags = shape.lags;
+    ride_.resists_more = shape.resists_more;
+    ride_.network = &shape.network;
+    ride_.sample_time = shape.sample_time;
+    ride_.relative_tolerance = options.relative_tolerance;
+    ride_.absolute_tolerance = options.absolute_tolerance;
+    ride_.samples = samples_within(options.duration, shape.sample_time);
+    ride_.discarded = samples_within(options.discard, shape.sample_time);
+  }
+
+  void run(std::span<BatchResult> results) {
+    std::vector<LaneVehicle> lanes;
+    for (const BatchVehicle* vehicle : vehicles_) lanes.push_back(lane_vehicle(*vehicle));
+    Rows numbers(lanes_, as_numbers(lanes[0].numbers).size()),
+        damper(lanes_, lanes[0].damper.size()), start(lanes_, lanes[0].start.size()),
+        sums(lanes_, kLaneResults),
+        trace(lanes_, options_.traces ? (ride_.samples + 1) * kLaneTraces : 0);
+    for (std::size_t lane = 0; lane < lanes_; ++lane) {
+      numbers.set(lane, as_numbers(lanes[lane].numbers));
+      damper.set(lane, lanes[lane].damper);
+      start.set(lane, lanes[lane].start);
+    }
+    const std::vector<Biquad> weighting = weighting_filter(find_weighting("Wk"), ride_.sample_time);
+    LanePilot pilot(std::span<const BatchVehicle* const>(vehicles_).first(members_.size()), lanes_);
+    pilot.take(ride_);
+    ride_.numbers = numbers.data();
+    ride_.damper = damper.data();
+    ride_.start = start.data();
+    ride_.weighting = &weighting[0].b0;
+    ride_.results = sums.data();
+    ride_.trace = options_.traces ? trace.data() : nullptr;
+    kernel_.run(ride_);
+    for (std::size_t lane = 0; lane < members_.size(); ++lane) {
+      results[members_[lane]] = result_of(sums, lane);
+      if (options_.traces)
+        results[members_[lane]].trace = trace_of(trace, lane, results[members_[lane]]);
+    }
+  }
+
+ private:
+  BatchResult result_of(const Rows& sums, std::size_t lane) const {
+    BatchResult result{.in_lanes = true};
+    const auto sum = [&](LaneResult row) { return sums.at(row, lane); };
+    std::size_t end = ride_.samples + 1;
+    if (sum(kDivergedAt) > 0) {
+      end = static_cast<std::size_t>(sum(kDivergedAt));
+      result.diverged_at = ride_.sample_time * sum(kDivergedAt);
+    }
+    const double count = static_cast<double>(std::max(end, ride_.discarded + 1) - ride_.discarded);
+    const auto root_mean = [&](LaneResult row) { return std::sqrt(sum(row) / count); };
+    result.measures = {.body_acceleration = root_mean(kAcceleration2),
+                       .weighted_acceleration = root_mean(kWeighted2),
+                       .vibration_dose = std::pow(sum(kWeighted4) * ride_.sample_time, 0.25),
+                       .tyre_load = root_mean(kLoad2),
+                       .tyre_deflection = root_mean(kTyreDeflection2),
+                       .deflection = root_mean(kDeflection2),
+                       .greatest_deflection = sum(kGreatestDeflection),
+                       .contact_lost = sum(kContactLost) / count,
+                       .energy = sum(kPower) * ride_.sample_time,
+                       .current = sum(kCurrentSum) / count};
+    result.missed_tolerance = sum(kMissed) > 0;
+    result.evaluations = static_cast<std::size_t>(sum(kEvaluations));
+    return result;
+  }
+
+  /// Channels in the order of LaneTrace.
+  Record trace_of(const Rows& rows, std::size_t lane, const BatchResult& result) const {
+    static constexpr const char* kChannels[kLaneTraces][2] = {{"body", "m"},
+                                                              {"body_velocity", "m/s"},
+                                                              {"body_acceleration", "m/s^2"},
+                                                              {"wheel", "m"},
+                                                              {"wheel_velocity", "m/s"},
+                                                              {"wheel_acceleration", "m/s^2"},
+                                                              {"suspension_deflection", "m"},
+                                                              {"suspension_velocity", "m/s"},
+                                                              {"suspension_force", "N"},
+                                                              {"suspension_current", "A"},
+                                                              {"tyre_road", "m"},
+                                                              {"tyre_load", "N"}};
+    Record record;
+    record.name = vehicles_[lane]->setting.plant.name;
+    record.condition = vehicles_[lane]->setting.ground.description();
+    record.source = "simulation";
+    std::size_t count = ride_.samples + 1;
+    if (result.diverged_at)
+      count = static_cast<std::size_t>(std::lround(*result.diverged_at / ride_.sample_time));
+    for (std::size_t k = 0; k < count; ++k)
+      record.time.push_back(ride_.sample_time * static_cast<double>(k));
+    for (std::size_t row = 0; row < kLaneTraces; ++row) {
+      record.channels.push_back(
+          {.name = kChannels[row][0], .unit = kChannels[row][1], .origin = "simulated"});
+      record.channels.back().samples.resize(count);
+    }
+    for (std::size_t k = 0; k < count; ++k)
+      for (std::size_t row = 0; row < kLaneTraces; ++row)
+        record.channels[row].samples[k] = rows.at(k * kLaneTraces + row, lane);
+    return record;
+  }
+
+  const BatchOptions& options_;
+  std::span<const std::size_t> members_;
+  const RideKernel& kernel_;
+  std::size_t lanes_;
+  std::vector<const BatchVehicle*> vehicles_;
+  LaneRide ride_;
+};
+
+double sum_of_products(std::span<const double> a, std::span<const double> b) {
+  double sum = 0;
+  for (std::size_t k = 0; k < a.size(); ++k) sum += a[k] * b[k];
+  return sum;
+}
+
+/// The measures of a ride by simulate().
+BatchMeasures measures_of(const Trace& trace, const Plant& plant, double dt,
+                          std::size_t discarded) {
+  const std::size_t first = std::min(discarded, trace.record.time.size() - 1);
+  const auto samples = [&](const std::string& name) {
+    return std::span(trace.record.channel(name).samples).subspan(first);
+  };
+  const std::vector<double>& acceleration =
+      trace.record.channel(plant.coordinates[0].name + "_acceleration").samples;
+  const std::vector<double> weighted = weigh(find_weighting("Wk"), acceleration, dt);
+  BatchMeasures m{.body_acceleration = root_mean_square(std::span(acceleration).subspan(first)),
+                  .weighted_acceleration = root_mean_square(std::span(weighted).subspan(first)),
+                  .contact_lost = trace.contact_lost};
+  double fourth = 0;
+  for (const double a : std::span(weighted).subspan(first)) fourth += a * a * a * a;
+  m.vibration_dose = std::pow(fourth * dt, 0.25);
+  for (const Strut& strut : plant.struts) {
+    const auto travel = samples(strut.name + "_deflection"),
+               current = samples(strut.name + "_current");
+    m.deflection = std::max(m.deflection, root_mean_square(travel));
+    for (const double x : travel)
+      m.greatest_deflection = std::max(m.greatest_deflection, std::abs(x));
+    m.energy +=
+        dt * sum_of_products(samples(strut.name + "_force"), samples(strut.name + "_velocity"));
+    for (const double i : current)
+      m.current += i / static_cast<double>(current.size() * plant.struts.size());
+  }
+  for (const Tyre& tyre : plant.tyres) {
+    const auto load = samples(tyre.name + "_load");
+    std::vector<double> more(load.begin(), load.end());
+    for (double& value : more) value -= tyre.static_load;
+    m.tyre_load = std::max(m.tyre_load, root_mean_square(more));
+    m.tyre_deflection =
+        std::max(m.tyre_deflection, root_mean_square(samples(tyre.name + "_deflection")));
+  }
+  return m;
+}
+
+BatchResult alone(const BatchVehicle& vehicle, const BatchOptions& options) {
+  const double dt = sample_time_of(vehicle);
+  Trace trace = simulate(vehicle.setting, {.duration = options.duration,
+                                           .output_step = dt,
+                                           .discard = options.discard,
+                                           .relative_tolerance = options.relative_tolerance,
+                                           .absolute_tolerance = options.absolute_tolerance,
+                                           .sensors = vehicle.sensors,
+                                           .limits = vehicle.limits,
+                                           .monitor = options.monitor});
+  BatchResult result{.measures = measures_of(trace, vehicle.setting.plant, dt,
+                                             samples_within(options.discard, dt)),
+                     .diverged_at = trace.diverged_at,
+                     .evaluations = trace.evaluations};
+  for (const std::string& warning : trace.warnings)
+    result.missed_tolerance = result.missed_tolerance || warning.starts_with("the tolerance");
+  if (options.traces) result.trace = std::move(trace.record);
+  return result;
+}
+
+void require_options(std::span<const BatchVehicle> vehicles, const BatchOptions& options) {
+  if (!(options.discard >= 0 && options.discard < options.duration))
+    throw Error("batch", "the whole ride is left out of the measures");
+  for (const BatchVehicle& vehicle : vehicles)
+    require_fitting(vehicle.setting, {.duration = options.duration,
+                                      .relative_tolerance = options.relative_tolerance,
+                                      .absolute_tolerance = options.absolute_tolerance,
+                                      .limits = vehicle.limits});
+}
+
+/// Those that fit into lanes by what they have in common; `others` takes the rest.
+std::vector<Group> groups_of(std::span<const BatchVehicle> vehicles,
+                             std::vector<std::size_t>& others) {
+  std::vector<Group> groups;
+  for (std::size_t k = 0; k < vehicles.size(); ++k) {
+    if (!reason_against_lanes(vehicles[k]).empty()) {
+      others.push_back(k);
+      continue;
+    }
+    const LaneShape shape = lane_vehicle(vehicles[k]).shape;
+    const auto same = std::find_if(groups.begin(), groups.end(),
+                                   [&](const Group& g) { return g.shape == shape; });
+    if (same != groups.end())
+      same->members.push_back(k);
+    else
+      groups.push_back({shape, {k}});
+  }
+  return groups;
+}
+
+}  // namespace
+
+std::vector<BatchResult> simulate_batch(std::span<const BatchVehicle> vehicles,
+                                        const BatchOptions& options) {
+  require_options(vehicles, options);
+  std::vector<std::size_t> others;
+  const std::vector<Group> groups = groups_of(vehicles, others);
+  std::vector<LaneBatch> batches;
+  const RideKernel& kernel = ride_kernel(vehicles.size());
+  for (const Group& group : groups)
+    for (std::size_t first = 0; first < group.members.size(); first += kernel.lanes)
+      batches.emplace_back(
+          vehicles, options, group.shape,
+          std::span(group.members)
+              .subspan(first, std::min(kernel.lanes, group.members.size() - first)),
+          kernel);
+  std::vector<BatchResult> results(vehicles.size());
+  parallel_for(batches.size() + others.size(), options.threads, [&](std::size_t task) {
+    options.monitor.check();
+    if (task < batches.size())
+      batches[task].run(results);
+    else
+      results[others[task - batches.size()]] =
+          alone(vehicles[others[task - batches.size()]], options);
+  });
+  return results;
+}
+
+}  // namespace dashpot

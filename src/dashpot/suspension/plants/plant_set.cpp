@@ -1,0 +1,134 @@
+#include "dashpot/suspension/plants/plant_set.h"
+
+#include <algorithm>
+
+#include "dashpot/base/data_folder.h"
+#include "dashpot/base/error.h"
+#include "dashpot/base/file.h"
+#include "dashpot/base/text.h"
+#include "dashpot/base/value.h"
+
+namespace dashpot {
+namespace {
+
+Plant from_parameters(const PlantModel& model, const Value& parameters,
+                      const NamedValues& changes) {
+  NamedValues values;
+  for (const auto& [name, value] : parameters.members()) {
+    const ParameterRow& row =
+        model.parameters[row_named(model.parameters, name, model.name, value.where())];
+    values.emplace_back(name, value.kind() == Value::Kind::Number
+                                  ? checked(row, value.as_number(), value.where())
+                                  : parse_value(row, value.as_string(), value.where()));
+  }
+  values.insert(values.end(), changes.begin(), changes.end());
+  return make_plant(model, values, parameters.where());
+}
+
+std::vector<double> read_row(const Value& value, std::size_t size) {
+  std::vector<double> row = value.as_numbers();
+  if (row.size() != size)
+    throw Error(value.where(), "has " + std::to_string(row.size()) + " numbers",
+                std::to_string(size) + ", one per coordinate");
+  return row;
+}
+
+std::vector<double> read_matrix(ObjectReader& reader, std::string_view key, std::size_t size) {
+  const Value& value = reader.required(key);
+  if (value.items().size() != size)
+    throw Error(value.where(), "has " + std::to_string(value.items().size()) + " rows",
+                std::to_string(size) + ", one per coordinate");
+  std::vector<double> matrix;
+  for (const Value& row : value.items()) {
+    const std::vector<double> numbers = read_row(row, size);
+    matrix.insert(matrix.end(), numbers.begin(), numbers.end());
+  }
+  for (std::size_t i = 0; i < size; ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (matrix[i * size + j] != matrix[j * size + i])
+        throw Error(value.where(), "is not symmetric in row " + std::to_string(i + 1) +
+                                       ", column " + std::to_string(j + 1));
+  return matrix;
+}
+
+/// Floors that shake with the ground; dampers stand on it.
+Plant from_matrices(const Value& value) {
+  ObjectReader reader(value, "a plant's matrices");
+  Plant plant;
+  for (const Value& name : reader.required("floors").items())
+    plant.coordinates.push_back({name.as_string(), "m"});
+  plant.mass = read_matrix(reader, "mass", plant.size());
+  plant.damping = read_matrix(reader, "damping", plant.size());
+  plant.stiffness = read_matrix(reader, "stiffness", plant.size());
+  for (const Value& item : reader.required("dampers").items()) {
+    ObjectReader damper(item, "a damper's place");
+    Strut strut{.name = damper.string("name")};
+    strut.row = strut.body_row = read_row(damper.required("row"), plant.size());
+    damper.finish();
+    plant.struts.push_back(std::move(strut));
+  }
+  reader.finish();
+  plant.ground.assign(plant.size(), 1);
+  return plant;
+}
+
+DampingRange read_damping(const Value& value) {
+  const std::vector<double> d = value.as_numbers();
+  if (d.size() != 3 || !(0 <= d[0] && d[0] <= d[1] && d[1] <= d[2]))
+    throw Error(value.where(), "is no range of damping", "[least, nominal, greatest] in N*s/m");
+  return {d[0], d[1], d[2]};
+}
+
+}  // namespace
+
+std::vector<std::string> plant_set_names() { return data_names("plants", ".json"); }
+
+PlantSet parse_plant_set(std::string_view text, const std::string& source, const std::string& name,
+                         const NamedValues& values) {
+  const Value document = parse_json(text, source);
+  ObjectReader reader(document, "a plant");
+  PlantSet set{.name = name,
+               .source = reader.string("source"),
+               .verified = reader.required("verified").as_bool(),
+               .reason = reader.string("reason"),
+               .plant = {}};
+  const std::string title = reader.string("title");
+  if (const Value* matrices = reader.optional("matrices")) {
+    if (!values.empty())
+      throw Error(source, "has matrices, no parameter '" + values.front().first + "'");
+    set.plant = from_matrices(*matrices);
+  } else {
+    const Value& kind = reader.required("plant");
+    set.kind = kind.as_string();
+    set.plant = from_parameters(find_plant_model(set.kind, kind.where()),
+                                reader.required("parameters"), values);
+  }
+  if (const Value* damping = reader.optional("damping")) set.damping = read_damping(*damping);
+  reader.finish();
+  set.plant.name = name;
+  set.plant.title = title;
+  set.plant.source = set.source;
+  return set;
+}
+
+PlantSet load_plant_set(const std::string& name, const NamedValues& values) {
+  std::vector<std::string> known = plant_set_names();
+  if (std::ranges::find(known, name) != known.end()) {
+    const std::filesystem::path path = data_folder("plants") / (name + ".json");
+    return parse_plant_set(read_file(path), path.string(), name, values);
+  }
+  for (const PlantModel* model : plant_models()) {
+    if (model->name == name)
+      return {name,
+              std::string(model->source),
+              false,
+              "the numbers of the table",
+              make_plant(*model, values, name),
+              {},
+              name};
+    known.emplace_back(model->name);
+  }
+  throw Error("", "unknown plant '" + name + "'", suggest(name, known));
+}
+
+}  // namespace dashpot

@@ -1,0 +1,98 @@
+#include "studies/family/family_network.h"
+
+#include <algorithm>
+#include <tuple>
+
+#include <fmt/format.h>
+
+#include "dashpot/base/parallel.h"
+#include "dashpot/base/random.h"
+#include "dashpot/base/text.h"
+#include "dashpot/damper/nets/mlp_evaluator.h"
+#include "dashpot/damper/nets/train_batches.h"
+#include "dashpot/identify/fit/training_samples.h"
+
+namespace dashpot {
+namespace {
+
+constexpr double kKilopascal = 1000, kMillimetre = 0.001;
+/// Raw inputs in the authors' units: what one of each is in SI.
+constexpr std::array<double, kFamilyInputs.size()> kRawUnits{1, 1,           1, 1,
+                                                             1, kKilopascal, 1, kMillimetre};
+
+void draw_normal_weights(Mlp& mlp, std::uint64_t seed) {
+  Random random(seed);
+  mlp.parameters.resize(Mlp::parameter_count(mlp.layers));
+  for (double& parameter : mlp.parameters) parameter = random.normal();
+}
+
+}  // namespace
+
+std::string architecture_name(const std::vector<std::size_t>& hidden) {
+  const bool is_even =
+      std::ranges::all_of(hidden, [&](std::size_t width) { return width == hidden.front(); });
+  if (is_even) return fmt::format("h{}x{}", hidden.size(), hidden.front());
+  return fmt::format("{}", fmt::join(hidden, "-"));
+}
+
+std::string describe(const FamilyRule& rule) {
+  return fmt::format(
+      "{}, {} inputs, rate {} {}, batch {}, {} epochs, L2 {}", architecture_name(rule.hidden),
+      rule.inputs == FamilyRule::Inputs::Raw ? "raw" : "standardised", format_exact(rule.rate),
+      rule.falls ? "falling" : "constant", rule.batch, rule.epochs, format_exact(rule.l2));
+}
+
+StudiedNetwork untrained_network(const FamilyRule& rule, const TrainingSamples& samples) {
+  StudiedNetwork network;
+  Mlp& mlp = network.mlp;
+  mlp.layers = {kFamilyInputs.size()};
+  mlp.layers.insert(mlp.layers.end(), rule.hidden.begin(), rule.hidden.end());
+  mlp.layers.push_back(1);
+  mlp.activations.assign(rule.hidden.size(), Activation::Relu);
+  mlp.activations.push_back(Activation::Identity);
+  mlp.input_mean.assign(kFamilyInputs.size(), 0);
+  mlp.input_scale.assign(kRawUnits.begin(), kRawUnits.end());
+  if (rule.inputs == FamilyRule::Inputs::Raw) return network;
+  for (std::size_t k = 0; k < kFamilyInputs.size(); ++k)
+    std::tie(mlp.input_mean[k], mlp.input_scale[k]) =
+        mean_and_scale(samples.inputs, k, kFamilyInputs.size());
+  std::tie(mlp.output_mean, mlp.output_scale) = mean_and_scale(samples.targets, 0, 1);
+  return network;
+}
+
+StudiedNetwork train_family_network(const FamilyRule& rule, const TrainingSamples& samples,
+                                    std::uint64_t seed, const Monitor& monitor) {
+  const double begin = cpu_seconds();
+  StudiedNetwork network = untrained_network(rule, samples);
+  if (rule.inputs == FamilyRule::Inputs::Raw) draw_normal_weights(network.mlp, seed);
+  BatchTrainOptions options;
+  options.rate = rule.rate;
+  options.schedule.kind = rule.falls ? Schedule::Kind::Cosine : Schedule::Kind::Constant;
+  options.batch = rule.batch;
+  options.epochs = rule.epochs;
+  options.l2 = rule.l2;
+  options.seed = seed;
+  options.on_epoch = [&](int, double rmse) {
+    monitor.check();
+    network.history.push_back(rmse);
+  };
+  train_batches(network.mlp, samples, options);
+  network.seconds = cpu_seconds() - begin;
+  return network;
+}
+
+std::vector<double> forces_at(const Mlp& mlp, const TrainingSamples& samples,
+                              const std::vector<std::size_t>& indices) {
+  std::vector<double> forces(indices.size());
+  MlpEvaluator<double>(mlp).evaluate(chosen(samples, indices).inputs, forces);
+  return forces;
+}
+
+ErrorSums errors_at(const TrainingSamples& samples, const std::vector<std::size_t>& indices,
+                    const std::vector<double>& forces) {
+  ErrorSums sums;
+  for (std::size_t k = 0; k < indices.size(); ++k) sums.add(samples.targets[indices[k]], forces[k]);
+  return sums;
+}
+
+}  // namespace dashpot

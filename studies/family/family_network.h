@@ -1,0 +1,51 @@
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "dashpot/base/monitor.h"
+#include "dashpot/damper/nets/mlp.h"
+#include "dashpot/identify/judge/metrics.h"
+#include "studies/family/family_samples.h"
+
+namespace dashpot {
+
+/// How a network of the family study is built and trained: ReLU layers, Adam, the mean squared
+/// error.
+struct FamilyRule {
+  std::vector<std::size_t> hidden{15, 15, 15};
+  /// Raw: as the authors' code does it, in the units of its input vector (m, m^2, Pa*s, kPa, m/s,
+  /// mm), the force in N, all first weights drawn from a normal distribution of variance 1.
+  enum class Inputs { Standardised, Raw };
+  Inputs inputs = Inputs::Standardised;
+  double rate = 1e-2;
+  std::size_t batch = 100;
+  int epochs = 500;
+  bool falls = true;  ///< the rate, along a cosine to 0; else it is constant
+  double l2 = 0;      ///< l2 |w|^2 / 2 is added to the mean squared error (standardised, or N^2)
+};
+
+/// "h3x15", the paper's name for layers of one width; else "15-10".
+std::string architecture_name(const std::vector<std::size_t>& hidden);
+/// All of it, for people and as a key.
+std::string describe(const FamilyRule& rule);
+
+struct StudiedNetwork {
+  Mlp mlp;
+  std::vector<double> history;  ///< N, rms error met in each epoch
+  double seconds = 0;           ///< CPU time
+};
+
+/// The network before it is trained: scales of the samples, no parameters.
+StudiedNetwork untrained_network(const FamilyRule& rule, const TrainingSamples& samples);
+/// The same bits for the same input. Throws Interrupted when stopped.
+StudiedNetwork train_family_network(const FamilyRule& rule, const TrainingSamples& samples,
+                                    std::uint64_t seed, const Monitor& monitor);
+
+/// The network's forces at these samples, N.
+std::vector<double> forces_at(const Mlp& mlp, const TrainingSamples& samples,
+                              const std::vector<std::size_t>& indices);
+ErrorSums errors_at(const TrainingSamples& samples, const std::vector<std::size_t>& indices,
+                    const std::vector<double>& forces);
+
+}  // namespace dashpot

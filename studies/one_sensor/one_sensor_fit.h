@@ -1,0 +1,21 @@
+#pragma once
+#include <vector>
+
+#include "dashpot/identify/identify.h"
+#include "studies/one_sensor/one_sensor_study.h"
+
+// One fit of the one-sensor study, and how it is judged.
+namespace dashpot {
+
+/// What identify() gets: long recordings are thinned to what the kind of model needs.
+struct StudiedFit {
+  std::vector<Record> training;
+  IdentifyOptions options;
+};
+StudiedFit studied_fit(const StudiedModel& model, const std::vector<Record>& training,
+                       IdentifyOptions options);
+
+/// The fit's model on the left-out records, at their full rate.
+StudiedResult judge(const FitReport& fit, const Fold& fold, const std::string& drive_unit);
+
+}  // namespace dashpot

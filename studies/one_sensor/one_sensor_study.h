@@ -1,0 +1,118 @@
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "dashpot/base/monitor.h"
+#include "dashpot/identify/fit/network_design.h"
+#include "dashpot/identify/judge/evaluate.h"
+#include "dashpot/record/dataset.h"
+#include "dashpot/record/split.h"
+
+namespace dashpot {
+
+class FitStore;
+
+/// A damper of the study, and how its recordings are divided into what models learn from and what
+/// judges them.
+struct StudiedDamper {
+  std::string name;         ///< "MR1"
+  std::string description;  ///< a sentence
+  bool is_virtual = false;
+  std::string drive_unit = "A";
+  /// The paper's, each recorded twice; of other data the divisions, of which each leaves something
+  /// out.
+  std::vector<Fold> experiments;
+  std::vector<std::size_t>
+      example;  ///< the paper's examples are of experiment 2 of MR1; none: no example
+
+  /// Half of the span of all forces that models are judged on, N: what the paper's percentages
+  /// refer to.
+  double half_span() const;
+  bool has_displacement() const;
+};
+
+/// The paper's two dampers, which exist here in the computer alone, on its bench and in its
+/// experiments. Each experiment is recorded twice: models learn from the first recording and are
+/// judged on the second.
+std::vector<StudiedDamper> virtual_dampers(std::uint64_t seed);
+/// Any recordings. Tables that the paper makes of one experiment are made of all divisions
+/// together.
+StudiedDamper measured_damper(const Dataset& dataset, const LeaveOut& leave_out);
+
+/// A model of the study. Its key is how tables find it.
+struct StudiedModel {
+  std::string key, title;
+  std::string model;  ///< of the registry
+  NetworkDesign design;
+  bool example_only = false;  ///< only on the damper's example
+};
+std::vector<StudiedModel> one_sensor_models();
+
+/// A model on the left-out records of one experiment, in free run, or of several together.
+struct StudiedResult {
+  ErrorSums sums;
+  Metrics metrics;
+  std::optional<ErrorSums>
+      one_step;  ///< of a model with feedback: the same, fed the measured force
+  std::optional<double> diverged_at;  ///< s
+  std::size_t parameters = 0;
+  double seconds = 0;  ///< CPU time of the fit
+  std::vector<std::vector<double>>
+      forces;  ///< N, of each left-out record; of models that figures show
+};
+
+/// Networks of one size, cross-validated.
+struct StudiedSize {
+  std::size_t neurons = 0, parameters = 0;
+  double error = 0;             ///< N, rms over all folds
+  std::vector<double> by_fold;  ///< N, rms
+};
+
+struct DamperStudy {
+  StudiedDamper damper;
+  std::vector<std::vector<std::optional<StudiedResult>>> results;  ///< by model, by experiment
+  std::vector<StudiedSize> sizes;                                  ///< of the example
+};
+
+struct OneSensorStudy {
+  std::vector<StudiedModel> models;
+  std::vector<DamperStudy> dampers;
+  std::size_t kept_fits = 0;  ///< found in the store
+  double seconds = 0;         ///< CPU time of all fits, those kept from before too
+
+  const StudiedModel& model(const std::string& key) const;  ///< the key must be known
+  /// Nothing where the model was not fitted: it needs a displacement, say, or the damper has no
+  /// example.
+  const StudiedResult* result(std::size_t damper, const std::string& key,
+                              std::size_t experiment) const;
+  /// Over the experiments of the damper's example; over all.
+  std::optional<StudiedResult> example(std::size_t damper, const std::string& key) const;
+  std::optional<StudiedResult> all(std::size_t damper, const std::string& key) const;
+};
+
+/// Keys of the models whose forces the figures show: the paper's network, and the one that
+/// remembers.
+inline constexpr const char* kStatic = "one-sensor";
+inline constexpr const char* kHysteresis = "hysteresis";
+
+struct OneSensorOptions {
+  std::uint64_t seed = 1;
+  int threads = 0;
+  std::size_t most_neurons = 20;    ///< of the size choice
+  std::vector<std::string> keys;    ///< of the models to fit; empty: all
+  const FitStore* store = nullptr;  ///< where finished fits are found and kept
+  Monitor monitor;
+};
+
+/// Fits and judges everything that the tables and figures ask for. The same bits on any number of
+/// threads. Throws Interrupted when stopped; what the store holds by then is not made again.
+OneSensorStudy study_one_sensor(std::vector<StudiedDamper> dampers,
+                                const OneSensorOptions& options);
+
+/// The smallest network whose cross-validated error is within 2 % of the least: the paper's
+/// "minimal dimensions". 0 without sizes.
+std::size_t smallest_sufficient(const std::vector<StudiedSize>& sizes);
+
+}  // namespace dashpot

@@ -1,0 +1,93 @@
+#include "studies/suspension/study_dampers.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "dashpot/base/text.h"
+#include "dashpot/damper/bench_experiments.h"
+#include "dashpot/suspension/damper_words.h"
+#include "dashpot/suspension/passive_curve.h"
+#include "studies/one_sensor/one_sensor_fit.h"
+
+namespace dashpot {
+namespace {
+
+std::vector<Record> recorded(const DamperModel& damper, const std::vector<BenchTest>& tests,
+                             std::uint64_t seed) {
+  BenchOptions bench = one_sensor_bench({});
+  bench.seed = seed;
+  return run_virtual_bench(damper, "A", tests, bench).records;
+}
+
+/// Fitted on the fold's training, judged on the rest.
+NetworkDamper identified(std::string name, std::string description, const Fold& fold,
+                         std::uint64_t seed) {
+  const std::vector<StudiedModel> models = one_sensor_models();
+  const auto wanted = std::ranges::find(models, kStatic, &StudiedModel::key);
+  IdentifyOptions options;
+  options.seed = seed;
+  options.threads = 1;
+  const StudiedFit fit = studied_fit(*wanted, fold.training, options);
+  const FitReport report = identify(wanted->model, fit.training, "A", fit.options);
+  const StudiedResult result = judge(report, fold, "A");
+  double low = INFINITY, high = -INFINITY;
+  for (const Record& record : fold.left_out) {
+    const auto [least, greatest] = std::ranges::minmax_element(record.channel("force").samples);
+    low = std::min(low, *least);
+    high = std::max(high, *greatest);
+  }
+  return {.name = std::move(name),
+          .description = std::move(description),
+          .model = report.model->with_offset(-report.model->force({}, {})),
+          .quality = result.metrics,
+          .half_span = (high - low) / 2};
+}
+
+std::vector<BenchTest> passive_tests(bool second, std::uint64_t seed) {
+  std::vector<BenchTest> tests;
+  // The two that cover all velocities at a constant current.
+  for (const BenchExperiment& experiment : bench_experiments().first(2)) {
+    std::string motion(experiment.switched.motion);
+    if (second && !experiment.second.empty()) motion.append(",").append(experiment.second);
+    tests.push_back(at_level(sequence_test(motion, seed), 0, "A"));
+  }
+  return tests;
+}
+
+}  // namespace
+
+NetworkDamper identified_mr2(std::uint64_t seed) {
+  const ParameterSet set = load_parameter_set("mr2");
+  const auto tests = [&](Recording which) {
+    return experiment_tests("one-sensor", set, seed, which);
+  };
+  const Fold fold{.name = set.name,
+                  .training = recorded(set.model, tests(Recording::First), 2 * seed),
+                  .left_out = recorded(set.model, tests(Recording::Second), 2 * seed + 1)};
+  return identified("MR2", set.damper, fold, seed);
+}
+
+NetworkDamper identified_passive(double damping, std::uint64_t seed) {
+  const PassiveCurve curve = load_passive_curve("suv_front");
+  constexpr double kAmplitude = 0.02,
+                   kSpeed = 1;  // m, m/s: about the paper's chirp at the resonance
+  const double factor = damping / equivalent_damping(curve, 0, kAmplitude, kSpeed);
+  constexpr double kFastest = 1.6;  // m/s
+  constexpr int kPoints = 64;
+  std::vector<double> velocity, force;
+  for (int k = -kPoints; k <= kPoints; ++k) {
+    velocity.push_back(kFastest * k / kPoints);
+    force.push_back(factor * curve.force({0, velocity.back(), 0}, {}));
+  }
+  const PassiveCurve scaled("suv_front, scaled", velocity, force);
+  const Fold fold{.name = scaled.name(),
+                  .training = recorded(scaled, passive_tests(false, seed), 2 * seed),
+                  .left_out = recorded(scaled, passive_tests(true, seed + 1000), 2 * seed + 1)};
+  return identified("passive",
+                    "front damper of a large passenger car, forces times " +
+                        format_number(factor, 3) + ": it damps like " + format_number(damping) +
+                        " N*s/m along a sine of 20 mm at 1 m/s",
+                    fold, seed);
+}
+
+}  // namespace dashpot

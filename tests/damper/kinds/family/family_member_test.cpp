@@ -1,0 +1,45 @@
+#include "dashpot/damper/kinds/family/family_member.h"
+
+#include "dashpot/damper/physics/damper_physics.h"
+#include "example_family.h"
+#include "support.h"
+
+using namespace dashpot;
+
+TEST_CASE(
+    "a yield stress is straight between its points, held beyond them and even in the current") {
+  const YieldCurve curve{{0, 0.5, 1}, {2000, 30000, 50000}};
+  CHECK(curve.at(0) == 2000);
+  CHECK_CLOSE(curve.at(0.25), 16000, 1e-14, 0);
+  CHECK_CLOSE(curve.at(-0.75), 40000, 1e-14, 0);
+  CHECK(curve.at(9) == 50000);
+  CHECK(YieldCurve{{0}, {700}}.at(3) == 700);
+}
+
+TEST_CASE("conditions replace a member's numbers, and others are passed over") {
+  const FamilyMember member = with_conditions(
+      example_member(), {{"gap", 2e-3}, {"yield_stress", 900}, {"temperature", 300}}, "r");
+  CHECK(member.gap == 2e-3);
+  CHECK(member.pole_length == 6e-3);
+  CHECK(member.yield.at(1) == 900);
+}
+
+TEST_CASE("conditions that cannot be are refused in words") {
+  CHECK(message_of([] { with_conditions({}, {{"gap", -1}}, "r"); }).find("gap is -1") !=
+        std::string::npos);
+  CHECK(message_of([] { with_conditions({}, {{"yield_stress", -1}}, "r"); }).find("-1 Pa") !=
+        std::string::npos);
+  CHECK(message_of([] {
+          require_member({{"gap", 1e-3}}, "run 7");
+        }).find("run 7: has no condition") == 0);
+}
+
+TEST_CASE("a drawing makes a member with the physics' own numbers") {
+  const DamperDescription description = named_description(description_names().front());
+  const FamilyMember member = member_of(description, 1);
+  const DamperPhysics physics = evaluate_physics(description, {.current = 0.5});
+  CHECK(member.piston_area == physics.piston_area);
+  CHECK(member.gap_area == physics.gap_area);
+  CHECK(member.viscosity == physics.viscosity);
+  CHECK_CLOSE(member.yield.at(0.5), physics.yield_stress, 1e-12, 0);
+}

@@ -1,0 +1,86 @@
+#include "dashpot/damper/kinds/state_space/train_state_space.h"
+
+#include "damper/nets/bank_record_example.h"
+#include "state_space_example.h"
+#include "support.h"
+
+using namespace dashpot;
+
+namespace {
+
+std::vector<BankRecord> measured(std::size_t samples) {
+  return measured(StateSpaceModel("truth", {example_state_space(3)}), samples, 10);
+}
+
+/// Other rates and weights than the truth's, no feedback yet.
+StateSpaceNetwork start() {
+  StateSpaceNetwork model = example_state_space(9);
+  model.cell.path_rates = {20, 150};
+  model.cell.initialise(3, 9);
+  model.network.initialise(2, 9);
+  return model;
+}
+
+void check_gradient(const StateSpaceTrainOptions& options) {
+  const std::vector<BankRecord> records = measured(90);
+  const StateSpaceNetwork model = example_state_space(4);
+  const std::size_t count = state_space_cost(model, all_of(records), options).gradient.size();
+  std::vector<double> at = model.cell.parameters();
+  Random random(2);  // weights of the encoder, which the model has not
+  while (at.size() < count - model.network.parameter_count()) at.push_back(0.2 * random.normal());
+  at.insert(at.end(), model.network.neurons.begin(), model.network.neurons.end());
+  at.insert(at.end(), model.network.gates.begin(), model.network.gates.end());
+  REQUIRE(at.size() == count);
+  const BankCost cost = state_space_cost(model, all_of(records), options, at);
+  for (std::size_t k = 0; k < count; ++k) {
+    const auto moved = [&](double by) {
+      std::vector<double> x = at;
+      x[k] += by;
+      return state_space_cost(model, all_of(records), options, x).cost;
+    };
+    CAPTURE(k);
+    CHECK_CLOSE(2 * cost.gradient[k], (moved(1e-5) - moved(-1e-5)) / 2e-5, 1e-6, 1e-7);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("the gradient is that of the cost over whole records, rest included") {
+  check_gradient({.weight_decay = 0.01, .rate_decay = 0.02, .offset_decay = 0.3, .stride = 2});
+}
+
+TEST_CASE("the gradient is that of the cost over windows, encoder included") {
+  check_gradient({.weight_decay = 0.01, .rate_decay = 0.02, .offset_decay = 0.3, .window = 30});
+}
+
+TEST_CASE("windows, then whole records: a state space foretells motions it has not seen") {
+  const std::vector<BankRecord> records = measured(400);
+  const std::vector<const BankRecord*> seen{&records[0], &records[2]};
+  const auto trained = [&] {
+    StateSpaceNetwork model = start();
+    train(model, seen, {.max_iterations = 15, .weight_decay = 1e-6, .window = 50});
+    const BankTrainReport report = train(model, seen, {.max_iterations = 40, .weight_decay = 1e-7});
+    CHECK(report.iterations > 0);
+    return model;
+  };
+  const StateSpaceNetwork found = trained(), again = trained();
+  CHECK(found.cell.parameters() == again.cell.parameters());
+  CHECK(found.network.gates == again.network.gates);
+  StateSpaceNetwork none = start();
+  none.network.gates.assign(none.network.gates.size(), 0.0);
+  const auto left = [&](const StateSpaceNetwork& model) {
+    return squares_left(model, records[1], true);
+  };
+  CHECK(std::sqrt(left(found) / left(none)) < 0.2);  // it has seen two motions of 1.6 s
+  CHECK(found.cell.velocity_high < 2);               // 0.35 m/s by its scale: held to what was seen
+}
+
+TEST_CASE("records too short for a window serve whole") {
+  const std::vector<BankRecord> records = measured(15);
+  StateSpaceNetwork model = start();
+  CHECK(train(model, all_of(records), {.max_iterations = 2, .window = 400}).rmse > 0);
+  std::vector<BankRecord> tiny = measured(12);
+  for (BankRecord& record : tiny) record.first = 0;
+  const std::vector<BankRecord> one(tiny.begin(), tiny.begin() + 1);
+  CHECK(std::isfinite(state_space_cost(model, all_of(one), {.window = 400}).cost));
+}

@@ -1,0 +1,91 @@
+#pragma once
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "damper/kinds/family/example_family.h"
+#include "damper/kinds/hybrid/hybrid_model_example.h"
+#include "damper/kinds/narx/narx_example.h"
+#include "damper/kinds/state_space/state_space_example.h"
+#include "damper/nets/bank_network_example.h"
+#include "dashpot/damper/kinds/fuzzy/fuzzy_model.h"
+#include "dashpot/damper/kinds/law/law_model.h"
+#include "dashpot/damper/kinds/network/network_model.h"
+#include "dashpot/damper/registry.h"
+#include "dashpot/export/exporter.h"
+
+struct ExampleModel {
+  std::string name;  ///< a name in C
+  std::shared_ptr<const dashpot::DamperModel> model;
+};
+
+/// A law each of whose parameters depends on the current as it does by default, behind a lag of 100
+/// 1/s.
+inline dashpot::LawModel example_law(const dashpot::Law& law) {
+  dashpot::Dependence d;
+  for (const dashpot::ParamInfo& info : law.params) {
+    d.forms.push_back(info.form);
+    d.coefficients.emplace_back(dashpot::coefficient_count(info.form), 0.2 * info.value).front() =
+        info.value;
+    if (info.form == dashpot::Form::Exponential)
+      d.coefficients.back() = {info.value, 1.5 * info.value, 0.7};
+    if (info.fit == dashpot::Fit::Drive) d.coefficients.back() = {0, 1};
+  }
+  return dashpot::LawModel(law, d, "A", 100);
+}
+
+/// Velocity and current, ten tanh neurons, random weights; a force of some 1 kN.
+inline dashpot::Mlp example_mlp(std::uint64_t seed) {
+  dashpot::Mlp mlp;
+  mlp.layers = {2, 10, 1};
+  mlp.input_mean = {0, 1};
+  mlp.input_scale = {0.1, 1};
+  mlp.output_scale = 1000;
+  initialise(mlp, seed);
+  return mlp;
+}
+
+inline dashpot::FuzzyModel example_fuzzy() {
+  using Shape = dashpot::Membership::Shape;
+  const dashpot::Sugeno sugeno{
+      .inputs = {{0, 0.1}, {0, 0.1}, {1}},
+      .memberships = {{Shape::Bell, 0}, {Shape::Gaussian, 1}, {Shape::Sigmoid, 2}},
+      .rules = {{0, 1}, {1, 2}},
+      .consequents = {1, 2, 3, 4, 5, 6, 7, 8},
+      .output_scale = 100};
+  return {"takagi_sugeno",
+          dashpot::FuzzyInputs({"velocity", "velocity_change", "current"}, {0.01, 0.02}, "test"),
+          sugeno};
+}
+
+/// Every law and every other kind of model.
+inline std::vector<ExampleModel> example_models() {
+  using namespace dashpot;
+  std::vector<ExampleModel> models;
+  const auto add = [&](const std::string& name, auto model) {
+    models.push_back({name, std::make_shared<const decltype(model)>(std::move(model))});
+  };
+  for (const Law* law : laws()) add(std::string(law->name), example_law(*law));
+  const std::vector<std::string> inputs{"velocity", "current"};
+  add("mlp", NetworkModel("mlp_one_sensor", inputs, {example_mlp(1)}));
+  add("mlp_ensemble", NetworkModel("mlp_one_sensor", inputs, {example_mlp(1), example_mlp(2)}, 3));
+  const Regressors regressors = example_regressors();
+  add("narx",
+      NarxModel("narx_one_sensor", regressors,
+                {example_narx_network(regressors), example_narx_network(regressors, 2)}, 4));
+  add("hysteresis_network",
+      HysteresisNetwork("hysteresis_network", {example_bank_network(1), example_bank_network(2)},
+                        2));
+  add("state_space",
+      StateSpaceModel("neural_state_space", {example_state_space(1), example_state_space(2)}, 2));
+  add("fuzzy", example_fuzzy());
+  add("hybrid", example_hybrid());
+  add("family_gated", example_family());
+  add("family_residual", example_family(FamilyTarget::Residual));
+  add("family_network", example_family_network());
+  return models;
+}
+
+inline dashpot::ExportedModel exported(const dashpot::DamperModel& model) {
+  return {.model = model, .domain = {-0.02, 0.02, -0.3, 0.3, 0, 2}, .origin = "made up for a test"};
+}

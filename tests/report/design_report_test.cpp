@@ -1,0 +1,52 @@
+#include "dashpot/report/design_report.h"
+
+#include <algorithm>
+
+#include "dashpot/base/text.h"
+#include "support.h"
+
+using namespace dashpot;
+
+namespace {
+
+DesignReport small_front() {
+  return design(parse_request(R"(
+name: "a <b> damper"
+damper: passenger_car
+at: {current: 2 A, velocity: 0.3 m/s}
+vary: {gap: {from: 0.6 mm, to: 2 mm}, fluid: [122EG, 132DG], pole_length: {from: 8 mm, to: 40 mm}}
+tolerances: {gap: 0.05 mm}
+constraints: [{quantity: force, min: 1000 N}]
+goals: [{maximise: dynamic_range}, {minimise: mass}]
+)",
+                              "request.yaml"),
+                {.threads = 1, .points = 8, .generations = 4, .second = "physics:moving_wall"});
+}
+
+}  // namespace
+
+TEST_CASE("design report: a line per design, the same in JSON, and a page that no name breaks") {
+  const DesignReport report = small_front();
+  REQUIRE(report.designs.size() > 1);
+  const std::string csv = csv_design(report);
+  CHECK(static_cast<std::size_t>(std::ranges::count(csv, '\n')) == report.designs.size() + 1);
+  CHECK(csv.starts_with("design,gap[m],fluid,"));
+  const DesignInput input{report, "dashpot design", "1", "2026-01-01"};
+  const Value json = json_design(input);
+  CHECK(json.find("designs")->items()[0].find("variables")->items()[0].as_number() ==
+        report.designs[0].damper.gap);
+  CHECK(json.find("goals")->items()[1].find("text")->as_string() == "smallest mass");
+  CHECK(html_design(input).find("a <b> damper") == std::string::npos);
+  CHECK(markdown_design(input).find("_001 |") != std::string::npos);
+  CHECK(design_table(report, 100, 4).find("knee") != std::string::npos);
+  CHECK(constraint_table(report, report.designs[0], 100).find("force at least 1000 N") !=
+        std::string::npos);
+  CHECK(sensitivity_table(report, report.designs[0], 100).find("gap 0.05") != std::string::npos);
+}
+
+TEST_CASE("design report: figures in units that people read") {
+  CHECK(shown_figure(0.0012, "m") == "1.2 mm");
+  CHECK(shown_figure(10e6, "A/m^2") == "10 A/mm^2");
+  CHECK(shown_figure(3.5, "1") == "3.5");
+  CHECK(shown_figure(1800, "N") == "1800 N");
+}

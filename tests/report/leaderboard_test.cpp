@@ -1,0 +1,65 @@
+#include "dashpot/report/leaderboard.h"
+
+#include "dashpot/base/text.h"
+#include "report/example_ranking.h"
+#include "support.h"
+
+using namespace dashpot;
+
+namespace {
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+}  // namespace
+
+TEST_CASE("leaderboard: thirty models within 100 columns, each with its figures") {
+  const ExampleRanking example = crowded_ranking(30);
+  const std::string table = leaderboard_table(example.ranking, 100);
+  CAPTURE(table);
+  const auto lines = split(table, '\n');
+  REQUIRE(lines.size() == 33);
+  for (const std::string& line : lines) CHECK(line.size() <= 100);
+  for (const char* title : {"ESR %", "Train %", "Slow N", "Par.", "ns/step", "Fit s", "Bounded"})
+    CHECK(contains(lines[0], title));
+  CHECK(contains(lines[2], "modified_bouc_wen"));
+  CHECK(contains(lines[31], "1 diverged"));
+  CHECK(contains(breakdown_table(example.ranking, "A"), "0.8 A"));
+}
+
+TEST_CASE("leaderboard: a fit that failed stands in the table without figures") {
+  ExampleRanking example = example_ranking(300);
+  example.ranking.models[2].fit.model.reset();
+  example.ranking.models[2].stress = {};
+  const auto lines = split(leaderboard_table(example.ranking, 160), '\n');
+  CHECK(contains(lines[4], "bingham"));
+  CHECK(contains(lines[4], "fit failed"));
+  CHECK(!contains(lines[4], "yes"));
+  CHECK(!contains(breakdown_table(example.ranking, "A", 160), "bingham"));
+}
+
+TEST_CASE("what a model does beyond its data, in a word") {
+  CHECK(stress_text({}) == "-");
+  CHECK(stress_text({.seconds = 5, .finite = false, .largest_share = 2}) == "diverged");
+  CHECK(stress_text({.seconds = 5, .finite = true, .largest_share = 2}) == "yes");
+  CHECK(stress_text({.seconds = 5, .finite = true, .largest_share = 12}) == "12 spans");
+}
+
+TEST_CASE("leaderboard as Markdown and CSV: no date, every figure") {
+  const ExampleRanking example = example_ranking(300);
+  const std::string page = markdown_leaderboard(example.input(), "###");
+  CHECK(page.starts_with("### Demonstration damper\n"));
+  CHECK(!contains(page, example.input().date));
+  CHECK(contains(page, "| modified\\_bouc\\_wen |"));
+  CHECK(contains(page, "| 1.6 A |"));
+
+  const auto lines = split(csv_leaderboard(example.input()), '\n');
+  REQUIRE(lines.size() == 5);
+  CHECK(lines[0].starts_with("rank,model,usable,esr_percent,training_esr_percent"));
+  const auto first = split(lines[1], ',');
+  CHECK(first.size() == split(lines[0], ',').size());
+  CHECK(first[1] == "modified_bouc_wen");
+  CHECK(parse_number(first[3]) == example.ranking.models[0].left_out.pooled.esr);
+  CHECK(split(lines[3], ',')[2] == "no");  // diverged on a record
+}

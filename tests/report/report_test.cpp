@@ -1,0 +1,216 @@
+#include "dashpot/report/report.h"
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "dashpot/base/file.h"
+#include "dashpot/base/text.h"
+#include "dashpot/report/gnuplot.h"
+#include "dashpot/report/inspect.h"
+#include "dashpot/report/words.h"
+#include "report/example_ranking.h"
+#include "support.h"
+
+using namespace dashpot;
+
+namespace {
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+const Value& at(const Value& value, const std::string& path) {
+  const Value* here = &value;
+  for (const std::string& key : split(path, '.')) {
+    const auto index = parse_number(key);
+    here = index ? &here->items().at(static_cast<std::size_t>(*index)) : here->find(key);
+    REQUIRE(here);
+  }
+  return *here;
+}
+
+/// The data that a page carries.
+Value page_data(const std::string& html) {
+  const std::string start = "<script type=\"application/json\" id=\"data\">";
+  const std::size_t from = html.find(start) + start.size();
+  return parse_json(html.substr(from, html.find("</script>", from) - from), "page");
+}
+
+}  // namespace
+
+TEST_CASE("JSON report: every figure under its name, what is not a number as null") {
+  const ExampleRanking example = example_ranking();
+  const Value report = parse_json(format_json(json_report(example.input())), "report");
+  CHECK(at(report, "format").as_string() == "dashpot report 1");
+  CHECK(at(report, "models").items().size() == 3);
+  const Metrics& pooled = example.ranking.models[0].left_out.pooled;
+  CHECK(at(report, "models.0.left_out.pooled.esr_percent").as_number() == pooled.esr);
+  CHECK(at(report, "models.0.left_out.records.3.offset_N").as_number() == 20);
+  CHECK(at(report, "models.0.fold_fits.1.fold").as_string() == "without 10 mm 1 Hz");
+  CHECK(at(report, "models.2.left_out.records.11.metrics.esr_percent").is_null());
+  CHECK(at(report, "models.2.left_out.records.11.diverged_at").as_number() == 1.5);
+  const Coverage& coverage = example.ranking.models[0].left_out.coverage;
+  CHECK(at(report, "models.0.left_out.interval.coverage_percent").as_number() ==
+        coverage.percent());
+  CHECK(at(report, "models.0.left_out.interval.mean_width_N").as_number() == 120);
+  CHECK(at(report, "models.0.left_out.interval.level_percent").as_number() == 90);
+  CHECK(at(report, "models.0.left_out.records.3.band.half_width_N.0").as_number() == 60);
+  CHECK(contains(markdown_report(example.input()), "| Model | Covered % | Worst % |"));
+  CHECK(at(report, "dataset.files.0.sha256").as_string() == std::string(64, 'a'));
+}
+
+TEST_CASE("HTML report: one file that asks for nothing and cannot be broken by a name") {
+  ExampleRanking example = example_ranking();
+  const std::string name = "</script><script>alert(1)</script>\xE4";
+  example.dataset.name = name;
+  for (RankedModel& model : example.ranking.models) model.left_out.records[0].record = name;
+  const std::string html = html_report(example.input());
+  CHECK(!contains(html, "<script>alert"));
+  CHECK(contains(html, "default-src 'none'"));
+  for (const char* request : {" src=", "<link", "@import", "url(", "fetch(", "{{"}) {
+    CAPTURE(request);
+    CHECK(!contains(html, request));
+  }
+  const Value data = page_data(html);
+  CHECK(at(data, "series.records.0.name").as_string() ==
+        "</script><script>alert(1)</script>\xEF\xBF\xBD");
+  CHECK(at(data, "series.records").items().size() == 12);
+  CHECK(at(data, "series.records.1.shown").as_number() == 1500);
+}
+
+TEST_CASE("HTML report: long records are thinned, figures are not") {
+  const ExampleRanking example = example_ranking(20000);
+  const std::string html = html_report(example.input());
+  CHECK(html.size() < 6e6);
+  const Value data = page_data(html);
+  CHECK(at(data, "series.records.0.samples").as_number() == 20000);
+  CHECK(at(data, "series.records.0.shown").as_number() < 20000);
+  CHECK(contains(at(data, "series.display").as_string(), "12 of 12 records are thinned"));
+  CHECK(at(data, "models.0.left_out.pooled.samples").as_number() == 12 * 18000);
+}
+
+TEST_CASE("reports of nothing") {
+  const Dataset dataset{.name = "empty"};
+  const Ranking ranking;
+  const ReportInput input{dataset, ranking, "", "", ""};
+  CHECK(contains(html_report(input), "No model was tried"));
+  CHECK(contains(markdown_report(input), "No model was tried"));
+  CHECK(split(csv_report(input), '\n').size() == 2);
+  CHECK(message_of([&] { write_figures(input, "."); }) ==
+        "figures: no model was judged on any record");
+}
+
+TEST_CASE("verdict: the best, its worst record, the next, and who diverged") {
+  ExampleRanking example = example_ranking();
+  auto& models = example.ranking.models;
+  models[0].left_out.pooled.esr = 2;
+  models[0].left_out.pooled.rmse = 41.26;
+  models[0].left_out.worst_esr = 7.123;
+  models[1].left_out.pooled.esr = 3.63;
+  CHECK(verdict(example.ranking) ==
+        "Modified Bouc-Wen (Spencer) predicts the force best: on recordings that it has not seen "
+        "it leaves "
+        "2.0 % of "
+        "the force's power unexplained, an RMS error of 41.3 N; its worst record is 10 mm 1 Hz 0 A "
+        "with 7.1 "
+        "%. Next "
+        "comes Hyperbolic tangent (Kwok) with 3.6 %. 1 model diverged.");
+  models[1].left_out.pooled.esr = 2.1;
+  CHECK(contains(verdict(example.ranking),
+                 "Hyperbolic tangent (Kwok) is practically as good (2.1 %)."));
+  models.erase(models.begin(), models.begin() + 2);
+  CHECK(contains(verdict(example.ranking), "No model can be used"));
+}
+
+TEST_CASE("the one-step note names models that feed force back, or says that there are none") {
+  ExampleRanking example = example_ranking();
+  CHECK(contains(one_step_note(example.ranking).value_or(""),
+                 "none of these models feeds force back"));
+  example.ranking.models[0].left_out.one_step.emplace().esr = 0.123;
+  example.ranking.models[0].left_out.pooled.esr = 3.5;
+  CHECK(contains(one_step_note(example.ranking).value_or(""),
+                 example.ranking.models[0].name + " 0.12 % (free run 3.5 %)"));
+  example.ranking.models[0].left_out.one_step.reset();
+  example.ranking.models[1].fit.model.reset();
+  CHECK(!one_step_note(example.ranking));
+}
+
+TEST_CASE("ranking table: best first, within the terminal") {
+  const ExampleRanking example = example_ranking();
+  for (const int width : {80, 100, 160}) {
+    const std::string table = ranking_table(example.ranking, width);
+    CAPTURE(table);
+    const auto lines = split(table, '\n');
+    REQUIRE(lines.size() == 6);
+    for (const std::string& line : lines) CHECK(line.size() <= static_cast<std::size_t>(width));
+    CHECK(contains(lines[0], "ESR %"));
+    CHECK(contains(lines[2], "modified_bouc_wen"));
+    CHECK(contains(lines[4], "1 diverged"));
+  }
+  CHECK(contains(ranking_table(example.ranking, 160), "Worst record"));
+}
+
+TEST_CASE("parameter table: value, interval, unit, remark") {
+  const std::string table = parameter_table(example_ranking().ranking.models[0].fit);
+  CAPTURE(table);
+  CHECK(contains(table, "[871.2, 910.8]"));
+  CHECK(contains(table, "N*s/m"));
+  CHECK(contains(table, "weakly determined"));
+  CHECK(contains(table, "fixed"));
+}
+
+TEST_CASE("Markdown and CSV hold the same figures") {
+  ExampleRanking example = example_ranking();
+  example.dataset.records.clear();
+  const std::string markdown = markdown_report(example.input());
+  CHECK(contains(markdown, "| modified\\_bouc\\_wen |"));
+  CHECK(contains(markdown, "| 1 diverged |"));
+  CHECK(contains(markdown, "    dashpot identify demo"));
+
+  example.ranking.models[0].left_out.records[0].record = "10 mm, \"fast\"";
+  const auto lines = split(csv_report(example.input()), '\n');
+  CHECK(lines.size() ==
+        1 + 3 * 24 + 1);  // head, 12 left-out and 12 training records per model, end
+  CHECK(contains(lines[0], "model,record,condition,drive_A,left_out,samples,rmse_N"));
+  CHECK(lines[1].starts_with("modified_bouc_wen,\"10 mm, \"\"fast\"\"\",5 mm 3 Hz,0,yes,1350,"));
+  const Metrics& second = example.ranking.models[0].left_out.records[1].metrics;
+  CHECK(parse_number(split(lines[2], ',')[10]) == second.esr);
+}
+
+TEST_CASE("figures: SVG and PDF of the ranking, loops and trace, with their scripts") {
+  const TemporaryFolder folder;
+  ExampleRanking example = example_ranking();
+  example.ranking.models[0].title = "O'Neill's_{model}";
+  const auto paths = write_figures(example.input(), folder.path() / "a folder's figures");
+  REQUIRE(paths.size() == 8);
+  for (const auto& path : paths) {
+    const std::string content = read_file(path);
+    CHECK((path.extension() == ".svg" ? contains(content, "</svg>") : content.starts_with("%PDF")));
+    CHECK(std::filesystem::exists(std::filesystem::path(path).replace_extension(".gp")));
+  }
+  CHECK(contains(read_file(paths[0]), "_{model}"));
+}
+
+TEST_CASE("gnuplot's complaint and its absence are errors") {
+  const TemporaryFolder folder;
+  GnuplotFigure figure(8, 6);
+  figure.command("plot no_such_function(x)");
+  CHECK(contains(message_of([&] { figure.write(folder.path(), "bad"); }), "undefined function"));
+
+  const std::string path = std::getenv("PATH");
+  setenv("PATH", folder.path().c_str(), 1);
+  const std::string message = message_of([&] { figure.write(folder.path(), "bad"); });
+  setenv("PATH", path.c_str(), 1);
+  CHECK(contains(message, "install gnuplot-nox"));
+}
+
+TEST_CASE("inspection page: channels of every record, and both velocities") {
+  const Value data =
+      page_data(inspect_html(example_ranking().dataset, "dashpot inspect demo", "2026-11-21"));
+  CHECK(at(data, "records").items().size() == 12);
+  CHECK(at(data, "records.2.drive_level").as_number() == 1.6);
+  CHECK(at(data, "records.2.series.derived_velocity").find("int16"));
+  CHECK(contains(at(data, "records.2.derived_origin").as_string(), "derived from displacement"));
+  CHECK_CLOSE(at(data, "records.0.displacement_max").as_number(), 0.005, 1e-3, 0);
+  CHECK(at(data, "readings.0.channel").as_string() == "displacement");
+}

@@ -1,0 +1,87 @@
+#include "dashpot/report/sweep_report.h"
+
+#include "support.h"
+
+using namespace dashpot;
+
+namespace {
+
+/// Made up: the heavier, the calmer; skyhook has half the acceleration and twice the tyre load of
+/// passive.
+Sweep example() {
+  Sweep sweep;
+  sweep.request = parse_sweep(
+      "name: made up\nplant: savaresi_spelta\nroad: iso8608_fft\n"
+      "controllers: {passive: {dampers: viscous}, skyhook: {controller: skyhook}}\nsamples: 101\n"
+      "vary:\n  sprung_mass: {uniform: [300, 500]}\ngrid:\n  road.class: [A, B]\n",
+      "test.yaml");
+  sweep.rides.resize(2);
+  for (std::size_t v = 0; v < sweep.request.vehicles(); ++v) {
+    const double mass = 300 + static_cast<double>(v), place = static_cast<double>(v % 2);
+    sweep.vehicles.push_back({v, {mass, place}, 7});
+    for (const double factor : {1.0, 0.5})
+      sweep.rides[factor == 1 ? 0 : 1].push_back({.body_acceleration = factor * (600 - mass),
+                                                  .weighted_acceleration = factor * (500.5 - mass),
+                                                  .vibration_dose = 1,
+                                                  .tyre_load_index = 0.1 / factor,
+                                                  .contact_lost = 0,
+                                                  .travel = 0.01,
+                                                  .greatest_travel = 0.03,
+                                                  .stops_met = 0,
+                                                  .energy = 100,
+                                                  .current = 0,
+                                                  .outside_data = factor == 1 ? 0 : 0.5});
+  }
+  sweep.rides[1][3] = {.diverged_at = 2.5};
+  return sweep;
+}
+
+const DocumentTable& table_of(const Document& document, const std::string& section,
+                              std::size_t k = 0) {
+  for (const DocumentSection& one : document.sections)
+    if (one.name == section) return one.tables.at(k);
+  FAIL("no section " << section);
+  return document.sections.front().tables.front();
+}
+
+}  // namespace
+
+TEST_CASE("a sweep's page tells ratios, quantiles, places, what matters and what not to trust") {
+  const Document document = sweep_document(example());
+  for (const char* part : {"202 vehicles, 2 controllers",
+                           "skyhook: weighted acceleration 0.5 (less on 100 % of the vehicles), "
+                           "tyre load index 2 (less on 0 %",
+                           "skyhook: 1 of 202 rides diverged",
+                           "skyhook: 201 of 202 rides ask a damper beyond its data"})
+    CHECK_MESSAGE(document.verdict.find(part) != std::string::npos, document.verdict);
+  const DocumentTable& ratios = table_of(document, "ratios");
+  CHECK(ratios.rows[0][0] == "Body acceleration");
+  CHECK(ratios.rows[0][4] == "0.5");
+  const DocumentTable& quantiles = table_of(document, "quantiles");
+  // Median of 500.5 - 300 ... 500.5 - 501 is 100; stops, which nobody meets, are left out
+  CHECK(quantiles.rows[2][0] == "Weighted acceleration (m/s^2)");
+  CHECK(quantiles.rows[2][4] == "100");
+  for (const auto& row : quantiles.rows) CHECK(row[0].find("Stops") == std::string::npos);
+  const DocumentTable& grid = table_of(document, "grid");
+  CHECK(grid.rows.size() == 4);
+  CHECK(grid.rows[0][0] == "road.class A");
+  const DocumentTable& correlation = table_of(document, "sensitivity");
+  CHECK(correlation.rows[0][0] == "sprung_mass");
+  CHECK(correlation.rows[0][1] == "-1.00");
+  CHECK(!html_document(document).empty());
+}
+
+TEST_CASE("a sweep's tables: a row per ride, inputs and measures with units") {
+  const std::vector<ColumnTable> tables = sweep_tables(example());
+  REQUIRE(tables.size() == 4);
+  CHECK(tables[0].rows() == 404);
+  const std::string csv = csv_table(tables[0]);
+  CHECK(csv.starts_with(
+      "controller,road.class,vehicle,road_seed,sprung_mass[kg],body_acceleration[m/s^2]"));
+  CHECK(csv.find("\nskyhook,B,3,7,303,,,,,,,,,,,,2.5\n") != std::string::npos);
+  CHECK(tables[1].rows() == 22);  // two controllers, eleven measures
+  CHECK(tables[2].name == "ratios");
+  const Value json = sweep_json(example());
+  CHECK(json.find("vehicles")->as_number() == 202);
+  CHECK(json.find("controllers")->items()[1].find("diverged")->as_number() == 1);
+}

@@ -1,0 +1,27 @@
+#include "dashpot/report/text_table.h"
+
+#include "support.h"
+
+using namespace dashpot;
+
+TEST_CASE("columns line up by characters, not bytes") {
+  CHECK(text_table({{"Model"}, {"ESR %", true}}, {{"Dämpfer", "1.2"}, {"b", "10.0"}}, 80) ==
+        "Model    ESR %\n"
+        "--------------\n"
+        "Dämpfer    1.2\n"
+        "b         10.0\n");
+}
+
+TEST_CASE("a table that is too wide shortens names, then leaves out the least important column") {
+  const std::vector<TextColumn> columns{
+      {"Model", false, 0, true}, {"A", true, 0}, {"Bee", true, 2}, {"See", true, 1}};
+  const std::vector<std::vector<std::string>> rows{{"abcdefghijklmnopqrstuvwxyz", "1", "2", "3"}};
+  CHECK(text_table(columns, rows, 36) ==
+        "Model                    A  Bee  See\n"
+        "------------------------------------\n"
+        "abcdefghijklmnopqrstu..  1    2    3\n");
+  CHECK(text_table(columns, rows, 28) ==
+        "Model                 A  See\n"
+        "----------------------------\n"
+        "abcdefghijklmnopqr..  1    3\n");
+}

@@ -1,0 +1,225 @@
+#include "dashpot/suspension/bound/bound.h"
+
+#include <cmath>
+
+#include "dashpot/base/random.h"
+#include "dashpot/numerics/riccati.h"
+#include "dashpot/suspension/bound/optimum.h"
+#include "dashpot/suspension/bound/relaxation.h"
+#include "dashpot/suspension/ground/ground_sequences.h"
+#include "dashpot/suspension/plants/plant_set.h"
+#include "support.h"
+
+using namespace dashpot;
+
+namespace {
+
+const Plant& light_car() {
+  static const Plant plant = load_plant_set("savaresi_spelta").plant;
+  return plant;
+}
+GroundPointer road(std::uint64_t seed = 1) {
+  return make_ground("iso8608,class=C,speed=20,length=100", seed);
+}
+
+RideSquares ride(const Plant& plant, const GroundMotion& ground, const ForceRange& range,
+                 const std::string& law, const ControlLimits& limits, double duration) {
+  const std::vector<MountedDamper> dampers{mounted(range)};
+  const ControllerPointer controller = make_controller(law, {limits, plant});
+  return ride_squares(simulate({plant, dampers, ground, controller.get()},
+                               {.duration = duration, .output_step = 2.5e-4, .limits = limits}),
+                      plant);
+}
+
+}  // namespace
+
+TEST_CASE("a sampled car moves as the simulator moves it") {
+  const GroundPointer ground = road();
+  const SampledPlant car(light_car(), *ground, 2, 1e-3);
+  const RideIndex comfort{1, 0}, holding{0, 1};
+  const ForceRange range = damping_range(300, 3900);
+  const std::vector<double> shares(car.cells(), 1.0 / 3);  // 1500 N*s/m
+  const RideSquares simulated =
+      ride(light_car(), *ground, damping_range(1500, 1500), "constant", {}, 2);
+  CHECK_CLOSE(follow_shares(car, range, comfort, shares).value, simulated.acceleration, 1e-3, 0);
+  CHECK_CLOSE(follow_shares(car, range, holding, shares).value, simulated.tyre_force, 1e-3, 0);
+}
+
+TEST_CASE("without limits the certificate is the linear regulator's price") {
+  // A step of the road is a start away from rest: the price is that of the feedback which another
+  // solver, by the Hamiltonian matrix, finds for endless time.
+  const Plant plant = load_plant_set("tudon_martinez2012").plant;
+  const double ms = 387, mu = 139.5, ks = 37300, kt = 295200, height = 0.03, holding = 1e-6;
+  RegulatorProblem problem{.states = 4, .inputs = 1, .a = {}, .b = {}, .q = {}, .n = {}, .r = {}};
+  problem.a = {0, 0, 1, 0, 0, 0, 0, 1, -ks / ms, ks / ms, 0, 0, ks / mu, -(ks + kt) / mu, 0, 0};
+  problem.b = {0, 0, -1 / ms, 1 / mu};
+  problem.q.assign(16, 0);
+  problem.q[0] = problem.q[5] = ks * ks / ms / ms;
+  problem.q[1] = problem.q[4] = -ks * ks / ms / ms;
+  problem.q[5] += holding * kt * kt;
+  problem.n = {ks / ms / ms, -ks / ms / ms, 0, 0};
+  problem.r = {1 / ms / ms};
+  const std::vector<double> gain = regulator_gain(problem);
+
+  const GroundPointer step = make_ground("step,height=3cm", 1);
+  const SampledPlant car(plant, *step, 20, 1e-3);
+  const RideIndex index{1, holding};
+  double x[4] = {-height, -height, 0, 0}, price = 0;
+  constexpr double kStep = 5e-5;
+  for (int k = 0; k < 100000; ++k) {  // midpoint rule
+    const auto rate = [&](const double* s, double* d) {
+      const double force = -(gain[0] * s[0] + gain[1] * s[1] + gain[2] * s[2] + gain[3] * s[3]);
+      d[0] = s[2];
+      d[1] = s[3];
+      d[2] = -(ks * (s[0] - s[1]) + force) / ms;
+      d[3] = (ks * (s[0] - s[1]) - kt * s[1] + force) / mu;
+      return d[2] * d[2] + holding * kt * kt * s[1] * s[1];
+    };
+    double d[4], middle[4];
+    rate(x, d);
+    for (int i = 0; i < 4; ++i) middle[i] = x[i] + 0.5 * kStep * d[i];
+    price += kStep * rate(middle, d);
+    for (int i = 0; i < 4; ++i) x[i] += kStep * d[i];
+  }
+  const std::optional<double> least = certified_minimum(car, {}, index, {car.cells(), 0, {}});
+  REQUIRE(least);
+  CHECK_CLOSE(*least, price, 1e-5, 0);
+}
+
+TEST_CASE("with one damping there is one motion, and a narrow range lies close to it") {
+  const GroundPointer ground = road();
+  const BoundOptions options{.duration = 2};
+  const RideIndex index{1, 1e-6};
+  const double passive =
+      ride(light_car(), *ground, damping_range(1500, 1500), "constant", {}, 2).of(index);
+  const ClairvoyantBound one =
+      clairvoyant_bound(light_car(), *ground, damping_range(1500, 1500), index, options);
+  CHECK_CLOSE(one.optimum, passive, 1e-9, 0);
+  CHECK(one.bound == one.optimum);
+  const ClairvoyantBound narrow =
+      clairvoyant_bound(light_car(), *ground, damping_range(1480, 1520), index, options);
+  CHECK(narrow.bound <= narrow.optimum);
+  CHECK(narrow.optimum <= passive);
+  CHECK_CLOSE(narrow.bound, passive, 0.05, 0);
+}
+
+TEST_CASE(
+    "every way of choosing among four dampings six times: none under the bound, none over the "
+    "optimum") {
+  const GroundPointer ground = make_ground("step,height=3cm", 1);
+  constexpr std::size_t kBlocks = 6, kCells = 15, kLevels = 4;
+  const double duration = kBlocks * kCells * 1e-3;
+  const SampledPlant car(light_car(), *ground, duration, 1e-3);
+  const ForceRange range = damping_range(300, 3900);
+  for (const RideIndex& index : {RideIndex{1, 0}, RideIndex{1, 1e-5}}) {
+    double least = INFINITY;
+    for (std::size_t choice = 0; choice < 4096; ++choice) {
+      std::vector<double> shares;
+      for (std::size_t block = 0, rest = choice; block < kBlocks; ++block, rest /= kLevels)
+        shares.insert(shares.end(), kCells, static_cast<double>(rest % kLevels) / (kLevels - 1));
+      least = std::min(least, follow_shares(car, range, index, shares).value);
+    }
+    const ClairvoyantBound found =
+        clairvoyant_bound(light_car(), *ground, range, index, {.duration = duration});
+    CHECK(found.bound <= least);
+    CHECK(found.optimum <= least * (1 + 1e-3));
+    CHECK(found.bound <= found.optimum);
+    CHECK(found.bound > 0.8 * least);
+  }
+}
+
+TEST_CASE("any multipliers bound from below, good ones and random ones") {
+  const GroundPointer ground = road(3);
+  const SampledPlant car(light_car(), *ground, 1, 1e-3);
+  const ForceRange range = damping_range(300, 3900);
+  const RideIndex index{1, 2e-6};
+  const double optimum =
+      improve(car, range, index, {0, std::vector<double>(car.cells(), 0.3)}).value;
+  Random random(1);
+  int certified = 0;
+  for (int k = 0; k < 20; ++k) {
+    Multipliers multipliers{.block = 50, .limits = 1, .values = {}};
+    for (int block = 0; block < 20; ++block)
+      multipliers.values.push_back(4e-6 * std::exp((k < 10 ? 0.3 : 3) * random.normal()));
+    const auto least = certified_minimum(car, force_limits(range), index, multipliers);
+    if (!least) continue;
+    ++certified;
+    CHECK(*least <= optimum);
+  }
+  CHECK(certified >= 10);
+  // Multipliers that leap up: the minimum is minus infinity, and that is found out.
+  CHECK_FALSE(certified_minimum(car, force_limits(range), index, {500, 1, {1e-9, 10}}));
+}
+
+TEST_CASE("no controller beats the bound or the optimum, and the gap is small") {
+  const ControlLimits limits;
+  const ForceRange range = damping_range(limits.damping_min, limits.damping_max);
+  const double duration = 1.5;
+  const GroundPointer ground = road(2);
+  const RideSquares passive =
+      ride(light_car(), *ground, damping_range(1500, 1500), "constant", limits, duration);
+  std::vector<RideIndex> indices;
+  for (const double comfort : {1.0, 0.5, 0.0}) indices.push_back(weighted_index(comfort, passive));
+  const std::vector<ClairvoyantBound> front = clairvoyant_front(
+      light_car(), *ground, range, indices, {.duration = duration, .iterations = 15});
+  for (const ControlLaw* law : control_laws()) {
+    CAPTURE(law->name);
+    const RideSquares squares =
+        ride(light_car(), *ground, range, std::string(law->name), limits, duration);
+    for (const ClairvoyantBound& best : front) {
+      CHECK(squares.of(best.index) > best.bound);
+      CHECK(squares.of(best.index) > best.optimum);
+      CHECK(passive.of(best.index) > best.optimum);
+    }
+  }
+  for (const ClairvoyantBound& best : front) {
+    CHECK(best.gap() >= 0);
+    CHECK(best.gap() < 0.2);
+  }
+}
+
+TEST_CASE("limits hold a range in, also a bent and lopsided one") {
+  const ForceRange bent{
+      {-1, -0.2, 0, 0.1, 0.8}, {-1500, -500, 0, 300, 2000}, {-4000, -2500, 0, 2000, 6000}};
+  for (const ForceRange& range : {damping_range(300, 3900), bent}) {
+    const std::vector<ForceLimit> limits = force_limits(range);
+    REQUIRE(!limits.empty());
+    for (const ForceLimit& limit : limits)
+      for (int k = -300; k <= 300; ++k)
+        for (const double share : {0.0, 0.1, 0.5, 1.0}) {
+          const double v = 0.01 * k, force = range.force(v, share);
+          const double q =
+              limit.ff * force * force + limit.fv * force * v + limit.vv * v * v + limit.one;
+          CHECK(q >= -1e-9 * force * force - 1e-9);
+        }
+  }
+  const std::vector<ForceLimit> exact = force_limits(damping_range(300, 3900));
+  REQUIRE(exact.size() == 1);
+  CHECK_CLOSE(exact[0].fv, 4200, 1e-12, 0);
+  CHECK_CLOSE(exact[0].vv, -300 * 3900, 1e-12, 0);
+  CHECK_CLOSE(exact[0].one, 0, 0, 1e-9);
+}
+
+TEST_CASE("a force that slows its own motion lies on the range") {
+  const ForceRange bent{
+      {-1, -0.2, 0, 0.1, 0.8}, {-1500, -500, 0, 300, 2000}, {-4000, -2500, 0, 2000, 6000}};
+  for (const double free : {-2.0, -0.21, -0.01, 0.0, 0.105, 0.3, 1.0})
+    for (const double share : {0.0, 0.7, 1.0}) {
+      const double by_force = -1e-5, force = bent.force_against(free, by_force, share);
+      CHECK_CLOSE(force, bent.force(free + by_force * force, share), 1e-9, 1e-9);
+    }
+  CHECK_CLOSE(bent.share(0.1, 1150), 0.5, 1e-12, 0);
+}
+
+TEST_CASE("what has no clairvoyant bound says so") {
+  const GroundPointer ground = road();
+  const ForceRange range = damping_range(300, 3900);
+  const auto bound = [&](const Plant& plant) {
+    return message_of([&] { clairvoyant_bound(plant, *ground, range, {1, 0}, {.duration = 1}); });
+  };
+  CHECK(bound(load_plant_set("half_car_a").plant).find("has no clairvoyant bound") !=
+        std::string::npos);
+  const Plant lifting = load_plant_set("savaresi_spelta", {{"tyres_may_lift", 1}}).plant;
+  CHECK(bound(lifting).find("is not linear but for its damper") != std::string::npos);
+  CHECK(message_of([] { damping_range(2, 1); }) == "damping range: least 2, greatest 1");
+}

@@ -1,0 +1,215 @@
+#include "dashpot/suspension/lanes/batch.h"
+
+#include "dashpot/damper/kinds/network/network_model.h"
+#include "dashpot/damper/parameter_set.h"
+#include "dashpot/damper/registry.h"
+#include "dashpot/suspension/ground/ground_sequences.h"
+#include "dashpot/suspension/plants/plant_set.h"
+#include "support.h"
+
+using namespace dashpot;
+
+namespace {
+
+MountedDamper mounted(std::shared_ptr<const DamperModel> model, double current_max,
+                      double lag_rate = 0) {
+  return {.model = std::move(model),
+          .driver = {.current_min = 0, .current_max = current_max, .lag_rate = lag_rate}};
+}
+
+MountedDamper network_damper(std::vector<std::size_t> layers, std::vector<std::string> inputs,
+                             double lag_rate = 0) {
+  Mlp mlp;
+  mlp.layers = std::move(layers);
+  mlp.input_mean.assign(inputs.size(), 0.1);
+  mlp.input_scale.assign(inputs.size(), 0.3);
+  mlp.output_scale = 700;
+  initialise(mlp, 3);
+  for (double& weight : mlp.parameters) weight = std::abs(weight);  // so that it takes energy
+  return mounted(std::make_shared<NetworkModel>("network", std::move(inputs), std::vector{mlp}, 5),
+                 1, lag_rate);
+}
+
+MountedDamper law_damper(const char* name, std::vector<double> values, double lag_rate = 0) {
+  return mounted(std::make_shared<LawModel>(LawModel::constant(find_law(name), values)), 1,
+                 lag_rate);
+}
+
+MountedDamper spencer_damper() {
+  return mounted(std::make_shared<LawModel>(load_parameters("spencer1997")), 2.25);
+}
+
+/// Vehicles of their own masses and roads with one damper and one controller.
+struct Fleet {
+  Fleet(MountedDamper damper, const char* law, std::size_t count, const NamedValues& values = {})
+      : dampers{damper} {
+    limits.current_max = damper.driver.current_max;
+    for (std::size_t k = 0; k < count; ++k) {
+      NamedValues own = values;
+      own.emplace_back("sprung_mass", 350 + 10 * static_cast<double>(k));
+      plants.push_back(load_plant_set("tudon_martinez2012", own).plant);
+      roads.push_back(make_ground("iso8608,class=C,length=100,wave_number_max=1,waves=100", k + 1));
+    }
+    if (law) controller = make_controller(law, {limits, plants[0]});
+    for (std::size_t k = 0; k < count; ++k)
+      vehicles.push_back({{plants[k], dampers, *roads[k], controller.get()}, limits, {}});
+  }
+
+  ControlLimits limits;
+  std::vector<MountedDamper> dampers;
+  std::vector<Plant> plants;
+  std::vector<GroundPointer> roads;
+  ControllerPointer controller;
+  std::vector<BatchVehicle> vehicles;
+};
+
+/// Greatest distance of a channel in lanes from simulate()'s, of its greatest magnitude.
+double apart(const Record& a, const Record& b, const char* channel) {
+  const std::vector<double>&x = a.channel(channel).samples, &y = b.channel(channel).samples;
+  REQUIRE(x.size() == y.size());
+  double top = 0, off = 0;
+  for (std::size_t k = 0; k < x.size(); ++k) {
+    top = std::max(top, std::abs(y[k]));
+    off = std::max(off, std::abs(x[k] - y[k]));
+  }
+  return top > 0 ? off / top : off;
+}
+
+void check_same(const BatchResult& a, const BatchResult& b) {
+  CHECK(a.measures.body_acceleration == b.measures.body_acceleration);
+  CHECK(a.measures.weighted_acceleration == b.measures.weighted_acceleration);
+  CHECK(a.measures.tyre_load == b.measures.tyre_load);
+  CHECK(a.measures.energy == b.measures.energy);
+  CHECK(a.measures.greatest_deflection == b.measures.greatest_deflection);
+  CHECK(a.evaluations == b.evaluations);
+}
+
+}  // namespace
+
+TEST_CASE("lanes ride as simulate() does: networks, laws, lags, stops, tyres that lift") {
+  struct Case {
+    std::string name;
+    Fleet fleet;
+    double tolerance;
+  };
+  const std::vector<double> bingham{900, 300, 10, 0.05};
+  Case cases[] = {
+      {"2-10-1", {network_damper({2, 10, 1}, {"velocity", "current"}), "mix1", 2}, 1e-5},
+      {"3-5-4-1 and a lag",
+       {network_damper({3, 5, 4, 1}, {"displacement", "velocity", "current"}, 200), "sh_add", 2},
+       1e-5},
+      {"1-7-1", {network_damper({1, 7, 1}, {"velocity"}), nullptr, 2}, 1e-5},
+      {"bingham", {law_damper("bingham", bingham), nullptr, 2}, 1e-5},
+      {"more forces",
+       {law_damper("bingham", bingham, 100),
+        "clipped_lqr",
+        2,
+        {{"tyres_may_lift", 1},
+         {"friction", 30},
+         {"extension_stop", 0.01},
+         {"compression_stop", 0.02},
+         {"stop_stiffness", 2e5}}},
+       1e-4},
+      {"bouc_wen",
+       {law_damper("bouc_wen", {8800, 900, 100, 0, 1e5, 1e5, 120, 2, 0}), nullptr, 2},
+       1e-4}};
+  for (const Case& c : cases) {
+    CAPTURE(c.name);
+    const BatchVehicle& vehicle = c.fleet.vehicles[1];
+    CAPTURE(reason_against_lanes(vehicle));
+    const BatchResult result = simulate_batch(
+        c.fleet.vehicles, {.duration = 2, .relative_tolerance = 1e-7, .traces = true})[1];
+    REQUIRE(result.in_lanes);
+    const Trace trace = simulate(
+        vehicle.setting, {.duration = 2, .relative_tolerance = 1e-7, .limits = vehicle.limits});
+    for (const char* channel :
+         {"body", "wheel", "suspension_deflection", "tyre_load", "suspension_current"})
+      CHECK(apart(result.trace, trace.record, channel) < c.tolerance);
+  }
+}
+
+TEST_CASE("a network of velocity keeps the tolerance in lanes, in single precision, too") {
+  // By a series in time; the same in double precision at 1e-10 is what it is compared with.
+  for (const std::size_t neurons : {7, 10})
+    for (const std::size_t count : {1, 3}) {
+      CAPTURE(neurons);
+      CAPTURE(count);
+      const Fleet fleet(network_damper({2, neurons, 1}, {"current", "velocity"}), nullptr, count);
+      const auto ride = [&](double tolerance) {
+        return simulate_batch(fleet.vehicles, {.duration = 2,
+                                               .relative_tolerance = tolerance,
+                                               .absolute_tolerance = 1e-3 * tolerance,
+                                               .traces = true})
+            .back();
+      };
+      const BatchResult coarse = ride(1e-6), fine = ride(1e-10);
+      for (const char* channel :
+           {"body", "wheel", "body_velocity", "wheel_velocity", "suspension_force"}) {
+        CHECK(apart(coarse.trace, fine.trace, channel) < 1e-6);
+        CHECK(apart(coarse.trace, fine.trace, channel) > 0);
+      }
+      CHECK(!coarse.missed_tolerance);
+      CHECK(coarse.evaluations < fine.evaluations);
+    }
+}
+
+TEST_CASE("measures in lanes are those of the trace by simulate()") {
+  const Fleet fleet(network_damper({2, 10, 1}, {"velocity", "current"}), "skyhook", 3);
+  const BatchOptions options{.duration = 3, .discard = 1};
+  const BatchMeasures lanes = simulate_batch(fleet.vehicles, options)[2].measures;
+  Fleet twins(network_damper({2, 10, 1}, {"velocity", "current"}), "skyhook", 3);
+  const auto& network =
+      dynamic_cast<const NetworkModel&>(*twins.dampers[0].model);  // twice, which lanes do not have
+  twins.dampers[0].model = std::make_shared<NetworkModel>(
+      "twins", network.inputs(), std::vector(2, network.members()[0]), network.offset());
+  const BatchResult alone = simulate_batch(twins.vehicles, options)[2];
+  REQUIRE(!alone.in_lanes);
+  CHECK(reason_against_lanes(twins.vehicles[2]) == "its network is one of several");
+  CHECK_CLOSE(lanes.body_acceleration, alone.measures.body_acceleration, 1e-5, 0);
+  CHECK_CLOSE(lanes.weighted_acceleration, alone.measures.weighted_acceleration, 1e-5, 0);
+  CHECK_CLOSE(lanes.tyre_load, alone.measures.tyre_load, 1e-5, 0);
+  CHECK_CLOSE(lanes.tyre_deflection, alone.measures.tyre_deflection, 1e-5, 0);
+  CHECK_CLOSE(lanes.deflection, alone.measures.deflection, 1e-5, 0);
+  CHECK_CLOSE(lanes.greatest_deflection, alone.measures.greatest_deflection, 1e-5, 0);
+  CHECK_CLOSE(lanes.energy, alone.measures.energy, 1e-5, 0);
+  CHECK_CLOSE(lanes.current, alone.measures.current, 1e-5, 0);
+}
+
+TEST_CASE("a result hangs neither on the number of threads nor on what else is in the batch") {
+  const Fleet networks(network_damper({2, 10, 1}, {"velocity", "current"}), "mix1", 19),
+      laws(spencer_damper(), "mix1", 7);
+  std::vector<BatchVehicle> mixed;
+  for (std::size_t k = 0; k < 19; ++k) {
+    mixed.push_back(networks.vehicles[18 - k]);
+    if (k < 7) mixed.push_back(laws.vehicles[k]);
+  }
+  const BatchOptions one{.duration = 1, .threads = 1}, many{.duration = 1, .threads = 3};
+  const auto alone = simulate_batch(networks.vehicles, one),
+             threads = simulate_batch(networks.vehicles, many), among = simulate_batch(mixed, many),
+             law = simulate_batch(laws.vehicles, one);
+  for (std::size_t k = 0; k < 19; ++k) {
+    check_same(alone[k], threads[k]);
+    check_same(alone[k], among[k == 18 ? 0 : 18 - k + std::min<std::size_t>(18 - k, 7)]);
+  }
+  for (std::size_t k = 0; k < 7; ++k) check_same(law[k], among[2 * k + 1]);
+}
+
+TEST_CASE("what has no lanes goes one by one, and a lane that diverges does so alone") {
+  Fleet fleet(network_damper({2, 10, 1}, {"velocity", "current"}), nullptr, 3);
+  fleet.plants[1].struts[0].track = 0;
+  const auto results = simulate_batch(fleet.vehicles, {.duration = 0.5});
+  CHECK(results[0].in_lanes);
+  CHECK(!results[1].in_lanes);
+  CHECK(reason_against_lanes(fleet.vehicles[1]) == "the plant is no quarter car");
+
+  Fleet runaway(law_damper("bingham", {900, 0, 0, 1}), nullptr, 4);
+  const auto sound = simulate_batch(runaway.vehicles, {.duration = 1});
+  runaway.plants[2].damping = {-1e6, 0, 0, -1e6};
+  const auto one_lost = simulate_batch(runaway.vehicles, {.duration = 1});
+  CHECK(one_lost[2].diverged_at);
+  CHECK(std::isfinite(one_lost[2].measures.body_acceleration));
+  for (const std::size_t k : {0, 1, 3}) check_same(sound[k], one_lost[k]);
+  CHECK(message_of([&] {
+          simulate_batch(runaway.vehicles, {.duration = 1, .discard = 1});
+        }).find("left out of the measures") != std::string::npos);
+}
