@@ -38,11 +38,11 @@ TEST_CASE("the one-sensor paper's networks") {
 }
 
 TEST_CASE("state networks say their kind and need one sensor") {
-  for (const StateNetworkPreset& preset : state_network_presets()) {
+  for (const HysteresisNetworkPreset& preset : hysteresis_network_presets()) {
     const ModelInfo info = model_info(preset.name);
     CHECK(info.kind == "state_network");
     CHECK(info.inputs == std::vector<std::string>{"velocity", "current"});
-    CHECK(&find_state_network_preset(preset.name) == &preset);
+    CHECK(&find_hysteresis_network_preset(preset.name) == &preset);
   }
 }
 
