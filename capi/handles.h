@@ -4,8 +4,9 @@
 #include <vector>
 
 #include "dashpot.h"
-#include "dashpot/identify/identify.h"
+#include "dashpot/identify.h"
 #include "status.h"
+#include "dashpot/rank.h"
 
 // What stands behind the pointers of dashpot.h.
 

@@ -11,6 +11,7 @@
 #include "identify_options.h"
 #include "recovery.h"
 #include "results.h"
+#include "dashpot/rank.h"
 
 namespace dashpot::cli {
 namespace {

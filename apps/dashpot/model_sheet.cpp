@@ -4,7 +4,6 @@
 
 #include <fmt/core.h>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
 #include "dashpot/damper/inverse/polynomial.h"
 #include "dashpot/damper/kinds/family/family_force.h"
@@ -14,6 +13,7 @@
 #include "dashpot/damper/kinds/state_space/state_space_model.h"
 #include "dashpot/damper/nets/mlp.h"
 #include "dashpot/damper/registry.h"
+#include "dashpot/error.h"
 #include "dashpot/identify/fit/network_design.h"
 #include "dashpot/report/safe_text.h"
 #include "layout.h"
@@ -65,7 +65,7 @@ LawModel driven_example(const Law& law) {
                              : follows ? std::vector<double>{param.value, pace * param.value}
                                        : std::vector<double>{param.value});
   }
-  return LawModel(law, std::move(d), "A", 0);
+  return LawModel(law, std::move(d), DriveUnit::Ampere, 0);
 }
 
 /// How a wanted force becomes a current.

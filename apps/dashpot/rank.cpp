@@ -11,6 +11,7 @@
 #include "dashpot/report/words.h"
 #include "layout.h"
 #include "ranking_run.h"
+#include "dashpot/rank.h"
 
 namespace dashpot::cli {
 namespace {

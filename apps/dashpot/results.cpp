@@ -12,6 +12,7 @@
 #include "dashpot/report/interval_table.h"
 #include "dashpot/report/words.h"
 #include "layout.h"
+#include "dashpot/rank.h"
 
 namespace dashpot::cli {
 namespace {

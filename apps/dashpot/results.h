@@ -5,8 +5,9 @@
 
 #include "command.h"
 #include "dashpot/base/date.h"
-#include "dashpot/identify/identify.h"
+#include "dashpot/identify.h"
 #include "dashpot/report/report.h"
+#include "dashpot/rank.h"
 
 namespace dashpot::cli {
 

@@ -6,6 +6,7 @@
 #include "dashpot/export/export_run.h"
 #include "export/example_models.h"
 #include "support.h"
+#include "dashpot/export/c/c_text.h"
 
 using namespace dashpot;
 

@@ -1,9 +1,9 @@
-#include "dashpot/damper/model_file.h"
+#include "dashpot/model_file.h"
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/file.h"
 #include "dashpot/base/text.h"
 #include "dashpot/damper/file_parts.h"
+#include "dashpot/damper/force_band.h"
 #include "dashpot/damper/kinds/family/family_model.h"
 #include "dashpot/damper/kinds/fuzzy/fuzzy_model.h"
 #include "dashpot/damper/kinds/hybrid/hybrid_model.h"
@@ -12,6 +12,7 @@
 #include "dashpot/damper/kinds/narx/narx_model.h"
 #include "dashpot/damper/kinds/network/network_model.h"
 #include "dashpot/damper/kinds/state_space/state_space_model.h"
+#include "dashpot/error.h"
 
 namespace dashpot {
 namespace {
@@ -20,8 +21,8 @@ constexpr FileFormat kFormat{"dashpot-model", "a model file", 1};
 
 void require_law(const LawModel& law, const ModelFile& file, const std::string& where) {
   if (law.drive_unit() != file.drive_unit)
-    throw Error(where,
-                "drive_unit is " + law.drive_unit() + ", but " + file.drive_unit + " for the file");
+    throw Error(where, "drive_unit is " + to_string(law.drive_unit()) + ", but " +
+                           to_string(file.drive_unit) + " for the file");
   require_bounds(law, file.domain.current_min, where);
   require_bounds(law, file.domain.current_max, where);
 }
@@ -59,7 +60,7 @@ std::string format_model(const ModelFile& file) {
   Value document = Value::object({{"format", kFormat.name},
                                   {"version", kFormat.version},
                                   {"kind", file.model->kind()},
-                                  {"drive_unit", file.drive_unit},
+                                  {"drive_unit", to_string(file.drive_unit)},
                                   {"sample_time", file.sample_time},
                                   {"domain", to_json(file.domain, file.drive_unit)},
                                   {"model", file.model->to_json()},
@@ -75,7 +76,7 @@ ModelFile parse_model(std::string_view text, const std::string& source) {
   require_format(reader, kFormat);
   ModelFile file;
   const Value& kind = reader.required("kind");
-  file.drive_unit = reader.string("drive_unit");
+  file.drive_unit = read_drive_unit(reader);
   file.sample_time = reader.number("sample_time");
   if (!(file.sample_time >= 0))
     throw Error(reader.required("sample_time").where(), "is negative",

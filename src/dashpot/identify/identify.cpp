@@ -1,10 +1,10 @@
-#include "dashpot/identify/identify.h"
+#include "dashpot/identify.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/parallel.h"
+#include "dashpot/error.h"
 #include "dashpot/identify/fit/fit.h"
 
 namespace dashpot {
@@ -21,8 +21,8 @@ void require_usable(const std::string& model, const std::vector<Record>& trainin
 
 /// Gives the model the mean offset of its training records as its bias, and reports what each
 /// record differs by.
-void settle_offsets(FitReport& report, const std::vector<Record>& training,
-                    const std::string& drive_unit, const IdentifyOptions& options) {
+void settle_offsets(FitReport& report, const std::vector<Record>& training, DriveUnit drive_unit,
+                    const IdentifyOptions& options) {
   if (options.offset == OffsetMode::None) return;
   const Evaluation on_training =
       evaluate(*report.model, training, drive_unit, {.threads = options.threads});
@@ -44,8 +44,8 @@ void settle_offsets(FitReport& report, const std::vector<Record>& training,
   }
 }
 
-FitReport fit(const std::string& model, const std::vector<Record>& training,
-              const std::string& drive_unit, const IdentifyOptions& options) {
+FitReport fit(const std::string& model, const std::vector<Record>& training, DriveUnit drive_unit,
+              const IdentifyOptions& options) {
   const std::string_view kind = model_info(model).kind;
   if (kind == "law") return fit_law(find_law(model), training, drive_unit, options);
   if (kind == "narx" || (kind == "network" && options.network.delays.value_or(0) > 0))
@@ -64,7 +64,7 @@ FitReport fit(const std::string& model, const std::vector<Record>& training,
 }  // namespace
 
 FitReport identify(const std::string& model, const std::vector<Record>& training,
-                   const std::string& drive_unit, const IdentifyOptions& options) {
+                   DriveUnit drive_unit, const IdentifyOptions& options) {
   require_usable(model, training);
   const double begin = cpu_seconds();
   FitReport report = fit(model, training, drive_unit, options);

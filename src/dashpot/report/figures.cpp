@@ -4,12 +4,13 @@
 
 #include <fmt/format.h>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
+#include "dashpot/error.h"
 #include "dashpot/report/gnuplot.h"
 #include "dashpot/report/report.h"
 #include "dashpot/report/series.h"
 #include "dashpot/report/words.h"
+#include "dashpot/rank.h"
 
 namespace dashpot {
 

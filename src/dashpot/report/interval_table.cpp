@@ -5,6 +5,7 @@
 #include "dashpot/identify/judge/conformal.h"
 #include "dashpot/report/text_table.h"
 #include "dashpot/report/words.h"
+#include "dashpot/rank.h"
 
 namespace dashpot {
 namespace {

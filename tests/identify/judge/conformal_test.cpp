@@ -4,8 +4,9 @@
 #include <numbers>
 
 #include "dashpot/base/random.h"
-#include "dashpot/identify/identify.h"
+#include "dashpot/identify.h"
 #include "support.h"
+#include "dashpot/rank.h"
 
 using namespace dashpot;
 

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 
-#include "dashpot/base/error.h"
+#include "dashpot/damper/inverse/inverse.h"
+#include "dashpot/error.h"
 #include "dashpot/export/c/c_inverse.h"
+#include "dashpot/suspension/control/sensors.h"
 #include "dashpot/export/c/c_model.h"
 
 namespace dashpot {

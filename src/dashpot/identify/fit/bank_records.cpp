@@ -4,12 +4,11 @@
 #include <cmath>
 #include <numeric>
 
-#include "dashpot/identify/judge/evaluate.h"
+#include "dashpot/evaluate.h"
 #include "dashpot/identify/judge/stroke.h"
 
 namespace dashpot {
-std::vector<BankRecord> bank_records(const std::vector<Record>& records,
-                                     const std::string& drive_unit) {
+std::vector<BankRecord> bank_records(const std::vector<Record>& records, DriveUnit drive_unit) {
   std::vector<BankRecord> all;
   for (const Record& record : records)
     all.push_back({damper_inputs(record, drive_unit), record.time, record.channel("force").samples,

@@ -3,13 +3,13 @@
 #include <vector>
 
 #include "dashpot/damper/nets/train_bank.h"
-#include "dashpot/record/record.h"
+#include "dashpot/drive.h"
+#include "dashpot/record.h"
 
 // What fits of state networks ask of their records.
 namespace dashpot {
 
-std::vector<BankRecord> bank_records(const std::vector<Record>& records,
-                                     const std::string& drive_unit);
+std::vector<BankRecord> bank_records(const std::vector<Record>& records, DriveUnit drive_unit);
 
 /// Scored samples of all.
 std::size_t scored_samples(const std::vector<const BankRecord*>& records);

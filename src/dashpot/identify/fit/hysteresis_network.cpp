@@ -2,9 +2,9 @@
 #include <array>
 #include <cmath>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/parallel.h"
 #include "dashpot/damper/nets/train_bank.h"
+#include "dashpot/error.h"
 #include "dashpot/identify/fit/bank_records.h"
 #include "dashpot/identify/fit/fit.h"
 #include "dashpot/identify/fit/member_report.h"
@@ -67,7 +67,7 @@ std::size_t hidden_of(const StateNetworkPreset& preset, const NetworkDesign& des
 class BankFit {
  public:
   BankFit(const StateNetworkPreset& preset, const std::vector<Record>& training,
-          const std::string& drive_unit, const IdentifyOptions& options)
+          DriveUnit drive_unit, const IdentifyOptions& options)
       : options_(options),
         hidden_(hidden_of(preset, options.network)),
         members_(options.network.members.value_or(preset.members)),
@@ -139,7 +139,7 @@ class BankFit {
 }  // namespace
 
 FitReport fit_state_network(const StateNetworkPreset& preset, const std::vector<Record>& training,
-                            const std::string& drive_unit, const IdentifyOptions& options) {
+                            DriveUnit drive_unit, const IdentifyOptions& options) {
   const std::vector<BankFit::Member> members =
       BankFit(preset, training, drive_unit, options).members();
   FitReport report = report_of_members(members);

@@ -35,7 +35,7 @@ Mlp standardised(const NetworkPreset& preset, const NetworkDesign& design,
 }  // namespace
 
 FitReport fit_network(const NetworkPreset& preset, const std::vector<Record>& training,
-                      const std::string& drive_unit, const IdentifyOptions& options) {
+                      DriveUnit drive_unit, const IdentifyOptions& options) {
   const auto rows = [&](const std::vector<DamperInput>& inputs, const std::vector<double>&) {
     std::vector<double> values;
     for (const DamperInput& input : inputs)

@@ -6,7 +6,9 @@
 #include <vector>
 
 #include "dashpot/damper/nets/train_bank.h"
-#include "dashpot/record/record.h"
+#include "dashpot/drive.h"
+#include "dashpot/record.h"
+#include "dashpot/record/trial_parts.h"
 
 namespace dashpot {
 
@@ -18,7 +20,7 @@ struct BankTrial {
 /// The divisions of trial_folds() as fits of state networks take them.
 class Trials {
  public:
-  Trials(const std::vector<Record>& training, const std::string& drive_unit);
+  Trials(const std::vector<Record>& training, DriveUnit drive_unit);
   Trials(const Trials&) = delete;
   Trials& operator=(const Trials&) = delete;
 

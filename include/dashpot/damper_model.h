@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "dashpot/base/value.h"
-#include "dashpot/damper/input.h"
+#include "dashpot/damper_input.h"
+#include "dashpot/value.h"
 
 namespace dashpot {
 
@@ -90,6 +90,25 @@ class DamperModel {
   virtual std::vector<std::string> extrapolations() const { return {}; }
   /// The kind's own part of a model file.
   virtual Value to_json() const = 0;
+};
+
+/// An interval of the force around a model's: force -half ... force +half, its width by what is
+/// known at run time. Constant in each band of speed, linear in the drive between knots, constant
+/// beyond them; and the wider the less an ensemble's members agree.
+struct ForceBand {
+  double level = 0.9;       ///< share of samples that it claims to cover
+  std::size_t records = 0;  ///< left-out records, or parts of them, that its width comes from
+  std::vector<double>
+      speeds;  ///< m/s, ascending: |v| where one band of speed ends and the next begins
+  std::vector<double> drives;      ///< A or V, ascending: the knots, at least one
+  std::vector<double> half_width;  ///< N, one row per band of speed, one column per knot
+
+  double spread = 0;  ///< times the members' spread, N, is added in quadrature
+
+  /// `members_spread`: DamperModel::spread of the model there.
+  double half_width_at(const DamperInput& input, double members_spread = 0) const noexcept;
+  /// The same shape, `factor` times as wide.
+  ForceBand scaled(double factor) const;
 };
 
 }  // namespace dashpot
