@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "dashpot.h"
-#include "dashpot/identify/identify.h"
+#include "dashpot/identify/rank/rank.h"
 #include "status.h"
 
 // What stands behind the pointers of dashpot.h.

@@ -9,7 +9,7 @@
 #include "dashpot/damper/inverse/inverse_file.h"
 #include "dashpot/damper/inverse/numeric.h"
 #include "dashpot/identify/fit/fit_inverse.h"
-#include "dashpot/identify/identify.h"
+#include "dashpot/identify/rank/rank.h"
 #include "dashpot/report/track_figure.h"
 #include "dashpot/report/words.h"
 #include "data.h"

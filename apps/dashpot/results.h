@@ -5,7 +5,7 @@
 
 #include "command.h"
 #include "dashpot/base/date.h"
-#include "dashpot/identify/identify.h"
+#include "dashpot/identify/rank/rank.h"
 #include "dashpot/report/report.h"
 
 namespace dashpot::cli {

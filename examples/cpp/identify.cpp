@@ -1,9 +1,8 @@
 // The C++ library from another project: identify RECORDINGS
-#include "dashpot/identify/identify.h"
-
 #include <cstdio>
 #include <exception>
 
+#include "dashpot/identify/rank/rank.h"
 #include "dashpot/record/dataset.h"
 #include "dashpot/record/split.h"
 

@@ -6,6 +6,7 @@
 #include "dashpot/damper/parameter_set.h"
 #include "dashpot/damper/registry.h"
 #include "dashpot/damper/virtual_bench.h"
+#include "dashpot/identify/rank/rank.h"
 #include "support.h"
 
 using namespace dashpot;

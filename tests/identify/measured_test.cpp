@@ -4,7 +4,7 @@
 
 #include "dashpot/base/file.h"
 #include "dashpot/damper/parameter_set.h"
-#include "dashpot/identify/identify.h"
+#include "dashpot/identify/rank/rank.h"
 #include "support.h"
 
 using namespace dashpot;

@@ -1,7 +1,7 @@
 #pragma once
 #include <string>
 
-#include "dashpot/identify/identify.h"
+#include "dashpot/identify/rank/rank.h"
 
 namespace dashpot {
 

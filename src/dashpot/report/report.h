@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "dashpot/base/value.h"
-#include "dashpot/identify/identify.h"
+#include "dashpot/identify/rank/rank.h"
 
 namespace dashpot {
 

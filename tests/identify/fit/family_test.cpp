@@ -1,6 +1,6 @@
 #include "dashpot/damper/kinds/family/family_model.h"
 #include "dashpot/identify/fit/family_gates_fit.h"
-#include "dashpot/identify/identify.h"
+#include "dashpot/identify/rank/rank.h"
 #include "support.h"
 
 using namespace dashpot;

@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "dashpot/base/random.h"
-#include "dashpot/identify/identify.h"
+#include "dashpot/identify/rank/rank.h"
 #include "support.h"
 
 using namespace dashpot;

@@ -3,6 +3,7 @@
 #include "dashpot/base/file.h"
 #include "dashpot/damper/parameter_set.h"
 #include "dashpot/damper/virtual_bench.h"
+#include "dashpot/identify/rank/rank.h"
 #include "support.h"
 
 using namespace dashpot;

@@ -5,6 +5,7 @@
 #include "dashpot/base/error.h"
 #include "dashpot/damper/parameter_set.h"
 #include "dashpot/damper/virtual_bench.h"
+#include "dashpot/identify/rank/rank.h"
 #include "dashpot/report/search_report.h"
 #include "support.h"
 

@@ -7,6 +7,7 @@
 #include "dashpot/base/parallel.h"
 #include "dashpot/damper/nets/normal_equations.h"
 #include "dashpot/damper/nets/train_lbfgs.h"
+#include "dashpot/record/split.h"
 
 namespace dashpot {
 namespace {

@@ -7,6 +7,7 @@
 #include "dashpot/base/error.h"
 #include "dashpot/base/file.h"
 #include "dashpot/base/text.h"
+#include "dashpot/damper/model_file.h"
 #include "dashpot/identify/rank/fit_identity.h"
 
 namespace dashpot {

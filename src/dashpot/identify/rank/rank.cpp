@@ -1,3 +1,5 @@
+#include "dashpot/identify/rank/rank.h"
+
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -9,7 +11,6 @@
 #include "dashpot/base/text.h"
 #include "dashpot/damper/kinds/law/law_model.h"
 #include "dashpot/damper/registry.h"
-#include "dashpot/identify/identify.h"
 #include "dashpot/identify/judge/conformal.h"
 #include "dashpot/identify/rank/fit_store.h"
 

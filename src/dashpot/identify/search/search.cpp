@@ -14,6 +14,7 @@
 #include "dashpot/base/text.h"
 #include "dashpot/damper/nets/kernel.h"
 #include "dashpot/identify/rank/fit_identity.h"
+#include "dashpot/record/split.h"
 
 namespace dashpot {
 namespace {
