@@ -5,8 +5,8 @@
 
 #include "dashpot.h"
 #include "dashpot/identify.h"
-#include "status.h"
 #include "dashpot/rank.h"
+#include "status.h"
 
 // What stands behind the pointers of dashpot.h.
 

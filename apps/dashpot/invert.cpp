@@ -10,12 +10,12 @@
 #include "dashpot/damper/inverse/numeric.h"
 #include "dashpot/identify.h"
 #include "dashpot/identify/fit/fit_inverse.h"
+#include "dashpot/rank.h"
 #include "dashpot/report/track_figure.h"
 #include "dashpot/report/words.h"
 #include "data.h"
 #include "layout.h"
 #include "results.h"
-#include "dashpot/rank.h"
 
 namespace dashpot::cli {
 namespace {

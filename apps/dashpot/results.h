@@ -6,8 +6,8 @@
 #include "command.h"
 #include "dashpot/base/date.h"
 #include "dashpot/identify.h"
-#include "dashpot/report/report.h"
 #include "dashpot/rank.h"
+#include "dashpot/report/report.h"
 
 namespace dashpot::cli {
 

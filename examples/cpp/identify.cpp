@@ -5,8 +5,8 @@
 #include <exception>
 
 #include "dashpot/dataset.h"
-#include "dashpot/split.h"
 #include "dashpot/rank.h"
+#include "dashpot/split.h"
 
 int main(int argc, char** argv) {
   try {

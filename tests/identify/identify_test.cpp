@@ -6,6 +6,7 @@
 #include "dashpot/damper/registry.h"
 #include "dashpot/damper/virtual_bench.h"
 #include "dashpot/error.h"
+#include "dashpot/rank.h"
 #include "support.h"
 
 using namespace dashpot;

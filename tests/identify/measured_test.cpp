@@ -5,6 +5,7 @@
 #include "dashpot/base/file.h"
 #include "dashpot/damper/parameter_set.h"
 #include "dashpot/identify.h"
+#include "dashpot/rank.h"
 #include "support.h"
 
 using namespace dashpot;

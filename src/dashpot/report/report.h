@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "dashpot/identify.h"
-#include "dashpot/value.h"
 #include "dashpot/rank.h"
+#include "dashpot/value.h"
 
 namespace dashpot {
 

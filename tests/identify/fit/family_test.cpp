@@ -1,8 +1,8 @@
 #include "dashpot/damper/kinds/family/family_model.h"
 #include "dashpot/identify.h"
 #include "dashpot/identify/fit/family_gates_fit.h"
-#include "support.h"
 #include "dashpot/rank.h"
+#include "support.h"
 
 using namespace dashpot;
 

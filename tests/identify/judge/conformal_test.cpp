@@ -5,8 +5,8 @@
 
 #include "dashpot/base/random.h"
 #include "dashpot/identify.h"
-#include "support.h"
 #include "dashpot/rank.h"
+#include "support.h"
 
 using namespace dashpot;
 

@@ -4,6 +4,7 @@
 #include "dashpot/damper/parameter_set.h"
 #include "dashpot/damper/virtual_bench.h"
 #include "dashpot/identify/judge/stress.h"
+#include "dashpot/rank.h"
 #include "support.h"
 
 using namespace dashpot;

@@ -5,6 +5,7 @@
 #include "dashpot/damper/parameter_set.h"
 #include "dashpot/damper/virtual_bench.h"
 #include "dashpot/error.h"
+#include "dashpot/rank.h"
 #include "dashpot/report/search_report.h"
 #include "support.h"
 

@@ -6,10 +6,11 @@
 
 #include "dashpot/base/parallel.h"
 #include "dashpot/damper/nets/normal_equations.h"
+#include "dashpot/damper/nets/train_batches.h"
 #include "dashpot/damper/nets/train_lbfgs.h"
 #include "dashpot/identify/fit/network_design.h"
 #include "dashpot/record/trial_parts.h"
-#include "dashpot/damper/nets/train_batches.h"
+#include "dashpot/split.h"
 
 namespace dashpot {
 namespace {

@@ -8,6 +8,7 @@
 #include "dashpot/base/text.h"
 #include "dashpot/error.h"
 #include "dashpot/identify/rank/fit_identity.h"
+#include "dashpot/model_file.h"
 
 namespace dashpot {
 namespace {

@@ -1,3 +1,5 @@
+#include "dashpot/rank.h"
+
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -14,7 +16,6 @@
 #include "dashpot/identify/judge/stress.h"
 #include "dashpot/identify/rank/fit_store.h"
 #include "dashpot/record/trial_parts.h"
-#include "dashpot/rank.h"
 
 namespace dashpot {
 namespace {
