@@ -90,6 +90,7 @@ TEST_CASE(
     folder.write("main.c", R"(#include <math.h>
 #include "run.h"
 #include "x_modelica.h"
+#include "dashpot/export/c/c_text.h"
 int main(void) {
   void* damper = x_create();
   double largest = 0, low = kRun[0][3], high = low;

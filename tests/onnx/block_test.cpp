@@ -71,6 +71,7 @@ Rows answers_of_c(const TemporaryFolder& folder, const CBlock& block, const Rows
     folder.write(file.name, file.content);
   const std::size_t commands = block.samples[0].commands.size();
   folder.write("main.c", filled(R"(#include "x.h"
+#include "dashpot/export/c/c_text.h"
 #include <math.h>
 #include <stdio.h>
 static const double kRows[][@width@] = {@rows@};

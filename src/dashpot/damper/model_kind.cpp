@@ -1,9 +1,9 @@
-#include "dashpot/damper/model_kind.h"
+#include "dashpot/model_kind.h"
 
 #include <vector>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
+#include "dashpot/error.h"
 
 namespace dashpot {
 

@@ -34,6 +34,7 @@ constexpr const char* kHeader = R"(/* The current for a wanted force: @title@.
 )";
 
 constexpr const char* kBegin = R"(#include "@prefix@.h"
+#include "dashpot/export/c/c_text.h"
 
 #include <math.h>
 
@@ -115,7 +116,7 @@ std::vector<CBlock::Sample> run_of(const ExportedInverse& exported) {
 
 CBlock c_inverse_block(const ExportedInverse& inverse, const ExportOptions& options) {
   const InverseLimits& limits = inverse.model.limits();
-  const std::string& unit = inverse.drive_unit;
+  const std::string& unit = to_string(inverse.drive_unit);
   const std::size_t size = std::max<std::size_t>(1, inverse.model.state_size());
   const std::string about = filled(kAbout, {{"unit", unit},
                                             {"low", format_number(limits.current_min)},

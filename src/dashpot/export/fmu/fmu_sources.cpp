@@ -32,6 +32,7 @@ static const double fmu_ranges[][2] = {
 
 @definitions@
 #include "@interface@"
+#include "dashpot/export/c/c_text.h"
 
 #endif
 )";

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
 #include "dashpot/damper/registry.h"
+#include "dashpot/error.h"
 #include "dashpot/identify/fit/fit.h"
+#include "dashpot/identify/fit/network_design.h"
+#include "dashpot/identify/fit/parameter_choice.h"
 
 namespace dashpot {
 namespace {

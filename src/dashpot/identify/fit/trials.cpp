@@ -8,7 +8,7 @@
 
 namespace dashpot {
 
-Trials::Trials(const std::vector<Record>& training, const std::string& drive_unit) {
+Trials::Trials(const std::vector<Record>& training, DriveUnit drive_unit) {
   for (const Fold& fold : trial_folds(training)) {
     FreeRunTrial trial;
     trial.training = keep(free_run_records(fold.training, drive_unit));

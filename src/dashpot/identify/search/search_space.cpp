@@ -5,11 +5,12 @@
 #include <cmath>
 #include <set>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/file.h"
 #include "dashpot/base/random.h"
 #include "dashpot/base/text.h"
+#include "dashpot/error.h"
 #include "dashpot/identify/fit/fit.h"
+#include "dashpot/identify/fit/network_design.h"
 
 namespace dashpot {
 namespace {

@@ -1,4 +1,5 @@
 #pragma once
+// Layer: damper
 #include <array>
 #include <cstddef>
 #include <string>
