@@ -1,4 +1,4 @@
-#include "contributing/a_viscous_example.h"
+#include "contributing/law/a_viscous_example.h"
 
 #include "dashpot/damper/parameter_set.h"
 #include "dashpot/damper/registry.h"
