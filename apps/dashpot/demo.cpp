@@ -7,11 +7,11 @@
 #include "commands.h"
 #include "console.h"
 #include "dashpot/base/text.h"
+#include "dashpot/rank.h"
 #include "data.h"
 #include "identify_options.h"
 #include "recovery.h"
 #include "results.h"
-#include "dashpot/rank.h"
 
 namespace dashpot::cli {
 namespace {

@@ -10,12 +10,12 @@
 #include "dashpot/damper/kinds/family/family_model.h"
 #include "dashpot/identify/fit/fit_words.h"
 #include "dashpot/identify/judge/extrapolation.h"
+#include "dashpot/rank.h"
 #include "dashpot/report/interval_table.h"
 #include "dashpot/report/report_json.h"
 #include "data.h"
 #include "layout.h"
 #include "results.h"
-#include "dashpot/rank.h"
 
 namespace dashpot::cli {
 namespace {

@@ -1,3 +1,5 @@
+#include "dashpot/rank.h"
+
 #include <memory>
 
 #include <fmt/core.h>
@@ -11,7 +13,6 @@
 #include "dashpot/report/words.h"
 #include "layout.h"
 #include "ranking_run.h"
-#include "dashpot/rank.h"
 
 namespace dashpot::cli {
 namespace {

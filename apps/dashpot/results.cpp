@@ -9,10 +9,10 @@
 
 #include "console.h"
 #include "dashpot/base/file.h"
+#include "dashpot/rank.h"
 #include "dashpot/report/interval_table.h"
 #include "dashpot/report/words.h"
 #include "layout.h"
-#include "dashpot/rank.h"
 
 namespace dashpot::cli {
 namespace {

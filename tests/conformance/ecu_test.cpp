@@ -3,10 +3,10 @@
 #include "dashpot/base/file.h"
 #include "dashpot/export/c/c_controller.h"
 #include "dashpot/export/c/c_source.h"
+#include "dashpot/export/c/c_text.h"
 #include "dashpot/export/export_run.h"
 #include "export/example_models.h"
 #include "support.h"
-#include "dashpot/export/c/c_text.h"
 
 using namespace dashpot;
 

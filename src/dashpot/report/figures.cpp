@@ -6,11 +6,11 @@
 
 #include "dashpot/base/text.h"
 #include "dashpot/error.h"
+#include "dashpot/rank.h"
 #include "dashpot/report/gnuplot.h"
 #include "dashpot/report/report.h"
 #include "dashpot/report/series.h"
 #include "dashpot/report/words.h"
-#include "dashpot/rank.h"
 
 namespace dashpot {
 

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include "dashpot/identify/judge/conformal.h"
+#include "dashpot/rank.h"
 #include "dashpot/report/text_table.h"
 #include "dashpot/report/words.h"
-#include "dashpot/rank.h"
 
 namespace dashpot {
 namespace {

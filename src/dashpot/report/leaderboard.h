@@ -2,8 +2,8 @@
 #include <string>
 
 #include "dashpot/drive.h"
-#include "dashpot/report/report.h"
 #include "dashpot/rank.h"
+#include "dashpot/report/report.h"
 
 namespace dashpot {
 

@@ -5,8 +5,8 @@
 #include "dashpot/damper/inverse/inverse.h"
 #include "dashpot/error.h"
 #include "dashpot/export/c/c_inverse.h"
-#include "dashpot/suspension/control/sensors.h"
 #include "dashpot/export/c/c_model.h"
+#include "dashpot/suspension/control/sensors.h"
 
 namespace dashpot {
 namespace {

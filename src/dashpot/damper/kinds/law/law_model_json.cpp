@@ -1,8 +1,8 @@
 #include "dashpot/base/units.h"
+#include "dashpot/damper/file_parts.h"
 #include "dashpot/damper/kinds/law/law_model.h"
 #include "dashpot/damper/registry.h"
 #include "dashpot/error.h"
-#include "dashpot/damper/file_parts.h"
 
 namespace dashpot {
 namespace {
