@@ -1,5 +1,5 @@
-#pragma once
 // Layer: damper
+#pragma once
 #include <array>
 #include <cstddef>
 #include <string>

@@ -4,6 +4,7 @@
 #include "dashpot/base/file.h"
 #include "dashpot/base/text.h"
 #include "dashpot/export/c/c_source.h"
+#include "dashpot/export/c/c_text.h"
 #include "dashpot/export/export_run.h"
 #include "export/example_models.h"
 #include "support.h"
@@ -90,7 +91,6 @@ TEST_CASE(
     folder.write("main.c", R"(#include <math.h>
 #include "run.h"
 #include "x_modelica.h"
-#include "dashpot/export/c/c_text.h"
 int main(void) {
   void* damper = x_create();
   double largest = 0, low = kRun[0][3], high = low;

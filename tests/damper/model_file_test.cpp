@@ -107,7 +107,7 @@ TEST_CASE("a hysteresis network's file comes back as it was, to the last bit") {
   const ModelFile saved =
       example(std::make_unique<HysteresisNetworkModel>("hysteresis_network",
                                                        std::vector<HysteresisNetwork>{member}, 4.5),
-              "A");
+              DriveUnit::Ampere);
   const ModelFile loaded = parse_model(format_model(saved), "m.json");
   CHECK(format_model(loaded) == format_model(saved));
   const std::vector<double> state{0.3, 0.6};

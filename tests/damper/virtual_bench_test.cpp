@@ -104,6 +104,6 @@ TEST_CASE("a bench that cannot run says why") {
         std::string::npos);
   CHECK(message([](BenchOptions& o) { o.sample_rate = 1e12; }).find("at most 1e+08") !=
         std::string::npos);
-  CHECK(message_of([] { run_virtual_bench(viscous(), "mA", {}); }).find("write A or V") !=
+  CHECK(message_of([] { run_virtual_bench(viscous(), DriveUnit::None, {}); }).find("no drive") !=
         std::string::npos);
 }

@@ -32,7 +32,7 @@ inline dashpot::LawModel example_law(const dashpot::Law& law) {
       d.coefficients.back() = {info.value, 1.5 * info.value, 0.7};
     if (info.fit == dashpot::Fit::Drive) d.coefficients.back() = {0, 1};
   }
-  return dashpot::LawModel(law, d, DriveUnit::Ampere, 100);
+  return dashpot::LawModel(law, d, dashpot::DriveUnit::Ampere, 100);
 }
 
 /// Velocity and current, ten tanh neurons, random weights; a force of some 1 kN.

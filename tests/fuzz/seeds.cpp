@@ -121,11 +121,11 @@ void model_seeds(const fs::path& folder) {
     write_file(folder / ("network_" + std::to_string(members)),
                model_seed(std::make_unique<NetworkModel>("mlp_one_sensor", inputs,
                                                          std::vector(members, mlp)),
-                          "A"));
+                          DriveUnit::Ampere));
   write_file(folder / "hysteresis_network",
              model_seed(std::make_unique<HysteresisNetworkModel>(
                             "hysteresis_network", std::vector{example_hysteresis_network()}),
-                        "A"));
+                        DriveUnit::Ampere));
   write_file(folder / "state_space",
              model_seed(std::make_unique<StateSpaceModel>("neural_state_space",
                                                           std::vector{example_state_space()}),

@@ -5,6 +5,7 @@
 #include "conformance/c_compile.h"
 #include "conformance/control_cases.h"
 #include "dashpot/export/c/c_model.h"
+#include "dashpot/export/c/c_text.h"
 #include "dashpot/export/onnx/onnx.h"
 #include "runtime.h"
 
@@ -71,7 +72,6 @@ Rows answers_of_c(const TemporaryFolder& folder, const CBlock& block, const Rows
     folder.write(file.name, file.content);
   const std::size_t commands = block.samples[0].commands.size();
   folder.write("main.c", filled(R"(#include "x.h"
-#include "dashpot/export/c/c_text.h"
 #include <math.h>
 #include <stdio.h>
 static const double kRows[][@width@] = {@rows@};

@@ -204,7 +204,7 @@ TEST_CASE("the shipped dataset files recognise the measured recordings") {
     if (path.empty()) return;
     const Dataset dataset = load(path);
     CHECK(dataset.name == shipped.name);
-    CHECK(dataset.drive_unit == shipped.drive);
+    CHECK(to_string(dataset.drive_unit) == shipped.drive);
     CHECK(dataset.records.size() == shipped.records);
     REQUIRE(dataset.leave_out);
     CHECK(split(dataset, *dataset.leave_out).size() == shipped.folds);

@@ -6,7 +6,8 @@
 using namespace dashpot;
 
 TEST_CASE("the example controller: it is known by name, in its place, and decides") {
-  CHECK(std::ranges::is_sorted(control_laws(), {}, [](const ControlLaw* law) { return law->name; }));
+  CHECK(
+      std::ranges::is_sorted(control_laws(), {}, [](const ControlLaw* law) { return law->name; }));
   Plant plant;
   plant.struts.resize(1);
   const ControlLimits limits{.damping_min = 300, .damping_max = 3900};

@@ -25,8 +25,7 @@ std::unique_ptr<LineExampleModel> line_example_model_from_json(const Value& valu
 }
 
 ModelInfo LineExamplePreset::info() const {
-  return {name,   ModelKind::LineExample, title, equation,
-          source, remarks,                {"velocity", "current"}};
+  return {name, ModelKind::LineExample, title, equation, source, remarks, {"velocity", "current"}};
 }
 
 std::span<const LineExamplePreset> line_example_presets() { return kPresets; }

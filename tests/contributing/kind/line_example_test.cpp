@@ -1,5 +1,4 @@
 #include "contributing/kind/line_example_model.h"
-
 #include "dashpot/damper/parameter_set.h"
 #include "dashpot/damper/registry.h"
 #include "dashpot/damper/virtual_bench.h"

@@ -1,6 +1,7 @@
 #include "dashpot/export/c/c_block.h"
 
 #include "dashpot/export/c/c_model.h"
+#include "dashpot/export/c/c_text.h"
 
 namespace dashpot {
 namespace {
@@ -9,7 +10,6 @@ constexpr const char* kTest =
     R"(/* Steps through a run and compares the commands with those that Dashpot @version@ computed in double precision.
  * Returns 0 when they agree within @tolerance@ of their range wherever a command makes a difference. */
 #include "@prefix@.h"
-#include "dashpot/export/c/c_text.h"
 
 #include <math.h>
 #include <stdio.h>

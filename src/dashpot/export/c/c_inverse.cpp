@@ -6,6 +6,7 @@
 #include "dashpot/base/text.h"
 #include "dashpot/damper/inverse/switching.h"
 #include "dashpot/export/c/c_model.h"
+#include "dashpot/export/c/c_text.h"
 #include "dashpot/export/export_run.h"
 
 namespace dashpot {
@@ -34,7 +35,6 @@ constexpr const char* kHeader = R"(/* The current for a wanted force: @title@.
 )";
 
 constexpr const char* kBegin = R"(#include "@prefix@.h"
-#include "dashpot/export/c/c_text.h"
 
 #include <math.h>
 

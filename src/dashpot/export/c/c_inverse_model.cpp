@@ -9,6 +9,7 @@
 #include "dashpot/error.h"
 #include "dashpot/export/c/c_inverse.h"
 #include "dashpot/export/c/c_model.h"
+#include "dashpot/export/c/c_text.h"
 
 namespace dashpot {
 namespace {
@@ -126,7 +127,6 @@ static inline double root_error(const RootError* e, double current) {
 
 #include "root_search.h"
 #include "inverse_search.h"
-#include "dashpot/export/c/c_text.h"
 static const SearchNumbers kNumbers = {@least@, @most@, @negligible@};
 
 static void inverse_rest(const DamperInput* input, double* state) {

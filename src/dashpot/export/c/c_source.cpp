@@ -6,6 +6,7 @@
 #include "dashpot/damper/kinds/law/law_model.h"
 #include "dashpot/damper/registry.h"
 #include "dashpot/export/c/c_model.h"
+#include "dashpot/export/c/c_text.h"
 #include "dashpot/export/export_run.h"
 
 namespace dashpot {
@@ -50,7 +51,6 @@ constexpr const char* kTest =
     R"(/* Steps through a run and compares the force with the one that Dashpot @version@ computed in double precision.
  * Returns 0 when they agree within @tolerance@ of the force's span. */
 #include "@prefix@.h"
-#include "dashpot/export/c/c_text.h"
 
 #include <math.h>
 #include <stdio.h>

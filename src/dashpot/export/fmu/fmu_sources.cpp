@@ -1,4 +1,5 @@
 #include "dashpot/export/c/c_model.h"
+#include "dashpot/export/c/c_text.h"
 #include "dashpot/export/fmu/fmu.h"
 
 namespace dashpot {
@@ -32,7 +33,6 @@ static const double fmu_ranges[][2] = {
 
 @definitions@
 #include "@interface@"
-#include "dashpot/export/c/c_text.h"
 
 #endif
 )";

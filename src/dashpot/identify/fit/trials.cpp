@@ -4,7 +4,7 @@
 
 #include "dashpot/base/parallel.h"
 #include "dashpot/identify/fit/free_run_records.h"
-#include "dashpot/record/split.h"
+#include "dashpot/split.h"
 
 namespace dashpot {
 

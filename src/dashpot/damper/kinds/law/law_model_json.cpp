@@ -1,4 +1,5 @@
 #include "dashpot/base/units.h"
+#include "dashpot/damper/file_parts.h"
 #include "dashpot/damper/kinds/law/law_model.h"
 #include "dashpot/damper/law_list.h"
 #include "dashpot/error.h"
