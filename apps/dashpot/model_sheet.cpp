@@ -292,6 +292,7 @@ Value sheet_json(const ModelSheet& sheet) {
                                           {"form", name_of(p.form)},
                                           {"fit", fit_name(p.fit)},
                                           {"meaning", p.meaning}}));
+
   return Value::object({{"name", sheet.name},
                         {"kind", sheet.kind},
                         {"title", sheet.title},

@@ -15,6 +15,8 @@ std::string sugeno_code(const Sugeno& sugeno) {
     low.push_back(input.low);
     high.push_back(input.high);
   }
+
+  // The sets, a row each, and the rules: each the number of its sets, then these.
   std::string memberships;
   for (const Membership& m : sugeno.memberships)
     memberships += "    {" + number(static_cast<std::size_t>(m.shape)) + ", " + number(m.input) +
@@ -25,6 +27,7 @@ std::string sugeno_code(const Sugeno& sugeno) {
     rules.push_back(static_cast<int>(rule.size()));
     rules.insert(rules.end(), rule.begin(), rule.end());
   }
+
   return "#define SUGENO_MOST_INPUTS " + number(sugeno.inputs.size()) +
          "\n#define SUGENO_MOST_MEMBERSHIPS " + number(sugeno.memberships.size()) +
          "\n#define SUGENO_MOST_RULES " + number(sugeno.rules.size()) + "\n\n" +

@@ -220,6 +220,8 @@ std::vector<CParameter> c_parameters(const LawModel& model) {
       }
     }
   }
+
+  // The coil's lag can be set where there is one.
   constexpr double kSlowest = 1e-3, kFastest = 1e6;  // 1/s
   if (model.lag_rate() > 0)
     parameters.push_back({std::string(kLagRate), "1/s",
@@ -236,6 +238,8 @@ CModel c_law(const LawModel& model, const std::string& stem, bool settable) {
   std::string code = (settable ? "#include <string.h>\n\n#include \"" : "#include \"") + name +
                      ".h\"\n" + "typedef " + pascal_case(name) + " LawParameters;\n\n" +
                      constants(model, settable) + parameter_function(model, settable);
+
+  // What steps the states, where there are any.
   if (model.state_size() > 0)
     code +=
         "static inline double law_lag_rate(const LawModel* m) {\n  return m->lag_rate;\n}\n\n"
@@ -245,6 +249,8 @@ CModel c_law(const LawModel& model, const std::string& stem, bool settable) {
     code += integration(law);
   else if (model.lag_rate() > 0)
     code += "#include \"law_path.h\"\n";
+
+  // The functions of the model, with its numbers filled in.
   const bool has_derivatives = model.state_size() > 0 && stem == "model";
   code = filled(code + rest_function(model) + advance_function(model) + force_function(model) +
                     (has_derivatives ? derivative_function(model) : ""),
