@@ -23,7 +23,7 @@ enum class ModelKind {
 };
 constexpr std::size_t kModelKinds = static_cast<std::size_t>(ModelKind::Other);
 
-/// What a kind is called in model files and in lists.
+/// The name of a kind in model files and in lists.
 struct ModelKindName {
   ModelKind kind;
   std::string_view name;

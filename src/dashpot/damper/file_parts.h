@@ -6,7 +6,7 @@
 #include "dashpot/model_file.h"
 #include "dashpot/value.h"
 
-// What the files of models and of inverses have in common.
+// The parts that the files of models and of inverses have in common.
 namespace dashpot {
 
 struct FileFormat {

@@ -52,7 +52,7 @@ Truth simulate(const DamperModel& damper, const BenchTest& test, const BenchOpti
   return truth;
 }
 
-/// What a sensor with this zero, noise and converter makes of true values.
+/// The readings of a sensor with this zero, noise and converter.
 std::vector<double> measure(std::vector<double> values, double zero, double noise,
                             double resolution, Random& random) {
   for (double& value : values) {

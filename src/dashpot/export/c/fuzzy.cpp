@@ -41,7 +41,7 @@ std::string sugeno_code(const Sugeno& sugeno) {
          c_number(sugeno.output_mean) + ", " + c_number(sugeno.output_scale) + "};\n\n";
 }
 
-/// Where the state has the past velocity and the coil's current, and how fast they follow.
+/// A lagged number of the state, the past velocity or the coil's current, and how fast it follows.
 struct Lag {
   std::string place, input, seconds, start;
 };
@@ -63,6 +63,8 @@ std::string state_functions(const std::vector<Lag>& lags) {
       "static void model_advance(const DamperInput* from, const DamperInput* to, double dt, "
       "double* state) "
       "{\n";
+
+  // A line per lag in both functions.
   bool uses_input = false;
   for (const Lag& lag : lags) {
     rest += "  state[" + lag.place + "] = " + lag.start + ";\n";

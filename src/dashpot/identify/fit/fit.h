@@ -42,7 +42,7 @@ FitReport fit_hybrid(const HybridPreset& preset, const std::vector<Record>& trai
 FitReport fit_family(const FamilyPreset& preset, const std::vector<Record>& training,
                      DriveUnit drive_unit, const IdentifyOptions& options);
 
-/// How models of a kind are fitted.
+/// The fit of one kind of model.
 struct KindFit {
   ModelKind kind;
   /// Fits the registered model of that name, which must be of this kind.

@@ -110,7 +110,7 @@ std::unique_ptr<FuzzyModel> fuzzy_model_from_json(const Value& value) {
   for (const Value& item : reader.required("inputs").items())
     sugeno.inputs.push_back(read_input(item, names));
 
-  // How the inputs lag, and the sets over them.
+  // The inputs' lags and the sets over them.
   const FuzzyInputs::Lags lags{reader.number("velocity_lag"), reader.number("coil_lag")};
   for (const Value& item : reader.required("memberships").items())
     sugeno.memberships.push_back(read_membership(item));

@@ -186,7 +186,7 @@ class ReducedProblem {
     return gram;
   }
 
-  /// What the consequents are multiplied by; leaves values_ and shares_ of the sample.
+  /// Fills in the factors of the consequents; leaves values_ and shares_ of the sample.
   template <class Row>
   void fill_regressors(std::size_t sample, Row&& row) {
     const std::size_t inputs = model_.inputs.size();

@@ -41,7 +41,6 @@ NarxModel::NarxModel(std::string name, Regressors regressors, std::vector<Mlp> m
       offset_(offset),
       force_size_(regressors_.feedback_depth() + 1),
       needs_displacement_(regressors_.needs_displacement()) {
-
   // Check that the parts fit together.
   const std::string& place = where.empty() ? name_ : where;
   require_usable(regressors_, place);

@@ -183,8 +183,8 @@ class FreeRunCost {
   std::vector<bool> scored_;
 };
 
-/// The residuals of the whole cost: centred ones, then the weights at their price; their squares'
-/// sum is it.
+/// The residuals of the whole cost: centred ones, then the weights times their decay; their
+/// squares' sum is it.
 class Problem {
  public:
   Problem(const Mlp& mlp, const NarxSamples& samples, const NarxTrainOptions& options)
@@ -231,7 +231,7 @@ class Problem {
   double share_, price_;
 };
 
-/// Of the residuals alone, raw units.
+/// Root mean square of the residuals alone, N.
 double rmse_of(Problem& problem, const Mlp& mlp) {
   std::vector<double> r(problem.residuals(mlp.parameters.size()));
   problem.evaluate(mlp.parameters, r, {});

@@ -39,7 +39,7 @@ struct StateSpaceCell::Point {
   std::array<double, kMaxInputs> inputs;        ///< x, y, v, u, 1
   std::array<double, kMaxFeatures> phi;         ///< 1, x, u, neurons
   std::array<double, kMaxMotions> speed, bend;  ///< w; tanh(G phi / bend)
-  /// Of a state's new value by its old one, by w, by ln r.
+  /// Derivatives of a state's new value by its old one, by w, by ln r.
   std::array<double, kMaxMotions> by_state, by_speed, by_rate;
 };
 

@@ -116,7 +116,8 @@ class Windows {
                      state);
       if (k != next) continue;
 
-      // A window starts here: its features are those currents, then velocity and force at past moments.
+      // A window starts here: its features are those currents, then velocity and force at past
+      // moments.
       Window window{
           &record, k,   std::min(k + options_.window, samples),
           k,       {1}, {state.begin() + static_cast<std::ptrdiff_t>(cell.motions()), state.end()}};
