@@ -1,5 +1,7 @@
+// Layer: export
 #pragma once
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -8,6 +10,7 @@
 
 #include "dashpot/drive.h"
 #include "dashpot/model_file.h"
+#include "dashpot/vehicle.h"
 
 namespace dashpot {
 
@@ -47,6 +50,8 @@ struct ExportedFile {
 struct CBlock;
 /// An inverse or a controller, for options of an exporter's own.
 using CBlockMaker = std::function<CBlock(const ExportOptions&)>;
+/// The controller of a vehicle. The block throws Error where there is none, or one without C text.
+CBlockMaker controller_block(std::shared_ptr<const Vehicle> vehicle);
 
 /// One thing that a model can become.
 struct Exporter {

@@ -2,25 +2,13 @@
 #pragma once
 #include <array>
 #include <cstddef>
-#include <string>
 #include <string_view>
 #include <utility>
 
+#include "dashpot/damper_model.h"
+
 namespace dashpot {
 
-/// The kinds of models, in the order in which lists show them. A kind has one name everywhere: its
-/// folder in damper/kinds/, its file in identify/fit/ and in export/c/, its word in model files.
-enum class ModelKind {
-  Law,
-  Network,
-  Narx,
-  HysteresisNetwork,
-  StateSpace,
-  Fuzzy,
-  Hybrid,
-  Family,
-  Other  ///< stands last, behind the kinds that model files have: a passive curve, for example
-};
 constexpr std::size_t kModelKinds = static_cast<std::size_t>(ModelKind::Other);
 
 /// The name of a kind in model files and in lists.
@@ -64,13 +52,5 @@ constexpr const auto& row_of(ModelKind kind) {
                 "the table has not one row for every kind of model");
   return kTable[static_cast<std::size_t>(kind)];
 }
-
-constexpr std::string_view name_of(ModelKind kind) {
-  return kind == ModelKind::Other ? "other" : row_of<kModelKindNames>(kind).name;
-}
-
-/// The kind of that name, or of that former name. Throws Error(where, "unknown kind ...") which
-/// says what is known.
-ModelKind parse_model_kind(std::string_view name, const std::string& where);
 
 }  // namespace dashpot

@@ -1,3 +1,4 @@
+// Layer: record
 #pragma once
 #include <optional>
 #include <span>

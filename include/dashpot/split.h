@@ -1,3 +1,4 @@
+// Layer: record
 #pragma once
 #include <string>
 #include <vector>

@@ -7,6 +7,10 @@
 
 namespace dashpot {
 
+std::string_view name_of(ModelKind kind) {
+  return kind == ModelKind::Other ? "other" : row_of<kModelKindNames>(kind).name;
+}
+
 ModelKind parse_model_kind(std::string_view name, const std::string& where) {
   std::vector<std::string> known;
   for (const ModelKindName& row : kModelKindNames) {

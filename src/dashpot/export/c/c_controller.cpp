@@ -157,6 +157,12 @@ std::vector<CPort> ports_of(const Vehicle& vehicle, const CControlPath& path) {
 
 }  // namespace
 
+CBlockMaker controller_block(std::shared_ptr<const Vehicle> vehicle) {
+  return [vehicle = std::move(vehicle)](const ExportOptions& options) {
+    return c_controller_block(*vehicle, options);
+  };
+}
+
 CBlock c_controller_block(const Vehicle& vehicle, const ExportOptions& options) {
   if (!vehicle.controller) throw Error("export", "the vehicle has no controller");
   const CControlPath path = c_control_path(vehicle, options.c_precision());
