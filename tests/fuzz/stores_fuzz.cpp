@@ -3,7 +3,7 @@
 #include "dashpot/damper/virtual_bench.h"
 #include "dashpot/identify/rank/fit_store.h"
 #include "dashpot/identify/search/trial_store.h"
-#include "dashpot/suspension/sweep/request.h"
+#include "dashpot/suspension/sweep/request_file.h"
 #include "dashpot/suspension/sweep/store.h"
 #include "fuzz.h"
 #include "studies/family/family_network.h"

@@ -8,6 +8,7 @@
 #include "dashpot/suspension/ground/ground_sequences.h"
 #include "dashpot/suspension/ride/ride.h"
 #include "dashpot/suspension/ride/weighting.h"
+#include "dashpot/suspension/sweep/request_file.h"
 #include "support.h"
 
 using namespace dashpot;

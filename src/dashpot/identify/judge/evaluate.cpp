@@ -15,18 +15,6 @@ namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-std::string_view drive_channel(std::string_view drive_unit) {
-  return drive_unit == "V" ? "voltage" : "current";
-}
-
-const std::vector<double>& drive_samples(const Record& record, std::string_view drive_unit) {
-  const std::string_view name = drive_channel(drive_unit);
-  if (const Channel* drive = record.find(name)) return drive->samples;
-  throw Error(record.name, "has no known " + std::string(name),
-              "give it as a column, in the file name (run_0.5" + std::string(drive_unit) +
-                  ".csv), in manifest.csv or in a dataset file");
-}
-
 const double* known_offset(const EvaluateOptions& options, const std::string& record) {
   for (const auto& [name, offset] : options.known_offsets)
     if (name == record) return &offset;
@@ -239,51 +227,6 @@ const RecordResult* Evaluation::worst_covered() const {
     if (r.coverage.samples && (!worst || r.coverage.percent() < worst->coverage.percent()))
       worst = &r;
   return worst;
-}
-
-std::vector<DamperInput> damper_inputs(const Record& record, std::string_view drive_unit) {
-  const std::vector<double>& velocity = record.channel("velocity").samples;
-  const std::vector<double>& drive = drive_samples(record, drive_unit);
-  const Channel* displacement = record.find("displacement");
-  std::vector<DamperInput> inputs(record.size());
-  for (std::size_t k = 0; k < inputs.size(); ++k)
-    inputs[k] = {displacement ? displacement->samples[k] : 0.0, velocity[k], drive[k]};
-  return inputs;
-}
-
-DriveRange drive_range(const std::vector<Record>& records, std::string_view drive_unit) {
-  DriveRange range;
-  std::vector<double> samples, levels;
-  for (const Record& record : records) {
-    const std::vector<double>& drive = drive_samples(record, drive_unit);
-    samples.insert(samples.end(), drive.begin(), drive.end());
-    if (record.drive_level)
-      levels.push_back(*record.drive_level);
-    else
-      range.varies = true;
-  }
-  if (samples.empty()) return range;
-  std::sort(samples.begin(), samples.end());
-  std::sort(levels.begin(), levels.end());
-  range.levels =
-      static_cast<std::size_t>(std::unique(levels.begin(), levels.end()) - levels.begin());
-  const std::size_t margin = range.varies ? samples.size() / 200 : 0;
-  range.low = samples[margin];
-  range.high = samples[samples.size() - 1 - margin];
-  return range;
-}
-
-Domain domain_of(const std::vector<Record>& records, std::string_view drive_unit) {
-  const DriveRange drive = drive_range(records, drive_unit);
-  Domain domain{INFINITY, -INFINITY, INFINITY, -INFINITY, drive.low, drive.high};
-  for (const Record& record : records)
-    for (const DamperInput& input : damper_inputs(record, drive_unit)) {
-      domain.displacement_min = std::min(domain.displacement_min, input.displacement);
-      domain.displacement_max = std::max(domain.displacement_max, input.displacement);
-      domain.velocity_min = std::min(domain.velocity_min, input.velocity);
-      domain.velocity_max = std::max(domain.velocity_max, input.velocity);
-    }
-  return domain;
 }
 
 FreeRun free_run(const DamperModel& model, const std::vector<DamperInput>& inputs,

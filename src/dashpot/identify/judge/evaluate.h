@@ -5,26 +5,11 @@
 
 #include "dashpot/damper/force_band.h"
 #include "dashpot/damper/model.h"
+#include "dashpot/identify/judge/inputs.h"
 #include "dashpot/identify/judge/metrics.h"
 #include "dashpot/record/dataset.h"
 
 namespace dashpot {
-
-/// The record's motion and drive as the model sees them. Throws Error naming the missing channel.
-/// A record without displacement gives 0 there.
-std::vector<DamperInput> damper_inputs(const Record& record, std::string_view drive_unit);
-
-/// Where the drive of these records lies, A or V: all of it when it is constant in each, else the
-/// middle 99 % of its samples, so that spikes at switching do not stretch the range.
-struct DriveRange {
-  double low = 0, high = 0;
-  bool varies = false;     ///< within a record
-  std::size_t levels = 0;  ///< distinct constant levels
-};
-DriveRange drive_range(const std::vector<Record>& records, std::string_view drive_unit);
-
-/// Where motion and drive of these records lie.
-Domain domain_of(const std::vector<Record>& records, std::string_view drive_unit);
 
 /// Force over a record in free run: the model sees motion and current only. From rest at the first
 /// sample. `diverged_at`: time of the first force that is not finite or out of the model's range;

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <vector>
 
-#include "dashpot/identify/judge/evaluate.h"
+#include "dashpot/identify/judge/inputs.h"
 #include "dashpot/record/time_base.h"
 
 namespace dashpot {

@@ -81,7 +81,7 @@ double expected_cost(const std::string& model, const Record& record, std::string
 class RankingRun {
  public:
   RankingRun(const std::vector<std::string>& models, const Dataset& dataset,
-             const LeaveOut& leave_out, const IdentifyOptions& options, const FitStore* store)
+             const LeaveOut& leave_out, const IdentifyOptions& options, FitStore* store)
       : dataset_(dataset),
         options_(options),
         store_(store),
@@ -253,7 +253,7 @@ class RankingRun {
 
   const Dataset& dataset_;
   const IdentifyOptions& options_;
-  const FitStore* store_;
+  FitStore* store_;
   std::vector<Fold> folds_;
   std::vector<Fold>
       held_back_;  ///< of the only fold's training; where there are more, they serve each other
@@ -268,7 +268,7 @@ class RankingRun {
 }  // namespace
 
 Ranking rank(const std::vector<std::string>& models, const Dataset& dataset,
-             const LeaveOut& leave_out, const IdentifyOptions& options, const FitStore* store) {
+             const LeaveOut& leave_out, const IdentifyOptions& options, FitStore* store) {
   return RankingRun(models, dataset, leave_out, options, store).run();
 }
 

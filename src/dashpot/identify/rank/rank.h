@@ -43,8 +43,7 @@ struct Ranking {
 /// comes from the other folds' errors; where there is one fold, from further fits, each with a part
 /// of its training held back.
 Ranking rank(const std::vector<std::string>& models, const Dataset& dataset,
-             const LeaveOut& leave_out, const IdentifyOptions& options,
-             const FitStore* store = nullptr);
+             const LeaveOut& leave_out, const IdentifyOptions& options, FitStore* store = nullptr);
 
 /// What was made from these records of the dataset, by this command.
 Provenance provenance_of(const Dataset& dataset, std::vector<std::string> records,

@@ -79,8 +79,8 @@ struct SearchReport {
   const Trial* smallest() const;
 };
 
-/// All that the results of a search depend on beyond design, share and fold: what its store must
-/// agree in. program: tells one build from the next. The number of trials is none of it: more of
+/// All that the results of a search depend on beyond design, share and fold: the basis of
+/// its store. program: tells one build from the next. The number of trials is none of it: more of
 /// them go on.
 NamedTexts describe_search(const Dataset& dataset, const LeaveOut& leave_out,
                            const SearchOptions& options, const std::string& program);

@@ -1,15 +1,17 @@
 #pragma once
+#include <cstddef>
 #include <cstdint>
-#include <filesystem>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "dashpot/suspension/sweep/distribution.h"
 #include "dashpot/suspension/vehicle.h"
 
 namespace dashpot {
+
+/// The name that stands first in the words of a part: "viscous" of "viscous,damping=1500".
+std::string first_word(const std::string& words);
 
 /// What varies, and what of a vehicle or its road it is.
 struct SweepInput {
@@ -58,14 +60,5 @@ struct SweepRequest {
   std::size_t grid_size() const;  ///< vehicles per sample
   std::size_t vehicles() const { return samples * grid_size(); }
 };
-
-/// YAML as docs/sweep.md describes; `folder`: where files that it names are looked for. Throws
-/// Error that names file and line.
-SweepRequest parse_sweep(std::string_view text, const std::string& source,
-                         const std::filesystem::path& folder = {});
-SweepRequest load_sweep(const std::filesystem::path& path);
-/// One that comes with Dashpot, of data/sweeps.
-SweepRequest named_sweep(const std::string& name);
-std::vector<std::string> sweep_names();
 
 }  // namespace dashpot

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "dashpot/suspension/sweep/inputs.h"
+#include "dashpot/suspension/sweep/draw.h"
 #include "dashpot/suspension/sweep/store.h"
 
 namespace dashpot {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "dashpot/base/monitor.h"
-#include "dashpot/suspension/sweep/inputs.h"
+#include "dashpot/suspension/sweep/draw.h"
 #include "dashpot/suspension/sweep/store.h"
 
 namespace dashpot {
