@@ -1,8 +1,6 @@
 #include "dashpot/base/value.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 #include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
@@ -71,21 +69,8 @@ Value Value::object(std::vector<Member> members) {
   return value;
 }
 
-Value Value::any_number(double number) {
-  if (std::isfinite(number)) return number;
-  return std::isnan(number) ? "nan" : number > 0 ? "inf" : "-inf";
-}
-
 bool Value::as_bool() const { return require_kind(*this, Kind::Bool), bool_; }
 double Value::as_number() const { return require_kind(*this, Kind::Number), number_; }
-double Value::as_any_number() const {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  if (kind() == Kind::Number) return number_;
-  if (string_ == "inf") return kInfinity;
-  if (string_ == "-inf") return -kInfinity;
-  if (string_ == "nan") return std::numeric_limits<double>::quiet_NaN();
-  return as_number();
-}
 const std::string& Value::as_string() const { return require_kind(*this, Kind::String), string_; }
 const std::vector<Value>& Value::items() const { return require_kind(*this, Kind::Array), items_; }
 const std::vector<Value::Member>& Value::members() const {

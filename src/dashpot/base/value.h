@@ -29,9 +29,6 @@ class Value {
   static Value array(const std::vector<double>& numbers);
   static Value array(const std::vector<std::string>& strings);
   static Value object(std::vector<Member> members = {});
-  /// A number that may be infinite or not a number. JSON lacks these: they become "inf", "-inf" and
-  /// "nan".
-  static Value any_number(double number);
 
   Kind kind() const { return kind_; }
   bool is_null() const { return kind_ == Kind::Null; }
@@ -39,7 +36,6 @@ class Value {
   /// Typed access; throws Error(where(), "is a string, not a number") when the kind is another.
   bool as_bool() const;
   double as_number() const;
-  double as_any_number() const;  ///< as any_number() writes it
   const std::string& as_string() const;
   const std::vector<Value>& items() const;
   const std::vector<Member>& members() const;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "dashpot/base/any_number.h"
 #include "dashpot/base/error.h"
 #include "dashpot/base/file.h"
 #include "dashpot/base/text.h"
@@ -12,17 +13,16 @@ namespace dashpot {
 namespace {
 
 Value to_json(const FittedParameter& p) {
-  return Value::array({p.name, p.unit, p.meaning, Value::any_number(p.value),
-                       Value::any_number(p.low), Value::any_number(p.high), p.fixed, p.at_bound,
-                       p.weak});
+  return Value::array({p.name, p.unit, p.meaning, any_number(p.value), any_number(p.low),
+                       any_number(p.high), p.fixed, p.at_bound, p.weak});
 }
 
 FittedParameter read_parameter(const Value& value) {
   const std::vector<Value>& v = value.items();
   if (v.size() != 9) throw Error(value.where(), "is not a fitted parameter");
-  return {v[0].as_string(),     v[1].as_string(),     v[2].as_string(),
-          v[3].as_any_number(), v[4].as_any_number(), v[5].as_any_number(),
-          v[6].as_bool(),       v[7].as_bool(),       v[8].as_bool()};
+  return {v[0].as_string(),      v[1].as_string(),      v[2].as_string(),
+          read_any_number(v[3]), read_any_number(v[4]), read_any_number(v[5]),
+          v[6].as_bool(),        v[7].as_bool(),        v[8].as_bool()};
 }
 
 /// The model as it stands in a file of its own, which needs the drive's unit and range.
@@ -49,7 +49,7 @@ std::string format_fit(const FitStore::Request& request, const FitReport& fit) {
                                     {"warnings", Value::array(fit.warnings)},
                                     {"iterations", fit.iterations},
                                     {"seconds", fit.seconds},
-                                    {"training_rmse", Value::any_number(fit.training_rmse)}}),
+                                    {"training_rmse", any_number(fit.training_rmse)}}),
                      false);
 }
 
@@ -83,7 +83,7 @@ FitReport parse_fit(const std::string& text, const std::string& key,
     fit.warnings.push_back(warning.as_string());
   fit.iterations = static_cast<int>(std::clamp(reader.number("iterations"), 0.0, 1e9));
   fit.seconds = reader.number("seconds");
-  fit.training_rmse = reader.required("training_rmse").as_any_number();
+  fit.training_rmse = read_any_number(reader.required("training_rmse"));
   reader.finish();
   return fit;
 }

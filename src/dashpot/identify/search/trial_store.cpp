@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "dashpot/base/any_number.h"
 #include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
 #include "dashpot/base/value.h"
@@ -29,9 +30,9 @@ std::string format_result(const FoldResult& result) {
                                {"parameters", result.parameters},
                                {"samples", result.sums.n},
                                {"diverged", result.diverged},
-                               {"worst_esr", Value::any_number(result.worst_esr)},
+                               {"worst_esr", any_number(result.worst_esr)},
                                {"seconds", result.seconds}});
-  for (const auto& [name, sum] : kSums) value.add(name, Value::any_number(result.sums.*sum));
+  for (const auto& [name, sum] : kSums) value.add(name, any_number(result.sums.*sum));
   return format_json(value, false);
 }
 
@@ -48,9 +49,9 @@ FoldResult parse_result(const std::string& text, const std::string& key) {
   result.parameters = read_count(reader, "parameters");
   result.sums.n = read_count(reader, "samples");
   result.diverged = read_count(reader, "diverged");
-  result.worst_esr = reader.required("worst_esr").as_any_number();
+  result.worst_esr = read_any_number(reader.required("worst_esr"));
   result.seconds = reader.number("seconds");
-  for (const auto& [name, sum] : kSums) result.sums.*sum = reader.required(name).as_any_number();
+  for (const auto& [name, sum] : kSums) result.sums.*sum = read_any_number(reader.required(name));
   reader.finish();
   return result;
 }
