@@ -38,10 +38,13 @@ DriveRange drive_range(const std::vector<Record>& records, std::string_view driv
       range.varies = true;
   }
   if (samples.empty()) return range;
+
   std::sort(samples.begin(), samples.end());
   std::sort(levels.begin(), levels.end());
   range.levels =
       static_cast<std::size_t>(std::unique(levels.begin(), levels.end()) - levels.begin());
+
+  // Half a per cent at either end is left out where the drive varies.
   const std::size_t margin = range.varies ? samples.size() / 200 : 0;
   range.low = samples[margin];
   range.high = samples[samples.size() - 1 - margin];

@@ -3,7 +3,7 @@
 
 namespace dashpot {
 
-/// What became of a model that was driven beyond its data.
+/// A model driven beyond its data: whether its force stayed finite, and how large it grew.
 struct StressRun {
   double seconds = 0;        ///< simulated; 0: not run
   bool finite = false;       ///< the force was a number all along

@@ -14,7 +14,7 @@ namespace {
 
 using Target = SweepInput::Target;
 
-/// Mixes numbers so that any change of any gives others (splitmix64's last step).
+/// A number that changes with each bit of both (splitmix64's last step).
 std::uint64_t mixed(std::uint64_t a, std::uint64_t b) {
   return Random(a ^ (b * 0x9e3779b97f4a7c15)).next();
 }
@@ -30,19 +30,21 @@ double unit_interval(std::uint64_t bits) {
   return (static_cast<double>(bits >> 12) + 0.5) * 0x1.0p-52;
 }
 
-/// Where every drawn input stands between 0 and 1. Each has random numbers of its own by its name,
-/// so that one more does not move the others.
+/// A number between 0 and 1 for each drawn input. Each input has random numbers of its own, by its
+/// name, so that one more does not move the others.
 std::vector<double> drawn_shares(const SweepRequest& request, std::size_t sample) {
   std::vector<const SweepInput*> drawn;
   for (const SweepInput& input : request.inputs)
     if (!input.on_grid) drawn.push_back(&input);
   if (drawn.empty()) return {};
+
   std::vector<double> shares;
   if (request.drawing == SweepRequest::Drawing::Plain) {
     for (const SweepInput* input : drawn)
       shares.push_back(unit_interval(mixed(mixed(request.seed, sample), number_of(input->name))));
     return shares;
   }
+
   // Sobol's points, moved as a whole by the seed (a digital shift keeps how evenly they lie).
   boost::random::sobol points(drawn.size());
   points.seed(sample);
@@ -55,11 +57,13 @@ std::string setting(const std::string& parameter, double value) {
   return parameter + '=' + format_exact(value);
 }
 
-/// A random road without a stated length is made as long as the ride, for the last axle too.
+/// Makes a random road without a stated length as long as the ride, for the last axle too.
 std::string with_length(const std::string& road, const SweepRequest& request) {
   constexpr double kLongestVehicle = 30;  // m
   const std::string name = first_word(road);
   if (!name.starts_with("iso8608") && name != "filtered_noise") return road;
+
+  // The speed that the words give last, else that of the road's table.
   const SequenceInfo& info = find_ground_sequence(name).info;
   double speed = info.params[row_named(info.params, "speed", name, request.source)].value;
   for (const std::string& part : split(road, ',')) {
@@ -79,6 +83,8 @@ SweepDraw draw_vehicle(const SweepRequest& request, std::size_t vehicle) {
   SweepDraw draw{.vehicle = vehicle};
   draw.road_seed =
       request.road_seed.value_or(mixed(mixed(request.seed, sample), number_of("road")) >> 32);
+
+  // Inputs on the grid take the values of this place, the first running fastest; others are drawn.
   const std::vector<double> shares = drawn_shares(request, sample);
   auto share = shares.begin();
   for (const SweepInput& input : request.inputs) {
@@ -100,14 +106,16 @@ VehicleWords vehicle_words(const SweepRequest& request, std::size_t controller,
   VehicleWords words = request.controllers[controller].words;
   for (std::size_t k = 0; k < request.inputs.size(); ++k) {
     const SweepInput& input = request.inputs[k];
+
+    // Settings are appended to the words that they belong to.
     const std::string now = setting(input.parameter, draw.values[k]);
     switch (input.target) {
       case Target::Plant:
         words.values.push_back(now);
         break;
-      case Target::Damper:  // of those that can be told; the last setting of a name counts
+      case Target::Damper:  // the last setting of a name counts
         for (std::string& damper : words.dampers)
-          if (input.is_told_to(damper)) damper += ',' + now;
+          if (input.applies_to(damper)) damper += ',' + now;
         break;
       case Target::Controller:
         if (input.controller == controller) words.controller += ',' + now;
@@ -122,6 +130,7 @@ VehicleWords vehicle_words(const SweepRequest& request, std::size_t controller,
         break;  // of the road
     }
   }
+
   words.sensors.seed = draw.road_seed;
   words.where = request.source + ", vehicle " + std::to_string(draw.vehicle);
   return words;
@@ -143,7 +152,7 @@ bool varies_dampers(const SweepRequest& request, std::size_t controller) {
            (input.target == Target::Damper &&
             std::ranges::any_of(
                 request.controllers[controller].words.dampers,
-                [&](const std::string& damper) { return input.is_told_to(damper); }));
+                [&](const std::string& damper) { return input.applies_to(damper); }));
   });
 }
 

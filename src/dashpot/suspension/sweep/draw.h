@@ -8,18 +8,19 @@
 
 namespace dashpot {
 
-/// One vehicle of a sweep: values of its inputs, in their order, and the seed of its road.
+/// One vehicle of a sweep: the values of the request's inputs, in their order, and the seed of its
+/// road.
 struct SweepDraw {
   std::size_t vehicle = 0;
   std::vector<double> values;
   std::uint64_t road_seed = 1;
 };
 
-/// The vehicles of a request. Vehicle k depends on the request's seed and on k alone, so that more
-/// samples go on where fewer end; a sample's drawn values are the same at every place of the grid.
+/// Draws a vehicle. It depends on the request's seed and on its number alone, so that more samples
+/// go on where fewer end. A sample's drawn values are the same at every place of the grid.
 SweepDraw draw_vehicle(const SweepRequest& request, std::size_t vehicle);
 
-/// The draw in words, for one of the controllers, and its road.
+/// The drawn vehicle under one of the controllers, and its road, in words.
 VehicleWords vehicle_words(const SweepRequest& request, std::size_t controller,
                            const SweepDraw& draw);
 std::string road_words(const SweepRequest& request, const SweepDraw& draw);

@@ -27,7 +27,7 @@ std::vector<ParameterRow> law_rows(const Law& law) {
   return rows;
 }
 
-/// What a damper's text can be told.
+/// The parameters of the damper of these words.
 std::vector<ParameterRow> damper_rows(const std::string& text) {
   const std::string name = first_word(text);
   std::vector<ParameterRow> rows;
@@ -37,11 +37,13 @@ std::vector<ParameterRow> damper_rows(const std::string& text) {
     rows = simple->parameters;
   else if (std::ranges::find(sets, name) != sets.end())
     rows = law_rows(load_parameter_set(name).model.law());
+
+  // Each damper can be mounted in its own way.
   rows.insert(rows.end(), mounting_settings().begin(), mounting_settings().end());
   return rows;
 }
 
-/// The row of that parameter, and which dampers can be told it.
+/// The row of that parameter. Notes in `input` which dampers have it.
 ParameterRow damper_row(SweepInput& input, const SweepRequest& request, const std::string& where) {
   const std::string& parameter = input.parameter;
   std::vector<std::string> known;
@@ -55,9 +57,11 @@ ParameterRow damper_row(SweepInput& input, const SweepRequest& request, const st
         input.dampers.push_back(first_word(text));
       }
   if (!input.dampers.empty()) return found;
+
+  // No damper has it: say which parameters there are.
   if (known.empty())
     throw Error(where,
-                "the dampers are those of the plant, which cannot be told '" + parameter + "'",
+                "the dampers are those of the plant, which have no parameter '" + parameter + "'",
                 "name dampers: \"ideal,damping_min=300,damping_max=3900\"");
   throw Error(where, "no damper here has a parameter '" + parameter + "'",
               suggest("damper." + parameter, known));
@@ -87,7 +91,7 @@ ParameterRow controller_row(const SweepController& controller, const std::string
   return law.parameters[row_named(law.parameters, parameter, law.name, where)];
 }
 
-/// "B" as its place among the classes' letters.
+/// Classes by their letters; the value of "B" is its place in the list.
 SweepInput road_classes(SweepInput input, const Value& value) {
   input.target = Target::RoadClass;
   input.unit = "1";
@@ -104,7 +108,7 @@ SweepInput road_classes(SweepInput input, const Value& value) {
   return input;
 }
 
-/// What the name means, and the row of its table.
+/// Finds what the input's name means. Returns the row of its table.
 ParameterRow find_target(SweepInput& input, const SweepRequest& request, const std::string& where) {
   const std::size_t dot = input.name.find('.');
   const std::string owner = input.name.substr(0, dot);
@@ -113,6 +117,8 @@ ParameterRow find_target(SweepInput& input, const SweepRequest& request, const s
     input.target = target;
     return row;
   };
+
+  // Names of their own, then parameters of the plant, of dampers and of the road.
   if (input.name == "current") return is(Target::Current, kCurrentRow);
   if (input.name == "lag_rate") return is(Target::LagRate, kLagRow);
   if (input.name == "road.seed") return is(Target::RoadSeed, kSeedRow);
@@ -125,6 +131,8 @@ ParameterRow find_target(SweepInput& input, const SweepRequest& request, const s
     const SequenceInfo& info = find_ground_sequence(first_word(request.road), where).info;
     return is(Target::Road, info.params[row_named(info.params, input.parameter, info.name, where)]);
   }
+
+  // A controller's.
   const auto named = std::ranges::find(request.controllers, owner, &SweepController::name);
   if (named == request.controllers.end()) {
     std::vector<std::string> known{"road", "damper"};

@@ -18,7 +18,7 @@ std::string SweepInput::text_of(double value) const {
   return words.empty() ? format_number(value) : words[static_cast<std::size_t>(value)];
 }
 
-bool SweepInput::is_told_to(const std::string& damper) const {
+bool SweepInput::applies_to(const std::string& damper) const {
   return std::ranges::find(dampers, first_word(damper)) != dampers.end();
 }
 

@@ -20,7 +20,7 @@ void read_into(ObjectReader& reader, const ParameterRow& row, double& target) {
     target = checked(row, read_quantity(*value, row.unit), value->where());
 }
 
-/// Numbers of one kind of count or seed.
+/// A count or a seed, which are whole numbers.
 template <class Count>
 void read_count(ObjectReader& reader, const ParameterRow& row, Count& target) {
   double number = static_cast<double>(target);
@@ -41,7 +41,7 @@ constexpr ParameterRow kCurrentMax{"current_max", "A", 0, 0, 100, ""};
 constexpr ParameterRow kLagRate{"lag_rate", "1/s", 0, 0, 1e6, ""};
 constexpr ParameterRow kSampleTime{"sample_time", "s", 1e-3, 1e-5, 1, ""};
 
-/// A name, or a file: one beside the request where there is such a one.
+/// A name as it is, or a file: the one beside the request, where it is there.
 std::string found_file(const std::string& text, const fs::path& folder) {
   const std::string name = text.substr(0, text.find(','));
   if (name.find_first_of("./") == std::string::npos || fs::path(name).is_absolute()) return text;
@@ -58,6 +58,8 @@ SensorOptions read_sensors(const Value& value) {
     sensors.in_car = value.as_string() == "in_car";
     return sensors;
   }
+
+  // Each flaw by itself.
   ObjectReader reader(value, "sensors");
   sensors.in_car = reader.boolean("in_car", true);
   read_into(reader, {"acceleration_noise", "m/s^2", 0, 0, 100}, sensors.acceleration_noise);
@@ -72,7 +74,7 @@ SensorOptions read_sensors(const Value& value) {
   return sensors;
 }
 
-/// What stands over all controllers as well as under one of them.
+/// The keys that may stand at the top, for all controllers, or under one of them.
 void read_words(ObjectReader& reader, VehicleWords& words, const fs::path& folder) {
   if (const Value* dampers = reader.optional("dampers")) {
     words.dampers.clear();
@@ -82,6 +84,8 @@ void read_words(ObjectReader& reader, VehicleWords& words, const fs::path& folde
       for (const Value& item : dampers->items())
         words.dampers.push_back(found_file(item.as_string(), folder));
   }
+
+  // What commands the dampers.
   words.controller = reader.string("controller", words.controller);
   words.inverse = found_file(reader.string("inverse", words.inverse), folder);
   words.force_loop = reader.string("force_loop", words.force_loop);
@@ -107,6 +111,8 @@ std::vector<SweepController> read_controllers(const Value& value, const VehicleW
         name.find_first_of(".,\"") != std::string::npos)
       throw Error(member.where(), "'" + name + "' cannot be the name of a controller",
                   "a word of its own, as passive");
+
+    // Whatever it does not state is that of all.
     SweepController controller{name, common};
     ObjectReader reader(member, "a controller");
     read_words(reader, controller.words, folder);
@@ -119,7 +125,7 @@ std::vector<SweepController> read_controllers(const Value& value, const VehicleW
   return controllers;
 }
 
-/// The one that is named; else "passive"; else the first.
+/// The controller that is named, else "passive", else the first.
 std::size_t find_baseline(const std::vector<SweepController>& controllers, const Value* value) {
   const std::string name = value ? value->as_string() : "passive";
   const auto found = std::ranges::find(controllers, name, &SweepController::name);
@@ -173,6 +179,8 @@ SweepRequest parse_sweep(std::string_view text, const std::string& source, const
   SweepRequest request{.source = source};
   request.name = reader.string("name", fs::path(source).stem().string());
   request.note = reader.string("note", "");
+
+  // What all controllers have in common, then each of them.
   VehicleWords common;
   common.where = source;
   common.plant = found_file(reader.string("plant"), folder);
@@ -182,12 +190,16 @@ SweepRequest parse_sweep(std::string_view text, const std::string& source, const
   request.controllers = controllers ? read_controllers(*controllers, common, folder)
                                     : std::vector<SweepController>{{"vehicle", common}};
   request.baseline = find_baseline(request.controllers, reader.optional("baseline"));
+
+  // The road, how vehicles are drawn and how they ride.
   request.road = found_file(reader.string("road"), folder);
   read_drawing(reader, request);
   read_into(reader, kDuration, request.duration);
   read_into(reader, kDiscard, request.discard);
   read_into(reader, kOutside, request.outside_limit);
   read_into(reader, kTolerance, request.relative_tolerance);
+
+  // What varies: names of it refer to all of the above.
   read_inputs(reader.optional("vary"), false, request);
   read_inputs(reader.optional("grid"), true, request);
   reader.finish();

@@ -8,12 +8,12 @@
 
 namespace dashpot {
 
-/// YAML as docs/sweep.md describes; `folder`: where files that it names are looked for. Throws
-/// Error that names file and line.
+/// Reads a request in YAML, as docs/sweep.md describes it. source: the file's name, for messages.
+/// folder: where the files that it names are looked for. Throws Error that names file and line.
 SweepRequest parse_sweep(std::string_view text, const std::string& source,
                          const std::filesystem::path& folder = {});
 SweepRequest load_sweep(const std::filesystem::path& path);
-/// One that comes with Dashpot, of data/sweeps.
+/// A request that comes with Dashpot, in data/sweeps.
 SweepRequest named_sweep(const std::string& name);
 std::vector<std::string> sweep_names();
 
