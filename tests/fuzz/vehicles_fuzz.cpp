@@ -1,4 +1,5 @@
-#include "dashpot/suspension/control/controller.h"
+#include "dashpot/controller.h"
+#include "dashpot/plant.h"
 #include "dashpot/suspension/damper_words.h"
 #include "dashpot/suspension/ground/earthquake.h"
 #include "dashpot/suspension/ground/ground_sequences.h"

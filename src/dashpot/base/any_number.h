@@ -1,5 +1,5 @@
 #pragma once
-#include "dashpot/base/value.h"
+#include "dashpot/value.h"
 
 namespace dashpot {
 

@@ -1,7 +1,8 @@
 #pragma once
 #include <string>
 
-#include "dashpot/identify/rank/rank.h"
+#include "dashpot/identify.h"
+#include "dashpot/rank.h"
 
 namespace dashpot {
 

@@ -1,8 +1,8 @@
 #include <set>
 
 #include "dashpot/damper/kinds/law/law_model.h"
-#include "dashpot/damper/model_file.h"
 #include "dashpot/damper/registry.h"
+#include "dashpot/model_file.h"
 #include "dashpot/suspension/sweep/draw.h"
 #include "dashpot/suspension/sweep/request_file.h"
 #include "support.h"

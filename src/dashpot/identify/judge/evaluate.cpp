@@ -1,19 +1,27 @@
-#include "dashpot/identify/judge/evaluate.h"
+#include "dashpot/evaluate.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/parallel.h"
 #include "dashpot/base/text.h"
+#include "dashpot/error.h"
 #include "dashpot/identify/judge/one_step.h"
 
 namespace dashpot {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+const std::vector<double>& drive_samples(const Record& record, DriveUnit drive_unit) {
+  const std::string& name = drive_channel(drive_unit);
+  if (const Channel* drive = record.find(name)) return drive->samples;
+  throw Error(record.name, "has no known " + name,
+              "give it as a column, in the file name (run_0.5" + to_string(drive_unit) +
+                  ".csv), in manifest.csv or in a dataset file");
+}
 
 const double* known_offset(const EvaluateOptions& options, const std::string& record) {
   for (const auto& [name, offset] : options.known_offsets)
@@ -59,8 +67,8 @@ double energy_error_percent(const RecordResult& r) {
   return 100 * (model - truth) / std::abs(truth);
 }
 
-RecordResult evaluate_record(const DamperModel& model, const Record& record,
-                             std::string_view drive_unit, const EvaluateOptions& options) {
+RecordResult evaluate_record(const DamperModel& model, const Record& record, DriveUnit drive_unit,
+                             const EvaluateOptions& options) {
   RecordResult result;
   result.record = record.name;
   result.condition = record.condition;
@@ -239,6 +247,54 @@ const RecordResult* Evaluation::worst_covered() const {
   return worst;
 }
 
+std::vector<DamperInput> damper_inputs(const Record& record, DriveUnit drive_unit) {
+  const std::vector<double>& velocity = record.channel("velocity").samples;
+  const std::vector<double>& drive = drive_samples(record, drive_unit);
+  const Channel* displacement = record.find("displacement");
+  std::vector<DamperInput> inputs(record.size());
+  for (std::size_t k = 0; k < inputs.size(); ++k)
+    inputs[k] = {displacement ? displacement->samples[k] : 0.0, velocity[k], drive[k]};
+  return inputs;
+}
+
+DriveRange drive_range(const std::vector<Record>& records, DriveUnit drive_unit) {
+  DriveRange range;
+  std::vector<double> samples, levels;
+  for (const Record& record : records) {
+    const std::vector<double>& drive = drive_samples(record, drive_unit);
+    samples.insert(samples.end(), drive.begin(), drive.end());
+    if (record.drive_level)
+      levels.push_back(*record.drive_level);
+    else
+      range.varies = true;
+  }
+  if (samples.empty()) return range;
+
+  std::sort(samples.begin(), samples.end());
+  std::sort(levels.begin(), levels.end());
+  range.levels =
+      static_cast<std::size_t>(std::unique(levels.begin(), levels.end()) - levels.begin());
+
+  // Half a per cent at either end is left out where the drive varies.
+  const std::size_t margin = range.varies ? samples.size() / 200 : 0;
+  range.low = samples[margin];
+  range.high = samples[samples.size() - 1 - margin];
+  return range;
+}
+
+Domain domain_of(const std::vector<Record>& records, DriveUnit drive_unit) {
+  const DriveRange drive = drive_range(records, drive_unit);
+  Domain domain{INFINITY, -INFINITY, INFINITY, -INFINITY, drive.low, drive.high};
+  for (const Record& record : records)
+    for (const DamperInput& input : damper_inputs(record, drive_unit)) {
+      domain.displacement_min = std::min(domain.displacement_min, input.displacement);
+      domain.displacement_max = std::max(domain.displacement_max, input.displacement);
+      domain.velocity_min = std::min(domain.velocity_min, input.velocity);
+      domain.velocity_max = std::max(domain.velocity_max, input.velocity);
+    }
+  return domain;
+}
+
 FreeRun free_run(const DamperModel& model, const std::vector<DamperInput>& inputs,
                  const std::vector<double>& time) {
   FreeRun run;
@@ -263,7 +319,7 @@ FreeRun free_run(const DamperModel& model, const std::vector<DamperInput>& input
 }
 
 Evaluation evaluate(const DamperModel& model, const std::vector<Record>& records,
-                    std::string_view drive_unit, const EvaluateOptions& options) {
+                    DriveUnit drive_unit, const EvaluateOptions& options) {
   for (const Record& record : records)
     if (model.needs_displacement() && !record.find("displacement"))
       throw Error(record.name, "has no displacement, which " + model.name() + " needs",

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "dashpot/base/store.h"
-#include "dashpot/identify/identify.h"
+#include "dashpot/identify.h"
 
 // Everything that a fit depends on, as text: a kept fit is found again by it.
 namespace dashpot {

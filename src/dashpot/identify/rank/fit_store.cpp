@@ -3,11 +3,11 @@
 #include <algorithm>
 
 #include "dashpot/base/any_number.h"
-#include "dashpot/base/error.h"
 #include "dashpot/base/file.h"
 #include "dashpot/base/text.h"
-#include "dashpot/damper/model_file.h"
+#include "dashpot/error.h"
 #include "dashpot/identify/rank/fit_identity.h"
+#include "dashpot/model_file.h"
 
 namespace dashpot {
 namespace {
@@ -95,7 +95,7 @@ FitStore::FitStore(const std::filesystem::path& path, std::string program)
 
 std::string FitStore::key_of(const Request& request) const {
   std::vector<std::string> parts{program_, request.model, fingerprint(request.training),
-                                 request.drive_unit};
+                                 to_string(request.drive_unit)};
   for (const auto& [name, value] : describe_options(request.options)) parts.push_back(value);
   return request.model + ' ' + sha256(join(parts, "\n"));
 }

@@ -4,7 +4,8 @@
 #include <string>
 
 #include "dashpot/base/store.h"
-#include "dashpot/identify/identify.h"
+#include "dashpot/drive.h"
+#include "dashpot/identify.h"
 
 namespace dashpot {
 
@@ -23,7 +24,7 @@ class FitStore {
   struct Request {
     const std::string& model;
     const std::vector<Record>& training;
-    const std::string& drive_unit;
+    DriveUnit drive_unit;
     const IdentifyOptions& options;
   };
   /// Nothing when there is no such fit, or when what was kept cannot be read: it is made again.

@@ -4,9 +4,9 @@
 #include <utility>
 
 #include "dashpot/base/any_number.h"
-#include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
-#include "dashpot/base/value.h"
+#include "dashpot/error.h"
+#include "dashpot/value.h"
 
 namespace dashpot {
 namespace {

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
 #include "dashpot/damper/parameter_set.h"
+#include "dashpot/error.h"
 #include "dashpot/suspension/damper_words.h"
 #include "dashpot/suspension/ground/ground_sequences.h"
 
