@@ -57,9 +57,9 @@ std::string program_id() { return DASHPOT_VERSION " " + sha256_of_file("/proc/se
 fs::path kept_file(const fs::path& folder, const std::string& what, Console& console) {
   const fs::path file = folder / (what + ".sqlite"), older = folder / "fits";
   if (fs::is_directory(older) && !fs::exists(file))
-    console.note(older.string() +
-                 " is what an older version of Dashpot kept; it stays as it is, and " + what +
-                 " are made again and kept in " + file.string());
+    console.note(older.string() + " holds " + what +
+                 " of an older version of Dashpot; they stay as they are and are not used. New " +
+                 what + " are kept in " + file.string());
   return file;
 }
 
