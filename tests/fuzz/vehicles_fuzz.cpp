@@ -6,8 +6,9 @@
 #include "dashpot/suspension/ground/road_profile.h"
 #include "dashpot/suspension/passive_curve.h"
 #include "dashpot/suspension/plants/linear.h"
-#include "dashpot/suspension/sweep/inputs.h"
-#include "dashpot/suspension/sweep/request.h"
+#include "dashpot/suspension/plants/plant_set.h"
+#include "dashpot/suspension/sweep/draw.h"
+#include "dashpot/suspension/sweep/request_file.h"
 #include "fuzz.h"
 
 // Files and words of vehicles, roads and controllers.
