@@ -1,8 +1,9 @@
 #pragma once
+#include <functional>
 #include <string>
 #include <vector>
 
-#include "dashpot/export/exporter.h"
+#include "dashpot/export/exported_model.h"
 
 namespace dashpot {
 
@@ -44,6 +45,9 @@ struct CBlock {
   std::vector<Sample> samples;  ///< a run from rest
   std::string version;
 };
+
+/// Makes an inverse or a controller, for options of an exporter's own.
+using CBlockMaker = std::function<CBlock(const ExportOptions&)>;
 
 /// Statements that write the fields of `input`, a damper_input*, from `row`, the inputs port by
 /// port.

@@ -95,15 +95,14 @@ const MountedDamper& damper_of(const Vehicle& vehicle) {
 }
 
 /// From a demand to a command, with where its memories are.
-std::string command_code(const MountedDamper& damper, const CControlLaw& law, const Layout& at,
-                         CPrecision precision) {
+std::string command_code(const MountedDamper& damper, const CControlLaw& law, const Layout& at) {
   const bool only_current = !law.gives_damping && !law.gives_force, loops = damper.loop.is_closed();
   std::string texts, otherwise;
   if (!only_current && !damper.inverse) {
     texts = "#include \"straight_current.h\"\n";
     otherwise = filled(kStraight, {{"velocity", law.gives_force ? "s->deflection_velocity" : "0"}});
   } else if (!only_current) {
-    texts = kInverseTypes + c_inverse(*damper.inverse, precision).code +
+    texts = kInverseTypes + c_inverse(*damper.inverse).code +
             "#include \"demanded_force.h\"\n";
     const ForceLoop& loop = damper.loop;
     if (loops)
@@ -121,7 +120,7 @@ std::string command_code(const MountedDamper& damper, const CControlLaw& law, co
                                ", " + c_number(damper.driver.current_max) + ", &state[" +
                                number(at.loop) + "]);\n"
                          : ""},
-         {"measured", c_inverse(*damper.inverse, precision).needs_force ? "s->force / ratio" : "0"},
+         {"measured", c_inverse(*damper.inverse).needs_force ? "s->force / ratio" : "0"},
          {"inverse", number(at.inverse)}});
   }
   const bool sees = otherwise.find("s->") != std::string::npos,
@@ -222,13 +221,13 @@ std::string rest_function(const MountedDamper& damper, const Layout& at, bool in
 
 }  // namespace
 
-CControlPath c_control_path(const Vehicle& vehicle, CPrecision precision) {
+CControlPath c_control_path(const Vehicle& vehicle) {
   const MountedDamper& damper = damper_of(vehicle);
   const ControlDescription description = vehicle.controller->description();
   CControlLaw law = c_control_law(description, vehicle.dampers.size(), 0);
   const bool inverts = damper.inverse && (law.gives_damping || law.gives_force);
   std::set<std::string> used =
-      signals_in(with_texts(law.code + command_code(damper, law, {}, precision)));
+      signals_in(with_texts(law.code + command_code(damper, law, {})));
   if (used.empty()) used.insert("deflection_velocity");  // C has no empty structs
 
   const bool in_car = vehicle.sensors.in_car;
@@ -246,7 +245,7 @@ CControlPath c_control_path(const Vehicle& vehicle, CPrecision precision) {
       filled(kTypes, {{"limits", c_numbers(std::vector{limits.damping_min, limits.damping_max,
                                                        limits.current_min, limits.current_max})}});
   return {types + (in_car ? filters_function(vehicle, used, at) : kMeasured) + law.code +
-              command_code(damper, law, at, precision) + rest_function(damper, at, inverts) +
+              command_code(damper, law, at) + rest_function(damper, at, inverts) +
               demand_function(law),
           signals_named(in_car ? sensors_for(used) : used),
           std::max<std::size_t>(1, at.end),

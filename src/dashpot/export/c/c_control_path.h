@@ -17,6 +17,6 @@ struct CControlPath {
   bool has_slopes = false;     ///< makes velocities by differences
 };
 /// Throws Error where it cannot become C.
-CControlPath c_control_path(const Vehicle& vehicle, CPrecision precision);
+CControlPath c_control_path(const Vehicle& vehicle);
 
 }  // namespace dashpot

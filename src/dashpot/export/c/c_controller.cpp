@@ -158,7 +158,7 @@ std::vector<CPort> ports_of(const Vehicle& vehicle, const CControlPath& path) {
 
 CBlock c_controller_block(const Vehicle& vehicle, const ExportOptions& options) {
   if (!vehicle.controller) throw Error("export", "the vehicle has no controller");
-  const CControlPath path = c_control_path(vehicle, options.c_precision());
+  const CControlPath path = c_control_path(vehicle);
   auto values = facts(vehicle, path, options);
   const std::vector<std::string> about = split(filled(kAbout, values), '\n');
   values.emplace_back("about", join(about, "\n * "));

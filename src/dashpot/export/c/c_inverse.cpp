@@ -134,7 +134,7 @@ CBlock c_inverse_block(const ExportedInverse& inverse, const ExportOptions& opti
       .about = about,
       .precision = options.c_precision(),
       .header = filled(kHeader + std::string(c_text("inverse_api.h")) + kCHeaderEnd, values),
-      .source = kBegin + with_texts(c_inverse(inverse.model, options.c_precision()).code) +
+      .source = kBegin + with_texts(c_inverse(inverse.model).code) +
                 std::string(c_text("inverse_api.c")),
       .step = "commands[0] = damper_step(&model, &input);",
       .inputs = {{"wanted", "N", "force wanted, positive when it resists extension", "wanted"},

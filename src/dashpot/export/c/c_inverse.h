@@ -15,9 +15,8 @@ struct CInverse {
   std::size_t state_size = 0;
   bool needs_force = false;  ///< looks at the measured one
 };
-/// Throws Error for one of which no C code is known. The precision that it will get decides where
-/// searches stop.
-CInverse c_inverse(const InverseModel& inverse, CPrecision precision);
+/// Throws Error for one of which no C code is known.
+CInverse c_inverse(const InverseModel& inverse);
 /// What runs a model beside the damper; null where nothing does.
 const Observer* observer_of(const InverseModel& inverse);
 

@@ -77,9 +77,9 @@ std::string observer_code(const Observer& observer) {
                  {"horizon", std::to_string(observer.steps())}});
 }
 
-CInverse polynomial_code(const PolynomialInverse& model, bool single) {
-  return {observer_code(model.observer()) + filled(R"(#define ROOT_NARROW @narrow@
-#define ROOT_TOLERANCE @tolerance@
+CInverse polynomial_code(const PolynomialInverse& model) {
+  return {observer_code(model.observer()) + filled(R"(#define ROOT_NARROW 1e-12 /* single precision: 2e-7 */
+#define ROOT_TOLERANCE 1e-15 /* single precision: 2e-7 */
 
 typedef struct PolynomialError {
   double c[4], wanted;
@@ -100,18 +100,16 @@ static inline double inverse_wanted(const InverseModel* m, const InverseInput* i
 }
 
 )",
-                                                   {{"narrow", single ? "2e-7" : "1e-12"},
-                                                    {"tolerance", single ? "2e-7" : "1e-15"},
-                                                    {"degree", std::to_string(model.degree())},
+                                                   {{"degree", std::to_string(model.degree())},
                                                     {"least", c_number(model.limits().current_min)},
                                                     {"most", c_number(model.limits().current_max)},
                                                     {"negligible", c_number(model.negligible())}}),
           model.state_size()};
 }
 
-CInverse search_code(const NumericInverse& model, bool single) {
+CInverse search_code(const NumericInverse& model) {
   return {observer_code(model.observer()) +
-              filled(R"(#define ROOT_NARROW @narrow@
+              filled(R"(#define ROOT_NARROW 1e-12 /* single precision: 2e-7 */
 
 typedef struct SearchError {
   const Observer* observer;
@@ -139,8 +137,7 @@ static inline double inverse_wanted(const InverseModel* m, const InverseInput* i
 }
 
 )",
-                     {{"narrow", single ? "2e-7" : "1e-12"},
-                      {"least", c_number(model.limits().current_min)},
+                     {{"least", c_number(model.limits().current_min)},
                       {"most", c_number(model.limits().current_max)},
                       {"negligible", c_number(model.negligible())},
                       {"own", std::to_string(model.observer().state_size())},
@@ -148,16 +145,15 @@ static inline double inverse_wanted(const InverseModel* m, const InverseInput* i
           model.state_size()};
 }
 
-CInverse code_of(const InverseModel& inverse, CPrecision precision) {
-  const bool single = precision == CPrecision::Single;
+CInverse code_of(const InverseModel& inverse) {
   if (const auto* network = dynamic_cast<const HistoryNetwork*>(&inverse))
     return network_code(*network);
   if (const auto* rule = dynamic_cast<const SwitchingInverse*>(&inverse))
     return switching_code(*rule);
   if (const auto* closed = dynamic_cast<const PolynomialInverse*>(&inverse))
-    return polynomial_code(*closed, single);
+    return polynomial_code(*closed);
   if (const auto* search = dynamic_cast<const NumericInverse*>(&inverse))
-    return search_code(*search, single);
+    return search_code(*search);
   throw Error(inverse.name(), "has no C code");
 }
 
@@ -171,8 +167,8 @@ const Observer* observer_of(const InverseModel& inverse) {
   return nullptr;
 }
 
-CInverse c_inverse(const InverseModel& inverse, CPrecision precision) {
-  CInverse code = code_of(inverse, precision);
+CInverse c_inverse(const InverseModel& inverse) {
+  CInverse code = code_of(inverse);
   code.code = limits_of(inverse) + code.code + "#include \"inverse_command.h\"\n";
   return code;
 }

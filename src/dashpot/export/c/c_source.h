@@ -1,6 +1,6 @@
 #pragma once
 #include "dashpot/export/c/c_model.h"
-#include "dashpot/export/exporter.h"
+#include "dashpot/export/exported_model.h"
 
 namespace dashpot {
 
@@ -30,6 +30,13 @@ struct CSource {
   double sample_time = 0;           ///< s, of <prefix>_step
   double grid = 0;                  ///< s: the model remembers at such steps; 0: at any
 };
+
+/// Pairs of a place's name and what stands there, for filled().
+using Facts = std::vector<std::pair<std::string, std::string>>;
+/// The facts that every text made of a model holds: x_min, x_max, v_min, v_max, i_min, i_max (the
+/// domain), sample_time (s) and version.
+Facts common_facts(const ExportedModel& model, const ExportOptions& options,
+                   const CSource& source);
 
 /// As the registry has it; a design of the user's has its name alone.
 std::string title_of(const DamperModel& model);

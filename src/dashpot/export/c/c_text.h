@@ -17,16 +17,6 @@ std::string_view c_text(std::string_view name);
 /// without its guard and what it includes in <>.
 std::string with_texts(std::string_view code);
 
-enum class CPrecision { Double, Single };
-
-/// C code in double precision as code of this precision, comments untouched: in single precision
-/// `double` becomes `float`, `exp` becomes `expf`, 0.5 becomes 0.5F.
-std::string in_precision(std::string_view code, CPrecision precision);
-/// Every name that begins with "damper_" or "DAMPER_" with this prefix in its place.
-std::string with_prefix(std::string_view code, std::string_view prefix);
-
-/// Throws Error where an interface with this prefix would have names that the code has inside.
-void require_free_names(const std::string& prefix, const std::string& code);
 /// From which rules of MISRA C:2012 exported C deviates, for a comment of its header.
 std::string_view c_deviations();
 /// Text that ends no comment.

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "dashpot/export/c/c_model.h"
-#include "dashpot/export/c_subset/c_trace.h"
+#include "dashpot/export/onnx/c_trace.h"
 #include "dashpot/export/onnx/live_nodes.h"
 
 namespace dashpot::trace {

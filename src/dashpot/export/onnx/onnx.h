@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "dashpot/export/exporter.h"
+#include "dashpot/export/c/c_block.h"
 
 namespace dashpot {
 

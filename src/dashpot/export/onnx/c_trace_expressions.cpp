@@ -1,6 +1,6 @@
 #include "dashpot/base/error.h"
-#include "dashpot/export/c_subset/c_functions.h"
-#include "dashpot/export/c_subset/c_trace.h"
+#include "dashpot/export/onnx/c_functions.h"
+#include "dashpot/export/onnx/c_trace.h"
 
 namespace dashpot::trace {
 

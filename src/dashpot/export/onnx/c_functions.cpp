@@ -1,4 +1,4 @@
-#include "dashpot/export/c_subset/c_functions.h"
+#include "dashpot/export/onnx/c_functions.h"
 
 #include <algorithm>
 #include <array>

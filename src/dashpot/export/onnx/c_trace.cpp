@@ -1,4 +1,4 @@
-#include "dashpot/export/c_subset/c_trace.h"
+#include "dashpot/export/onnx/c_trace.h"
 
 #include "dashpot/base/error.h"
 

@@ -1,7 +1,7 @@
 #include <algorithm>
 
 #include "dashpot/base/error.h"
-#include "dashpot/export/c_subset/c_trace.h"
+#include "dashpot/export/onnx/c_trace.h"
 
 namespace dashpot::trace {
 namespace {
