@@ -5,6 +5,7 @@
 #include "dashpot/base/error.h"
 #include "dashpot/export/c/c_inverse.h"
 #include "dashpot/export/c/c_model.h"
+#include "dashpot/export/c/c_text.h"
 
 namespace dashpot {
 namespace {
@@ -102,8 +103,7 @@ std::string command_code(const MountedDamper& damper, const CControlLaw& law, co
     texts = "#include \"straight_current.h\"\n";
     otherwise = filled(kStraight, {{"velocity", law.gives_force ? "s->deflection_velocity" : "0"}});
   } else if (!only_current) {
-    texts = kInverseTypes + c_inverse(*damper.inverse).code +
-            "#include \"demanded_force.h\"\n";
+    texts = kInverseTypes + c_inverse(*damper.inverse).code + "#include \"demanded_force.h\"\n";
     const ForceLoop& loop = damper.loop;
     if (loops)
       texts += filled(
@@ -226,8 +226,7 @@ CControlPath c_control_path(const Vehicle& vehicle) {
   const ControlDescription description = vehicle.controller->description();
   CControlLaw law = c_control_law(description, vehicle.dampers.size(), 0);
   const bool inverts = damper.inverse && (law.gives_damping || law.gives_force);
-  std::set<std::string> used =
-      signals_in(with_texts(law.code + command_code(damper, law, {})));
+  std::set<std::string> used = signals_in(with_texts(law.code + command_code(damper, law, {})));
   if (used.empty()) used.insert("deflection_velocity");  // C has no empty structs
 
   const bool in_car = vehicle.sensors.in_car;

@@ -2,7 +2,6 @@
 #include <set>
 
 #include "dashpot/export/c/c_control_law.h"
-#include "dashpot/export/c/c_text.h"
 #include "dashpot/suspension/vehicle.h"
 
 namespace dashpot {

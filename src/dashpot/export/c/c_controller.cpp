@@ -7,6 +7,7 @@
 #include "dashpot/export/c/c_control_path.h"
 #include "dashpot/export/c/c_controller_run.h"
 #include "dashpot/export/c/c_model.h"
+#include "dashpot/export/c/c_text.h"
 
 namespace dashpot {
 namespace {

@@ -6,6 +6,7 @@
 #include "dashpot/base/text.h"
 #include "dashpot/damper/inverse/switching.h"
 #include "dashpot/export/c/c_model.h"
+#include "dashpot/export/c/c_text.h"
 #include "dashpot/export/export_run.h"
 
 namespace dashpot {
@@ -134,8 +135,8 @@ CBlock c_inverse_block(const ExportedInverse& inverse, const ExportOptions& opti
       .about = about,
       .precision = options.c_precision(),
       .header = filled(kHeader + std::string(c_text("inverse_api.h")) + kCHeaderEnd, values),
-      .source = kBegin + with_texts(c_inverse(inverse.model).code) +
-                std::string(c_text("inverse_api.c")),
+      .source =
+          kBegin + with_texts(c_inverse(inverse.model).code) + std::string(c_text("inverse_api.c")),
       .step = "commands[0] = damper_step(&model, &input);",
       .inputs = {{"wanted", "N", "force wanted, positive when it resists extension", "wanted"},
                  {"displacement", "m", "of the damper, extension positive", "displacement"},

@@ -9,6 +9,7 @@
 #include "dashpot/damper/kinds/law/law_model.h"
 #include "dashpot/export/c/c_inverse.h"
 #include "dashpot/export/c/c_model.h"
+#include "dashpot/export/c/c_text.h"
 
 namespace dashpot {
 namespace {
@@ -78,7 +79,8 @@ std::string observer_code(const Observer& observer) {
 }
 
 CInverse polynomial_code(const PolynomialInverse& model) {
-  return {observer_code(model.observer()) + filled(R"(#define ROOT_NARROW 1e-12 /* single precision: 2e-7 */
+  return {observer_code(model.observer()) +
+              filled(R"(#define ROOT_NARROW 1e-12 /* single precision: 2e-7 */
 #define ROOT_TOLERANCE 1e-15 /* single precision: 2e-7 */
 
 typedef struct PolynomialError {
@@ -100,10 +102,10 @@ static inline double inverse_wanted(const InverseModel* m, const InverseInput* i
 }
 
 )",
-                                                   {{"degree", std::to_string(model.degree())},
-                                                    {"least", c_number(model.limits().current_min)},
-                                                    {"most", c_number(model.limits().current_max)},
-                                                    {"negligible", c_number(model.negligible())}}),
+                     {{"degree", std::to_string(model.degree())},
+                      {"least", c_number(model.limits().current_min)},
+                      {"most", c_number(model.limits().current_max)},
+                      {"negligible", c_number(model.negligible())}}),
           model.state_size()};
 }
 

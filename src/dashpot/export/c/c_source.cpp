@@ -6,6 +6,7 @@
 #include "dashpot/damper/kinds/law/law_model.h"
 #include "dashpot/damper/registry.h"
 #include "dashpot/export/c/c_model.h"
+#include "dashpot/export/c/c_text.h"
 #include "dashpot/export/export_run.h"
 
 namespace dashpot {
@@ -113,16 +114,15 @@ std::string rows_of(const ExportedModel& model, double sample_time) {
 /// The places that only the C files have, besides common_facts.
 Facts facts_of(const ExportedModel& model, const ExportOptions& options, const CSource& source) {
   Facts facts = common_facts(model, options, source);
-  facts.insert(
-      facts.end(),
-      {{"title", title_of(model.model)},
-       {"unit", model.drive_unit},
-       {"prefix", source.prefix},
-       {"deviations", std::string(c_deviations())},
-       {"size", std::to_string(std::max<std::size_t>(1, source.state_size))},
-       {"unused", source.state_size == 0 ? ": one that is not used" : ""},
-       {"steps", std::to_string(kTestSteps)},
-       {"tolerance", options.c_precision() == CPrecision::Single ? "1e-5" : "1e-12"}});
+  facts.insert(facts.end(),
+               {{"title", title_of(model.model)},
+                {"unit", model.drive_unit},
+                {"prefix", source.prefix},
+                {"deviations", std::string(c_deviations())},
+                {"size", std::to_string(std::max<std::size_t>(1, source.state_size))},
+                {"unused", source.state_size == 0 ? ": one that is not used" : ""},
+                {"steps", std::to_string(kTestSteps)},
+                {"tolerance", options.c_precision() == CPrecision::Single ? "1e-5" : "1e-12"}});
   return facts;
 }
 
@@ -150,14 +150,11 @@ std::string title_of(const DamperModel& model) {
 Facts common_facts(const ExportedModel& model, const ExportOptions& options,
                    const CSource& source) {
   const Domain& d = model.domain;
-  return {{"x_min", format_number(d.displacement_min)},
-          {"x_max", format_number(d.displacement_max)},
-          {"v_min", format_number(d.velocity_min)},
-          {"v_max", format_number(d.velocity_max)},
-          {"i_min", format_number(d.current_min)},
-          {"i_max", format_number(d.current_max)},
-          {"sample_time", c_number(source.sample_time)},
-          {"version", options.version}};
+  return {
+      {"x_min", format_number(d.displacement_min)},  {"x_max", format_number(d.displacement_max)},
+      {"v_min", format_number(d.velocity_min)},      {"v_max", format_number(d.velocity_max)},
+      {"i_min", format_number(d.current_min)},       {"i_max", format_number(d.current_max)},
+      {"sample_time", c_number(source.sample_time)}, {"version", options.version}};
 }
 
 CSource c_source(const ExportedModel& model, const ExportOptions& options) {
@@ -196,10 +193,9 @@ CSource c_source(const ExportedModel& model, const ExportOptions& options) {
   // The source: the model's own functions, then those of the interface, which call them.
   const std::string own = with_texts(code.code);
   require_free_names(source.prefix, own);
-  source.source =
-      finished("#include \"" + source.prefix + ".h\"\n" + kSourceBegin + own +
-               std::string(c_text("damper_api.c")) + (law ? kDefaultsFunction : "") +
-               (code.has_derivatives ? kDerivativesFunction : ""));
+  source.source = finished("#include \"" + source.prefix + ".h\"\n" + kSourceBegin + own +
+                           std::string(c_text("damper_api.c")) + (law ? kDefaultsFunction : "") +
+                           (code.has_derivatives ? kDerivativesFunction : ""));
 
   // The test: a run with the forces that the library gives.
   facts.emplace_back("rows", rows_of(model, source.sample_time));

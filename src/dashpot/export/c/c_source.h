@@ -35,8 +35,7 @@ struct CSource {
 using Facts = std::vector<std::pair<std::string, std::string>>;
 /// The facts that every text made of a model holds: x_min, x_max, v_min, v_max, i_min, i_max (the
 /// domain), sample_time (s) and version.
-Facts common_facts(const ExportedModel& model, const ExportOptions& options,
-                   const CSource& source);
+Facts common_facts(const ExportedModel& model, const ExportOptions& options, const CSource& source);
 
 /// As the registry has it; a design of the user's has its name alone.
 std::string title_of(const DamperModel& model);

@@ -6,6 +6,7 @@
 #include "dashpot/base/text.h"
 #include "dashpot/export/c/c_model.h"
 #include "dashpot/export/c/c_source.h"
+#include "dashpot/export/c/c_text.h"
 
 namespace dashpot {
 namespace {
@@ -148,7 +149,8 @@ std::vector<ExportedFile> write_modelica(const ExportedModel& model, const Expor
   const CSource source = c_source(model, options);
   std::vector<ExportedFile> files = with_wrapper(model, options, "modelica.h", "_modelica.h");
   for (ExportedFile& file : files) file.name = source.prefix + "/Resources/Include/" + file.name;
-  files.push_back({source.prefix + "/package.mo", filled(kPackage, package_facts(model, options, source))});
+  files.push_back(
+      {source.prefix + "/package.mo", filled(kPackage, package_facts(model, options, source))});
   return files;
 }
 

@@ -22,7 +22,8 @@ class Preprocessor {
     for (std::size_t at = 0; at < tokens.size();) {
       if (tokens[at].in_directive) {
         const auto begin = tokens.begin() + static_cast<std::ptrdiff_t>(at);
-        const auto end = std::find_if_not(begin, tokens.end(), &CToken::in_directive);
+        const auto end = std::find_if(begin, tokens.end(),
+                                      [](const CToken& token) { return !token.in_directive; });
         directive({begin, end});
         at += static_cast<std::size_t>(end - begin);
       } else {

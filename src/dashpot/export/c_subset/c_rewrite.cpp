@@ -19,10 +19,10 @@ constexpr std::string_view kSingleMark = "/* single precision: ";
 
 /// The functions of math.h that have a form for float with an f behind their name.
 constexpr std::array<std::string_view, 33> kMathFunctions{
-    "acos",     "acosh", "asin",  "asinh", "atan",  "atan2", "atanh", "cbrt",
-    "ceil",     "copysign", "cos", "cosh", "exp",   "exp2",  "expm1", "fabs",
-    "floor",    "fmax",  "fmin",  "fmod",  "hypot", "log",   "log10", "log1p",
-    "log2", "pow", "round", "sin", "sinh", "sqrt", "tan", "tanh", "trunc"};
+    "acos",     "acosh", "asin",  "asinh", "atan",  "atan2", "atanh", "cbrt",  "ceil",
+    "copysign", "cos",   "cosh",  "exp",   "exp2",  "expm1", "fabs",  "floor", "fmax",
+    "fmin",     "fmod",  "hypot", "log",   "log10", "log1p", "log2",  "pow",   "round",
+    "sin",      "sinh",  "sqrt",  "tan",   "tanh",  "trunc"};
 
 std::string single_word(std::string_view word) {
   if (word == "double") return "float";
@@ -117,9 +117,9 @@ std::string with_prefix(std::string_view code, std::string_view prefix) {
   std::string out;
   for (const CToken& token : c_tokens(code)) {
     const bool is_comment = token.kind == Kind::Comment;
-    out += is_comment                  ? with_words(token.text, renamed)
+    out += is_comment                 ? with_words(token.text, renamed)
            : token.kind == Kind::Word ? renamed(token.text)
-                                       : std::string(token.text);
+                                      : std::string(token.text);
   }
   return out;
 }

@@ -62,9 +62,9 @@ struct CStatement {
   enum class Kind { Block, Declaration, Expression, If, Loop, Break, Return };
   Kind kind = Kind::Block;
   std::vector<CDeclaration> declarations;  ///< of a Declaration
-  std::vector<CExpr> exprs;       ///< Expression: it; If, Loop: the condition; Return: none or one
-  std::vector<CExpr> start, step; ///< for Loop: none or one each
-  std::vector<CStatement> parts;  ///< Block: all; If: then, else; Loop: its body
+  std::vector<CExpr> exprs;        ///< Expression: it; If, Loop: the condition; Return: none or one
+  std::vector<CExpr> start, step;  ///< for Loop: none or one each
+  std::vector<CStatement> parts;   ///< Block: all; If: then, else; Loop: its body
 };
 
 struct CStruct {

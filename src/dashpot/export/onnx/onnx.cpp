@@ -6,6 +6,7 @@
 #include "dashpot/base/text.h"
 #include "dashpot/damper/kinds/law/law_model.h"
 #include "dashpot/export/c/c_model.h"
+#include "dashpot/export/c/c_text.h"
 #include "dashpot/export/onnx/calculation.h"
 #include "dashpot/export/onnx/live_nodes.h"
 #include "dashpot/export/onnx/onnx_graph.h"
