@@ -72,7 +72,8 @@ class Preprocessor {
     if (!name.is("define"))
       fail(hash, "has the directive '#" + std::string(name.text) + "'",
            "#include, #define NAME VALUE, #ifdef, #ifndef or #endif");
-    define(next_word(), line.subspan(std::min<std::size_t>(1, line.size())));
+    const CToken defined = next_word();
+    define(defined, line.subspan(std::min<std::size_t>(1, line.size())));
   }
 
   void define(const CToken& name, Tokens value) {

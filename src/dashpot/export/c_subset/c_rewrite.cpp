@@ -43,20 +43,33 @@ std::string single_number(std::string_view number) {
   return std::string(number) + "F";
 }
 
-/// The number that the mark at `mark` speaks of, in front of it but for blanks and one semicolon.
+[[noreturn]] void refuse_mark(const CToken& mark, const std::string& what) {
+  throw Error("C text:" + std::to_string(mark.line), what,
+              "const double name = 1e-9; " + std::string(kSingleMark) + "1e-5 */");
+}
+
+/// The place of the number that the mark at `mark` speaks of: in front of it but for blanks and one
+/// semicolon.
 std::size_t marked_number(const std::vector<CToken>& tokens, std::size_t mark) {
   std::size_t at = mark;
-  const auto back = [&](auto&& passes) {
-    while (at > 0 && passes(tokens[at - 1])) --at;
+  const auto skip_space = [&] {
+    while (at > 0 && tokens[at - 1].kind == Kind::Space) --at;
   };
-  const auto is_space = [](const CToken& token) { return token.kind == Kind::Space; };
-  back(is_space);
+  skip_space();
   if (at > 0 && tokens[at - 1].is(";")) --at;
-  back(is_space);
+  skip_space();
   if (at == 0 || tokens[at - 1].kind != Kind::Number)
-    throw Error("C text:" + std::to_string(tokens[mark].line), "has a mark behind no number",
-                "const double name = 1e-9; " + std::string(kSingleMark) + "1e-5 */");
+    refuse_mark(tokens[mark], "has a mark behind no number");
   return at - 1;
+}
+
+/// The number that a mark gives.
+std::string_view number_of_mark(const CToken& mark) {
+  const std::string_view number =
+      mark.text.substr(kSingleMark.size(), mark.text.size() - kSingleMark.size() - 3);
+  if (!parse_number(number))
+    refuse_mark(mark, "marks no number for single precision but '" + std::string(number) + "'");
+  return number;
 }
 
 std::string joined(const std::vector<std::string>& parts) {
@@ -76,9 +89,7 @@ std::string in_single(const std::vector<CToken>& tokens) {
 
     // Exchange the number and its mark: the text then says what it was in double precision.
     const std::size_t number = marked_number(tokens, k);
-    const std::string_view single =
-        token.text.substr(kSingleMark.size(), token.text.size() - kSingleMark.size() - 3);
-    out[number] = single_number(single);
+    out[number] = single_number(number_of_mark(token));
     out[k] = "/* double precision: " + std::string(tokens[number].text) + " */";
   }
   return joined(out);
