@@ -128,7 +128,7 @@ Facts facts_of(const ExportedModel& model, const ExportOptions& options, const C
 
 std::vector<CSource::Variable> states_of(const DamperModel& model) {
   std::vector<CSource::Variable> states;
-  if (const auto* law = dynamic_cast<const LawModel*>(&model)) {
+  if (const auto* law = model_as<LawModel>(model)) {
     for (const StateInfo& state : law->law().states)
       states.push_back(
           {std::string(state.name), std::string(state.unit), "internal state of the law"});
@@ -158,8 +158,7 @@ Facts common_facts(const ExportedModel& model, const ExportOptions& options,
 }
 
 CSource c_source(const ExportedModel& model, const ExportOptions& options) {
-  const auto* law =
-      options.settable_parameters ? dynamic_cast<const LawModel*>(&model.model) : nullptr;
+  const auto* law = options.settable_parameters ? model_as<LawModel>(model.model) : nullptr;
   const CModel code = c_model(model.model, law != nullptr);
 
   // What whoever includes the code must know of it.
