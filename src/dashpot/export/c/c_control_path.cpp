@@ -6,6 +6,7 @@
 #include "dashpot/export/c/c_inverse.h"
 #include "dashpot/export/c/c_model.h"
 #include "dashpot/export/c/c_text.h"
+#include "dashpot/export/c_subset/c_tokens.h"
 
 namespace dashpot {
 namespace {
@@ -123,8 +124,9 @@ std::string command_code(const MountedDamper& damper, const CControlLaw& law, co
          {"measured", c_inverse(*damper.inverse).needs_force ? "s->force / ratio" : "0"},
          {"inverse", number(at.inverse)}});
   }
-  const bool sees = otherwise.find("s->") != std::string::npos,
-             keeps = otherwise.find("state") != std::string::npos;
+
+  // A parameter that the function does without is named, as compilers ask for it.
+  const bool sees = has_c(otherwise, "s->"), keeps = has_c(otherwise, "state");
   return texts + filled(kCommand, {{"unused", std::string(sees ? "" : "  (void)s;\n") +
                                                   (keeps ? "" : "  (void)state;\n")},
                                    {"otherwise", otherwise}});
@@ -132,9 +134,8 @@ std::string command_code(const MountedDamper& damper, const CControlLaw& law, co
 
 std::string demand_function(const CControlLaw& law) {
   std::string unused;
-  for (const auto& [name, use] :
-       {std::pair{"input", "input->"}, {"strut", "strut *"}, {"state", "&state"}})
-    if (law.demand.find(use) == std::string::npos) unused += "  (void)" + std::string(name) + ";\n";
+  for (const char* name : {"input", "strut", "state"})
+    if (!has_c(law.demand, name)) unused += "  (void)" + std::string(name) + ";\n";
   return "static DamperDemand strut_demand(const StrutSignals* s, const damper_input* input, int "
          "strut,\n"
          "                                 double* state) {\n" +

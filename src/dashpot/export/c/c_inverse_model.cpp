@@ -10,6 +10,7 @@
 #include "dashpot/export/c/c_inverse.h"
 #include "dashpot/export/c/c_model.h"
 #include "dashpot/export/c/c_text.h"
+#include "dashpot/export/c_subset/c_tokens.h"
 
 namespace dashpot {
 namespace {
@@ -51,8 +52,7 @@ static inline double inverse_wanted(const InverseModel* m, const InverseInput* i
 
 )",
                  {{"name", model.name()}, {"force_max", c_number(model.force_max())}}),
-          0,
-          c_text("inverse_" + model.name() + ".h").find("missing_force") != std::string_view::npos};
+          0, has_c(c_text("inverse_" + model.name() + ".h"), "missing_force")};
 }
 
 /// The model that runs beside the damper, and its observer.

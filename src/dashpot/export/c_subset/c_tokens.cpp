@@ -130,4 +130,16 @@ class Scanner {
 
 std::vector<CToken> c_tokens(std::string_view code) { return Scanner(code).all(); }
 
+bool has_c(std::string_view code, std::string_view piece) {
+  const auto texts = [](std::string_view of) {
+    std::vector<std::string_view> out;
+    for (const CToken& token : c_tokens(of))
+      if (token.kind != Kind::Space && token.kind != Kind::Comment && token.kind != Kind::End)
+        out.push_back(token.text);
+    return out;
+  };
+  const auto all = texts(code), wanted = texts(piece);
+  return !std::ranges::search(all, wanted).empty();
+}
+
 }  // namespace dashpot

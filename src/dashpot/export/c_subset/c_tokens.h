@@ -30,4 +30,8 @@ struct CToken {
 /// comment or string that does not end and at a character that C does not have.
 std::vector<CToken> c_tokens(std::string_view code);
 
+/// Whether the tokens of `piece` ("s->force") stand one behind the other in the code, blanks and
+/// comments aside.
+bool has_c(std::string_view code, std::string_view piece);
+
 }  // namespace dashpot
