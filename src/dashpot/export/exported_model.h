@@ -8,7 +8,7 @@
 
 namespace dashpot {
 
-// What every exporter takes and gives; exporter.h lists them.
+// The model, the options and the files of every exporter; exporter.h lists the exporters.
 
 /// A model with what an export says of it.
 struct ExportedModel {

@@ -22,12 +22,26 @@ std::string declared_before() {
                            "LawParameters", "Mlp",          "Observer",       "PolynomialError",
                            "RootError",     "SearchError"})
     code += "typedef struct " + std::string(type) + " { double x; } " + type + ";\n";
-  for (const char* size :
-       {"CELL_MOST_CURRENTS", "CELL_MOST_FEATURES", "CELL_MOST_INPUTS", "CELL_MOST_LAG", "CELL_MOST_WIDTH",
-        "DAMPER_PLANT_STATES", "DAMPER_SAMPLE_TIME", "DAMPER_STATE_SIZE", "DAMPER_STRUTS",
-        "GATED_MOST_GATES", "GATED_MOST_SIGNALS", "INVERSE_STATES", "INVERSE_TAPS",
-        "LAW_MOST_STATES", "MLP_MOST_WIDTH", "NARX_MOST_INPUTS", "STRUT_STATE",
-        "SUGENO_MOST_INPUTS", "SUGENO_MOST_MEMBERSHIPS", "SUGENO_MOST_RULES"})
+  for (const char* size : {"CELL_MOST_CURRENTS",
+                           "CELL_MOST_FEATURES",
+                           "CELL_MOST_INPUTS",
+                           "CELL_MOST_LAG",
+                           "CELL_MOST_WIDTH",
+                           "DAMPER_PLANT_STATES",
+                           "DAMPER_SAMPLE_TIME",
+                           "DAMPER_STATE_SIZE",
+                           "DAMPER_STRUTS",
+                           "GATED_MOST_GATES",
+                           "GATED_MOST_SIGNALS",
+                           "INVERSE_STATES",
+                           "INVERSE_TAPS",
+                           "LAW_MOST_STATES",
+                           "MLP_MOST_WIDTH",
+                           "NARX_MOST_INPUTS",
+                           "STRUT_STATE",
+                           "SUGENO_MOST_INPUTS",
+                           "SUGENO_MOST_MEMBERSHIPS",
+                           "SUGENO_MOST_RULES"})
     code += "#define " + std::string(size) + " 2\n";
   return code;
 }

@@ -43,6 +43,14 @@ TEST_CASE("C tokens: kinds, lines and directives") {
   CHECK(c_tokens("a<<=b")[1].text == "<<=");
 }
 
+TEST_CASE("C tokens: whether a piece of C stands in a text") {
+  const std::string code = "a = s -> /* N */ force + t->force_max; /* s->speed */";
+  CHECK(has_c(code, "s->force"));
+  CHECK(has_c(code, "t"));
+  CHECK_FALSE(has_c(code, "t->force"));
+  CHECK_FALSE(has_c(code, "s->speed"));
+}
+
 TEST_CASE("C tokens: what C does not have is refused with its line and what would be right") {
   const auto refused = [](const char* code) { return message_of([&] { c_tokens(code); }); };
   CHECK(refused("int a;\n/* no end") == "C text:2: has a comment that does not end; */");

@@ -32,7 +32,7 @@ std::string add_law(const ControlDescription& law, int number, std::size_t first
     throw Error("controller",
                 law.law.empty() ? "has no C text" : "'" + law.law + "' has no C text");
 
-  // What the law can ask for decides what must follow: a force or a damping needs an inverse.
+  // A law that asks for a force or a damping needs an inverse behind it.
   const std::string own = with_texts("#include \"" + text + "\"\n");
   out.gives_damping = out.gives_damping || has_c(own, "demand_of(kDemandDamping");
   out.gives_force = out.gives_force || has_c(own, "demand_of(kDemandForce");

@@ -27,7 +27,8 @@ static const ControlLimits kLimits = @limits@;
 )";
 
 constexpr const char* kCommand =
-    R"(static double strut_command(const StrutSignals* s, const DamperDemand* demand, double* state) {
+    R"(static double strut_command(const StrutSignals* s, const DamperDemand* demand,
+                            double* state) {
 @unused@  double command = demand->value;
 @otherwise@  return command;
 }
@@ -75,15 +76,16 @@ std::string number(std::size_t count) { return std::to_string(count); }
 
 bool has(const std::set<std::string>& names, const char* name) { return names.count(name) > 0; }
 
-/// Where a strut's part of the state keeps what.
+/// The parts of a strut's state, one behind the other: the filters that make velocities, the laws'
+/// memory, the force loop, the inverse.
 struct Layout {
-  bool body = false, slope = false;  ///< whether there are these filters
-  std::size_t memory = 0, loop = 0, inverse = 0, end = 0;
+  bool body = false, slope = false;  ///< whether there is a filter for the body, the deflection
+  std::size_t memory = 0, loop = 0, inverse = 0, end = 0;  ///< where they begin
 
   std::size_t slope_at() const { return body ? 2 : 0; }
 };
 
-/// The damper behind all demands.
+/// The damper that all demands are for. Throws Error where there are several with an inverse each.
 const MountedDamper& damper_of(const Vehicle& vehicle) {
   const MountedDamper& first = vehicle.dampers.front();
   for (std::size_t k = 1; k < vehicle.dampers.size(); ++k)
@@ -96,7 +98,8 @@ const MountedDamper& damper_of(const Vehicle& vehicle) {
   return first;
 }
 
-/// From a demand to a command, with where its memories are.
+/// The texts and the function from a demand to a command: the demand itself where laws ask for
+/// currents, a straight line over the current where there is no inverse, else the inverse.
 std::string command_code(const MountedDamper& damper, const CControlLaw& law, const Layout& at) {
   const bool only_current = !law.gives_damping && !law.gives_force, loops = damper.loop.is_closed();
   std::string texts, otherwise;
@@ -105,6 +108,8 @@ std::string command_code(const MountedDamper& damper, const CControlLaw& law, co
     otherwise = filled(kStraight, {{"velocity", law.gives_force ? "s->deflection_velocity" : "0"}});
   } else if (!only_current) {
     texts = kInverseTypes + c_inverse(*damper.inverse).code + "#include \"demanded_force.h\"\n";
+
+    // The loop corrects the wanted force before the inverse, and learns of the limits behind it.
     const ForceLoop& loop = damper.loop;
     if (loops)
       texts += filled(
@@ -160,7 +165,7 @@ std::vector<const StrutSignal*> signals_named(const std::set<std::string>& names
   return signals;
 }
 
-/// From what the sensors of a car measure to what the laws look at.
+/// The function from what the sensors of a car measure to the signals that the laws look at.
 std::string filters_function(const Vehicle& vehicle, const std::set<std::string>& used,
                              const Layout& at) {
   const Sensors filters(vehicle.sensors, 1, vehicle.limits.sample_time);
@@ -176,6 +181,8 @@ std::string filters_function(const Vehicle& vehicle, const std::set<std::string>
              c_number(filters.share()) + ", DAMPER_SAMPLE_TIME, &state[" + number(at.slope_at()) +
              "]);\n";
   }
+
+  // A field for each signal: measured, or made of what is.
   lines += "  StrutSignals s;\n";
   for (const StrutSignal* signal : signals_named(used)) {
     const std::string name(signal->name);
@@ -201,6 +208,7 @@ static StrutSignals strut_signals(const damper_signals* measured, double* state)
 )";
 
 std::string rest_function(const MountedDamper& damper, const Layout& at, bool inverts) {
+  // Filters and inverse begin at the first sample, as after a long rest there.
   std::string lines;
   if (at.body)
     lines +=
@@ -223,6 +231,7 @@ std::string rest_function(const MountedDamper& damper, const Layout& at, bool in
 }  // namespace
 
 CControlPath c_control_path(const Vehicle& vehicle) {
+  // The laws say which signals they look at.
   const MountedDamper& damper = damper_of(vehicle);
   const ControlDescription description = vehicle.controller->description();
   CControlLaw law = c_control_law(description, vehicle.dampers.size(), 0);
@@ -230,6 +239,7 @@ CControlPath c_control_path(const Vehicle& vehicle) {
   std::set<std::string> used = signals_in(with_texts(law.code + command_code(damper, law, {})));
   if (used.empty()) used.insert("deflection_velocity");  // C has no empty structs
 
+  // With these the state is laid out; then the laws know where their memory is.
   const bool in_car = vehicle.sensors.in_car;
   Layout at;
   at.body = in_car && (has(used, "body_velocity") || has(used, "wheel_velocity"));

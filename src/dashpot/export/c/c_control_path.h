@@ -15,7 +15,8 @@ struct CControlPath {
   bool has_integrals = false;  ///< makes velocities by integration
   bool has_slopes = false;     ///< makes velocities by differences
 };
-/// Throws Error where it cannot become C.
+/// The path of a vehicle that has a controller. Throws Error where a law has no C text, or where
+/// struts have different dampers behind an inverse.
 CControlPath c_control_path(const Vehicle& vehicle);
 
 }  // namespace dashpot

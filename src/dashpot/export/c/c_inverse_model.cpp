@@ -44,7 +44,8 @@ static void inverse_rest(const DamperInput* input, double* state) {
   (void)state;
 }
 
-static inline double inverse_wanted(const InverseModel* m, const InverseInput* input, double* state) {
+static inline double inverse_wanted(const InverseModel* m, const InverseInput* input,
+                                    double* state) {
   const double share = fmin(fmax(@name@_share(input, @force_max@), 0), 1);
   (void)state;
   return m->least + (share * (m->most - m->least));
@@ -89,15 +90,20 @@ typedef struct PolynomialError {
 typedef PolynomialError RootError;
 
 #include "polynomial_pieces.h"
-static inline double root_error(const RootError* e, double s) { return polynomial_at(e->c, s) - e->wanted; }
+static inline double root_error(const RootError* e, double s) {
+  return polynomial_at(e->c, s) - e->wanted;
+}
 
 #include "root_search.h"
 #include "inverse_polynomial.h"
 static const PolynomialNumbers kNumbers = {@degree@, @least@, @most@, @negligible@};
 
-static void inverse_rest(const DamperInput* input, double* state) { observer_rest(&kInverse, input, state); }
+static void inverse_rest(const DamperInput* input, double* state) {
+  observer_rest(&kInverse, input, state);
+}
 
-static inline double inverse_wanted(const InverseModel* m, const InverseInput* input, double* state) {
+static inline double inverse_wanted(const InverseModel* m, const InverseInput* input,
+                                    double* state) {
   return polynomial_wanted(m, &kNumbers, input, state);
 }
 
@@ -134,7 +140,8 @@ static void inverse_rest(const DamperInput* input, double* state) {
   state[@trend@] = 0;
 }
 
-static inline double inverse_wanted(const InverseModel* m, const InverseInput* input, double* state) {
+static inline double inverse_wanted(const InverseModel* m, const InverseInput* input,
+                                    double* state) {
   return search_wanted(m, &kNumbers, input, state, &state[@own@]);
 }
 

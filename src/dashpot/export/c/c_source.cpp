@@ -17,15 +17,17 @@ constexpr std::size_t kTestSteps = 200;
 constexpr const char* kHeader = R"(/* @title@.
  *
  * @what@
- * Inputs: displacement m and velocity m/s, extension positive; command @unit@. Output: force N, positive when it
- * resists extension. Known for displacements @x_min@ ... @x_max@ m,
- * velocities @v_min@ ... @v_max@ m/s, commands @i_min@ ... @i_max@ @unit@; beyond, the model extrapolates.
+ * Inputs: displacement m and velocity m/s, extension positive; command @unit@. Output: force N,
+ * positive when it resists extension. Known for displacements @x_min@ ... @x_max@ m,
+ * velocities @v_min@ ... @v_max@ m/s, commands @i_min@ ... @i_max@ @unit@; beyond, the model
+ * extrapolates.
  *
  *   damper_model model;
  *   damper_reset(&model, &input);
  *   for (;;) force = damper_step(&model, &input);
  *
- * C99 with math.h: no heap, no files, no variables outside a damper_model. Made by Dashpot @version@:
+ * C99 with math.h: no heap, no files, no variables outside a damper_model.
+ * Made by Dashpot @version@:
  *   @command@
  * MISRA C:2012, deviations: @deviations@
  */
@@ -38,12 +40,14 @@ constexpr const char* kHeader = R"(/* @title@.
 )";
 
 constexpr const char* kDerivatives = R"(
-/* Time derivatives of the state, for a simulator that integrates it: the input's own slope is not needed. */
+/* Time derivatives of the state, for a simulator that integrates it; the input's own slope is not
+ * needed. */
 void damper_derivatives(const damper_input* input, const double* state, double* derivatives);
 )";
 
 constexpr const char* kDefaults = R"(
-/* Writes the parameters, which stand behind the state, as they were identified: before anything else. */
+/* Writes the parameters, which stand behind the state, as they were identified; call it before
+ * anything else. */
 void damper_defaults(double* state);
 )";
 
@@ -65,8 +69,8 @@ void damper_derivatives(const damper_input* input, const double* state, double* 
 )";
 
 constexpr const char* kTest =
-    R"(/* Steps through a run and compares the force with the one that Dashpot @version@ computed in double precision.
- * Returns 0 when they agree within @tolerance@ of the force's span. */
+    R"(/* Steps through a run and compares the force with the one that Dashpot @version@ computed in
+ * double precision. Returns 0 when they agree within @tolerance@ of the force's span. */
 #include "@prefix@.h"
 
 #include <math.h>
@@ -95,7 +99,8 @@ int main(void) {
     low = fmin(low, kRun[k][3]);
     high = fmax(high, kRun[k][3]);
   }
-  printf("largest difference %g N, span of the force %g N\n", (double)largest, (double)(high - low));
+  printf("largest difference %g N, span of the force %g N\n", (double)largest,
+         (double)(high - low));
   return (largest <= @tolerance@ * (high - low)) ? 0 : 1;
 }
 )";
@@ -161,7 +166,7 @@ CSource c_source(const ExportedModel& model, const ExportOptions& options) {
   const auto* law = options.settable_parameters ? model_as<LawModel>(model.model) : nullptr;
   const CModel code = c_model(model.model, law != nullptr);
 
-  // What whoever includes the code must know of it.
+  // The facts that a program around the code must know.
   CSource source{
       .prefix = export_name(model, options),
       .real = options.c_precision() == CPrecision::Single ? "float" : "double",

@@ -24,6 +24,9 @@ std::string shipped(std::string_view text) {
     if (!line.starts_with("#include <") && !is_guard(line)) out += line + '\n';
   out = trim(out);
   if (!out.starts_with("/*")) return out + '\n';
+
+  // In the first comment: from ", as C99 text ..." or "Declared before: ..." to its paragraph's
+  // end.
   const std::size_t end = std::min(out.find("*/"), out.find("\n *\n"));
   std::size_t from = std::min(out.find(", as C99"), out.find(" Declared before:"));
   if (from < end) {
@@ -69,12 +72,13 @@ std::string with_texts(std::string_view code) {
 }
 
 std::string_view c_deviations() {
-  // What cppcheck's MISRA add-on says; a test holds the list complete.
+  // The findings of cppcheck's MISRA add-on; a test holds the list complete.
   return R"(2.2, 2.5 (a product with a size that is 1; a macro for who calls);
  * 8.7, 8.9 (interface and tables of numbers stand at file scope); 10.3, 10.4,
- * 10.6, 12.1 (equations mix reals with whole numbers, and have no more brackets than in print); 11.8 (a const pointer
- * in a const struct, which the add-on takes for a cast); 12.3 (several variables in one declaration); 15.5, 15.6, 17.8
- * (in laws: early returns, single statements without braces, arguments that change).)";
+ * 10.6, 12.1 (equations mix reals with whole numbers, and have no more brackets than in
+ * print); 11.8 (a const pointer in a const struct, which the add-on takes for a cast); 12.3
+ * (several variables in one declaration); 15.5, 15.6,
+ * 17.8 (in laws: early returns, single statements without braces, arguments that change).)";
 }
 
 std::string in_comment(std::string text) {

@@ -31,7 +31,8 @@ package @name@ "@title@"
     end destructor;
   end Damper;
 
-  impure function sample_force "Force one sample time after the last call; of the first call, at rest there"
+  impure function sample_force
+    "Force one sample time after the last call; of the first call, at rest there"
     input Damper damper;
     input Real s(unit = "m") "Displacement, extension positive";
     input Real v(unit = "m/s") "Velocity, extension positive";
@@ -74,10 +75,11 @@ package @name@ "@title@"
     version = "1",
     uses(Modelica(version = "4.0.0")),
     Documentation(info = "<html>
-<p>@title@. Inputs: displacement s in m and velocity v in m/s, extension positive; command i in @unit@. Output: force f in N,
-positive when it resists extension. Known for s = @x_min@ ... @x_max@ m, v = @v_min@ ... @v_max@ m/s,
-i = @i_min@ ... @i_max@ @unit@; beyond, the model extrapolates.</p>
-<p>The force comes from C code, every @sample_time@ s. Before the first use, in the package's folder:</p>
+<p>@title@. Inputs: displacement s in m and velocity v in m/s, extension positive; command i in
+@unit@. Output: force f in N, positive when it resists extension. Known for
+s = @x_min@ ... @x_max@ m, v = @v_min@ ... @v_max@ m/s, i = @i_min@ ... @i_max@ @unit@; beyond, the model extrapolates.</p>
+<p>The force comes from C code, every @sample_time@ s. Before the first use, in the package's
+folder:</p>
 <pre>mkdir -p Resources/Library/linux64
 cc -std=c99 -O2 -fPIC -c Resources/Include/@name@.c -o @name@.o
 ar rcs Resources/Library/linux64/lib@name@.a @name@.o</pre>

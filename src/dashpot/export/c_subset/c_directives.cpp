@@ -20,6 +20,7 @@ class Preprocessor {
  public:
   std::vector<CToken> all(Tokens tokens) {
     for (std::size_t at = 0; at < tokens.size();) {
+      // The tokens of a directive stand together.
       if (tokens[at].in_directive) {
         const auto begin = tokens.begin() + static_cast<std::ptrdiff_t>(at);
         const auto end = std::find_if(begin, tokens.end(),

@@ -243,7 +243,7 @@ class Parser {
     if (take(";")) return out;
     if (take("for")) return for_loop();
 
-    // What has a condition in brackets, and statements of its own.
+    // Statements with a condition in brackets, and statements of their own.
     if (const bool branches = is("if"); branches || is("while")) {
       ++at_;
       out.kind = branches ? CStatement::Kind::If : CStatement::Kind::Loop;
@@ -259,7 +259,7 @@ class Parser {
       return out;
     }
 
-    // What ends with a semicolon.
+    // Statements that end with a semicolon.
     if (take("break")) {
       out.kind = CStatement::Kind::Break;
     } else if (take("return")) {

@@ -6,8 +6,8 @@
 
 namespace dashpot {
 
-// What a text in the subset of C99 says, as docs/c-subset.md writes its grammar down: the
-// equations of every exported model, inverse and controller, and nothing of how they are called.
+// The meaning of a text in the subset of C99 whose grammar docs/c-subset.md writes down: the
+// equations of every exported model, inverse and controller are in it, not how they are called.
 
 /// A type: void, int (enumerations, too), a real number or a struct; pointers to one of these, or
 /// an array of them with one dimension.

@@ -12,7 +12,7 @@ namespace {
 
 using Kind = CToken::Kind;
 
-/// What consists of more than one character, the longest first.
+/// The marks of more than one character, the longest first.
 constexpr std::array<std::string_view, 22> kLongMarks{
     "<<=", ">>=", "...", "->", "++", "--", "+=", "-=", "*=", "/=", "%=",
     "&=",  "|=",  "^=",  "<=", ">=", "==", "!=", "&&", "||", "<<", ">>"};

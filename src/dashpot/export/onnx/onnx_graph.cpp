@@ -205,8 +205,8 @@ class Writer {
       ends.push_back(loop.ends[k]);
     }
 
-    // What goes in, from the graph around the loop: no limit of rounds, whether any lane goes on,
-    // which do, and what is carried.
+    // From the graph around the loop go in: no limit of rounds, whether any lane goes on, which
+    // do, and what is carried.
     const std::string going = tensors_.packed({loop.starts[0]}), name = tensors_.fresh("loop");
     const std::string any_going = any(going);
     const Names inputs{"", any_going, going, tensors_.packed(starts)};
@@ -231,7 +231,7 @@ class Writer {
                      {name + "_carried_after", tensors_.type(), size_of(carried)}};
     tensors_.close();
 
-    // What comes out: a column for each that is carried, of which the results are some.
+    // Out comes a column for each value that is carried; the results are some of them.
     tensors_.add({"Loop", inputs, {name + "_lanes_end", name + "_end"}, {}, body});
     tensors_.set_width(name + "_end", alive.size());
     for (const Node result : results) {

@@ -83,7 +83,7 @@ std::string OnnxTensors::gathered(const std::string& tensor, const std::vector<d
     if (k == columns.size()) return tensor;
   }
 
-  // What was gathered before, here or in a graph around this one, is taken again.
+  // Columns that were gathered before, here or in a graph around this one, are taken again.
   std::string key = tensor;
   for (const double column : columns) key += ' ' + format_exact(column);
   for (const Scope& scope : scopes_)

@@ -27,8 +27,8 @@ class OnnxTensors {
 
   OnnxType type() const { return type_; }
 
-  // What is written, to the innermost of the graphs that are open: the step, and the bodies of
-  // loops within it, which see the tensors of the graphs around them.
+  // Writing, to the innermost of the graphs that are open: the step, and the bodies of loops within
+  // it, which see the tensors of the graphs around them.
 
   void open(OnnxGraph& graph) { scopes_.push_back({&graph, {}}); }
   void close() { scopes_.pop_back(); }
@@ -40,7 +40,7 @@ class OnnxTensors {
   /// A name that no tensor and no graph has.
   std::string fresh(std::string_view stem);
 
-  // Where nodes stand.
+  // The places of nodes.
 
   /// Says that the columns of this tensor are these nodes.
   void place(const Nodes& nodes, const std::string& tensor);
