@@ -77,7 +77,8 @@ package @name@ "@title@"
     Documentation(info = "<html>
 <p>@title@. Inputs: displacement s in m and velocity v in m/s, extension positive; command i in
 @unit@. Output: force f in N, positive when it resists extension. Known for
-s = @x_min@ ... @x_max@ m, v = @v_min@ ... @v_max@ m/s, i = @i_min@ ... @i_max@ @unit@; beyond, the model extrapolates.</p>
+s = @x_min@ ... @x_max@ m, v = @v_min@ ... @v_max@ m/s, i = @i_min@ ... @i_max@ @unit@;
+beyond, the model extrapolates.</p>
 <p>The force comes from C code, every @sample_time@ s. Before the first use, in the package's
 folder:</p>
 <pre>mkdir -p Resources/Library/linux64
