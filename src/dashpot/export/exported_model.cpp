@@ -1,11 +1,10 @@
-#include "dashpot/export/exported_model.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
+#include "dashpot/error.h"
+#include "dashpot/export.h"
 
 namespace dashpot {
 namespace {

@@ -1,10 +1,9 @@
-#include "dashpot/export/exporter.h"
-
 #include <algorithm>
 #include <array>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
+#include "dashpot/error.h"
+#include "dashpot/export.h"
 #include "dashpot/export/c/c_block.h"
 #include "dashpot/export/c/c_source.h"
 #include "dashpot/export/c/c_wrappers.h"

@@ -1,9 +1,8 @@
 #pragma once
-#include <functional>
 #include <string>
 #include <vector>
 
-#include "dashpot/export/exported_model.h"
+#include "dashpot/export.h"
 
 namespace dashpot {
 
@@ -45,9 +44,6 @@ struct CBlock {
   std::vector<Sample> samples;  ///< a run from rest
   std::string version;
 };
-
-/// Makes an inverse or a controller, for options of an exporter's own.
-using CBlockMaker = std::function<CBlock(const ExportOptions&)>;
 
 /// Statements that write the fields of `input`, a damper_input*, from `row`, the inputs port by
 /// port.

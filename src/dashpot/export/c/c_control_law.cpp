@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "dashpot/base/error.h"
+#include "dashpot/error.h"
 #include "dashpot/export/c/c_model.h"
 #include "dashpot/export/c/c_text.h"
 #include "dashpot/export/c_subset/c_tokens.h"

@@ -2,7 +2,7 @@
 #include <set>
 
 #include "dashpot/export/c/c_control_law.h"
-#include "dashpot/suspension/vehicle.h"
+#include "dashpot/vehicle.h"
 
 namespace dashpot {
 

@@ -121,7 +121,7 @@ std::vector<CBlock::Sample> run_of(const ExportedInverse& exported) {
 
 CBlock c_inverse_block(const ExportedInverse& inverse, const ExportOptions& options) {
   const InverseLimits& limits = inverse.model.limits();
-  const std::string& unit = inverse.drive_unit;
+  const std::string& unit = to_string(inverse.drive_unit);
   const std::size_t size = std::max<std::size_t>(1, inverse.model.state_size());
 
   // The facts that the header states.

@@ -4,8 +4,8 @@
 #include <array>
 #include <cctype>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
+#include "dashpot/error.h"
 
 namespace dashpot {
 namespace {

@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "dashpot/export.h"
+
 namespace dashpot {
 
 /// The C99 texts that come with Dashpot, by file name.

@@ -1,5 +1,5 @@
 #pragma once
-#include "dashpot/export/exported_model.h"
+#include "dashpot/export.h"
 
 namespace dashpot {
 

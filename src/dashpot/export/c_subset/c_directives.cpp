@@ -4,7 +4,7 @@
 #include <map>
 #include <string>
 
-#include "dashpot/base/error.h"
+#include "dashpot/error.h"
 
 namespace dashpot {
 namespace {

@@ -6,8 +6,8 @@
 #include <limits>
 #include <vector>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
+#include "dashpot/error.h"
 #include "dashpot/export/c_subset/c_tokens.h"
 
 namespace dashpot {

@@ -2,11 +2,11 @@
 #include <string>
 #include <string_view>
 
+#include "dashpot/export.h"
+
 namespace dashpot {
 
 // Rewrites C text token by token; all that is not named here stays byte for byte.
-
-enum class CPrecision { Double, Single };
 
 /// C code in double precision as code of this precision. In single precision
 /// * `double` becomes `float`, `exp` becomes `expf`, and so on for the functions of math.h;

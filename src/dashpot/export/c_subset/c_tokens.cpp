@@ -5,7 +5,7 @@
 #include <cctype>
 #include <string>
 
-#include "dashpot/base/error.h"
+#include "dashpot/error.h"
 
 namespace dashpot {
 namespace {

@@ -1,6 +1,6 @@
 #include "dashpot/export/onnx/c_trace.h"
 
-#include "dashpot/base/error.h"
+#include "dashpot/error.h"
 
 namespace dashpot::trace {
 

@@ -1,4 +1,4 @@
-#include "dashpot/base/error.h"
+#include "dashpot/error.h"
 #include "dashpot/export/onnx/c_functions.h"
 #include "dashpot/export/onnx/c_trace.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "dashpot/export/exported_model.h"
+#include "dashpot/export.h"
 
 namespace dashpot {
 
