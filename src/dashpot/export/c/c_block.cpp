@@ -2,6 +2,7 @@
 
 #include "dashpot/export/c/c_model.h"
 #include "dashpot/export/c/c_text.h"
+#include "dashpot/export/c_subset/c_rewrite.h"
 
 namespace dashpot {
 namespace {

@@ -7,6 +7,7 @@
 #include "dashpot/damper/registry.h"
 #include "dashpot/export/c/c_model.h"
 #include "dashpot/export/c/c_text.h"
+#include "dashpot/export/c_subset/c_rewrite.h"
 #include "dashpot/export/export_run.h"
 
 namespace dashpot {

@@ -7,6 +7,7 @@
 #include "dashpot/export/c/c_model.h"
 #include "dashpot/export/c/c_source.h"
 #include "dashpot/export/c/c_text.h"
+#include "dashpot/export/c_subset/c_rewrite.h"
 
 namespace dashpot {
 namespace {
