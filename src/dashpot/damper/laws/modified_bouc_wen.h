@@ -86,12 +86,13 @@ static inline int modified_bouc_wen_step(const ModifiedBoucWen* p, const double*
   int k;
   for (k = 0; k < 60; ++k) {
     const double end = normalised_bouc_wen_rise(sigma, p->n, z0 / z_max, p->A / z_max * w * h);
+    const double tolerance = 1e-7; /* single precision: 1e-5 */
     double excess, slope, next;
     z1 = z_max * end;
     excess = drag * w + share * (z0 + z1) - side * push;
     slope = p->A * normalised_bouc_wen_slope(sigma, p->n, end);
     next = w - excess / (drag + share * h * slope);
-    if (fabs(next - w) <= 1e-7 * high) { /* the next step would move by the square of this */
+    if (fabs(next - w) <= tolerance * high) { /* the next step would move by the square of this */
       z1 = fmin(z1 + slope * h * (next - w), fmax(z0, z_max));
       z1 = fmax(z1, fmin(z0, z_max)); /* it stays between its start and where it settles */
       w = next;

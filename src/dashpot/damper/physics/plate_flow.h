@@ -70,9 +70,10 @@ static inline double plate_moving_wall_pressure(double newtonian, double yieldin
     const double excess = d * d * (d + 1.5 * yielding) - (drive - s) * p * p;
     const double slope = 3 * d * (d + yielding) - 2 * (drive - s + s * p / d) * p;
     const double step = excess / slope;
+    const double tolerance = 1e-9; /* single precision: 1e-5 */
     if (!(d > 0 && slope > 0)) break;
     p -= step;
-    if (fabs(step) <= 1e-9 * d) break; /* the next step would move by the square of this */
+    if (fabs(step) <= tolerance * d) break; /* the next step would move by the square of this */
   }
   return p;
 }
@@ -103,8 +104,9 @@ static inline double plate_herschel_bulkley_pressure(double power, double yieldi
     const double e = 1 / (1 + d), f = 1 / (1 + d + b);
     const double excess = log(d) - log_ratio + n * log(d * (d + 1 + b) * e * e);
     const double step = excess / (1 + n * (1 + d * (f - 2 * e)));
+    const double tolerance = 1e-8; /* single precision: 1e-5 */
     d *= exp(-step);
-    if (fabs(step) <= 1e-8) break; /* the next step would move by the square of this */
+    if (fabs(step) <= tolerance) break; /* the next step would move by the square of this */
   }
   return yielding * (1 + d);
 }

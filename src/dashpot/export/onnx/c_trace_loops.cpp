@@ -1,14 +1,16 @@
 #include <algorithm>
 
 #include "dashpot/error.h"
-#include "dashpot/export/c_subset/c_trace.h"
+#include "dashpot/export/onnx/c_trace.h"
 
 namespace dashpot::trace {
 namespace {
 
-/// So many rounds of a loop that does not name its counter are unrolled at most.
+/// The most rounds that are unrolled of a loop whose body does not name its counter; further ones
+/// become a loop of the graph.
 constexpr double kMostUnrolled = 4;
 
+/// Whether `name` stands in it.
 bool names(const CExpr& expr, std::string_view name) {
   return (expr.kind == CExpr::Kind::Name && expr.text == name) ||
          std::ranges::any_of(expr.parts, [&](const CExpr& part) { return names(part, name); });
@@ -35,7 +37,7 @@ bool has(const CStatement& statement, CStatement::Kind kind) {
                              [&](const CStatement& part) { return has(part, kind); });
 }
 
-/// k of for (k = ...; ...), or nothing.
+/// The name of the counter, k of for (k = ...; ...); empty where there is none.
 std::string counter_of(const CStatement& loop) {
   const bool counts = loop.start.size() == 1 && loop.start[0].kind == CExpr::Kind::Assign &&
                       loop.start[0].parts[0].kind == CExpr::Kind::Name;
@@ -51,15 +53,17 @@ bool only_counts(const CStatement& loop) {
 
 }  // namespace
 
-/// A counter has no past: what it was comes back behind the loop, in the lanes that took no part in
-/// it.
+/// Runs a loop. Its counter begins anew in the lanes at work, so that it stays a constant while
+/// they count alike; behind the loop the other lanes get back what it was for them.
 CTrace::Flow CTrace::run_loop(const CStatement& statement) {
   const std::string counter = counter_of(statement);
   if (counter.empty()) return run_rounds(statement);
+
   const std::size_t address = find(counter).address;
   const Cell was = memory_[address];
   memory_[address] = {.born = active_};
   const Flow flow = run_rounds(statement);
+
   Cell& cell = memory_[address];
   if (was.value.is_set && was.born != active_)
     cell.value.node = graph_.where(active_, cell.value.node, was.value.node);
@@ -70,11 +74,14 @@ CTrace::Flow CTrace::run_loop(const CStatement& statement) {
 CTrace::Flow CTrace::run_rounds(const CStatement& statement) {
   const Node before = active_, outer = loop_entry_;
   if (!statement.start.empty()) evaluate(statement.start[0]);
-  // Where rounds were already unrolled, the loop of the graph begins behind them or takes their
-  // place.
+
+  // A loop of the graph begins behind the rounds that were unrolled before, or takes their place:
+  // then with the memory as it is now.
   const std::vector<Cell> begin = has(statement, CStatement::Kind::Break) || only_counts(statement)
                                       ? memory_
                                       : std::vector<Cell>{};
+
+  // Unroll while all lanes go on alike.
   loop_entry_ = before;
   Flow flow = Flow::On;
   bool in_lanes = false;
@@ -90,6 +97,8 @@ CTrace::Flow CTrace::run_rounds(const CStatement& statement) {
     if (flow == Flow::On && !statement.step.empty()) evaluate(statement.step[0]);
   }
   active_ = before;
+
+  // The rest, where lanes part, is a loop of the graph.
   if (in_lanes) {
     if (!begin.empty()) memory_ = begin;
     run_lane_loop(statement);
@@ -98,8 +107,10 @@ CTrace::Flow CTrace::run_rounds(const CStatement& statement) {
   return flow == Flow::Broken ? Flow::On : flow;
 }
 
-/// One round in a loop of the graph; false where it changed what the loop does not carry yet.
+/// Traces one round as the body of a new loop of the graph. False where the round changed what the
+/// loop does not carry yet: then it carries more, and is traced again.
 bool CTrace::run_body_once(const CStatement& statement, LaneLoop& loop) {
+  // Into the body go the truth which lanes go on, then the carried cells.
   std::vector<Cell> other = memory_;
   const Node before = active_;
   std::vector<Node> starts{graph_.both(before, truth(statement.exprs[0]))}, ends;
@@ -112,10 +123,14 @@ bool CTrace::run_body_once(const CStatement& statement, LaneLoop& loop) {
   const std::vector<Node> carried = graph_.loop(loop.number).carried;
   for (std::size_t k = 0; k < loop.carried.size(); ++k)
     memory_[loop.carried[k]].value = {.is_set = true, .node = carried[k + 1]};
+
+  // The round, and whether there is another.
   active_ = loop_entry_ = carried[0];
   if (run(statement.parts[0]) != Flow::On) throw Error("C text", "has a loop of one round");
   if (!statement.step.empty()) evaluate(statement.step[0]);
   ends.push_back(graph_.both(active_, truth(statement.exprs[0])));
+
+  // Copies take over what the pointers that moved see now; then the carried cells go out.
   for (const auto& [pointer, copy] : loop.copies) {
     const Value moved = memory_[pointer].value;
     for (std::size_t k = 0; k < moved.size; ++k)
@@ -125,6 +140,8 @@ bool CTrace::run_body_once(const CStatement& statement, LaneLoop& loop) {
   for (const std::size_t address : loop.carried)
     ends.push_back(graph_.as_number(memory_[address].value.node));
   graph_.end_loop(loop.number, std::move(ends));
+
+  // Back to before the loop.
   memory_.swap(other);
   active_ = before;
   region_ = around;
@@ -137,6 +154,7 @@ bool CTrace::add_changed(const std::vector<Cell>& after, LaneLoop& loop) {
   const std::size_t known = loop.carried.size() + loop.copies.size(), size = memory_.size();
   for (std::size_t address = 0; address < size; ++address) {
     const Value was = memory_[address].value, is = after[address].value;
+    // A pointer that moved is carried as a copy of what it sees, a number as it is.
     if (is.is_pointer && was.is_set && is.address != was.address) {
       const std::size_t copy = memory_.size();
       for (std::size_t k = 0; k < was.size; ++k) memory_.push_back(Cell(memory_[was.address + k]));
@@ -151,6 +169,7 @@ bool CTrace::add_changed(const std::vector<Cell>& after, LaneLoop& loop) {
   return loop.carried.size() + loop.copies.size() > known;
 }
 
+/// A loop of the graph, traced until it carries all that a round changes.
 void CTrace::run_lane_loop(const CStatement& statement) {
   if (has(statement, CStatement::Kind::Return))
     throw Error("C text", "has a loop that data may leave by a return");

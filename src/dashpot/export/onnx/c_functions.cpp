@@ -1,4 +1,4 @@
-#include "dashpot/export/c_subset/c_functions.h"
+#include "dashpot/export/onnx/c_functions.h"
 
 #include <algorithm>
 #include <array>
@@ -13,9 +13,9 @@ Node expm1(Graph& g, Node x) {
   return g.multiply(g.apply(Op::Tanh, g.scaled(x, 0.5)), g.add(g.apply(Op::Exp, x), g.constant(1)));
 }
 
-/// Likewise log(1 + x), as W. Kahan does it: what rounding takes from 1 + x goes again.
+/// log(1 + x), likewise, after W. Kahan: dividing by what rounding left of x mends the logarithm.
 Node log1p(Graph& g, Node x) {
-  // Behind a function, so that the 1 is not taken away again before anything was rounded.
+  // max(1 + x, 0) keeps the graph from folding (1 + x) - 1 to x before anything is rounded.
   const Node more = g.most(g.add(x, g.constant(1)), g.constant(0)),
              lost = g.subtract(more, g.constant(1));
   const Node ratio = g.divide(g.multiply(g.apply(Op::Log, more), x), lost);
@@ -27,7 +27,7 @@ Node cosine(Graph& g, Node x) {
   return g.apply(Op::Sin, g.add(x, g.constant(std::numbers::pi / 2)));
 }
 
-/// ONNX Runtime has it in single precision only: one step of Newton's method makes that double.
+/// ONNX Runtime has it in single precision only; one step of Newton's method makes it double.
 Node atan(Graph& g, Node x) {
   const Node near = g.apply(Op::Atan, x);
   if (g.is_single()) return near;
@@ -35,7 +35,7 @@ Node atan(Graph& g, Node x) {
   return g.add(near, g.divide(g.subtract(g.multiply(x, c), s), g.add(c, g.multiply(x, s))));
 }
 
-/// For points off the negative x axis.
+/// Right for points off the negative x axis.
 Node atan2(Graph& g, Node y, Node x) {
   const Node radius = g.apply(Op::Sqrt, g.add(g.multiply(x, x), g.multiply(y, y)));
   return g.scaled(atan(g, g.divide(y, g.add(radius, x))), 2);

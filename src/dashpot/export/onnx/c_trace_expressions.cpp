@@ -1,6 +1,6 @@
 #include "dashpot/error.h"
-#include "dashpot/export/c_subset/c_functions.h"
-#include "dashpot/export/c_subset/c_trace.h"
+#include "dashpot/export/onnx/c_functions.h"
+#include "dashpot/export/onnx/c_trace.h"
 
 namespace dashpot::trace {
 
@@ -19,6 +19,7 @@ CTrace::Result CTrace::evaluate(const CExpr& expr) {
     case CExpr::Kind::Number:
       return of_number(graph_.constant(expr.number),
                        expr.is_integer ? CType::Kind::Int : CType::Kind::Real);
+    // A name is a place: what stands there is loaded when it is asked for.
     case CExpr::Kind::Name: {
       const Variable& variable = find(expr.text);
       return place(variable.type, variable.address,
@@ -46,6 +47,8 @@ CTrace::Result CTrace::evaluate(const CExpr& expr) {
 
 CTrace::Result CTrace::unary(const CExpr& expr) {
   const Result of = evaluate(expr.parts[0]);
+
+  // Pointers: to a place, and the place that one points to.
   if (expr.text == "&") {
     CType type = of.type;
     ++type.pointers;
@@ -63,6 +66,8 @@ CTrace::Result CTrace::unary(const CExpr& expr) {
     type.is_array = false;
     return place(type, pointer.address, pointer.end);
   }
+
+  // Numbers, and counters that go up or down before they are used.
   if (expr.text == "!")
     return of_number(graph_.opposite(graph_.as_truth(number_of(of))), CType::Kind::Int);
   if (expr.text == "-") return of_number(graph_.scaled(number_of(of), -1), of.type.kind);
@@ -72,6 +77,7 @@ CTrace::Result CTrace::unary(const CExpr& expr) {
 }
 
 CTrace::Result CTrace::binary(const CExpr& expr) {
+  // The right side of && and || is computed by those lanes alone that the left does not decide.
   if (expr.text == "&&" || expr.text == "||") {
     const Node a = truth(expr.parts[0]), before = active_;
     const bool both = expr.text == "&&";
@@ -81,11 +87,13 @@ CTrace::Result CTrace::binary(const CExpr& expr) {
     active_ = before;
     return of_number(both ? graph_.both(a, b) : graph_.either(a, b), CType::Kind::Int);
   }
+
   const Result a = evaluate(expr.parts[0]), b = evaluate(expr.parts[1]);
   return expr.text == "," ? b : arithmetic(expr.text, a, b);
 }
 
 CTrace::Result CTrace::arithmetic(std::string_view mark, const Result& a, const Result& b) {
+  // A pointer moves by whole elements, as far as the text alone says.
   const Value left = load(a);
   if (left.is_pointer) {
     const Node offset = number_of(b);
@@ -104,6 +112,8 @@ CTrace::Result CTrace::arithmetic(std::string_view mark, const Result& a, const 
     moved.address += steps * program_.size_of(element);
     return {.type = type, .value = moved};
   }
+
+  // Comparisons.
   const Node x = left.node, y = number_of(b);
   const auto is_truth = [&](Node node) { return of_number(node, CType::Kind::Int); };
   if (mark == "<") return is_truth(graph_.less(x, y));
@@ -112,6 +122,8 @@ CTrace::Result CTrace::arithmetic(std::string_view mark, const Result& a, const 
   if (mark == ">=") return is_truth(graph_.less_or_equal(y, x));
   if (mark == "==") return is_truth(graph_.equal(x, y));
   if (mark == "!=") return is_truth(graph_.opposite(graph_.equal(x, y)));
+
+  // Arithmetic; / and % of whole numbers cut, which is floor for counts: they are positive.
   const bool whole = a.type.kind == CType::Kind::Int && b.type.kind == CType::Kind::Int;
   const auto kind = whole ? CType::Kind::Int : CType::Kind::Real;
   if (mark == "+") return of_number(graph_.add(x, y), kind);
@@ -119,7 +131,7 @@ CTrace::Result CTrace::arithmetic(std::string_view mark, const Result& a, const 
   if (mark == "*") return of_number(graph_.multiply(x, y), kind);
   const Node ratio = graph_.divide(x, y);
   if (!whole) return of_number(ratio, kind);
-  const Node times = graph_.apply(Op::Floor, ratio);  // counts are positive
+  const Node times = graph_.apply(Op::Floor, ratio);
   return of_number(mark == "/" ? times : graph_.subtract(x, graph_.multiply(times, y)), kind);
 }
 
@@ -135,8 +147,12 @@ CTrace::Result CTrace::choose(const CExpr& expr) {
   const Node condition = truth(expr.parts[0]), before = active_;
   const Node yes = graph_.both(before, condition),
              no = graph_.both(before, graph_.opposite(condition));
+
+  // If all lanes agree, only what they choose is computed.
   if (graph_.is(no, 0) || yes == before) return evaluate(expr.parts[1]);
   if (graph_.is(yes, 0) || no == before) return evaluate(expr.parts[2]);
+
+  // Else each lane takes its own of the two.
   active_ = yes;
   const Result a = evaluate(expr.parts[1]);
   const Node of_yes = number_of(a);
@@ -164,7 +180,8 @@ CTrace::Result CTrace::index(const CExpr& expr) {
   return index_by_lane(pointer, element, which);
 }
 
-/// A copy of the element that each lane means.
+/// The place of a copy of the element that each lane means. What is written to it goes to the
+/// element itself (Cell::through).
 CTrace::Result CTrace::index_by_lane(const Value& pointer, const CType& element, Node which) {
   const std::size_t size = program_.size_of(element),
                     count = (pointer.end - pointer.address) / size;
@@ -175,6 +192,8 @@ CTrace::Result CTrace::index_by_lane(const Value& pointer, const CType& element,
       const std::size_t from = pointer.address + k * size + part;
       const Value seen = memory_[from].value;
       Cell& cell = memory_[address + part];
+
+      // Lanes that mean this element see it; the others keep what they saw.
       if (seen.is_pointer) throw Error("C text", "has a pointer that depends on the data");
       if (seen.is_set)
         cell.value = {.is_set = true,
@@ -199,8 +218,11 @@ CTrace::Result CTrace::member(const CExpr& expr) {
 
 CTrace::Result CTrace::cast(const CExpr& expr) {
   Result of = evaluate(expr.parts[0]);
+  // (void)x says that x is not used; a pointer stays what it is.
   if (expr.type.kind == CType::Kind::Void && expr.type.pointers == 0) return {};
   if (expr.type.pointers > 0) return {.type = expr.type, .value = load(of)};
+
+  // A real number that becomes whole is cut towards zero.
   const Node number = number_of(of);
   if (expr.type.kind == CType::Kind::Int && of.type.kind == CType::Kind::Real) {
     const Node whole =

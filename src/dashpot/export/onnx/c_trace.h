@@ -7,42 +7,46 @@
 
 namespace dashpot::trace {
 
-/// Runs C code with nodes of a graph in the place of numbers, for many runs ("lanes") at once. What
-/// a branch writes is taken where its condition holds. Loops whose end is known are unrolled;
-/// others become loops of the graph, which go on while any lane does. Where a pointer depends on
-/// the data, it points to a copy of what each lane means. Throws Error at what cannot be told so.
+/// Runs C code with nodes of a graph in place of numbers, for many runs ("lanes") at once. What a
+/// branch writes is taken in the lanes where its condition holds. Loops whose end is known are
+/// unrolled; others become loops of the graph, which go on while any lane does. Where a pointer
+/// depends on the data, it points to a copy of what each lane means. Throws Error at what a graph
+/// cannot express.
 class CTrace {
  public:
-  /// `unrolls`: loops of many rounds, too; for constants.
+  /// `program` and `graph` must outlive the trace. `unrolls`: loops of many rounds, too, which is
+  /// right where all inputs are constants.
   CTrace(const CProgram& program, Graph& graph, bool unrolls = false);
 
-  /// A place for numbers that the code may point to.
+  /// The address of a new array of these numbers, to which the code may be given a pointer.
   std::size_t room(const std::vector<Node>& values);
   Node number(std::size_t address) const { return memory_[address].value.node; }
-  /// An argument that is a pointer to such a place, or a number.
+  /// An argument: a pointer to such an array, or a number.
   struct Argument {
     bool is_pointer = true;
     std::size_t address = 0;
     Node number = 0;
   };
-  /// Calls a function; gives its number, or 0 where it has none.
+  /// Calls a function of the program, which must be there; gives what it returns, or 0 where that
+  /// is void.
   Node call(std::string_view function, const std::vector<Argument>& arguments);
 
  private:
   struct Value {
     bool is_set = false, is_pointer = false;
     Node node = 0;
-    /// Of a pointer: where it points, where what it points into ends, and the size of one of it.
+    /// For a pointer: where it points, where the array it points into ends, and the size of an
+    /// element of that.
     std::size_t address = 0, end = 0, size = 1;
   };
   struct Cell {
     Value value;
-    Node born = 0;  ///< the lanes at work when it came into being
-    /// Of a copy of what one of several places holds, lane by lane: what is written here is written
-    /// there.
+    Node born = 0;  ///< the lanes that were at work when it came into being
+    /// For a copy of what lies at one of several places, lane by lane: the lanes and their place,
+    /// to which what is written here is written, too.
     std::vector<std::pair<Node, std::size_t>> through;
   };
-  /// Of an expression: a value, or a place in the memory.
+  /// The result of an expression: a value, or a place in the memory.
   struct Result {
     CType type;
     bool is_place = false;
@@ -53,6 +57,7 @@ class CTrace {
     CType type;
     std::size_t address = 0;
   };
+  /// How a statement ends for the lanes at work.
   enum class Flow { On, Broken, Returned };
 
   // Memory.
@@ -76,8 +81,8 @@ class CTrace {
   Flow run_rounds(const CStatement& statement);
   Flow run_return(const CStatement& statement);
   void run_lane_loop(const CStatement& statement);
-  /// Of a loop of the graph: cells that it carries, pointers that it moves with what they point to
-  /// held as a copy, and its number.
+  /// A loop of the graph: the cells that it carries, the pointers that it moves with the copies of
+  /// what they point to, and its number.
   struct LaneLoop {
     std::vector<std::size_t> carried;
     std::vector<std::pair<std::size_t, std::size_t>> copies;

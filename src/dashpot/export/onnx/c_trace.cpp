@@ -1,4 +1,4 @@
-#include "dashpot/export/c_subset/c_trace.h"
+#include "dashpot/export/onnx/c_trace.h"
 
 #include "dashpot/error.h"
 
@@ -27,11 +27,16 @@ std::size_t CTrace::allocate(const CType& type) {
 void CTrace::store(std::size_t address, const Value& value) {
   if (memory_.at(address).value.is_set && memory_[address].value.is_pointer)
     return store_pointer(address, value);
+
+  // Lanes that are not at work keep what they have; there are none where the cell is as young as
+  // the branch.
   Cell& cell = memory_[address];
   if (!cell.value.is_set || active_ == cell.born)
     cell.value = value;
   else
     cell.value.node = graph_.where(active_, value.node, cell.value.node);
+
+  // A copy hands on what is written to it, lane by lane.
   const Node before = active_;
   for (const auto& [lanes, target] : std::vector(cell.through)) {
     active_ = graph_.both(before, lanes);
@@ -40,13 +45,16 @@ void CTrace::store(std::size_t address, const Value& value) {
   active_ = before;
 }
 
-/// Where lanes would point to this and to that, all point to a copy of what each would see.
+/// Writes a pointer. If lanes would point to different places, all point to a copy of what each
+/// would see.
 void CTrace::store_pointer(std::size_t address, const Value& value) {
   const Value was = memory_[address].value;
   if (value.address == was.address || active_ == memory_[address].born) {
     memory_[address].value = value;
     return;
   }
+
+  // Copy what either points to, number by number.
   const std::size_t copy_at = memory_.size();
   for (std::size_t k = 0; k < value.size; ++k) {
     const Value seen = memory_[value.address + k].value, other = memory_[was.address + k].value;
@@ -73,7 +81,7 @@ CTrace::Value CTrace::load(const Result& result) {
             .end = result.address + program_.size_of(result.type),
             .size = program_.size_of(result.type) / result.type.count};
   const Value& value = memory_.at(result.address).value;
-  // What was never written is of no lane's concern.
+  // No lane looks at a cell that was never written: any value will do.
   return value.is_set ? value : Value{.is_set = true, .node = graph_.constant(0)};
 }
 
@@ -109,6 +117,8 @@ void CTrace::initialise(const CType& type, std::size_t address, const CInitialis
   if (!initialiser.value.empty()) {
     return give(evaluate(initialiser.value[0]), type, address);
   }
+
+  // A list: the elements of an array or the fields of a struct; what it leaves out is zero.
   clear(type, address);
   CType element = type;
   element.is_array = false;
@@ -133,6 +143,8 @@ CTrace::Flow CTrace::run(const CStatement& statement) {
       return run_if(statement);
     case CStatement::Kind::Loop:
       return run_loop(statement);
+
+    // If all lanes of the loop or function leave it, the run leaves it; else some sleep.
     case CStatement::Kind::Break:
       if (active_ == loop_entry_) return Flow::Broken;
       active_ = graph_.truth(false);
@@ -160,8 +172,12 @@ CTrace::Flow CTrace::run_if(const CStatement& statement) {
   const Node yes = graph_.both(before, condition),
              no = graph_.both(before, graph_.opposite(condition));
   const bool has_else = statement.parts.size() > 1;
+
+  // If all lanes agree, only their branch is run.
   if (graph_.is(no, 0) || yes == before) return run(statement.parts[0]);
   if (graph_.is(yes, 0) || no == before) return has_else ? run(statement.parts[1]) : Flow::On;
+
+  // Else both are, each with its lanes at work; those that neither left meet again.
   active_ = yes;
   run(statement.parts[0]);
   const Node after_yes = active_;
@@ -183,10 +199,13 @@ CTrace::Flow CTrace::run_return(const CStatement& statement) {
 
 CTrace::Result CTrace::call_function(const CFunction& function,
                                      const std::vector<Result>& arguments) {
+  // Remember the caller, and make room for the result, which outlives what the function declares.
   const std::size_t mark = memory_.size();
   const Variable caller = returned_;
   const Node caller_entry = function_entry_;
   returned_ = {function.result, allocate(function.result)};
+
+  // Bind the arguments, and run the body.
   scopes_.emplace_back();
   for (std::size_t k = 0; k < arguments.size(); ++k) {
     const CDeclaration& parameter = function.parameters.at(k);
@@ -195,6 +214,8 @@ CTrace::Result CTrace::call_function(const CFunction& function,
   }
   function_entry_ = active_;
   run(function.body[0]);
+
+  // Return to the caller: all lanes that came in are at work again.
   active_ = function_entry_;
   function_entry_ = caller_entry;
   scopes_.pop_back();
