@@ -31,8 +31,7 @@ std::string against_network(const NetworkModel& model) {
 }
 
 std::string against_law(const LawModel& model) {
-  const std::span names = lane_law_table();
-  if (std::find(names.begin(), names.end(), model.law().name) == names.end())
+  if (std::ranges::find(kLaneLaws, model.law().name) == std::end(kLaneLaws))
     return "the law " + model.name() + " has no lanes";
   for (const Form form : model.parameters().forms)
     if (!is_polynomial(form)) return "a parameter follows the current exponentially";
@@ -112,9 +111,8 @@ void set_law(const LawModel& model, LaneVehicle& lane) {
   constexpr std::size_t kPowers = 4;
   const std::size_t count = model.law().params.size();
   lane.shape.kind = LaneDamperKind::Law;
-  const std::span names = lane_law_table();
-  lane.shape.law = static_cast<std::size_t>(
-      std::find(names.begin(), names.end(), model.law().name) - names.begin());
+  lane.shape.law = static_cast<std::size_t>(std::ranges::find(kLaneLaws, model.law().name) -
+                                            std::begin(kLaneLaws));
   lane.damper.assign(kPowers * count, 0);
   for (std::size_t k = 0; k < count; ++k)
     for (std::size_t power = 0; power < model.parameters().coefficients[k].size(); ++power)
@@ -139,7 +137,7 @@ std::vector<double> start_of(const MountedDamper& damper, const LaneVehicle& lan
 
 }  // namespace
 
-std::span<const std::string_view> lane_laws() { return lane_law_table(); }
+std::span<const std::string_view> lane_laws() { return kLaneLaws; }
 
 double sample_time_of(const BatchVehicle& vehicle) {
   return vehicle.setting.controller ? vehicle.limits.sample_time : 1e-3;

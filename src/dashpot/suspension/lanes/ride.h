@@ -1,7 +1,6 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <string_view>
 
 #include "dashpot/damper/nets/kernel.h"
@@ -43,7 +42,7 @@ struct LaneNetwork {
 struct LaneRide {
   LaneDamperKind kind = LaneDamperKind::Network;
   const LaneNetwork* network = nullptr;
-  std::size_t law = 0;   ///< its place in lane_law_table()
+  std::size_t law = 0;   ///< its place in kLaneLaws
   std::size_t lags = 0;  ///< of driver and model, on the way to the current that drives the damper
   bool resists_more = false;  ///< some strut has stops or friction, some tyre may lift
   double relative_tolerance = 0, absolute_tolerance = 0;
@@ -125,7 +124,8 @@ struct RideKernel {
 /// For so many vehicles: the widest, but for one or two, which the shortest vectors serve sooner.
 const RideKernel& ride_kernel(std::size_t vehicles);
 
-/// Names of the laws that have lanes, in the order of LaneRide::law and of the alphabet.
-std::span<const std::string_view> lane_law_table();
+/// Names of the laws that have lanes, in alphabetical order. LaneRide::law is a place in this table;
+/// simd/laws.h holds their code in the same order.
+inline constexpr std::string_view kLaneLaws[] = {"bingham", "bouc_wen", "modified_bouc_wen"};
 
 }  // namespace dashpot
