@@ -24,6 +24,10 @@ PlantForces::PlantForces(const Plant& plant, const GroundMotion& ground)
       ground_(ground),
       linear_(linear_plant(plant)),
       resting_(plant.size() * plant.tyres.size()) {
+  for (const Strut& strut : plant.struts) resistances_.push_back(resistance_of(strut));
+  for (const Tyre& tyre : plant.tyres)
+    contacts_.push_back(contact_of(tyre, plant.tyres_may_lift));
+
   const RowMajor mass = matrix_of(plant.mass, plant.size());
   const auto n = static_cast<Eigen::Index>(plant.size());
   const Eigen::PartialPivLU<RowMajor> masses(mass);
@@ -68,12 +72,8 @@ DamperInput PlantForces::strut_motion(std::size_t strut, double t, std::span<con
 
 double PlantForces::strut_extra(std::size_t strut, const DamperInput& motion) const noexcept {
   const Strut& s = plant_.struts[strut];
-  double force = s.friction > 0 ? s.friction * std::tanh(motion.velocity / s.friction_speed) : 0;
-  if (s.extension_stop > 0 && motion.displacement > s.extension_stop)
-    force += s.stop_stiffness * (motion.displacement - s.extension_stop);
-  if (s.compression_stop > 0 && motion.displacement < -s.compression_stop)
-    force += s.stop_stiffness * (motion.displacement + s.compression_stop);
-  return force;
+  const double sliding = s.friction > 0 ? std::tanh(motion.velocity / s.friction_speed) : 0;
+  return strut_resistance(resistances_[strut], motion.displacement, sliding);
 }
 
 FootMotion PlantForces::foot(std::size_t tyre, double t) const noexcept {
@@ -104,13 +104,14 @@ void PlantForces::add_up(double t, std::span<const double> x, std::span<const do
 }
 
 double PlantForces::push(std::size_t which, double t, std::span<const double> x) const noexcept {
-  const Tyre& tyre = plant_.tyres[which];
+  const std::vector<double>& row = plant_.tyres[which].row;
+  const TyreContact<double>& tyre = contacts_[which];
   const FootMotion ground = foot(which, t);
-  const double push = tyre.stiffness * ground.height + tyre.damping * ground.velocity;
+  const double push = road_push(tyre, ground.height, ground.velocity);
   if (!plant_.tyres_may_lift) return push;
-  const double load = tyre.static_load + push - tyre.stiffness * along(tyre.row, x.data()) -
-                      tyre.damping * along(tyre.row, x.data() + plant_.size());
-  return push - std::fmin(load, 0);
+
+  const double height = along(row, x.data()), rate = along(row, x.data() + plant_.size());
+  return push_on_wheel(tyre, push, dashpot::tyre_load(tyre, push, height, rate));
 }
 
 void PlantForces::accelerate(double t, std::span<const double> x,

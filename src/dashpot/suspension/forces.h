@@ -5,6 +5,7 @@
 #include "dashpot/suspension/ground/ground_motion.h"
 #include "dashpot/suspension/mounted_damper.h"
 #include "dashpot/suspension/plants/linear.h"
+#include "dashpot/suspension/plants/nonlinear_forces.h"
 #include "dashpot/suspension/plants/plant.h"
 
 namespace dashpot {
@@ -38,6 +39,8 @@ class PlantForces {
   const Plant& plant_;
   const GroundMotion& ground_;
   LinearPlant linear_;
+  std::vector<StrutResistance<double>> resistances_;  ///< one per strut
+  std::vector<TyreContact<double>> contacts_;         ///< one per tyre
   /// How a tyre pushes by the road alone, and by how much less it pulls where it lets go.
   double push(std::size_t tyre, double t, std::span<const double> x) const noexcept;
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "dashpot/base/text.h"
 #include "dashpot/damper/kinds/law/law_model.h"
@@ -75,23 +74,6 @@ void set_plant(const Plant& plant, QuarterCarNumbers<double>& n) {
   }
 }
 
-void set_limits(const Plant& plant, QuarterCarNumbers<double>& n) {
-  const Tyre& tyre = plant.tyres[0];
-  const Strut& strut = plant.struts[0];
-  const auto travel = [](double stop) {
-    return stop > 0 ? stop : std::numeric_limits<double>::infinity();
-  };
-  n.tyre_stiffness = tyre.stiffness;
-  n.tyre_damping = tyre.damping;
-  n.static_load = tyre.static_load;
-  n.may_lift = plant.tyres_may_lift ? 1 : 0;
-  n.friction = strut.friction;
-  n.friction_slope = 1 / strut.friction_speed;
-  n.extension_stop = travel(strut.extension_stop);
-  n.compression_stop = travel(strut.compression_stop);
-  n.stop_stiffness = strut.stop_stiffness;
-}
-
 void set_network(const NetworkModel& model, LaneVehicle& lane) {
   const Mlp mlp = on_raw_inputs(model.members()[0]);
   LaneNetwork& shape = lane.shape.network;
@@ -157,7 +139,9 @@ LaneVehicle lane_vehicle(const BatchVehicle& vehicle) {
   const MountedDamper& damper = vehicle.setting.dampers[0];
   LaneVehicle lane{};
   set_plant(plant, lane.numbers);
-  set_limits(plant, lane.numbers);
+  lane.numbers.tyre = contact_of(plant.tyres[0], plant.tyres_may_lift);
+  lane.numbers.strut = resistance_of(plant.struts[0]);
+  lane.numbers.friction_slope = 1 / plant.struts[0].friction_speed;
   lane.numbers.driver_lag = damper.driver.lag_rate;
   if (const auto* network = dynamic_cast<const NetworkModel*>(damper.model.get()))
     set_network(*network, lane);

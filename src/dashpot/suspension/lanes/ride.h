@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "dashpot/damper/nets/kernel.h"
+#include "dashpot/suspension/plants/nonlinear_forces.h"
 
 // What passes between simulate_batch and the loops over lanes, which are compiled once per
 // instruction set.
@@ -15,9 +16,9 @@ struct QuarterCarNumbers {
   // q'' = by_state x + by_force F + by_push P;  x = body, wheel and their speeds, F of the strut, P
   // of the road
   Number by_state[2][4], by_force[2], by_push[2];
-  Number tyre_stiffness, tyre_damping, static_load;
-  Number may_lift;  ///< 1 or 0
-  Number friction, friction_slope, extension_stop, compression_stop, stop_stiffness;
+  TyreContact<Number> tyre;
+  StrutResistance<Number> strut;
+  Number friction_slope;         ///< s/m, 1 / v_s: over this speed friction sets in
   Number driver_lag, model_lag;  ///< 1/s; 0: none
 };
 

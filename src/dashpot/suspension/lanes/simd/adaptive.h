@@ -70,7 +70,7 @@ class AdaptiveSteps {
       out.d[5 + kStates] = car_.numbers.driver_lag * (command - s.currents.coil);
     }
     out.force = car_.damper_force(x, s.z);
-    const Lane force = out.force + car_.strut_extra(x), pushed = car_.push_on_wheel(x, road);
+    const Lane force = out.force + car_.strut_extra(x), pushed = car_.push_at_wheel(x, road);
     car_.damper.derivative(x[0] - x[1], x[2] - x[3], s.z, out.d + 4);
     out.d[0] = x[2];
     out.d[1] = x[3];

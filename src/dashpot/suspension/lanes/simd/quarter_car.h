@@ -31,28 +31,20 @@ class QuarterCarLanes {
   Lane damper_force(const Lane* x, const Lane* z) const {
     return damper.force(x[0] - x[1], x[2] - x[3], z);
   }
-  /// What else acts along the strut.
+  /// Friction and stops of the strut, N.
   Lane strut_extra(const Lane* x) const {
     if (!ride_.resists_more) return Lane{};
-    const Lane d = x[0] - x[1];
-    const Lane stopped = d > numbers.extension_stop      ? d - numbers.extension_stop
-                         : d < -numbers.compression_stop ? d + numbers.compression_stop
-                                                         : Lane{};
-    return numbers.friction * tanh(numbers.friction_slope * (x[2] - x[3])) +
-           numbers.stop_stiffness * stopped;
+    const Lane sliding = tanh(numbers.friction_slope * (x[2] - x[3]));
+    return strut_resistance(numbers.strut, x[0] - x[1], sliding);
   }
-  /// Force of a tyre by the road alone, of a given height and rate.
-  Lane push(Lane height, Lane rate) const {
-    return numbers.tyre_stiffness * height + numbers.tyre_damping * rate;
+  /// Load of the tyre on the road under this push, N.
+  Lane load_on_road(const Lane* x, Lane pushed) const {
+    return tyre_load(numbers.tyre, pushed, x[1], x[3]);
   }
-  Lane tyre_load(const Lane* x, Lane pushed) const {
-    return numbers.static_load + pushed - numbers.tyre_stiffness * x[1] -
-           numbers.tyre_damping * x[3];
-  }
-  /// The same where the tyre lets go instead of pulling.
-  Lane push_on_wheel(const Lane* x, Lane pushed) const {
+  /// What of the road's push reaches the wheel, N.
+  Lane push_at_wheel(const Lane* x, Lane pushed) const {
     if (!ride_.resists_more) return pushed;
-    return pushed - numbers.may_lift * fmin(tyre_load(x, pushed), 0);
+    return push_on_wheel(numbers.tyre, pushed, load_on_road(x, pushed));
   }
   /// Of coordinate k, m/s^2.
   Lane acceleration(std::size_t k, const Lane* x, Lane strut, Lane pushed) const {

@@ -11,7 +11,7 @@ template <class Damper, class Steps>
 class LaneRun {
  public:
   explicit LaneRun(const LaneRide& ride)
-      : ride_(ride), car_(ride), steps_(ride, car_), tally_(ride, car_.numbers.static_load) {
+      : ride_(ride), car_(ride), steps_(ride, car_), tally_(ride, car_.numbers.tyre.static_load) {
     command_ = load(ride.start);
     state_.currents = {load(ride.start + kWidth), load(ride.start + 2 * kWidth)};
     for (std::size_t k = 0; k < Damper::kStates; ++k)
@@ -57,9 +57,9 @@ class LaneRun {
     for (std::size_t node = 0; node < 3; ++node) {
       height[node] = at_node(heights_, node);
       rate[node] = at_node(rates_, node);
-      road_.node[node] = car_.push(height[node], rate[node]);
+      road_.node[node] = road_push(car_.numbers.tyre, height[node], rate[node]);
     }
-    road_.twist = car_.numbers.tyre_stiffness *
+    road_.twist = car_.numbers.tyre.stiffness *
                   (ride_.sample_time * (rate[0] + rate[2]) - 2 * (height[2] - height[0]));
     height_ = height[0];
   }
@@ -100,7 +100,7 @@ class LaneRun {
 
   void record(LaneMask which) {
     const Lane* x = state_.x;
-    const Lane load_here = car_.tyre_load(x, car_.push_on_wheel(x, road_.node[0]));
+    const Lane load_here = car_.load_on_road(x, car_.push_at_wheel(x, road_.node[0]));
     tally_.add({steps_.acceleration(0), load_here, x[1] - height_, x[0] - x[1], x[2] - x[3],
                 steps_.force(), state_.currents.coil},
                which, place_ >= static_cast<std::int64_t>(ride_.discarded));
