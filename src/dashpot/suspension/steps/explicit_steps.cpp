@@ -4,24 +4,14 @@
 #include <utility>
 
 #include "dashpot/suspension/plants/plant_equations.h"
+#include "dashpot/suspension/steps/dormand_prince.h"
 #include "dashpot/suspension/steps/step_control.h"
 
 namespace dashpot {
 namespace {
 
-constexpr std::size_t kStages = 7;
-constexpr double kAt[kStages] = {0, 0.2, 0.3, 0.8, 8.0 / 9, 1, 1};
-/// What each stage takes of the slopes before it; the last row is the end of the step.
-constexpr double kFrom[kStages][kStages - 1] = {
-    {},
-    {0.2},
-    {3.0 / 40, 9.0 / 40},
-    {44.0 / 45, -56.0 / 15, 32.0 / 9},
-    {19372.0 / 6561, -25360.0 / 2187, 64448.0 / 6561, -212.0 / 729},
-    {9017.0 / 3168, -355.0 / 33, 46732.0 / 5247, 49.0 / 176, -5103.0 / 18656},
-    {35.0 / 384, 0, 500.0 / 1113, 125.0 / 192, -2187.0 / 6784, 11.0 / 84}};
-constexpr double kOff[kStages] = {71.0 / 57600,      0,          -71.0 / 16695, 71.0 / 1920,
-                                  -17253.0 / 339200, 22.0 / 525, -1.0 / 40};
+using Method = DormandPrince;
+constexpr std::size_t kStages = Method::kStages;
 
 class ExplicitSteps final : public StepMethod {
  public:
@@ -51,7 +41,7 @@ class ExplicitSteps final : public StepMethod {
       const bool last = done + next_ >= length * (1 - 1e-12);
       const double h = last ? length - done : next_;
       attempt(done, h);
-      const double error = distance(h), wanted = h * step_factor(error, 0.2);
+      const double error = distance(h), wanted = h * step_factor(error, Method::kPower);
       const bool bad = !(error <= 1);
       next_ = std::max(last && !bad ? std::max(next_, wanted) : wanted, least.shortest());
       if (bad && h > least.shortest()) continue;
@@ -84,8 +74,8 @@ class ExplicitSteps final : public StepMethod {
   }
   template <std::size_t kStage>
   void stage(double done, double h, std::vector<double>& at) {
-    sum(at, h, kFrom[kStage], std::make_index_sequence<kStage>());
-    slope(kStage, done + kAt[kStage] * h, at);
+    sum(at, h, Method::kFrom[kStage], std::make_index_sequence<kStage>());
+    slope(kStage, done + Method::kAt[kStage] * h, at);
   }
   void attempt(double done, double h) {
     stage<1>(done, h, trial_);
@@ -97,7 +87,7 @@ class ExplicitSteps final : public StepMethod {
   }
   double off(std::size_t i) const {
     double sum = 0;
-    for (std::size_t s = 0; s < kStages; ++s) sum += kOff[s] * k_[s * size_ + i];
+    for (std::size_t s = 0; s < kStages; ++s) sum += Method::kError[s] * k_[s * size_ + i];
     return std::abs(sum);
   }
   double distance(double h) const {

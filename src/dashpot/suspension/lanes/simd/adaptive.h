@@ -1,5 +1,6 @@
 #pragma once
 #include "dashpot/suspension/lanes/simd/quarter_car.h"
+#include "dashpot/suspension/steps/dormand_prince.h"
 
 namespace dashpot {
 namespace {
@@ -100,43 +101,58 @@ class AdaptiveSteps {
       state.currents.coil = accepted ? end.currents.coil : state.currents.coil;
   }
 
+  /// The sum of weights[i] k_i of component n, without the slopes whose weight is 0.
+  template <class... Later>
+  [[gnu::always_inline]] static Lane weighted(const double* weights, std::size_t n, const Slope& k1,
+                                              const Later&... later) {
+    Lane sum = weights[0] * k1.d[n];
+    [[maybe_unused]] const auto add = [&](double weight, Lane slope) {
+      if (weight != 0) sum += weight * slope;
+    };
+    (add(*++weights, later.d[n]), ...);
+    return sum;
+  }
+  /// to = from + h (a_1 k_1 + a_2 k_2 + ...), a: the stage's row of the tableau.
+  template <std::size_t kStage, class... Slopes>
+  [[gnu::always_inline]] static void move(const State& from, Lane h, State& to,
+                                          const Slopes&... slopes) {
+    static_assert(sizeof...(slopes) == kStage, "a stage takes all slopes before it");
+    each_of(from, to, [&](Lane y, std::size_t n) {
+      return y + h * weighted(DormandPrince::kFrom[kStage], n, slopes...);
+    });
+  }
+
   /// A step of length h from `begin` (share of the sample) on; its error in tolerances.
   [[gnu::noinline, gnu::flatten]] Lane attempt(const State& from, Lane h, Lane command,
                                                const RoadPush& road, Lane begin, State& end,
                                                Slope& k7) {
     const Lane share = h / ride_.sample_time;
+    const auto road_of = [&](std::size_t stage) {
+      return road.at(begin + DormandPrince::kAt[stage] * share);
+    };
     const Slope& k1 = first_;
-    const auto at = [&](double c) { return road.at(begin + c * share); };
     State trial;
-    each_of(from, trial, [&](Lane y, std::size_t k) { return y + h * (0.2 * k1.d[k]); });
-    const Slope k2 = slope(trial, command, at(0.2));
-    each_of(from, trial, [&](Lane y, std::size_t k) {
-      return y + h * (3.0 / 40 * k1.d[k] + 9.0 / 40 * k2.d[k]);
-    });
-    const Slope k3 = slope(trial, command, at(0.3));
-    each_of(from, trial, [&](Lane y, std::size_t k) {
-      return y + h * (44.0 / 45 * k1.d[k] - 56.0 / 15 * k2.d[k] + 32.0 / 9 * k3.d[k]);
-    });
-    const Slope k4 = slope(trial, command, at(0.8));
-    each_of(from, trial, [&](Lane y, std::size_t k) {
-      return y + h * (19372.0 / 6561 * k1.d[k] - 25360.0 / 2187 * k2.d[k] +
-                      64448.0 / 6561 * k3.d[k] - 212.0 / 729 * k4.d[k]);
-    });
-    const Slope k5 = slope(trial, command, at(8.0 / 9));
-    each_of(from, trial, [&](Lane y, std::size_t k) {
-      return y + h * (9017.0 / 3168 * k1.d[k] - 355.0 / 33 * k2.d[k] + 46732.0 / 5247 * k3.d[k] +
-                      49.0 / 176 * k4.d[k] - 5103.0 / 18656 * k5.d[k]);
-    });
-    const Slope k6 = slope(trial, command, at(1));
-    each_of(from, end, [&](Lane y, std::size_t k) {
-      return y + h * (35.0 / 384 * k1.d[k] + 500.0 / 1113 * k3.d[k] + 125.0 / 192 * k4.d[k] -
-                      2187.0 / 6784 * k5.d[k] + 11.0 / 84 * k6.d[k]);
-    });
-    k7 = slope(end, command, at(1));
+
+    // Stages 2 to 6: each starts where the slopes before it lead to.
+    move<1>(from, h, trial, k1);
+    const Slope k2 = slope(trial, command, road_of(1));
+    move<2>(from, h, trial, k1, k2);
+    const Slope k3 = slope(trial, command, road_of(2));
+    move<3>(from, h, trial, k1, k2, k3);
+    const Slope k4 = slope(trial, command, road_of(3));
+    move<4>(from, h, trial, k1, k2, k3, k4);
+    const Slope k5 = slope(trial, command, road_of(4));
+    move<5>(from, h, trial, k1, k2, k3, k4, k5);
+    const Slope k6 = slope(trial, command, road_of(5));
+
+    // Stage 7 is the end of the step, and its slope the first one of the next step.
+    move<6>(from, h, end, k1, k2, k3, k4, k5, k6);
+    k7 = slope(end, command, road_of(6));
+
+    // The error: what the embedded solution of order 4 differs by.
     State off;
-    each_of(from, off, [&](Lane, std::size_t k) {
-      return h * (71.0 / 57600 * k1.d[k] - 71.0 / 16695 * k3.d[k] + 71.0 / 1920 * k4.d[k] -
-                  17253.0 / 339200 * k5.d[k] + 22.0 / 525 * k6.d[k] - 1.0 / 40 * k7.d[k]);
+    each_of(from, off, [&](Lane, std::size_t n) {
+      return h * weighted(DormandPrince::kError, n, k1, k2, k3, k4, k5, k6, k7);
     });
     return distance(from, end, off, k1, h);
   }
