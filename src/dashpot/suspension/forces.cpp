@@ -25,8 +25,7 @@ PlantForces::PlantForces(const Plant& plant, const GroundMotion& ground)
       linear_(linear_plant(plant)),
       resting_(plant.size() * plant.tyres.size()) {
   for (const Strut& strut : plant.struts) resistances_.push_back(resistance_of(strut));
-  for (const Tyre& tyre : plant.tyres)
-    contacts_.push_back(contact_of(tyre, plant.tyres_may_lift));
+  for (const Tyre& tyre : plant.tyres) contacts_.push_back(contact_of(tyre, plant.tyres_may_lift));
 
   const RowMajor mass = matrix_of(plant.mass, plant.size());
   const auto n = static_cast<Eigen::Index>(plant.size());

@@ -2,7 +2,7 @@
 #include <span>
 #include <vector>
 
-#include "dashpot/suspension/lanes/batch.h"
+#include "dashpot/suspension/lanes/batch_vehicle.h"
 #include "dashpot/suspension/lanes/ride.h"
 
 namespace dashpot {

@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "dashpot/suspension/lanes/batch.h"
+#include "dashpot/suspension/lanes/batch_vehicle.h"
 #include "dashpot/suspension/lanes/ride.h"
 
 namespace dashpot {
@@ -25,8 +25,6 @@ struct LaneVehicle {
   std::vector<double> damper, start;  ///< as LaneRide's
 };
 
-/// s between the samples of a vehicle.
-double sample_time_of(const BatchVehicle& vehicle);
 /// Only of one that reason_against_lanes() has nothing against.
 LaneVehicle lane_vehicle(const BatchVehicle& vehicle);
 

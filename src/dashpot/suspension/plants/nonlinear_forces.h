@@ -3,9 +3,9 @@
 
 #include "dashpot/suspension/plants/plant.h"
 
-// The forces of a plant that are not linear in its motion: friction and stops of a strut, and a tyre
-// that lifts. These are the only texts of them. simulate() takes them with Number = double, rides in
-// lanes with a vector that holds a number per vehicle.
+// The forces of a plant that are not linear in its motion: friction and stops of a strut, and a
+// tyre that lifts. These are the only texts of them. simulate() takes them with Number = double,
+// rides in lanes with a vector that holds a number per vehicle.
 //
 //   strut     F = F_c tanh(v / v_s) + k_s e(d)         N, resists extension where positive
 //             e = d - d_e      where d > d_e           m beyond the stop of extension
@@ -48,9 +48,9 @@ inline TyreContact<double> contact_of(const Tyre& tyre, bool may_lift) {
   return {tyre.stiffness, tyre.damping, tyre.static_load, may_lift ? 1.0 : 0.0};
 }
 
-// Inline wherever they are called: the lanes are compiled once per instruction set, and of a function
-// out of line the linker would keep one copy for all of them, perhaps one that this processor lacks
-// the instructions for.
+// Inline wherever they are called: the lanes are compiled once per instruction set, and of a
+// function out of line the linker would keep one copy for all of them, perhaps one that this
+// processor lacks the instructions for.
 
 /// e(d), m.
 template <class Number>

@@ -19,9 +19,9 @@ namespace dashpot {
 ///     y_5 |    35/384           0   500/1113  125/192   -2187/6784    11/84     0
 ///     y_4 |5179/57600           0 7571/16695  393/640 -92097/339200 187/2100 1/40
 ///
-/// The last stage stands at the end y_5 of the step, so that its slope is the first of the next one.
-/// The error of a step is taken to be h e . k = y_5 - y_4, of order h^5: the length that just meets
-/// a tolerance goes as (tolerance / error)^(1/5).
+/// The last stage stands at the end y_5 of the step, so that its slope is the first of the next
+/// one. The error of a step is taken to be h e . k = y_5 - y_4, of order h^5: the length that just
+/// meets a tolerance goes as (tolerance / error)^(1/5).
 struct DormandPrince {
   static constexpr std::size_t kStages = 7;
   static constexpr double kPower = 0.2;  ///< 1 / 5, of error in the length of the next step

@@ -5,23 +5,36 @@
 namespace dashpot {
 namespace {
 
-/// The method of Dormand and Prince, order 5 with an error of order 4 (J. Comput. Appl. Math. 6
-/// (1980) 19), every lane in steps of its own length.
+/// The method of Dormand and Prince (DormandPrince has its tableau), every lane in steps of its own
+/// length. What moves is y = [heights, speeds, the damper's states, currents behind lags]; kLags
+/// says how many of driver and model lag behind the command.
+///
+/// Error of a step, in tolerances: the greatest over the pairs of heights and of speeds, each
+/// against the pair's greatest magnitude, and over the damper's states one by one,
+///
+///     |y_5 - y_4| / (absolute + relative * size)
+///
+/// A step is accepted where that is at most 1, else tried again, shorter. Next length: 0.9 h
+/// error^(-1/5), between a fifth and five times h, between 1/256 of a sample and the whole of it.
+/// The shortest is accepted with any error and counts as missed. Lengths are in s; no step reaches
+/// over a sample's end.
 template <class Damper, std::size_t kLags>
 class AdaptiveSteps {
   using Car = QuarterCarLanes<Damper>;
   using State = typename Car::State;
   static constexpr std::size_t kStates = Damper::kStates, kSize = 4 + kStates + kLags;
+  /// y' and, by the way, the damper's force.
   struct Slope {
-    Lane d[kSize];
-    Lane force;  ///< of the damper
+    Lane d[kSize];  ///< heights (0, 1), speeds (2, 3), damper (from 4), currents (from 4 + kStates)
+    Lane force;     ///< N
   };
+  static_assert(kLags <= 2, "driver and model");
 
  public:
   AdaptiveSteps(const LaneRide& ride, Car& car)
       : ride_(ride), car_(car), next_(all(ride.sample_time)) {}
 
-  /// Forces at the begin of a sample, after the command has changed in some lanes.
+  /// Forces at the start of a sample, after the command has changed in some lanes.
   [[gnu::noinline, gnu::flatten]] void refresh(const State& state, Lane command, LaneMask changed,
                                                Lane road) {
     keep(slope(state, command, road), changed);
@@ -30,8 +43,9 @@ class AdaptiveSteps {
   Lane force() const { return first_.force; }
   Lane acceleration(std::size_t k) const { return first_.d[2 + k]; }
 
-  /// Tries one step in these lanes. Those that have reached the end of their sample.
+  /// Tries one step in these lanes. Returns those that have reached the end of their sample.
   LaneMask step(State& state, Lane command, const RoadPush& road, LaneMask riding) {
+    // As long as was proposed, or as much as is left of the sample.
     const double whole = ride_.sample_time, least = whole / 256;
     const Lane left = whole - done_;
     const LaneMask last = next_ >= left;
@@ -39,15 +53,22 @@ class AdaptiveSteps {
     State end;
     Slope ending;
     const Lane error = attempt(state, h, command, road, done_ / whole, end, ending);
+
+    // Where it is accepted, its end becomes the state. A NaN is accepted: the run finds it.
     const LaneMask accepted = riding & ((error <= 1) | (h <= least) | (error != error));
     missed |= accepted & !(error <= 1);
     take(state, end, accepted);
     keep(ending, accepted);
     steps += accepted ? all(1) : Lane{};
+
+    // The next length. A step that was cut short by the sample's end does not shorten it.
     const Lane factor = fmin(fmax(0.9 * about_fifth_root_below(fmax(error, 1e-5)), 0.2), 5);
     const Lane proposed = fmin(fmax(h * factor, least), whole);
     next_ = riding ? (accepted & last ? fmax(next_, proposed) : proposed) : next_;
     done_ = accepted ? (last ? Lane{} : done_ + h) : done_;
+
+    // With one lag the coil's current is either the driving one or, where the driver has no lag,
+    // the command.
     const LaneMask arrived = accepted & last;
     if constexpr (kLags == 1)
       state.currents.coil =
@@ -55,13 +76,16 @@ class AdaptiveSteps {
     return arrived;
   }
 
-  LaneMask missed{};
-  Lane steps{};
+  LaneMask missed{};  ///< lanes in which some step missed the tolerance
+  Lane steps{};       ///< accepted in each lane
 
  private:
+  /// y' of a state under a command, A, and a push of the road, N.
   [[gnu::always_inline]] Slope slope(const State& s, Lane command, Lane road) {
     Slope out;
     const Lane* x = s.x;
+
+    // Currents: first-order lags on the way from the command to the one that drives the model.
     if constexpr (kLags > 0) car_.damper.set_current(s.currents.inner);
     if constexpr (kLags == 1)
       out.d[4 + kStates] =
@@ -70,6 +94,8 @@ class AdaptiveSteps {
       out.d[4 + kStates] = car_.numbers.model_lag * (s.currents.coil - s.currents.inner);
       out.d[5 + kStates] = car_.numbers.driver_lag * (command - s.currents.coil);
     }
+
+    // Forces, and what they make of the motion.
     out.force = car_.damper_force(x, s.z);
     const Lane force = out.force + car_.strut_extra(x), pushed = car_.push_at_wheel(x, road);
     car_.damper.derivative(x[0] - x[1], x[2] - x[3], s.z, out.d + 4);
@@ -83,6 +109,7 @@ class AdaptiveSteps {
     for (std::size_t k = 0; k < kSize; ++k) first_.d[k] = which ? fresh.d[k] : first_.d[k];
     first_.force = which ? fresh.force : first_.force;
   }
+  /// to = change(from, its place in Slope::d), number by number.
   template <class Change>
   [[gnu::always_inline]] static void each_of(const State& from, State& to, Change change) {
 #pragma GCC unroll 16
@@ -92,6 +119,7 @@ class AdaptiveSteps {
     if constexpr (kLags > 0) to.currents.inner = change(from.currents.inner, 4 + kStates);
     if constexpr (kLags > 1) to.currents.coil = change(from.currents.coil, 5 + kStates);
   }
+  /// The end of a step becomes the state in the lanes that accepted it.
   static void take(State& state, const State& end, LaneMask accepted) {
     for (std::size_t k = 0; k < 4; ++k) state.x[k] = accepted ? end.x[k] : state.x[k];
     for (std::size_t k = 0; k < kStates; ++k) state.z[k] = accepted ? end.z[k] : state.z[k];
@@ -122,7 +150,9 @@ class AdaptiveSteps {
     });
   }
 
-  /// A step of length h from `begin` (share of the sample) on; its error in tolerances.
+  /// A step of length h, s, from the share `begin` of the sample on: its end, the slope there (k7)
+  /// and, returned, its error in tolerances. Kept out of line: inlined copies may round
+  /// differently.
   [[gnu::noinline, gnu::flatten]] Lane attempt(const State& from, Lane h, Lane command,
                                                const RoadPush& road, Lane begin, State& end,
                                                Slope& k7) {
@@ -157,8 +187,9 @@ class AdaptiveSteps {
     return distance(from, end, off, k1, h);
   }
 
-  /// Heights are measured against each other, and so are speeds; damper and currents one by one,
-  /// each against what it is and what it moves by.
+  /// The error in tolerances. A damper's state, which may pass through 0 while it moves fast, is
+  /// measured against its size and how far it moves in the step. Currents are
+  /// not measured.
   Lane distance(const State& from, const State& end, const State& off, const Slope& k1,
                 Lane h) const {
     const double absolute = ride_.absolute_tolerance, relative = ride_.relative_tolerance;
@@ -176,8 +207,9 @@ class AdaptiveSteps {
 
   const LaneRide& ride_;
   Car& car_;
-  Lane next_, done_{};  ///< s, of the sample
-  Slope first_{};
+  Lane next_;      ///< s, the length to try next
+  Lane done_{};    ///< s of the present sample
+  Slope first_{};  ///< at the present state
 };
 
 }  // namespace

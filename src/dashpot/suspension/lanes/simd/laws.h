@@ -3,10 +3,11 @@
 
 #include "dashpot/suspension/lanes/simd/dampers.h"
 
-// The laws that ride in lanes. Each is the C text of its law, in which the build has written Lane, a
-// number per vehicle, for each double (law_texts.cmake). To add a law: name it in law_texts.cmake and
-// in kLaneLaws, and give it a row below. Its functions must not branch on numbers that differ from
-// lane to lane: a text leaves those that do out between #ifndef DASHPOT_LAW_IN_LANES and #endif.
+// The laws that ride in lanes. Each is the C text of its law, in which the build has written Lane,
+// a number per vehicle, for each double (law_texts.cmake). To add a law: name it in law_texts.cmake
+// and in kLaneLaws, and give it a row below. Its functions must not branch on numbers that differ
+// from lane to lane: a text leaves those that do out between #ifndef DASHPOT_LAW_IN_LANES and
+// #endif.
 namespace dashpot {
 namespace {
 

@@ -4,26 +4,36 @@
 namespace dashpot {
 namespace {
 
-/// The driver's current in the coil, and the one that drives the model behind one or both of their
-/// lags.
+/// The driver's current in the coil, A, and the one that drives the model behind one or both of
+/// their lags, A.
 struct Currents {
   Lane coil{}, inner{};
 };
 
-/// What moves, and what it feels.
+/// All that changes while a vehicle rides.
 template <std::size_t kStates>
 struct Moving {
-  Lane x[4]{};            ///< body, wheel, their speeds
-  Lane z[kStates + 1]{};  ///< the damper's
+  Lane x[4]{};            ///< heights of body and wheel, m, and their speeds, m/s
+  Lane z[kStates + 1]{};  ///< the damper's states; one more, since there may be none
   Currents currents;
 };
 
-/// The equations of a quarter car in each lane.
+/// The equations of a quarter car in each lane:
+///
+///     [body'', wheel''] = A x + b F + c P
+///
+/// F N of the damper, friction and stops (extension positive), P N of the road on the wheel.
+/// `Damper` gives its force by set_current(), force() and derivative() (dampers.h), or by expand()
+/// (tanh_neurons.h). The numbers of LaneRide are read in place, a Lane for each double.
 template <class Damper>
 class QuarterCarLanes {
  public:
   static constexpr std::size_t kStates = Damper::kStates;
   using State = Moving<kStates>;
+  using Numbers = QuarterCarNumbers<Lane>;
+  static_assert(sizeof(Numbers) == kWidth * sizeof(QuarterCarNumbers<double>),
+                "a row of lanes stands for each number of a vehicle, without gaps");
+
   explicit QuarterCarLanes(const LaneRide& ride)
       : damper(ride), numbers(*reinterpret_cast<const Numbers*>(ride.numbers)), ride_(ride) {}
 
@@ -58,23 +68,24 @@ class QuarterCarLanes {
   }
 
   Damper damper;
-  using Numbers = QuarterCarNumbers<Lane>;
   const Numbers& numbers;
 
  private:
   const LaneRide& ride_;
 };
 
-/// The road's push within a sample: a parabola through its begin, middle and end and, so that its
-/// slopes there are the road's, twist u (u - 1/2) (u - 1), u = 0 ... 1.
+/// The road's push within a sample, N, over the share u = 0 ... 1 of it: the parabola through its
+/// start, middle and end and, so that it has the road's slopes at both ends, twist u (u - 1/2) (u -
+/// 1).
 struct RoadPush {
-  Lane node[3]{}, twist{};
+  Lane node[3]{};  ///< at u = 0, 1/2 and 1
+  Lane twist{};
   Lane at(Lane u) const {
     const Lane slope = 4 * node[1] - 3 * node[0] - node[2],
                bend = 2 * (node[0] + node[2]) - 4 * node[1];
     return node[0] + u * (slope + u * bend + (u - 0.5) * (u - 1) * twist);
   }
-  /// Terms of its series around u.
+  /// Terms 0 to 3 of its series around u, in shares of the sample; there are no more.
   void expand(Lane u, Lane* terms) const {
     const Lane slope = 4 * node[1] - 3 * node[0] - node[2] + 0.5 * twist,
                bend = 2 * (node[0] + node[2]) - 4 * node[1] - 1.5 * twist;
