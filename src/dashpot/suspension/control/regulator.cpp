@@ -83,6 +83,7 @@ const std::vector<ParameterRow> kPrices{
 }  // namespace
 
 std::vector<double> regulator_of(const Plant& plant, const RegulatorPrices& prices) {
+  // The plant as x' = a x + b u, with x = [q, q'] and u the forces up on the bodies.
   const LinearPlant linear = linear_plant(plant);
   const auto n = static_cast<Eigen::Index>(plant.size()),
              m = static_cast<Eigen::Index>(plant.struts.size());
@@ -94,6 +95,7 @@ std::vector<double> regulator_of(const Plant& plant, const RegulatorPrices& pric
   for (Eigen::Index k = 0; k < m; ++k)
     b.col(k).tail(n) = inverse * row_of(plant.struts[static_cast<std::size_t>(k)].row).transpose();
 
+  // The outputs y = c x + d u whose squares count, each with its price.
   std::vector<Output> outputs;
   const auto of_heights = [&](const std::vector<double>& row, double price) {
     Output output{Eigen::RowVectorXd::Zero(2 * n), Eigen::RowVectorXd::Zero(m), price};
@@ -108,6 +110,7 @@ std::vector<double> regulator_of(const Plant& plant, const RegulatorPrices& pric
   for (const Tyre& tyre : plant.tyres) of_heights(tyre.row, prices.tyre_deflection);
   outputs.push_back({a.row(2 * n - 1), b.row(2 * n - 1), prices.top_acceleration});
 
+  // Their sum as x' q x + 2 x' cross u + u' r u, and the regulator for it.
   Matrix q = Matrix::Zero(2 * n, 2 * n), cross = Matrix::Zero(2 * n, m),
          r = prices.force * Matrix::Identity(m, m);
   for (const Output& y : outputs) {

@@ -8,7 +8,8 @@
 
 namespace dashpot {
 
-/// What stands between the plant and its controller. Ideal by default: the laws see what is.
+/// The sensors between the plant and its controller. Ideal by default: the laws see the true
+/// signals.
 struct SensorOptions {
   bool in_car = false;  ///< a body accelerometer and a deflection sensor per strut; the rest is
                         ///< made from these

@@ -13,9 +13,13 @@ namespace {
 void set_plant(const Plant& plant, QuarterCarNumbers<double>& n) {
   const LinearPlant linear = linear_plant(plant);
   const std::vector<double>& m = linear.mass;
+
+  // The inverse of M.
   const double determinant = m[0] * m[3] - m[1] * m[2];
   const double inverse[2][2] = {{m[3] / determinant, -m[1] / determinant},
                                 {-m[2] / determinant, m[0] / determinant}};
+
+  // Its product with each right-hand side.
   for (std::size_t i = 0; i < 2; ++i) {
     for (std::size_t k = 0; k < 2; ++k) {
       n.by_state[i][k] =
@@ -75,16 +79,22 @@ std::vector<double> start_of(const MountedDamper& damper, const LaneVehicle& lan
 LaneVehicle lane_vehicle(const BatchVehicle& vehicle) {
   const Plant& plant = vehicle.setting.plant;
   const MountedDamper& damper = vehicle.setting.dampers[0];
+
+  // The plant.
   LaneVehicle lane{};
   set_plant(plant, lane.numbers);
   lane.numbers.tyre = contact_of(plant.tyres[0], plant.tyres_may_lift);
   lane.numbers.strut = resistance_of(plant.struts[0]);
   lane.numbers.friction_slope = 1 / plant.struts[0].friction_speed;
   lane.numbers.driver_lag = damper.driver.lag_rate;
+
+  // The damper.
   if (const auto* network = dynamic_cast<const NetworkModel*>(damper.model.get()))
     set_network(*network, lane);
   else
     set_law(dynamic_cast<const LawModel&>(*damper.model), lane);
+
+  // The shape, by which vehicles are grouped.
   const Strut& strut = plant.struts[0];
   lane.shape.lags = (lane.numbers.driver_lag > 0) + (lane.numbers.model_lag > 0);
   lane.shape.resists_more = plant.tyres_may_lift || strut.friction > 0 ||

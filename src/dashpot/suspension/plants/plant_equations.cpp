@@ -32,6 +32,8 @@ void PlantEquations::rates(double after, const double* y, double* dy) noexcept {
   const double t = state_->time + after;
   const double* z = y + 2 * n;
   double* dz = dy + 2 * n;
+
+  // Each damper's force, and the rates of its states.
   for (std::size_t s = 0; s < currents_.size(); ++s) {
     const DamperState& damper = state_->dampers[s];
     const std::size_t count = damper.model_state().size();
@@ -42,6 +44,8 @@ void PlantEquations::rates(double after, const double* y, double* dy) noexcept {
     z += count;
     dz += count;
   }
+
+  // The motion under these forces.
   std::copy_n(y + n, n, dy);
   forces_.accelerate(t, x, strut_forces_, {dy + n, n});
 }

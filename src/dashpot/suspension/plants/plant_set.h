@@ -8,7 +8,7 @@
 
 namespace dashpot {
 
-/// What a linear damper of a plant is and can become, N*s/m.
+/// Damping of a plant's own damper, N*s/m: as it is, and between what limits it can be set.
 struct DampingRange {
   double least = 0, nominal = 0, greatest = 0;
 };
@@ -33,8 +33,7 @@ PlantSet parse_plant_set(std::string_view text, const std::string& source, const
                          const NamedValues& values = {});
 
 /// A set, or a kind of plant with the numbers of its table. Throws Error "unknown plant ...; did
-/// you mean
-/// ...".
+/// you mean ...".
 PlantSet load_plant_set(const std::string& name, const NamedValues& values = {});
 
 }  // namespace dashpot

@@ -84,6 +84,7 @@ inline Lane power_of_two(Lane r) {
        0.2402265069564034) *
           square +
       1;
+
   const Lane odd = (((1.0205905413765595e-07 * square + 1.5252672924850737e-05) * square +
                      0.0013333558200794592) *
                         square +

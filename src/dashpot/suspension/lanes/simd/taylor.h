@@ -99,10 +99,13 @@ class TaylorSteps {
     Lane push[kOrder]{}, moved[kOrder], force[kOrder];
     road.expand(begin, push);
     for (std::size_t i = 0; i < 4; ++i) x[0][i] = from[i];
+
 #pragma GCC unroll 8
     for (std::size_t k = 0; k < kOrder; ++k) {
       moved[k] = x[k][2] - x[k][3];
       force[k] = composed(k, moved);
+
+      // Each term of heights and speeds from the one before it.
       const double share = dt / static_cast<double>(k + 1);
       for (std::size_t i = 0; i < 2; ++i) {
         x[k + 1][i] = share * x[k][2 + i];
@@ -123,12 +126,14 @@ class TaylorSteps {
         return f[1] * m[2] + f[2] * (m[1] * m[1]);
       case 3:
         return f[1] * m[3] + m[1] * (2 * f[2] * m[2] + f[3] * (m[1] * m[1]));
+
       case 4: {
         const Lane square = m[1] * m[1];
         return f[1] * m[4] + f[2] * (2 * m[1] * m[3] + m[2] * m[2]) +
                square * (3 * f[3] * m[2] + f[4] * square);
       }
-      default: {
+
+      default: {  // 5
         const Lane square = m[1] * m[1];
         return f[1] * m[5] + 2 * f[2] * (m[1] * m[4] + m[2] * m[3]) +
                3 * f[3] * m[1] * (m[1] * m[3] + m[2] * m[2]) +
