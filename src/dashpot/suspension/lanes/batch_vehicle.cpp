@@ -42,10 +42,9 @@ std::string against_damper(const MountedDamper& damper) {
     return "its driver limits the current's rate or samples";
   if (damper.motion_ratio != 1) return "its damper moves otherwise than its strut";
   if (damper.force_factor != 1) return "its damper is built otherwise than its model";
-  if (const auto* network = dynamic_cast<const NetworkModel*>(damper.model.get()))
-    return against_network(*network);
-  if (const auto* law = dynamic_cast<const LawModel*>(damper.model.get())) return against_law(*law);
-  return "a " + damper.model->kind() + " has no lanes";
+  if (const auto* network = model_as<NetworkModel>(*damper.model)) return against_network(*network);
+  if (const auto* law = model_as<LawModel>(*damper.model)) return against_law(*law);
+  return "the model " + damper.model->name() + " has no lanes";
 }
 
 std::string against_ground(const BatchVehicle& vehicle) {

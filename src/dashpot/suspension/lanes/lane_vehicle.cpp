@@ -89,10 +89,10 @@ LaneVehicle lane_vehicle(const BatchVehicle& vehicle) {
   lane.numbers.driver_lag = damper.driver.lag_rate;
 
   // The damper.
-  if (const auto* network = dynamic_cast<const NetworkModel*>(damper.model.get()))
+  if (const auto* network = model_as<NetworkModel>(*damper.model))
     set_network(*network, lane);
   else
-    set_law(dynamic_cast<const LawModel&>(*damper.model), lane);
+    set_law(*model_as<LawModel>(*damper.model), lane);
 
   // The shape, by which vehicles are grouped.
   const Strut& strut = plant.struts[0];
