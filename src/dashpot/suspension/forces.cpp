@@ -27,6 +27,7 @@ PlantForces::PlantForces(const Plant& plant, const GroundMotion& ground)
   for (const Strut& strut : plant.struts) resistances_.push_back(resistance_of(strut));
   for (const Tyre& tyre : plant.tyres) contacts_.push_back(contact_of(tyre, plant.tyres_may_lift));
 
+  // q'' by state, strut forces and road pushes: M^-1 times the columns of each.
   const RowMajor mass = matrix_of(plant.mass, plant.size());
   const auto n = static_cast<Eigen::Index>(plant.size());
   const Eigen::PartialPivLU<RowMajor> masses(mass);
@@ -44,10 +45,14 @@ PlantForces::PlantForces(const Plant& plant, const GroundMotion& ground)
   put(by_state, by_state_);
   put(by_strut, by_strut_);
   put(by_tyre, by_tyre_);
+
+  // M e, the inertia that a shaking ground drives.
   if (!plant.ground.empty()) {
     const Eigen::VectorXd shaken = mass * vector_of(plant.ground);
     shaken_.assign(shaken.begin(), shaken.end());
   }
+
+  // Where the plant rests for each tyre lifted by 1 m.
   const Eigen::PartialPivLU<RowMajor> stiffness(matrix_of(linear_.stiffness, plant.size()));
   for (std::size_t t = 0; t < plant.tyres.size(); ++t) {
     const Eigen::VectorXd q =
@@ -117,6 +122,8 @@ void PlantForces::accelerate(double t, std::span<const double> x,
                              std::span<const double> strut_forces,
                              std::span<double> out) const noexcept {
   const double shake = shaken_.empty() ? 0 : ground_.acceleration(t);
+
+  // Row by row: shaking, state, strut forces.
   const double* a = by_state_.data();
   const double* b = by_strut_.data();
   for (std::size_t i = 0; i < out.size(); ++i) {
@@ -125,6 +132,8 @@ void PlantForces::accelerate(double t, std::span<const double> x,
     for (const double force : strut_forces) sum += *b++ * force;
     out[i] = sum;
   }
+
+  // The tyres, whose push depends on the road and on the motion.
   const std::size_t tyres = plant_.tyres.size();
   for (std::size_t w = 0; w < tyres; ++w) {
     const double pushed = push(w, t, x);

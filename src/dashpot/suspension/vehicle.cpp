@@ -28,6 +28,8 @@ PlantSet load_plant(const VehicleWords& words) {
   if (set.kind.empty())
     throw Error(words.where,
                 set.name + " has matrices, no parameter '" + words.values.front() + "'");
+
+  // A plant that is made from parameters takes other values for some of them.
   const PlantModel& model = find_plant_model(set.kind);
   NamedValues values;
   for (const std::string& text : words.values) {
@@ -52,6 +54,8 @@ std::vector<ChosenDamper> choose_dampers(const VehicleWords& words, const PlantS
     texts = {"ideal,damping_min=" + format_exact(set.damping->least) +
              ",damping_max=" + format_exact(set.damping->greatest)};
   }
+
+  // One text for all struts, or one per strut.
   const std::size_t places = set.plant.struts.size();
   if (texts.size() != 1 && texts.size() != places)
     throw Error(words.where,
@@ -89,6 +93,8 @@ DriveRange drive_range(const std::vector<ChosenDamper>& dampers, const VehicleWo
     if (!first) range = {damper.drive_unit, damper.drive_min, damper.drive_max};
     first = first ? first : &damper;
   }
+
+  // A greatest current that is stated takes the place of the data's.
   if (words.current_max > 0 && first) range.high = words.current_max;
   if (first && !(range.low < range.high))
     throw Error(words.where, "a greatest drive of " + range.text(range.high) +
@@ -115,6 +121,8 @@ ControlLimits control_limits(const std::vector<ChosenDamper>& dampers, const Dri
   ControlLimits limits{0, 0, drive.low, drive.high, words.sample_time};
   if (!(words.sample_time > 0))
     throw Error(words.where, "the controller's sample time is not above 0");
+
+  // The mean over those that are driven, with a note for each damping that is not stated.
   double driven = 0;
   std::vector<std::string> told;
   for (const ChosenDamper& damper : dampers) {
@@ -127,6 +135,7 @@ ControlLimits control_limits(const std::vector<ChosenDamper>& dampers, const Dri
     limits.damping_max += damping.greatest;
     ++driven;
   }
+
   limits.damping_min /= driven;
   limits.damping_max /= driven;
   return limits;
@@ -148,6 +157,8 @@ MountedDamper mount(const ChosenDamper& damper, const DriveRange& drive,
                         .motion_ratio = damper.motion_ratio,
                         .force_factor = damper.force_factor};
   if (damper.is_passive()) return mounted;
+
+  // A driven one has a coil and, perhaps, an inverse with a force loop.
   mounted.driver = {.current_min = drive.low,
                     .current_max = drive.high,
                     .lag_rate = words.lag_rate >= 0 ? words.lag_rate : damper.lag_rate};
@@ -160,6 +171,7 @@ MountedDamper mount(const ChosenDamper& damper, const DriveRange& drive,
         force_loop_settings(), split(words.force_loop, ','), "the force loop", words.where);
     mounted.loop = {gains[0], gains[1], gains[2]};
   }
+
   mounted.current = words.controller.empty() ? std::max(words.current, drive.low) : drive.low;
   return mounted;
 }
@@ -195,11 +207,15 @@ Vehicle make_vehicle(const VehicleWords& words) {
   if (!vehicle.set.verified)
     vehicle.notes.push_back("the numbers of " + vehicle.set.name +
                             " are an example: " + vehicle.set.reason);
+
+  // Dampers, and the range over which all that are driven are driven.
   const std::vector<ChosenDamper> chosen = choose_dampers(words, vehicle.set);
   const DriveRange drive = drive_range(chosen, words);
   if (drive.low < drive.high && !(words.current <= drive.high))
     throw Error(words.where, "a drive of " + drive.text(words.current) +
                                  " is beyond the greatest, " + drive.text(drive.high));
+
+  // Each in its strut; a note that several have stands once.
   vehicle.drive_unit = drive.unit;
   for (const ChosenDamper& damper : chosen) {
     for (const std::string& note : damper.notes)
@@ -209,6 +225,7 @@ Vehicle make_vehicle(const VehicleWords& words) {
     vehicle.damper_names.push_back(damper.name);
     vehicle.domains.push_back(damper.domain);
   }
+
   vehicle.limits = control_limits(chosen, drive, words, vehicle.notes);
   add_controller(vehicle, drive, words);
   return vehicle;

@@ -13,7 +13,7 @@ struct Multipliers {
   std::size_t block = 1, limits = 1;
   std::vector<double> values;
 
-  /// One per limit, in a cell.
+  /// The multipliers of a cell, one per limit.
   const double* in(std::size_t cell) const { return values.data() + cell / block * limits; }
 };
 

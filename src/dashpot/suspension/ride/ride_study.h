@@ -11,7 +11,7 @@ namespace dashpot {
 
 /// Several controllers in one vehicle, in frequency and in time.
 struct RideStudyOptions {
-  VehicleWords vehicle;                                   ///< its own controller does not count
+  VehicleWords vehicle;                                   ///< its own controller is not looked at
   std::vector<std::string> controllers;                   ///< words; "all": every law that suits it
   std::string against;                                    ///< as passive_words() has it
   std::vector<double> frequencies = usual_frequencies();  ///< Hz
@@ -28,7 +28,7 @@ struct RideStudyOptions {
   Monitor monitor;
 };
 
-/// One of them.
+/// The runs of one vehicle of a study.
 struct RiddenVehicle {
   std::vector<GainPoint> sines;  ///< one per frequency
   std::vector<GainPoint> chirp;  ///< over the same range, finely
