@@ -1,10 +1,10 @@
 #pragma once
 #include <vector>
 
+#include "dashpot/simulate.h"
 #include "dashpot/suspension/bound/force_range.h"
 #include "dashpot/suspension/bound/range_damper.h"
 #include "dashpot/suspension/bound/sampled_plant.h"
-#include "dashpot/suspension/simulate.h"
 
 // A bound on what any semi-active suspension can do on a road, even one that knows the road in
 // advance (docs/bound.md).

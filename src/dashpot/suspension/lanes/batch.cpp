@@ -5,9 +5,9 @@
 #include <cmath>
 #include <type_traits>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/parallel.h"
 #include "dashpot/damper/nets/aligned.h"
+#include "dashpot/error.h"
 #include "dashpot/suspension/lanes/lane_pilot.h"
 #include "dashpot/suspension/lanes/lane_vehicle.h"
 #include "dashpot/suspension/ride/ride.h"

@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-#include "dashpot/suspension/simulate.h"
+#include "dashpot/simulate.h"
 
 namespace dashpot {
 

@@ -1,7 +1,7 @@
 #pragma once
 #include <limits>
 
-#include "dashpot/suspension/plants/plant.h"
+#include "dashpot/plant.h"
 
 // The forces of a plant that are not linear in its motion: friction and stops of a strut, and a
 // tyre that lifts. These are the only texts of them. simulate() takes them with Number = double,

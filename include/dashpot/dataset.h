@@ -3,8 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "dashpot/base/monitor.h"
-#include "dashpot/record/record.h"
+#include "dashpot/drive.h"
+#include "dashpot/monitor.h"
+#include "dashpot/record.h"
 
 namespace dashpot {
 
@@ -48,7 +49,7 @@ std::string format_leave_out(const LeaveOut& leave_out);
 struct Dataset {
   std::string name;
   std::string citation;
-  std::string drive_unit = "A";  ///< "A" (channel current) or "V" (channel voltage)
+  DriveUnit drive_unit = DriveUnit::Ampere;  ///< "A" (channel current) or "V" (channel voltage)
   std::vector<Record> records;
   std::vector<SourceFile> files;
   std::vector<ColumnReading> readings;
