@@ -5,10 +5,10 @@
 #include "dashpot/damper/parameter_set.h"
 #include "dashpot/damper/registry.h"
 #include "dashpot/model_file.h"
-#include "dashpot/suspension/damper_state.h"
-#include "dashpot/suspension/damper_words.h"
-#include "dashpot/suspension/domain_use.h"
+#include "dashpot/suspension/dampers/damper_state.h"
+#include "dashpot/suspension/dampers/damper_words.h"
 #include "dashpot/suspension/ground/ground_sequences.h"
+#include "dashpot/suspension/ride/domain_use.h"
 #include "dashpot/suspension/ride/ride.h"
 #include "support.h"
 

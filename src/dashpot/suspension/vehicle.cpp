@@ -9,8 +9,8 @@
 #include "dashpot/damper/inverse/inverse_file.h"
 #include "dashpot/damper/inverse/registry.h"
 #include "dashpot/error.h"
-#include "dashpot/suspension/damper_state.h"
-#include "dashpot/suspension/damper_words.h"
+#include "dashpot/suspension/dampers/damper_state.h"
+#include "dashpot/suspension/dampers/damper_words.h"
 
 namespace dashpot {
 namespace {

@@ -1,7 +1,7 @@
 #include "dashpot/suspension/ride/ride_measures.h"
 
 #include "dashpot/suspension/ground/ground_sequences.h"
-#include "dashpot/suspension/simulated_run.h"
+#include "dashpot/suspension/ride/simulated_run.h"
 #include "support.h"
 
 using namespace dashpot;

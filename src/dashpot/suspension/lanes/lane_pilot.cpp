@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 
-#include "dashpot/suspension/forces.h"
 #include "dashpot/suspension/lanes/lane_vehicle.h"
+#include "dashpot/suspension/plants/plant_forces.h"
 
 namespace dashpot {
 namespace {

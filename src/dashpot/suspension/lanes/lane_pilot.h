@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "dashpot/suspension/control/sensors.h"
-#include "dashpot/suspension/damper_state.h"
+#include "dashpot/suspension/dampers/damper_state.h"
 #include "dashpot/suspension/lanes/batch_vehicle.h"
 #include "dashpot/suspension/lanes/ride.h"
 

@@ -5,7 +5,7 @@
 
 #include "dashpot/suspension/ride/gain_curves.h"
 #include "dashpot/suspension/ride/ride_bound.h"
-#include "dashpot/suspension/simulated_run.h"
+#include "dashpot/suspension/ride/simulated_run.h"
 
 namespace dashpot {
 

@@ -2,8 +2,8 @@
 #include <cmath>
 #include <map>
 
-#include "dashpot/suspension/damper_state.h"
-#include "dashpot/suspension/propagator.h"
+#include "dashpot/suspension/dampers/damper_state.h"
+#include "dashpot/suspension/steps/propagator.h"
 #include "dashpot/suspension/steps/step_method.h"
 
 namespace dashpot {

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <utility>
 
-#include "dashpot/suspension/plants/plant_equations.h"
 #include "dashpot/suspension/steps/dormand_prince.h"
+#include "dashpot/suspension/steps/plant_equations.h"
 #include "dashpot/suspension/steps/step_control.h"
 
 namespace dashpot {

@@ -4,7 +4,7 @@
 
 #include <Eigen/Dense>
 
-#include "dashpot/suspension/plants/plant_equations.h"
+#include "dashpot/suspension/steps/plant_equations.h"
 #include "dashpot/suspension/steps/step_control.h"
 
 namespace dashpot {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dashpot/suspension/damper_state.h"
+#include "dashpot/suspension/dampers/damper_state.h"
 
 namespace dashpot {
 

@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "dashpot/mounted_damper.h"
-#include "dashpot/suspension/damper_state.h"
-#include "dashpot/suspension/forces.h"
+#include "dashpot/suspension/dampers/damper_state.h"
+#include "dashpot/suspension/plants/plant_forces.h"
 
 namespace dashpot {
 

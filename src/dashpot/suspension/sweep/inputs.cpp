@@ -11,7 +11,7 @@
 #include "dashpot/base/units.h"
 #include "dashpot/damper/parameter_set.h"
 #include "dashpot/error.h"
-#include "dashpot/suspension/damper_words.h"
+#include "dashpot/suspension/dampers/damper_words.h"
 #include "dashpot/suspension/ground/ground_sequences.h"
 #include "dashpot/suspension/ground/road_profile.h"
 

@@ -1,4 +1,4 @@
-#include "dashpot/suspension/domain_use.h"
+#include "dashpot/suspension/ride/domain_use.h"
 
 #include <algorithm>
 

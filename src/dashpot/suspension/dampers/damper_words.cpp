@@ -1,4 +1,4 @@
-#include "dashpot/suspension/damper_words.h"
+#include "dashpot/suspension/dampers/damper_words.h"
 
 #include <algorithm>
 #include <array>
@@ -13,8 +13,8 @@
 #include "dashpot/damper/registry.h"
 #include "dashpot/error.h"
 #include "dashpot/model_file.h"
-#include "dashpot/suspension/passive_curve.h"
-#include "dashpot/suspension/steps/soft_friction.h"
+#include "dashpot/suspension/dampers/passive_curve.h"
+#include "dashpot/suspension/dampers/soft_friction.h"
 
 namespace dashpot {
 namespace {

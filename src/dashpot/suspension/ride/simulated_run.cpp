@@ -1,10 +1,10 @@
-#include "dashpot/suspension/simulated_run.h"
+#include "dashpot/suspension/ride/simulated_run.h"
 
 #include <algorithm>
 
 #include "dashpot/base/text.h"
 #include "dashpot/error.h"
-#include "dashpot/suspension/domain_use.h"
+#include "dashpot/suspension/ride/domain_use.h"
 
 namespace dashpot {
 

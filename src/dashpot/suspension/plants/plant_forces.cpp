@@ -1,4 +1,4 @@
-#include "dashpot/suspension/forces.h"
+#include "dashpot/suspension/plants/plant_forces.h"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "dashpot/suspension/propagator.h"
+#include "dashpot/suspension/steps/propagator.h"
 
 #include <Eigen/Dense>
 #include <unsupported/Eigen/MatrixFunctions>

@@ -1,8 +1,8 @@
-#include "dashpot/suspension/plants/plant_equations.h"
+#include "dashpot/suspension/steps/plant_equations.h"
 
 #include <algorithm>
 
-#include "dashpot/suspension/damper_state.h"
+#include "dashpot/suspension/dampers/damper_state.h"
 
 namespace dashpot {
 
