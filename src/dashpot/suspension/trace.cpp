@@ -7,7 +7,7 @@ namespace {
 
 std::string per_time(const std::string& unit, const char* time) { return unit + "/" + time; }
 
-/// Of the samples from `first` on that some part marks: is_marked(part, its channel's value).
+/// Share of the samples from `first` on that some part marks: is_marked(part, its channel's value).
 template <class Part, class Mark>
 double share_marked(const Record& trace, const std::vector<Part>& parts, const char* channel,
                     std::size_t first, Mark is_marked) {

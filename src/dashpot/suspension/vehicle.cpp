@@ -69,7 +69,7 @@ std::vector<ChosenDamper> choose_dampers(const VehicleWords& words, const PlantS
   return chosen;
 }
 
-/// What drives them, which is the same for all that anything drives.
+/// The range over which the dampers are driven, the same for all that are not passive.
 struct DriveRange {
   DriveUnit unit = DriveUnit::None;
   double low = 0, high = 0;  ///< equal: all are passive
@@ -117,7 +117,7 @@ std::string damping_note(const ChosenDamper& damper, const DampingRange& damping
          " mm at " + format_number(speed) + " m/s of the damper";
 }
 
-/// What the controller knows of the dampers: the mean over those that it drives.
+/// The dampers' limits as the controller knows them: the mean over those that it drives.
 ControlLimits control_limits(const std::vector<ChosenDamper>& dampers, const DriveRange& drive,
                              const VehicleWords& words, std::vector<std::string>& notes) {
   ControlLimits limits{0, 0, drive.low, drive.high, words.sample_time};
@@ -126,12 +126,12 @@ ControlLimits control_limits(const std::vector<ChosenDamper>& dampers, const Dri
 
   // The mean over those that are driven, with a note for each damping that is not stated.
   double driven = 0;
-  std::vector<std::string> told;
+  std::vector<std::string> noted;
   for (const ChosenDamper& damper : dampers) {
-    const bool is_known = std::ranges::find(told, damper.name) != told.end();
+    const bool is_known = std::ranges::find(noted, damper.name) != noted.end();
     const DampingRange damping = damping_between(damper, drive.low, drive.high);
     if (!damper.damping && !is_known) notes.push_back(damping_note(damper, damping, drive));
-    told.push_back(damper.name);
+    noted.push_back(damper.name);
     if (damper.is_passive() && drive.low < drive.high) continue;
     limits.damping_min += damping.least;
     limits.damping_max += damping.greatest;
@@ -188,7 +188,8 @@ void add_controller(Vehicle& vehicle, const DriveRange& drive, const VehicleWord
       make_controller(words.controller, {vehicle.limits, vehicle.set.plant}, words.where);
   vehicle.controller_name = words.controller;
   if (words.sensors.in_car && needs_plant_state(words.controller))
-    throw Error(words.where, "'" + words.controller + "' feeds back what no sensor of a car tells",
+    throw Error(words.where,
+                "'" + words.controller + "' feeds back what no sensor of a car measures",
                 "ideal sensors, or another controller");
 }
 

@@ -19,7 +19,7 @@ struct RideSquares {
     return index.comfort * acceleration + index.holding * tyre_force;
   }
 };
-/// Of a quarter car's trace, by trapezes between its samples.
+/// The means of a quarter car's trace, by trapezes between its samples.
 RideSquares ride_squares(const Trace& trace, const Plant& plant);
 
 /// Comfort and road holding as shares of a reference: `comfort` of one, 1 - `comfort` of the other;

@@ -32,7 +32,7 @@ void add_limit(Form& form, double weight, const ForceLimit& limit, const SmallMa
 /// The integrand of L.
 Form integrand(const AffineCar& car, const std::vector<ForceLimit>& limits, const RideIndex& index,
                const double* multipliers) {
-  Form form = price(car, index);
+  Form form = cost_form(car, index);
   for (std::size_t j = 0; j < limits.size(); ++j)
     add_limit(form, -multipliers[j], limits[j], car.speed);
   return form;
@@ -302,7 +302,7 @@ std::optional<double> certified_minimum(const SampledPlant& car,
 Relaxation relax(const SampledPlant& car, const SampledPlant& coarse,
                  const std::vector<ForceLimit>& limits, const RideIndex& index,
                  const RelaxationOptions& options) {
-  // A first guess of their size: the index's own price of a force.
+  // A first guess of their size: the weight that the index itself gives a force.
   const double by_force = coarse.at(0, 0).acceleration(0, kForce);
   const double natural = index.comfort * by_force * by_force + index.holding;
   const std::array<double, 4> motion = typical_motion(coarse, middle_damping(limits));

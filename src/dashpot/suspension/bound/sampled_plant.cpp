@@ -152,7 +152,7 @@ AffineCar SampledPlant::over(std::size_t cell) const noexcept {
   return car;
 }
 
-SmallMatrix<6, 6> price(const AffineCar& car, const RideIndex& index) noexcept {
+SmallMatrix<6, 6> cost_form(const AffineCar& car, const RideIndex& index) noexcept {
   SmallMatrix<6, 6> form;
   add_product(form, index.comfort, car.acceleration, car.acceleration);
   add_product(form, index.holding, car.tyre_force, car.tyre_force);

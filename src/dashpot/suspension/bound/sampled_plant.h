@@ -62,6 +62,6 @@ class SampledPlant {
 };
 
 /// The index's form over [q, q', 1, F].
-SmallMatrix<6, 6> price(const AffineCar& car, const RideIndex& index) noexcept;
+SmallMatrix<6, 6> cost_form(const AffineCar& car, const RideIndex& index) noexcept;
 
 }  // namespace dashpot

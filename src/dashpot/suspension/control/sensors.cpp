@@ -78,7 +78,7 @@ void Sensors::measure(Memory& m, StrutSignals& s) {
     m.deflection[1] = deflection;
   }
 
-  // What a controller in a car sees; the current and the force are known as they are.
+  // The signals of a car's controller; force and current it knows as they are.
   s = {.body_velocity = leaky_integral(acceleration, keep_, dt_, m.body),
        .body_acceleration = acceleration,
        .deflection = deflection,

@@ -9,8 +9,8 @@
 
 namespace dashpot {
 
-/// What a ride in lanes asks for sample by sample: the road under each vehicle, and the commands of
-/// its controller, with its own sensors and way from demand to current.
+/// Gives a ride in lanes what it needs sample by sample: the road under each vehicle, and the
+/// commands of its controller, with its own sensors and way from demand to current.
 class LanePilot {
  public:
   /// One vehicle per lane; further lanes go as the last one's does.

@@ -7,7 +7,7 @@
 
 namespace dashpot {
 
-/// What vehicles must have in common to ride side by side.
+/// The properties that vehicles must have in common to ride side by side.
 struct LaneShape {
   LaneDamperKind kind = LaneDamperKind::Network;
   LaneNetwork network;        ///< of a network

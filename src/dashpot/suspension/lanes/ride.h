@@ -115,7 +115,7 @@ enum LaneResult : std::size_t {
   kEvaluations,         ///< steps
   kLaneResults
 };
-/// What a trace holds of each sample.
+/// Rows of a trace, per sample.
 enum LaneTrace : std::size_t {
   kTraceBody,
   kTraceBodyVelocity,

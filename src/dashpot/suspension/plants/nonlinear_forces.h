@@ -82,7 +82,7 @@ template <class Number>
   return tyre.static_load + push - tyre.stiffness * height - tyre.damping * rate;
 }
 
-/// What of the road's push reaches the wheel under this load, N.
+/// The part of the road's push that reaches the wheel under this load, N.
 template <class Number>
 [[gnu::always_inline]] inline Number push_on_wheel(const TyreContact<Number>& tyre, Number push,
                                                    Number load) {

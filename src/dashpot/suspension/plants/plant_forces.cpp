@@ -86,6 +86,8 @@ FootMotion PlantForces::foot(std::size_t tyre, double t) const noexcept {
 
 double PlantForces::tyre_load(std::size_t tyre, double t,
                               std::span<const double> x) const noexcept {
+  // By the tyre's deflection, as it is recorded. dashpot::tyre_load() groups the same sum by the
+  // road's push, which rounds differently.
   const Tyre& w = plant_.tyres[tyre];
   const FootMotion ground = foot(tyre, t);
   const double load = w.static_load + w.stiffness * (ground.height - along(w.row, x.data())) +

@@ -21,7 +21,7 @@ double usual_discard(const GroundMotion& ground, double duration);
 
 /// On tyres: comfort of the first coordinate's motion (ISO 2631-1, Wk), dynamic load and contact of
 /// the worst tyre, travel of the worst strut, force and energy of the dampers, current; after a
-/// step settling, decay and deviation. Of a building: displacement, drift and acceleration of each
+/// step settling, decay and deviation. For a building: displacement, drift and acceleration of each
 /// floor.
 std::vector<RideMeasure> ride_measures(const Vehicle& vehicle, const GroundMotion& ground,
                                        const Trace& trace, double discard);

@@ -49,7 +49,7 @@ struct RideStudy {
   std::vector<RiddenVehicle> controlled;
   std::vector<TradeOff> held;         ///< the same dampers, softest first
   std::vector<std::string> left_out;  ///< of "all", and why
-  /// What is possible on the road, where it was asked for: from comfort alone to road holding
+  /// Bounds on the road, where they were asked for: from comfort alone to road holding
   /// alone.
   std::vector<ClairvoyantBound> front;
 };

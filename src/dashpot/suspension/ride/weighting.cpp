@@ -53,7 +53,7 @@ std::vector<Section> sections_of(const Weighting& w) {
   return sections;
 }
 
-/// Of the standard's formulas Wb alone has a gain.
+/// Wb alone has a gain in the standard's formulas.
 double gain_of(const Weighting& w) { return w.name == "Wb" ? 1.024 : 1; }
 
 Biquad digital(const Section& s, double dt) {

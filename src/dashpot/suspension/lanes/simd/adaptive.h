@@ -6,7 +6,7 @@ namespace dashpot {
 namespace {
 
 /// The method of Dormand and Prince (DormandPrince has its tableau), every lane in steps of its own
-/// length. What moves is y = [heights, speeds, the damper's states, currents behind lags]; kLags
+/// length. The unknowns are y = [heights, speeds, the damper's states, currents behind lags]; kLags
 /// says how many of driver and model lag behind the command.
 ///
 /// Error of a step, in tolerances: the greatest over the pairs of heights and of speeds, each

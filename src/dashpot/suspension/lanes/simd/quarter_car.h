@@ -51,12 +51,12 @@ class QuarterCarLanes {
   Lane load_on_road(const Lane* x, Lane pushed) const {
     return tyre_load(numbers.tyre, pushed, x[1], x[3]);
   }
-  /// What of the road's push reaches the wheel, N.
+  /// The part of the road's push that reaches the wheel, N.
   Lane push_at_wheel(const Lane* x, Lane pushed) const {
     if (!ride_.resists_more) return pushed;
     return push_on_wheel(numbers.tyre, pushed, load_on_road(x, pushed));
   }
-  /// Of coordinate k, m/s^2.
+  /// Acceleration of coordinate k, m/s^2.
   Lane acceleration(std::size_t k, const Lane* x, Lane strut, Lane pushed) const {
     const Lane(&a)[4] = numbers.by_state[k];
     return (a[0] * x[0] + a[1] * x[1]) + (a[2] * x[2] + a[3] * x[3]) +

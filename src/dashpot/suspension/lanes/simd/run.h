@@ -112,7 +112,7 @@ class LaneRun {
     steps_.refresh(state_, command_, changed, road_.node[0]);
   }
 
-  /// What these lanes do at their sample: into the measures and, where wanted, the trace.
+  /// Adds these lanes' sample to the measures and, where wanted, to the trace.
   void record(LaneMask which) {
     const Lane* x = state_.x;
     const Lane load_here = car_.load_on_road(x, car_.push_at_wheel(x, road_.node[0]));
