@@ -5,7 +5,7 @@
 
 #include "dashpot/export/export_run.h"
 #include "dashpot/suspension/control/sensors.h"
-#include "dashpot/suspension/damper_state.h"
+#include "dashpot/suspension/dampers/damper_state.h"
 
 namespace dashpot {
 namespace {

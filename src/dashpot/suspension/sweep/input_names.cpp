@@ -5,7 +5,7 @@
 #include "dashpot/base/text.h"
 #include "dashpot/damper/parameter_set.h"
 #include "dashpot/error.h"
-#include "dashpot/suspension/damper_words.h"
+#include "dashpot/suspension/dampers/damper_words.h"
 #include "dashpot/suspension/ground/ground_sequences.h"
 
 namespace dashpot {

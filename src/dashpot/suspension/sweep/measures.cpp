@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "dashpot/suspension/domain_use.h"
+#include "dashpot/suspension/ride/domain_use.h"
 #include "dashpot/suspension/trace.h"
 
 namespace dashpot {

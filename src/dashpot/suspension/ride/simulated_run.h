@@ -8,14 +8,14 @@
 
 namespace dashpot {
 
-/// A vehicle on its way, and what is to be said of it.
+/// A vehicle's run with its measures and warnings.
 struct SimulatedRun {
   std::string name;  ///< "mix1", "viscous, 1500 N*s/m"
   std::shared_ptr<const Vehicle> vehicle;
   Trace trace;
   std::vector<RideMeasure> measures;
-  std::vector<std::string>
-      warnings;  ///< the trace's, and dampers that were asked beyond their data
+  /// The trace's, and those of dampers that were asked beyond their data.
+  std::vector<std::string> warnings;
 };
 
 struct RunOptions {
@@ -26,10 +26,11 @@ struct RunOptions {
   Monitor monitor;
 };
 
+/// Simulates and measures it. Throws Error as simulate() does.
 SimulatedRun run_vehicle(const std::shared_ptr<const Vehicle>& vehicle, const GroundMotion& ground,
                          const RunOptions& options);
 
-/// What to call it: the controller, or the dampers and what drives them.
+/// The name of a run: the controller, or the dampers and the current that drives them.
 std::string name_of(const Vehicle& vehicle);
 
 /// The same plant without a controller, to compare with. against: a damper's words; or

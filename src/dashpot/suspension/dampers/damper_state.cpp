@@ -1,4 +1,4 @@
-#include "dashpot/suspension/damper_state.h"
+#include "dashpot/suspension/dampers/damper_state.h"
 
 #include <algorithm>
 #include <array>

@@ -19,7 +19,7 @@ struct SimpleDamper {
 };
 std::span<const SimpleDamper> simple_dampers();
 
-/// What may be said of any damper: motion_ratio, where it moves i times as far as the strut and
+/// Settings that any damper takes: motion_ratio i, where it moves i times as far as the strut and
 /// pushes there with i times its force; force_factor, where this piece is built stronger or weaker
 /// than its model, which no controller knows.
 std::span<const ParameterRow> mounting_settings();
@@ -28,8 +28,8 @@ std::span<const ParameterRow> mounting_settings();
 struct ChosenDamper {
   std::string name;                          ///< "viscous, 1500 N*s/m", "spencer1997"
   std::shared_ptr<const DamperModel> model;  ///< without the lag of its coil
-  DriveUnit drive_unit =
-      DriveUnit::Ampere;                ///< "" where nothing drives it but a number from 0 to 1
+  /// None where nothing drives it, or a number from 0 to 1.
+  DriveUnit drive_unit = DriveUnit::Ampere;
   double drive_min = 0, drive_max = 0;  ///< of its data; equal: passive, nothing drives it
   double lag_rate = 0;                  ///< 1/s, of its coil; 0: none
   double motion_ratio = 1;              ///< how far it moves as the strut moves by one
@@ -47,19 +47,19 @@ struct ChosenDamper {
 /// with velocity and force. Each takes mounting_settings(). Throws Error(where, ...).
 ChosenDamper choose_damper(const std::string& text, const std::string& where = "damper");
 
-/// What damps alike over a cycle of a sine: energy per cycle / (pi w A^2), of the damper's third
-/// cycle, N*s/m.
+/// The linear damping that takes the same energy from a sine: energy per cycle / (pi w A^2), N*s/m,
+/// of the damper's third cycle. amplitude A, m; speed: the sine's greatest, w A, m/s.
 double equivalent_damping(const DamperModel& model, double current, double amplitude, double speed);
 
-/// The motion by which a damper's limits of control are told: a sine of 20 mm at 0.2 m/s, or of
-/// half the reach of the damper's data where that is less.
+/// The motion along which a damper's least and greatest damping are measured: a sine of 20 mm at
+/// 0.2 m/s, or of half the reach of the damper's data where that is less.
 struct ReferenceStroke {
   double amplitude = 0.02, speed = 0.2;  ///< m, m/s
 };
 ReferenceStroke reference_stroke(const ChosenDamper& damper);
 
 /// At the strut, between the ends of a range of currents, N*s/m; nominal: at the least current.
-/// What is stated, else equivalent damping along the reference stroke.
+/// The range that is stated, else equivalent damping along the reference stroke.
 DampingRange damping_between(const ChosenDamper& damper, double current_min, double current_max);
 
 }  // namespace dashpot

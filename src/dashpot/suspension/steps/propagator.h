@@ -7,7 +7,7 @@
 namespace dashpot {
 
 /// Exact step of M q'' + C q' + K q = g(t) for a force g that is a parabola through its values at
-/// the begin, the middle and the end of the step. x = [q, q'].
+/// the start, the middle and the end of the step. x = [q, q'].
 class Propagator {
  public:
   /// step: s, above 0.
@@ -25,7 +25,7 @@ class Propagator {
   }
 
  private:
-  /// Row by row: by x, then by g at the begin, the middle and the end.
+  /// Row by row: by x, then by g at the start, the middle and the end.
   using Rows = std::vector<double>;
   void apply(const Rows& rows, std::span<const double> x, const double* const g[3],
              std::span<double> out) const noexcept;

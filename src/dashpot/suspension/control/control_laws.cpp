@@ -1,9 +1,8 @@
-#include "dashpot/controller.h"
-
 #include <algorithm>
 #include <array>
 
 #include "dashpot/base/text.h"
+#include "dashpot/controller.h"
 #include "dashpot/error.h"
 #include "dashpot/suspension/control/damping_law.h"
 

@@ -1,4 +1,4 @@
-#include "dashpot/suspension/domain_use.h"
+#include "dashpot/suspension/ride/domain_use.h"
 
 #include <algorithm>
 
@@ -29,6 +29,8 @@ std::vector<DomainUse> domain_use(const Vehicle& vehicle, const Trace& trace) {
     const auto share = [&](const char* channel, double scale, double low, double high) {
       return share_outside(trace.record.channel(name + channel).samples, scale, low, high);
     };
+
+    // Only quantities that the damper depends on and its data vary.
     DomainUse use{.strut = name, .damper = vehicle.damper_names[s]};
     if (vehicle.dampers[s].model->needs_displacement())
       use.displacement = share("_deflection", ratio, d.displacement_min, d.displacement_max);
@@ -48,6 +50,7 @@ std::vector<std::string> domain_warnings(const std::vector<DomainUse>& uses, dou
       if (share > allowed)
         parts.push_back(std::string(what) + ' ' + format_number(100 * share, 3) + " % of the time");
     };
+
     add("displacement", use.displacement);
     add("velocity", use.velocity);
     add("current", use.current);

@@ -6,7 +6,7 @@
 
 namespace dashpot {
 
-/// How long a damper was used where no data of it were.
+/// How long a damper was used outside the range of its data.
 struct DomainUse {
   std::string strut, damper;
   double displacement = 0, velocity = 0, current = 0;  ///< shares of the time outside, 0 ... 1

@@ -1,4 +1,4 @@
-#include "dashpot/suspension/damper_words.h"
+#include "dashpot/suspension/dampers/damper_words.h"
 
 #include <algorithm>
 #include <array>
@@ -13,8 +13,8 @@
 #include "dashpot/damper/registry.h"
 #include "dashpot/error.h"
 #include "dashpot/model_file.h"
-#include "dashpot/suspension/passive_curve.h"
-#include "dashpot/suspension/steps/soft_friction.h"
+#include "dashpot/suspension/dampers/passive_curve.h"
+#include "dashpot/suspension/dampers/soft_friction.h"
 
 namespace dashpot {
 namespace {
@@ -54,12 +54,14 @@ using Words = std::span<const std::string>;
 ChosenDamper make_simple(const SimpleDamper& kind, Words settings, const std::string& where) {
   const std::vector<double> p = parse_values(kind.parameters, settings, kind.name, where);
   ChosenDamper damper{.drive_unit = DriveUnit::None};
+
   if (kind.name == "viscous") {
     damper.name = "viscous, " + damping_text(p[0]);
     damper.model = linear_damper(p[0], p[0]);
     damper.damping = {p[0], p[0], p[0]};
     return damper;
   }
+
   if (!(p[0] < p[1]))
     throw Error(where, "damping from " + damping_text(p[0]) + " to " + damping_text(p[1]),
                 "damping_min below damping_max");
@@ -112,6 +114,7 @@ ChosenDamper from_file(const std::filesystem::path& path) {
     damper.model = std::make_shared<PassiveCurve>(curve);
     return damper;
   }
+
   const ModelFile file = load_model(path);
   take_model(damper, *file.model);
   damper.drive_unit = file.drive_unit;
@@ -128,6 +131,7 @@ LawModel with_settings(const LawModel& model, Words settings, const std::string&
   for (const std::string& setting : settings) {
     const std::size_t equals = setting.find('=');
     const std::string name(trim(setting.substr(0, equals)));
+
     std::vector<std::string> known;
     for (const ParamInfo& param : law.params) known.emplace_back(param.name);
     const auto found = std::ranges::find(known, name);
@@ -135,10 +139,13 @@ LawModel with_settings(const LawModel& model, Words settings, const std::string&
       throw Error(where, std::string(law.name) + " has no parameter '" + name + "'",
                   suggest(name, known));
     const auto k = static_cast<std::size_t>(found - known.begin());
+
     parameters.forms[k] = Form::Constant;
     parameters.coefficients[k] = {
         parse_quantity(setting.substr(equals + 1), law.params[k].unit, where + ", " + name)};
   }
+
+  // Values that no longer suit each other are refused here.
   LawModel changed(law, parameters, model.drive_unit(), model.lag_rate());
   require_bounds(changed, 0, where);
   return changed;
@@ -197,17 +204,24 @@ std::span<const ParameterRow> mounting_settings() { return kMounting; }
 ChosenDamper choose_damper(const std::string& text, const std::string& where) {
   std::vector<std::string> parts = split(text, ',');
   for (std::string& part : parts) part = trim(part);
+
   const auto mounting = take_mounting(parts, where);
   if (parts.empty()) throw Error(where, "'" + text + "' names no damper");
+
+  // A file, or a name with settings.
   const std::string name = parts.front();
   const Words settings = Words(parts).subspan(1);
   const bool is_file = name.find_first_of("./") != std::string::npos;
   if (is_file) require_nothing(settings, name, where);
   ChosenDamper damper = is_file ? from_file(name) : by_name(name, settings, where);
+
+  // Integrators need forces without jumps.
   if (jumps_at_rest(*damper.model, damper.drive_min, damper.drive_max)) {
     damper.notes.push_back(friction_note(*damper.model));
     damper.model = with_soft_friction(damper.model);
   }
+
+  // How it is mounted.
   damper.motion_ratio = mounting[kMotionRatio];
   damper.force_factor = mounting[kForceFactor];
   if (damper.motion_ratio != 1)
@@ -225,6 +239,8 @@ double equivalent_damping(const DamperModel& model, double current, double ampli
     const double phase = 2 * std::numbers::pi * k / kSteps;
     return DamperInput{amplitude * std::sin(phase), speed * std::cos(phase), current};
   };
+
+  // Energy of the last cycle, when what came before is forgotten.
   std::vector<double> state(model.state_size());
   model.rest({0, 0, current}, state);
   double energy = 0;

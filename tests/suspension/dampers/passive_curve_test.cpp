@@ -1,4 +1,4 @@
-#include "dashpot/suspension/passive_curve.h"
+#include "dashpot/suspension/dampers/passive_curve.h"
 
 #include "dashpot/base/file.h"
 #include "support.h"

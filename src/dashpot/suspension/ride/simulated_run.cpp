@@ -1,10 +1,10 @@
-#include "dashpot/suspension/simulated_run.h"
+#include "dashpot/suspension/ride/simulated_run.h"
 
 #include <algorithm>
 
 #include "dashpot/base/text.h"
 #include "dashpot/error.h"
-#include "dashpot/suspension/domain_use.h"
+#include "dashpot/suspension/ride/domain_use.h"
 
 namespace dashpot {
 
@@ -35,6 +35,7 @@ SimulatedRun run_vehicle(const std::shared_ptr<const Vehicle>& vehicle, const Gr
                    .trace = simulate(vehicle->on(ground), settings),
                    .measures = {},
                    .warnings = {}};
+
   run.measures = ride_measures(*vehicle, ground, run.trace, settings.discard);
   run.warnings = run.trace.warnings;
   for (std::string& warning :
@@ -49,6 +50,8 @@ VehicleWords passive_words(const VehicleWords& words, const std::string& against
   passive.controller.clear();
   passive.inverse.clear();
   passive.force_loop.clear();
+
+  // The same dampers at a current that is stated, or another damper.
   if (against.starts_with(kCurrent)) {
     const std::optional<double> current = parse_number(against.substr(kCurrent.size()));
     if (!current) throw Error(words.where, "'" + against + "' states no current", "current=0.5");
@@ -59,6 +62,8 @@ VehicleWords passive_words(const VehicleWords& words, const std::string& against
     passive.dampers = {against};
     return passive;
   }
+
+  // Nothing stated: nominal damping in place of ideal dampers, half the current of all others.
   const bool all_ideal = std::ranges::all_of(
       words.dampers, [](const std::string& d) { return trim(d).starts_with("ideal"); });
   const Vehicle held = make_vehicle(passive);

@@ -1,4 +1,4 @@
-#include "dashpot/suspension/propagator.h"
+#include "dashpot/suspension/steps/propagator.h"
 
 #include <Eigen/Dense>
 #include <unsupported/Eigen/MatrixFunctions>
@@ -13,7 +13,7 @@ RowMajor matrix_of(const std::vector<double>& values, std::size_t n) {
   return Eigen::Map<const RowMajor>(values.data(), size, size);
 }
 
-/// The part of x after `time` by x at the begin and by g, g' and g'' / 2 there: one exponential of
+/// The part of x after `time` by x at the start and by g, g' and g'' / 2 there: one exponential of
 /// the chain x' = A x + B g, g' = g1, g1' = 2 g2.
 RowMajor by_derivatives(const LinearPlant& plant, double time) {
   const auto n = static_cast<Eigen::Index>(plant.size);
@@ -28,7 +28,7 @@ RowMajor by_derivatives(const LinearPlant& plant, double time) {
   return RowMajor((chain * time).exp()).topRows(2 * n);
 }
 
-/// The same by g at the begin, the middle and the end of a step of length h.
+/// The same by g at the start, the middle and the end of a step of length h.
 std::vector<double> by_values(const RowMajor& rows, std::size_t size, double h) {
   const auto n = static_cast<Eigen::Index>(size);
   const auto g0 = rows.middleCols(2 * n, n), g1 = rows.middleCols(3 * n, n),

@@ -10,14 +10,16 @@
 
 namespace dashpot {
 
+/// The gains of a ForceLoop, in its order.
 ParameterTable force_loop_settings();
 
-/// The way from a demand to a command, with the memories of inverse and force loop.
+/// The way from a controller's demand to a command, A, with the memories of inverse and force loop.
+/// The damper must outlive it.
 class CommandPath {
  public:
   CommandPath(const MountedDamper& damper, const ControlLimits& limits, double deflection);
 
-  /// A; force: what the damper gives now, N.
+  /// now: the strut's motion and the coil's current; force: the damper's at the strut, N.
   double command(const DamperDemand& demand, const DamperInput& now, double force);
 
  private:
@@ -27,24 +29,24 @@ class CommandPath {
   const MountedDamper* damper_;
   ControlLimits limits_;
   std::vector<double> inverse_state_;
-  std::array<double, 3> missed_{};  // of the force loop
+  std::array<double, 3> missed_{};  ///< memory of the force loop
 };
 
-/// Its moving parts: states of model, driver, inverse and force loop. Motions and forces are the
-/// strut's. Copied to try a step.
+/// The states of a mounted damper: of model, driver, inverse and force loop. Motions and forces are
+/// the strut's. It is copied to try a step; the damper must outlive it.
 class DamperState {
  public:
   DamperState(const MountedDamper& damper, const ControlLimits& limits, double deflection);
 
-  /// A new demand at this deflection and velocity, with this measured force: sets the driver's
-  /// command. Whether that is another one than before.
+  /// A new demand at this deflection and velocity, with this measured force, N: sets the driver's
+  /// command and returns whether it has changed.
   bool demand(const DamperDemand& demand, const DamperInput& now, double force);
-  /// From one instant to another one dt later.
+  /// From one instant to another one dt s later.
   void advance(const DamperInput& from, const DamperInput& to, double dt) noexcept;
   double force(const DamperInput& input) const noexcept {
     return damper_->at_strut(damper_->model->force(damper_->at_damper(input), state_));
   }
-  /// The same from these states of the model, whose rates it gives (DamperModel::flow).
+  /// The force from these states of the model, and their rates (DamperModel::flow).
   double flow(const DamperInput& input, std::span<const double> state,
               std::span<double> rates) const noexcept {
     return damper_->at_strut(damper_->model->flow(damper_->at_damper(input), state, rates));
@@ -54,7 +56,7 @@ class DamperState {
   void put_model_state(const double* state) noexcept {
     std::copy_n(state, state_.size(), state_.begin());
   }
-  /// Without the model.
+  /// The driver alone, without the model.
   void advance_coil(double dt) noexcept { driver_.advance(dt, driver_state_); }
   /// Whether the coil's current stays as it is while no command comes.
   bool is_steady() const noexcept { return driver_.is_steady(driver_state_); }

@@ -5,8 +5,8 @@
 
 namespace dashpot {
 
-/// Friction that jumps where the motion turns lets no integrator meet its tolerance: it sets in
-/// over this speed instead.
+/// No integrator meets its tolerance where friction jumps as the motion turns: it sets in over this
+/// speed instead.
 constexpr double kFrictionSpeed = 2e-3;  // m/s
 
 /// Whether the model's force jumps where the velocity passes 0, at the ends or in the middle of a

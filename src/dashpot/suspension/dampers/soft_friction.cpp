@@ -1,4 +1,4 @@
-#include "dashpot/suspension/steps/soft_friction.h"
+#include "dashpot/suspension/dampers/soft_friction.h"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "dashpot/suspension/forces.h"
+#include "dashpot/suspension/plants/plant_forces.h"
 
 #include <cmath>
 
@@ -24,6 +24,10 @@ PlantForces::PlantForces(const Plant& plant, const GroundMotion& ground)
       ground_(ground),
       linear_(linear_plant(plant)),
       resting_(plant.size() * plant.tyres.size()) {
+  for (const Strut& strut : plant.struts) resistances_.push_back(resistance_of(strut));
+  for (const Tyre& tyre : plant.tyres) contacts_.push_back(contact_of(tyre, plant.tyres_may_lift));
+
+  // q'' by state, strut forces and road pushes: M^-1 times the columns of each.
   const RowMajor mass = matrix_of(plant.mass, plant.size());
   const auto n = static_cast<Eigen::Index>(plant.size());
   const Eigen::PartialPivLU<RowMajor> masses(mass);
@@ -41,10 +45,14 @@ PlantForces::PlantForces(const Plant& plant, const GroundMotion& ground)
   put(by_state, by_state_);
   put(by_strut, by_strut_);
   put(by_tyre, by_tyre_);
+
+  // M e, the inertia that a shaking ground drives.
   if (!plant.ground.empty()) {
     const Eigen::VectorXd shaken = mass * vector_of(plant.ground);
     shaken_.assign(shaken.begin(), shaken.end());
   }
+
+  // Where the plant rests for each tyre lifted by 1 m.
   const Eigen::PartialPivLU<RowMajor> stiffness(matrix_of(linear_.stiffness, plant.size()));
   for (std::size_t t = 0; t < plant.tyres.size(); ++t) {
     const Eigen::VectorXd q =
@@ -68,12 +76,8 @@ DamperInput PlantForces::strut_motion(std::size_t strut, double t, std::span<con
 
 double PlantForces::strut_extra(std::size_t strut, const DamperInput& motion) const noexcept {
   const Strut& s = plant_.struts[strut];
-  double force = s.friction > 0 ? s.friction * std::tanh(motion.velocity / s.friction_speed) : 0;
-  if (s.extension_stop > 0 && motion.displacement > s.extension_stop)
-    force += s.stop_stiffness * (motion.displacement - s.extension_stop);
-  if (s.compression_stop > 0 && motion.displacement < -s.compression_stop)
-    force += s.stop_stiffness * (motion.displacement + s.compression_stop);
-  return force;
+  const double sliding = s.friction > 0 ? std::tanh(motion.velocity / s.friction_speed) : 0;
+  return strut_resistance(resistances_[strut], motion.displacement, sliding);
 }
 
 FootMotion PlantForces::foot(std::size_t tyre, double t) const noexcept {
@@ -82,6 +86,8 @@ FootMotion PlantForces::foot(std::size_t tyre, double t) const noexcept {
 
 double PlantForces::tyre_load(std::size_t tyre, double t,
                               std::span<const double> x) const noexcept {
+  // By the tyre's deflection, as it is recorded. dashpot::tyre_load() groups the same sum by the
+  // road's push, which rounds differently.
   const Tyre& w = plant_.tyres[tyre];
   const FootMotion ground = foot(tyre, t);
   const double load = w.static_load + w.stiffness * (ground.height - along(w.row, x.data())) +
@@ -104,19 +110,22 @@ void PlantForces::add_up(double t, std::span<const double> x, std::span<const do
 }
 
 double PlantForces::push(std::size_t which, double t, std::span<const double> x) const noexcept {
-  const Tyre& tyre = plant_.tyres[which];
+  const std::vector<double>& row = plant_.tyres[which].row;
+  const TyreContact<double>& tyre = contacts_[which];
   const FootMotion ground = foot(which, t);
-  const double push = tyre.stiffness * ground.height + tyre.damping * ground.velocity;
+  const double push = road_push(tyre, ground.height, ground.velocity);
   if (!plant_.tyres_may_lift) return push;
-  const double load = tyre.static_load + push - tyre.stiffness * along(tyre.row, x.data()) -
-                      tyre.damping * along(tyre.row, x.data() + plant_.size());
-  return push - std::fmin(load, 0);
+
+  const double height = along(row, x.data()), rate = along(row, x.data() + plant_.size());
+  return push_on_wheel(tyre, push, dashpot::tyre_load(tyre, push, height, rate));
 }
 
 void PlantForces::accelerate(double t, std::span<const double> x,
                              std::span<const double> strut_forces,
                              std::span<double> out) const noexcept {
   const double shake = shaken_.empty() ? 0 : ground_.acceleration(t);
+
+  // Row by row: shaking, state, strut forces.
   const double* a = by_state_.data();
   const double* b = by_strut_.data();
   for (std::size_t i = 0; i < out.size(); ++i) {
@@ -125,6 +134,8 @@ void PlantForces::accelerate(double t, std::span<const double> x,
     for (const double force : strut_forces) sum += *b++ * force;
     out[i] = sum;
   }
+
+  // The tyres, whose push depends on the road and on the motion.
   const std::size_t tyres = plant_.tyres.size();
   for (std::size_t w = 0; w < tyres; ++w) {
     const double pushed = push(w, t, x);

@@ -1,8 +1,8 @@
-#include "dashpot/suspension/plants/plant_equations.h"
+#include "dashpot/suspension/steps/plant_equations.h"
 
 #include <algorithm>
 
-#include "dashpot/suspension/damper_state.h"
+#include "dashpot/suspension/dampers/damper_state.h"
 
 namespace dashpot {
 
@@ -34,6 +34,8 @@ void PlantEquations::rates(double after, const double* y, double* dy) noexcept {
   const double t = state_->time + after;
   const double* z = y + 2 * n;
   double* dz = dy + 2 * n;
+
+  // Each damper's force, and the rates of its states.
   for (std::size_t s = 0; s < currents_.size(); ++s) {
     const DamperState& damper = state_->dampers[s];
     const std::size_t count = damper.model_state().size();
@@ -44,6 +46,8 @@ void PlantEquations::rates(double after, const double* y, double* dy) noexcept {
     z += count;
     dz += count;
   }
+
+  // The motion under these forces.
   std::copy_n(y + n, n, dy);
   forces_.accelerate(t, x, strut_forces_, {dy + n, n});
 }

@@ -11,14 +11,13 @@ class PlantEquations {
 
   std::size_t size() const noexcept { return size_; }
   std::size_t coordinates() const noexcept { return coordinates_; }
-  /// y of a state, from whose instant on time counts in rates().
+  /// y of a state, which must outlive the calls of rates(): their time counts from its instant.
   void read(const PlantState& state, double* y);
   /// f at `after` seconds from there. Allocates nothing.
   void rates(double after, const double* y, double* dy) noexcept;
-  /// Brings the state on to `end`, where y is what it has become and dy = rates() was asked for
-  /// last.
+  /// Brings the state to `end`, s, where it is y; dy must come from the last call of rates(), at y.
   void write(const double* y, const double* dy, double end, PlantState& state) const;
-  /// What acts, to where rates() was asked for last.
+  /// Forces and accelerations at the last call of rates(), which gave dy, into the state.
   void write_forces(const double* dy, PlantState& state) const;
 
  private:

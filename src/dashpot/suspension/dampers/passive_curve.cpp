@@ -1,4 +1,4 @@
-#include "dashpot/suspension/passive_curve.h"
+#include "dashpot/suspension/dampers/passive_curve.h"
 
 #include <algorithm>
 #include <cmath>
@@ -31,7 +31,8 @@ void require_curve(const std::string& name, const std::vector<double>& v,
   }
 }
 
-/// Of a curve that rises or falls wherever its points do, and has no kink.
+/// Slopes at the points, of a curve that rises or falls wherever its points do and has no kink: the
+/// harmonic mean of the secants, weighted by the lengths of the pieces.
 std::vector<double> monotone_slopes(const std::vector<double>& x, const std::vector<double>& y) {
   std::vector<double> secant;
   for (std::size_t k = 1; k < x.size(); ++k)
