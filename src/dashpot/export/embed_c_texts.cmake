@@ -6,7 +6,7 @@ foreach(path ${paths})
   file(READ ${path} text)
   string(APPEND entries "  {\"${name}\", R\"dashpot_text(${text})dashpot_text\"},\n")
 endforeach()
-file(WRITE ${OUTPUT} "#include \"dashpot/output/exporters/c_text.h\"
+file(WRITE ${OUTPUT} "#include \"dashpot/export/c/c_text.h\"
 
 namespace dashpot {
 

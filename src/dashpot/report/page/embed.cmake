@@ -19,7 +19,7 @@ append_asset(uplot.js ${UPLOT_DIR}/dist/uPlot.iife.min.js)
 append_asset(uplot.css ${UPLOT_DIR}/dist/uPlot.min.css)
 append_asset(uplot.licence ${UPLOT_DIR}/LICENSE)
 
-file(WRITE ${OUTPUT} "#include \"dashpot/output/page.h\"
+file(WRITE ${OUTPUT} "#include \"dashpot/report/page.h\"
 
 namespace dashpot {
 
