@@ -11,6 +11,7 @@
 #include "dashpot/base/text.h"
 #include "dashpot/design/design_law.h"
 #include "dashpot/report/design_report.h"
+#include "document_text.h"
 #include "layout.h"
 #include "results.h"
 
@@ -136,7 +137,8 @@ std::string write_designs(const DesignReport& report, const fs::path& folder,
   return models.text();
 }
 
-void write_results(const DesignInput& input, const Settings& settings, Console& console) {
+void write_results(const Document& report, const DesignInput& input, const Settings& settings,
+                   Console& console) {
   const fs::path folder = settings.folder;
   std::string where;
   if (!input.design.designs.empty()) {
@@ -145,40 +147,11 @@ void write_results(const DesignInput& input, const Settings& settings, Console& 
                         (folder / "models").string(), kinds);
   }
   if (settings.report) {
-    write_file(folder / "design.html", html_design(input));
-    write_file(folder / "design.json", format_json(json_design(input)));
-    write_file(folder / "design.md", markdown_design(input));
+    if (where.empty()) where = "\n";
+    where += write_document(report, folder, "design");
     write_file(folder / "design.csv", csv_design(input.design));
-    where += "Report   " + (folder / "design.html").string() + " (also .json, .md, .csv)\n";
   }
   console.print(where);
-}
-
-void print_report(const DesignReport& report, Console& console) {
-  constexpr std::size_t kShown = 20;
-  const int width = console.width();
-  if (!report.designs.empty()) console.print('\n' + design_table(report, width, kShown));
-  if (report.designs.size() > kShown)
-    console.print(fmt::format("... all {} are in design.csv\n", report.designs.size()));
-  // One design is told in full; of a front the one that weighs all goals.
-  const auto knee = std::ranges::find_if(report.designs, [](const Design& design) {
-    return design.role.find("knee") != std::string::npos;
-  });
-  if (!report.designs.empty()) {
-    const Design& told = knee == report.designs.end() ? report.designs.front() : *knee;
-    if (!report.request.constraints.empty())
-      console.print('\n' + console.bold(told.name) + '\n' + constraint_table(report, told, width));
-    if (told.sensitivity)
-      console.print(
-          fmt::format(
-              "\nWhat each tolerance moves (its share of the variance); {} % of the dampers made "
-              "hold every constraint\n",
-              format_number(100 * told.sensitivity->holding, 3)) +
-          sensitivity_table(report, told, width));
-  }
-  console.print('\n' + paragraph(design_verdict(report), static_cast<std::size_t>(width)) +
-                fmt::format("{} dampers assessed in {} s\n", report.evaluations,
-                            format_number(report.wall_seconds, 3)));
 }
 
 int run(Settings settings, Console& console) {
@@ -194,10 +167,13 @@ int run(Settings settings, Console& console) {
   prepare_results({settings.folder, settings.report});
   const DesignReport report = design(request, settings.options);
   const DesignInput input{report, console.command_line(), DASHPOT_VERSION, date_now()};
-  print_report(report, console);
+  const Document document = design_document(input);
+  print_document(document, console);
+  console.print(fmt::format("{} dampers assessed in {} s\n", report.evaluations,
+                            format_number(report.wall_seconds, 3)));
   for (const std::string& note : report.notes) console.warn(note);
-  write_results(input, settings, console);
-  if (console.json) console.print_json(json_design(input));
+  write_results(document, input, settings, console);
+  if (console.json) console.print_json(document_json(document));
   if (report.stopped) console.check_stop();
   if (!report.designs.empty()) return kDone;
   console.error(report.conflict ? "the constraints conflict; the lines above say which"

@@ -26,9 +26,10 @@ int run(const RankingSettings& settings, Console& console) {
   const Ranking ranking =
       rank(models, data.dataset, data.leave_out, identify_options(settings.fit, models, console));
   const ReportInput input = report_input(data.dataset, ranking, console);
-  print_results(input, console);
-  write_results(input, settings.results, console);
-  if (console.json) console.print_json(json_report(input));
+  const Document report = ranking_document(input);
+  print_results(report, ranking, console);
+  write_results(input, report, settings.results, console);
+  if (console.json) console.print_json(document_json(report));
   return exit_code_of(ranking, console);
 }
 

@@ -19,21 +19,19 @@ struct ResultSettings {
 
 std::vector<Option> result_options(ResultSettings& settings);
 
-/// The ranking, the best model's parameters and what to beware of.
-void print_results(const ReportInput& input, Console& console);
-
-/// The intervals of all models with a title, or nothing.
-std::string interval_part(const Ranking& ranking, const Console& console);
+/// The report, and on stderr what to beware of.
+void print_results(const Document& report, const Ranking& ranking, Console& console);
 
 /// Makes the folder, so that hours of fitting do not end at one that cannot be written.
 void prepare_results(const ResultSettings& settings);
 
-/// Where it stands that files were written: among the results, or beside a page that is the result.
+/// Where the names of the written files are printed: among the results, or on stderr beside a page
+/// that is the result.
 enum class Say { Result, Aside };
 
 /// Writes model files, report and figures, and prints where they are.
-void write_results(const ReportInput& input, const ResultSettings& settings, Console& console,
-                   Say say = Say::Result);
+void write_results(const ReportInput& input, const Document& report, const ResultSettings& settings,
+                   Console& console, Say say = Say::Result);
 
 /// kDone, or kNotUsable with the reason printed when no model gave a finite force.
 int exit_code_of(const Ranking& ranking, Console& console);

@@ -14,7 +14,7 @@
 #include "dashpot/identify/rank/fit_store.h"
 #include "dashpot/report/search_report.h"
 #include "dashpot/report/words.h"
-#include "layout.h"
+#include "document_text.h"
 #include "live_table.h"
 #include "ranking_run.h"
 
@@ -130,15 +130,13 @@ void write_choices(const RankingData& data, const SearchReport& report, const fs
   }
 }
 
-void write_report(const SearchInput& input, const ResultSettings& settings, Console& console) {
+void write_report(const Document& report, const SearchInput& input, const ResultSettings& settings,
+                  Console& console) {
   const fs::path folder = settings.folder;
   std::string where = "\nModels   " + (folder / "models").string() + "/\n";
   if (settings.report) {
-    write_file(folder / "search.html", html_search(input));
-    write_file(folder / "search.json", format_json(json_search(input)));
-    write_file(folder / "search.md", markdown_search(input));
+    where += write_document(report, folder, "search");
     write_file(folder / "search.csv", csv_search(input.search));
-    where += "Report   " + (folder / "search.html").string() + " (also .json, .md, .csv)\n";
   }
   if (settings.figures) {
     write_search_figure(input.search, folder / "figures");
@@ -147,20 +145,13 @@ void write_report(const SearchInput& input, const ResultSettings& settings, Cons
   console.print(where);
 }
 
-void print_report(const SearchReport& report, Console& console) {
-  constexpr std::size_t kShown = 30;
-  const int width = console.width();
-  console.print('\n' + trial_table(report.trials, report, width, kShown));
-  if (report.trials.size() > kShown)
-    console.print(fmt::format("... and {} more, in search.csv\n", report.trials.size() - kShown));
+std::string time_line(const SearchReport& report) {
   double seconds = 0;
   for (const Trial& trial : report.trials) seconds += trial.seconds;
-  console.print('\n' + paragraph(search_verdict(report), static_cast<std::size_t>(width)) + '\n' +
-                fmt::format("{} in {} s; {} of CPU time{}.\n", counted(report.results, "fit"),
-                            number_text(report.wall_seconds), number_text(seconds) + " s",
-                            report.kept
-                                ? fmt::format("; {} kept from before", counted(report.kept, "fit"))
-                                : ""));
+  return fmt::format(
+      "{} in {} s; {} s of CPU time{}.\n", counted(report.results, "fit"),
+      number_text(report.wall_seconds), number_text(seconds),
+      report.kept ? fmt::format("; {} kept from before", counted(report.kept, "fit")) : "");
 }
 
 int run_in(const fs::path& folder, const RankingData& data, const SearchOptions& options,
@@ -172,11 +163,13 @@ int run_in(const fs::path& folder, const RankingData& data, const SearchOptions&
   const SearchInput input{data.dataset, report, console.command_line(), DASHPOT_VERSION,
                           date_now()};
   if (report.best()) write_choices(data, report, folder, console);
-  print_report(report, console);
+  const Document document = search_document(input);
+  print_document(document, console);
+  console.print(time_line(report));
   ResultSettings results = settings.ranking.results;
   results.figures = results.figures && report.best();
-  write_report(input, results, console);
-  if (console.json) console.print_json(json_search(input));
+  write_report(document, input, results, console);
+  if (console.json) console.print_json(document_json(document));
   if (report.best()) return kDone;
   console.error("no trial gave a usable force on the records left out; the table says why");
   return kNotUsable;

@@ -1,10 +1,10 @@
-#include "velocity_check.h"
+#include "dashpot/report/velocity_check.h"
 
 #include <cmath>
 
 #include "dashpot/record/differentiate.h"
 
-namespace dashpot::cli {
+namespace dashpot {
 namespace {
 
 bool is_measured(const Channel& velocity) { return !velocity.origin.starts_with("derived"); }
@@ -40,4 +40,4 @@ std::vector<VelocityCheck> check_velocities(const Dataset& dataset, double cutof
   return checks;
 }
 
-}  // namespace dashpot::cli
+}  // namespace dashpot
