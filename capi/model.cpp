@@ -15,7 +15,7 @@ dashpot_model::dashpot_model(ModelFile model_file)
       damper(file.model.get()),
       state_size(damper->state_size()),
       name(damper->name()),
-      kind(damper->kind()),
+      kind(name_of(damper->kind())),
       title(model_info(name).title) {}
 
 namespace {
@@ -88,7 +88,7 @@ dashpot_status dashpot_model_get_info(const dashpot_model* model, dashpot_model_
     *info = {.name = model->name.c_str(),
              .kind = model->kind.c_str(),
              .title = model->title.c_str(),
-             .drive_unit = file.drive_unit.c_str(),
+             .drive_unit = to_string(file.drive_unit).c_str(),
              .state_size = model->state_size,
              .parameter_count = model->damper->parameter_count(),
              .needs_displacement = model->damper->needs_displacement(),

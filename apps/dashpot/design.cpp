@@ -148,8 +148,7 @@ void write_results(const Document& report, const DesignInput& input, const Setti
   }
   if (settings.report) {
     if (where.empty()) where = "\n";
-    where += write_document(report, folder, "design");
-    write_file(folder / "design.csv", csv_design(input.design));
+    where += write_document(report, folder, "design", false, csv_design(input.design));
   }
   console.print(where);
 }

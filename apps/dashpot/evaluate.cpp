@@ -9,6 +9,7 @@
 #include "dashpot/damper/kinds/family/family_model.h"
 #include "dashpot/identify/fit/fit_words.h"
 #include "dashpot/identify/judge/extrapolation.h"
+#include "dashpot/rank.h"
 #include "dashpot/report/report_json.h"
 #include "data.h"
 #include "document_text.h"
@@ -52,7 +53,7 @@ Ranking as_ranking(const std::string& name, ModelFile file, const Evaluation& ev
 
 int run(const Settings& settings, Console& console) {
   ModelFile file = load_model(settings.model);
-  if (const auto* family = dynamic_cast<const FamilyModel*>(file.model.get());
+  if (const auto* family = model_as<FamilyModel>(*file.model);
       family && settings.outside_family == "refuse")
     file.model = family->with_outside(OutsideFamily::Refuse);
   const Dataset dataset = load_recordings(settings.data, console);

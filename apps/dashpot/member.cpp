@@ -8,8 +8,8 @@
 #include "dashpot/base/text.h"
 #include "dashpot/base/units.h"
 #include "dashpot/damper/kinds/family/family_model.h"
-#include "dashpot/damper/model_file.h"
 #include "dashpot/damper/physics/damper_description.h"
+#include "dashpot/model_file.h"
 #include "layout.h"
 
 namespace dashpot::cli {
@@ -76,7 +76,7 @@ std::string table_of(const FamilyModel& model, int width) {
 
 int run(const Settings& settings, Console& console) {
   ModelFile file = load_model(settings.model);
-  const auto* family = dynamic_cast<const FamilyModel*>(file.model.get());
+  const auto* family = model_as<FamilyModel>(*file.model);
   if (!family)
     throw Error(settings.model, "is a model of one damper, not of a family",
                 "a file that 'dashpot identify --models family' wrote");

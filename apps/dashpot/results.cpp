@@ -75,8 +75,7 @@ void write_results(const ReportInput& input, const Document& report, const Resul
   std::string where = "\n";
   if (settings.report) {
     console.check_stop();
-    where += write_document(report, folder, "report");
-    write_file(folder / "report.csv", csv_report(input));
+    where += write_document(report, folder, "report", false, csv_report(input));
   }
   where += "Models   " + (folder / "models").string() + "/\n";
   if (settings.figures) {

@@ -11,6 +11,7 @@
 #include "dashpot/base/file.h"
 #include "dashpot/base/text.h"
 #include "dashpot/damper/registry.h"
+#include "dashpot/identify/fit/fit.h"
 #include "dashpot/identify/rank/fit_store.h"
 #include "dashpot/report/search_report.h"
 #include "dashpot/report/words.h"
@@ -135,8 +136,7 @@ void write_report(const Document& report, const SearchInput& input, const Result
   const fs::path folder = settings.folder;
   std::string where = "\nModels   " + (folder / "models").string() + "/\n";
   if (settings.report) {
-    where += write_document(report, folder, "search");
-    write_file(folder / "search.csv", csv_search(input.search));
+    where += write_document(report, folder, "search", false, csv_search(input.search));
   }
   if (settings.figures) {
     write_search_figure(input.search, folder / "figures");

@@ -1,11 +1,11 @@
-#include "dashpot/damper/model_file.h"
+#include "dashpot/model_file.h"
 
 #include "damper/kinds/hybrid/hybrid_model_example.h"
 #include "damper/kinds/state_space/state_space_example.h"
 #include "dashpot/base/file.h"
 #include "dashpot/damper/kinds/fuzzy/fuzzy_model.h"
 #include "dashpot/damper/kinds/hybrid/hybrid_model.h"
-#include "dashpot/damper/kinds/hysteresis_network/hysteresis_network.h"
+#include "dashpot/damper/kinds/hysteresis_network/hysteresis_network_model.h"
 #include "dashpot/damper/kinds/network/network_model.h"
 #include "dashpot/damper/parameter_set.h"
 #include "support.h"
@@ -14,10 +14,10 @@ using namespace dashpot;
 
 namespace {
 
-ModelFile example(std::unique_ptr<DamperModel> model, std::string drive_unit) {
+ModelFile example(std::unique_ptr<DamperModel> model, DriveUnit drive_unit) {
   ModelFile file;
   file.model = std::move(model);
-  file.drive_unit = std::move(drive_unit);
+  file.drive_unit = drive_unit;
   file.sample_time = 1.0 / 3004.8;
   file.domain = {-0.015, 0.015, -0.3, 0.3, 0, 2.25};
   file.provenance = {"2026-01-02T03:04:05Z",
@@ -31,7 +31,7 @@ ModelFile example(std::unique_ptr<DamperModel> model, std::string drive_unit) {
 }
 
 ModelFile spencer() {
-  return example(std::make_unique<LawModel>(load_parameters("spencer1997")), "V");
+  return example(std::make_unique<LawModel>(load_parameters("spencer1997")), DriveUnit::Volt);
 }
 
 Mlp small_network() {
@@ -74,7 +74,7 @@ TEST_CASE("a network's file comes back as it was, to the last bit") {
       example(std::make_unique<NetworkModel>("mlp_one_sensor",
                                              std::vector<std::string>{"velocity", "current"},
                                              std::vector{small_network()}, 4.5),
-              "A");
+              DriveUnit::Ampere);
   const ModelFile loaded = parse_model(format_model(saved), "m.json");
   CHECK(format_model(loaded) == format_model(saved));
   for (const double v : {-0.2, 0.0, 0.13})
@@ -90,23 +90,24 @@ TEST_CASE("a fuzzy model's file comes back as it was, to the last bit") {
                       .output_scale = 812.5};
   const ModelFile saved = example(
       std::make_unique<FuzzyModel>("anfis", FuzzyInputs({"velocity"}, {}, "test"), sugeno, 4.5),
-      "A");
+      DriveUnit::Ampere);
   const ModelFile loaded = parse_model(format_model(saved), "m.json");
   CHECK(format_model(loaded) == format_model(saved));
   CHECK(loaded.model->force({0, 0.13, 0.5}, {}) == saved.model->force({0, 0.13, 0.5}, {}));
 }
 
-TEST_CASE("a state network's file comes back as it was, to the last bit") {
-  const BankNetwork member{
+TEST_CASE("a hysteresis network's file comes back as it was, to the last bit") {
+  const HysteresisNetwork member{
       .bank = {.path_rates = {100 / 3.0}, .velocity_rates = {}, .current_rates = {50}},
       .network = {.signals = {{0, 0.2, -3, 3}, {0, 1, -1, 1}, {1, 1, -1, 1}},
                   .currents = 1,
                   .neurons = {0.1 + 0.2, 1, -1, 0.5},
                   .gates = std::vector<double>(12, 0.7 / 3),
                   .output_scale = 812.5}};
-  const ModelFile saved = example(std::make_unique<HysteresisNetwork>(
-                                      "hysteresis_network", std::vector<BankNetwork>{member}, 4.5),
-                                  "A");
+  const ModelFile saved =
+      example(std::make_unique<HysteresisNetworkModel>("hysteresis_network",
+                                                       std::vector<HysteresisNetwork>{member}, 4.5),
+              DriveUnit::Ampere);
   const ModelFile loaded = parse_model(format_model(saved), "m.json");
   CHECK(format_model(loaded) == format_model(saved));
   const std::vector<double> state{0.3, 0.6};
@@ -117,7 +118,7 @@ TEST_CASE("a state space's file comes back as it was, to the last bit") {
   const ModelFile saved =
       example(std::make_unique<StateSpaceModel>("neural_state_space",
                                                 std::vector{example_state_space()}, 4.5),
-              "A");
+              DriveUnit::Ampere);
   const ModelFile loaded = parse_model(format_model(saved), "m.json");
   CHECK(format_model(loaded) == format_model(saved));
   const std::vector<double> state{0.3, 0.6, -0.2, 0.1};
@@ -125,7 +126,7 @@ TEST_CASE("a state space's file comes back as it was, to the last bit") {
 }
 
 TEST_CASE("a hybrid's file comes back as it was, to the last bit, and its law keeps its bounds") {
-  const ModelFile saved = example(std::make_unique<HybridModel>(example_hybrid()), "V");
+  const ModelFile saved = example(std::make_unique<HybridModel>(example_hybrid()), DriveUnit::Volt);
   const ModelFile loaded = parse_model(format_model(saved), "m.json");
   CHECK(format_model(loaded) == format_model(saved));
   std::vector<double> state(saved.model->state_size());
@@ -133,7 +134,8 @@ TEST_CASE("a hybrid's file comes back as it was, to the last bit, and its law ke
   CHECK(loaded.model->force({0.01, 0.13, 0.5}, state) ==
         saved.model->force({0.01, 0.13, 0.5}, state));
   CHECK(message_of([&] {
-          parse_model(format_model(example(std::make_unique<HybridModel>(example_hybrid()), "A")),
+          parse_model(format_model(example(std::make_unique<HybridModel>(example_hybrid()),
+                                           DriveUnit::Ampere)),
                       "m.json");
         }).find("drive_unit is V, but A for the file") != std::string::npos);
 }

@@ -17,7 +17,7 @@ std::string leaderboard_text(const ExampleRanking& example, int width) {
 }
 
 std::string breakdown_text(const ExampleRanking& example, int width) {
-  const DocumentTable table = breakdown_table(example.ranking, "A");
+  const DocumentTable table = breakdown_table(example.ranking, DriveUnit::Ampere);
   return text_table(table.columns, table.rows, width);
 }
 

@@ -4,10 +4,10 @@
 #include <limits>
 #include <numbers>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
 #include "dashpot/damper/kinds/family/family_model.h"
 #include "dashpot/design/design_model.h"
+#include "dashpot/error.h"
 
 namespace dashpot {
 namespace {
@@ -45,7 +45,7 @@ double force_in_sine(const DamperModel& model, const DamperOperation& at, double
 class FamilyDesignModel final : public DesignModel {
  public:
   explicit FamilyDesignModel(ModelFile file) : file_(std::move(file)) {
-    family_ = dynamic_cast<const FamilyModel&>(*file_.model).with_outside(OutsideFamily::Mark);
+    family_ = model_as<FamilyModel>(*file_.model)->with_outside(OutsideFamily::Mark);
     const Domain& d = file_.domain;
     half_stroke_ = 0.5 * (d.displacement_max - d.displacement_min);
     current_ = std::max(std::abs(d.current_min), std::abs(d.current_max));
@@ -122,11 +122,11 @@ class FamilyDesignModel final : public DesignModel {
 
 std::unique_ptr<DesignModel> load_family_design_model(const std::filesystem::path& path) {
   ModelFile file = load_model(path);
-  if (!dynamic_cast<const FamilyModel*>(file.model.get()))
+  if (!model_as<FamilyModel>(*file.model))
     throw Error(path.string(), "is a model of one damper, not of a family",
                 "a file that 'dashpot identify --models family' wrote");
-  if (file.drive_unit != "A")
-    throw Error(path.string(), "is driven by " + file.drive_unit,
+  if (file.drive_unit != DriveUnit::Ampere)
+    throw Error(path.string(), "is driven by " + to_string(file.drive_unit),
                 "a family of coils whose current is known");
   return std::make_unique<FamilyDesignModel>(std::move(file));
 }

@@ -1,12 +1,12 @@
-#include "dashpot/record/dataset.h"
+#include "dashpot/dataset.h"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/file.h"
 #include "dashpot/base/text.h"
+#include "dashpot/error.h"
 #include "dashpot/record/build_record.h"
 #include "dashpot/record/conditions.h"
 #include "dashpot/record/dataset_file.h"
@@ -170,7 +170,7 @@ class Loader {
 
   std::optional<KnownLevel> known_level(const SourcePath& file, const FileStatement& statement,
                                         const RawTable& table, const NameParts& name) const {
-    const std::string unit = sources_.stated.drive_unit.empty() ? "A" : sources_.stated.drive_unit;
+    const DriveUnit unit = sources_.stated.drive_unit.value_or(DriveUnit::Ampere);
     const std::string file_name = file.path.filename().string();
     if (const auto* level = std::get_if<double>(&statement.level))
       return KnownLevel{*level, unit, stated_in_};
@@ -243,10 +243,9 @@ class Loader {
       voltage += record.find("voltage") != nullptr;
     }
     const std::size_t count = dataset_.records.size();
-    dataset_.drive_unit = !sources_.stated.drive_unit.empty() ? sources_.stated.drive_unit
-                          : current >= voltage                ? "A"
-                                                              : "V";
-    const std::size_t driven = dataset_.drive_unit == "A" ? current : voltage;
+    dataset_.drive_unit = sources_.stated.drive_unit.value_or(current >= voltage ? DriveUnit::Ampere
+                                                                                 : DriveUnit::Volt);
+    const std::size_t driven = dataset_.drive_unit == DriveUnit::Ampere ? current : voltage;
     if (driven < count)
       dataset_.notes.push_back(
           std::to_string(count - driven) + " of " + std::to_string(count) +

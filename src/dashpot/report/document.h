@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "dashpot/base/value.h"
 #include "dashpot/report/text_table.h"
+#include "dashpot/value.h"
 
 // What a command has to say, once, before it becomes text for a terminal, Markdown, a page or JSON.
 // A command fills a Document; the renderers below know nothing of models or recordings, and the

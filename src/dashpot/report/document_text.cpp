@@ -9,17 +9,20 @@
 namespace dashpot {
 namespace {
 
-/// The rows that a terminal has room for, and how many there are besides.
+/// A table with its title and note; of many rows only those that a terminal has room for.
 std::string table_text(const DocumentTable& table, int width) {
-  std::string text =
-      table.title.empty() ? "" : paragraph(table.title, static_cast<std::size_t>(width));
-  if (table.brief.empty()) return text + text_table(table.columns, table.rows, width);
-  std::vector<std::vector<std::string>> rows;
-  for (const std::size_t row : table.brief) rows.push_back(table.rows[row]);
-  text += text_table(table.columns, rows, width);
-
-  const std::size_t more = table.rows.size() - rows.size();
-  return more > 0 ? text + fmt::format("... and {} more; the report holds all\n", more) : text;
+  const auto columns = static_cast<std::size_t>(width);
+  std::string text = table.title.empty() ? "" : paragraph(table.title, columns);
+  if (table.brief.empty()) {
+    text += text_table(table.columns, table.rows, width);
+  } else {
+    std::vector<std::vector<std::string>> rows;
+    for (const std::size_t row : table.brief) rows.push_back(table.rows[row]);
+    text += text_table(table.columns, rows, width);
+    if (const std::size_t more = table.rows.size() - rows.size())
+      text += fmt::format("... and {} more; the report holds all\n", more);
+  }
+  return table.note.empty() ? text : text + paragraph(table.note, columns);
 }
 
 /// Nothing where only words would stand: these are left to Markdown and page.
@@ -29,19 +32,15 @@ std::string section_text(const Document& document, const DocumentSection& sectio
   };
   std::string text = section.plain;
   for (const DocumentTable& table : section.tables)
-    if (is_shown(table)) text += table_text(table, width) + '\n';
+    if (is_shown(table)) text += (text.empty() ? "" : "\n") + table_text(table, width);
   if (text.empty()) return text;
 
   // Words stand below the tables, nearer to where the reader's eye rests.
+  std::string words;
   for (const auto* lines : {&section.paragraphs, &section.remarks})
-    for (const std::string& line : *lines) text += paragraph(line, static_cast<std::size_t>(width));
-  for (const DocumentList& list : section.lists)
-    if (is_shown(list) && !list.lines.empty()) {
-      if (!list.title.empty()) text += list.title + '\n';
-      for (const std::string& line : list.lines)
-        text += paragraph((list.title.empty() ? "" : "* ") + line, static_cast<std::size_t>(width));
-    }
-  return text;
+    for (const std::string& line : *lines)
+      words += paragraph(line, static_cast<std::size_t>(width));
+  return words.empty() ? text : text + '\n' + words;
 }
 
 }  // namespace

@@ -77,7 +77,7 @@ Document evaluation_document(const ReportInput& input) {
       .name = "errors",
       .title = model.name + " in free run, nothing fitted but the force zero of each record",
       .paragraphs = {},
-      .tables = {error_table(evaluation, input.dataset.drive_unit)},
+      .tables = {error_table(evaluation, to_string(input.dataset.drive_unit))},
       .audience = Audience::Text};
   if (evaluation.pooled.samples > 0) errors.tables.push_back(band_table(evaluation));
   if (evaluation.one_step)

@@ -17,10 +17,6 @@ namespace {
 constexpr double kPointsOfPage = 250000;  ///< about 16 bytes each in base64
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-const Channel* drive_channel(const Record& record, const std::string& unit) {
-  return record.find(unit == "V" ? "voltage" : "current");
-}
-
 /// A second velocity, from displacement, for a record that brings a velocity of its own.
 Channel derived_velocity(const Record& record) {
   const Channel* velocity = record.find("velocity");
@@ -47,13 +43,12 @@ FigurePanel panel_of(const std::string& title, const std::string& x_label,
 /// Fills the panels record by record; each shows the chosen record.
 class ChannelPanels {
  public:
-  ChannelPanels(const std::string& drive_unit, std::size_t points,
-                std::vector<SharedSamples>& samples)
+  ChannelPanels(DriveUnit drive_unit, std::size_t points, std::vector<SharedSamples>& samples)
       : drive_unit_(drive_unit), points_(points), samples_(samples) {
     for (const auto& [title, unit] : {std::pair<std::string, std::string>{"Displacement", "m"},
                                       {"Velocity", "m/s"},
                                       {"Force", "N"},
-                                      {"Drive", drive_unit}}) {
+                                      {"Drive", to_string(drive_unit)}}) {
       in_time_.push_back(panel_of(title, "Time (s)", title + " (" + unit + ")", 220));
       in_time_.back().reads_along_x = true;
     }
@@ -68,7 +63,7 @@ class ChannelPanels {
     // Choose the samples that are shown.
     const Channel derived = derived_velocity(record);
     const Channel* shown[] = {record.find("displacement"), record.find("velocity"),
-                              record.find("force"), drive_channel(record, drive_unit_)};
+                              record.find("force"), record.find(drive_channel(drive_unit_))};
     std::vector<std::span<const double>> leading{record.time};
     for (const Channel* channel : shown)
       if (channel) leading.push_back(channel->samples);
@@ -120,7 +115,7 @@ class ChannelPanels {
                             .when = {{"record", {place}}}});
   }
 
-  const std::string& drive_unit_;
+  const DriveUnit drive_unit_;
   const std::size_t points_;
   std::vector<SharedSamples>& samples_;
   std::vector<FigurePanel> in_time_, crossed_;
@@ -140,7 +135,7 @@ std::pair<double, double> extent_of(const Channel* channel) {
 DocumentTable record_table(const Dataset& dataset) {
   DocumentTable table{.title = {}, .columns = {{"Record"}, {"Condition"}}, .rows = {}};
   for (const std::string& title :
-       {"Drive " + dataset.drive_unit, std::string("Samples"), std::string("Duration s"),
+       {"Drive " + to_string(dataset.drive_unit), std::string("Samples"), std::string("Duration s"),
         std::string("Rate Hz"), std::string("Least x m"), std::string("Greatest x m"),
         std::string("Greatest |v| m/s"), std::string("Least F N"), std::string("Greatest F N")})
     table.columns.push_back({title, true});
@@ -240,7 +235,7 @@ Value json_inspection(const Dataset& dataset, const std::vector<VelocityCheck>& 
                                         {"cutoff_hz", check.cutoff_hz},
                                         {"rms_percent", check.rms_percent}}));
   return Value::object({{"name", dataset.name},
-                        {"drive_unit", dataset.drive_unit},
+                        {"drive_unit", to_string(dataset.drive_unit)},
                         {"columns", std::move(columns)},
                         {"records", std::move(records)},
                         {"derived_velocity", std::move(velocities)},

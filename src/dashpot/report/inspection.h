@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "dashpot/record/dataset.h"
+#include "dashpot/dataset.h"
 #include "dashpot/report/document.h"
 #include "dashpot/report/velocity_check.h"
 

@@ -2,9 +2,9 @@
 #include <string>
 #include <vector>
 
-#include "dashpot/record/dataset.h"
-#include "dashpot/record/split.h"
+#include "dashpot/dataset.h"
 #include "dashpot/report/document.h"
+#include "dashpot/split.h"
 
 // The parts that every report on recordings shares.
 namespace dashpot {

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "dashpot/base/text.h"
+#include "dashpot/damper/force_band.h"
 #include "dashpot/report/ranking_tables.h"
 #include "dashpot/report/residual.h"
 #include "dashpot/report/series.h"
@@ -153,7 +154,7 @@ class RecordPanels {
     const bool is_alone = together.size() == 1;
     const auto place =
         static_cast<std::size_t>(std::ranges::find(together, &curves) - together.begin());
-    const std::string drive = drive_text(first, input_.dataset.drive_unit),
+    const std::string drive = drive_text(first, to_string(input_.dataset.drive_unit)),
                       colour = level_colour(place, together.size());
     std::vector<std::pair<FigurePanel*, std::size_t>> axes;
     for (const auto& [panel, samples] :
@@ -496,7 +497,7 @@ DocumentFigure overview_figure(const ReportInput& input) {
                     .note = "Filled: measured. Rings and dashes: modelled.",
                     .height = 320};
   for (std::size_t m = 0; m < input.ranking.models.size(); ++m)
-    add_peaks(peaks, input.ranking.models[m], m, input.dataset.drive_unit);
+    add_peaks(peaks, input.ranking.models[m], m, to_string(input.dataset.drive_unit));
   return {.name = "overview",
           .title = {},
           .caption = {},
@@ -507,7 +508,7 @@ DocumentFigure overview_figure(const ReportInput& input) {
 std::vector<DocumentTable> heat_maps(const ReportInput& input) {
   std::vector<DocumentTable> tables;
   for (std::size_t m = 0; m < input.ranking.models.size(); ++m) {
-    tables.push_back(heat_map(input.ranking.models[m], input.dataset.drive_unit));
+    tables.push_back(heat_map(input.ranking.models[m], to_string(input.dataset.drive_unit)));
     tables.back().when = {{"model", {m}}};
   }
   return tables;

@@ -10,6 +10,7 @@
 
 #include "dashpot/base/text.h"
 #include "dashpot/identify/judge/conformal.h"
+#include "dashpot/identify/judge/stress.h"
 #include "dashpot/report/safe_text.h"
 #include "dashpot/report/words.h"
 
@@ -239,7 +240,7 @@ DocumentTable model_table(const Ranking& ranking, const std::vector<ColumnChoice
   return table;
 }
 
-DocumentTable breakdown_table(const Ranking& ranking, const std::string& drive_unit) {
+DocumentTable breakdown_table(const Ranking& ranking, DriveUnit drive_unit) {
   DocumentTable table{.title = "RMS error in N by speed, and ESR in % by drive",
                       .columns = {{.title = "Model", .elastic = true}},
                       .rows = {}};
@@ -254,7 +255,7 @@ DocumentTable breakdown_table(const Ranking& ranking, const std::string& drive_u
       row.push_back(number_text(band.metrics.rmse, 3));
     }
     for (const DriveResult& drive : model.left_out.drive) {
-      if (is_first) table.columns.push_back({level_title(drive, drive_unit), true, 1});
+      if (is_first) table.columns.push_back({level_title(drive, to_string(drive_unit)), true, 1});
       row.push_back(percent_text(drive.metrics.esr));
     }
     row.resize(table.columns.size(), "-");  // a model that diverged has fewer levels
@@ -358,7 +359,7 @@ std::string stress_text(const StressRun& run) {
 
 std::string csv_report(const ReportInput& input) {
   std::string text =
-      "model,record,condition,drive_" + input.dataset.drive_unit + ",left_out,samples";
+      "model,record,condition,drive_" + to_string(input.dataset.drive_unit) + ",left_out,samples";
   for (const auto& [name, member] : kMetricColumns) text += std::string(",") + name;
   text += ",esr_without_offset_percent,offset_N,energy_error_percent,diverged_at_s\n";
   for (const RankedModel& model : input.ranking.models) {

@@ -21,7 +21,7 @@ std::vector<std::string> judged_records(const Ranking& ranking);
 /// One row per model, best first; a click on it looks closer at the model and its worst record.
 DocumentTable model_table(const Ranking& ranking, const std::vector<ColumnChoice>& columns);
 /// RMS error by speed and ESR by drive, one row per model that was judged.
-DocumentTable breakdown_table(const Ranking& ranking, const std::string& drive_unit);
+DocumentTable breakdown_table(const Ranking& ranking, DriveUnit drive_unit);
 /// The models' intervals of the force and what they covered; without rows where none has one.
 DocumentTable interval_table(const Ranking& ranking);
 /// Value, 95 % interval and remarks of each fitted parameter.

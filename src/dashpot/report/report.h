@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "dashpot/identify/identify.h"
+#include "dashpot/rank.h"
 #include "dashpot/report/document.h"
 
 // The report of a ranking: models that were fitted, and judged on records that they had not seen.

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "dashpot/damper/force_band.h"
+#include "dashpot/identify/judge/stress.h"
 #include "dashpot/report/safe_text.h"
 #include "dashpot/report/words.h"
 
@@ -70,7 +72,7 @@ Value model_json(const RankedModel& model, const std::vector<std::string>& folds
   const auto& fitted = model.fit.model;
   return Value::object({{"name", model.name},
                         {"title", display_name(model)},
-                        {"kind", fitted ? Value(fitted->kind()) : Value()},
+                        {"kind", fitted ? Value(name_of(fitted->kind())) : Value()},
                         {"parameter_count", fitted ? Value(fitted->parameter_count()) : Value()},
                         {"nanoseconds_per_step", model.nanoseconds_per_step},
                         {"seconds", model.seconds},
@@ -148,7 +150,7 @@ Value dataset_json(const Dataset& dataset) {
     files.push_back(Value::object({{"path", file.path}, {"sha256", file.sha256}}));
   return Value::object({{"name", dataset.name},
                         {"citation", dataset.citation},
-                        {"drive_unit", dataset.drive_unit},
+                        {"drive_unit", to_string(dataset.drive_unit)},
                         {"records", dataset.records.size()},
                         {"files", std::move(files)},
                         {"notes", Value::array(dataset.notes)}});

@@ -1,14 +1,15 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dashpot/base/error.h"
 #include "dashpot/damper/inverse/history_network.h"
 #include "dashpot/damper/inverse/numeric.h"
 #include "dashpot/damper/inverse/polynomial.h"
 #include "dashpot/damper/inverse/switching.h"
 #include "dashpot/damper/kinds/law/law_model.h"
+#include "dashpot/error.h"
 #include "dashpot/export/c/c_inverse.h"
 #include "dashpot/export/c/c_model.h"
+#include "dashpot/export/c/c_text.h"
 
 namespace dashpot {
 namespace {
@@ -56,7 +57,7 @@ static inline double inverse_wanted(const InverseModel* m, const InverseInput* i
 
 /// The model that runs beside the damper, and its observer.
 std::string observer_code(const Observer& observer) {
-  const auto* law = dynamic_cast<const LawModel*>(&observer.model());
+  const auto* law = model_as<LawModel>(observer.model());
   const std::string stem = law ? "damped" : "model";
   return (law ? c_law(*law, stem) : c_model(observer.model())).code +
          filled(R"(#define OBSERVED_STATES @states@

@@ -1,6 +1,6 @@
-#include "dashpot/base/error.h"
 #include "dashpot/damper/kinds/state_space/state_space_model.h"
 #include "dashpot/damper/nets/gated_network_json.h"
+#include "dashpot/error.h"
 
 namespace dashpot {
 namespace {
@@ -64,7 +64,7 @@ Value StateSpaceNetwork::to_json() const {
 }
 
 std::unique_ptr<StateSpaceModel> state_space_model_from_json(const Value& value) {
-  return state_network_from_json<StateSpaceModel>(value, "a state-space model", read_member);
+  return stateful_ensemble_from_json<StateSpaceModel>(value, "a state-space model", read_member);
 }
 
 }  // namespace dashpot

@@ -1,0 +1,79 @@
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "dashpot/drive.h"
+#include "dashpot/monitor.h"
+#include "dashpot/record.h"
+
+namespace dashpot {
+
+/// How one column of a file was understood.
+struct ColumnReading {
+  std::string file;
+  std::string column;   ///< as the file names it
+  std::string channel;  ///< "" when the column is not used
+  std::string unit;     ///< as read: "mm"
+  double factor = 1;    ///< sample_si = factor * (raw - raw_offset) ...
+  double raw_offset = 0;
+  std::string
+      basis;  ///< "header", "stated in utfsm.yaml", "assumed SI: no unit given", "not used: ..."
+};
+
+struct SourceFile {
+  std::string path;
+  std::string sha256;
+};
+
+/// A file that gave no record, and why.
+struct PassedOver {
+  std::string file, why;
+};
+
+/// How records are left out to judge a model. `values` narrows it: the levels, conditions or record
+/// names to leave out one after the other; empty: each (for Current: each inner level, since a
+/// model is not asked to extrapolate in current). Each: `values` names conditions of the records,
+/// gap or viscosity, and what agrees in all of them is left out together.
+struct LeaveOut {
+  enum class By { Condition, Current, Record, Fraction, Roles, Each };
+  By by = By::Condition;
+  std::vector<std::string> values;
+  double fraction = 0.3;  ///< Fraction: share of every record's end that is left out
+};
+LeaveOut parse_leave_out(
+    const std::string& text);  ///< "current", "current=0.87,1.98", "fraction=0.33"
+std::string format_leave_out(const LeaveOut& leave_out);
+
+/// Records that are identified and judged together.
+struct Dataset {
+  std::string name;
+  std::string citation;
+  DriveUnit drive_unit = DriveUnit::Ampere;  ///< "A" (channel current) or "V" (channel voltage)
+  std::vector<Record> records;
+  std::vector<SourceFile> files;
+  std::vector<ColumnReading> readings;
+  std::vector<PassedOver> passed_over;
+  std::vector<std::string> notes;     ///< what was inferred or assumed, in words
+  std::optional<LeaveOut> leave_out;  ///< stated in the dataset file
+};
+
+struct LoadOptions {
+  std::string
+      dataset_file;  ///< "" : dataset.yaml beside the data, else a shipped one that recognises it
+  bool recognise = true;          ///< look among the shipped dataset files
+  double velocity_cutoff_hz = 0;  ///< 0: chosen from the sample rate and the motion, and stated
+  Monitor monitor;
+};
+
+/// Reads files and folders (CSV, DAQ text, MAT, the family paper's JSON; each also as .gz) or a
+/// dataset file (.yaml) into one dataset, in SI and Dashpot's signs, with a velocity channel on
+/// every record that has displacement or velocity. Throws Error on anything that cannot be used;
+/// what is passed over stands in `passed_over`.
+Dataset load_dataset(const std::vector<std::filesystem::path>& paths,
+                     const LoadOptions& options = {});
+
+/// The table of what was understood, for people: one line per column, then per record.
+std::string describe(const Dataset& dataset);
+
+}  // namespace dashpot

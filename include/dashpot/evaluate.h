@@ -1,0 +1,167 @@
+#pragma once
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "dashpot/damper_model.h"
+#include "dashpot/dataset.h"
+#include "dashpot/drive.h"
+#include "dashpot/value.h"
+
+namespace dashpot {
+
+/// Errors of a modelled force against a measured one. Several records pool by adding sums.
+struct ErrorSums {
+  std::size_t n = 0;
+  double squared = 0, absolute = 0, largest = 0;   ///< of e = measured - modelled
+  double force = 0, force_squared = 0, error = 0;  ///< sums of F, F^2, e
+  double force_min = 0, force_max = 0;             ///< N
+  void add(double measured, double modelled);
+  void add(const ErrorSums& other);
+};
+
+/// MODELS.md 11; every figure by its name.
+struct Metrics {
+  std::size_t samples = 0;
+  double rmse = 0;           ///< N
+  double rms_half_span = 0;  ///< %, 200 rmse / (Fmax - Fmin): what the one-sensor paper prints
+  double rms_span = 0;       ///< %, 100 rmse / (Fmax - Fmin)
+  double nrmse_max = 0;      ///< %, 100 rmse / max |F|
+  double esr = 0;            ///< %, 100 sum e^2 / sum (F - mean F)^2, a power ratio
+  double r2 = 0;             ///< 1 - esr
+  double rrse = 0;           ///< sqrt(esr)
+  double fit = 0;            ///< %, 100 (1 - rrse)
+  double vaf = 0;            ///< %, 100 (1 - var e / var F)
+  double mae = 0;            ///< N
+  double max_error = 0;      ///< N
+};
+Metrics metrics(const ErrorSums& sums);
+Value to_json(const Metrics& metrics);
+
+/// Energy dissipated, J: integral of F v dt by the trapezoidal rule.
+double dissipated_energy(std::span<const double> time, std::span<const double> velocity,
+                         std::span<const double> force);
+
+/// The record's motion and drive as the model sees them. Throws Error naming the missing channel.
+/// A record without displacement gives 0 there.
+std::vector<DamperInput> damper_inputs(const Record& record, DriveUnit drive_unit);
+
+/// Where the drive of these records lies, A or V: all of it when it is constant in each, else the
+/// middle 99 % of its samples, so that spikes at switching do not stretch the range.
+struct DriveRange {
+  double low = 0, high = 0;
+  bool varies = false;     ///< within a record
+  std::size_t levels = 0;  ///< distinct constant levels
+};
+DriveRange drive_range(const std::vector<Record>& records, DriveUnit drive_unit);
+
+/// Where motion and drive of these records lie.
+Domain domain_of(const std::vector<Record>& records, DriveUnit drive_unit);
+
+/// Force over a record in free run: the model sees motion and current only. From rest at the first
+/// sample. `diverged_at`: time of the first force that is not finite or out of the model's range;
+/// what follows is NaN.
+struct FreeRun {
+  std::vector<double> force;          ///< N, one per sample
+  std::vector<double> spread;         ///< N, of an ensemble's members; empty for a single model
+  std::optional<double> diverged_at;  ///< s
+};
+FreeRun free_run(const DamperModel& model, const std::vector<DamperInput>& inputs,
+                 const std::vector<double>& time);
+
+/// How the force zero of a record (gas, load cell) is treated.
+enum class OffsetMode {
+  Record,  ///< one free offset per record: a declared nuisance, printed
+  None     ///< the model's own bias must do
+};
+
+/// What a band covers of the scored samples.
+struct Coverage {
+  std::size_t samples = 0, inside = 0;
+  double width = 0;                     ///< N, sum over the samples
+  double force_min = 0, force_max = 0;  ///< N
+  double percent() const;               ///< not a number without samples
+  double mean_width() const;            ///< N
+  double mean_width_percent() const;    ///< of the force span
+  void add(const Coverage& other);
+};
+
+/// A model on one record.
+struct RecordResult {
+  std::string record, condition;
+  std::optional<double> drive_level;
+  bool left_out = false;
+  std::size_t warm_up = 0;
+  double offset = 0;               ///< N, added to the model's force
+  Metrics metrics;                 ///< with the offset
+  Metrics metrics_without_offset;  ///< the model as it stands in its file
+  ErrorSums sums, sums_without_offset;
+  std::vector<std::string>
+      extrapolations;  ///< as DamperModel has them, of the model on this record
+  ErrorSums
+      one_step;  ///< with measured forces fed back; without samples: the model feeds none back
+  double energy_error = 0;  ///< %, of the energy dissipated per record
+  std::optional<double> diverged_at;
+  std::optional<ForceBand> band;  ///< around the modelled force
+  Coverage coverage;              ///< of that band
+  std::vector<double> time, displacement, velocity, drive, measured, modelled;  ///< offset included
+  std::vector<double> spread;                                                   ///< as FreeRun
+  double spread_at(std::size_t sample) const { return spread.empty() ? 0 : spread[sample]; }
+};
+
+struct BandResult {
+  std::string name;          ///< "|v| < 5 % of max (pre-yield)"
+  double low = 0, high = 0;  ///< m/s
+  Metrics metrics;
+};
+
+/// The samples at one level of the drive, or in a quarter of its range where it varies within
+/// records.
+struct DriveResult {
+  double low = 0, high = 0;  ///< A or V; equal: a constant level
+  Metrics metrics;
+};
+
+struct Evaluation {
+  std::vector<RecordResult> records;
+  Metrics pooled;  ///< all samples of all scored records
+  Metrics pooled_without_offset;
+  std::optional<Metrics>
+      one_step;          ///< of a model that feeds its force back, measured ones fed back: no judge
+  double worst_esr = 0;  ///< %, worst record
+  std::string worst_record;
+  double mean_esr = 0;             ///< %, mean over the records
+  double mean_energy_error = 0;    ///< %, mean over the records of its magnitude
+  std::vector<BandResult> bands;   ///< by |v|: pre-yield, low, middle, high
+  std::vector<DriveResult> drive;  ///< by drive, ascending
+  Coverage coverage;               ///< of the records' bands; without samples: none has a band
+  const RecordResult* worst_covered()
+      const;  ///< the record with the least coverage; none without bands
+  std::size_t diverged = 0;
+};
+
+/// What became of a model that was driven beyond its data.
+struct StressRun {
+  double seconds = 0;        ///< simulated; 0: not run
+  bool finite = false;       ///< the force was a number all along
+  double largest_share = 0;  ///< largest |F| over the force span of the data
+  bool is_bounded() const;   ///< finite, and within kStressSpans spans
+};
+
+/// Free run over each record, scored from its warm-up on. Records whose `offset` is preset (by
+/// name) keep it: an offset learnt on the training part of a record serves its left-out part.
+struct EvaluateOptions {
+  OffsetMode offset = OffsetMode::Record;
+  std::vector<std::pair<std::string, double>> known_offsets;
+  std::optional<ForceBand> band = std::nullopt;  ///< to be judged too
+  int threads = 0;
+};
+Evaluation evaluate(const DamperModel& model, const std::vector<Record>& records,
+                    DriveUnit drive_unit, const EvaluateOptions& options = {});
+
+/// Several evaluations (one per fold) as one.
+Evaluation pool(const std::vector<Evaluation>& evaluations);
+
+}  // namespace dashpot

@@ -1,0 +1,80 @@
+#pragma once
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "dashpot/drive.h"
+#include "dashpot/model_file.h"
+
+namespace dashpot {
+
+/// The numbers in which exported code computes.
+enum class CPrecision { Double, Single };
+
+/// A model with what an export says of it.
+struct ExportedModel {
+  const DamperModel& model;
+  DriveUnit drive_unit = DriveUnit::Ampere;
+  Domain domain;           ///< where it was identified, or where its parameters hold
+  double sample_time = 0;  ///< s, of the training data; 0: mixed or unknown
+  std::string origin;      ///< where it comes from, in words
+};
+
+/// Where no data tell: a stroke of a car's damper.
+Domain usual_domain(double current_min, double current_max);
+/// The model of a file, which must stay as long.
+ExportedModel exported_model(const ModelFile& file);
+
+struct ExportOptions {
+  std::string name;                     ///< of files and functions: a name in C
+  std::optional<CPrecision> precision;  ///< nothing: double in C, single in ONNX
+  CPrecision c_precision() const { return precision.value_or(CPrecision::Double); }
+  double sample_time = 0;  ///< s; 0: the model's own
+  bool settable_parameters =
+      false;                    ///< of a law in C: kept behind its state instead of in its code
+  std::string compiler = "cc";  ///< of C, and more of its arguments: for what holds a binary
+  bool sources_only = false;    ///< of an FMU: no binary
+  std::string command, version;
+};
+
+struct ExportedFile {
+  std::string name, content;
+};
+
+struct CBlock;
+/// An inverse or a controller, for options of an exporter's own.
+using CBlockMaker = std::function<CBlock(const ExportOptions&)>;
+
+/// One thing that a model can become.
+struct Exporter {
+  std::string_view name, title;
+  std::string_view takes;  ///< which models, in words
+  std::string_view files;  ///< what it writes, in words
+  /// Throws Error that says why where the model cannot become that.
+  std::vector<ExportedFile> (*write)(const ExportedModel& model, const ExportOptions& options);
+  /// Null: inverses and controllers cannot.
+  std::vector<ExportedFile> (*write_block)(const CBlockMaker& block,
+                                           const ExportOptions& options) = nullptr;
+};
+
+/// All of them, in alphabetical order.
+std::span<const Exporter> exporters();
+/// Throws Error "unknown format 'x'; did you mean ...".
+const Exporter& find_exporter(std::string_view name, const std::string& where = {});
+
+/// As make has it: $CC, or cc.
+std::string usual_compiler();
+
+/// s between two steps: as asked for, the model's own where it has one, that of its data, or 1 ms.
+/// Throws Error where it is not a positive number.
+double export_sample_time(const ExportedModel& model, const ExportOptions& options);
+/// The name, or one made of the model's. Throws Error where it is none in C.
+std::string export_name(const ExportedModel& model, const ExportOptions& options);
+
+/// The same. Throws Error where it is no name in C.
+std::string c_name(const std::string& name);
+
+}  // namespace dashpot

@@ -1,0 +1,55 @@
+#pragma once
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "dashpot/evaluate.h"
+#include "dashpot/identify.h"
+#include "dashpot/model_file.h"
+#include "dashpot/split.h"
+
+namespace dashpot {
+
+class FitStore;
+
+/// One model, fitted on everything and judged on what was left out.
+struct RankedModel {
+  std::string name, title;
+  FitReport fit;        ///< on all records: the model that is saved
+  Evaluation training;  ///< of `fit` on all its records
+  std::vector<FitReport> fold_fits;
+  std::vector<FitReport>
+      held_back_fits;   ///< where there is one fold: on parts of its training, for the interval
+  Evaluation left_out;  ///< the folds' models, each on its left-out records, pooled
+  std::optional<ForceBand> band;    ///< 90 % interval around the force of `fit`: conformal.h
+  double seconds = 0;               ///< CPU time of all its fits
+  double nanoseconds_per_step = 0;  ///< cost of advance + force, measured
+  StressRun stress;                 ///< the final model, beyond its domain
+};
+
+struct Ranking {
+  LeaveOut leave_out;
+  std::vector<std::string> folds;   ///< their names
+  std::vector<RankedModel> models;  ///< best first, by left-out ESR with offsets; diverged last
+  std::size_t kept_fits = 0;        ///< found in the store
+  double wall_seconds = 0;          ///< from the first fit to the last figure
+};
+
+/// Cross-validates each model over the folds of the split and ranks them. Without training roles,
+/// `fit` uses all records; with Roles or Fraction it uses the training part. With a store, fits
+/// that it holds are not made again, and new ones are kept as they end. The interval of a fold
+/// comes from the other folds' errors; where there is one fold, from further fits, each with a part
+/// of its training held back.
+Ranking rank(const std::vector<std::string>& models, const Dataset& dataset,
+             const LeaveOut& leave_out, const IdentifyOptions& options,
+             const FitStore* store = nullptr);
+
+/// What was made from these records of the dataset, by this command.
+Provenance provenance_of(const Dataset& dataset, std::vector<std::string> records,
+                         const std::string& command);
+/// The model as a file: domain and provenance taken from the records.
+ModelFile to_model_file(const RankedModel& ranked, const Dataset& dataset,
+                        const std::string& command);
+
+}  // namespace dashpot

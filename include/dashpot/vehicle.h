@@ -1,0 +1,62 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "dashpot/drive.h"
+#include "dashpot/model_file.h"
+#include "dashpot/plant.h"
+#include "dashpot/simulate.h"
+
+namespace dashpot {
+
+/// A plant with its dampers and what drives them, in the words of the command line and of a sweep's
+/// file.
+struct VehicleWords {
+  std::string plant =
+      "savaresi_spelta";            ///< a set, a kind of plant, or a file of data/plants' form
+  std::vector<std::string> values;  ///< in place of the plant's: "sprung_mass=350 kg"
+  /// One per strut, or one for all, as choose_damper() has them. Empty: the plant's own range as an
+  /// ideal damper.
+  std::vector<std::string> dampers;
+  std::string controller;  ///< "mix1,crossover=1.9Hz"; empty: every damper keeps `current`
+  std::string
+      inverse;  ///< scheme or file, from a wanted force to a current; empty: damping is mapped
+  std::string force_loop;     ///< about the inverse: "proportional=0.5,integral=20"; empty: none
+  double current = 0;         ///< A (or V), where there is no controller
+  double current_max = 0;     ///< A (or V); 0: that of the damper's data
+  double lag_rate = -1;       ///< 1/s, of the coil; below 0: the damper's own
+  double sample_time = 1e-3;  ///< s, of the controller
+  SensorOptions sensors;
+  std::string where = "vehicle";  ///< stands in messages
+};
+
+/// The same as things: owns all that simulate() refers to.
+struct Vehicle {
+  PlantSet set;
+  std::vector<MountedDamper> dampers;          ///< one per strut
+  std::vector<std::string> damper_names;       ///< one per strut
+  std::vector<std::optional<Domain>> domains;  ///< where each damper's data were
+  DriveUnit drive_unit =
+      DriveUnit::None;           ///< of the dampers; empty: a place between 0 and 1, or none
+  ControllerPointer controller;  ///< null: none
+  std::string controller_name;   ///< as it was named; empty: none
+  ControlLimits limits;
+  SensorOptions sensors;
+  std::vector<std::string> notes;  ///< "the numbers of ... are an example: ..."
+
+  Setting on(const GroundMotion& ground) const {
+    return {set.plant, dampers, ground, controller.get()};
+  }
+  /// The rest of what simulate() must know to run it for that long.
+  SimulateOptions options(double duration) const;
+};
+
+/// Its plant alone, with the values that stand in place of the plant's.
+PlantSet load_plant(const VehicleWords& words);
+
+/// Throws Error(where, ...) at a word that nothing is known by, at a value outside its bounds, at
+/// parts that do not fit together.
+Vehicle make_vehicle(const VehicleWords& words);
+
+}  // namespace dashpot
