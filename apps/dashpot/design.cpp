@@ -184,10 +184,9 @@ std::vector<Option> options_of(Settings& settings) {
   return {
       {.names = "REQUEST",
        .target = &settings.request,
-       .help =
-           "what may vary, what must hold and what to favour: a YAML file, or one that comes with "
-           "Dashpot: " +
-           join(request_names(), ", "),
+       .help = "what may vary, what must hold and what to favour: a YAML file, or one that comes "
+               "with Dashpot: " +
+               join(request_names(), ", "),
        .takes = Takes::File},
       {.names = "-o,--output",
        .target = &settings.folder,
@@ -219,9 +218,8 @@ std::vector<Option> options_of(Settings& settings) {
        .takes = Takes::File},
       {.names = "--second",
        .target = &settings.options.second,
-       .help =
-           "a model whose figures stand beside, with the difference; constraints and goals can be "
-           "asked of it too",
+       .help = "a model whose figures stand beside, with the difference; constraints and goals can "
+               "be asked of it too",
        .value = "MODEL",
        .choices = design_model_names(),
        .noun = "model",
@@ -251,13 +249,10 @@ Command design_command() {
           .title = "Dampers that do what is asked of them",
           .description =
               "Reads what may vary of a damper's description, what must hold and what to favour, "
-              "and finds "
-              "designs: "
-              "the best for one goal, or a front for several, also where made dampers differ from "
-              "their drawing. "
-              "Each design is written as a description and as a model for the other commands, "
-              "after it was read "
-              "again and checked. Where none can be, it says which constraints conflict.",
+              "and finds designs: the best for one goal, or a front for several, also where made "
+              "dampers differ from their drawing. Each design is written as a description and as a "
+              "model for the other commands, after it was read again and checked. Where none can "
+              "be, it says which constraints conflict.",
           .options = options_of(*settings),
           .example = std::string(kExample),
           .run = [settings](Console& console) { return run(*settings, console); }};

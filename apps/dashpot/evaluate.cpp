@@ -93,10 +93,8 @@ Command evaluate_command() {
                   .title = "Judge a model file on recordings, without fitting",
                   .description =
                       "Runs a model in free run over each recording (motion and current in, force "
-                      "out) and prints "
-                      "its errors per record, pooled and by velocity. Says where the recordings "
-                      "leave the range "
-                      "that the model was fitted on.",
+                      "out) and prints its errors per record, pooled and by velocity. Says where "
+                      "the recordings leave the range that the model was fitted on.",
                   .options = {{.names = "MODEL",
                                .target = &settings->model,
                                .help = "a model file that 'dashpot identify' wrote",

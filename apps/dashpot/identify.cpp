@@ -41,10 +41,8 @@ Command identify_command() {
           .title = "Turn recordings into ranked damper models and a report",
           .description =
               "Fits each model to all training records together and judges it in free run (motion "
-              "and current "
-              "in, force out) on records that it has not seen. Ranks the models by that error, "
-              "saves each as "
-              "a file and writes a report.",
+              "and current in, force out) on records that it has not seen. Ranks the models by "
+              "that error, saves each as a file and writes a report.",
           .options = ranking_options(*settings),
           .example = std::string(kExample),
           .run = [settings](Console& console) { return run(*settings, console); }};

@@ -48,18 +48,16 @@ int run(const Settings& settings, Console& console) {
 
 Command inspect_command() {
   auto settings = std::make_shared<Settings>();
-  Command command{.name = "inspect",
-                  .title = "Show what is understood of recordings",
-                  .description =
-                      "Reads recordings as 'identify' would and prints what each column was taken "
-                      "for, its unit, the "
-                      "conditions of each record, and what was inferred or passed over. Where "
-                      "velocity was measured, "
-                      "also "
-                      "compares it with the velocity derived from displacement.",
-                  .options = data_options(settings->data),
-                  .example = std::string(kExample),
-                  .run = [settings](Console& console) { return run(*settings, console); }};
+  Command command{
+      .name = "inspect",
+      .title = "Show what is understood of recordings",
+      .description =
+          "Reads recordings as 'identify' would and prints what each column was taken for, its "
+          "unit, the conditions of each record, and what was inferred or passed over. Where "
+          "velocity was measured, also compares it with the velocity derived from displacement.",
+      .options = data_options(settings->data),
+      .example = std::string(kExample),
+      .run = [settings](Console& console) { return run(*settings, console); }};
   std::erase_if(command.options,
                 [](const Option& option) { return option.names == "-v,--verbose"; });
   command.options.push_back({.names = "-o,--output",

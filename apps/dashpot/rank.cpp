@@ -80,12 +80,10 @@ Command rank_command() {
                   .title = "Every model on one scale: the leaderboard",
                   .description =
                       "Fits every model of the registry as 'identify' does and compares them: "
-                      "error on left-out records "
-                      "beside the error on those of the fit, by record, speed and drive; number of "
-                      "parameters, cost per "
-                      "step, CPU time of the fit, and whether the force stays bounded beyond the "
-                      "data. Finished fits are "
-                      "kept in DIR/fits: the same command goes on where it was interrupted.",
+                      "error on left-out records beside the error on those of the fit, by record, "
+                      "speed and drive; number of parameters, cost per step, CPU time of the fit, "
+                      "and whether the force stays bounded beyond the data. Finished fits are kept "
+                      "in DIR/fits: the same command goes on where it was interrupted.",
                   .options = ranking_options(settings->ranking),
                   .example = std::string(kExample),
                   .run = [settings](Console& console) { return run(*settings, console); }};

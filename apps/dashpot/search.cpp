@@ -198,17 +198,14 @@ std::vector<Option> own_options(Settings& settings) {
           {.names = "--over",
            .target = &settings.over,
            .help = "a setting and its values, as hidden=5,10,10-10, or their range, as "
-                   "l2=1e-5:1e-2; again for "
-                   "each setting. --network tells the settings",
+                   "l2=1e-5:1e-2; again for each setting. --network tells the settings",
            .value = "SETTING=...",
            .required = true},
           {.names = "--method",
            .target = &settings.method,
            .help = "every combination, so many by chance, or halving: many by chance with little "
-                   "effort, the "
-                   "best third of them with three times as much, until all effort goes to the last "
-                   "three or "
-                   "more. Ranges are spaced and drawn evenly in the logarithm",
+                   "effort, the best third of them with three times as much, until all effort goes "
+                   "to the last three or more. Ranges are spaced and drawn evenly in the logarithm",
            .value = "HOW",
            .choices = {"grid", "random", "halving"}},
           {.names = "--trials",
@@ -224,8 +221,7 @@ std::vector<Option> own_options(Settings& settings) {
           {.names = "--effort",
            .target = &settings.effort,
            .help = "what halving gives little of at first: samples (the first part of every "
-                   "training record) or "
-                   "epochs (then --network epochs=N says how many are all)",
+                   "training record) or epochs (then --network epochs=N says how many are all)",
            .value = "WHAT",
            .choices = {"samples", "epochs"}},
           {.names = "--fresh",
@@ -238,23 +234,19 @@ std::vector<Option> own_options(Settings& settings) {
 Command search_command() {
   auto settings = std::make_shared<Settings>();
   settings->ranking.results.folder = "dashpot-search";
-  Command command{.name = "search",
-                  .title = "The settings with which a network predicts best",
-                  .description =
-                      "Fits a network with many settings and judges each on left-out records as "
-                      "'rank' does. Prints them "
-                      "by "
-                      "error, with the fewest parameters that are within one standard error of the "
-                      "best, and writes both "
-                      "as model files, fitted on everything, with a page that shows error against "
-                      "size. Each fit is kept "
-                      "in DIR/search.sqlite as it ends: the same command goes on where it was "
-                      "stopped, and more --trials "
-                      "go "
-                      "on beyond it. The result does not depend on threads or interruptions.",
-                  .options = ranking_options(settings->ranking),
-                  .example = std::string(kExample),
-                  .run = [settings](Console& console) { return run(*settings, console); }};
+  Command command{
+      .name = "search",
+      .title = "The settings with which a network predicts best",
+      .description =
+          "Fits a network with many settings and judges each on left-out records as 'rank' does. "
+          "Prints them by error, with the fewest parameters that are within one standard error of "
+          "the best, and writes both as model files, fitted on everything, with a page that shows "
+          "error against size. Each fit is kept in DIR/search.sqlite as it ends: the same command "
+          "goes on where it was stopped, and more --trials go on beyond it. The result does not "
+          "depend on threads or interruptions.",
+      .options = ranking_options(settings->ranking),
+      .example = std::string(kExample),
+      .run = [settings](Console& console) { return run(*settings, console); }};
   // A search has one model, and parameters of laws are not its business.
   constexpr std::array kOthers{"--models", "--form",  "--fix",   "--free",
                                "--bounds", "--prior", "--search"};

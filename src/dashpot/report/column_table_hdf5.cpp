@@ -62,6 +62,8 @@ void add_column(hid_t group, const DataColumn& column) {
   const Handle set(
       H5Dcreate2(group, column.name.c_str(), type, space, H5P_DEFAULT, options, H5P_DEFAULT),
       H5Dclose, column.name);
+
+  // Unit and meaning stay with the column.
   add_attribute(set, "unit", column.unit);
   add_attribute(set, "meaning", column.meaning);
   if (rows == 0) return;

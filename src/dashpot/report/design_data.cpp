@@ -85,6 +85,8 @@ Value design_json(const Design& design, const DesignRequest& request) {
                               {"goals", Value::array(design.assessment.goals)},
                               {"constraints", Value::array(design.assessment.constraints)},
                               {"slack", Value::array(design.assessment.slack)}});
+
+  // Parts that only some designs have.
   if (!design.second.empty()) {
     json.add("first", Value::array(design.first));
     json.add("second", Value::array(design.second));
@@ -113,6 +115,8 @@ Value json_design(const DesignInput& input) {
   const DesignRequest& request = report.request;
   Value designs = Value::array();
   for (const Design& design : report.designs) designs.push_back(design_json(design, request));
+
+  // Where it comes from stands first, then request and designs.
   return presentable(Value::object({{"format", "dashpot design 1"},
                                     {"version", input.version},
                                     {"date", input.date},
@@ -153,6 +157,8 @@ std::string csv_design(const DesignReport& report) {
   titles.emplace_back("beyond_family");
   titles.emplace_back("role");
   std::string text = join(titles, ",") + "\n";
+
+  // A design beyond a family says in which sizes.
   for (const Design& design : report.designs) {
     std::vector<std::string> row{design.name};
     for (const DesignVariable& variable : request.variables)

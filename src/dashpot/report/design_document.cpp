@@ -51,8 +51,7 @@ std::string conflict_verdict(const DesignReport& report) {
   if (lines.size() == 1) return "There is no design. It cannot hold: " + lines.front() + ".";
   return fmt::format(
       "There is no design. These {} constraints cannot hold together; without any one of them the "
-      "rest "
-      "can:\n* {}",
+      "rest can:\n* {}",
       lines.size(), join(lines, "\n* "));
 }
 
@@ -108,17 +107,16 @@ std::size_t knee_of(const DesignReport& report) {
 /// Every quantity that can stand on an axis.
 DocumentPlane plane_of(const DesignReport& report) {
   const DesignRequest& request = report.request;
-  DocumentPlane plane{.title = "Designs",
-                      .note =
-                          "Every point is a damper. Drag to zoom; a row of the table marks its "
-                          "point.",
-                      .quantities = {},
-                      .names = {},
-                      .outstanding = {},
-                      .points_label = "designs",
-                      .outstanding_label = "best of a goal, and the knee",
-                      .second_label = "by " + report.second_name,
-                      .choice = "design"};
+  DocumentPlane plane{
+      .title = "Designs",
+      .note = "Every point is a damper. Drag to zoom; a row of the table marks its point.",
+      .quantities = {},
+      .names = {},
+      .outstanding = {},
+      .points_label = "designs",
+      .outstanding_label = "best of a goal, and the knee",
+      .second_label = "by " + report.second_name,
+      .choice = "design"};
   for (const Design& design : report.designs) {
     plane.names.push_back(design.name + (design.role.empty() ? "" : ", " + design.role));
     plane.outstanding.push_back(!design.role.empty());
@@ -181,6 +179,8 @@ std::vector<KeyFigure> key_figures(const DesignReport& report) {
   constexpr std::size_t kMost = 3;
   std::vector<KeyFigure> figures;
   if (report.designs.empty()) return figures;
+
+  // The range of each goal over the designs.
   for (std::size_t k = 0; k < std::min(kMost, report.request.goals.size()); ++k) {
     const DesignGoal& goal = report.request.goals[k];
     const auto [low, high] = std::ranges::minmax(
@@ -210,8 +210,8 @@ DocumentSection design_section(const DesignReport& report) {
           .paragraphs = {},
           .tables = {design_table(report)},
           .lead =
-              "A click on a row shows its constraints below; a click on a head sorts. Each is "
-              "a damper's description in designs/ and a model in models/."};
+              "A click on a row shows its constraints below; a click on a head sorts. Each is a "
+              "damper's description in designs/ and a model in models/."};
 }
 
 /// The constraints of the chosen design.
@@ -223,6 +223,8 @@ DocumentSection constraint_section(const DesignReport& report) {
                                       ? fmt::format("As {} % of the dampers made reach them.",
                                                     percent_text(100 * report.request.share))
                                       : "As drawn."};
+
+  // One table per design, of which the chosen one is shown.
   DocumentChoice choice{"design", "Design", {}, knee_of(report)};
   for (std::size_t k = 0; k < report.designs.size(); ++k) {
     choice.options.push_back(report.designs[k].name);
@@ -306,6 +308,8 @@ DocumentTable constraint_table(const DesignReport& report, const Design& design)
     for (const std::string& name : {report.first_name, report.second_name})
       table.columns.push_back(
           {.title = name, .numeric = true, .priority = 1, .hint = "By this model, as drawn"});
+
+  // A row per constraint: asked, reached, left over, and what each model says.
   for (std::size_t k = 0; k < request.constraints.size(); ++k) {
     const DesignConstraint& own = request.constraints[k];
     std::vector<DocumentCell> row{
@@ -368,12 +372,13 @@ std::string design_verdict(const DesignReport& report) {
   if (report.designs.empty())
     return report.stopped ? "Stopped before there was a design."
                           : "No design was found, although the constraints may hold: such designs "
-                            "are rare. Widen a "
-                            "range, or try another --seed.";
+                            "are rare. Widen a range, or try another --seed.";
   std::string text = report.request.goals.size() == 1
                          ? best_of(report) + "."
                          : fmt::format("{} of which none is better than another in all goals.",
                                        counted(report.designs.size(), "design"));
+
+  // How the constraints hold, and how far models can be trusted.
   text += report.request.share > 0
               ? fmt::format(" {} % of the dampers made hold the constraints and reach the goals.",
                             number_text(100 * report.request.share))

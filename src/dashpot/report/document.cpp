@@ -57,6 +57,8 @@ Value series_json(const FigureSeries& one) {
     json.add("x", pack_float32(one.x, every(one.x.size())));
     json.add("y", pack_float32(one.y, every(one.y.size())));
   }
+
+  // How it is listed and read.
   if (!one.names.empty()) json.add("names", Value::array(one.names));
   add_words(json, "reading", one.reading);
   add_flag(json, "unlisted", one.label.empty() || !one.is_listed);
@@ -75,6 +77,8 @@ Value panel_json(const FigurePanel& panel) {
                               {"height", panel.height},
                               {"places", Value::array(panel.places)},
                               {"series", std::move(series)}});
+
+  // What only some panels have.
   add_words(json, "note", panel.note);
   add_words(json, "empty", panel.empty);
   add_flag(json, "x_log", panel.x_log);
@@ -166,6 +170,8 @@ Value plane_json(const DocumentPlane& plane) {
                                         {"second", Value::array(one.second)},
                                         {"bound", one.bound ? Value(*one.bound) : Value()}}));
   for (const bool is_outstanding : plane.outstanding) outstanding.push_back(is_outstanding);
+
+  // Names stand once for all quantities.
   return Value::object({{"title", plane.title},
                         {"note", plane.note},
                         {"quantities", std::move(quantities)},
@@ -193,6 +199,8 @@ Value section_json(const DocumentSection& section) {
   Value facts = Value::array();
   for (const auto& [name, meaning] : section.facts)
     facts.push_back(Value::array(std::vector<std::string>{name, meaning}));
+
+  // In the order in which a page draws them.
   return Value::object({{"name", section.name},
                         {"title", section.title},
                         {"lead", section.lead},
@@ -250,6 +258,8 @@ std::string html_document(const Document& document) {
 
 Value document_json(const Document& document) {
   if (!document.data.is_null()) return presentable(document.data);
+
+  // Cells are given as text, as people read them.
   Value sections = Value::array();
   for (const DocumentSection& section : document.sections) {
     Value tables = Value::array();

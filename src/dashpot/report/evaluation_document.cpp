@@ -35,6 +35,8 @@ DocumentTable error_table(const Evaluation& evaluation, const std::string& drive
                                   {"energy error %", true},
                                   {"offset N", true}},
                       .rows = {}};
+
+  // Records, then all samples together.
   for (const RecordResult& r : evaluation.records) table.rows.push_back(record_row(r));
   if (evaluation.pooled.samples > 0) {
     table.rows.push_back(pooled_row("all", evaluation.pooled));
@@ -52,6 +54,8 @@ DocumentTable band_table(const Evaluation& evaluation) {
                                   {"MAE N", true},
                                   {"max |e| N", true}},
                       .rows = {}};
+
+  // From the pre-yield region to the top speed.
   for (const BandResult& band : evaluation.bands)
     table.rows.push_back({band.name,
                           format_number(band.low, 3) + " ... " + format_number(band.high, 3),

@@ -140,6 +140,8 @@ DocumentTable record_table(const Dataset& dataset) {
         std::string("Greatest |v| m/s"), std::string("Least F N"), std::string("Greatest F N")})
     table.columns.push_back({title, true});
   table.columns.push_back({"Role"});
+
+  // Extents are in SI; a channel that is missing leaves a dash.
   for (const Record& record : dataset.records) {
     const auto x = extent_of(record.find("displacement")), v = extent_of(record.find("velocity")),
                force = extent_of(record.find("force"));
@@ -190,6 +192,8 @@ DocumentSection closer_section(const Dataset& dataset, std::size_t points,
                           .paragraphs = {},
                           .choices = {{"record", "Record", {}}},
                           .audience = Audience::Page};
+
+  // Source, notes and curves depend on the chosen record.
   ChannelPanels panels(dataset.drive_unit, points, samples);
   for (std::size_t r = 0; r < dataset.records.size(); ++r) {
     const Record& record = dataset.records[r];
@@ -214,6 +218,8 @@ Value json_inspection(const Dataset& dataset, const std::vector<VelocityCheck>& 
                                      {"factor", c.factor},
                                      {"raw_offset", c.raw_offset},
                                      {"basis", c.basis}}));
+
+  // Records by their conditions and channels.
   for (const Record& r : dataset.records) {
     std::vector<std::string> channels;
     for (const Channel& channel : r.channels) channels.push_back(channel.name);
@@ -227,6 +233,8 @@ Value json_inspection(const Dataset& dataset, const std::vector<VelocityCheck>& 
                        {"channels", Value::array(channels)},
                        {"notes", Value::array(r.notes)}}));
   }
+
+  // Files that were not read, and how well velocity can be derived.
   Value passed_over = Value::array();
   for (const PassedOver& passed : dataset.passed_over)
     passed_over.push_back(Value::object({{"file", passed.file}, {"why", passed.why}}));

@@ -48,8 +48,8 @@ Terms judged_terms() {
        "one constant force per record, a declared nuisance: it takes up the zero of the load cell "
        "and the gas force. Figures without offset judge the model as it stands in its file."},
       {"ESR",
-       "100 Σe² / Σ(F − mean F)², the share of the force's power that is left unexplained. R² = "
-       "1 − ESR. Fit = 100 (1 − √ESR)."},
+       "100 Σe² / Σ(F − mean F)², the share of the force's power that is left unexplained. R² = 1 "
+       "− ESR. Fit = 100 (1 − √ESR)."},
       {"RMSE", "√(mean e²), in newtons. RMS / half-span = 200 RMSE / (Fmax − Fmin)."},
       {"Energy error",
        "difference of the dissipated energy ∫F v dt, as a share of the measured one."},
@@ -81,6 +81,8 @@ DocumentSection judged_section(const LeaveOut& leave_out, const std::vector<std:
 DocumentSection provenance_section(const Dataset& dataset, const std::string& display) {
   DocumentSection section{.name = "provenance", .title = "Provenance", .paragraphs = {}};
   section.facts = {{"Dataset", dataset.name}, {"Citation", dataset.citation}, {"Display", display}};
+
+  // Files and notes open when asked to.
   if (!dataset.files.empty()) {
     DocumentTable files{.title = counted(dataset.files.size(), "file"),
                         .columns = {{"File"}, {"SHA-256"}},

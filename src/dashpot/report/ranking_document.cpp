@@ -42,6 +42,8 @@ DocumentSection ranking_section(const Ranking& ranking) {
                                               {"fit_cpu_seconds", 3},
                                               {"largest_spans", 0, kPage},
                                               {"status"}});
+
+  // A click on a row shows the model below.
   table.leads_to = "closer";
   table.note = one_step_note(ranking).value_or("");
   return {.name = "ranking",
@@ -49,8 +51,8 @@ DocumentSection ranking_section(const Ranking& ranking) {
           .paragraphs = {},
           .tables = {std::move(table)},
           .lead =
-              "Best first. Every figure is of left-out records in free run unless its column "
-              "says otherwise; a click on a head sorts, a click on a row looks closer."};
+              "Best first. Every figure is of left-out records in free run unless its column says "
+              "otherwise; a click on a head sorts, a click on a row looks closer."};
 }
 
 /// None where no model has an interval.
@@ -119,6 +121,8 @@ std::vector<std::string> warnings_of(const RankedModel& model,
                            : "the fit stopped at its iteration limit. ") +
            fit.message;
   };
+
+  // The final fit, then those of the folds.
   std::vector<std::string> lines;
   if (model.fit.status != FitReport::Status::Converged) lines.push_back(complaint(model.fit));
   for (std::size_t k = 0; k < model.fold_fits.size(); ++k)
@@ -151,6 +155,8 @@ DocumentSection fitted_section(const Ranking& ranking) {
                                .when = here,
                                .audience = Audience::Files});
     }
+
+    // Errors record by record, and the warnings of its fits.
     section.tables.push_back(record_table(model.left_out));
     section.tables.back().title = "Left-out records, " + display_name(model);
     section.tables.back().when = here;
@@ -188,6 +194,8 @@ Document ranking_document(const ReportInput& input) {
                     .kind = "identification report",
                     .key_figures = key_figures(ranking),
                     .data = json_report(input)};
+
+  // A ranking without models has only its protocol.
   std::string display;
   if (!ranking.models.empty()) {
     document.sections.push_back(ranking_section(ranking));
@@ -217,6 +225,8 @@ Document leaderboard_document(const ReportInput& input) {
                     .command = {},
                     .version = input.version,
                     .date = {}};
+
+  // How models were judged, and both tables.
   document.sections.push_back(
       {.name = "leaderboard",
        .title = "Leaderboard",
@@ -239,6 +249,8 @@ Document leaderboard_document(const ReportInput& input) {
                   breakdown_table(ranking, input.dataset.drive_unit)}});
   for (DocumentSection& section : interval_sections(ranking))
     document.sections.push_back(std::move(section));
+
+  // Provenance is the citation alone: the part has neither command nor date.
   if (!input.dataset.citation.empty())
     document.provenance.facts.emplace_back("Data", input.dataset.citation);
   document.data = json_report(input);

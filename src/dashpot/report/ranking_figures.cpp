@@ -36,6 +36,8 @@ std::vector<RecordCurves> curves_by_record(const Ranking& ranking) {
   const std::vector<std::string> records = judged_records(ranking);
   for (std::size_t r = 0; r < records.size(); ++r) {
     RecordCurves here{.record = r, .models = {}, .chosen = {}};
+
+    // Only forces over the same samples can share their time.
     for (std::size_t m = 0; m < ranking.models.size(); ++m)
       for (const RecordResult& result : ranking.models[m].left_out.records) {
         if (result.record != records[r] || result.time.empty() ||
@@ -94,10 +96,11 @@ class RecordPanels {
       : input_(input), samples_(samples) {
     force_ = in_time("Force in time", "Force (N)", 340);
     force_.note =
-        "Where its start is shaded, it is simulated but not scored. Every plot: drag to "
-        "zoom, Shift and drag to move, double-click to reset; with the keyboard + - "
-        "arrows 0.";
+        "Where its start is shaded, it is simulated but not scored. Every plot: drag to zoom, "
+        "Shift and drag to move, double-click to reset; with the keyboard + - arrows 0.";
     residual_ = in_time("Residual in time", "Residual (N)", 280);
+
+    // Loops over velocity and displacement.
     for (const auto& [panel, name, unit] :
          {std::tuple{&velocity_, "velocity", "m/s"}, {&displacement_, "displacement", "m"}})
       *panel = {.title = std::string("Force against ") + name,
@@ -119,8 +122,8 @@ class RecordPanels {
                     .y_label = "Correlation (1)",
                     .series = {},
                     .note =
-                        "Between the dashed lines, the residual cannot be told from noise "
-                        "(95 %). Structure outside them is what the model misses.",
+                        "Between the dashed lines, the residual cannot be told from noise (95 %). "
+                        "Structure outside them is what the model misses.",
                     .reads_along_x = true,
                     .height = 280};
   }
@@ -381,17 +384,18 @@ void add_peaks(FigurePanel& panel, const RankedModel& model, std::size_t place,
 }
 
 FigurePanel band_panel(const Ranking& ranking) {
-  FigurePanel panel{
-      .title = "Error by speed",
-      .x_label = "Band of speed (m/s)",
-      .y_label = "RMS error (N)",
-      .series = {},
-      .note =
-          "Every bar is the RMS error of the samples in a band of |v|. The first band is the "
-          "pre-yield region, where laws without hysteresis fail.",
-      .height = 320};
+  FigurePanel panel{.title = "Error by speed",
+                    .x_label = "Band of speed (m/s)",
+                    .y_label = "RMS error (N)",
+                    .series = {},
+                    .note =
+                        "Every bar is the RMS error of the samples in a band of |v|. The first "
+                        "band is the pre-yield region, where laws without hysteresis fail.",
+                    .height = 320};
   if (ranking.models.size() > kMostBars)
     panel.note += fmt::format(" Shown are the {} best models and the chosen one.", kMostBars);
+
+  // The best models always, any other one when it is chosen.
   for (std::size_t m = 0; m < ranking.models.size(); ++m) {
     const std::vector<BandResult>& bands = ranking.models[m].left_out.bands;
     if (bands.empty()) continue;
@@ -469,12 +473,12 @@ std::vector<DocumentFigure> record_figures(const ReportInput& input,
     one.chosen = shown_samples(one, points_per_record(curves, input.ranking.models.size()));
     thinned += one.chosen.size() < one.first->time.size();
   }
-  display = (thinned ? fmt::format("Curves of {} of {} records are thinned for display; least and "
-                                   "greatest values of every stretch are kept.",
-                                   thinned, curves.size())
-                     : std::string("Curves show every sample.")) +
-            " They are rounded to 1/65534 of their range. Every figure is computed from the full "
-            "data.";
+  display =
+      (thinned ? fmt::format("Curves of {} of {} records are thinned for display; least and "
+                             "greatest values of every stretch are kept.",
+                             thinned, curves.size())
+               : std::string("Curves show every sample.")) +
+      " They are rounded to 1/65534 of their range. Every figure is computed from the full data.";
 
   // Draw each with those of the same condition.
   RecordPanels panels(input, samples);

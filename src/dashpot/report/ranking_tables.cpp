@@ -66,6 +66,7 @@ double pre_yield_rmse(Model m) {
 /// Every column that a table of models may have.
 const std::vector<ModelColumn>& model_columns() {
   static const std::vector<ModelColumn> kColumns = [] {
+    // Names first, then errors on left-out records, then the cost.
     std::vector<ModelColumn> all{
         {"place", {.title = "#", .numeric = true}, {}},
         words("model", "Model", "", [](Model m) { return m.name; }),
@@ -110,8 +111,8 @@ const std::vector<ModelColumn>& model_columns() {
             [](Model m) { return m.left_out.pooled_without_offset.esr; }, percent_text),
         figure(
             "coverage_percent", "Covered %",
-            "Left-out samples inside the model's interval of the force, which claims 90 % and "
-            "was made without them",
+            "Left-out samples inside the model's interval of the force, which claims 90 % and was "
+            "made without them",
             [](Model m) { return m.left_out.coverage.percent(); }, percent_text),
         figure(
             "interval_width_N", "Width N", "Mean width of that interval",
@@ -131,6 +132,8 @@ const std::vector<ModelColumn>& model_columns() {
         words("status", "Status",
               "limit: the fit stopped at its iteration limit; diverged: on so many records",
               status_text)};
+
+    // Behaviour beyond the data: in a word, and on a page with the number to sort by.
     all.push_back({"bounded", {.title = "Bounded"}, [](Model m) {
                      return DocumentCell{stress_text(m.stress)};
                    }});
@@ -266,9 +269,9 @@ DocumentTable breakdown_table(const Ranking& ranking, DriveUnit drive_unit) {
 
 DocumentTable interval_table(const Ranking& ranking) {
   DocumentTable table{
-      .title = fmt::format("{:.0f} % intervals of the force, each made without the records that "
-                           "it is judged on",
-                           100 * kCoverage),
+      .title = fmt::format(
+          "{:.0f} % intervals of the force, each made without the records that it is judged on",
+          100 * kCoverage),
       .columns = {{.title = "Model", .elastic = true},
                   {"Covered %", true},
                   {"Worst %", true},
@@ -276,6 +279,8 @@ DocumentTable interval_table(const Ranking& ranking) {
                   {"Width N", true},
                   {"of span %", true, 1}},
       .rows = {}};
+
+  // Models without an interval have no row.
   for (const RankedModel& model : ranking.models) {
     const Coverage& all = model.left_out.coverage;
     if (const RecordResult* worst = model.left_out.worst_covered())
@@ -295,6 +300,8 @@ DocumentTable parameter_table(const FitReport& fit) {
                                   {.title = "Meaning", .priority = 1, .elastic = true},
                                   {"Remark"}},
                       .rows = {}};
+
+  // Intervals sort by their width.
   for (const FittedParameter& p : fit.parameters) {
     add_row(table, {{p.name},
                     {number_text(p.value, 5), p.value},
@@ -322,6 +329,8 @@ DocumentTable record_table(const Evaluation& evaluation) {
                   {.title = "Covered %", .numeric = true, .descending = true},
                   {.title = "Diverged at", .numeric = true}},
       .rows = {}};
+
+  // One row per record; a diverged one says when.
   const auto percent = [](double value) { return DocumentCell{percent_text(value), value}; };
   for (const RecordResult& r : evaluation.records) {
     const std::string end = r.diverged_at ? number_text(*r.diverged_at) + " s" : "";
@@ -376,6 +385,8 @@ std::string csv_leaderboard(const ReportInput& input) {
                                 "parameters",        "nanoseconds_per_step", "fit_cpu_seconds"};
   std::string text = "rank,model,usable," + join({kFigures.begin(), kFigures.end()}, ",") +
                      ",stress_finite,stress_largest_spans,diverged_records,wall_seconds_of_all\n";
+
+  // Figures of models that were not judged stay empty.
   std::size_t rank = 0;
   for (const RankedModel& model : input.ranking.models) {
     std::vector<std::string> fields = {std::to_string(++rank), csv_field(model.name),

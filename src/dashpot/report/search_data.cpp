@@ -27,6 +27,8 @@ Value trial_json(const Trial& trial, const SearchReport& search) {
             find_network_setting(axis.setting, axis.setting).format(trial.design);
         !value.empty())
       settings.add(axis.setting, value);
+
+  // The error of each fold, of which the standard error is made.
   Value folds = Value::array();
   for (const FoldResult& fold : trial.folds) folds.push_back(metrics(fold.sums).esr);
   return Value::object({{"design", format_design(trial.design)},
@@ -54,6 +56,8 @@ Value json_search(const SearchInput& input) {
   Value axes = Value::array(), trials = Value::array();
   for (const SearchAxis& axis : search.options.space.axes) axes.push_back(axis_json(axis));
   for (const Trial& trial : search.trials) trials.push_back(trial_json(trial, search));
+
+  // Where it comes from and how it was judged stand first.
   return presentable(Value::object({{"format", "dashpot search 1"},
                                     {"version", input.version},
                                     {"date", input.date},
@@ -79,12 +83,13 @@ std::string csv_search(const SearchReport& search) {
   for (const SearchAxis& axis : search.options.space.axes) text += "," + axis.setting;
   text +=
       ",parameters,esr_percent,standard_error_percent,worst_esr_percent,rmse_N,samples,diverged_"
-      "records,"
-      "effort,usable,on_front,best,smallest,failure\n";
+      "records,effort,usable,on_front,best,smallest,failure\n";
   const auto yes = [](bool value) { return std::string(value ? "yes" : "no"); };
   const auto number = [](double value) {
     return std::isfinite(value) ? format_exact(value) : std::string();
   };
+
+  // No times: the table is the same whenever the search is.
   std::size_t rank = 0;
   for (const Trial& trial : search.trials) {
     std::vector<std::string> fields{std::to_string(++rank)};

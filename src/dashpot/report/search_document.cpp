@@ -66,8 +66,8 @@ FigurePanel size_panel(const SearchReport& search) {
                     .y_label = "Left-out ESR (%)",
                     .series = {},
                     .note =
-                        "Every point is a network, judged on records that it has not seen. "
-                        "Both axes are logarithmic.",
+                        "Every point is a network, judged on records that it has not seen. Both "
+                        "axes are logarithmic.",
                     .x_log = true,
                     .y_log = true,
                     .height = 420,
@@ -128,6 +128,8 @@ FigurePanel setting_panel(const SearchReport& search, const SearchAxis& axis) {
                     .x_log = is_range && axis.low > 0,
                     .y_log = true,
                     .height = 260};
+
+  // Values of a list stand at their places, numbers of a range where they are.
   const auto place = [&](const Trial& trial) {
     const std::string value = setting_text(trial, axis.setting);
     if (is_range) return parse_number(value).value_or(NAN);
@@ -151,15 +153,16 @@ Terms search_terms() {
   std::erase_if(terms, [](const auto& term) {
     return term.first == "Energy error" || term.first == "Covered" || term.first == "95 % interval";
   });
-  terms.insert(
-      terms.end(),
-      {{"Standard error",
-        "of the mean over the divisions' ESR. Within one of the best, a smaller network is taken "
-        "to be as good (Breiman and others, 1984)."},
-       {"Front", "networks of which none with as few parameters has a smaller error."},
-       {"Dropped",
-        "by halving: judged with a share of the effort, and not among the best third (Jamieson and "
-        "Talwalkar, 2016)."}});
+
+  // Terms of a search only.
+  terms.insert(terms.end(),
+               {{"Standard error",
+                 "of the mean over the divisions' ESR. Within one of the best, a smaller network "
+                 "is taken to be as good (Breiman and others, 1984)."},
+                {"Front", "networks of which none with as few parameters has a smaller error."},
+                {"Dropped",
+                 "by halving: judged with a share of the effort, and not among the best third "
+                 "(Jamieson and Talwalkar, 2016)."}});
   return terms;
 }
 
@@ -192,18 +195,17 @@ DocumentTable trial_table(const std::vector<Trial>& trials, const SearchReport& 
         {.title = axis.setting,
          .numeric = true,
          .hint = std::string(find_network_setting(axis.setting, axis.setting).meaning)});
-  table.columns.insert(
-      table.columns.end(),
-      {{.title = "ESR %",
-        .numeric = true,
-        .hint = "Error power over force power, left-out records, one offset per record; with the "
-                "standard error of its mean over the divisions"},
-       {.title = "Worst %",
-        .numeric = true,
-        .priority = 1,
-        .hint = "ESR of the worst left-out record"},
-       {"RMSE N", true, 2},
-       {.title = "Par.", .numeric = true, .hint = "Fitted numbers"}});
+  table.columns.insert(table.columns.end(),
+                       {{.title = "ESR %",
+                         .numeric = true,
+                         .hint = "Error power over force power, left-out records, one offset per "
+                                 "record; with the standard error of its mean over the divisions"},
+                        {.title = "Worst %",
+                         .numeric = true,
+                         .priority = 1,
+                         .hint = "ESR of the worst left-out record"},
+                        {"RMSE N", true, 2},
+                        {.title = "Par.", .numeric = true, .hint = "Fitted numbers"}});
   const bool is_halved = of.rungs.size() > 1;
   if (is_halved)
     table.columns.push_back(
@@ -214,7 +216,10 @@ DocumentTable trial_table(const std::vector<Trial>& trials, const SearchReport& 
                            .numeric = true,
                            .hint = "CPU time of all divisions",
                            .audience = Audience::Page});
-  table.columns.push_back({.title = "Note", .elastic = true});
+  table.columns.push_back({.title = "Note",
+                           .elastic = true,
+                           .hint = "smallest: the smallest network within one standard error of "
+                                   "the best; front: none better with as few parameters"});
 
   for (std::size_t k = 0; k < std::min(most, trials.size()); ++k) {
     const Trial& trial = trials[k];
@@ -263,6 +268,8 @@ std::string search_verdict(const SearchReport& search) {
   std::string text = fmt::format(
       "{}: on recordings that it has not seen it leaves {} % of the force's power unexplained.",
       named(*best, search), percent_text(best->left_out.esr));
+
+  // A smaller network that is practically as good is the usual choice.
   const Trial* smallest = search.smallest();
   if (!std::isfinite(best->standard_error))
     text +=
@@ -293,18 +300,19 @@ Document search_document(const SearchInput& input) {
                     .kind = "search",
                     .key_figures = key_figures(search),
                     .data = json_search(input)};
-  document.sections.push_back(
-      {.name = "size",
-       .title = "Error and size",
-       .paragraphs = {},
-       .figures = {{.name = "size",
-                    .title = {},
-                    .caption = {},
-                    .panels = {size_panel(search)},
-                    .audience = Audience::Page}},
-       .lead = "The smallest network within one standard error of the best is the usual choice: "
-               "what is beyond it may be chance.",
-       .audience = Audience::Page});
+
+  // Error against size, then by each setting.
+  document.sections.push_back({.name = "size",
+                               .title = "Error and size",
+                               .paragraphs = {},
+                               .figures = {{.name = "size",
+                                            .title = {},
+                                            .caption = {},
+                                            .panels = {size_panel(search)},
+                                            .audience = Audience::Page}},
+                               .lead = "The smallest network within one standard error of the best "
+                                       "is the usual choice: what is beyond it may be chance.",
+                               .audience = Audience::Page});
   DocumentFigure settings{.name = "settings",
                           .title = {},
                           .caption = {},
@@ -313,14 +321,15 @@ Document search_document(const SearchInput& input) {
                           .audience = Audience::Page};
   for (const SearchAxis& axis : search.options.space.axes)
     settings.panels.push_back(setting_panel(search, axis));
-  document.sections.push_back(
-      {.name = "settings",
-       .title = "Setting by setting",
-       .paragraphs = {},
-       .figures = {std::move(settings)},
-       .lead = "All trials over each setting that was searched; the other settings vary at the "
-               "same time.",
-       .audience = Audience::Page});
+  document.sections.push_back({.name = "settings",
+                               .title = "Setting by setting",
+                               .paragraphs = {},
+                               .figures = {std::move(settings)},
+                               .lead = "All trials over each setting that was searched; the other "
+                                       "settings vary at the same time.",
+                               .audience = Audience::Page});
+
+  // All trials, of which a terminal shows the best.
   DocumentTable trials = trial_table(search.trials, search, search.trials.size());
   if (trials.rows.size() > kBrief) {
     trials.brief.resize(kBrief);

@@ -58,7 +58,7 @@ function document_figure(figure) {
 function document_list(list) {
   const {title, lines} = list;
   if (!title) return lines.map((line) => element("p", {class: "chosen"}, unbroken(line)));
-  const items = lines.length ? element("ul", {class: "warnings"}, lines.map((line) => element("li", {}, line))) : element("p", {class: "note"}, "None.");
+  const items = lines.length ? element("ul", {class: list.folded ? null : "warnings"}, lines.map((line) => element("li", {}, line))) : element("p", {class: "note"}, "None.");
   return folded(list, list.folded ? null : element("h3", {}, title), items);
 }
 
