@@ -21,7 +21,7 @@ std::vector<Option> data_options(DataSettings& settings);
 /// verbose.
 Dataset load_recordings(const DataSettings& settings, Console& console);
 
-/// What was inferred, assumed or passed over, as notes.
+/// Notes on the data: inferences, assumptions, files passed over.
 void print_notes(const Dataset& dataset, Console& console, std::size_t most);
 
 }  // namespace dashpot::cli

@@ -60,7 +60,7 @@ std::string quantities_text(int width) {
   return table.text(static_cast<std::size_t>(width));
 }
 
-/// What an earlier run left must not stand among the designs of this one.
+/// Removes the designs of an earlier run, which must not stand among those of this one.
 void clear_designs(const fs::path& folder) {
   for (const auto& [part, ending] : {std::pair{"designs", ".yaml"}, std::pair{"models", ".json"}}) {
     std::error_code none;
@@ -82,11 +82,11 @@ class ModelWriter {
   }
 
   void write(const Design& design, const fs::path& folder) {
-    for (const Told& told : models_) {
-      ModelFile file = file_of(design, *told.model);
+    for (const Assessor& one : models_) {
+      ModelFile file = file_of(design, *one.model);
       file.provenance.command = console_.command_line();
       file.provenance.created = date_now();
-      save_model(file, folder / (design.name + told.ending + ".json"));
+      save_model(file, folder / (design.name + one.ending + ".json"));
     }
   }
   /// "laws, within 1.2 % RMS of the largest force"
@@ -100,7 +100,7 @@ class ModelWriter {
   }
 
  private:
-  struct Told {
+  struct Assessor {
     std::unique_ptr<DesignModel> model;
     std::string ending;
   };
@@ -120,7 +120,7 @@ class ModelWriter {
 
   const DesignReport& report_;
   const Console& console_;
-  std::vector<Told> models_;
+  std::vector<Assessor> models_;
   int laws_ = 0, members_ = 0;
   double worst_ = 0;
 };
@@ -211,7 +211,8 @@ std::vector<Option> options_of(Settings& settings) {
        .noun = "method"},
       {.names = "--model",
        .target = &settings.options.model,
-       .help = "what tells a design's figures: first principles, or the file of a family's model",
+       .help =
+           "the model that assesses a design: first principles, or the file of a family's model",
        .value = "MODEL",
        .choices = design_model_names(),
        .noun = "model",

@@ -54,7 +54,7 @@ int run(const Settings& settings, Console& console) {
            settings.fresh ? nullptr : &store);
   const ReportInput input = report_input(data.dataset, ranking, console);
 
-  // The leaderboard is printed; the report that is written tells of each model in full.
+  // The leaderboard is printed; the report that is written has each model in full.
   const Document leaderboard = leaderboard_document(input);
   if (settings.markdown) {
     console.print(markdown_document(leaderboard, "", 2));

@@ -11,7 +11,7 @@
 
 namespace dashpot::cli {
 
-/// Where the results of an identification go, and which.
+/// The folder of the results of an identification, and which of them are written.
 struct ResultSettings {
   std::string folder = "dashpot-results";
   bool report = true;
@@ -26,8 +26,8 @@ void print_results(const Document& report, const Ranking& ranking, Console& cons
 /// Makes the folder, so that hours of fitting do not end at one that cannot be written.
 void prepare_results(const ResultSettings& settings);
 
-/// Where the names of the written files are printed: among the results, or on stderr beside a page
-/// that is the result.
+/// The place where the names of the written files are printed: among the results, or on stderr
+/// beside a page that is the result.
 enum class Say { Result, Aside };
 
 /// Writes model files, report and figures, and prints where they are.
@@ -40,7 +40,7 @@ int exit_code_of(const Ranking& ranking, Console& console);
 /// This very build: a fit that another one made may differ.
 std::string program_id();
 
-/// What stands in a report beside the figures.
+/// Input of a report, with the command line and today as its date.
 ReportInput report_input(const Dataset& dataset, const Ranking& ranking, const Console& console);
 
 }  // namespace dashpot::cli

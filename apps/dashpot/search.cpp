@@ -189,44 +189,45 @@ int run(const Settings& settings, Console& console) {
 }
 
 std::vector<Option> own_options(Settings& settings) {
-  return {{.names = "--model",
-           .target = &settings.model,
-           .help = "the network whose settings are searched",
-           .value = "NAME",
-           .choices = searchable_models(),
-           .noun = "network"},
-          {.names = "--over",
-           .target = &settings.over,
-           .help = "a setting and its values, as hidden=5,10,10-10, or their range, as "
-                   "l2=1e-5:1e-2; again for each setting. --network tells the settings",
-           .value = "SETTING=...",
-           .required = true},
-          {.names = "--method",
-           .target = &settings.method,
-           .help = "every combination, so many by chance, or halving: many by chance with little "
-                   "effort, the best third of them with three times as much, until all effort goes "
-                   "to the last three or more. Ranges are spaced and drawn evenly in the logarithm",
-           .value = "HOW",
-           .choices = {"grid", "random", "halving"}},
-          {.names = "--trials",
-           .target = &settings.trials,
-           .help = "networks drawn by chance; a grid has its own number",
-           .value = "N",
-           .minimum = 1},
-          {.names = "--steps",
-           .target = &settings.steps,
-           .help = "values of a range on a grid",
-           .value = "N",
-           .minimum = 1},
-          {.names = "--effort",
-           .target = &settings.effort,
-           .help = "what halving gives little of at first: samples (the first part of every "
-                   "training record) or epochs (then --network epochs=N says how many are all)",
-           .value = "WHAT",
-           .choices = {"samples", "epochs"}},
-          {.names = "--fresh",
-           .target = &settings.fresh,
-           .help = "begin anew: what an earlier search left in DIR/search.sqlite is thrown away"}};
+  return {
+      {.names = "--model",
+       .target = &settings.model,
+       .help = "the network whose settings are searched",
+       .value = "NAME",
+       .choices = searchable_models(),
+       .noun = "network"},
+      {.names = "--over",
+       .target = &settings.over,
+       .help = "a setting and its values, as hidden=5,10,10-10, or their range, as "
+               "l2=1e-5:1e-2; again for each setting. --network lists the settings",
+       .value = "SETTING=...",
+       .required = true},
+      {.names = "--method",
+       .target = &settings.method,
+       .help = "every combination, so many by chance, or halving: many by chance with little "
+               "effort, the best third of them with three times as much, until all effort goes "
+               "to the last three or more. Ranges are spaced and drawn evenly in the logarithm",
+       .value = "HOW",
+       .choices = {"grid", "random", "halving"}},
+      {.names = "--trials",
+       .target = &settings.trials,
+       .help = "networks drawn by chance; a grid has its own number",
+       .value = "N",
+       .minimum = 1},
+      {.names = "--steps",
+       .target = &settings.steps,
+       .help = "values of a range on a grid",
+       .value = "N",
+       .minimum = 1},
+      {.names = "--effort",
+       .target = &settings.effort,
+       .help = "what halving gives little of at first: samples (the first part of every "
+               "training record) or epochs (then --network epochs=N says how many are all)",
+       .value = "WHAT",
+       .choices = {"samples", "epochs"}},
+      {.names = "--fresh",
+       .target = &settings.fresh,
+       .help = "start anew: the fits of an earlier search in DIR/search.sqlite are thrown away"}};
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 
 namespace dashpot::cli {
 
-/// Where a study that makes a page leaves it, with what it keeps to go on from.
+/// The folder of a study: its page, and finished work that an interrupted one goes on from.
 struct StudyResults {
   std::string folder;
   bool figures = false;

@@ -116,7 +116,7 @@ Value json_design(const DesignInput& input) {
   Value designs = Value::array();
   for (const Design& design : report.designs) designs.push_back(design_json(design, request));
 
-  // Where it comes from stands first, then request and designs.
+  // Provenance first, then request and designs.
   return presentable(Value::object({{"format", "dashpot design 1"},
                                     {"version", input.version},
                                     {"date", input.date},

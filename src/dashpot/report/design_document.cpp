@@ -55,7 +55,7 @@ std::string conflict_verdict(const DesignReport& report) {
       lines.size(), join(lines, "\n* "));
 }
 
-/// What is to be known of designs beyond a family, and of how far two models agree.
+/// How many designs lie beyond a family, and how far two models agree.
 std::string models_verdict(const DesignReport& report) {
   std::string text;
   const auto outside =
@@ -238,7 +238,7 @@ DocumentSection constraint_section(const DesignReport& report) {
 /// The tolerances of every design that has them assessed; on a terminal of the one shown in full.
 DocumentSection tolerance_section(const DesignReport& report) {
   DocumentSection section{.name = "tolerances",
-                          .title = "What tolerances do",
+                          .title = "Effect of tolerances",
                           .paragraphs = {},
                           .lead = "Made dampers differ from their drawing."};
   for (std::size_t k = 0; k < report.designs.size(); ++k) {

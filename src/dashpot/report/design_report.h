@@ -6,7 +6,7 @@
 
 namespace dashpot {
 
-/// What the report of a design run is made from.
+/// Input of the report of a design run.
 struct DesignInput {
   const DesignReport& design;
   std::string command;  ///< the command line that prints all its figures again

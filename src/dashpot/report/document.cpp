@@ -26,7 +26,7 @@ Value when_json(const When& when) {
   return json;
 }
 
-/// What is empty is not written: pages hold thousands of series.
+/// Empty words and unset flags are left out: pages hold thousands of series.
 void add_words(Value& json, const char* key, const std::string& words) {
   if (!words.empty()) json.add(key, words);
 }
@@ -78,7 +78,7 @@ Value panel_json(const FigurePanel& panel) {
                               {"places", Value::array(panel.places)},
                               {"series", std::move(series)}});
 
-  // What only some panels have.
+  // Parts that only some panels have.
   add_words(json, "note", panel.note);
   add_words(json, "empty", panel.empty);
   add_flag(json, "x_log", panel.x_log);
@@ -96,7 +96,7 @@ Value figure_json(const DocumentFigure& figure) {
                         {"panels", std::move(panels)}});
 }
 
-/// Of each row, the shown columns.
+/// The shown columns of each row.
 template <typename Cell>
 Value matrix_json(const std::vector<std::vector<Cell>>& rows,
                   const std::vector<std::size_t>& shown) {
@@ -124,7 +124,7 @@ Value table_json(const DocumentTable& table) {
                               {"rows", matrix_json(table.rows, shown)},
                               {"note", table.note}});
 
-  // What only some tables have: keys to sort by, shades, warnings, rows that choose.
+  // Parts that only some tables have: keys to sort by, shades, warnings, rows that choose.
   if (!table.keys.empty()) json.add("keys", matrix_json(table.keys, shown));
   if (!table.shades.empty()) json.add("shades", matrix_json(table.shades, shown));
   if (!table.warnings.empty()) {

@@ -10,8 +10,8 @@
 #include "dashpot/report/text_table.h"
 #include "dashpot/value.h"
 
-// What a command has to say, once, before it becomes text for a terminal, Markdown, a page or JSON.
-// A command fills a Document; the renderers below know nothing of models or recordings, and the
+// A Document is the whole of a result, before it becomes text for a terminal, Markdown, a page or
+// JSON. A command fills it; the renderers below know nothing of models or recordings, and the
 // page's program (page/) draws these parts and no others.
 //
 // Parts may depend on what the reader of a page has chosen: a model, a record. Terminal and page
@@ -73,8 +73,8 @@ struct FigureSeries {
   /// between the least and the greatest x.
   enum class Mark { Line, Dashes, Dots, Rings, Bars, Area, Span };
   std::string label;  ///< equal labels share one entry of the legend; empty: none
-  /// Of the page's palette: "measured", "modelled", "series-1" ... "series-8"; or "level-2-5", the
-  /// second of five levels.
+  /// A name of the page's palette: "measured", "modelled", "series-1" ... "series-8"; or
+  /// "level-2-5", the second of five levels.
   std::string colour;
   std::vector<double> x, y;
   Mark mark = Mark::Line;

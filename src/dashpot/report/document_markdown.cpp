@@ -41,7 +41,7 @@ class Writer {
     if (!section.remarks.empty()) text_ += "\n";
     for (const std::string& remark : section.remarks) text_ += "* " + valid_utf8(remark) + "\n";
 
-    // What depends on a choice: option by option.
+    // Parts that depend on a choice follow, option by option.
     for (const DocumentSection& other : document_.sections)
       for (const DocumentChoice& choice : other.choices)
         for (std::size_t k = 0; k < choice.options.size(); ++k) option(section, choice, k);

@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// What gnuplot printed while it ran the script, or an Error when it could not run it.
+/// Runs the script. Returns the text that gnuplot printed; throws Error when it cannot be run.
 std::string run_gnuplot(const fs::path& script) {
   ChildResult result;
   try {

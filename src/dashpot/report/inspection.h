@@ -8,7 +8,7 @@
 
 namespace dashpot {
 
-/// What the report on recordings is made from.
+/// Input of the report on recordings.
 struct InspectionInput {
   const Dataset& dataset;
   const std::vector<VelocityCheck>& checks;

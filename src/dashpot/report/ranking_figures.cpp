@@ -30,7 +30,7 @@ struct RecordCurves {
   std::vector<std::size_t> chosen;                                  ///< the samples that are shown
 };
 
-/// Of every record that some model was run on.
+/// One for every record that some model was run on.
 std::vector<RecordCurves> curves_by_record(const Ranking& ranking) {
   std::vector<RecordCurves> curves;
   const std::vector<std::string> records = judged_records(ranking);

@@ -9,7 +9,7 @@
 // The report of a ranking: models that were fitted, and judged on records that they had not seen.
 namespace dashpot {
 
-/// What a report is made from.
+/// Input of a report.
 struct ReportInput {
   const Dataset& dataset;
   const Ranking& ranking;

@@ -169,7 +169,7 @@ Value json_report(const ReportInput& input) {
     models.push_back(model_json(model, ranking.folds));
   const std::optional<std::string> one_step = one_step_note(ranking);
 
-  // Where it comes from and how it was judged stand first.
+  // Provenance and protocol first.
   return presentable(Value::object({{"format", "dashpot report 1"},
                                     {"version", input.version},
                                     {"date", input.date},

@@ -105,12 +105,13 @@ DocumentFigure gain_figure(const RideStudy& study) {
                                 return point.body_acceleration.variance /
                                        point.body_acceleration.fundamental;
                               }));
-  return {"gains", "Gains by sines",
-          "Fundamental gain over the road's height, " +
-              format_number(1000 * study.options.gains.amplitude) +
-              " mm. The last panel tells what a law adds at other frequencies: 1 is none; a law "
-              "that chatters shows there, and not in its fundamental.",
-          std::move(panels), 2};
+  return {
+      "gains", "Gains by sines",
+      "Fundamental gain over the road's height, " +
+          format_number(1000 * study.options.gains.amplitude) +
+          " mm. The last panel shows how much a law adds at other frequencies: 1 is none; a law "
+          "that chatters shows there, and not in its fundamental.",
+      std::move(panels), 2};
 }
 
 DocumentFigure chirp_figure(const RideStudy& study) {

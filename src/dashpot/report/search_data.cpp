@@ -57,7 +57,7 @@ Value json_search(const SearchInput& input) {
   for (const SearchAxis& axis : search.options.space.axes) axes.push_back(axis_json(axis));
   for (const Trial& trial : search.trials) trials.push_back(trial_json(trial, search));
 
-  // Where it comes from and how it was judged stand first.
+  // Provenance and protocol first.
   return presentable(Value::object({{"format", "dashpot search 1"},
                                     {"version", input.version},
                                     {"date", input.date},

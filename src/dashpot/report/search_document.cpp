@@ -91,7 +91,7 @@ FigurePanel size_panel(const SearchReport& search) {
   front->width = 1.5;
   front->is_read = false;
 
-  // What is below the dashes is as good as the best.
+  // Networks below the dashes are practically as good as the best.
   if (std::isfinite(best->standard_error)) {
     const double limit = best->left_out.esr + best->standard_error;
     double least = size(*best), greatest = least;
@@ -273,7 +273,8 @@ std::string search_verdict(const SearchReport& search) {
   const Trial* smallest = search.smallest();
   if (!std::isfinite(best->standard_error))
     text +=
-        " There is one division only, so that no standard error tells which others are as good.";
+        " There is one division only, so that there is no standard error to say which others are "
+        "as good.";
   else if (smallest == best)
     text += " No smaller network comes within one standard error of it.";
   else

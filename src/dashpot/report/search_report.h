@@ -8,7 +8,7 @@
 
 namespace dashpot {
 
-/// What the report of a search is made from.
+/// Input of the report of a search.
 struct SearchInput {
   const Dataset& dataset;
   const SearchReport& search;

@@ -62,7 +62,7 @@ FigurePanel time_panel(const Simulation& s, const std::string& channel, const st
   return panel;
 }
 
-/// What moves the ground: the same for both runs.
+/// The motion of the ground, which is the same for both runs.
 FigurePanel ground_panel(const Simulation& s, const std::string& channel, const std::string& unit,
                          double factor) {
   const FigureSeries look{"", "measured", {}, {}, FigureSeries::Mark::Line, 1.2};
@@ -108,7 +108,7 @@ std::vector<FigurePanel> time_panels(const Simulation& s) {
   return panels;
 }
 
-/// What the damper was asked for: force over velocity.
+/// The work of the damper: force over velocity.
 DocumentFigure work_figure(const Simulation& s) {
   FigurePanel panel{"", "velocity, m/s", "damper force, N", {}};
   const std::string& strut = s.run.vehicle->set.plant.struts.front().name;

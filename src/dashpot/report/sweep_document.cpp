@@ -26,7 +26,7 @@ std::string against_baseline(const Sweep& sweep, std::size_t c) {
   return sweep.request.controllers[c].name + ": " + join(parts, ", ");
 }
 
-/// What of a controller's rides is not to be trusted.
+/// Reasons not to trust some of a controller's rides.
 std::vector<std::string> cautions(const Sweep& sweep, std::size_t c) {
   const std::string& name = sweep.request.controllers[c].name;
   std::vector<std::string> lines;

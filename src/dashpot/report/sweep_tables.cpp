@@ -1,4 +1,4 @@
-// What a sweep gives to programs.
+// A sweep for programs: tables and JSON.
 #include <algorithm>
 #include <cmath>
 #include <limits>

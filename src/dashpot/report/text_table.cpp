@@ -26,7 +26,7 @@ struct Layout {
   }
 };
 
-/// Of the columns for a terminal, shortens the elastic ones, then drops the least important ones.
+/// Shortens the elastic columns of a terminal, then drops the least important ones.
 Layout lay_out(const std::vector<TextColumn>& columns, std::vector<std::size_t> widths,
                std::size_t room) {
   Layout layout{columns_for(columns, Audience::Terminal), std::move(widths)};

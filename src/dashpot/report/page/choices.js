@@ -1,4 +1,4 @@
-// What the reader has chosen: the option of every choice, by name. Parts of the document say under
+// The options that the reader has chosen, by the names of the choices. Parts of the document say under
 // which options they are shown.
 
 const chosen = {};

@@ -37,7 +37,7 @@ function sortable_table(caption, columns, rows, options) {
       element("thead", {}, element("tr", {}, heads)), body));
 }
 
-// What is missing stands last, whichever way the column is sorted.
+// Missing values stand last, whichever way the column is sorted.
 function order_of(value, ascending) {
   return (a, b) => {
     const [x, y] = [value(a), value(b)], [no_x, no_y] = [x, y].map((v) => v === null || v === undefined);
