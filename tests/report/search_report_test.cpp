@@ -62,6 +62,6 @@ TEST_CASE("the page of a search holds its trials as data, and no text becomes ma
   CHECK(!contains(page, "<script>alert"));
   CHECK(contains(page, "\"kind\":\"search\""));
   const std::string text = markdown_document(document);
-  CHECK(text.starts_with("# example, search of mlp_one_sensor"));
+  CHECK(text.starts_with("# example, search of mlp\\_one\\_sensor"));
   CHECK(!contains(text, "\n<script>"));
 }
