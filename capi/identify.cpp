@@ -65,10 +65,10 @@ Ranking rank_watched(const Dataset& dataset, FitOptions& options, const dashpot_
 std::string report_text(const dashpot_ranking& of, const std::string& format) {
   const ReportInput input{of.dataset, of.ranking, of.command, dashpot_version(), of.date};
   if (format == "json") return json_text(json_report(input));
-  if (format == "html") return html_report(input);
-  if (format == "markdown") return markdown_report(input);
   if (format == "csv") return csv_report(input);
-  if (format == "text") return ranking_table(of.ranking) + '\n' + verdict(of.ranking) + '\n';
+  if (format == "html") return html_document(ranking_document(input));
+  if (format == "markdown") return markdown_document(ranking_document(input));
+  if (format == "text") return document_text(ranking_document(input), 100);
   throw Error("format", "is '" + format + "'", "json, html, markdown, csv or text");
 }
 

@@ -3,6 +3,7 @@
 #include "campaign.h"
 #include "commands.h"
 #include "console.h"
+#include "dashpot/report/provenance.h"
 #include "data.h"
 #include "sequence_sheet.h"
 

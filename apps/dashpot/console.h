@@ -13,8 +13,8 @@ namespace dashpot::cli {
 /// Who read stdout through a pipe wants no more: `| head`.
 struct ReaderGone {};
 
-/// Where the program talks. Results go to stdout, all talk about the work to stderr; with --json,
-/// stdout holds the JSON text alone.
+/// The only place that prints. Results go to stdout, all talk about the work to stderr; with
+/// --json, stdout holds the JSON text alone.
 class Console {
  public:
   /// `stop` is set when the user interrupts.
@@ -33,7 +33,7 @@ class Console {
   void talk_over(std::size_t lines, std::string_view text);
   /// Columns of the terminal that talk goes to and where it can be drawn anew; 0: a log.
   int live_width() const { return live_width_; }
-  /// What the work met on its way, on stderr. Warnings and errors come even when quiet.
+  /// Remarks on the work, on stderr. Warnings and errors come even when quiet.
   void note(std::string_view text);
   void warn(std::string_view text);
   void error(std::string_view text);

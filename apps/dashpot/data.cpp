@@ -1,31 +1,15 @@
 #include "data.h"
 
-#include <set>
-
 #include <fmt/core.h>
 
 #include "console.h"
 #include "dashpot/base/text.h"
-#include "dashpot/report/words.h"
+#include "dashpot/report/provenance.h"
 
 namespace dashpot::cli {
 namespace {
 
 constexpr std::size_t kNotesInBrief = 6;
-
-std::string drive_levels(const Dataset& dataset) {
-  std::set<double> levels;
-  for (const Record& record : dataset.records)
-    if (record.drive_level) levels.insert(*record.drive_level);
-  if (levels.empty()) return "the drive varies within the records";
-  const std::string noun = drive_channel(dataset.drive_unit);
-  if (levels.size() == 1)
-    return fmt::format("1 {}, {} {}", noun, format_number(*levels.begin()),
-                       to_string(dataset.drive_unit));
-  return fmt::format("{} {} ... {} {}", counted(levels.size(), noun),
-                     format_number(*levels.begin()), format_number(*levels.rbegin()),
-                     to_string(dataset.drive_unit));
-}
 
 }  // namespace
 
@@ -54,18 +38,6 @@ std::vector<Option> data_options(DataSettings& settings) {
           {.names = "-v,--verbose",
            .target = &settings.verbose,
            .help = "print all that was understood of the data"}};
-}
-
-std::string summary(const Dataset& dataset) {
-  std::set<std::string> conditions;
-  double seconds = 0;
-  for (const Record& record : dataset.records) {
-    conditions.insert(record.condition);
-    if (!record.time.empty()) seconds += record.time.back() - record.time.front();
-  }
-  return fmt::format(
-      "{}: {}, {}, {}, {} s", dataset.name, counted(dataset.records.size(), "record"),
-      counted(conditions.size(), "condition"), drive_levels(dataset), format_number(seconds, 3));
 }
 
 void print_notes(const Dataset& dataset, Console& console, std::size_t most) {

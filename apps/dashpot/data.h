@@ -21,10 +21,7 @@ std::vector<Option> data_options(DataSettings& settings);
 /// verbose.
 Dataset load_recordings(const DataSettings& settings, Console& console);
 
-/// What was inferred, assumed or passed over, as notes.
+/// Notes on the data: inferences, assumptions, files passed over.
 void print_notes(const Dataset& dataset, Console& console, std::size_t most);
-
-/// "utfsm: 20 records, 4 conditions, 5 currents 0 ... 1 A, 812 s".
-std::string summary(const Dataset& dataset);
 
 }  // namespace dashpot::cli

@@ -78,15 +78,16 @@ int run(const Settings& settings, Console& console) {
   const Ranking ranking =
       rank(models, dataset, default_leave_out(dataset), identify_options(fit, models, console));
   const ReportInput input = report_input(dataset, ranking, console);
-  print_results(input, console);
+  const Document report = ranking_document(input);
+  print_results(report, ranking, console);
   const std::vector<RecoveredParameter> parameters =
       compare(damper.model, find_model(ranking, truth).fit);
   const bool recovered = print_recovery(parameters, console);
-  write_results(input, settings.results, console);
+  write_results(input, report, settings.results, console);
   if (console.json)
     console.print_json(Value::object({{"recovered", recovered},
                                       {"parameters", to_json(parameters)},
-                                      {"report", json_report(input)}}));
+                                      {"report", document_json(report)}}));
   return recovered ? exit_code_of(ranking, console) : kNotUsable;
 }
 

@@ -11,6 +11,7 @@
 #include "dashpot/base/text.h"
 #include "dashpot/design/design_law.h"
 #include "dashpot/report/design_report.h"
+#include "document_text.h"
 #include "layout.h"
 #include "results.h"
 
@@ -59,7 +60,7 @@ std::string quantities_text(int width) {
   return table.text(static_cast<std::size_t>(width));
 }
 
-/// What an earlier run left must not stand among the designs of this one.
+/// Removes the designs of an earlier run, which must not stand among those of this one.
 void clear_designs(const fs::path& folder) {
   for (const auto& [part, ending] : {std::pair{"designs", ".yaml"}, std::pair{"models", ".json"}}) {
     std::error_code none;
@@ -81,11 +82,11 @@ class ModelWriter {
   }
 
   void write(const Design& design, const fs::path& folder) {
-    for (const Told& told : models_) {
-      ModelFile file = file_of(design, *told.model);
+    for (const Assessor& one : models_) {
+      ModelFile file = file_of(design, *one.model);
       file.provenance.command = console_.command_line();
       file.provenance.created = date_now();
-      save_model(file, folder / (design.name + told.ending + ".json"));
+      save_model(file, folder / (design.name + one.ending + ".json"));
     }
   }
   /// "laws, within 1.2 % RMS of the largest force"
@@ -99,7 +100,7 @@ class ModelWriter {
   }
 
  private:
-  struct Told {
+  struct Assessor {
     std::unique_ptr<DesignModel> model;
     std::string ending;
   };
@@ -119,7 +120,7 @@ class ModelWriter {
 
   const DesignReport& report_;
   const Console& console_;
-  std::vector<Told> models_;
+  std::vector<Assessor> models_;
   int laws_ = 0, members_ = 0;
   double worst_ = 0;
 };
@@ -136,7 +137,8 @@ std::string write_designs(const DesignReport& report, const fs::path& folder,
   return models.text();
 }
 
-void write_results(const DesignInput& input, const Settings& settings, Console& console) {
+void write_results(const Document& report, const DesignInput& input, const Settings& settings,
+                   Console& console) {
   const fs::path folder = settings.folder;
   std::string where;
   if (!input.design.designs.empty()) {
@@ -145,40 +147,10 @@ void write_results(const DesignInput& input, const Settings& settings, Console& 
                         (folder / "models").string(), kinds);
   }
   if (settings.report) {
-    write_file(folder / "design.html", html_design(input));
-    write_file(folder / "design.json", format_json(json_design(input)));
-    write_file(folder / "design.md", markdown_design(input));
-    write_file(folder / "design.csv", csv_design(input.design));
-    where += "Report   " + (folder / "design.html").string() + " (also .json, .md, .csv)\n";
+    if (where.empty()) where = "\n";
+    where += write_document(report, folder, "design", false, csv_design(input.design));
   }
   console.print(where);
-}
-
-void print_report(const DesignReport& report, Console& console) {
-  constexpr std::size_t kShown = 20;
-  const int width = console.width();
-  if (!report.designs.empty()) console.print('\n' + design_table(report, width, kShown));
-  if (report.designs.size() > kShown)
-    console.print(fmt::format("... all {} are in design.csv\n", report.designs.size()));
-  // One design is told in full; of a front the one that weighs all goals.
-  const auto knee = std::ranges::find_if(report.designs, [](const Design& design) {
-    return design.role.find("knee") != std::string::npos;
-  });
-  if (!report.designs.empty()) {
-    const Design& told = knee == report.designs.end() ? report.designs.front() : *knee;
-    if (!report.request.constraints.empty())
-      console.print('\n' + console.bold(told.name) + '\n' + constraint_table(report, told, width));
-    if (told.sensitivity)
-      console.print(
-          fmt::format(
-              "\nWhat each tolerance moves (its share of the variance); {} % of the dampers made "
-              "hold every constraint\n",
-              format_number(100 * told.sensitivity->holding, 3)) +
-          sensitivity_table(report, told, width));
-  }
-  console.print('\n' + paragraph(design_verdict(report), static_cast<std::size_t>(width)) +
-                fmt::format("{} dampers assessed in {} s\n", report.evaluations,
-                            format_number(report.wall_seconds, 3)));
 }
 
 int run(Settings settings, Console& console) {
@@ -194,10 +166,13 @@ int run(Settings settings, Console& console) {
   prepare_results({settings.folder, settings.report});
   const DesignReport report = design(request, settings.options);
   const DesignInput input{report, console.command_line(), DASHPOT_VERSION, date_now()};
-  print_report(report, console);
+  const Document document = design_document(input);
+  print_document(document, console);
+  console.print(fmt::format("{} dampers assessed in {} s\n", report.evaluations,
+                            format_number(report.wall_seconds, 3)));
   for (const std::string& note : report.notes) console.warn(note);
-  write_results(input, settings, console);
-  if (console.json) console.print_json(json_design(input));
+  write_results(document, input, settings, console);
+  if (console.json) console.print_json(document_json(document));
   if (report.stopped) console.check_stop();
   if (!report.designs.empty()) return kDone;
   console.error(report.conflict ? "the constraints conflict; the lines above say which"
@@ -209,10 +184,9 @@ std::vector<Option> options_of(Settings& settings) {
   return {
       {.names = "REQUEST",
        .target = &settings.request,
-       .help =
-           "what may vary, what must hold and what to favour: a YAML file, or one that comes with "
-           "Dashpot: " +
-           join(request_names(), ", "),
+       .help = "what may vary, what must hold and what to favour: a YAML file, or one that comes "
+               "with Dashpot: " +
+               join(request_names(), ", "),
        .takes = Takes::File},
       {.names = "-o,--output",
        .target = &settings.folder,
@@ -237,16 +211,16 @@ std::vector<Option> options_of(Settings& settings) {
        .noun = "method"},
       {.names = "--model",
        .target = &settings.options.model,
-       .help = "what tells a design's figures: first principles, or the file of a family's model",
+       .help =
+           "the model that assesses a design: first principles, or the file of a family's model",
        .value = "MODEL",
        .choices = design_model_names(),
        .noun = "model",
        .takes = Takes::File},
       {.names = "--second",
        .target = &settings.options.second,
-       .help =
-           "a model whose figures stand beside, with the difference; constraints and goals can be "
-           "asked of it too",
+       .help = "a model whose figures stand beside, with the difference; constraints and goals can "
+               "be asked of it too",
        .value = "MODEL",
        .choices = design_model_names(),
        .noun = "model",
@@ -276,13 +250,10 @@ Command design_command() {
           .title = "Dampers that do what is asked of them",
           .description =
               "Reads what may vary of a damper's description, what must hold and what to favour, "
-              "and finds "
-              "designs: "
-              "the best for one goal, or a front for several, also where made dampers differ from "
-              "their drawing. "
-              "Each design is written as a description and as a model for the other commands, "
-              "after it was read "
-              "again and checked. Where none can be, it says which constraints conflict.",
+              "and finds designs: the best for one goal, or a front for several, also where made "
+              "dampers differ from their drawing. Each design is written as a description and as a "
+              "model for the other commands, after it was read again and checked. Where none can "
+              "be, it says which constraints conflict.",
           .options = options_of(*settings),
           .example = std::string(kExample),
           .run = [settings](Console& console) { return run(*settings, console); }};

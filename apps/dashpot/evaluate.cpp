@@ -6,15 +6,13 @@
 #include "commands.h"
 #include "console.h"
 #include "dashpot/base/file.h"
-#include "dashpot/base/text.h"
 #include "dashpot/damper/kinds/family/family_model.h"
 #include "dashpot/identify/fit/fit_words.h"
 #include "dashpot/identify/judge/extrapolation.h"
 #include "dashpot/rank.h"
-#include "dashpot/report/interval_table.h"
 #include "dashpot/report/report_json.h"
 #include "data.h"
-#include "layout.h"
+#include "document_text.h"
 #include "results.h"
 
 namespace dashpot::cli {
@@ -36,60 +34,13 @@ constexpr std::string_view kExample =
     "# The same figures for a script:\n"
     "dashpot evaluate results/models/tanh_kwok.json more-recordings/ --json | jq .pooled.rmse_N";
 
-std::string percent(double value) { return fmt::format("{:.2f}", value); }
-
-std::vector<std::string> record_row(const RecordResult& r) {
-  const std::string level = r.drive_level ? format_number(*r.drive_level) : "varies";
-  if (r.diverged_at)
-    return {r.record, level, "", "",
-            "",       "",    "", "diverged at " + format_number(*r.diverged_at) + " s"};
-  const Metrics& m = r.metrics;
-  return {r.record,       level,          format_number(m.rmse),   percent(m.rms_half_span),
-          percent(m.esr), percent(m.fit), percent(r.energy_error), format_number(r.offset, 3)};
-}
-
-std::vector<std::string> pooled_row(const std::string& name, const Metrics& m) {
-  return {name, "", format_number(m.rmse), percent(m.rms_half_span), percent(m.esr), percent(m.fit),
-          "",   ""};
-}
-
-std::string record_table(const Evaluation& evaluation, DriveUnit drive_unit, int width) {
-  Table table({"record", ">" + to_string(drive_unit), ">RMSE N", ">rms/half-span %", ">ESR %",
-               ">fit %", ">energy error %", ">offset N"});
-  for (const RecordResult& r : evaluation.records) table.row(record_row(r));
-  if (evaluation.pooled.samples > 0) {
-    table.row(pooled_row("all", evaluation.pooled));
-    table.row(pooled_row("all, without offsets", evaluation.pooled_without_offset));
-  }
-  return table.text(static_cast<std::size_t>(width));
-}
-
-std::string band_table(const Evaluation& evaluation, int width) {
-  Table table({"velocity band", ">|v| m/s", ">samples", ">RMSE N", ">MAE N", ">max |e| N"});
-  for (const BandResult& band : evaluation.bands)
-    table.row({band.name, format_number(band.low, 3) + " ... " + format_number(band.high, 3),
-               std::to_string(band.metrics.samples), format_number(band.metrics.rmse),
-               format_number(band.metrics.mae), format_number(band.metrics.max_error)});
-  return table.text(static_cast<std::size_t>(width));
-}
-
-/// Of models that feed their force back.
-std::string one_step_line(const Evaluation& evaluation) {
-  if (!evaluation.one_step) return {};
-  return "one step ahead, with the measured force fed back (flatters; no measure of the model): "
-         "RMSE " +
-         format_number(evaluation.one_step->rmse) + " N, ESR " + percent(evaluation.one_step->esr) +
-         " %\n";
-}
-
-/// The report of `identify` with this model alone in it, fitted elsewhere.
-void write_report(const Settings& settings, const Dataset& dataset, ModelFile file,
-                  const Evaluation& evaluation, Console& console) {
+/// A ranking of this model alone, fitted elsewhere.
+Ranking as_ranking(const std::string& name, ModelFile file, const Evaluation& evaluation) {
   RankedModel ranked;
   ranked.name = file.model->name();
-  ranked.title = settings.model;
+  ranked.title = name;
   ranked.fit.status = FitReport::Status::Converged;
-  ranked.fit.message = "not fitted here: read from " + settings.model;
+  ranked.fit.message = "not fitted here: read from " + name;
   ranked.fit.model = std::move(file.model);
   ranked.band = std::move(file.interval);
   ranked.left_out = evaluation;
@@ -97,8 +48,7 @@ void write_report(const Settings& settings, const Dataset& dataset, ModelFile fi
   Ranking ranking;
   ranking.folds = {"all records, none of them fitted"};
   ranking.models.push_back(std::move(ranked));
-  write_file(settings.report, html_report(report_input(dataset, ranking, console)));
-  console.print("\nReport  " + settings.report + '\n');
+  return ranking;
 }
 
 int run(const Settings& settings, Console& console) {
@@ -115,19 +65,20 @@ int run(const Settings& settings, Console& console) {
   const Evaluation evaluation = evaluate(*file.model, dataset.records, dataset.drive_unit, options);
   console.check_stop();
   const std::vector<Extrapolation> outside = extrapolations(file, dataset);
-  console.print('\n' + console.bold(file.model->name()) +
-                " in free run, nothing fitted but the force zero of each record\n\n");
-  console.print(record_table(evaluation, dataset.drive_unit, console.width()) +
-                one_step_line(evaluation));
-  if (evaluation.pooled.samples > 0) console.print('\n' + band_table(evaluation, console.width()));
-  if (const std::string sentence = interval_sentence(evaluation); !sentence.empty())
-    console.print('\n' + paragraph(sentence, static_cast<std::size_t>(console.width())));
+
+  Value data = evaluation_json(file, evaluation, outside);
+  const Ranking ranking = as_ranking(settings.model, std::move(file), evaluation);
+  Document document = evaluation_document(report_input(dataset, ranking, console));
+  document.data = std::move(data);
+  print_document(document, console);
   for (const Extrapolation& e : outside) console.warn(describe(e));
   for (const std::string& what : outside_family(evaluation))
     console.warn(what + ": it extrapolates there");
-  if (console.json) console.print_json(evaluation_json(file, evaluation, outside));
-  if (!settings.report.empty())
-    write_report(settings, dataset, std::move(file), evaluation, console);
+  if (console.json) console.print_json(document_json(document));
+  if (!settings.report.empty()) {
+    write_file(settings.report, html_document(document));
+    console.print("\nReport  " + settings.report + '\n');
+  }
   if (evaluation.diverged == 0) return kDone;
   console.error(fmt::format("the model diverged on {} of {} records", evaluation.diverged,
                             evaluation.records.size()));
@@ -142,10 +93,8 @@ Command evaluate_command() {
                   .title = "Judge a model file on recordings, without fitting",
                   .description =
                       "Runs a model in free run over each recording (motion and current in, force "
-                      "out) and prints "
-                      "its errors per record, pooled and by velocity. Says where the recordings "
-                      "leave the range "
-                      "that the model was fitted on.",
+                      "out) and prints its errors per record, pooled and by velocity. Says where "
+                      "the recordings leave the range that the model was fitted on.",
                   .options = {{.names = "MODEL",
                                .target = &settings->model,
                                .help = "a model file that 'dashpot identify' wrote",

@@ -26,9 +26,10 @@ int run(const RankingSettings& settings, Console& console) {
   const Ranking ranking =
       rank(models, data.dataset, data.leave_out, identify_options(settings.fit, models, console));
   const ReportInput input = report_input(data.dataset, ranking, console);
-  print_results(input, console);
-  write_results(input, settings.results, console);
-  if (console.json) console.print_json(json_report(input));
+  const Document report = ranking_document(input);
+  print_results(report, ranking, console);
+  write_results(input, report, settings.results, console);
+  if (console.json) console.print_json(document_json(report));
   return exit_code_of(ranking, console);
 }
 
@@ -40,10 +41,8 @@ Command identify_command() {
           .title = "Turn recordings into ranked damper models and a report",
           .description =
               "Fits each model to all training records together and judges it in free run (motion "
-              "and current "
-              "in, force out) on records that it has not seen. Ranks the models by that error, "
-              "saves each as "
-              "a file and writes a report.",
+              "and current in, force out) on records that it has not seen. Ranks the models by "
+              "that error, saves each as a file and writes a report.",
           .options = ranking_options(*settings),
           .example = std::string(kExample),
           .run = [settings](Console& console) { return run(*settings, console); }};

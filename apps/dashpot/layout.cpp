@@ -2,31 +2,11 @@
 
 #include <algorithm>
 
-#include "dashpot/base/text.h"
-
 namespace dashpot::cli {
 namespace {
 
 constexpr std::size_t kGap = 2;
 constexpr std::size_t kNarrowest = 24;  // the last column gets at least this
-
-std::string padded(const std::string& cell, std::size_t width, bool right) {
-  const std::string space(width - std::min(width, columns_of(cell)), ' ');
-  return right ? space + cell : cell + space;
-}
-
-void wrap_line(std::string_view line, std::size_t width, std::vector<std::string>& lines) {
-  std::string current;
-  for (const std::string& word : split(line, ' ')) {
-    if (word.empty()) continue;
-    if (!current.empty() && columns_of(current) + 1 + columns_of(word) > width) {
-      lines.push_back(current);
-      current.clear();
-    }
-    current += (current.empty() ? "" : " ") + word;
-  }
-  lines.push_back(current);
-}
 
 std::string without_trailing_space(std::string line) {
   line.erase(line.find_last_not_of(' ') + 1);
@@ -34,31 +14,6 @@ std::string without_trailing_space(std::string line) {
 }
 
 }  // namespace
-
-std::size_t columns_of(std::string_view text) {
-  return static_cast<std::size_t>(std::ranges::count_if(
-      text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
-}
-
-std::string first_columns(std::string_view text, std::size_t columns) {
-  std::size_t end = 0;
-  for (std::size_t seen = 0; end < text.size(); ++end)
-    if ((static_cast<unsigned char>(text[end]) & 0xC0) != 0x80 && ++seen > columns) break;
-  return std::string(text.substr(0, end));
-}
-
-std::vector<std::string> wrap(std::string_view text, std::size_t width) {
-  std::vector<std::string> lines;
-  for (const std::string& line : split(text, '\n')) wrap_line(line, width, lines);
-  return lines;
-}
-
-std::string paragraph(std::string_view text, std::size_t width, std::size_t indent) {
-  std::string result;
-  for (const std::string& line : wrap(text, width > indent ? width - indent : width))
-    result += line.empty() ? "\n" : std::string(indent, ' ') + line + '\n';
-  return result;
-}
 
 Table::Table(const std::vector<std::string>& titles) {
   std::vector<std::string> row;
@@ -76,6 +31,7 @@ void Table::row(std::vector<std::string> cells) {
 }
 
 std::string Table::text(std::size_t width, std::size_t indent) const {
+  // Each column is as wide as its widest cell; the last one takes what is left of the line.
   const std::size_t last = right_.size() - 1;
   std::vector<std::size_t> widths(right_.size(), 0);
   for (const std::vector<std::string>& cells : rows_)
@@ -84,6 +40,7 @@ std::string Table::text(std::size_t width, std::size_t indent) const {
   for (std::size_t c = 0; c < last; ++c) before += widths[c] + kGap;
   widths[last] = std::min(widths[last], width > before + kNarrowest ? width - before : kNarrowest);
 
+  // A cell of the last column that needs several lines goes on below its first.
   std::string result;
   for (const std::vector<std::string>& cells : rows_) {
     std::string line(indent, ' ');

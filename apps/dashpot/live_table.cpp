@@ -7,7 +7,7 @@
 #include "dashpot/base/text.h"
 #include "dashpot/report/search_report.h"
 #include "dashpot/report/words.h"
-#include "layout.h"
+#include "dashpot/report/wrap.h"
 
 namespace dashpot::cli {
 
@@ -62,9 +62,10 @@ std::string LiveTable::table() const {
   const std::string round = search_.rungs.size() > 1
                                 ? fmt::format(" in round {} of {}", rung_ + 1, search_.rungs.size())
                                 : "";
+  const DocumentTable best = trial_table(trials_, search_, kRows);
   const std::string text = fmt::format("{} of {} ended{}, the best so far:\n", ended_,
                                        counted(search_.rungs[rung_].trials, "trial"), round) +
-                           trial_table(trials_, search_, console_.live_width(), kRows);
+                           text_table(best.columns, best.rows, console_.live_width());
   // A line that wraps would be two when it is drawn over.
   std::string cut;
   for (const std::string& row : split(text, '\n'))

@@ -9,9 +9,8 @@
 #include "dashpot/base/file.h"
 #include "dashpot/base/parallel.h"
 #include "dashpot/identify/rank/fit_store.h"
-#include "dashpot/report/leaderboard.h"
 #include "dashpot/report/words.h"
-#include "layout.h"
+#include "document_text.h"
 #include "ranking_run.h"
 
 namespace dashpot::cli {
@@ -44,26 +43,6 @@ std::string time_line(const Ranking& ranking, int threads) {
                          : fmt::format("; {} kept from before", counted(ranking.kept_fits, "fit")));
 }
 
-constexpr std::string_view kLegend =
-    "Free run on left-out records. ESR: share of the force's power left unexplained, over all "
-    "samples; Mean, "
-    "Worst: by record; Train: on the records of the fit. Slow: RMS error below 5 % of the top "
-    "speed. Energy: "
-    "of the dissipated energy, by record. Par.: fitted numbers. Fit: CPU time of all fits. "
-    "Bounded: the "
-    "force "
-    "stays within ten spans at twice the stroke and speed of the data.";
-
-void print_leaderboard(const ReportInput& input, int threads, Console& console) {
-  const int width = console.width();
-  const auto columns = static_cast<std::size_t>(width);
-  console.print('\n' + leaderboard_table(input.ranking, width) + paragraph(kLegend, columns) +
-                '\n' + console.bold("RMS error by speed, ESR % by drive") + '\n' +
-                breakdown_table(input.ranking, input.dataset.drive_unit, width) + '\n' +
-                interval_part(input.ranking, console) + paragraph(verdict(input.ranking), columns) +
-                time_line(input.ranking, threads));
-}
-
 int run(const Settings& settings, Console& console) {
   const RankingSettings& asked = settings.ranking;
   const RankingData data = ranking_data(asked, console);
@@ -75,13 +54,20 @@ int run(const Settings& settings, Console& console) {
       rank(models, data.dataset, data.leave_out, identify_options(asked.fit, models, console),
            store ? &*store : nullptr);
   const ReportInput input = report_input(data.dataset, ranking, console);
-  if (settings.markdown)
-    console.print(markdown_leaderboard(input));
-  else
-    print_leaderboard(input, asked.fit.options.threads, console);
+
+  // The leaderboard is printed; the report that is written has each model in full.
+  const Document leaderboard = leaderboard_document(input);
+  if (settings.markdown) {
+    console.print(markdown_document(leaderboard, "", 2));
+  } else {
+    print_document(leaderboard, console);
+    console.print(time_line(ranking, asked.fit.options.threads));
+  }
   write_file(folder / "leaderboard.csv", csv_leaderboard(input));
-  write_results(input, asked.results, console, settings.markdown ? Say::Aside : Say::Result);
-  if (console.json) console.print_json(json_report(input));
+  const Document report = ranking_document(input);
+  write_results(input, report, asked.results, console,
+                settings.markdown ? Say::Aside : Say::Result);
+  if (console.json) console.print_json(document_json(report));
   return exit_code_of(ranking, console);
 }
 
@@ -95,12 +81,10 @@ Command rank_command() {
                   .title = "Every model on one scale: the leaderboard",
                   .description =
                       "Fits every model of the registry as 'identify' does and compares them: "
-                      "error on left-out records "
-                      "beside the error on those of the fit, by record, speed and drive; number of "
-                      "parameters, cost per "
-                      "step, CPU time of the fit, and whether the force stays bounded beyond the "
-                      "data. Finished fits are "
-                      "kept in DIR/fits.sqlite: the same command goes on where it was interrupted.",
+                      "error on left-out records beside the error on those of the fit, by record, "
+                      "speed and drive; number of parameters, cost per step, CPU time of the fit, "
+                      "and whether the force stays bounded beyond the data. Finished fits are kept "
+                      "in DIR/fits.sqlite: the same command goes on where it was interrupted.",
                   .options = ranking_options(settings->ranking),
                   .example = std::string(kExample),
                   .run = [settings](Console& console) { return run(*settings, console); }};

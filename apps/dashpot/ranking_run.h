@@ -10,7 +10,7 @@
 
 namespace dashpot::cli {
 
-/// What `identify` and `rank` let the user say.
+/// The settings that `identify` and `rank` share.
 struct RankingSettings {
   DataSettings data;
   FitSettings fit;
@@ -19,7 +19,7 @@ struct RankingSettings {
 };
 
 Option leave_out_option(std::string& text);
-/// What the command line says of it, before the long work begins; nothing when it says nothing.
+/// The choice on the command line, checked before the long work starts; nothing without one.
 /// Throws UsageError.
 std::optional<LeaveOut> stated_leave_out(const std::string& text);
 

@@ -22,7 +22,7 @@ const FittedParameter* find(const FitReport& fit, const std::string& name) {
 
 std::string verdict_of(const RecoveredParameter& p) {
   if (p.recovered()) return "recovered";
-  return p.weak ? "not told by these data" : "MISSED";
+  return p.weak ? "not determined by these data" : "MISSED";
 }
 
 }  // namespace

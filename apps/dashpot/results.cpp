@@ -5,14 +5,10 @@
 #include <system_error>
 #include <unistd.h>
 
-#include <fmt/core.h>
-
 #include "console.h"
 #include "dashpot/base/file.h"
-#include "dashpot/rank.h"
-#include "dashpot/report/interval_table.h"
 #include "dashpot/report/words.h"
-#include "layout.h"
+#include "document_text.h"
 
 namespace dashpot::cli {
 namespace {
@@ -27,14 +23,6 @@ void write_models(const ReportInput& input, const fs::path& folder, Console& con
     file.provenance.created = input.date;
     save_model(file, folder / (ranked.name + ".json"));
   }
-}
-
-void write_reports(const ReportInput& input, const fs::path& folder, Console& console) {
-  console.check_stop();
-  write_file(folder / "report.html", html_report(input));
-  write_file(folder / "report.json", format_json(json_report(input)));
-  write_file(folder / "report.md", markdown_report(input));
-  write_file(folder / "report.csv", csv_report(input));
 }
 
 }  // namespace
@@ -71,29 +59,11 @@ ReportInput report_input(const Dataset& dataset, const Ranking& ranking, const C
           .date = date_now()};
 }
 
-void print_results(const ReportInput& input, Console& console) {
-  console.print('\n' + ranking_table(input.ranking, console.width()) + '\n' +
-                paragraph(verdict(input.ranking), static_cast<std::size_t>(console.width())));
-  if (std::ranges::any_of(input.ranking.models,
-                          [](const RankedModel& m) { return m.left_out.one_step.has_value(); }))
-    console.print(
-        '\n' + paragraph(*one_step_note(input.ranking), static_cast<std::size_t>(console.width())));
-  const RankedModel& best = input.ranking.models.front();
-  if (!best.fit.parameters.empty())
-    console.print('\n' + console.bold(best.name) + ", fitted on all training records\n" +
-                  parameter_table(best.fit));
-  console.print('\n' + interval_part(input.ranking, console));
-  for (const RankedModel& ranked : input.ranking.models)
+void print_results(const Document& report, const Ranking& ranking, Console& console) {
+  print_document(report, console);
+  for (const RankedModel& ranked : ranking.models)
     for (const std::string& warning : ranked.fit.warnings)
       console.warn(ranked.name + ": " + warning);
-}
-
-std::string interval_part(const Ranking& ranking, const Console& console) {
-  const std::string table = interval_table(ranking, console.width());
-  return table.empty()
-             ? ""
-             : console.bold("90 % intervals of the force, on records that they were made without") +
-                   '\n' + table + '\n';
 }
 
 void prepare_results(const ResultSettings& settings) {
@@ -107,17 +77,20 @@ void prepare_results(const ResultSettings& settings) {
                   "give a folder of your own with --output");
 }
 
-void write_results(const ReportInput& input, const ResultSettings& settings, Console& console,
-                   Say say) {
+void write_results(const ReportInput& input, const Document& report, const ResultSettings& settings,
+                   Console& console, Say say) {
   const fs::path folder = settings.folder;
   write_models(input, folder / "models", console);
-  if (settings.report) write_reports(input, folder, console);
-  if (settings.figures) write_figures(input, folder / "figures");
   std::string where = "\n";
-  if (settings.report)
-    where += "Report   " + (folder / "report.html").string() + " (also .json, .md, .csv)\n";
+  if (settings.report) {
+    console.check_stop();
+    where += write_document(report, folder, "report", false, csv_report(input));
+  }
   where += "Models   " + (folder / "models").string() + "/\n";
-  if (settings.figures) where += "Figures  " + (folder / "figures").string() + "/\n";
+  if (settings.figures) {
+    write_figures(input, folder / "figures");
+    where += "Figures  " + (folder / "figures").string() + "/\n";
+  }
   say == Say::Result ? console.print(where) : console.talk(where);
 }
 

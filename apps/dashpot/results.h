@@ -11,7 +11,7 @@
 
 namespace dashpot::cli {
 
-/// Where the results of an identification go, and which.
+/// The folder of the results of an identification, and which of them are written.
 struct ResultSettings {
   std::string folder = "dashpot-results";
   bool report = true;
@@ -20,21 +20,19 @@ struct ResultSettings {
 
 std::vector<Option> result_options(ResultSettings& settings);
 
-/// The ranking, the best model's parameters and what to beware of.
-void print_results(const ReportInput& input, Console& console);
-
-/// The intervals of all models with a title, or nothing.
-std::string interval_part(const Ranking& ranking, const Console& console);
+/// The report, and on stderr what to beware of.
+void print_results(const Document& report, const Ranking& ranking, Console& console);
 
 /// Makes the folder, so that hours of fitting do not end at one that cannot be written.
 void prepare_results(const ResultSettings& settings);
 
-/// Where it stands that files were written: among the results, or beside a page that is the result.
+/// The place where the names of the written files are printed: among the results, or on stderr
+/// beside a page that is the result.
 enum class Say { Result, Aside };
 
 /// Writes model files, report and figures, and prints where they are.
-void write_results(const ReportInput& input, const ResultSettings& settings, Console& console,
-                   Say say = Say::Result);
+void write_results(const ReportInput& input, const Document& report, const ResultSettings& settings,
+                   Console& console, Say say = Say::Result);
 
 /// kDone, or kNotUsable with the reason printed when no model gave a finite force.
 int exit_code_of(const Ranking& ranking, Console& console);
@@ -48,7 +46,7 @@ std::string program_id();
 std::filesystem::path kept_file(const std::filesystem::path& folder, const std::string& what,
                                 Console& console);
 
-/// What stands in a report beside the figures.
+/// Input of a report, with the command line and today as its date.
 ReportInput report_input(const Dataset& dataset, const Ranking& ranking, const Console& console);
 
 }  // namespace dashpot::cli

@@ -15,7 +15,7 @@
 #include "dashpot/identify/rank/fit_store.h"
 #include "dashpot/report/search_report.h"
 #include "dashpot/report/words.h"
-#include "layout.h"
+#include "document_text.h"
 #include "live_table.h"
 #include "ranking_run.h"
 
@@ -131,15 +131,12 @@ void write_choices(const RankingData& data, const SearchReport& report, const fs
   }
 }
 
-void write_report(const SearchInput& input, const ResultSettings& settings, Console& console) {
+void write_report(const Document& report, const SearchInput& input, const ResultSettings& settings,
+                  Console& console) {
   const fs::path folder = settings.folder;
   std::string where = "\nModels   " + (folder / "models").string() + "/\n";
   if (settings.report) {
-    write_file(folder / "search.html", html_search(input));
-    write_file(folder / "search.json", format_json(json_search(input)));
-    write_file(folder / "search.md", markdown_search(input));
-    write_file(folder / "search.csv", csv_search(input.search));
-    where += "Report   " + (folder / "search.html").string() + " (also .json, .md, .csv)\n";
+    where += write_document(report, folder, "search", false, csv_search(input.search));
   }
   if (settings.figures) {
     write_search_figure(input.search, folder / "figures");
@@ -148,20 +145,13 @@ void write_report(const SearchInput& input, const ResultSettings& settings, Cons
   console.print(where);
 }
 
-void print_report(const SearchReport& report, Console& console) {
-  constexpr std::size_t kShown = 30;
-  const int width = console.width();
-  console.print('\n' + trial_table(report.trials, report, width, kShown));
-  if (report.trials.size() > kShown)
-    console.print(fmt::format("... and {} more, in search.csv\n", report.trials.size() - kShown));
+std::string time_line(const SearchReport& report) {
   double seconds = 0;
   for (const Trial& trial : report.trials) seconds += trial.seconds;
-  console.print('\n' + paragraph(search_verdict(report), static_cast<std::size_t>(width)) + '\n' +
-                fmt::format("{} in {} s; {} of CPU time{}.\n", counted(report.results, "fit"),
-                            number_text(report.wall_seconds), number_text(seconds) + " s",
-                            report.kept
-                                ? fmt::format("; {} kept from before", counted(report.kept, "fit"))
-                                : ""));
+  return fmt::format(
+      "{} in {} s; {} s of CPU time{}.\n", counted(report.results, "fit"),
+      number_text(report.wall_seconds), number_text(seconds),
+      report.kept ? fmt::format("; {} kept from before", counted(report.kept, "fit")) : "");
 }
 
 int run_in(const fs::path& folder, const RankingData& data, const SearchOptions& options,
@@ -173,11 +163,13 @@ int run_in(const fs::path& folder, const RankingData& data, const SearchOptions&
   const SearchInput input{data.dataset, report, console.command_line(), DASHPOT_VERSION,
                           date_now()};
   if (report.best()) write_choices(data, report, folder, console);
-  print_report(report, console);
+  const Document document = search_document(input);
+  print_document(document, console);
+  console.print(time_line(report));
   ResultSettings results = settings.ranking.results;
   results.figures = results.figures && report.best();
-  write_report(input, results, console);
-  if (console.json) console.print_json(json_search(input));
+  write_report(document, input, results, console);
+  if (console.json) console.print_json(document_json(document));
   if (report.best()) return kDone;
   console.error("no trial gave a usable force on the records left out; the table says why");
   return kNotUsable;
@@ -197,48 +189,45 @@ int run(const Settings& settings, Console& console) {
 }
 
 std::vector<Option> own_options(Settings& settings) {
-  return {{.names = "--model",
-           .target = &settings.model,
-           .help = "the network whose settings are searched",
-           .value = "NAME",
-           .choices = searchable_models(),
-           .noun = "network"},
-          {.names = "--over",
-           .target = &settings.over,
-           .help = "a setting and its values, as hidden=5,10,10-10, or their range, as "
-                   "l2=1e-5:1e-2; again for "
-                   "each setting. --network tells the settings",
-           .value = "SETTING=...",
-           .required = true},
-          {.names = "--method",
-           .target = &settings.method,
-           .help = "every combination, so many by chance, or halving: many by chance with little "
-                   "effort, the "
-                   "best third of them with three times as much, until all effort goes to the last "
-                   "three or "
-                   "more. Ranges are spaced and drawn evenly in the logarithm",
-           .value = "HOW",
-           .choices = {"grid", "random", "halving"}},
-          {.names = "--trials",
-           .target = &settings.trials,
-           .help = "networks drawn by chance; a grid has its own number",
-           .value = "N",
-           .minimum = 1},
-          {.names = "--steps",
-           .target = &settings.steps,
-           .help = "values of a range on a grid",
-           .value = "N",
-           .minimum = 1},
-          {.names = "--effort",
-           .target = &settings.effort,
-           .help = "what halving gives little of at first: samples (the first part of every "
-                   "training record) or "
-                   "epochs (then --network epochs=N says how many are all)",
-           .value = "WHAT",
-           .choices = {"samples", "epochs"}},
-          {.names = "--fresh",
-           .target = &settings.fresh,
-           .help = "begin anew: what an earlier search left in DIR/search.sqlite is thrown away"}};
+  return {
+      {.names = "--model",
+       .target = &settings.model,
+       .help = "the network whose settings are searched",
+       .value = "NAME",
+       .choices = searchable_models(),
+       .noun = "network"},
+      {.names = "--over",
+       .target = &settings.over,
+       .help = "a setting and its values, as hidden=5,10,10-10, or their range, as "
+               "l2=1e-5:1e-2; again for each setting. --network lists the settings",
+       .value = "SETTING=...",
+       .required = true},
+      {.names = "--method",
+       .target = &settings.method,
+       .help = "every combination, so many by chance, or halving: many by chance with little "
+               "effort, the best third of them with three times as much, until all effort goes "
+               "to the last three or more. Ranges are spaced and drawn evenly in the logarithm",
+       .value = "HOW",
+       .choices = {"grid", "random", "halving"}},
+      {.names = "--trials",
+       .target = &settings.trials,
+       .help = "networks drawn by chance; a grid has its own number",
+       .value = "N",
+       .minimum = 1},
+      {.names = "--steps",
+       .target = &settings.steps,
+       .help = "values of a range on a grid",
+       .value = "N",
+       .minimum = 1},
+      {.names = "--effort",
+       .target = &settings.effort,
+       .help = "what halving gives little of at first: samples (the first part of every "
+               "training record) or epochs (then --network epochs=N says how many are all)",
+       .value = "WHAT",
+       .choices = {"samples", "epochs"}},
+      {.names = "--fresh",
+       .target = &settings.fresh,
+       .help = "start anew: the fits of an earlier search in DIR/search.sqlite are thrown away"}};
 }
 
 }  // namespace
@@ -246,23 +235,19 @@ std::vector<Option> own_options(Settings& settings) {
 Command search_command() {
   auto settings = std::make_shared<Settings>();
   settings->ranking.results.folder = "dashpot-search";
-  Command command{.name = "search",
-                  .title = "The settings with which a network predicts best",
-                  .description =
-                      "Fits a network with many settings and judges each on left-out records as "
-                      "'rank' does. Prints them "
-                      "by "
-                      "error, with the fewest parameters that are within one standard error of the "
-                      "best, and writes both "
-                      "as model files, fitted on everything, with a page that shows error against "
-                      "size. Each fit is kept "
-                      "in DIR/search.sqlite as it ends: the same command goes on where it was "
-                      "stopped, and more --trials "
-                      "go "
-                      "on beyond it. The result does not depend on threads or interruptions.",
-                  .options = ranking_options(settings->ranking),
-                  .example = std::string(kExample),
-                  .run = [settings](Console& console) { return run(*settings, console); }};
+  Command command{
+      .name = "search",
+      .title = "The settings with which a network predicts best",
+      .description =
+          "Fits a network with many settings and judges each on left-out records as 'rank' does. "
+          "Prints them by error, with the fewest parameters that are within one standard error of "
+          "the best, and writes both as model files, fitted on everything, with a page that shows "
+          "error against size. Each fit is kept in DIR/search.sqlite as it ends: the same command "
+          "goes on where it was stopped, and more --trials go on beyond it. The result does not "
+          "depend on threads or interruptions.",
+      .options = ranking_options(settings->ranking),
+      .example = std::string(kExample),
+      .run = [settings](Console& console) { return run(*settings, console); }};
   // A search has one model, and parameters of laws are not its business.
   constexpr std::array kOthers{"--models", "--form",  "--fix",   "--free",
                                "--bounds", "--prior", "--search"};

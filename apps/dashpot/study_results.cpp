@@ -1,16 +1,11 @@
 #include "study_results.h"
 
-#include <filesystem>
-
 #include "console.h"
 #include "dashpot/base/file.h"
-#include "dashpot/report/safe_text.h"
 #include "document_text.h"
 #include "results.h"
 
 namespace dashpot::cli {
-
-namespace fs = std::filesystem;
 
 std::vector<Option> study_result_options(StudyResults& results, const std::string& kept) {
   return {{.names = "-o,--output",
@@ -31,22 +26,14 @@ void prepare_study(const StudyResults& results) {
   make_folder(results.folder);
 }
 
-void write_study(Document document, const Value& data, const StudyResults& results,
-                 Console& console) {
+void write_study(Document document, Value data, const StudyResults& results, Console& console) {
   document.command = console.command_line();
   document.version = DASHPOT_VERSION;
   document.date = date_now();
+  document.data = std::move(data);
   print_document(document, console);
-  const fs::path folder = results.folder;
-  const Value shown = presentable(data);
-  write_file(folder / "report.json", format_json(shown));
-  write_file(folder / "report.html", html_document(document));
-  if (results.figures) write_document_figures(document, folder / "figures");
-  write_file(folder / "report.md", markdown_document(document, results.figures ? "figures" : ""));
-  std::string where = "\nReport   " + (folder / "report.html").string() + " (also .json, .md)\n";
-  if (results.figures) where += "Figures  " + (folder / "figures").string() + "/\n";
-  console.print(where);
-  if (console.json) console.print_json(shown);
+  console.print('\n' + write_document(document, results.folder, "report", results.figures));
+  if (console.json) console.print_json(document_json(document));
 }
 
 }  // namespace dashpot::cli

@@ -7,7 +7,7 @@
 
 namespace dashpot::cli {
 
-/// Where a study that makes a page leaves it, with what it keeps to go on from.
+/// The folder of a study: its page, and finished work that an interrupted one goes on from.
 struct StudyResults {
   std::string folder;
   bool figures = false;
@@ -20,8 +20,7 @@ std::vector<Option> study_result_options(StudyResults& results, const std::strin
 /// Throws UsageError or Error where the folder cannot be made.
 void prepare_study(const StudyResults& results);
 
-/// Prints the document and writes it as a page, Markdown and, with `data`, JSON.
-void write_study(Document document, const Value& data, const StudyResults& results,
-                 Console& console);
+/// Prints the document and writes it with its data as a page, Markdown and JSON.
+void write_study(Document document, Value data, const StudyResults& results, Console& console);
 
 }  // namespace dashpot::cli

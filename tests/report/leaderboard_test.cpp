@@ -1,6 +1,5 @@
-#include "dashpot/report/leaderboard.h"
-
 #include "dashpot/base/text.h"
+#include "dashpot/report/ranking_tables.h"
 #include "report/example_ranking.h"
 #include "support.h"
 
@@ -12,11 +11,21 @@ bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
+std::string leaderboard_text(const ExampleRanking& example, int width) {
+  const DocumentTable table = leaderboard_document(example.input()).sections[0].tables[0];
+  return text_table(table.columns, table.rows, width);
+}
+
+std::string breakdown_text(const ExampleRanking& example, int width) {
+  const DocumentTable table = breakdown_table(example.ranking, DriveUnit::Ampere);
+  return text_table(table.columns, table.rows, width);
+}
+
 }  // namespace
 
 TEST_CASE("leaderboard: thirty models within 100 columns, each with its figures") {
   const ExampleRanking example = crowded_ranking(30);
-  const std::string table = leaderboard_table(example.ranking, 100);
+  const std::string table = leaderboard_text(example, 100);
   CAPTURE(table);
   const auto lines = split(table, '\n');
   REQUIRE(lines.size() == 33);
@@ -25,18 +34,18 @@ TEST_CASE("leaderboard: thirty models within 100 columns, each with its figures"
     CHECK(contains(lines[0], title));
   CHECK(contains(lines[2], "modified_bouc_wen"));
   CHECK(contains(lines[31], "1 diverged"));
-  CHECK(contains(breakdown_table(example.ranking, DriveUnit::Ampere), "0.8 A"));
+  CHECK(contains(breakdown_text(example, 100), "0.8 A"));
 }
 
 TEST_CASE("leaderboard: a fit that failed stands in the table without figures") {
   ExampleRanking example = example_ranking(300);
   example.ranking.models[2].fit.model.reset();
   example.ranking.models[2].stress = {};
-  const auto lines = split(leaderboard_table(example.ranking, 160), '\n');
+  const auto lines = split(leaderboard_text(example, 160), '\n');
   CHECK(contains(lines[4], "bingham"));
   CHECK(contains(lines[4], "fit failed"));
   CHECK(!contains(lines[4], "yes"));
-  CHECK(!contains(breakdown_table(example.ranking, DriveUnit::Ampere, 160), "bingham"));
+  CHECK(!contains(breakdown_text(example, 160), "bingham"));
 }
 
 TEST_CASE("what a model does beyond its data, in a word") {
@@ -48,7 +57,7 @@ TEST_CASE("what a model does beyond its data, in a word") {
 
 TEST_CASE("leaderboard as Markdown and CSV: no date, every figure") {
   const ExampleRanking example = example_ranking(300);
-  const std::string page = markdown_leaderboard(example.input(), "###");
+  const std::string page = markdown_document(leaderboard_document(example.input()), "", 3);
   CHECK(page.starts_with("### Demonstration damper\n"));
   CHECK(!contains(page, example.input().date));
   CHECK(contains(page, "| modified\\_bouc\\_wen |"));

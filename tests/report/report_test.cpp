@@ -6,7 +6,8 @@
 #include "dashpot/base/file.h"
 #include "dashpot/base/text.h"
 #include "dashpot/report/gnuplot.h"
-#include "dashpot/report/inspect.h"
+#include "dashpot/report/inspection.h"
+#include "dashpot/report/ranking_tables.h"
 #include "dashpot/report/words.h"
 #include "report/example_ranking.h"
 #include "support.h"
@@ -36,6 +37,13 @@ Value page_data(const std::string& html) {
   return parse_json(html.substr(from, html.find("</script>", from) - from), "page");
 }
 
+/// Samples of a packed series of float32: three bytes in four letters.
+double unpacked_size(const Value& packed) {
+  const std::string& base64 = at(packed, "float32").as_string();
+  const auto padding = static_cast<std::size_t>(std::ranges::count(base64, '='));
+  return static_cast<double>(base64.size() / 4 * 3 - padding) / sizeof(float);
+}
+
 }  // namespace
 
 TEST_CASE("JSON report: every figure under its name, what is not a number as null") {
@@ -55,7 +63,8 @@ TEST_CASE("JSON report: every figure under its name, what is not a number as nul
   CHECK(at(report, "models.0.left_out.interval.mean_width_N").as_number() == 120);
   CHECK(at(report, "models.0.left_out.interval.level_percent").as_number() == 90);
   CHECK(at(report, "models.0.left_out.records.3.band.half_width_N.0").as_number() == 60);
-  CHECK(contains(markdown_report(example.input()), "| Model | Covered % | Worst % |"));
+  CHECK(contains(markdown_document(ranking_document(example.input())),
+                 "| Model | Covered % | Worst % |"));
   CHECK(at(report, "dataset.files.0.sha256").as_string() == std::string(64, 'a'));
 }
 
@@ -64,7 +73,7 @@ TEST_CASE("HTML report: one file that asks for nothing and cannot be broken by a
   const std::string name = "</script><script>alert(1)</script>\xE4";
   example.dataset.name = name;
   for (RankedModel& model : example.ranking.models) model.left_out.records[0].record = name;
-  const std::string html = html_report(example.input());
+  const std::string html = html_document(ranking_document(example.input()));
   CHECK(!contains(html, "<script>alert"));
   CHECK(contains(html, "default-src 'none'"));
   for (const char* request : {" src=", "<link", "@import", "url(", "fetch(", "{{"}) {
@@ -72,29 +81,29 @@ TEST_CASE("HTML report: one file that asks for nothing and cannot be broken by a
     CHECK(!contains(html, request));
   }
   const Value data = page_data(html);
-  CHECK(at(data, "series.records.0.name").as_string() ==
-        "</script><script>alert(1)</script>\xEF\xBF\xBD");
-  CHECK(at(data, "series.records").items().size() == 12);
-  CHECK(at(data, "series.records.1.shown").as_number() == 1500);
+  const auto& records = at(data, "sections.1.choices.1.options").items();
+  CHECK(records.front().as_string() == "</script><script>alert(1)</script>\xEF\xBF\xBD");
+  CHECK(records.size() == 12);
+  CHECK(unpacked_size(at(data, "samples.0")) == 1500);
 }
 
 TEST_CASE("HTML report: long records are thinned, figures are not") {
   const ExampleRanking example = example_ranking(20000);
-  const std::string html = html_report(example.input());
+  const std::string html = html_document(ranking_document(example.input()));
   CHECK(html.size() < 6e6);
   const Value data = page_data(html);
-  CHECK(at(data, "series.records.0.samples").as_number() == 20000);
-  CHECK(at(data, "series.records.0.shown").as_number() < 20000);
-  CHECK(contains(at(data, "series.display").as_string(), "12 of 12 records are thinned"));
-  CHECK(at(data, "models.0.left_out.pooled.samples").as_number() == 12 * 18000);
+  CHECK(unpacked_size(at(data, "samples.0")) < 20000);
+  CHECK(contains(html, "12 of 12 records are thinned"));
+  CHECK(at(json_report(example.input()), "models.0.left_out.pooled.samples").as_number() ==
+        12 * 18000);
 }
 
 TEST_CASE("reports of nothing") {
   const Dataset dataset{.name = "empty"};
   const Ranking ranking;
   const ReportInput input{dataset, ranking, "", "", ""};
-  CHECK(contains(html_report(input), "No model was tried"));
-  CHECK(contains(markdown_report(input), "No model was tried"));
+  CHECK(contains(html_document(ranking_document(input)), "No model was tried"));
+  CHECK(contains(markdown_document(ranking_document(input)), "No model was tried"));
   CHECK(split(csv_report(input), '\n').size() == 2);
   CHECK(message_of([&] { write_figures(input, "."); }) ==
         "figures: no model was judged on any record");
@@ -138,7 +147,8 @@ TEST_CASE("the one-step note names models that feed force back, or says that the
 TEST_CASE("ranking table: best first, within the terminal") {
   const ExampleRanking example = example_ranking();
   for (const int width : {80, 100, 160}) {
-    const std::string table = ranking_table(example.ranking, width);
+    const DocumentTable whole = ranking_document(example.input()).sections.front().tables.front();
+    const std::string table = text_table(whole.columns, whole.rows, width);
     CAPTURE(table);
     const auto lines = split(table, '\n');
     REQUIRE(lines.size() == 6);
@@ -147,11 +157,12 @@ TEST_CASE("ranking table: best first, within the terminal") {
     CHECK(contains(lines[2], "modified_bouc_wen"));
     CHECK(contains(lines[4], "1 diverged"));
   }
-  CHECK(contains(ranking_table(example.ranking, 160), "Worst record"));
+  CHECK(contains(document_text(ranking_document(example.input()), 160), "Worst record"));
 }
 
 TEST_CASE("parameter table: value, interval, unit, remark") {
-  const std::string table = parameter_table(example_ranking().ranking.models[0].fit);
+  const DocumentTable whole = parameter_table(example_ranking().ranking.models[0].fit);
+  const std::string table = text_table(whole.columns, whole.rows, 120);
   CAPTURE(table);
   CHECK(contains(table, "[871.2, 910.8]"));
   CHECK(contains(table, "N*s/m"));
@@ -162,10 +173,10 @@ TEST_CASE("parameter table: value, interval, unit, remark") {
 TEST_CASE("Markdown and CSV hold the same figures") {
   ExampleRanking example = example_ranking();
   example.dataset.records.clear();
-  const std::string markdown = markdown_report(example.input());
+  const std::string markdown = markdown_document(ranking_document(example.input()));
   CHECK(contains(markdown, "| modified\\_bouc\\_wen |"));
   CHECK(contains(markdown, "| 1 diverged |"));
-  CHECK(contains(markdown, "    dashpot identify demo"));
+  CHECK(contains(markdown, "Made by `dashpot identify demo"));
 
   example.ranking.models[0].left_out.records[0].record = "10 mm, \"fast\"";
   const auto lines = split(csv_report(example.input()), '\n');
@@ -204,13 +215,46 @@ TEST_CASE("gnuplot's complaint and its absence are errors") {
   CHECK(contains(message, "install gnuplot-nox"));
 }
 
-TEST_CASE("inspection page: channels of every record, and both velocities") {
-  const Value data =
-      page_data(inspect_html(example_ranking().dataset, "dashpot inspect demo", "2026-11-21"));
-  CHECK(at(data, "records").items().size() == 12);
-  CHECK(at(data, "records.2.drive_level").as_number() == 1.6);
-  CHECK(at(data, "records.2.series.derived_velocity").find("int16"));
-  CHECK(contains(at(data, "records.2.derived_origin").as_string(), "derived from displacement"));
-  CHECK_CLOSE(at(data, "records.0.displacement_max").as_number(), 0.005, 1e-3, 0);
-  CHECK(at(data, "readings.0.channel").as_string() == "displacement");
+TEST_CASE("inspection: channels of every record, and both velocities") {
+  const Dataset dataset = example_ranking().dataset;
+  const Document document =
+      inspection_document({dataset, {}, "dashpot inspect demo", "0.1.0", "2026-11-21"});
+  const DocumentTable& records = document.sections[0].tables[0];
+  CHECK(records.rows.size() == 12);
+  CHECK(records.keys[2][2] == 1.6);
+  CHECK_CLOSE(records.keys[0][7], 0.005, 1e-3, 0);
+  const FigurePanel& velocity = document.sections[1].figures[0].panels[1];
+  CHECK(velocity.series.size() == 24);
+  CHECK(contains(velocity.series[5].label, "derived from displacement"));
+  CHECK(at(document.data, "columns.0.channel").as_string() == "displacement");
+  CHECK(contains(html_document(document), "Force against velocity"));
+}
+
+TEST_CASE("a document without data gives programs its words and tables") {
+  Document document{.title = "two", .subtitle = {}, .verdict = "both", .sections = {}};
+  document.sections.push_back({.name = "one",
+                               .title = "One",
+                               .paragraphs = {"words"},
+                               .tables = {{"numbers", {{"a"}, {"b", true}}, {{"x", "1"}}}}});
+  const Value json = document_json(document);
+  CHECK(at(json, "verdict").as_string() == "both");
+  CHECK(at(json, "sections.0.tables.0.rows.0.1").as_string() == "1");
+  document.data = Value::object({{"own", 3}});
+  CHECK(at(document_json(document), "own").as_number() == 3);
+}
+
+TEST_CASE("what depends on a choice: text opens with the first, Markdown has every option") {
+  Document document{.title = "two", .subtitle = {}, .verdict = "both", .sections = {}};
+  DocumentSection section{.name = "one", .title = "One", .paragraphs = {}};
+  section.choices = {{"model", "Model", {"first", "second"}, 1}};
+  for (const std::size_t k : {0, 1}) {
+    section.tables.push_back({"", {{"a"}}, {{"of model " + std::to_string(k)}}});
+    section.tables.back().when = {{"model", {k}}};
+  }
+  document.sections.push_back(section);
+  const std::string text = document_text(document, 80), page = markdown_document(document);
+  CHECK(contains(text, "of model 1"));
+  CHECK(!contains(text, "of model 0"));
+  CHECK(contains(page, "### first\n\n| a |\n|---|\n| of model 0 |"));
+  CHECK(contains(page, "### second\n"));
 }

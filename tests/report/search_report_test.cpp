@@ -37,7 +37,8 @@ TEST_CASE("the rounds of a search in words") {
 
 TEST_CASE("tables of trials: a row each, with what was searched, and what became of it") {
   const SearchReport search = example_search();
-  const std::string table = trial_table(search.trials, search, 200, 3);
+  const DocumentTable best = trial_table(search.trials, search, 3);
+  const std::string table = text_table(best.columns, best.rows, 200);
   CHECK(split(table, '\n').size() ==
         6);  // titles, a rule, three rows, and what follows the last line end
   CHECK(contains(table, "best, front"));
@@ -56,10 +57,11 @@ TEST_CASE("the page of a search holds its trials as data, and no text becomes ma
   Dataset dataset;
   dataset.name = "example";
   const SearchInput input{dataset, search, "dashpot search demo", "0.1.0", "2026-11-21"};
-  const std::string page = html_search(input);
+  const Document document = search_document(input);
+  const std::string page = html_document(document);
   CHECK(!contains(page, "<script>alert"));
-  CHECK(contains(page, "\"page\":\"search\""));
-  const std::string text = markdown_search(input);
-  CHECK(text.starts_with("# example, search of mlp_one_sensor"));
+  CHECK(contains(page, "\"kind\":\"search\""));
+  const std::string text = markdown_document(document);
+  CHECK(text.starts_with("# example, search of mlp\\_one\\_sensor"));
   CHECK(!contains(text, "\n<script>"));
 }

@@ -13,6 +13,8 @@ std::string csv_table(const ColumnTable& table) {
     const bool plain = column.is_text() || column.unit == "1";
     titles.push_back(csv_field(plain ? column.name : column.name + '[' + column.unit + ']'));
   }
+
+  // A number that is not finite leaves its field empty.
   std::string text = join(titles, ",") + '\n';
   for (std::size_t row = 0; row < table.rows(); ++row) {
     bool first = true;

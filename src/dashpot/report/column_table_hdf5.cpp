@@ -62,6 +62,8 @@ void add_column(hid_t group, const DataColumn& column) {
   const Handle set(
       H5Dcreate2(group, column.name.c_str(), type, space, H5P_DEFAULT, options, H5P_DEFAULT),
       H5Dclose, column.name);
+
+  // Unit and meaning stay with the column.
   add_attribute(set, "unit", column.unit);
   add_attribute(set, "meaning", column.meaning);
   if (rows == 0) return;
@@ -99,7 +101,7 @@ void write_tables(const std::filesystem::path& path, const std::vector<ColumnTab
 void write_hdf5(const std::filesystem::path& path, const std::vector<ColumnTable>& tables,
                 const std::vector<std::pair<std::string, std::string>>& attributes) {
   if (path.has_parent_path()) make_folder(path.parent_path());
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // what fails is told by an Error, not on stderr
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // failures are thrown as an Error, not printed
   const std::filesystem::path partial = path.string() + ".partial";
   try {
     write_tables(partial, tables, attributes);

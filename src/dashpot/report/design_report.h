@@ -1,13 +1,12 @@
 #pragma once
 #include <string>
-#include <vector>
 
 #include "dashpot/design/design.h"
-#include "dashpot/value.h"
+#include "dashpot/report/document.h"
 
 namespace dashpot {
 
-/// What the report of a design run is made from.
+/// Input of the report of a design run.
 struct DesignInput {
   const DesignReport& design;
   std::string command;  ///< the command line that prints all its figures again
@@ -15,20 +14,21 @@ struct DesignInput {
   std::string date;  ///< ISO 8601
 };
 
-/// The designs that stand out, then others up to `most`, as a table for a terminal: variables and
-/// goals.
-std::string design_table(const DesignReport& report, int width, std::size_t most);
+/// The front, all designs, their constraints and tolerances. Its data are json_design().
+Document design_document(const DesignInput& input);
+
+/// Variables and goals of every design; a terminal gets those that stand out, and others between
+/// them.
+DocumentTable design_table(const DesignReport& report);
 /// Every constraint of one design: asked, reached, left over.
-std::string constraint_table(const DesignReport& report, const Design& design, int width);
-/// What each tolerance does to each figure; empty where the design has no sensitivity.
-std::string sensitivity_table(const DesignReport& report, const Design& design, int width);
-/// A few sentences: what was found, or which constraints conflict.
+DocumentTable constraint_table(const DesignReport& report, const Design& design);
+/// The effect of each tolerance on each figure of a design whose sensitivity was assessed.
+DocumentTable sensitivity_table(const DesignReport& report, const Design& design);
+/// A few sentences: the designs that were found, or the constraints that conflict.
 std::string design_verdict(const DesignReport& report);
 
-/// As a page, for programs, as Markdown, and one line per design in SI. The last holds no times.
-std::string html_design(const DesignInput& input);
+/// Everything for programs; and one line per design, in SI and without times.
 Value json_design(const DesignInput& input);
-std::string markdown_design(const DesignInput& input);
 std::string csv_design(const DesignReport& report);
 
 }  // namespace dashpot

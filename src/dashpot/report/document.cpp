@@ -1,3 +1,4 @@
+// A document as JSON: for programs, and for the page's own program.
 #include "dashpot/report/document.h"
 
 #include "dashpot/report/page.h"
@@ -7,94 +8,277 @@
 namespace dashpot {
 namespace {
 
-/// Words as they stand; a line that begins like Markdown does not occur in sentences.
-std::string markdown_section(const DocumentSection& section, const std::string& figures) {
-  std::string text = "\n## " + section.title + "\n";
-  for (const std::string& paragraph : section.paragraphs)
-    text += "\n" + valid_utf8(paragraph) + "\n";
-  for (const DocumentTable& table : section.tables) {
-    text +=
-        "\n**" + markdown_cell(table.title) + "**\n\n" + markdown_table(table.columns, table.rows);
-    if (!table.note.empty()) text += "\n" + valid_utf8(table.note) + "\n";
-  }
-  for (const DocumentFigure& figure : section.figures) {
-    const std::string words = markdown_cell(figure.title) + ". " + valid_utf8(figure.caption);
-    text += figures.empty() ? "\n*" + words + "*\n"
-                            : "\n![" + markdown_cell(figure.title) + "](" + figures + "/" +
-                                  figure.name + ".svg)\n\n" + words + "\n";
-  }
-  if (!section.remarks.empty()) text += "\n";
-  for (const std::string& remark : section.remarks) text += "* " + valid_utf8(remark) + "\n";
-  return text;
-}
-
 std::vector<std::size_t> every(std::size_t count) {
   std::vector<std::size_t> all(count);
   for (std::size_t i = 0; i < count; ++i) all[i] = i;
   return all;
 }
 
+Value indices(const std::vector<std::size_t>& places) {
+  Value list = Value::array();
+  for (const std::size_t place : places) list.push_back(place);
+  return list;
+}
+
+Value when_json(const When& when) {
+  Value json = Value::object();
+  for (const auto& [name, options] : when) json.add(name, indices(options));
+  return json;
+}
+
+/// Empty words and unset flags are left out: pages hold thousands of series.
+void add_words(Value& json, const char* key, const std::string& words) {
+  if (!words.empty()) json.add(key, words);
+}
+void add_flag(Value& json, const char* key, bool flag) {
+  if (flag) json.add(key, true);
+}
+void add_when(Value& json, const When& when) {
+  if (!when.empty()) json.add("when", when_json(when));
+}
+
 const char* mark_name(FigureSeries::Mark mark) {
-  if (mark == FigureSeries::Mark::Dots) return "dots";
-  return mark == FigureSeries::Mark::Dashes ? "dashes" : "line";
+  constexpr const char* kNames[] = {"line", "dashes", "dots", "rings", "bars", "area", "span"};
+  return kNames[static_cast<std::size_t>(mark)];
+}
+
+Value series_json(const FigureSeries& one) {
+  Value json = Value::object({{"label", one.label},
+                              {"colour", one.colour},
+                              {"mark", mark_name(one.mark)},
+                              {"width", one.width}});
+  if (one.shared) {
+    json.add("x", one.shared->x);
+    json.add("y", one.shared->y);
+    if (one.shared->minus) json.add("minus", *one.shared->minus);
+    if (one.shared->half_width) json.add("half_width", *one.shared->half_width);
+    if (one.shared->first > 0) json.add("first", one.shared->first);
+  } else {
+    json.add("x", pack_float32(one.x, every(one.x.size())));
+    json.add("y", pack_float32(one.y, every(one.y.size())));
+  }
+
+  // How it is listed and read.
+  if (!one.names.empty()) json.add("names", Value::array(one.names));
+  add_words(json, "reading", one.reading);
+  add_flag(json, "unlisted", one.label.empty() || !one.is_listed);
+  add_flag(json, "silent", one.label.empty() || !one.is_read);
+  if (one.opacity < 1) json.add("opacity", one.opacity);
+  add_when(json, one.when);
+  return json;
 }
 
 Value panel_json(const FigurePanel& panel) {
   Value series = Value::array();
-  for (const FigureSeries& one : panel.series) {
-    const std::vector<std::size_t> all = every(one.x.size());
-    series.push_back(Value::object({{"label", one.label},
-                                    {"colour", one.colour},
-                                    {"mark", mark_name(one.mark)},
-                                    {"width", one.width},
-                                    {"x", pack_float32(one.x, all)},
-                                    {"y", pack_float32(one.y, all)}}));
+  for (const FigureSeries& one : panel.series) series.push_back(series_json(one));
+  Value json = Value::object({{"title", panel.title},
+                              {"x_label", panel.x_label},
+                              {"y_label", panel.y_label},
+                              {"height", panel.height},
+                              {"places", Value::array(panel.places)},
+                              {"series", std::move(series)}});
+
+  // Parts that only some panels have.
+  add_words(json, "note", panel.note);
+  add_words(json, "empty", panel.empty);
+  add_flag(json, "x_log", panel.x_log);
+  add_flag(json, "y_log", panel.y_log);
+  add_flag(json, "reads_along_x", panel.reads_along_x);
+  return json;
+}
+
+Value figure_json(const DocumentFigure& figure) {
+  Value panels = Value::array();
+  for (const FigurePanel& panel : figure.panels) panels.push_back(panel_json(panel));
+  return Value::object({{"title", figure.title},
+                        {"caption", figure.caption},
+                        {"columns", figure.columns},
+                        {"panels", std::move(panels)}});
+}
+
+/// The shown columns of each row.
+template <typename Cell>
+Value matrix_json(const std::vector<std::vector<Cell>>& rows,
+                  const std::vector<std::size_t>& shown) {
+  Value matrix = Value::array();
+  for (const auto& row : rows) {
+    Value cells = Value::array();
+    for (const std::size_t k : shown) cells.push_back(row[k]);
+    matrix.push_back(std::move(cells));
   }
-  return Value::object({{"title", panel.title},
-                        {"x_label", panel.x_label},
-                        {"y_label", panel.y_label},
-                        {"places", Value::array(panel.places)},
-                        {"series", std::move(series)}});
+  return matrix;
 }
 
 Value table_json(const DocumentTable& table) {
-  Value columns = Value::array(), rows = Value::array();
-  for (const TextColumn& column : table.columns)
-    columns.push_back(Value::object({{"title", column.title}, {"numeric", column.numeric}}));
-  for (const auto& row : table.rows) rows.push_back(Value::array(row));
-  return Value::object({{"title", table.title},
-                        {"columns", std::move(columns)},
-                        {"rows", std::move(rows)},
-                        {"note", table.note}});
+  const std::vector<std::size_t> shown = columns_for(table.columns, Audience::Page);
+  Value columns = Value::array();
+  for (const std::size_t k : shown) {
+    const TextColumn& column = table.columns[k];
+    Value json = Value::object({{"title", column.title}, {"numeric", column.numeric}});
+    add_words(json, "hint", column.hint);
+    add_flag(json, "descending", column.descending);
+    columns.push_back(std::move(json));
+  }
+  Value json = Value::object({{"title", table.title},
+                              {"columns", std::move(columns)},
+                              {"rows", matrix_json(table.rows, shown)},
+                              {"note", table.note}});
+
+  // Parts that only some tables have: keys to sort by, shades, warnings, rows that choose.
+  if (!table.keys.empty()) json.add("keys", matrix_json(table.keys, shown));
+  if (!table.shades.empty()) json.add("shades", matrix_json(table.shades, shown));
+  if (!table.warnings.empty()) {
+    Value warnings = Value::array();
+    for (const bool warning : table.warnings) warnings.push_back(warning);
+    json.add("warnings", std::move(warnings));
+  }
+  if (!table.chooses.empty()) {
+    Value chooses = Value::array();
+    for (const auto& changes : table.chooses) {
+      Value row = Value::object();
+      for (const auto& [name, option] : changes) row.add(name, option);
+      chooses.push_back(std::move(row));
+    }
+    json.add("chooses", std::move(chooses));
+    add_words(json, "leads_to", table.leads_to);
+  }
+  add_flag(json, "folded", table.folded);
+  add_when(json, table.when);
+  return json;
 }
 
-Value section_json(const DocumentSection& section, bool with_figures) {
-  Value tables = Value::array(), figures = Value::array();
-  for (const DocumentTable& table : section.tables) tables.push_back(table_json(table));
-  for (const DocumentFigure& figure : section.figures) {
-    Value panels = Value::array();
-    if (with_figures)
-      for (const FigurePanel& panel : figure.panels) panels.push_back(panel_json(panel));
-    figures.push_back(Value::object({{"name", figure.name},
-                                     {"title", figure.title},
-                                     {"caption", figure.caption},
-                                     {"columns", figure.columns},
-                                     {"panels", std::move(panels)}}));
+Value list_json(const DocumentList& list) {
+  Value json = Value::object({{"title", list.title}, {"lines", Value::array(list.lines)}});
+  add_flag(json, "folded", list.folded);
+  add_when(json, list.when);
+  return json;
+}
+
+Value choice_json(const DocumentChoice& choice) {
+  return Value::object({{"name", choice.name},
+                        {"label", choice.label},
+                        {"options", Value::array(choice.options)},
+                        {"chosen", choice.chosen}});
+}
+
+Value plane_json(const DocumentPlane& plane) {
+  Value quantities = Value::array(), outstanding = Value::array();
+  for (const DocumentPlane::Quantity& one : plane.quantities)
+    quantities.push_back(Value::object({{"name", one.name},
+                                        {"label", one.label},
+                                        {"values", Value::array(one.values)},
+                                        {"second", Value::array(one.second)},
+                                        {"bound", one.bound ? Value(*one.bound) : Value()}}));
+  for (const bool is_outstanding : plane.outstanding) outstanding.push_back(is_outstanding);
+
+  // Names stand once for all quantities.
+  return Value::object({{"title", plane.title},
+                        {"note", plane.note},
+                        {"quantities", std::move(quantities)},
+                        {"names", Value::array(plane.names)},
+                        {"outstanding", std::move(outstanding)},
+                        {"points_label", plane.points_label},
+                        {"outstanding_label", plane.outstanding_label},
+                        {"second_label", plane.second_label},
+                        {"choice", plane.choice}});
+}
+
+/// Those of the parts that a page shows.
+template <typename Part, typename ToJson>
+Value parts_json(const std::vector<Part>& parts, const ToJson& to_json) {
+  Value list = Value::array();
+  for (const Part& part : parts) {
+    if constexpr (requires { part.audience; })
+      if (!reaches(part.audience, Audience::Page)) continue;
+    list.push_back(to_json(part));
   }
+  return list;
+}
+
+Value section_json(const DocumentSection& section) {
+  Value facts = Value::array();
+  for (const auto& [name, meaning] : section.facts)
+    facts.push_back(Value::array(std::vector<std::string>{name, meaning}));
+
+  // In the order in which a page draws them.
   return Value::object({{"name", section.name},
                         {"title", section.title},
+                        {"lead", section.lead},
                         {"paragraphs", Value::array(section.paragraphs)},
-                        {"tables", std::move(tables)},
-                        {"figures", std::move(figures)},
-                        {"remarks", Value::array(section.remarks)}});
+                        {"choices", parts_json(section.choices, choice_json)},
+                        {"plane", section.plane ? plane_json(*section.plane) : Value()},
+                        {"tables", parts_json(section.tables, table_json)},
+                        {"figures", parts_json(section.figures, figure_json)},
+                        {"remarks", Value::array(section.remarks)},
+                        {"lists", parts_json(section.lists, list_json)},
+                        {"facts", std::move(facts)}});
 }
 
-Value whole_json(const Document& document, bool with_figures) {
+Value key_figure_json(const KeyFigure& figure) {
+  return Value::object({{"value", figure.value}, {"unit", figure.unit}, {"label", figure.label}});
+}
+
+Value samples_json(const SharedSamples& samples) {
+  const std::vector<std::size_t> all = every(samples.values.size());
+  return samples.is_exact ? pack_float32(samples.values, all) : pack_int16(samples.values, all);
+}
+
+/// All that page/document.js draws.
+Value page_json(const Document& document) {
+  return presentable(
+      Value::object({{"kind", document.kind},
+                     {"title", document.title},
+                     {"subtitle", document.subtitle},
+                     {"verdict", document.verdict},
+                     {"key_figures", parts_json(document.key_figures, key_figure_json)},
+                     {"sections", parts_json(document.sections, section_json)},
+                     {"provenance", section_json(document.provenance)},
+                     {"samples", parts_json(document.samples, samples_json)},
+                     {"command", document.command},
+                     {"version", document.version},
+                     {"date", document.date}}));
+}
+
+}  // namespace
+
+void add_row(DocumentTable& table, const std::vector<DocumentCell>& cells) {
+  std::vector<std::string> texts;
+  std::vector<double> keys;
+  for (const DocumentCell& cell : cells) {
+    texts.push_back(cell.text);
+    keys.push_back(cell.key);
+  }
+  table.rows.push_back(std::move(texts));
+  table.keys.push_back(std::move(keys));
+}
+
+std::string html_document(const Document& document) {
+  return make_page(document.title, document_text(document, 100), page_json(document));
+}
+
+Value document_json(const Document& document) {
+  if (!document.data.is_null()) return presentable(document.data);
+
+  // Cells are given as text, as people read them.
   Value sections = Value::array();
-  for (const DocumentSection& section : document.sections)
-    sections.push_back(section_json(section, with_figures));
-  return presentable(Value::object({{"page", "document"},
-                                    {"title", document.title},
+  for (const DocumentSection& section : document.sections) {
+    Value tables = Value::array();
+    for (const DocumentTable& table : section.tables) {
+      std::vector<std::string> titles;
+      for (const TextColumn& column : table.columns) titles.push_back(column.title);
+      tables.push_back(
+          Value::object({{"title", table.title},
+                         {"columns", Value::array(titles)},
+                         {"rows", matrix_json(table.rows, every(table.columns.size()))},
+                         {"note", table.note}}));
+    }
+    sections.push_back(Value::object({{"name", section.name},
+                                      {"title", section.title},
+                                      {"paragraphs", Value::array(section.paragraphs)},
+                                      {"tables", std::move(tables)},
+                                      {"remarks", Value::array(section.remarks)}}));
+  }
+  return presentable(Value::object({{"title", document.title},
                                     {"subtitle", document.subtitle},
                                     {"verdict", document.verdict},
                                     {"sections", std::move(sections)},
@@ -102,25 +286,5 @@ Value whole_json(const Document& document, bool with_figures) {
                                     {"version", document.version},
                                     {"date", document.date}}));
 }
-
-}  // namespace
-
-std::string html_document(const Document& document) {
-  std::string summary = document.verdict;
-  for (const DocumentSection& section : document.sections)
-    for (const DocumentTable& table : section.tables)
-      summary += "\n\n" + table.title + "\n" + text_table(table.columns, table.rows, 120);
-  return make_page(document.title, summary, whole_json(document, true));
-}
-
-std::string markdown_document(const Document& document, const std::string& figures) {
-  std::string text = "# " + document.title + "\n\n" + valid_utf8(document.subtitle) + "\n\n" +
-                     valid_utf8(document.verdict) + "\n";
-  for (const DocumentSection& section : document.sections)
-    text += markdown_section(section, figures);
-  return text + "\nMade by `" + document.command + "` (Dashpot " + document.version + ").\n";
-}
-
-Value document_json(const Document& document) { return whole_json(document, false); }
 
 }  // namespace dashpot

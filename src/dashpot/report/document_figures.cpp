@@ -68,6 +68,8 @@ void draw(GnuplotFigure& figure, const FigurePanel& panel) {
   figure.command("set title " + gnuplot_quoted(panel.title) + " noenhanced");
   figure.command("set xlabel " + gnuplot_quoted(panel.x_label) + " noenhanced\nset ylabel " +
                  gnuplot_quoted(panel.y_label) + " offset 1,0 noenhanced");
+
+  // Words at whole places, or numbers.
   std::vector<std::string> tics;
   for (std::size_t k = 0; k < panel.places.size(); ++k)
     tics.push_back(fmt::format("{} {}", gnuplot_quoted(panel.places[k]), k));
@@ -75,6 +77,8 @@ void draw(GnuplotFigure& figure, const FigurePanel& panel) {
                      ? "set xtics auto norotate\nset autoscale x"
                      : fmt::format("set xtics ({}) norotate\nset xrange [-0.6:{}]",
                                    join(tics, ", "), static_cast<double>(tics.size()) - 0.4));
+
+  // Each label once in the legend.
   std::vector<std::string> curves, labels;
   for (const FigureSeries& series : panel.series) {
     if (series.x.empty()) continue;

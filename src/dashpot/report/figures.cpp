@@ -66,12 +66,16 @@ void loop_panel(GnuplotFigure& figure, const std::vector<const RecordResult*>& r
                 const std::string& unit, Series axis) {
   const std::string x =
       axis == &RecordResult::displacement ? "(1000*$1)" : "1";  // mm are shorter in print
+
+  // Tics follow the extent of the panel.
   double low = 0, high = 0;
   for (const RecordResult* record : records)
     for (const double value : record->*axis)
       low = std::min(low, value), high = std::max(high, value);
   const double scale = axis == &RecordResult::displacement ? 1000 : 1;
   figure.command(fmt::format("set xtics {}", tic_step(scale * (high - low))));
+
+  // Measured loops by level of the drive, the model in one dark dash above.
   std::vector<std::string> measured, modelled;
   for (std::size_t i = 0; i < records.size(); ++i) {
     const std::string data = add_curves(figure, *records[i], records[i]->*axis);
@@ -108,6 +112,8 @@ std::vector<fs::path> loops(const RankedModel& model, const std::string& unit, S
         group, [&](const RecordResult* r) { return (r->*axis).size() != r->time.size(); });
   });
   if (groups.empty()) return {};
+
+  // As many panels as a page of paper holds.
   groups.resize(std::min<std::size_t>(groups.size(), 12));
   const std::size_t columns = groups.size() == 4 ? 2 : std::min<std::size_t>(3, groups.size());
   const std::size_t rows = (groups.size() + columns - 1) / columns;
@@ -116,6 +122,8 @@ std::vector<fs::path> loops(const RankedModel& model, const std::string& unit, S
   figure.command(fmt::format("set multiplot layout {},{}", rows, columns));
   figure.command("set ylabel 'Force (N)' offset 1,0");
   figure.command(is_velocity ? "set xlabel 'Velocity (m/s)'" : "set xlabel 'Displacement (mm)'");
+
+  // One panel per condition.
   for (const auto& group : groups) {
     const RecordResult& first = *group.front();
     figure.command("set title " +
@@ -134,8 +142,8 @@ std::vector<fs::path> force_trace(const RankedModel& model, const RecordResult& 
   figure.command("set xrange [] noextend\nset xlabel 'Time (s)'\nset ylabel 'Force (N)'");
   figure.command("set title " + gnuplot_quoted(record.record) + " noenhanced");
   figure.command(
-      fmt::format("plot {0} using 1:2 with lines lw 2 lc rgb '{1}' title 'measured', "
-                  "{0} using 1:3 with lines lw 1.2 lc rgb '{2}' title {3}",
+      fmt::format("plot {0} using 1:2 with lines lw 2 lc rgb '{1}' title 'measured', {0} using 1:3 "
+                  "with lines lw 1.2 lc rgb '{2}' title {3}",
                   data, kMeasured, kModelled,
                   gnuplot_quoted(fmt::format("{}, fit {} %", display_name(model),
                                              percent_text(record.metrics.fit)))));
@@ -154,6 +162,8 @@ std::vector<fs::path> ranking_bars(const Ranking& ranking, const fs::path& folde
     errors.push_back(esr);
   }
   if (places.empty()) return {};
+
+  // Horizontal bars, so that long names have room.
   GnuplotFigure figure(12, 1.6 + 0.85 * static_cast<double>(places.size()));
   const std::string data = figure.data({places, errors});
   figure.command("set ytics (" + tics + ") scale 0 noenhanced\nset yrange [" +
@@ -161,10 +171,10 @@ std::vector<fs::path> ranking_bars(const Ranking& ranking, const fs::path& folde
   figure.command(
       "unset key\nset grid noytics\nset xlabel 'Left-out error, ESR (%)'\nset rmargin 8\nset "
       "bmargin 3.2");
-  figure.command(fmt::format(
-      "set xrange [0:*]\nplot {0} using (0.5*$2):1:(0.5*$2):(0.34) with boxxyerror lc rgb '{1}', "
-      "{0} using 2:1:(sprintf('%.3g',$2)) with labels left offset 0.5,0",
-      data, kModelled));
+  figure.command(
+      fmt::format("set xrange [0:*]\nplot {0} using (0.5*$2):1:(0.5*$2):(0.34) with boxxyerror lc "
+                  "rgb '{1}', {0} using 2:1:(sprintf('%.3g',$2)) with labels left offset 0.5,0",
+                  data, kModelled));
   return figure.write(folder, "ranking");
 }
 

@@ -18,6 +18,8 @@ FigureSeries bound_line(const std::vector<ClairvoyantBound>& front, const RideRo
                     .mark = FigureSeries::Mark::Dashes};
   double least = front.front().squares.acceleration, greatest = front.back().squares.acceleration;
   least = std::min(least, front.front().bound / front.front().index.comfort);
+
+  // At each comfort, the greatest tyre force that some bound demands.
   for (int k = 0; k <= 100; ++k) {
     const double a = least + (greatest - least) * k / 100;
     double tyre = 0;

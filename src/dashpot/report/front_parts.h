@@ -5,7 +5,7 @@
 #include "dashpot/report/document.h"
 #include "dashpot/suspension/bound/bound.h"
 
-// What a page says of what is possible on a road: a front of comfort against road holding.
+// The parts of a page about the limits on a road: a front of comfort against road holding.
 namespace dashpot {
 
 /// Root mean squares: body acceleration m/s^2, tyre force N.

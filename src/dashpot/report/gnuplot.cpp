@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// What gnuplot printed while it ran the script, or an Error when it could not run it.
+/// Runs the script. Returns the text that gnuplot printed; throws Error when it cannot be run.
 std::string run_gnuplot(const fs::path& script) {
   ChildResult result;
   try {
@@ -73,8 +73,7 @@ std::vector<fs::path> GnuplotFigure::write(const fs::path& folder, const std::st
   text += fmt::format(
       "do for [kind in \"svg pdf\"] {{\nif (kind eq \"svg\") {{\n"
       "set terminal svg size {:.0f},{:.0f} font 'FreeSans,11' background rgb 'white'\nset output "
-      "{}\n}} else "
-      "{{\n"
+      "{}\n}} else {{\n"
       "set terminal pdfcairo size {:.2f}cm,{:.2f}cm font 'FreeSans,8' linewidth 1\nset output "
       "{}\n}}\n",
       width_ * 46, height_ * 46, gnuplot_quoted(svg.string()), width_, height_,

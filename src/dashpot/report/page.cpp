@@ -13,6 +13,7 @@ std::string fill_template(
   std::string result;
   std::size_t at = 0;
   for (std::size_t open; (open = text.find("{{", at)) != std::string_view::npos;) {
+    // Text that is filled in is behind `at` and never looked at again.
     const std::size_t close = text.find("}}", open);
     if (close == std::string_view::npos) break;
     const std::string_view name = text.substr(open + 2, close - open - 2);

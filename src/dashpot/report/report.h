@@ -3,13 +3,13 @@
 #include <string>
 #include <vector>
 
-#include "dashpot/identify.h"
 #include "dashpot/rank.h"
-#include "dashpot/value.h"
+#include "dashpot/report/document.h"
 
+// The report of a ranking: models that were fitted, and judged on records that they had not seen.
 namespace dashpot {
 
-/// What a report is made from.
+/// Input of a report.
 struct ReportInput {
   const Dataset& dataset;
   const Ranking& ranking;
@@ -18,17 +18,22 @@ struct ReportInput {
   std::string date;  ///< ISO 8601
 };
 
-/// One self-contained page (styles, script and data inside; it asks the network for nothing).
-std::string html_report(const ReportInput& input);
-/// The same numbers for programs and for text.
+/// The ranking, one model on one record in full, all records, what was fitted and how it was
+/// judged. Its data are json_report().
+Document ranking_document(const ReportInput& input);
+/// The full comparison: accuracy on left-out records in several ways, beside what each model costs
+/// and whether it stays bounded beyond its data. Tables alone, without a command and a date, as a
+/// part of a page.
+Document leaderboard_document(const ReportInput& input);
+/// The ranking of a single model that was fitted elsewhere; as text its errors by record and speed.
+Document evaluation_document(const ReportInput& input);
+
+/// Every figure of a ranking, for programs.
 Value json_report(const ReportInput& input);
-std::string markdown_report(const ReportInput& input);
 /// One line per model and record: model, record, condition, drive, left out, every metric.
 std::string csv_report(const ReportInput& input);
-
-/// The ranking as a table for a terminal, best first. `width`: columns available.
-std::string ranking_table(const Ranking& ranking, int width = 100);
-std::string parameter_table(const FitReport& fit);
+/// One line per model with every figure of the leaderboard.
+std::string csv_leaderboard(const ReportInput& input);
 
 /// Figures for print, as SVG and PDF, drawn by gnuplot into `folder`; each script with its data
 /// stays beside its figures. Throws Error when gnuplot is missing or fails. Returns the paths of

@@ -69,6 +69,8 @@ Value model_json(const RankedModel& model, const std::vector<std::string>& folds
     fit.add("fold", i < folds.size() ? folds[i] : "");
     fold_fits.push_back(std::move(fit));
   }
+
+  // A failed fit has neither kind nor parameters.
   const auto& fitted = model.fit.model;
   return Value::object({{"name", model.name},
                         {"title", display_name(model)},
@@ -98,12 +100,16 @@ Value evaluation_json(const Evaluation& evaluation) {
   for (const DriveResult& range : evaluation.drive)
     drive.push_back(Value::object(
         {{"low", range.low}, {"high", range.high}, {"metrics", to_json(range.metrics)}}));
+
+  // Intervals with the record that they cover worst.
   Value interval = coverage_json(evaluation.coverage);
   if (const RecordResult* worst = evaluation.worst_covered()) {
     interval.add("level_percent", 100 * worst->band->level);
     interval.add("worst_coverage_percent", worst->coverage.percent());
     interval.add("worst_record", worst->record);
   }
+
+  // Pooled figures first, single records last.
   Value value = Value::object({{"pooled", to_json(evaluation.pooled)},
                                {"pooled_without_offset", to_json(evaluation.pooled_without_offset)},
                                {"worst_esr_percent", evaluation.worst_esr},
@@ -162,6 +168,8 @@ Value json_report(const ReportInput& input) {
   for (const RankedModel& model : ranking.models)
     models.push_back(model_json(model, ranking.folds));
   const std::optional<std::string> one_step = one_step_note(ranking);
+
+  // Provenance and protocol first.
   return presentable(Value::object({{"format", "dashpot report 1"},
                                     {"version", input.version},
                                     {"date", input.date},

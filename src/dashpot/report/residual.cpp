@@ -30,6 +30,8 @@ Autocorrelation autocorrelation(std::span<const double> samples, std::size_t poi
     for (std::size_t i = lag; i < n; ++i) sum += (samples[i] - mean) * (samples[i - lag] - mean);
     return sum;
   };
+
+  // Relative to the power, at evenly spaced lags.
   const double power = product(0);
   if (!(power > 0)) return {};
   Autocorrelation result;

@@ -27,21 +27,22 @@ DocumentTable road_table(const RideStudy& study) {
   const auto number = [](const char* title, int priority = 0) {
     return TextColumn{.title = title, .numeric = true, .priority = priority};
   };
-  DocumentTable table{
-      .title = "On the road",
-      .columns = {{.title = "controller"},
-                  number("a_w, m/s^2"),
-                  number("ratio"),
-                  number("tyre load, %"),
-                  number("ratio"),
-                  number("travel, mm"),
-                  number("ratio"),
-                  number("contact lost, %", 1),
-                  number("drive, %", 2)},
-      .rows = {},
-      .note = "Ratios to " + study.passive.name() +
-              ". a_w: weighted body acceleration, Wk. Tyre load: dynamic over static, rms. "
-              "Travel: greatest."};
+  DocumentTable table{.title = "On the road",
+                      .columns = {{.title = "controller"},
+                                  number("a_w, m/s^2"),
+                                  number("ratio"),
+                                  number("tyre load, %"),
+                                  number("ratio"),
+                                  number("travel, mm"),
+                                  number("ratio"),
+                                  number("contact lost, %", 1),
+                                  number("drive, %", 2)},
+                      .rows = {},
+                      .note = "Ratios to " + study.passive.name() +
+                              ". a_w: weighted body acceleration, Wk. Tyre load: dynamic over "
+                              "static, rms. Travel: greatest."};
+
+  // Each measure with its ratio to passive.
   for (const RiddenVehicle* one : all_of(study)) {
     std::vector<std::string> row{one->name()};
     for (const char* measure : {"weighted_acceleration", "tyre_load", "travel_peak"}) {
@@ -67,8 +68,9 @@ DocumentTable possible_table(const RideStudy& study) {
       .rows = {},
       .note =
           "% of possible = (passive - controller) / (passive - optimum), each aim by itself. "
-          "Bound: "
-          "no controller gets below. Optimum: simulated, the road known in advance."};
+          "Bound: no controller gets below. Optimum: simulated, the road known in advance."};
+
+  // Each vehicle by the squares of its own ride.
   const Plant& plant = study.passive.road.vehicle->set.plant;
   const ClairvoyantBound &comfort = study.front.front(), &holding = study.front.back();
   const RideSquares passive = ride_squares(study.passive.road.trace, plant);
@@ -79,6 +81,8 @@ DocumentTable possible_table(const RideStudy& study) {
                           whole_text(std::sqrt(squares.tyre_force)),
                           possible_text(holding, passive, squares)});
   }
+
+  // Below them the optima and the bounds themselves.
   const auto best = [&](const char* name, double ClairvoyantBound::* value) {
     table.rows.push_back({name, number_text(std::sqrt(comfort.*value / comfort.index.comfort)), "",
                           whole_text(std::sqrt(holding.*value / holding.index.holding)), ""});
@@ -106,10 +110,9 @@ DocumentTable gain_table(const RideStudy& study) {
       .columns = {{.title = "controller"}},
       .rows = {},
       .note =
-          "Gain from the road's height to the body's acceleration at that frequency, "
-          "1/s^2 (fundamental). Jc, Jrh: root of the integral of the squared gain of "
-          "body acceleration and of tyre deflection over these frequencies, as ratios "
-          "to " +
+          "Gain from the road's height to the body's acceleration at that frequency, 1/s^2 "
+          "(fundamental). Jc, Jrh: root of the integral of the squared gain of body acceleration "
+          "and of tyre deflection over these frequencies, as ratios to " +
           study.passive.name() + "."};
   const std::vector<double>& f = study.options.frequencies;
   const std::vector<std::size_t> shown = shown_frequencies(f);
@@ -117,6 +120,8 @@ DocumentTable gain_table(const RideStudy& study) {
     table.columns.push_back({.title = format_number(f[k]) + " Hz", .numeric = true});
   table.columns.push_back({.title = "Jc", .numeric = true});
   table.columns.push_back({.title = "Jrh", .numeric = true});
+
+  // Gains by controller, and their integrals as ratios to passive.
   for (const RiddenVehicle* one : all_of(study)) {
     std::vector<std::string> row{one->name()};
     for (const std::size_t k : shown)
@@ -140,8 +145,10 @@ DocumentTable limit_table(const RideStudy& study) {
       .rows = {},
       .note =
           "The paper asks for less body acceleration than passive up to 2 Hz, and for a gain of "
-          "the tyre's "
-          "deflection of 2.5 at most up to 20 Hz. Gains by sines, fundamental; 1/s^2 and 1."};
+          "the tyre's deflection of 2.5 at most up to 20 Hz. Gains by sines, fundamental; 1/s^2 "
+          "and 1."};
+
+  // The first limit is set by the passive vehicle itself.
   const double passive =
       greatest_gain(study.passive, &GainPoint::body_acceleration, kPaperComfortTo);
   for (const RiddenVehicle* one : all_of(study)) {
@@ -162,8 +169,8 @@ DocumentTable step_table(const RideStudy& study) {
       .columns = {{.title = "controller"}},
       .rows = {},
       .note = "Ratios to " + study.passive.name() +
-              ". Settled: the last instant outside 5 % of the peak (body acceleration) or of "
-              "the step (tyre)."};
+              ". Settled: the last instant outside 5 % of the peak (body acceleration) or of the "
+              "step (tyre)."};
   const std::pair<const char*, const char*> measures[] = {
       {"settling", "body settled, s"},
       {"deviation", "body acceleration, m/s^2"},
@@ -174,6 +181,8 @@ DocumentTable step_table(const RideStudy& study) {
     table.columns.push_back({.title = "ratio", .numeric = true});
   }
   table.columns.push_back({.title = "decay ratio", .numeric = true});
+
+  // Each measure with its ratio to passive.
   for (const RiddenVehicle* one : all_of(study)) {
     std::vector<std::string> row{one->name()};
     for (const auto& [name, title] : measures) {
@@ -202,6 +211,8 @@ std::string verdict_of(const RideStudy& study) {
            " weighted acceleration, " + change(one, "tyre_load") +
            " dynamic tyre load than passive.";
   };
+
+  // One sentence where the same controller is best in both.
   const RiddenVehicle &comfort = least("weighted_acceleration"), &holding = least("tyre_load");
   if (study.controlled.size() == 1) return sentence(comfort, "");
   if (&comfort == &holding) return sentence(comfort, "Best in comfort and in road holding is ");
@@ -232,6 +243,8 @@ Value ridden_json(const RiddenVehicle& ridden) {
       object.add(m.name, std::isfinite(m.value) ? Value(m.value) : Value());
     return object;
   };
+
+  // Integrals first, then the measures of each ride.
   return Value::object({{"name", ridden.name()},
                         {"comfort_integral", comfort_integral(ridden)},
                         {"holding_integral", holding_integral(ridden)},
@@ -254,10 +267,14 @@ Document ride_document(const RideStudy& study) {
       .command = {},
       .version = {},
       .date = {}};
+
+  // Warnings of every ride, and controllers that this vehicle could not have.
   std::vector<const SimulatedRun*> runs;
   for (const RiddenVehicle* one : all_of(study)) runs.push_back(&one->road);
   std::vector<std::string> remarks = run_remarks(runs);
   remarks.insert(remarks.end(), study.left_out.begin(), study.left_out.end());
+
+  // The road first, then what is possible there, gains and the step.
   document.sections.push_back({.name = "road",
                                .title = "Comfort against road holding",
                                .paragraphs = {},

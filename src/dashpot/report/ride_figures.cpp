@@ -84,6 +84,8 @@ DocumentFigure gain_figure(const RideStudy& study) {
   const std::vector<double>& f = study.options.frequencies;
   const auto &body = &GainPoint::body_acceleration, &tyre = &GainPoint::tyre_deflection;
   std::vector<FigurePanel> panels;
+
+  // The signals that the paper limits, each with its limit.
   panels.push_back(gain_panel(study, "Body acceleration", "gain, 1/s^2", fundamental(body)));
   panels.push_back(
       gain_panel(study, "Body acceleration at its resonance", "gain, 1/s^2", fundamental(body), 4));
@@ -93,6 +95,8 @@ DocumentFigure gain_figure(const RideStudy& study) {
   panels.back().series.push_back(limit_line("one-sensor paper: 2.5 at most", f.front(),
                                             std::min(f.back(), kPaperHoldingTo),
                                             kPaperHoldingLimit));
+
+  // Signals without a limit, and the harmonics that a law adds.
   panels.push_back(
       gain_panel(study, "Body displacement", "gain", fundamental(&GainPoint::body), 5));
   panels.push_back(gain_panel(study, "Travel", "gain", fundamental(&GainPoint::travel)));
@@ -105,8 +109,8 @@ DocumentFigure gain_figure(const RideStudy& study) {
       "gains", "Gains by sines",
       "Fundamental gain over the road's height, " +
           format_number(1000 * study.options.gains.amplitude) +
-          " mm. The last panel tells what a law adds at other frequencies: 1 is none; a law that "
-          "chatters shows there, and not in its fundamental.",
+          " mm. The last panel shows how much a law adds at other frequencies: 1 is none; a law "
+          "that chatters shows there, and not in its fundamental.",
       std::move(panels), 2};
 }
 
@@ -116,6 +120,8 @@ DocumentFigure chirp_figure(const RideStudy& study) {
        {std::tuple{&GainPoint::body_acceleration, "Body acceleration", "gain, 1/s^2"},
         std::tuple{&GainPoint::tyre_deflection, "Tyre deflection", "gain"}}) {
     FigurePanel panel{title, "frequency, Hz", unit, {}};
+
+    // The chirp as a line, the sines as dots on it.
     for (const auto& [ridden, look] : drawn(study)) {
       panel.series.push_back(gain_curve(ridden->chirp, fundamental(signal), kWhole, look));
       FigureSeries sines = gain_curve(ridden->sines, fundamental(signal), kWhole, look);
@@ -144,6 +150,8 @@ DocumentFigure trade_off_figure(const RideStudy& study) {
                     "weighted body acceleration, ratio to passive",
                     "dynamic tyre load, ratio to passive",
                     {}};
+
+  // The dampers held at each drive, as a line with its points.
   FigureSeries line{"held without control", "series-6", {}, {}, FigureSeries::Mark::Line, 1.4};
   for (const TradeOff& point : study.held) {
     line.x.push_back(point.weighted / x0);
@@ -153,16 +161,16 @@ DocumentFigure trade_off_figure(const RideStudy& study) {
   dots.mark = FigureSeries::Mark::Dots;
   dots.width = 2.5;
   panel.series = {line, dots, dot(study.passive.name(), "measured", 1, 1, 5)};
+
+  // Every controller as a point of its own.
   for (const auto& [ridden, look] : drawn(study))
     if (ridden != &study.passive)
       panel.series.push_back(dot(look.label, look.colour, x(*ridden) / x0, y(*ridden) / y0, 5));
   return {"trade-off",
           "The trade-off on the road",
           "To the left: more comfort; down: better road holding. The grey line is what the same "
-          "dampers do "
-          "at any one drive, from the softest to the hardest: a controller pays where it lies "
-          "below and left "
-          "of it.",
+          "dampers do at any one drive, from the softest to the hardest: a controller pays where "
+          "it lies below and left of it.",
           {std::move(panel)},
           1};
 }
@@ -177,6 +185,8 @@ DocumentFigure possible_figure(const RideStudy& study) {
   FigurePanel panel{
       "", "body acceleration, rms, ratio to passive", "tyre force, rms, ratio to passive", {}};
   panel.series = front_lines(study.front, unit);
+
+  // Every vehicle as a point above the front.
   for (const auto& [ridden, look] : drawn(study)) {
     const RideRoots at = roots(*ridden);
     panel.series.push_back(dot(look.label, look.colour, at.acceleration / unit.acceleration,
@@ -185,10 +195,8 @@ DocumentFigure possible_figure(const RideStudy& study) {
   return {"possible",
           "What is possible on this road",
           "Below and left of the dashed line there is nothing for any controller: proven for "
-          "forces within "
-          "the damper's range, however made. The line beside it was reached in simulation, by "
-          "demands found "
-          "with the road known in advance.",
+          "forces within the damper's range, however made. The line beside it was reached in "
+          "simulation, by demands found with the road known in advance.",
           {std::move(panel)},
           1};
 }
@@ -206,6 +214,8 @@ DocumentFigure road_figure(const RideStudy& study) {
   const std::ptrdiff_t comfort = least("weighted_acceleration"), holding = least("tyre_load");
   shown.push_back(all[static_cast<std::size_t>(comfort) + 1]);
   if (holding != comfort) shown.push_back(all[static_cast<std::size_t>(holding) + 1]);
+
+  // A few seconds after the start, in four channels.
   const Plant& plant = study.passive.road.vehicle->set.plant;
   const std::string &body = plant.coordinates.front().name, &tyre = plant.tyres.front().name,
                     &strut = plant.struts.front().name;

@@ -4,7 +4,7 @@
 
 namespace dashpot {
 
-// What the one-sensor paper asks for: less body acceleration than passive up to 2 Hz; a gain of the
+// The limits of the one-sensor paper: less body acceleration than passive up to 2 Hz; a gain of the
 // tyre's deflection of 2.5 at most up to 20 Hz.
 constexpr double kPaperComfortTo = 2, kPaperHoldingTo = 20;  ///< Hz
 constexpr double kPaperHoldingLimit = 2.5;                   ///< 1
@@ -17,7 +17,7 @@ DocumentFigure gain_figure(const RideStudy& study);
 DocumentFigure chirp_figure(const RideStudy& study);
 /// Comfort against road holding, with the same dampers held at their currents as the line to beat.
 DocumentFigure trade_off_figure(const RideStudy& study);
-/// Of a study with a bound.
+/// Needs a study with a bound.
 DocumentFigure possible_figure(const RideStudy& study);
 DocumentFigure road_figure(const RideStudy& study);
 DocumentFigure step_figure(const RideStudy& study);

@@ -39,6 +39,8 @@ FigureSeries over_time(const SimulatedRun& run, const std::string& channel, doub
   };
   const std::size_t first = place(stretch.from), last = place(stretch.to);
   if (first >= last) return series;  // it diverged before
+
+  // Thinned, so that least and greatest values stay.
   const std::span<const double> shown = std::span(samples).subspan(first, last - first);
   for (const std::size_t k : thinned_indices({shown}, kPoints)) {
     series.x.push_back(time[first + k]);

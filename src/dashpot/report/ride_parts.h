@@ -16,8 +16,8 @@ FigureSeries passive_look(const std::string& name);
 struct Stretch {
   double from = 0, to = 0;
 };
-/// What of a run can be looked at: five seconds of a ground that is alike all along, all of another
-/// one.
+/// The stretch of a run that a figure shows: five seconds of a ground that is alike all along, all
+/// of another one.
 Stretch shown_stretch(double duration, double discard);
 
 /// A channel over time, thinned to what a screen can show; `factor` as the axis has it.
@@ -30,7 +30,7 @@ std::string ratio_text(double value, double reference);
 /// "22 % less", "0.5 % more": of a value against a reference.
 std::string against_text(double value, double reference);
 
-/// What is to be said of runs: warnings with the run's name, then the vehicle's notes, each once.
+/// Remarks on runs: warnings with the run's name, then the vehicle's notes, each once.
 std::vector<std::string> run_remarks(const std::vector<const SimulatedRun*>& runs);
 
 }  // namespace dashpot

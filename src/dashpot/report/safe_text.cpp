@@ -117,6 +117,7 @@ std::string terminal_text(std::string_view text) {
 }
 
 Value presentable(const Value& value) {
+  // Numbers and texts are mended, all else is looked into.
   switch (value.kind()) {
     case Value::Kind::Number:
       return std::isfinite(value.as_number()) ? value : Value();

@@ -61,12 +61,16 @@ std::vector<std::filesystem::path> write_search_figure(const SearchReport& searc
     if (trial.on_front) front.add(trial);
   }
   smallest.add(*search.smallest());
+
+  // Logarithmic axes with round numbers.
   GnuplotFigure figure(13, 9);
   figure.command("set logscale xy\nset xlabel 'Parameters'\nset ylabel 'Left-out error, ESR (%)'");
   figure.command("set key outside top center");
   figure.command("set xrange " + log_range(all.parameters) + "\nset yrange " +
                  log_range(all.errors));
   figure.command("set xtics " + log_tics(all.parameters) + "\nset ytics " + log_tics(all.errors));
+
+  // Dropped trials below, the choice on top.
   std::vector<std::string> curves;
   add_curve(figure, curves, dropped,
             "points pt 6 ps 0.5 lc rgb '#8b949e' title 'dropped on the way'");

@@ -4,11 +4,11 @@
 #include <vector>
 
 #include "dashpot/identify/search/search.h"
-#include "dashpot/value.h"
+#include "dashpot/report/document.h"
 
 namespace dashpot {
 
-/// What the report of a search is made from.
+/// Input of the report of a search.
 struct SearchInput {
   const Dataset& dataset;
   const SearchReport& search;
@@ -17,9 +17,12 @@ struct SearchInput {
   std::string date;  ///< ISO 8601
 };
 
-/// The first `most` trials as a table for a terminal; `of` says what was searched.
-std::string trial_table(const std::vector<Trial>& trials, const SearchReport& of, int width,
-                        std::size_t most);
+/// Error against size, error by setting and all trials. Its data are json_search().
+Document search_document(const SearchInput& input);
+
+/// The first `most` trials, best first; `of` says what was searched.
+DocumentTable trial_table(const std::vector<Trial>& trials, const SearchReport& of,
+                          std::size_t most);
 /// A few sentences: the best network, the smallest that is practically as good, and what to beware
 /// of.
 std::string search_verdict(const SearchReport& search);
@@ -28,11 +31,9 @@ std::string search_plan(const std::vector<Rung>& rungs, SearchEffort effort);
 /// "hidden=10, activation=tanh": what was searched, as this trial has it.
 std::string searched_settings(const Trial& trial, const SearchReport& search);
 
-/// As a page, for programs, as Markdown, and one line per trial. The last holds no times: it is the
-/// same bit for bit whenever the search is.
-std::string html_search(const SearchInput& input);
+/// Everything for programs; and one line per trial. The latter holds no times: it is the same bit
+/// for bit whenever the search is.
 Value json_search(const SearchInput& input);
-std::string markdown_search(const SearchInput& input);
 std::string csv_search(const SearchReport& search);
 
 /// Error against parameters as search.svg and search.pdf; returns the paths. Throws Error when

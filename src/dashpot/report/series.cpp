@@ -19,6 +19,8 @@ std::vector<std::size_t> thinned_indices(const std::vector<std::span<const doubl
     std::iota(chosen.begin(), chosen.end(), std::size_t{0});
     return chosen;
   }
+
+  // Every stretch keeps the extremes of every series.
   const std::size_t stretches = std::max<std::size_t>(1, points / (2 * series.size()));
   chosen = {0, n - 1};
   for (std::size_t k = 0; k < stretches; ++k) {
@@ -29,6 +31,8 @@ std::vector<std::size_t> thinned_indices(const std::vector<std::span<const doubl
       chosen.push_back(greatest - one.begin());
     }
   }
+
+  // Several series may have chosen the same sample.
   std::ranges::sort(chosen);
   chosen.erase(std::unique(chosen.begin(), chosen.end()), chosen.end());
   return chosen;

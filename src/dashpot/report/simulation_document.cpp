@@ -34,6 +34,8 @@ DocumentTable measure_table(const Simulation& s) {
     table.columns.push_back({.title = s.against->name, .numeric = true});
     table.columns.push_back({.title = "ratio", .numeric = true});
   }
+
+  // Each measure beside that of the reference.
   for (const RideMeasure& measure : s.run.measures) {
     std::vector<std::string> row{measure.title, measure.unit == "1" ? "" : measure.unit,
                                  number_text(measure.value, 4)};
@@ -60,7 +62,7 @@ FigurePanel time_panel(const Simulation& s, const std::string& channel, const st
   return panel;
 }
 
-/// What moves the ground: the same for both runs.
+/// The motion of the ground, which is the same for both runs.
 FigurePanel ground_panel(const Simulation& s, const std::string& channel, const std::string& unit,
                          double factor) {
   const FigureSeries look{"", "measured", {}, {}, FigureSeries::Mark::Line, 1.2};
@@ -91,6 +93,8 @@ std::vector<FigurePanel> time_panels(const Simulation& s) {
     panels.push_back(time_panel(s, body + "_acceleration", body + ", acceleration", "m/s^2"));
     panels.push_back(time_panel(s, tyre + "_load", tyre + ", load", "N"));
   }
+
+  // The damper itself, where there is one.
   if (strut.empty()) return panels;
   panels.push_back(time_panel(s, strut + "_deflection", strut + ", deflection", "mm", 1000));
   panels.push_back(time_panel(s, strut + "_force", strut + ", damper force", "N"));
@@ -104,10 +108,12 @@ std::vector<FigurePanel> time_panels(const Simulation& s) {
   return panels;
 }
 
-/// What the damper was asked for: force over velocity.
+/// The work of the damper: force over velocity.
 DocumentFigure work_figure(const Simulation& s) {
   FigurePanel panel{"", "velocity, m/s", "damper force, N", {}};
   const std::string& strut = s.run.vehicle->set.plant.struts.front().name;
+
+  // A few thousand samples of each run are enough to see the curve.
   for (const auto& [run, look] : shown_runs(s)) {
     FigureSeries dots = look;
     dots.mark = FigureSeries::Mark::Dots;
@@ -134,6 +140,8 @@ std::string verdict_of(const Simulation& s) {
            " m/s^2: " + std::string(RideComfort{.weighted_rms = a}.feeling()) +
            " by ISO 2631-1 (bands as recalled).";
   }
+
+  // Beside a reference, the change counts.
   const auto change = [&](const char* measure) {
     return against_text(measure_named(s.run.measures, measure),
                         measure_named(s.against->measures, measure));
@@ -156,6 +164,8 @@ Document simulation_document(const Simulation& s) {
       .command = {},
       .version = {},
       .date = {}};
+
+  // Wheels that share a damper name it once.
   std::vector<std::string> names = vehicle.damper_names;
   names.erase(std::unique(names.begin(), names.end()), names.end());
   document.sections.push_back(
@@ -166,6 +176,8 @@ Document simulation_document(const Simulation& s) {
        .tables = {measure_table(s)},
        .figures = {},
        .remarks = run_remarks(runs)});
+
+  // Over time, and the damper at work.
   DocumentSection time{.name = "time", .title = "Over time", .paragraphs = {}};
   const auto [from, to] = shown_stretch(s.duration, s.discard);
   time.figures.push_back({"time", "From " + format_number(from) + " to " + format_number(to) + " s",
@@ -193,6 +205,8 @@ Value simulation_json(const Simulation& s) {
          {"diverged_at", run.trace.diverged_at ? Value(*run.trace.diverged_at) : Value()},
          {"warnings", Value::array(run.warnings)}});
   };
+
+  // The run, and the one it is compared with.
   return Value::object({{"plant", s.run.vehicle->set.name},
                         {"ground", s.ground},
                         {"duration", s.duration},

@@ -10,7 +10,7 @@ struct Simulation {
   std::optional<SimulatedRun> against;
   std::string ground;   ///< its description
   double duration = 0;  ///< s
-  double discard = 0;   ///< s, at the begin, that do not count
+  double discard = 0;   ///< s at the start that do not count
 };
 
 /// Measures, remarks, what happened over time.

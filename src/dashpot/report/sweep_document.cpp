@@ -26,13 +26,15 @@ std::string against_baseline(const Sweep& sweep, std::size_t c) {
   return sweep.request.controllers[c].name + ": " + join(parts, ", ");
 }
 
-/// What of a controller's rides is not to be trusted.
+/// Reasons not to trust some of a controller's rides.
 std::vector<std::string> cautions(const Sweep& sweep, std::size_t c) {
   const std::string& name = sweep.request.controllers[c].name;
   std::vector<std::string> lines;
   if (const std::size_t diverged = diverged_rides(sweep, c))
     lines.push_back(fmt::format("{}: {} of {} rides diverged and do not count.", name, diverged,
                                 sweep.rides[c].size()));
+
+  // Dampers beyond their data, and tyres off the ground.
   const double limit = sweep.request.outside_limit;
   const auto outside = std::ranges::count_if(
       sweep.rides[c], [&](const RideMeasures& ride) { return ride.outside_data > limit; });
@@ -68,20 +70,19 @@ DocumentSection note_section(const Sweep& sweep) {
   const SweepRequest& request = sweep.request;
   DocumentSection section{"how", "How it was done", {}};
   if (!request.note.empty()) section.paragraphs.push_back(request.note);
+
+  // How vehicles were drawn and judged.
+  section.paragraphs.push_back(fmt::format(
+      "Every controller drives the same vehicles over the same roads, {} s each, of which the "
+      "first {} s do not count. {}",
+      format_number(request.duration), format_number(request.discard),
+      request.drawing == SweepRequest::Drawing::Sobol
+          ? "Inputs are drawn by Sobol's sequence, moved by the seed: more even than chance, so "
+            "that the intervals, which hold for chance, are wide rather than narrow."
+          : "Inputs are drawn by chance."));
   section.paragraphs.push_back(
-      fmt::format("Every controller drives the same vehicles over the same roads, {} s each, of "
-                  "which the first {} s do "
-                  "not "
-                  "count. {}",
-                  format_number(request.duration), format_number(request.discard),
-                  request.drawing == SweepRequest::Drawing::Sobol
-                      ? "Inputs are drawn by Sobol's sequence, moved by the seed: more even than "
-                        "chance, so that the "
-                        "intervals, which hold for chance, are wide rather than narrow."
-                      : "Inputs are drawn by chance."));
-  section.paragraphs.push_back(
-      "Intervals hold with 95 % for the quantile of all such vehicles, whatever the "
-      "distribution (order statistics).");
+      "Intervals hold with 95 % for the quantile of all such vehicles, whatever the distribution "
+      "(order statistics).");
   section.remarks = sweep.notes;
   return section;
 }
@@ -104,6 +105,8 @@ std::vector<ShownMeasure> shown_measures(const Sweep& sweep) {
           });
         });
     if (!is_there) continue;
+
+    // Shares are read in percent, lengths in millimetres.
     const bool is_share = m.field == &RideMeasures::contact_lost ||
                           m.field == &RideMeasures::stops_met ||
                           m.field == &RideMeasures::outside_data;
@@ -138,6 +141,8 @@ Document sweep_document(const Sweep& sweep) {
       fmt::format("{} on {}", sweep.request.controllers.front().words.plant, sweep.request.road);
   document.verdict = verdict_of(sweep);
   if (sweep.rides.size() > 1) document.sections.push_back(ratio_section(sweep));
+
+  // Only what the request varies has a section.
   document.sections.push_back(quantile_section(sweep));
   if (sweep.request.grid_size() > 1) document.sections.push_back(grid_section(sweep));
   if (!sweep.request.inputs.empty()) {

@@ -6,7 +6,7 @@
 #include "dashpot/report/document.h"
 #include "dashpot/suspension/sweep/statistics.h"
 
-// What the sections of a sweep's page share.
+// Parts that the sections of a sweep's page share.
 namespace dashpot {
 
 /// A measure as people read it: shares in %, travel in mm.

@@ -80,6 +80,8 @@ void add_trend(FigurePanel& panel, const std::vector<double>& x, const std::vect
     if (std::isfinite(y[k])) pairs.emplace_back(x[k], y[k]);
   FigureSeries middle{label, colour, {}, {}},
       low{"", colour, {}, {}, FigureSeries::Mark::Dashes, 1}, high = low;
+
+  // One point of each curve per bin, at its middle.
   for (const Pairs& bin : binned(std::move(pairs))) {
     std::vector<double> ys;
     for (const auto& pair : bin) ys.push_back(pair.second);
@@ -119,6 +121,8 @@ DocumentTable correlation_table(const Sweep& sweep, std::size_t c,
   int priority = 0;
   for (const ShownMeasure& shown : measures)
     table.columns.push_back({std::string(shown.measure->title), true, priority++});
+
+  // Inputs by their weight, strongest first.
   for (const Weight& weight : weights) {
     std::vector<std::string> row{sweep.request.inputs[weight.input].name};
     for (const ShownMeasure& shown : measures) {
@@ -139,6 +143,8 @@ DocumentFigure trend_figure(const Sweep& sweep, const std::vector<Weight>& weigh
       "Median (line) and 5 and 95 % (dashes) of the vehicles, in bins of equally many.",
       {},
       2};
+
+  // One panel per input and main measure, one trend per controller.
   for (std::size_t i = 0; i < std::min(kMost, weights.size()); ++i) {
     const SweepInput& input = sweep.request.inputs[weights[i].input];
     for (const ShownMeasure& shown : main_measures(sweep)) {
@@ -195,6 +201,8 @@ DocumentSection ratio_section(const Sweep& sweep) {
                         "The share of the vehicles whose ratio is below that on the axis.",
                         {},
                         2};
+
+  // A row and a curve for each measure and controller.
   for (const ShownMeasure& measure : shown_measures(sweep)) {
     const ShownMeasure shown{measure.measure, "1"};
     FigurePanel panel{std::string(shown.measure->title), "ratio", "share of the vehicles (%)", {}};
@@ -210,6 +218,8 @@ DocumentSection ratio_section(const Sweep& sweep) {
                                   " %");
       panel.series.push_back(quantile_curve(ratios, 1, name, series_colour(c)));
     }
+
+    // Only comfort and road holding are drawn.
     const auto main = main_measures(sweep);
     if (std::ranges::any_of(main,
                             [&](const ShownMeasure& one) { return one.measure == shown.measure; }))
@@ -228,6 +238,8 @@ DocumentSection quantile_section(const Sweep& sweep) {
                         "The share of the vehicles that stay below the value on the axis.",
                         {},
                         2};
+
+  // A row and a curve for each measure and controller.
   for (const ShownMeasure& shown : shown_measures(sweep)) {
     FigurePanel panel{
         std::string(shown.measure->title), shown.title(), "share of the vehicles (%)", {}};
@@ -247,6 +259,8 @@ DocumentSection quantile_section(const Sweep& sweep) {
 
 DocumentSection grid_section(const Sweep& sweep) {
   DocumentSection section{"grid", "At each place of the grid", {}};
+
+  // Vehicles of one place stand a whole grid apart.
   for (const ShownMeasure& shown : main_measures(sweep)) {
     DocumentTable table{shown.title(), quantile_columns("Place"), {}};
     for (std::size_t place = 0; place < sweep.request.grid_size(); ++place)
@@ -266,11 +280,10 @@ DocumentSection grid_section(const Sweep& sweep) {
 DocumentSection sensitivity_section(const Sweep& sweep) {
   DocumentSection section{"sensitivity", "What matters", {}};
   const std::vector<Weight> weights = weights_of(sweep);
-  section.paragraphs.push_back(
-      fmt::format("Rank correlation (Spearman) of each input with each measure, -1 ... 1, "
-                  "strongest first; chance alone "
-                  "reaches {:.2f} in one of twenty. Each road's own chance is not an input.",
-                  chance_correlation(sweep.vehicles.size())));
+  section.paragraphs.push_back(fmt::format(
+      "Rank correlation (Spearman) of each input with each measure, -1 ... 1, strongest first; "
+      "chance alone reaches {:.2f} in one of twenty. Each road's own chance is not an input.",
+      chance_correlation(sweep.vehicles.size())));
   for (std::size_t c = 0; c < sweep.rides.size(); ++c)
     section.tables.push_back(correlation_table(sweep, c, weights));
   section.figures.push_back(trend_figure(sweep, weights));

@@ -1,4 +1,4 @@
-// What a sweep gives to programs.
+// A sweep for programs: tables and JSON.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -40,6 +40,8 @@ ColumnTable ride_table(const Sweep& sweep) {
   const SweepRequest& request = sweep.request;
   Rows rows("rides", "every vehicle under every controller");
   rows.text_column("controller", "what drives the vehicle");
+
+  // Inputs in words come before those in numbers.
   std::vector<std::size_t> words, numbers;
   for (std::size_t k = 0; k < request.inputs.size(); ++k)
     (request.inputs[k].words.empty() ? numbers : words).push_back(k);
@@ -52,6 +54,8 @@ ColumnTable ride_table(const Sweep& sweep) {
   for (const SweepMeasure& m : sweep_measures())
     rows.column(std::string(m.name), std::string(m.unit),
                 std::string(m.title) + ": " + std::string(m.meaning));
+
+  // A row per vehicle and controller.
   for (std::size_t v = 0; v < sweep.vehicles.size(); ++v)
     for (std::size_t c = 0; c < request.controllers.size(); ++c) {
       const SweepDraw& draw = sweep.vehicles[v];
@@ -152,6 +156,8 @@ Value sweep_json(const Sweep& sweep) {
   for (std::size_t c = 0; c < sweep.rides.size(); ++c)
     controllers.push_back(Value::object(
         {{"name", sweep.request.controllers[c].name}, {"diverged", diverged_rides(sweep, c)}}));
+
+  // Single rides are left to the tables.
   return Value::object({{"name", sweep.request.name},
                         {"vehicles", sweep.vehicles.size()},
                         {"baseline", sweep.request.controllers[sweep.request.baseline].name},

@@ -1,10 +1,9 @@
 #include "dashpot/report/text_table.h"
 
 #include <algorithm>
-#include <numeric>
-#include <optional>
 
 #include "dashpot/report/safe_text.h"
+#include "dashpot/report/wrap.h"
 
 namespace dashpot {
 
@@ -12,23 +11,8 @@ namespace {
 
 constexpr std::size_t kGap = 2, kShortest = 20;
 
-/// Characters, not bytes: continuation bytes of UTF-8 take no room.
-std::size_t shown_width(const std::string& text) {
-  return static_cast<std::size_t>(std::ranges::count_if(
-      text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
-}
-
 std::string shortened(const std::string& text, std::size_t width) {
-  if (shown_width(text) <= width) return text;
-  std::size_t end = 0;
-  for (std::size_t characters = 0; end < text.size(); ++end)
-    if ((static_cast<unsigned char>(text[end]) & 0xC0) != 0x80 && ++characters == width - 1) break;
-  return text.substr(0, end) + "..";
-}
-
-std::string padded(const std::string& text, std::size_t width, bool right) {
-  const std::string space(width - std::min(width, shown_width(text)), ' ');
-  return right ? space + text : text + space;
+  return columns_of(text) <= width ? text : first_columns(text, width - 2) + "..";
 }
 
 struct Layout {
@@ -42,17 +26,20 @@ struct Layout {
   }
 };
 
-/// Shortens elastic columns, then drops the least important ones.
+/// Shortens the elastic columns of a terminal, then drops the least important ones.
 Layout lay_out(const std::vector<TextColumn>& columns, std::vector<std::size_t> widths,
                std::size_t room) {
-  Layout layout{std::vector<std::size_t>(columns.size()), std::move(widths)};
-  std::iota(layout.shown.begin(), layout.shown.end(), std::size_t{0});
+  Layout layout{columns_for(columns, Audience::Terminal), std::move(widths)};
+
+  // Shorten from the left, each column by no more than is needed.
   for (const std::size_t column : layout.shown) {
     const std::size_t excess = layout.total() > room ? layout.total() - room : 0;
     std::size_t& width = layout.widths[column];
     if (columns[column].elastic && width > kShortest)
       width = std::max(kShortest, width - std::min(width, excess));
   }
+
+  // Drop whole columns until the rest has room, or only those that must stay are left.
   while (layout.total() > room) {
     const auto last = std::ranges::max_element(
         layout.shown, {}, [&](std::size_t column) { return columns[column].priority; });
@@ -64,12 +51,26 @@ Layout lay_out(const std::vector<TextColumn>& columns, std::vector<std::size_t> 
 
 }  // namespace
 
+bool reaches(Audience audience, Audience medium) {
+  return audience == Audience::Everyone || audience == medium ||
+         (audience == Audience::Text && medium != Audience::Page) ||
+         (audience == Audience::Files && medium != Audience::Terminal);
+}
+
+std::vector<std::size_t> columns_for(const std::vector<TextColumn>& columns, Audience medium) {
+  std::vector<std::size_t> places;
+  for (std::size_t k = 0; k < columns.size(); ++k)
+    if (reaches(columns[k].audience, medium)) places.push_back(k);
+  return places;
+}
+
 std::string text_table(const std::vector<TextColumn>& columns,
                        const std::vector<std::vector<std::string>>& rows, int width) {
+  // The widest cell of each column says how wide it would like to be.
   std::vector<std::size_t> widths;
   for (std::size_t k = 0; k < columns.size(); ++k) {
-    widths.push_back(shown_width(columns[k].title));
-    for (const auto& row : rows) widths[k] = std::max(widths[k], shown_width(row[k]));
+    widths.push_back(columns_of(columns[k].title));
+    for (const auto& row : rows) widths[k] = std::max(widths[k], columns_of(row[k]));
   }
   const Layout layout =
       lay_out(columns, std::move(widths), static_cast<std::size_t>(std::max(width, 20)));
@@ -91,14 +92,17 @@ std::string text_table(const std::vector<TextColumn>& columns,
 
 std::string markdown_table(const std::vector<TextColumn>& columns,
                            const std::vector<std::vector<std::string>>& rows) {
-  std::vector<std::string> titles;
+  const std::vector<std::size_t> shown = columns_for(columns, Audience::Markdown);
+  const auto line = [&](const auto& cell) {
+    std::vector<std::string> cells;
+    for (const std::size_t k : shown) cells.push_back(cell(k));
+    return markdown_row(cells);
+  };
   std::string rule = "|";
-  for (const TextColumn& column : columns) {
-    titles.push_back(column.title);
-    rule += column.numeric ? "---:|" : "---|";
-  }
-  std::string text = markdown_row(titles) + rule + "\n";
-  for (const auto& row : rows) text += markdown_row(row);
+  for (const std::size_t k : shown) rule += columns[k].numeric ? "---:|" : "---|";
+
+  std::string text = line([&](std::size_t k) { return columns[k].title; }) + rule + "\n";
+  for (const auto& row : rows) text += line([&](std::size_t k) { return row[k]; });
   return text;
 }
 

@@ -4,20 +4,34 @@
 
 namespace dashpot {
 
-/// A column of a table for a terminal.
+/// Who gets to see a part of a document. A terminal has little room, and a page can be sorted and
+/// zoomed, so that some parts are for one of them only. Text: terminal and Markdown; Files:
+/// Markdown and page.
+enum class Audience { Everyone, Text, Files, Terminal, Markdown, Page };
+
+/// Whether a part for `audience` is shown in `medium`: Terminal, Markdown or Page.
+bool reaches(Audience audience, Audience medium);
+
+/// A column of a table.
 struct TextColumn {
   std::string title;
-  bool numeric = false;  ///< right-aligned
-  int priority = 0;      ///< the greatest go first when the table is too wide; 0 always stays
-  bool elastic = false;  ///< may be shortened, to 20 characters
+  bool numeric = false;   ///< right-aligned
+  int priority = 0;       ///< the greatest go first when a terminal is too narrow; 0 always stays
+  bool elastic = false;   ///< may be shortened on a terminal, to 20 characters
+  std::string hint = {};  ///< shown when a page's reader points at the title
+  Audience audience = Audience::Everyone;
+  bool descending = false;  ///< a page sorts it by falling values first: more is better
 };
 
-/// Aligned columns, two spaces apart, with a rule below the titles, within `width` characters where
-/// leaving out and shortening columns can make it so.
+/// Places of the columns that a medium shows.
+std::vector<std::size_t> columns_for(const std::vector<TextColumn>& columns, Audience medium);
+
+/// Aligned columns for a terminal, two spaces apart, with a rule below the titles, within `width`
+/// characters where leaving out and shortening columns can make it so.
 std::string text_table(const std::vector<TextColumn>& columns,
                        const std::vector<std::vector<std::string>>& rows, int width);
 
-/// All columns, as Markdown.
+/// All columns that Markdown shows.
 std::string markdown_table(const std::vector<TextColumn>& columns,
                            const std::vector<std::vector<std::string>>& rows);
 

@@ -8,7 +8,7 @@
 
 namespace dashpot {
 
-/// What one scheme made of a wanted force.
+/// The force that one scheme made of a wanted one.
 struct TrackedScheme {
   std::string name;
   TrackReport report;

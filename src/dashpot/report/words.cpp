@@ -71,10 +71,11 @@ std::string verdict(const Ranking& ranking) {
   const Metrics& pooled = best.left_out.pooled;
   std::string text = fmt::format(
       "{} predicts the force best: on recordings that it has not seen it leaves {} % of the "
-      "force's power "
-      "unexplained, an RMS error of {} N; its worst record is {} with {} %.",
+      "force's power unexplained, an RMS error of {} N; its worst record is {} with {} %.",
       display_name(best), percent_text(pooled.esr), number_text(pooled.rmse),
       best.left_out.worst_record, percent_text(best.left_out.worst_esr));
+
+  // Beside it the next one, and how many cannot be used.
   if (models.size() > 1 && is_usable(models[1])) text += next_best(best, models[1]);
   const auto diverged =
       std::ranges::count_if(models, [](const RankedModel& m) { return m.left_out.diverged > 0; });
@@ -103,11 +104,12 @@ std::string protocol_title(const LeaveOut& leave_out) {
 std::string protocol(const LeaveOut& leave_out, std::size_t folds) {
   const std::string in_turn = fmt::format(
       " In turn ({}), the model is fitted on all other records and judged on those left out; the "
-      "figures "
-      "pool all of them.",
+      "figures pool all of them.",
       counted(folds, "division"));
   const std::string chosen =
       leave_out.values.empty() ? "" : " (" + join(leave_out.values, ", ") + " by choice)";
+
+  // The sentence of each way, with the values that were chosen.
   switch (leave_out.by) {
     case LeaveOut::By::Condition:
       return "All records of one motion are left out" + chosen + "." + in_turn;
@@ -125,15 +127,13 @@ std::string protocol(const LeaveOut& leave_out, std::size_t folds) {
     case LeaveOut::By::Fraction:
       return fmt::format(
           "The last {} % of every record is left out: the model is fitted on what comes before, "
-          "runs on, and "
-          "is judged on the end.",
+          "runs on, and is judged on the end.",
           format_number(100 * leave_out.fraction, 3));
     case LeaveOut::By::Roles:
       break;
   }
   return "The dataset file states which records are for training and which are left out; the model "
-         "is "
-         "fitted on the former and judged on the latter.";
+         "is fitted on the former and judged on the latter.";
 }
 
 std::optional<std::string> one_step_note(const Ranking& ranking) {
@@ -145,10 +145,11 @@ std::optional<std::string> one_step_note(const Ranking& ranking) {
       figures.push_back(m.name + " " + percent_text(m.left_out.one_step->esr) + " % (free run " +
                         percent_text(m.left_out.pooled.esr) + " %)");
   }
+
+  // Say so where no model has such an error.
   if (!figures.empty())
     return "One step ahead, with the measured force fed back, which flatters and is not ranked by; "
-           "ESR on "
-           "left-out records: " +
+           "ESR on left-out records: " +
            join(figures, ", ") + ".";
   if (!all_known) return std::nullopt;
   return "There is no one-step error to print beside the free run: none of these models feeds "

@@ -19,18 +19,6 @@ function number_text(value, digits = 3) {
   return value.toFixed(Math.min(decimals, 20)).replace("-", "−");
 }
 
-// A fixed number of decimals, so that a column lines up.
-function fixed_text(value, decimals) {
-  return is_number(value) ? value.toFixed(decimals).replace("-", "−") : kMissing;
-}
-
-// Percent with a resolution that fits its size: 0.42, 3.1, 128.
-function percent_text(value) {
-  if (!is_number(value)) return kMissing;
-  const size = Math.abs(value);
-  return fixed_text(value, size < 1 ? 2 : size < 100 ? 1 : 0);
-}
-
 function trim_zeros(text) {
   return text.includes(".") ? text.replace(/\.?0+$/, "") : text;
 }
@@ -43,11 +31,6 @@ function short_text(value, digits = 3) {
 // A number and its unit stay on one line.
 function unbroken(text) {
   return text.replace(/(\d) (%|N|A|V|mm|Hz)(?![a-z])/g, "$1\u00a0$2");
-}
-
-function seconds_text(seconds) {
-  if (!is_number(seconds)) return kMissing;
-  return seconds < 1 ? `${number_text(1000 * seconds, 2)} ms` : `${number_text(seconds, 2)} s`;
 }
 
 // element("p", {class: "note"}, "text", child, ...); `on...` attributes are listeners.

@@ -7,7 +7,7 @@ const kPadding = 0.04;
 const all_plots = [];
 
 class Plot {
-  constructor(title, note = null, help = null) {
+  constructor(title, note = null) {
     this.hidden = new Set();
     this.legend = element("div", {class: "legend"});
     this.reset_button = element("button", {type: "button", class: "reset", hidden: true, onclick: () => this.reset()},
@@ -18,8 +18,7 @@ class Plot {
     this.canvas.append(this.readout);
     this.node = element("figure", {class: "plot"},
       element("figcaption", {}, element("h3", {}, title), this.reset_button),
-      this.legend, this.canvas, note ? element("p", {class: "note"}, note) : null,
-      help ? element("p", {class: "note help"}, help) : null);
+      this.legend, this.canvas, note ? element("p", {class: "note"}, note) : null);
     this.title = title;
     new ResizeObserver(() => this.resize()).observe(this.canvas);
     all_plots.push(this);

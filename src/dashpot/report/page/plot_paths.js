@@ -54,7 +54,7 @@ function bars_path(width) {
   };
 }
 
-// What a series asks of uPlot.
+// Options of a series for uPlot.
 function series_options(series) {
   const own = {
     stroke: series.colour, width: series.width ?? 1.5, dash: series.dash, alpha: series.alpha ?? 1,

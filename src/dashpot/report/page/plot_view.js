@@ -1,4 +1,4 @@
-// What part of the plane a plot shows, and what stands under the pointer.
+// The part of the plane that a plot shows, and the values under the pointer.
 
 function padded([low, high], part) {
   const span = high - low || Math.abs(high) || 1;
@@ -41,7 +41,7 @@ function axis_ticks(axis) {
   };
 }
 
-// Where the ticks of a logarithmic axis stand: as many as have room.
+// Places of the ticks of a logarithmic axis: as many as have room.
 function log_places(low, high) {
   const digits = high - low < 1 ? [1, 1.5, 2, 3, 4, 5, 6, 8] : high - low < 2.5 ? [1, 2, 5] : [1], places = [];
   for (let power = Math.floor(low); power <= high; power++) {

@@ -6,16 +6,20 @@ function bytes_of(base64) {
 
 // {float32: base64} or {low, step, int16: base64}; the code -32768 stands for "not a number".
 function unpack(packed) {
-  if (!packed) return null;
   if (packed.float32 !== undefined) return new Float32Array(bytes_of(packed.float32).buffer);
   const codes = new Int16Array(bytes_of(packed.int16).buffer);
   return Float64Array.from(codes, (code) => code === -32768 ? NaN : packed.low + packed.step * (code + 32767));
 }
 
-// Unpacks on first use and keeps the result: a page may hold forty records.
+let shared_samples = [];
+function share_samples(samples) {
+  shared_samples = samples;
+}
+
+// Packed samples, or the place of shared ones. Unpacks on first use and keeps the result: a page may hold forty records.
 const unpacked = new Map();
-function series_of(packed) {
-  if (!packed) return null;
+function series_of(source) {
+  const packed = typeof source === "number" ? shared_samples[source] : source;
   if (!unpacked.has(packed)) unpacked.set(packed, unpack(packed));
   return unpacked.get(packed);
 }
@@ -32,9 +36,4 @@ function extent(values, range = null) {
     if (value > high) high = value;
   }
   return Number.isFinite(low) && Number.isFinite(high) ? [low, high] : range;
-}
-
-// Only what is scored: from the end of the warm-up on.
-function scored_part(time, values, scored_from) {
-  return values.filter((_, i) => time[i] >= scored_from);
 }

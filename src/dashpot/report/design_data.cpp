@@ -1,6 +1,8 @@
-// The report of a design run for programs and as a page.
+// A design run for programs: JSON and CSV.
+#include <cmath>
+
+#include "dashpot/base/text.h"
 #include "dashpot/report/design_report.h"
-#include "dashpot/report/page.h"
 #include "dashpot/report/safe_text.h"
 
 namespace dashpot {
@@ -83,6 +85,8 @@ Value design_json(const Design& design, const DesignRequest& request) {
                               {"goals", Value::array(design.assessment.goals)},
                               {"constraints", Value::array(design.assessment.constraints)},
                               {"slack", Value::array(design.assessment.slack)}});
+
+  // Parts that only some designs have.
   if (!design.second.empty()) {
     json.add("first", Value::array(design.first));
     json.add("second", Value::array(design.second));
@@ -111,6 +115,8 @@ Value json_design(const DesignInput& input) {
   const DesignRequest& request = report.request;
   Value designs = Value::array();
   for (const Design& design : report.designs) designs.push_back(design_json(design, request));
+
+  // Provenance first, then request and designs.
   return presentable(Value::object({{"format", "dashpot design 1"},
                                     {"version", input.version},
                                     {"date", input.date},
@@ -135,14 +141,38 @@ Value json_design(const DesignInput& input) {
                                     {"stopped", report.stopped}}));
 }
 
-std::string html_design(const DesignInput& input) {
-  constexpr std::size_t kShown = 30;  // without JavaScript
-  Value data = json_design(input);
-  data.add("page", "design");
-  const std::string table =
-      input.design.designs.empty() ? "" : design_table(input.design, 100, kShown);
-  return make_page(input.design.request.name + ", Dashpot design",
-                   design_verdict(input.design) + "\n\n" + table, data);
+std::string csv_design(const DesignReport& report) {
+  const DesignRequest& request = report.request;
+  std::vector<std::string> titles{"design"};
+  const auto title = [&](const std::string& name, std::string_view unit) {
+    titles.push_back(csv_field(unit == "1" ? name : name + "[" + std::string(unit) + "]"));
+  };
+  for (const DesignVariable& variable : request.variables)
+    title(variable.name(), variable.field ? variable.field->unit : "1");
+  for (const DesignGoal& goal : request.goals) title(describe(goal), goal.quantity->unit);
+  for (const DesignConstraint& constraint : request.constraints)
+    title(describe(constraint), constraint.quantity->unit);
+  const bool has_second = !report.second_name.empty();
+  if (has_second) titles.emplace_back("disagreement");
+  titles.emplace_back("beyond_family");
+  titles.emplace_back("role");
+  std::string text = join(titles, ",") + "\n";
+
+  // A design beyond a family says in which sizes.
+  for (const Design& design : report.designs) {
+    std::vector<std::string> row{design.name};
+    for (const DesignVariable& variable : request.variables)
+      row.push_back(variable.field ? format_exact(design.damper.*variable.field->field)
+                                   : std::string(design.damper.fluid->name));
+    for (const auto* figures : {&design.assessment.goals, &design.assessment.constraints})
+      for (const double figure : *figures)
+        row.push_back(std::isfinite(figure) ? format_exact(figure) : "");
+    if (has_second) row.push_back(format_exact(design.disagreement));
+    row.push_back(csv_field(join(design.outside, "; ")));
+    row.push_back(csv_field(design.role));
+    text += join(row, ",") + "\n";
+  }
+  return text;
 }
 
 }  // namespace dashpot

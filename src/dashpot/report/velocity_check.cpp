@@ -1,10 +1,10 @@
-#include "velocity_check.h"
+#include "dashpot/report/velocity_check.h"
 
 #include <cmath>
 
 #include "dashpot/record/differentiate.h"
 
-namespace dashpot::cli {
+namespace dashpot {
 namespace {
 
 bool is_measured(const Channel& velocity) { return !velocity.origin.starts_with("derived"); }
@@ -30,6 +30,8 @@ std::vector<VelocityCheck> check_velocities(const Dataset& dataset, double cutof
     if (!displacement || !velocity || !is_measured(*velocity) || record.sample_time <= 0 ||
         record.size() < kFewestSamples)
       continue;
+
+    // Derive it as on loading, and compare over the whole record.
     const std::vector<double>& x = displacement->samples;
     const double cutoff = cutoff_hz > 0 ? cutoff_hz : choose_cutoff_hz(x, record.sample_time);
     const std::vector<double> derived = differentiate_zero_phase(x, record.sample_time, cutoff);
@@ -40,4 +42,4 @@ std::vector<VelocityCheck> check_velocities(const Dataset& dataset, double cutof
   return checks;
 }
 
-}  // namespace dashpot::cli
+}  // namespace dashpot

@@ -1,5 +1,7 @@
-// The report of a search for programs and as a page.
-#include "dashpot/report/page.h"
+// A search for programs: JSON and CSV.
+#include <cmath>
+
+#include "dashpot/base/text.h"
 #include "dashpot/report/report_json.h"
 #include "dashpot/report/safe_text.h"
 #include "dashpot/report/search_report.h"
@@ -25,6 +27,8 @@ Value trial_json(const Trial& trial, const SearchReport& search) {
             find_network_setting(axis.setting, axis.setting).format(trial.design);
         !value.empty())
       settings.add(axis.setting, value);
+
+  // The error of each fold, of which the standard error is made.
   Value folds = Value::array();
   for (const FoldResult& fold : trial.folds) folds.push_back(metrics(fold.sums).esr);
   return Value::object({{"design", format_design(trial.design)},
@@ -52,6 +56,8 @@ Value json_search(const SearchInput& input) {
   Value axes = Value::array(), trials = Value::array();
   for (const SearchAxis& axis : search.options.space.axes) axes.push_back(axis_json(axis));
   for (const Trial& trial : search.trials) trials.push_back(trial_json(trial, search));
+
+  // Provenance and protocol first.
   return presentable(Value::object({{"format", "dashpot search 1"},
                                     {"version", input.version},
                                     {"date", input.date},
@@ -72,15 +78,34 @@ Value json_search(const SearchInput& input) {
                                     {"trials", std::move(trials)}}));
 }
 
-std::string html_search(const SearchInput& input) {
-  constexpr std::size_t kShown = 30;  // without JavaScript
-  Value data = json_search(input);
-  data.add("page", "search");
-  data.add("series", Value::object({{"display", "All trials are shown."}}));
-  return make_page(input.dataset.name + ", Dashpot search",
-                   search_verdict(input.search) + "\n\n" +
-                       trial_table(input.search.trials, input.search, 100, kShown),
-                   data);
+std::string csv_search(const SearchReport& search) {
+  std::string text = "rank";
+  for (const SearchAxis& axis : search.options.space.axes) text += "," + axis.setting;
+  text +=
+      ",parameters,esr_percent,standard_error_percent,worst_esr_percent,rmse_N,samples,diverged_"
+      "records,effort,usable,on_front,best,smallest,failure\n";
+  const auto yes = [](bool value) { return std::string(value ? "yes" : "no"); };
+  const auto number = [](double value) {
+    return std::isfinite(value) ? format_exact(value) : std::string();
+  };
+
+  // No times: the table is the same whenever the search is.
+  std::size_t rank = 0;
+  for (const Trial& trial : search.trials) {
+    std::vector<std::string> fields{std::to_string(++rank)};
+    for (const SearchAxis& axis : search.options.space.axes)
+      fields.push_back(
+          csv_field(find_network_setting(axis.setting, axis.setting).format(trial.design)));
+    fields.insert(
+        fields.end(),
+        {std::to_string(trial.parameters), number(trial.left_out.esr), number(trial.standard_error),
+         number(trial.worst_esr), number(trial.left_out.rmse),
+         std::to_string(trial.left_out.samples), std::to_string(trial.diverged),
+         format_exact(search.rungs[trial.rung].share), yes(trial.is_usable()), yes(trial.on_front),
+         yes(&trial == search.best()), yes(&trial == search.smallest()), csv_field(trial.failure)});
+    text += join(fields, ",") + "\n";
+  }
+  return text;
 }
 
 }  // namespace dashpot

@@ -4,7 +4,7 @@
 
 #include "dashpot/dataset.h"
 
-namespace dashpot::cli {
+namespace dashpot {
 
 /// How well velocity derived from displacement agrees with the measured one.
 struct VelocityCheck {
@@ -16,4 +16,4 @@ struct VelocityCheck {
 /// One per uniformly sampled record that has both. cutoff_hz 0: chosen per record, as on loading.
 std::vector<VelocityCheck> check_velocities(const Dataset& dataset, double cutoff_hz);
 
-}  // namespace dashpot::cli
+}  // namespace dashpot

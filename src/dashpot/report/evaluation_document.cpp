@@ -1,0 +1,99 @@
+#include <fmt/format.h>
+
+#include "dashpot/base/text.h"
+#include "dashpot/report/ranking_tables.h"
+#include "dashpot/report/report.h"
+
+namespace dashpot {
+namespace {
+
+std::string percent(double value) { return fmt::format("{:.2f}", value); }
+
+std::vector<std::string> record_row(const RecordResult& r) {
+  const std::string level = r.drive_level ? format_number(*r.drive_level) : "varies";
+  if (r.diverged_at)
+    return {r.record, level, "", "",
+            "",       "",    "", "diverged at " + format_number(*r.diverged_at) + " s"};
+  const Metrics& m = r.metrics;
+  return {r.record,       level,          format_number(m.rmse),   percent(m.rms_half_span),
+          percent(m.esr), percent(m.fit), percent(r.energy_error), format_number(r.offset, 3)};
+}
+
+std::vector<std::string> pooled_row(const std::string& name, const Metrics& m) {
+  return {name, "", format_number(m.rmse), percent(m.rms_half_span), percent(m.esr), percent(m.fit),
+          "",   ""};
+}
+
+DocumentTable error_table(const Evaluation& evaluation, const std::string& drive_unit) {
+  DocumentTable table{.title = {},
+                      .columns = {{"record"},
+                                  {drive_unit, true},
+                                  {"RMSE N", true},
+                                  {"rms/half-span %", true},
+                                  {"ESR %", true},
+                                  {"fit %", true},
+                                  {"energy error %", true},
+                                  {"offset N", true}},
+                      .rows = {}};
+
+  // Records, then all samples together.
+  for (const RecordResult& r : evaluation.records) table.rows.push_back(record_row(r));
+  if (evaluation.pooled.samples > 0) {
+    table.rows.push_back(pooled_row("all", evaluation.pooled));
+    table.rows.push_back(pooled_row("all, without offsets", evaluation.pooled_without_offset));
+  }
+  return table;
+}
+
+DocumentTable band_table(const Evaluation& evaluation) {
+  DocumentTable table{.title = {},
+                      .columns = {{"velocity band"},
+                                  {"|v| m/s", true},
+                                  {"samples", true},
+                                  {"RMSE N", true},
+                                  {"MAE N", true},
+                                  {"max |e| N", true}},
+                      .rows = {}};
+
+  // From the pre-yield region to the top speed.
+  for (const BandResult& band : evaluation.bands)
+    table.rows.push_back({band.name,
+                          format_number(band.low, 3) + " ... " + format_number(band.high, 3),
+                          std::to_string(band.metrics.samples), format_number(band.metrics.rmse),
+                          format_number(band.metrics.mae), format_number(band.metrics.max_error)});
+  return table;
+}
+
+}  // namespace
+
+Document evaluation_document(const ReportInput& input) {
+  const RankedModel& model = input.ranking.models.front();
+  const Evaluation& evaluation = model.left_out;
+
+  // On a page, a ranking of one model; its tables are too wide for what is asked here as text.
+  Document document = ranking_document(input);
+  for (DocumentSection& section : document.sections)
+    section.audience =
+        reaches(section.audience, Audience::Page) ? Audience::Page : Audience::Markdown;
+
+  // As text, every record with its errors, and the bands of speed.
+  DocumentSection errors{
+      .name = "errors",
+      .title = model.name + " in free run, nothing fitted but the force zero of each record",
+      .paragraphs = {},
+      .tables = {error_table(evaluation, to_string(input.dataset.drive_unit))},
+      .audience = Audience::Text};
+  if (evaluation.pooled.samples > 0) errors.tables.push_back(band_table(evaluation));
+  if (evaluation.one_step)
+    errors.remarks.push_back(
+        "One step ahead, with the measured force fed back (flatters; no measure of the model): "
+        "RMSE " +
+        format_number(evaluation.one_step->rmse) + " N, ESR " + percent(evaluation.one_step->esr) +
+        " %.");
+  if (const std::string sentence = interval_sentence(evaluation); !sentence.empty())
+    errors.remarks.push_back(sentence);
+  document.sections.insert(document.sections.begin(), std::move(errors));
+  return document;
+}
+
+}  // namespace dashpot

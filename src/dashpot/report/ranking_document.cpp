@@ -1,0 +1,260 @@
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "dashpot/report/provenance.h"
+#include "dashpot/report/ranking_figures.h"
+#include "dashpot/report/ranking_tables.h"
+#include "dashpot/report/report.h"
+#include "dashpot/report/words.h"
+
+namespace dashpot {
+namespace {
+
+constexpr std::string_view kLegend =
+    "Free run on left-out records. ESR: share of the force's power left unexplained, over all "
+    "samples; Mean, Worst: by record; Train: on the records of the fit. Slow: RMS error below 5 % "
+    "of the top speed. Energy: of the dissipated energy, by record. Par.: fitted numbers. Fit: CPU "
+    "time of all fits. Bounded: the force stays within ten spans at twice the stroke and speed of "
+    "the data.";
+
+/// Every column of the page; identify's own selection on a terminal.
+DocumentSection ranking_section(const Ranking& ranking) {
+  constexpr Audience kPage = Audience::Page, kText = Audience::Text;
+  DocumentTable table = model_table(ranking, {{"model", 0, kText},
+                                              {"title", 0, kPage},
+                                              {"esr_percent"},
+                                              {"rmse_N"},
+                                              {"fit_percent"},
+                                              {"r2", 6},
+                                              {"rms_half_span_percent", 4},
+                                              {"mean_esr_percent", 0, kPage},
+                                              {"worst_esr_percent"},
+                                              {"worst_record", 5, kText},
+                                              {"pre_yield_rmse_N", 0, kPage},
+                                              {"energy_error_percent", 0, kPage},
+                                              {"no_offset_esr_percent", 1},
+                                              {"training_esr_percent", 2},
+                                              {"coverage_percent", 0, kPage},
+                                              {"interval_width_N", 0, kPage},
+                                              {"parameters", 3},
+                                              {"nanoseconds_per_step", 7},
+                                              {"fit_cpu_seconds", 3},
+                                              {"largest_spans", 0, kPage},
+                                              {"status"}});
+
+  // A click on a row shows the model below.
+  table.leads_to = "closer";
+  table.note = one_step_note(ranking).value_or("");
+  return {.name = "ranking",
+          .title = "Ranking",
+          .paragraphs = {},
+          .tables = {std::move(table)},
+          .lead =
+              "Best first. Every figure is of left-out records in free run unless its column says "
+              "otherwise; a click on a head sorts, a click on a row looks closer."};
+}
+
+/// None where no model has an interval.
+std::vector<DocumentSection> interval_sections(const Ranking& ranking) {
+  DocumentTable table = interval_table(ranking);
+  if (table.rows.empty()) return {};
+  return {{.name = "intervals",
+           .title = "Intervals of the force",
+           .paragraphs = {},
+           .tables = {std::move(table)},
+           .audience = Audience::Text}};
+}
+
+std::string result_text(const RankedModel& model, const RecordResult& result) {
+  if (result.diverged_at)
+    return fmt::format("{} diverged at {} s.", display_name(model),
+                       number_text(*result.diverged_at));
+  const Metrics& m = result.metrics;
+  return fmt::format(
+      "{}: ESR {} %, RMSE {} N, fit {} %, greatest error {} N, energy error {} %, offset {} N.",
+      display_name(model), percent_text(m.esr), number_text(m.rmse), percent_text(m.fit),
+      number_text(m.max_error), percent_text(result.energy_error), number_text(result.offset));
+}
+
+/// One model on one record, as the reader of the page chooses.
+DocumentSection closer_section(const ReportInput& input, std::vector<SharedSamples>& samples,
+                               std::string& display) {
+  const Ranking& ranking = input.ranking;
+  const std::vector<std::string> records = judged_records(ranking);
+  DocumentChoice model{"model", "Model", {}}, record{"record", "Record", records};
+  DocumentSection section{
+      .name = "closer",
+      .title = "A closer look",
+      .paragraphs = {},
+      .lead = "One model on one left-out record; the loops show all records of the same motion.",
+      .audience = Audience::Page};
+
+  // A sentence for each model on each record.
+  for (std::size_t m = 0; m < ranking.models.size(); ++m) {
+    model.options.push_back(fmt::format("{}. {}", m + 1, display_name(ranking.models[m])));
+    for (std::size_t r = 0; r < records.size(); ++r) {
+      const auto& results = ranking.models[m].left_out.records;
+      const auto result = std::ranges::find(results, records[r], &RecordResult::record);
+      section.lists.push_back(
+          {.title = {},
+           .lines = {result == results.end() ? display_name(ranking.models[m]) +
+                                                   " was not judged on " + records[r] + "."
+                                             : result_text(ranking.models[m], *result)},
+           .when = {{"model", {m}}, {"record", {r}}}});
+    }
+  }
+
+  // The page opens with the best model on its worst record.
+  const auto worst = std::ranges::find(records, ranking.models.front().left_out.worst_record);
+  if (worst != records.end()) record.chosen = static_cast<std::size_t>(worst - records.begin());
+  section.choices = {std::move(model), std::move(record)};
+  section.figures = record_figures(input, samples, display);
+  return section;
+}
+
+std::vector<std::string> warnings_of(const RankedModel& model,
+                                     const std::vector<std::string>& folds) {
+  const auto complaint = [](const FitReport& fit) {
+    return std::string(fit.status == FitReport::Status::Failed
+                           ? "the fit failed. "
+                           : "the fit stopped at its iteration limit. ") +
+           fit.message;
+  };
+
+  // The final fit, then those of the folds.
+  std::vector<std::string> lines;
+  if (model.fit.status != FitReport::Status::Converged) lines.push_back(complaint(model.fit));
+  for (std::size_t k = 0; k < model.fold_fits.size(); ++k)
+    if (model.fold_fits[k].status != FitReport::Status::Converged)
+      lines.push_back((k < folds.size() ? folds[k] + ": " : "") + complaint(model.fold_fits[k]));
+  lines.insert(lines.end(), model.fit.warnings.begin(), model.fit.warnings.end());
+  return lines;
+}
+
+/// The final fit of each model, and its errors record by record.
+DocumentSection fitted_section(const Ranking& ranking) {
+  DocumentSection section{
+      .name = "fitted",
+      .title = "Fitted on all training records",
+      .paragraphs = {},
+      .lead = "The final fit of the chosen model, and each left-out record with its force offset."};
+  for (std::size_t m = 0; m < ranking.models.size(); ++m) {
+    const RankedModel& model = ranking.models[m];
+    const When here{{"model", {m}}};
+    if (!model.fit.parameters.empty()) {
+      section.tables.push_back(parameter_table(model.fit));
+      section.tables.back().title =
+          "Parameters of " + display_name(model) + ", with 95 % intervals";
+      section.tables.back().when = here;
+    } else if (model.fit.model) {
+      section.lists.push_back({.title = {},
+                               .lines = {display_name(model) + " is fitted as a whole: " +
+                                         counted(model.fit.model->parameter_count(), "number") +
+                                         " without a meaning of their own."},
+                               .when = here,
+                               .audience = Audience::Files});
+    }
+
+    // Errors record by record, and the warnings of its fits.
+    section.tables.push_back(record_table(model.left_out));
+    section.tables.back().title = "Left-out records, " + display_name(model);
+    section.tables.back().when = here;
+    section.tables.back().audience = Audience::Files;
+    section.lists.push_back({.title = "Warnings",
+                             .lines = warnings_of(model, ranking.folds),
+                             .when = here,
+                             .audience = Audience::Files});
+  }
+  return section;
+}
+
+std::vector<KeyFigure> key_figures(const Ranking& ranking) {
+  if (ranking.models.empty() || ranking.models.front().left_out.records.empty()) return {};
+  const Evaluation& best = ranking.models.front().left_out;
+  return {{percent_text(best.pooled.esr), "%", "of the force's power left unexplained (ESR)"},
+          {number_text(best.pooled.rmse), "N", "RMS error, free run, left-out records"},
+          {percent_text(best.pooled.fit), "%", "fit: 100 (1 − √ESR)"},
+          {percent_text(best.worst_esr), "%", "ESR of the worst record, " + best.worst_record}};
+}
+
+}  // namespace
+
+Document ranking_document(const ReportInput& input) {
+  const Ranking& ranking = input.ranking;
+  Document document{.title = input.dataset.name,
+                    .subtitle = counted(input.dataset.records.size(), "record") + " · " +
+                                counted(ranking.models.size(), "model") + " · " +
+                                protocol_title(ranking.leave_out),
+                    .verdict = verdict(ranking),
+                    .sections = {},
+                    .command = input.command,
+                    .version = input.version,
+                    .date = input.date,
+                    .kind = "identification report",
+                    .key_figures = key_figures(ranking),
+                    .data = json_report(input)};
+
+  // A ranking without models has only its protocol.
+  std::string display;
+  if (!ranking.models.empty()) {
+    document.sections.push_back(ranking_section(ranking));
+    for (DocumentSection& section : interval_sections(ranking))
+      document.sections.push_back(std::move(section));
+    document.sections.push_back(closer_section(input, document.samples, display));
+    document.sections.push_back({.name = "overview",
+                                 .title = "Across all records",
+                                 .paragraphs = {},
+                                 .tables = heat_maps(input),
+                                 .figures = {overview_figure(input)},
+                                 .lead = "Where the error lies: by motion, by drive and by speed.",
+                                 .audience = Audience::Page});
+    document.sections.push_back(fitted_section(ranking));
+  }
+  document.sections.push_back(judged_section(ranking.leave_out, ranking.folds, judged_terms()));
+  document.provenance = provenance_section(input.dataset, display);
+  return document;
+}
+
+Document leaderboard_document(const ReportInput& input) {
+  const Ranking& ranking = input.ranking;
+  Document document{.title = input.dataset.name,
+                    .subtitle = {},
+                    .verdict = verdict(ranking),
+                    .sections = {},
+                    .command = {},
+                    .version = input.version,
+                    .date = {}};
+
+  // How models were judged, and both tables.
+  document.sections.push_back(
+      {.name = "leaderboard",
+       .title = "Leaderboard",
+       .paragraphs = {"Left out: " + format_leave_out(ranking.leave_out) + ". " +
+                          protocol(ranking.leave_out, ranking.folds.size()),
+                      std::string(kLegend)},
+       .tables = {model_table(ranking, {{"place"},
+                                        {"model"},
+                                        {"esr_percent"},
+                                        {"training_esr_percent"},
+                                        {"mean_esr_percent", 1},
+                                        {"worst_esr_percent", 1},
+                                        {"pre_yield_rmse_N", 1},
+                                        {"energy_error_percent", 2},
+                                        {"parameters", 1},
+                                        {"nanoseconds_per_step", 1},
+                                        {"fit_cpu_seconds", 1},
+                                        {"bounded", 1},
+                                        {"status"}}),
+                  breakdown_table(ranking, input.dataset.drive_unit)}});
+  for (DocumentSection& section : interval_sections(ranking))
+    document.sections.push_back(std::move(section));
+
+  // Provenance is the citation alone: the part has neither command nor date.
+  if (!input.dataset.citation.empty())
+    document.provenance.facts.emplace_back("Data", input.dataset.citation);
+  document.data = json_report(input);
+  return document;
+}
+
+}  // namespace dashpot

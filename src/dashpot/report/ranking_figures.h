@@ -1,0 +1,21 @@
+#pragma once
+#include "dashpot/report/document.h"
+#include "dashpot/report/report.h"
+
+// The figures of a ranking's page. They follow the choices "model" and "record", whose options are
+// the ranking's models and judged_records().
+namespace dashpot {
+
+/// Force, loops and residual of the chosen model on the chosen record. The curves, thinned so that
+/// all pages stay small, go into `samples`; `display` says in a sentence what was thinned.
+std::vector<DocumentFigure> record_figures(const ReportInput& input,
+                                           std::vector<SharedSamples>& samples,
+                                           std::string& display);
+
+/// Peak force against velocity, and the error in each band of speed.
+DocumentFigure overview_figure(const ReportInput& input);
+
+/// The chosen model's ESR by condition and drive, as tables with shaded cells, one per model.
+std::vector<DocumentTable> heat_maps(const ReportInput& input);
+
+}  // namespace dashpot

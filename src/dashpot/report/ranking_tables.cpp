@@ -1,0 +1,405 @@
+#include "dashpot/report/ranking_tables.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <functional>
+
+#include <fmt/format.h>
+
+#include "dashpot/base/text.h"
+#include "dashpot/identify/judge/conformal.h"
+#include "dashpot/identify/judge/stress.h"
+#include "dashpot/report/safe_text.h"
+#include "dashpot/report/words.h"
+
+namespace dashpot {
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+/// A column of the ranking: its name for programs, how people see it, and a model's cell in it.
+struct ModelColumn {
+  std::string name;
+  TextColumn look;
+  std::function<DocumentCell(const RankedModel&)> cell;  ///< of a model; "place" needs none
+};
+
+std::string three_digits(double value) { return number_text(value, 3); }
+std::string two_digits(double value) { return number_text(value, 2); }
+std::string whole(double value) { return fmt::format("{:.0f}", value); }
+std::string four_digits(double value) { return number_text(value, 4); }
+
+std::string status_text(const RankedModel& model) {
+  if (!model.fit.model || model.fit.status == FitReport::Status::Failed) return "fit failed";
+  if (model.left_out.diverged) return fmt::format("{} diverged", model.left_out.diverged);
+  return model.fit.status == FitReport::Status::IterationLimit ? "limit" : "";
+}
+
+/// A column of words.
+template <typename Words>
+ModelColumn words(const char* name, const char* title, const char* hint, Words text) {
+  return {name, {.title = title, .hint = hint}, [=](const RankedModel& model) {
+            return DocumentCell{text(model)};
+          }};
+}
+
+/// A column of figures; a model that was not judged has none.
+template <typename Figure>
+ModelColumn figure(const char* name, const char* title, const char* hint, Figure value,
+                   std::string (*text)(double), bool descending = false) {
+  return {name,
+          {.title = title, .numeric = true, .hint = hint, .descending = descending},
+          [=](const RankedModel& model) {
+            return is_judged(model) ? DocumentCell{text(value(model)), value(model)}
+                                    : DocumentCell{"-", kNone};
+          }};
+}
+
+using Model = const RankedModel&;
+
+double pre_yield_rmse(Model m) {
+  return m.left_out.bands.empty() ? 0 : m.left_out.bands.front().metrics.rmse;
+}
+
+/// Every column that a table of models may have.
+const std::vector<ModelColumn>& model_columns() {
+  static const std::vector<ModelColumn> kColumns = [] {
+    // Names first, then errors on left-out records, then the cost.
+    std::vector<ModelColumn> all{
+        {"place", {.title = "#", .numeric = true}, {}},
+        words("model", "Model", "", [](Model m) { return m.name; }),
+        words("title", "Model", "", [](Model m) { return display_name(m); }),
+        figure(
+            "esr_percent", "ESR %",
+            "Error power over force power, left-out records, one offset per record",
+            [](Model m) { return m.left_out.pooled.esr; }, percent_text),
+        figure(
+            "rmse_N", "RMSE N", "Root mean square error",
+            [](Model m) { return m.left_out.pooled.rmse; }, three_digits),
+        figure(
+            "fit_percent", "Fit %", "100 (1 - sqrt(ESR))",
+            [](Model m) { return m.left_out.pooled.fit; }, percent_text, true),
+        figure(
+            "r2", "R2", "1 - ESR", [](Model m) { return m.left_out.pooled.r2; }, four_digits, true),
+        figure(
+            "rms_half_span_percent", "rms/half %", "200 RMSE / (Fmax - Fmin)",
+            [](Model m) { return m.left_out.pooled.rms_half_span; }, percent_text),
+        figure(
+            "training_esr_percent", "Train %",
+            "ESR of the final fit on the records that it was fitted on",
+            [](Model m) { return m.training.pooled.esr; }, percent_text),
+        figure(
+            "mean_esr_percent", "Mean %", "Mean ESR over the left-out records",
+            [](Model m) { return m.left_out.mean_esr; }, percent_text),
+        figure(
+            "worst_esr_percent", "Worst %",
+            "ESR of the worst left-out record; a click on the row shows it",
+            [](Model m) { return m.left_out.worst_esr; }, percent_text),
+        words("worst_record", "Worst record", "", [](Model m) { return m.left_out.worst_record; }),
+        figure("pre_yield_rmse_N", "Slow N",
+               "RMS error in the band of least speed: the pre-yield region", pre_yield_rmse,
+               three_digits),
+        figure(
+            "energy_error_percent", "Energy %",
+            "Error of the dissipated energy: mean of its magnitude over the records",
+            [](Model m) { return m.left_out.mean_energy_error; }, percent_text),
+        figure(
+            "no_offset_esr_percent", "No offs. %",
+            "ESR without the records' offsets: the model as it stands in its file",
+            [](Model m) { return m.left_out.pooled_without_offset.esr; }, percent_text),
+        figure(
+            "coverage_percent", "Covered %",
+            "Left-out samples inside the model's interval of the force, which claims 90 % and was "
+            "made without them",
+            [](Model m) { return m.left_out.coverage.percent(); }, percent_text),
+        figure(
+            "interval_width_N", "Width N", "Mean width of that interval",
+            [](Model m) {
+              return m.left_out.coverage.samples ? m.left_out.coverage.mean_width() : kNone;
+            },
+            three_digits),
+        figure(
+            "parameters", "Par.", "Fitted numbers of the model",
+            [](Model m) { return static_cast<double>(m.fit.model->parameter_count()); }, whole),
+        figure(
+            "nanoseconds_per_step", "ns/step", "Time of one step on this machine",
+            [](Model m) { return m.nanoseconds_per_step; }, three_digits),
+        figure(
+            "fit_cpu_seconds", "Fit s", "CPU time of all folds and the final fit",
+            [](Model m) { return m.seconds; }, two_digits),
+        words("status", "Status",
+              "limit: the fit stopped at its iteration limit; diverged: on so many records",
+              status_text)};
+
+    // Behaviour beyond the data: in a word, and on a page with the number to sort by.
+    all.push_back({"bounded", {.title = "Bounded"}, [](Model m) {
+                     return DocumentCell{stress_text(m.stress)};
+                   }});
+    all.push_back({"largest_spans",
+                   {.title = "Bounded",
+                    .hint = "Largest force at twice the stroke and speed of the data, in force "
+                            "spans of the data; more than 10 is called unbounded"},
+                   [](Model m) {
+                     const StressRun& run = m.stress;
+                     if (run.seconds == 0 || !run.finite) return DocumentCell{stress_text(run)};
+                     return DocumentCell{std::string(run.is_bounded() ? "yes, " : "no, ") +
+                                             number_text(run.largest_share, 2),
+                                         run.largest_share};
+                   }});
+    return all;
+  }();
+  return kColumns;
+}
+
+const ModelColumn& column_named(const std::string& name) {
+  const auto found = std::ranges::find(model_columns(), name, &ModelColumn::name);
+  assert(found != model_columns().end());
+  return *found;
+}
+
+std::string level_title(const DriveResult& drive, const std::string& unit) {
+  const std::string low = format_number(drive.low, 3);
+  return drive.low == drive.high ? low + " " + unit
+                                 : low + " ... " + format_number(drive.high, 3) + " " + unit;
+}
+
+std::string interval_text(const FittedParameter& p) {
+  if (p.fixed) return "fixed";
+  if (std::isnan(p.low)) return "none";
+  return fmt::format("[{}, {}]", number_text(p.low, 4), number_text(p.high, 4));
+}
+
+std::string remark(const FittedParameter& p) {
+  return std::string(p.at_bound ? "at its bound" : "") + (p.at_bound && p.weak ? ", " : "") +
+         (p.weak ? "weakly determined" : "");
+}
+
+using MetricColumn = std::pair<const char*, double Metrics::*>;
+constexpr MetricColumn kMetricColumns[] = {{"rmse_N", &Metrics::rmse},
+                                           {"rms_half_span_percent", &Metrics::rms_half_span},
+                                           {"rms_span_percent", &Metrics::rms_span},
+                                           {"nrmse_max_percent", &Metrics::nrmse_max},
+                                           {"esr_percent", &Metrics::esr},
+                                           {"r2", &Metrics::r2},
+                                           {"rrse", &Metrics::rrse},
+                                           {"fit_percent", &Metrics::fit},
+                                           {"vaf_percent", &Metrics::vaf},
+                                           {"mae_N", &Metrics::mae},
+                                           {"max_error_N", &Metrics::max_error}};
+
+std::string csv_line(const RankedModel& model, const RecordResult& record, bool left_out) {
+  const auto optional_text = [](const std::optional<double>& value) {
+    return value ? format_exact(*value) : std::string();
+  };
+  std::vector<std::string> fields = {
+      csv_field(model.name),       csv_field(record.record),
+      csv_field(record.condition), optional_text(record.drive_level),
+      left_out ? "yes" : "no",     std::to_string(record.metrics.samples)};
+  for (const auto& [name, member] : kMetricColumns)
+    fields.push_back(format_exact(record.metrics.*member));
+  for (const double value : {record.metrics_without_offset.esr, record.offset, record.energy_error})
+    fields.push_back(format_exact(value));
+  fields.push_back(optional_text(record.diverged_at));
+  return join(fields, ",") + "\n";
+}
+
+}  // namespace
+
+std::vector<std::string> judged_records(const Ranking& ranking) {
+  std::vector<std::string> names;
+  for (const RankedModel& model : ranking.models)
+    for (const RecordResult& result : model.left_out.records)
+      if (std::ranges::find(names, result.record) == names.end()) names.push_back(result.record);
+  return names;
+}
+
+DocumentTable model_table(const Ranking& ranking, const std::vector<ColumnChoice>& columns) {
+  DocumentTable table;
+  for (const ColumnChoice& choice : columns) {
+    TextColumn look = column_named(choice.name).look;
+    look.priority = choice.priority;
+    look.audience = choice.audience;
+    look.elastic = !look.numeric && look.title != "Status";
+    table.columns.push_back(look);
+  }
+
+  const std::vector<std::string> records = judged_records(ranking);
+  for (const RankedModel& model : ranking.models) {
+    const std::size_t place = table.rows.size();
+    std::vector<DocumentCell> row;
+    for (const ColumnChoice& choice : columns)
+      row.push_back(choice.name == std::string("place") ? DocumentCell{std::to_string(place + 1)}
+                                                        : column_named(choice.name).cell(model));
+    add_row(table, row);
+    table.warnings.push_back(!is_usable(model));
+    table.chooses.push_back({{"model", place}});
+    const auto worst = std::ranges::find(records, model.left_out.worst_record);
+    if (worst != records.end())
+      table.chooses.back().emplace_back("record",
+                                        static_cast<std::size_t>(worst - records.begin()));
+  }
+  return table;
+}
+
+DocumentTable breakdown_table(const Ranking& ranking, DriveUnit drive_unit) {
+  DocumentTable table{.title = "RMS error in N by speed, and ESR in % by drive",
+                      .columns = {{.title = "Model", .elastic = true}},
+                      .rows = {}};
+  for (const RankedModel& model : ranking.models) {
+    if (!is_judged(model)) continue;
+
+    // The first judged model says which bands and levels there are.
+    const bool is_first = table.rows.empty();
+    std::vector<std::string> row = {model.name};
+    for (const BandResult& band : model.left_out.bands) {
+      if (is_first) table.columns.push_back({split(band.name, ',').front() + " N", true});
+      row.push_back(number_text(band.metrics.rmse, 3));
+    }
+    for (const DriveResult& drive : model.left_out.drive) {
+      if (is_first) table.columns.push_back({level_title(drive, to_string(drive_unit)), true, 1});
+      row.push_back(percent_text(drive.metrics.esr));
+    }
+    row.resize(table.columns.size(), "-");  // a model that diverged has fewer levels
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+DocumentTable interval_table(const Ranking& ranking) {
+  DocumentTable table{
+      .title = fmt::format(
+          "{:.0f} % intervals of the force, each made without the records that it is judged on",
+          100 * kCoverage),
+      .columns = {{.title = "Model", .elastic = true},
+                  {"Covered %", true},
+                  {"Worst %", true},
+                  {.title = "Worst record", .priority = 2, .elastic = true},
+                  {"Width N", true},
+                  {"of span %", true, 1}},
+      .rows = {}};
+
+  // Models without an interval have no row.
+  for (const RankedModel& model : ranking.models) {
+    const Coverage& all = model.left_out.coverage;
+    if (const RecordResult* worst = model.left_out.worst_covered())
+      table.rows.push_back({model.name, percent_text(all.percent()),
+                            percent_text(worst->coverage.percent()), worst->record,
+                            number_text(all.mean_width()), percent_text(all.mean_width_percent())});
+  }
+  return table;
+}
+
+DocumentTable parameter_table(const FitReport& fit) {
+  DocumentTable table{.title = {},
+                      .columns = {{"Parameter"},
+                                  {"Value", true},
+                                  {"95 % interval"},
+                                  {"Unit"},
+                                  {.title = "Meaning", .priority = 1, .elastic = true},
+                                  {"Remark"}},
+                      .rows = {}};
+
+  // Intervals sort by their width.
+  for (const FittedParameter& p : fit.parameters) {
+    add_row(table, {{p.name},
+                    {number_text(p.value, 5), p.value},
+                    {interval_text(p), p.fixed ? kNone : p.high - p.low},
+                    {p.unit},
+                    {p.meaning},
+                    {remark(p)}});
+    table.warnings.push_back(p.at_bound || p.weak);
+  }
+  return table;
+}
+
+DocumentTable record_table(const Evaluation& evaluation) {
+  DocumentTable table{
+      .title = {},
+      .columns = {{.title = "Left-out record", .elastic = true},
+                  {"ESR %", true},
+                  {"RMSE N", true},
+                  {.title = "Fit %", .numeric = true, .descending = true},
+                  {.title = "Offset N",
+                   .numeric = true,
+                   .hint = "Added to the model's force: the zero of the load cell, gas"},
+                  {"No offs. %", true, 1},
+                  {"Energy %", true, 1},
+                  {.title = "Covered %", .numeric = true, .descending = true},
+                  {.title = "Diverged at", .numeric = true}},
+      .rows = {}};
+
+  // One row per record; a diverged one says when.
+  const auto percent = [](double value) { return DocumentCell{percent_text(value), value}; };
+  for (const RecordResult& r : evaluation.records) {
+    const std::string end = r.diverged_at ? number_text(*r.diverged_at) + " s" : "";
+    add_row(table, {{r.record},
+                    percent(r.metrics.esr),
+                    {number_text(r.metrics.rmse), r.metrics.rmse},
+                    percent(r.metrics.fit),
+                    {number_text(r.offset), r.offset},
+                    percent(r.metrics_without_offset.esr),
+                    percent(r.energy_error),
+                    percent(r.coverage.percent()),
+                    {end, r.diverged_at.value_or(kNone)}});
+    table.warnings.push_back(r.diverged_at.has_value());
+  }
+  return table;
+}
+
+std::string interval_sentence(const Evaluation& evaluation) {
+  const RecordResult* worst = evaluation.worst_covered();
+  if (!worst) return "";
+  const Coverage& all = evaluation.coverage;
+  return fmt::format(
+      "The {:.0f} % interval of the model covers {} % of the samples, {} % of the worst record "
+      "({}); its mean width is {} N, {} % of the force span.",
+      100 * worst->band->level, percent_text(all.percent()),
+      percent_text(worst->coverage.percent()), worst->record, number_text(all.mean_width()),
+      percent_text(all.mean_width_percent()));
+}
+
+std::string stress_text(const StressRun& run) {
+  if (run.seconds == 0) return "-";
+  if (!run.finite) return "diverged";
+  return run.is_bounded() ? "yes" : fmt::format("{} spans", number_text(run.largest_share, 2));
+}
+
+std::string csv_report(const ReportInput& input) {
+  std::string text =
+      "model,record,condition,drive_" + to_string(input.dataset.drive_unit) + ",left_out,samples";
+  for (const auto& [name, member] : kMetricColumns) text += std::string(",") + name;
+  text += ",esr_without_offset_percent,offset_N,energy_error_percent,diverged_at_s\n";
+  for (const RankedModel& model : input.ranking.models) {
+    for (const RecordResult& record : model.left_out.records) text += csv_line(model, record, true);
+    for (const RecordResult& record : model.training.records)
+      text += csv_line(model, record, false);
+  }
+  return text;
+}
+
+std::string csv_leaderboard(const ReportInput& input) {
+  constexpr std::array kFigures{"esr_percent",       "training_esr_percent", "mean_esr_percent",
+                                "worst_esr_percent", "pre_yield_rmse_N",     "energy_error_percent",
+                                "parameters",        "nanoseconds_per_step", "fit_cpu_seconds"};
+  std::string text = "rank,model,usable," + join({kFigures.begin(), kFigures.end()}, ",") +
+                     ",stress_finite,stress_largest_spans,diverged_records,wall_seconds_of_all\n";
+
+  // Figures of models that were not judged stay empty.
+  std::size_t rank = 0;
+  for (const RankedModel& model : input.ranking.models) {
+    std::vector<std::string> fields = {std::to_string(++rank), csv_field(model.name),
+                                       is_usable(model) ? "yes" : "no"};
+    for (const char* name : kFigures)
+      fields.push_back(is_judged(model) ? format_exact(column_named(name).cell(model).key) : "");
+    fields.insert(
+        fields.end(),
+        {model.stress.finite ? "yes" : "no", format_exact(model.stress.largest_share),
+         std::to_string(model.left_out.diverged), format_exact(input.ranking.wall_seconds)});
+    text += join(fields, ",") + "\n";
+  }
+  return text;
+}
+
+}  // namespace dashpot

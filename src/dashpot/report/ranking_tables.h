@@ -1,0 +1,37 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "dashpot/report/document.h"
+#include "dashpot/report/report.h"
+
+// Tables of models, of a model's parameters and of its records, for every report that has them.
+namespace dashpot {
+
+/// A column of the ranking: its name in ModelColumn's list, and who sees it.
+struct ColumnChoice {
+  const char* name;
+  int priority = 0;  ///< as in TextColumn
+  Audience audience = Audience::Everyone;
+};
+
+/// Every record that a model of the ranking was judged on, once: the options of a page's choice.
+std::vector<std::string> judged_records(const Ranking& ranking);
+
+/// One row per model, best first; a click on it looks closer at the model and its worst record.
+DocumentTable model_table(const Ranking& ranking, const std::vector<ColumnChoice>& columns);
+/// RMS error by speed and ESR by drive, one row per model that was judged.
+DocumentTable breakdown_table(const Ranking& ranking, DriveUnit drive_unit);
+/// The models' intervals of the force and what they covered; without rows where none has one.
+DocumentTable interval_table(const Ranking& ranking);
+/// Value, 95 % interval and remarks of each fitted parameter.
+DocumentTable parameter_table(const FitReport& fit);
+/// A model's errors on each left-out record.
+DocumentTable record_table(const Evaluation& evaluation);
+
+/// "The 90 % interval of the model covers 88.1 % of the samples, ..."; empty without intervals.
+std::string interval_sentence(const Evaluation& evaluation);
+/// "yes", "12 spans", "diverged"; "-" when the model was not driven beyond its data.
+std::string stress_text(const StressRun& run);
+
+}  // namespace dashpot
