@@ -1,9 +1,11 @@
 #pragma once
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "dashpot/base/monitor.h"
+#include "dashpot/record/leave_out.h"
 #include "dashpot/record/record.h"
 
 namespace dashpot {
@@ -29,20 +31,6 @@ struct SourceFile {
 struct PassedOver {
   std::string file, why;
 };
-
-/// How records are left out to judge a model. `values` narrows it: the levels, conditions or record
-/// names to leave out one after the other; empty: each (for Current: each inner level, since a
-/// model is not asked to extrapolate in current). Each: `values` names conditions of the records,
-/// gap or viscosity, and what agrees in all of them is left out together.
-struct LeaveOut {
-  enum class By { Condition, Current, Record, Fraction, Roles, Each };
-  By by = By::Condition;
-  std::vector<std::string> values;
-  double fraction = 0.3;  ///< Fraction: share of every record's end that is left out
-};
-LeaveOut parse_leave_out(
-    const std::string& text);  ///< "current", "current=0.87,1.98", "fraction=0.33"
-std::string format_leave_out(const LeaveOut& leave_out);
 
 /// Records that are identified and judged together.
 struct Dataset {

@@ -6,7 +6,8 @@
 #include <variant>
 #include <vector>
 
-#include "dashpot/record/dataset.h"
+#include "dashpot/record/leave_out.h"
+#include "dashpot/record/record.h"
 
 namespace dashpot {
 

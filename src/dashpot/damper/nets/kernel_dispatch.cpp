@@ -1,7 +1,8 @@
-#include "dashpot/damper/nets/kernel.h"
-
+// Chooses the widest kernel that this processor runs. Apart from kernel.h, so that tables.h, which
+// it needs, may include that.
 #include <type_traits>
 
+#include "dashpot/damper/nets/kernel.h"
 #include "dashpot/damper/nets/simd/tables.h"
 
 namespace dashpot {

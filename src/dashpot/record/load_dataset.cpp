@@ -1,5 +1,3 @@
-#include "dashpot/record/dataset.h"
-
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -9,6 +7,7 @@
 #include "dashpot/base/text.h"
 #include "dashpot/record/build_record.h"
 #include "dashpot/record/conditions.h"
+#include "dashpot/record/dataset.h"
 #include "dashpot/record/dataset_file.h"
 #include "dashpot/record/readers/reader.h"
 #include "dashpot/record/source_files.h"
