@@ -15,7 +15,7 @@ dashpot_model::dashpot_model(ModelFile model_file)
       damper(file.model.get()),
       state_size(damper->state_size()),
       name(damper->name()),
-      kind(damper->kind()),
+      kind(name_of(damper->kind())),
       title(model_info(name).title) {}
 
 namespace {

@@ -102,7 +102,7 @@ void write_report(const Settings& settings, const Dataset& dataset, ModelFile fi
 
 int run(const Settings& settings, Console& console) {
   ModelFile file = load_model(settings.model);
-  if (const auto* family = dynamic_cast<const FamilyModel*>(file.model.get());
+  if (const auto* family = model_as<FamilyModel>(*file.model);
       family && settings.outside_family == "refuse")
     file.model = family->with_outside(OutsideFamily::Refuse);
   const Dataset dataset = load_recordings(settings.data, console);

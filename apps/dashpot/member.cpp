@@ -76,7 +76,7 @@ std::string table_of(const FamilyModel& model, int width) {
 
 int run(const Settings& settings, Console& console) {
   ModelFile file = load_model(settings.model);
-  const auto* family = dynamic_cast<const FamilyModel*>(file.model.get());
+  const auto* family = model_as<FamilyModel>(*file.model);
   if (!family)
     throw Error(settings.model, "is a model of one damper, not of a family",
                 "a file that 'dashpot identify --models family' wrote");

@@ -1,6 +1,7 @@
 #include "model_sheet.h"
 
 #include <algorithm>
+#include <array>
 
 #include <fmt/core.h>
 
@@ -8,13 +9,20 @@
 #include "dashpot/base/text.h"
 #include "dashpot/damper/inverse/polynomial.h"
 #include "dashpot/damper/kinds/family/family_force.h"
+#include "dashpot/damper/kinds/family/presets.h"
+#include "dashpot/damper/kinds/fuzzy/presets.h"
 #include "dashpot/damper/kinds/hybrid/hybrid_model.h"
-#include "dashpot/damper/kinds/hysteresis_network/hysteresis_network.h"
+#include "dashpot/damper/kinds/hybrid/presets.h"
+#include "dashpot/damper/kinds/hysteresis_network/hysteresis_network_model.h"
+#include "dashpot/damper/kinds/hysteresis_network/presets.h"
 #include "dashpot/damper/kinds/law/law_model.h"
+#include "dashpot/damper/kinds/narx/presets.h"
+#include "dashpot/damper/kinds/network/presets.h"
+#include "dashpot/damper/kinds/state_space/presets.h"
 #include "dashpot/damper/kinds/state_space/state_space_model.h"
 #include "dashpot/damper/nets/mlp.h"
 #include "dashpot/damper/registry.h"
-#include "dashpot/identify/fit/network_design.h"
+#include "dashpot/identify/fit/fit.h"
 #include "dashpot/report/safe_text.h"
 #include "layout.h"
 
@@ -45,15 +53,6 @@ ParameterLine parameter_line(const ParamInfo& p) {
           std::string(p.meaning)};
 }
 
-void add_table(ModelSheet& sheet, const Law& law) {
-  for (const StateInfo& state : law.states)
-    sheet.states.push_back(std::string(state.name) + ", " + std::string(state.unit));
-  for (const ParamInfo& p : law.params) {
-    sheet.parameters.push_back(parameter_line(p));
-    if (is_estimated(p.fit)) sheet.numbers += coefficient_count(p.form);
-  }
-}
-
 /// The law with every parameter that may follow the current doing so, each at a pace of its own.
 LawModel driven_example(const Law& law) {
   Dependence d;
@@ -78,19 +77,52 @@ std::string inverse_of(const Law& law) {
   }
 }
 
-void add_numbers(ModelSheet& sheet, const NetworkPreset& preset) {
-  std::vector<std::size_t> layers = {preset.inputs.size() * (preset.delays + 1) + preset.feedback};
-  layers.insert(layers.end(), preset.hidden.begin(), preset.hidden.end());
-  layers.push_back(1);
-  sheet.numbers = Mlp::parameter_count(layers);
-  if (preset.feedback == 0) return;
-  for (const std::string& input : preset.inputs)
-    sheet.states.insert(sheet.states.end(), preset.delays + 1, "past " + input);
-  sheet.states.insert(sheet.states.end(), preset.feedback + 1, "past force, N");
-  sheet.states.insert(sheet.states.end(), {"time in the step, s", "diverged, 1"});
+/// States and parameters of a law, alone or inside a hybrid.
+void add_table(ModelSheet& sheet, const Law& law) {
+  for (const StateInfo& state : law.states)
+    sheet.states.push_back(std::string(state.name) + ", " + std::string(state.unit));
+  for (const ParamInfo& p : law.params) {
+    sheet.parameters.push_back(parameter_line(p));
+    if (is_estimated(p.fit)) sheet.numbers += coefficient_count(p.form);
+  }
 }
 
-void add_numbers(ModelSheet& sheet, const FuzzyPreset& preset) {
+/// `count` times the same state.
+void add_states(ModelSheet& sheet, std::size_t count, const std::string& state) {
+  sheet.states.insert(sheet.states.end(), count, state);
+}
+
+/// Weights of a perceptron between so many inputs and one force.
+std::size_t weights(std::size_t inputs, const std::vector<std::size_t>& hidden) {
+  std::vector<std::size_t> layers{inputs};
+  layers.insert(layers.end(), hidden.begin(), hidden.end());
+  layers.push_back(1);
+  return Mlp::parameter_count(layers);
+}
+
+// One per kind: its states, and how many numbers its fit finds.
+
+void describe_law(ModelSheet& sheet) {
+  const Law& law = find_law(sheet.name);
+  sheet.inverse = inverse_of(law);
+  add_table(sheet, law);
+}
+
+void describe(ModelSheet& sheet, const NetworkPreset& preset) {
+  sheet.numbers = weights(preset.inputs.size(), preset.hidden);
+}
+
+void describe(ModelSheet& sheet, const NarxPreset& preset) {
+  sheet.numbers =
+      weights(preset.inputs.size() * (preset.delays + 1) + preset.feedback, preset.hidden);
+  for (const std::string& input : preset.inputs)
+    add_states(sheet, preset.delays + 1, "past " + input);
+  add_states(sheet, preset.feedback + 1, "past force, N");
+  add_states(sheet, 1, "time in the step, s");
+  add_states(sheet, 1, "diverged, 1");
+}
+
+void describe(ModelSheet& sheet, const FuzzyPreset& preset) {
   std::size_t rules = 1, sets = 0;
   for (const std::size_t count : preset.sets) {
     rules *= count;
@@ -104,7 +136,7 @@ void add_numbers(ModelSheet& sheet, const FuzzyPreset& preset) {
   ++sheet.numbers;  // its lag
 }
 
-void add_numbers(ModelSheet& sheet, const HybridPreset& preset) {
+void describe(ModelSheet& sheet, const HybridPreset& preset) {
   add_table(sheet, *preset.law);
   GatedNetwork network;
   network.currents = 1 + preset.current_lags;
@@ -112,13 +144,13 @@ void add_numbers(ModelSheet& sheet, const HybridPreset& preset) {
                          preset.path_states + preset.velocity_lags + network.currents);
   network.initialise(preset.hidden, 0);
   sheet.numbers += network.parameter_count();
-  sheet.states.insert(sheet.states.end(), preset.path_states, "w, 1");
-  sheet.states.insert(sheet.states.end(), preset.velocity_lags, "y, m/s");
-  sheet.states.insert(sheet.states.end(), preset.current_lags, "u, A");
+  add_states(sheet, preset.path_states, "w, 1");
+  add_states(sheet, preset.velocity_lags, "y, m/s");
+  add_states(sheet, preset.current_lags, "u, A");
 }
 
-void add_numbers(ModelSheet& sheet, const StateNetworkPreset& preset) {
-  BankNetwork member;
+void describe(ModelSheet& sheet, const HysteresisNetworkPreset& preset) {
+  HysteresisNetwork member;
   member.bank.path_rates.resize(preset.path_states);
   member.bank.velocity_rates.resize(preset.velocity_lags);
   member.bank.current_rates.resize(preset.current_lags);
@@ -126,29 +158,28 @@ void add_numbers(ModelSheet& sheet, const StateNetworkPreset& preset) {
   member.network.signals.resize(member.bank.signal_count());
   member.network.initialise(preset.hidden, 0);
   sheet.numbers = preset.members * member.parameter_count();
-  sheet.states.insert(sheet.states.end(), preset.members * preset.path_states, "w, 1");
-  sheet.states.insert(sheet.states.end(), preset.members * preset.velocity_lags, "y, m/s");
-  sheet.states.insert(sheet.states.end(), preset.members * preset.current_lags, "u, A");
+  add_states(sheet, preset.members * preset.path_states, "w, 1");
+  add_states(sheet, preset.members * preset.velocity_lags, "y, m/s");
+  add_states(sheet, preset.members * preset.current_lags, "u, A");
 }
 
-void add_numbers(ModelSheet& sheet, const FamilyPreset& preset) {
+void describe(ModelSheet& sheet, const FamilyPreset& preset) {
   if (!preset.inputs.empty()) {
-    std::vector<std::size_t> layers = {preset.inputs.size()};
-    layers.insert(layers.end(), preset.hidden.begin(), preset.hidden.end());
-    layers.push_back(1);
-    sheet.numbers = Mlp::parameter_count(layers);
+    sheet.numbers = weights(preset.inputs.size(), preset.hidden);
     return;
   }
+
+  // Without inputs it has gates over a bank of states.
   FamilyGates gates;
   gates.bank.path_rates.resize(preset.path_states);
   gates.bank.velocity_rates.resize(preset.velocity_lags);
   gates.soft_speeds.resize(FamilyGates::kSoftSpeeds);
   sheet.numbers = gates.term_count() * FamilyGates::kGates;
-  sheet.states.insert(sheet.states.end(), preset.path_states, "w, 1");
-  sheet.states.insert(sheet.states.end(), preset.velocity_lags, "y, m/s");
+  add_states(sheet, preset.path_states, "w, 1");
+  add_states(sheet, preset.velocity_lags, "y, m/s");
 }
 
-void add_numbers(ModelSheet& sheet, const StateSpacePreset& preset) {
+void describe(ModelSheet& sheet, const StateSpacePreset& preset) {
   StateSpaceNetwork member;
   member.cell.path_rates.resize(preset.path_states);
   member.cell.lag_rates.resize(preset.lags);
@@ -158,10 +189,30 @@ void add_numbers(ModelSheet& sheet, const StateSpacePreset& preset) {
   member.network.signals.resize(member.cell.signal_count());
   member.network.initialise(preset.output_hidden, 0);
   sheet.numbers = preset.members * member.parameter_count();
-  sheet.states.insert(sheet.states.end(), preset.members * preset.path_states, "x, 1");
-  sheet.states.insert(sheet.states.end(), preset.members * preset.lags, "y, 1");
-  sheet.states.insert(sheet.states.end(), preset.members * preset.current_lags, "u, 1");
+  add_states(sheet, preset.members * preset.path_states, "x, 1");
+  add_states(sheet, preset.members * preset.lags, "y, 1");
+  add_states(sheet, preset.members * preset.current_lags, "u, 1");
 }
+
+template <auto presets>
+void describe_preset(ModelSheet& sheet) {
+  describe(sheet, find_preset(presets(), sheet.name));
+}
+
+struct KindDescription {
+  ModelKind kind;
+  void (*describe)(ModelSheet& sheet);  ///< adds to a sheet that has its name
+};
+constexpr std::array kDescriptions{
+    KindDescription{ModelKind::Law, describe_law},
+    KindDescription{ModelKind::Network, describe_preset<network_presets>},
+    KindDescription{ModelKind::Narx, describe_preset<narx_presets>},
+    KindDescription{ModelKind::HysteresisNetwork, describe_preset<hysteresis_network_presets>},
+    KindDescription{ModelKind::StateSpace, describe_preset<state_space_presets>},
+    KindDescription{ModelKind::Fuzzy, describe_preset<fuzzy_presets>},
+    KindDescription{ModelKind::Hybrid, describe_preset<hybrid_presets>},
+    KindDescription{ModelKind::Family, describe_preset<family_presets>},
+};
 
 std::vector<std::string> cells(const ParameterLine& p) {
   return {p.name, p.unit, p.value, p.bounds, p.form, p.meaning};
@@ -189,30 +240,16 @@ std::string facts(const ModelSheet& sheet) {
 }  // namespace
 
 ModelSheet model_sheet(const std::string& name) {
-  const ModelInfo info = model_info(name);
+  const ModelInfo& info = model_info(name);
   ModelSheet sheet{.name = name,
-                   .kind = std::string(info.kind),
+                   .kind = std::string(name_of(info.kind)),
                    .title = std::string(info.title),
                    .equation = std::string(info.equation),
                    .source = std::string(info.source),
                    .remarks = std::string(info.remarks),
                    .inputs = info.inputs,
-                   .inverse = is_law(name) ? inverse_of(find_law(name)) : "search",
                    .settings = network_settings_of(name)};
-  if (is_law(name))
-    add_table(sheet, find_law(name));
-  else if (info.kind == "network" || info.kind == "narx")
-    add_numbers(sheet, find_network_preset(name));
-  else if (info.kind == "state_network")
-    add_numbers(sheet, find_state_network_preset(name));
-  else if (info.kind == "state_space")
-    add_numbers(sheet, find_state_space_preset(name));
-  else if (info.kind == "hybrid")
-    add_numbers(sheet, find_hybrid_preset(name));
-  else if (info.kind == "family")
-    add_numbers(sheet, find_family_preset(name));
-  else
-    add_numbers(sheet, find_fuzzy_preset(name));
+  row_of<kDescriptions>(info.kind).describe(sheet);
   return sheet;
 }
 

@@ -1,4 +1,5 @@
 #pragma once
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,11 +17,11 @@ struct ParameterLine {
 struct ModelSheet {
   std::string name, kind, title, equation, source, remarks;
   std::vector<std::string> inputs = {};
-  std::string inverse = {};                    ///< "closed form" or "search"
+  std::string inverse = "search";              ///< or "closed form"
   std::vector<std::string> states = {};        ///< "z, m"
   std::vector<ParameterLine> parameters = {};  ///< of a law
   std::size_t numbers = 0;  ///< fitted, with the usual forms of dependence on current
-  std::vector<std::string_view> settings = {};  ///< what of --network its fit follows
+  std::span<const std::string_view> settings = {};  ///< what of --network its fit follows
 };
 
 ModelSheet model_sheet(const std::string& name);

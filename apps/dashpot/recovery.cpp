@@ -32,7 +32,7 @@ bool RecoveredParameter::recovered() const {
 }
 
 std::vector<RecoveredParameter> compare(const LawModel& truth, const FitReport& fit) {
-  const auto* found = dynamic_cast<const LawModel*>(fit.model.get());
+  const auto* found = fit.model ? model_as<LawModel>(*fit.model) : nullptr;
   std::vector<RecoveredParameter> rows;
   if (!found) return rows;
   for (std::size_t p = 0; p < truth.law().params.size(); ++p) {

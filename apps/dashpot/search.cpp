@@ -11,6 +11,7 @@
 #include "dashpot/base/file.h"
 #include "dashpot/base/text.h"
 #include "dashpot/damper/registry.h"
+#include "dashpot/identify/fit/fit.h"
 #include "dashpot/identify/rank/fit_store.h"
 #include "dashpot/report/search_report.h"
 #include "dashpot/report/words.h"

@@ -2,7 +2,7 @@
 #include <memory>
 
 #include "console.h"
-#include "dashpot/damper/registry.h"
+#include "dashpot/damper/kinds/family/presets.h"
 #include "dashpot/report/words.h"
 #include "data.h"
 #include "results.h"

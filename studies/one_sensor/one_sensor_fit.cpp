@@ -66,9 +66,8 @@ std::vector<Record> parts_by_turns(const Record& record) {
 
 /// Of samples that a fit can do without: of a model without a memory any, of one with states those
 /// beyond a rate that shows the motion.
-std::size_t stride_of(const std::vector<Record>& records, std::size_t wanted,
-                      std::string_view kind) {
-  if (wanted < 2 || kind == "network") return std::max<std::size_t>(wanted, 1);
+std::size_t stride_of(const std::vector<Record>& records, std::size_t wanted, ModelKind kind) {
+  if (wanted < 2 || kind == ModelKind::Network) return std::max<std::size_t>(wanted, 1);
   double rate = 0;
   for (const Record& record : records)
     if (record.sample_time > 0) rate = std::max(rate, 1 / record.sample_time);
@@ -83,13 +82,13 @@ bool is_long(const std::vector<Record>& training) {
 
 StudiedFit studied_fit(const StudiedModel& model, const std::vector<Record>& training,
                        IdentifyOptions options) {
-  const std::string_view kind = model_info(model.model).kind;
+  const ModelKind kind = model_info(model.model).kind;
   options.network = model.design;
-  options.starts = kind == "network" ? 2 : 1;
+  options.starts = kind == ModelKind::Network ? 2 : 1;
   // One record has one zero, whatever it is cut into.
-  if (is_long(training) && (kind == "narx" || kind == "state_network"))
+  if (is_long(training) && (kind == ModelKind::Narx || kind == ModelKind::HysteresisNetwork))
     options.offset = OffsetMode::None;
-  if (kind == "narx")
+  if (kind == ModelKind::Narx)
     return {is_long(training) ? stretches_of(training.front()) : training, options};
   std::size_t samples = 0;
   for (const Record& record : training) samples += record.size();
@@ -97,7 +96,8 @@ StudiedFit studied_fit(const StudiedModel& model, const std::vector<Record>& tra
   std::vector<Record> thinned;
   for (const Record& record : training)
     thinned.push_back(stride == 1 ? record : every_kth(record, stride));
-  if (kind == "state_network" && is_long(training)) thinned = parts_by_turns(thinned.front());
+  if (kind == ModelKind::HysteresisNetwork && is_long(training))
+    thinned = parts_by_turns(thinned.front());
   return {std::move(thinned), options};
 }
 

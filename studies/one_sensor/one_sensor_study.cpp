@@ -19,10 +19,10 @@ namespace {
 
 /// What a fit costs beside others, measured on the paper's experiments: the longest go first.
 double expected_cost(const StudiedModel& model) {
-  const std::string_view kind = model_info(model.model).kind;
-  if (kind == "state_network") return 40;
-  if (kind == "narx") return model.design.feedback == 0 ? 8 : 30;
-  if (kind == "network")
+  const ModelKind kind = model_info(model.model).kind;
+  if (kind == ModelKind::HysteresisNetwork) return 40;
+  if (kind == ModelKind::Narx) return model.design.feedback == 0 ? 8 : 30;
+  if (kind == ModelKind::Network)
     return 1 + 0.2 * static_cast<double>(model.design.hidden.empty() ? 10 : model.design.hidden[0]);
   return find_law(model.model).states.empty() ? 1 : 10;
 }

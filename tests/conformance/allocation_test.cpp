@@ -9,7 +9,7 @@
 #include "dashpot/damper/inverse/registry.h"
 #include "dashpot/damper/kinds/fuzzy/fuzzy_model.h"
 #include "dashpot/damper/kinds/hybrid/hybrid_model.h"
-#include "dashpot/damper/kinds/hysteresis_network/hysteresis_network.h"
+#include "dashpot/damper/kinds/hysteresis_network/hysteresis_network_model.h"
 #include "dashpot/damper/kinds/network/network_model.h"
 #include "dashpot/damper/nets/mlp_evaluator.h"
 #include "support.h"
@@ -74,13 +74,13 @@ TEST_CASE("stepping a law allocates nothing") {
   });
 }
 
-TEST_CASE("stepping a state network allocates nothing") {
-  BankNetwork member;
+TEST_CASE("stepping a hysteresis network allocates nothing") {
+  HysteresisNetwork member;
   member.bank = {.path_rates = {60, 500}, .velocity_rates = {60}, .current_rates = {50}};
   member.network.signals.resize(5);
   member.network.currents = 1;
   member.network.initialise(3, 1);
-  const HysteresisNetwork model("test", {member, member});
+  const HysteresisNetworkModel model("test", {member, member});
   check_stepping(model);
 }
 

@@ -1,6 +1,7 @@
 #include <sstream>
 
 #include "dashpot/base/file.h"
+#include "dashpot/damper/kinds/hysteresis_network/presets.h"
 #include "dashpot/export/c/c_controller.h"
 #include "dashpot/export/c/c_source.h"
 #include "dashpot/export/export_run.h"
@@ -30,10 +31,10 @@ std::vector<ExampleModel> ecu_models() {
     for (const char* name :
          {"bouc_wen", "modified_bouc_wen", "narx", "state_space", "fuzzy", "mlp"})
       if (example.name == name) models.push_back(std::move(example));
-  const StateNetworkPreset& preset = find_state_network_preset("hysteresis_network");
-  std::vector<BankNetwork> members;
+  const HysteresisNetworkPreset& preset = hysteresis_network_presets().front();
+  std::vector<HysteresisNetwork> members;
   for (std::size_t m = 0; m < preset.members; ++m) {
-    BankNetwork member;
+    HysteresisNetwork member;
     for (std::size_t k = 0; k < preset.path_states; ++k)
       member.bank.path_rates.push_back(20.0 * (k + 1));
     for (std::size_t k = 0; k < preset.velocity_lags; ++k)
@@ -50,7 +51,7 @@ std::vector<ExampleModel> ecu_models() {
     members.push_back(std::move(member));
   }
   models.push_back(
-      {"bank", std::make_shared<HysteresisNetwork>("hysteresis_network", std::move(members))});
+      {"bank", std::make_shared<HysteresisNetworkModel>("hysteresis_network", std::move(members))});
   return models;
 }
 

@@ -1,10 +1,10 @@
 #include "conformance/laws.h"
 #include "damper/kinds/family/example_family.h"
+#include "damper/kinds/hysteresis_network/hysteresis_network_example.h"
 #include "damper/kinds/narx/narx_example.h"
 #include "damper/kinds/state_space/state_space_example.h"
-#include "damper/nets/bank_network_example.h"
 #include "dashpot/damper/kinds/hybrid/hybrid_model.h"
-#include "dashpot/damper/kinds/hysteresis_network/hysteresis_network.h"
+#include "dashpot/damper/kinds/hysteresis_network/hysteresis_network_model.h"
 #include "dashpot/damper/kinds/narx/narx_model.h"
 #include "support.h"
 
@@ -46,7 +46,8 @@ TEST_CASE("rates of states are what a short step makes of them: every law, with 
 }
 
 TEST_CASE("rates of states are what a short step makes of them: networks, families, hybrids") {
-  check_flow(HysteresisNetwork("bank", {example_bank_network(), example_bank_network()}));
+  check_flow(
+      HysteresisNetworkModel("bank", {example_hysteresis_network(), example_hysteresis_network()}));
   check_flow(StateSpaceModel("states", {example_state_space(1), example_state_space(2)}));
   check_flow(example_family(FamilyTarget::Residual));
   check_flow(example_family_network());

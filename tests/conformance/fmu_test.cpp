@@ -89,7 +89,7 @@ TEST_CASE(
     std::string archive;
   };
   std::vector<Task> tasks;
-  std::set<std::string> kinds;
+  std::set<ModelKind> kinds;
   for (std::size_t k = 0; k < models.size(); ++k) {
     const bool first = kinds.insert(models[k].model->kind()).second;
     for (const int version : {2, 3})
@@ -105,8 +105,8 @@ TEST_CASE(
     CAPTURE(task.version);
     const LoadedFmu fmu(task.archive);
     check_co_simulation(fmu, *task.example->model);
-    const std::string kind = task.example->model->kind();
-    CHECK(fmu.exchanges() == (kind == "law" || task.example->model->state_size() == 0));
+    const ModelKind kind = task.example->model->kind();
+    CHECK(fmu.exchanges() == (kind == ModelKind::Law || task.example->model->state_size() == 0));
     if (fmu.exchanges()) check_model_exchange(fmu, *task.example->model);
   }
 }

@@ -5,7 +5,7 @@
 #include "dashpot/base/file.h"
 #include "dashpot/damper/kinds/fuzzy/fuzzy_model.h"
 #include "dashpot/damper/kinds/hybrid/hybrid_model.h"
-#include "dashpot/damper/kinds/hysteresis_network/hysteresis_network.h"
+#include "dashpot/damper/kinds/hysteresis_network/hysteresis_network_model.h"
 #include "dashpot/damper/kinds/network/network_model.h"
 #include "dashpot/damper/parameter_set.h"
 #include "support.h"
@@ -96,17 +96,18 @@ TEST_CASE("a fuzzy model's file comes back as it was, to the last bit") {
   CHECK(loaded.model->force({0, 0.13, 0.5}, {}) == saved.model->force({0, 0.13, 0.5}, {}));
 }
 
-TEST_CASE("a state network's file comes back as it was, to the last bit") {
-  const BankNetwork member{
+TEST_CASE("a hysteresis network's file comes back as it was, to the last bit") {
+  const HysteresisNetwork member{
       .bank = {.path_rates = {100 / 3.0}, .velocity_rates = {}, .current_rates = {50}},
       .network = {.signals = {{0, 0.2, -3, 3}, {0, 1, -1, 1}, {1, 1, -1, 1}},
                   .currents = 1,
                   .neurons = {0.1 + 0.2, 1, -1, 0.5},
                   .gates = std::vector<double>(12, 0.7 / 3),
                   .output_scale = 812.5}};
-  const ModelFile saved = example(std::make_unique<HysteresisNetwork>(
-                                      "hysteresis_network", std::vector<BankNetwork>{member}, 4.5),
-                                  "A");
+  const ModelFile saved =
+      example(std::make_unique<HysteresisNetworkModel>("hysteresis_network",
+                                                       std::vector<HysteresisNetwork>{member}, 4.5),
+              "A");
   const ModelFile loaded = parse_model(format_model(saved), "m.json");
   CHECK(format_model(loaded) == format_model(saved));
   const std::vector<double> state{0.3, 0.6};

@@ -3,14 +3,18 @@
 #include <algorithm>
 
 #include "dashpot/damper/kinds/family/family_force.h"
+#include "dashpot/damper/kinds/family/presets.h"
+#include "dashpot/damper/kinds/fuzzy/presets.h"
+#include "dashpot/damper/kinds/hybrid/presets.h"
+#include "dashpot/damper/kinds/hysteresis_network/presets.h"
+#include "dashpot/damper/kinds/narx/presets.h"
+#include "dashpot/damper/kinds/network/presets.h"
+#include "dashpot/damper/kinds/state_space/presets.h"
 #include "support.h"
 
 using namespace dashpot;
 
-TEST_CASE(
-    "laws stand in alphabetical order, networks, state networks, fuzzy models, usual hybrids and "
-    "families "
-    "follow") {
+TEST_CASE("laws stand in alphabetical order, the other kinds follow in theirs") {
   const std::vector<std::string> names = model_names();
   const auto others = names.begin() + static_cast<std::ptrdiff_t>(laws().size());
   CHECK(std::is_sorted(names.begin(), others));
@@ -29,29 +33,32 @@ TEST_CASE(
 
 TEST_CASE("the one-sensor paper's networks") {
   // 41, 51 and, recurrent, 61 parameters: MODELS.md 12
-  const auto parameters = [](const NetworkPreset& p) {
+  const auto parameters = [](const NarxPreset& p) {
     return p.hidden[0] * (p.inputs.size() * (p.delays + 1) + p.feedback + 1) + p.hidden[0] + 1;
   };
-  CHECK(parameters(find_network_preset("mlp_one_sensor")) == 41);
-  CHECK(parameters(find_network_preset("mlp_two_sensors")) == 51);
-  CHECK(parameters(find_network_preset("narx_two_sensors")) == 61);
+  const auto of_network = [&](std::string_view name) {
+    return parameters(narx_preset(find_preset(network_presets(), name)));
+  };
+  CHECK(of_network("mlp_one_sensor") == 41);
+  CHECK(of_network("mlp_two_sensors") == 51);
+  CHECK(parameters(find_preset(narx_presets(), "narx_two_sensors")) == 61);
 }
 
-TEST_CASE("state networks say their kind and need one sensor") {
-  for (const StateNetworkPreset& preset : state_network_presets()) {
+TEST_CASE("hysteresis networks say their kind and need one sensor") {
+  for (const HysteresisNetworkPreset& preset : hysteresis_network_presets()) {
     const ModelInfo info = model_info(preset.name);
-    CHECK(info.kind == "state_network");
+    CHECK(info.kind == ModelKind::HysteresisNetwork);
     CHECK(info.inputs == std::vector<std::string>{"velocity", "current"});
-    CHECK(&find_state_network_preset(preset.name) == &preset);
+    CHECK(&find_preset(hysteresis_network_presets(), preset.name) == &preset);
   }
 }
 
 TEST_CASE("state spaces say their kind and need one sensor") {
   for (const StateSpacePreset& preset : state_space_presets()) {
     const ModelInfo info = model_info(preset.name);
-    CHECK(info.kind == "state_space");
+    CHECK(info.kind == ModelKind::StateSpace);
     CHECK(info.inputs == std::vector<std::string>{"velocity", "current"});
-    CHECK(&find_state_space_preset(preset.name) == &preset);
+    CHECK(&find_preset(state_space_presets(), preset.name) == &preset);
   }
 }
 
@@ -60,7 +67,7 @@ TEST_CASE("every law has a hybrid, which needs the law's sensors") {
   std::size_t named = 0;
   for (const HybridPreset& preset : hybrid_presets()) {
     const ModelInfo info = model_info(preset.name), of_law = model_info(preset.law->name);
-    CHECK(info.kind == "hybrid");
+    CHECK(info.kind == ModelKind::Hybrid);
     CHECK(info.inputs == of_law.inputs);
     CHECK(preset.name == hybrid_name(preset.law->name));
     CHECK(law_inside(preset.name) == preset.law);
@@ -77,7 +84,7 @@ TEST_CASE("every law has a hybrid, which needs the law's sensors") {
 TEST_CASE("fuzzy models say their kind and inputs, and have sets for each") {
   for (const FuzzyPreset& preset : fuzzy_presets()) {
     const ModelInfo info = model_info(preset.name);
-    CHECK(info.kind == "fuzzy");
+    CHECK(info.kind == ModelKind::Fuzzy);
     CHECK(info.inputs == preset.inputs);
     CHECK(preset.sets.size() == preset.inputs.size());
     CHECK_FALSE(info.needs_displacement());
@@ -87,18 +94,20 @@ TEST_CASE("fuzzy models say their kind and inputs, and have sets for each") {
 TEST_CASE("families say their kind and inputs; the paper's network has its eight") {
   for (const FamilyPreset& preset : family_presets()) {
     const ModelInfo info = model_info(preset.name);
-    CHECK(info.kind == "family");
+    CHECK(info.kind == ModelKind::Family);
     CHECK(info.needs_displacement() == !preset.inputs.empty());
-    CHECK(&find_family_preset(preset.name) == &preset);
+    CHECK(&find_preset(family_presets(), preset.name) == &preset);
     for (const std::string& input : preset.inputs) CHECK_NOTHROW(family_input_named(input, ""));
   }
-  CHECK(find_family_preset("family_h3x15").inputs.size() == 8);
+  CHECK(find_preset(family_presets(), "family_h3x15").inputs.size() == 8);
 }
 
 TEST_CASE("an unknown name is answered with the near one") {
   const std::string message = message_of([] { find_law("bingam", "model.json, law"); });
   CHECK(message.find("model.json, law: unknown model 'bingam'; did you mean 'bingham'?") == 0);
-  CHECK(message_of([] { find_network_preset("bingham"); }).find("unknown model") !=
+  CHECK(message_of([] {
+          find_preset(network_presets(), "bingham");
+        }).find("unknown model 'bingham'; known: mlp_one_sensor, mlp_two_sensors") !=
         std::string::npos);
   CHECK(message_of([] { find_law("bingham").index_of("c9"); }).find("known: c0, f_c, f0, v_s") !=
         std::string::npos);

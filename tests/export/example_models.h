@@ -5,9 +5,9 @@
 
 #include "damper/kinds/family/example_family.h"
 #include "damper/kinds/hybrid/hybrid_model_example.h"
+#include "damper/kinds/hysteresis_network/hysteresis_network_example.h"
 #include "damper/kinds/narx/narx_example.h"
 #include "damper/kinds/state_space/state_space_example.h"
-#include "damper/nets/bank_network_example.h"
 #include "dashpot/damper/kinds/fuzzy/fuzzy_model.h"
 #include "dashpot/damper/kinds/law/law_model.h"
 #include "dashpot/damper/kinds/network/network_model.h"
@@ -74,8 +74,8 @@ inline std::vector<ExampleModel> example_models() {
       NarxModel("narx_one_sensor", regressors,
                 {example_narx_network(regressors), example_narx_network(regressors, 2)}, 4));
   add("hysteresis_network",
-      HysteresisNetwork("hysteresis_network", {example_bank_network(1), example_bank_network(2)},
-                        2));
+      HysteresisNetworkModel("hysteresis_network",
+                             {example_hysteresis_network(1), example_hysteresis_network(2)}, 2));
   add("state_space",
       StateSpaceModel("neural_state_space", {example_state_space(1), example_state_space(2)}, 2));
   add("fuzzy", example_fuzzy());

@@ -6,9 +6,9 @@
 #include "damper/inverse/example_network.h"
 #include "damper/kinds/family/example_family.h"
 #include "damper/kinds/hybrid/hybrid_model_example.h"
+#include "damper/kinds/hysteresis_network/hysteresis_network_example.h"
 #include "damper/kinds/narx/narx_example.h"
 #include "damper/kinds/state_space/state_space_example.h"
-#include "damper/nets/bank_network_example.h"
 #include "dashpot/base/data_folder.h"
 #include "dashpot/base/file.h"
 #include "dashpot/damper/inverse/inverse_file.h"
@@ -120,9 +120,9 @@ void model_seeds(const fs::path& folder) {
                model_seed(std::make_unique<NetworkModel>("mlp_one_sensor", inputs,
                                                          std::vector(members, mlp)),
                           "A"));
-  write_file(folder / "state_network",
-             model_seed(std::make_unique<HysteresisNetwork>("hysteresis_network",
-                                                            std::vector{example_bank_network()}),
+  write_file(folder / "hysteresis_network",
+             model_seed(std::make_unique<HysteresisNetworkModel>(
+                            "hysteresis_network", std::vector{example_hysteresis_network()}),
                         "A"));
   write_file(folder / "state_space",
              model_seed(std::make_unique<StateSpaceModel>("neural_state_space",

@@ -34,7 +34,7 @@ double force(double x, double v, double current, double lag) {
 class ExampleModel final : public DamperModel {
  public:
   explicit ExampleModel(const char* name) : name_(name) {}
-  std::string kind() const override { return "law"; }
+  ModelKind kind() const override { return ModelKind::Law; }
   std::string name() const override { return name_; }
   bool needs_displacement() const noexcept override { return true; }
   std::size_t parameter_count() const noexcept override { return 6; }

@@ -6,8 +6,8 @@
 #include <nvector/nvector_serial.h>
 #endif
 
-#include "damper/nets/bank_network_example.h"
-#include "dashpot/damper/kinds/hysteresis_network/hysteresis_network.h"
+#include "damper/kinds/hysteresis_network/hysteresis_network_example.h"
+#include "dashpot/damper/kinds/hysteresis_network/hysteresis_network_model.h"
 #include "dashpot/damper/kinds/law/law_model.h"
 #include "dashpot/damper/kinds/network/network_model.h"
 #include "dashpot/damper/parameter_set.h"
@@ -212,12 +212,12 @@ TEST_CASE("modified Bouc-Wen damper against SUNDIALS, with and without a control
 }
 
 TEST_CASE("hysteresis network against SUNDIALS, with and without a controller") {
-  BankNetwork member = example_bank_network();
+  HysteresisNetwork member = example_hysteresis_network();
   // Its own numbers are random: made weak enough beside a dashpot's for the vehicle to come to
   // rest.
   for (double& gate : member.network.gates) gate *= 0.2;
   member.network.gates[member.network.gate_count()] = 1;
-  const auto model = std::make_shared<HysteresisNetwork>("hysteresis", std::vector{member});
+  const auto model = std::make_shared<HysteresisNetworkModel>("hysteresis", std::vector{member});
   const HysteresisBank& bank = member.bank;
   // w' = rho (v - |v| w), y' = lambda (v - y), u' = mu (i - u); at rest u = i.
   const auto equations_from = [&](double current) {

@@ -7,6 +7,7 @@
 
 #include "dashpot/base/value.h"
 #include "dashpot/damper/input.h"
+#include "dashpot/damper/model_kind.h"
 
 namespace dashpot {
 
@@ -26,13 +27,15 @@ struct Response {
   double* spread = nullptr;  ///< N, as DamperModel::spread; null: not asked for
 };
 
+class LawModel;
+
 /// What a simulation steps. The description is immutable; the state is a flat array of the
 /// caller's.
 class DamperModel {
  public:
   virtual ~DamperModel() = default;
 
-  virtual std::string kind() const = 0;  ///< as ModelInfo::kind: "law", "network", "narx" ...
+  virtual ModelKind kind() const = 0;
   virtual std::string name() const = 0;  ///< as the registry knows it: "bingham"
   virtual bool needs_displacement() const noexcept = 0;
   virtual std::size_t parameter_count() const noexcept = 0;
@@ -79,6 +82,9 @@ class DamperModel {
   /// next one is told one step ahead, not in free run.
   virtual void observe(double, std::span<double>) const noexcept {}
 
+  /// The force law that this model is or has inside; null where it has none.
+  virtual const LawModel* law_inside() const noexcept { return nullptr; }
+
   /// The same model giving force + offset.
   virtual std::unique_ptr<DamperModel> with_offset(double newton) const = 0;
   /// The model of the damper that these conditions describe; null where they say nothing to this
@@ -91,5 +97,11 @@ class DamperModel {
   /// The kind's own part of a model file.
   virtual Value to_json() const = 0;
 };
+
+/// The model as the class of one kind, for what that kind alone has; null where it is another.
+template <class Model>
+const Model* model_as(const DamperModel& model) {
+  return dynamic_cast<const Model*>(&model);
+}
 
 }  // namespace dashpot

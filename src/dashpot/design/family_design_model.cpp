@@ -45,7 +45,7 @@ double force_in_sine(const DamperModel& model, const DamperOperation& at, double
 class FamilyDesignModel final : public DesignModel {
  public:
   explicit FamilyDesignModel(ModelFile file) : file_(std::move(file)) {
-    family_ = dynamic_cast<const FamilyModel&>(*file_.model).with_outside(OutsideFamily::Mark);
+    family_ = model_as<FamilyModel>(*file_.model)->with_outside(OutsideFamily::Mark);
     const Domain& d = file_.domain;
     half_stroke_ = 0.5 * (d.displacement_max - d.displacement_min);
     current_ = std::max(std::abs(d.current_min), std::abs(d.current_max));
@@ -122,7 +122,7 @@ class FamilyDesignModel final : public DesignModel {
 
 std::unique_ptr<DesignModel> load_family_design_model(const std::filesystem::path& path) {
   ModelFile file = load_model(path);
-  if (!dynamic_cast<const FamilyModel*>(file.model.get()))
+  if (!model_as<FamilyModel>(*file.model))
     throw Error(path.string(), "is a model of one damper, not of a family",
                 "a file that 'dashpot identify --models family' wrote");
   if (file.drive_unit != "A")

@@ -5,6 +5,7 @@
 
 #include "dashpot/base/error.h"
 #include "dashpot/base/parallel.h"
+#include "dashpot/damper/registry.h"
 #include "dashpot/identify/fit/fit.h"
 
 namespace dashpot {
@@ -44,30 +45,13 @@ void settle_offsets(FitReport& report, const std::vector<Record>& training,
   }
 }
 
-FitReport fit(const std::string& model, const std::vector<Record>& training,
-              const std::string& drive_unit, const IdentifyOptions& options) {
-  const std::string_view kind = model_info(model).kind;
-  if (kind == "law") return fit_law(find_law(model), training, drive_unit, options);
-  if (kind == "narx" || (kind == "network" && options.network.delays.value_or(0) > 0))
-    return fit_narx(find_network_preset(model), training, drive_unit, options);
-  if (kind == "network")
-    return fit_network(find_network_preset(model), training, drive_unit, options);
-  if (kind == "state_network")
-    return fit_state_network(find_state_network_preset(model), training, drive_unit, options);
-  if (kind == "state_space")
-    return fit_state_space(find_state_space_preset(model), training, drive_unit, options);
-  if (kind == "hybrid") return fit_hybrid(find_hybrid_preset(model), training, drive_unit, options);
-  if (kind == "family") return fit_family(find_family_preset(model), training, drive_unit, options);
-  return fit_fuzzy(find_fuzzy_preset(model), training, drive_unit, options);
-}
-
 }  // namespace
 
 FitReport identify(const std::string& model, const std::vector<Record>& training,
                    const std::string& drive_unit, const IdentifyOptions& options) {
   require_usable(model, training);
   const double begin = cpu_seconds();
-  FitReport report = fit(model, training, drive_unit, options);
+  FitReport report = fit_of(model_info(model).kind).fit(model, training, drive_unit, options);
   if (report.status != FitReport::Status::Failed)
     settle_offsets(report, training, drive_unit, options);
   report.seconds = cpu_seconds() - begin;

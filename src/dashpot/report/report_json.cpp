@@ -70,7 +70,7 @@ Value model_json(const RankedModel& model, const std::vector<std::string>& folds
   const auto& fitted = model.fit.model;
   return Value::object({{"name", model.name},
                         {"title", display_name(model)},
-                        {"kind", fitted ? Value(fitted->kind()) : Value()},
+                        {"kind", fitted ? Value(name_of(fitted->kind())) : Value()},
                         {"parameter_count", fitted ? Value(fitted->parameter_count()) : Value()},
                         {"nanoseconds_per_step", model.nanoseconds_per_step},
                         {"seconds", model.seconds},

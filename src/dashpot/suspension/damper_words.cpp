@@ -93,7 +93,7 @@ std::shared_ptr<const DamperModel> without_jump(const LawModel& model,
 void take_model(ChosenDamper& damper, const DamperModel& model) {
   BareDamper bare = without_coil_lag(model);
   damper.lag_rate = bare.lag_rate;
-  if (const auto* law = dynamic_cast<const LawModel*>(bare.model.get()))
+  if (const auto* law = model_as<LawModel>(*bare.model))
     damper.model = without_jump(*law, damper.notes);
   if (!damper.model) damper.model = std::move(bare.model);
 }

@@ -17,7 +17,7 @@ class PassiveCurve final : public DamperModel {
   /// velocities that do not rise, on numbers that are not finite.
   PassiveCurve(std::string name, std::vector<double> velocity, std::vector<double> force);
 
-  std::string kind() const override { return "curve"; }
+  ModelKind kind() const override { return ModelKind::Other; }
   std::string name() const override { return name_; }
   bool needs_displacement() const noexcept override { return false; }
   std::size_t parameter_count() const noexcept override { return force_.size(); }

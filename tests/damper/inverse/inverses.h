@@ -40,7 +40,7 @@ class CountingModel final : public dashpot::DamperModel {
   CountingModel(std::unique_ptr<dashpot::DamperModel> model, std::size_t* count)
       : model_(std::move(model)), count_(count) {}
 
-  std::string kind() const override { return model_->kind(); }
+  ModelKind kind() const override { return model_->kind(); }
   std::string name() const override { return model_->name(); }
   bool needs_displacement() const noexcept override { return model_->needs_displacement(); }
   std::size_t parameter_count() const noexcept override { return model_->parameter_count(); }

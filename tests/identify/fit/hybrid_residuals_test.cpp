@@ -7,8 +7,8 @@ using namespace dashpot;
 
 namespace {
 
-BankRecord sine(double drive_swing) {
-  BankRecord record;
+FreeRunRecord sine(double drive_swing) {
+  FreeRunRecord record;
   for (int k = 0; k < 200; ++k) {
     const double t = 0.005 * k;
     record.time.push_back(t);
@@ -33,7 +33,7 @@ GatedNetwork network_of(const SignalRows& rows) {
 }  // namespace
 
 TEST_CASE("the joint Jacobian is that of the residuals, by the law's unknowns and by the weights") {
-  const std::vector<BankRecord> records = {sine(0.5), sine(0.7)};
+  const std::vector<FreeRunRecord> records = {sine(0.5), sine(0.7)};
   const Law& law = find_law("modified_bouc_wen");
   DataScale scale{.force = 1500, .stroke = 0.02, .speed = 0.18};
   scale.drive = {.low = 0.3, .high = 1.7, .varies = true, .levels = 0};

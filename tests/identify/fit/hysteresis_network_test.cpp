@@ -1,5 +1,4 @@
-#include "dashpot/damper/kinds/hysteresis_network/hysteresis_network.h"
-
+#include "dashpot/damper/kinds/hysteresis_network/hysteresis_network_model.h"
 #include "dashpot/identify/identify.h"
 #include "identify/small_campaign.h"
 #include "support.h"
@@ -32,7 +31,7 @@ TEST_CASE("a hysteresis network as its design says") {
   IdentifyOptions options{.threads = 1};
   options.network = {.hidden = {3}, .epochs = 4, .l2 = 1e-3, .members = 2};
   const FitReport fit = identify("hysteresis_network", training, "A", options);
-  const auto& network = dynamic_cast<const HysteresisNetwork&>(*fit.model);
+  const auto& network = dynamic_cast<const HysteresisNetworkModel&>(*fit.model);
   REQUIRE(network.members().size() == 2);
   CHECK(network.members()[1].network.hidden() == 3);
   CHECK(fit.iterations <= 4);

@@ -1,6 +1,7 @@
 #include "dashpot/identify/fit/network_design.h"
 
 #include "dashpot/base/text.h"
+#include "dashpot/identify/fit/fit.h"
 #include "support.h"
 
 using namespace dashpot;

@@ -18,7 +18,7 @@ LawModel viscous() { return LawModel::constant(find_law("bingham"), {1000, 0, 0,
 /// A force that grows by a factor each step.
 class Runaway final : public DamperModel {
  public:
-  std::string kind() const override { return "law"; }
+  ModelKind kind() const override { return ModelKind::Law; }
   std::string name() const override { return "runaway"; }
   bool needs_displacement() const noexcept override { return false; }
   std::size_t parameter_count() const noexcept override { return 0; }

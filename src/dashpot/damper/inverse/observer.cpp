@@ -35,8 +35,8 @@ inline double observed_force(const Observer* m, const DamperInput* input, const 
 }  // namespace
 
 BareDamper without_coil_lag(const DamperModel& model) {
-  const auto* hybrid = dynamic_cast<const HybridModel*>(&model);
-  const LawModel* law = hybrid ? &hybrid->law() : dynamic_cast<const LawModel*>(&model);
+  const LawModel* law = model.law_inside();
+  const auto* hybrid = model_as<HybridModel>(model);
   if (!law || law->lag_rate() == 0) return {model.with_offset(0), 0};
   LawModel bare(law->law(), law->parameters(), law->drive_unit(), 0);
   if (!hybrid) return {std::make_unique<LawModel>(std::move(bare)), law->lag_rate()};

@@ -4,7 +4,7 @@
 
 namespace dashpot {
 
-/// Adds a network's keys to a member of a state network.
+/// Adds a network's keys to a member of an ensemble with states of its own.
 void add_network(Value& member, const GatedNetwork& network);
 GatedNetwork read_network(ObjectReader& member, std::size_t currents);
 

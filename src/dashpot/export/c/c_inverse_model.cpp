@@ -56,7 +56,7 @@ static inline double inverse_wanted(const InverseModel* m, const InverseInput* i
 
 /// The model that runs beside the damper, and its observer.
 std::string observer_code(const Observer& observer) {
-  const auto* law = dynamic_cast<const LawModel*>(&observer.model());
+  const auto* law = model_as<LawModel>(observer.model());
   const std::string stem = law ? "damped" : "model";
   return (law ? c_law(*law, stem) : c_model(observer.model())).code +
          filled(R"(#define OBSERVED_STATES @states@

@@ -1,31 +1,63 @@
 #include "dashpot/export/c/c_model.h"
 
+#include <array>
+
 #include "dashpot/base/error.h"
 #include "dashpot/damper/kinds/family/family_model.h"
 #include "dashpot/damper/kinds/fuzzy/fuzzy_model.h"
 #include "dashpot/damper/kinds/hybrid/hybrid_model.h"
-#include "dashpot/damper/kinds/hysteresis_network/hysteresis_network.h"
+#include "dashpot/damper/kinds/hysteresis_network/hysteresis_network_model.h"
 #include "dashpot/damper/kinds/law/law_model.h"
 #include "dashpot/damper/kinds/narx/narx_model.h"
 #include "dashpot/damper/kinds/network/network_model.h"
 #include "dashpot/damper/kinds/state_space/state_space_model.h"
 
 namespace dashpot {
+namespace {
+
+/// A kind of model as C.
+struct KindCode {
+  ModelKind kind;
+  CModel (*to_c)(const DamperModel& model, bool settable);
+};
+
+[[noreturn]] void throw_no_code(const DamperModel& model) {
+  throw Error(model.name(), "has no C code: no model file holds it",
+              "export a model that 'dashpot identify' wrote");
+}
+
+/// Throws Error where the model only wraps one of this kind.
+template <class Model>
+const Model& required(const DamperModel& model) {
+  if (const auto* own = model_as<Model>(model)) return *own;
+  throw_no_code(model);
+}
+
+template <class Model, CModel (*to_c)(const Model&)>
+CModel code_of(const DamperModel& model, bool /*settable*/) {
+  return to_c(required<Model>(model));
+}
+
+CModel code_of_law(const DamperModel& model, bool settable) {
+  return c_law(required<LawModel>(model), "model", settable);
+}
+
+constexpr std::array kCodes{
+    KindCode{ModelKind::Law, code_of_law},
+    KindCode{ModelKind::Network, code_of<NetworkModel, c_network>},
+    KindCode{ModelKind::Narx, code_of<NarxModel, c_narx>},
+    KindCode{ModelKind::HysteresisNetwork, code_of<HysteresisNetworkModel, c_hysteresis_network>},
+    KindCode{ModelKind::StateSpace, code_of<StateSpaceModel, c_state_space>},
+    KindCode{ModelKind::Fuzzy, code_of<FuzzyModel, c_fuzzy>},
+    KindCode{ModelKind::Hybrid, code_of<HybridModel, c_hybrid>},
+    KindCode{ModelKind::Family, code_of<FamilyModel, c_family>},
+};
+
+}  // namespace
 
 CModel c_model(const DamperModel& model, bool settable) {
-  if (const auto* law = dynamic_cast<const LawModel*>(&model))
-    return c_law(*law, "model", settable);
-  if (const auto* network = dynamic_cast<const NetworkModel*>(&model)) return c_network(*network);
-  if (const auto* narx = dynamic_cast<const NarxModel*>(&model)) return c_narx(*narx);
-  if (const auto* bank = dynamic_cast<const HysteresisNetwork*>(&model))
-    return c_hysteresis_network(*bank);
-  if (const auto* space = dynamic_cast<const StateSpaceModel*>(&model))
-    return c_state_space(*space);
-  if (const auto* fuzzy = dynamic_cast<const FuzzyModel*>(&model)) return c_fuzzy(*fuzzy);
-  if (const auto* hybrid = dynamic_cast<const HybridModel*>(&model)) return c_hybrid(*hybrid);
-  if (const auto* family = dynamic_cast<const FamilyModel*>(&model)) return c_family(*family);
-  throw Error(model.name(), "has no C code: it is a model of kind '" + model.kind() + "'",
-              "export a model that 'dashpot identify' wrote");
+  if (model.kind() == ModelKind::Other) throw_no_code(model);
+  return row_of<kCodes>(model.kind()).to_c(model, settable);
 }
 
 }  // namespace dashpot

@@ -12,7 +12,7 @@ namespace dashpot {
 class FamilyModel;
 class FuzzyModel;
 class HybridModel;
-class HysteresisNetwork;
+class HysteresisNetworkModel;
 class LawModel;
 class NarxModel;
 class NetworkModel;
@@ -38,16 +38,17 @@ struct CParameter {
 };
 std::vector<CParameter> c_parameters(const LawModel& model);
 
-/// Throws Error for a model of which no C code is known. `settable`: the parameters of a law stand
+/// Throws Error for a model that no model file has. `settable`: the parameters of a law stand
 /// behind its state, in the order of c_parameters() and then a lag rate also where it is 0;
 /// model_defaults(state) writes them.
 CModel c_model(const DamperModel& model, bool settable = false);
 
-// One per kind; `stem` in place of "model" where a law is a part of something.
+// One per kind, each in the file of its name; `stem` in place of "model" where a law is a part of
+// something.
 CModel c_law(const LawModel& model, const std::string& stem = "model", bool settable = false);
 CModel c_network(const NetworkModel& model);
 CModel c_narx(const NarxModel& model);
-CModel c_hysteresis_network(const HysteresisNetwork& model);
+CModel c_hysteresis_network(const HysteresisNetworkModel& model);
 CModel c_state_space(const StateSpaceModel& model);
 CModel c_fuzzy(const FuzzyModel& model);
 CModel c_hybrid(const HybridModel& model);
@@ -73,6 +74,11 @@ constexpr const char* kCHeaderEnd = R"(
 
 #endif
 )";
+
+/// The functions of a mean of `count` members, each a source of signals (`part`, in the C array
+/// `array`) and a network of kNetworks that reads them.
+std::string c_members(const std::string& part, const std::string& array, std::size_t count,
+                      double offset);
 
 /// The functions of a model without a state.
 std::string c_stateless(const std::string& stem);

@@ -110,6 +110,40 @@ std::string c_banks(const std::vector<const HysteresisBank*>& banks) {
          array_of("HysteresisBank", "kBanks", entries);
 }
 
+std::string c_members(const std::string& part, const std::string& array, std::size_t count,
+                      double offset) {
+  return filled(
+      R"(static void model_rest(const DamperInput* input, double* state) {
+  int m, at = 0;
+  for (m = 0; m < @count@; ++m) {
+    @part@_rest(&@array@[m], input, &state[at]);
+    at += @part@_size(&@array@[m]);
+  }
+}
+
+static void model_advance(const DamperInput* from, const DamperInput* to, double dt, double* state) {
+  int m, at = 0;
+  for (m = 0; m < @count@; ++m) {
+    @part@_advance(&@array@[m], from, to, dt, &state[at]);
+    at += @part@_size(&@array@[m]);
+  }
+}
+
+static double model_force(const DamperInput* input, const double* state) {
+  double signals[GATED_MOST_SIGNALS], sum = 0;
+  int m, at = 0;
+  for (m = 0; m < @count@; ++m) {
+    @part@_read(&@array@[m], input, &state[at], signals);
+    sum += gated_evaluate(&kNetworks[m], signals, 0);
+    at += @part@_size(&@array@[m]);
+  }
+  return (sum / @count@) + @offset@;
+}
+
+)",
+      {{"part", part}, {"array", array}, {"count", number(count)}, {"offset", c_number(offset)}});
+}
+
 std::string c_stateless(const std::string& stem) {
   return filled(R"(static void @stem@_rest(const DamperInput* input, double* state) {
   (void)input;

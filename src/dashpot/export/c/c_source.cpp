@@ -117,7 +117,7 @@ std::vector<std::pair<std::string, std::string>> facts(const ExportedModel& mode
 
 std::vector<CSource::Variable> states_of(const DamperModel& model) {
   std::vector<CSource::Variable> states;
-  if (const auto* law = dynamic_cast<const LawModel*>(&model)) {
+  if (const auto* law = model_as<LawModel>(model)) {
     for (const StateInfo& state : law->law().states)
       states.push_back(
           {std::string(state.name), std::string(state.unit), "internal state of the law"});
@@ -137,8 +137,7 @@ std::string title_of(const DamperModel& model) {
 }
 
 CSource c_source(const ExportedModel& model, const ExportOptions& options) {
-  const auto* law =
-      options.settable_parameters ? dynamic_cast<const LawModel*>(&model.model) : nullptr;
+  const auto* law = options.settable_parameters ? model_as<LawModel>(model.model) : nullptr;
   const CModel code = c_model(model.model, law != nullptr);
   const bool single = options.c_precision() == CPrecision::Single;
   CSource source{

@@ -164,7 +164,7 @@ std::string span_text(double low, double high, const std::string& unit) {
 Rows facts_of(const ExportedModel& model) {
   const Domain& d = model.domain;
   return {{"model", model.model.name()},
-          {"kind", model.model.kind()},
+          {"kind", std::string(name_of(model.model.kind()))},
           {"origin", model.origin},
           {"domain_displacement", span_text(d.displacement_min, d.displacement_max, "m")},
           {"domain_velocity", span_text(d.velocity_min, d.velocity_max, "m/s")},
@@ -172,7 +172,7 @@ Rows facts_of(const ExportedModel& model) {
 }
 
 std::vector<std::string> state_names(const DamperModel& model) {
-  const auto* law = dynamic_cast<const LawModel*>(&model);
+  const auto* law = model_as<LawModel>(model);
   std::vector<std::string> names;
   if (!law) return names;
   for (const StateInfo& state : law->law().states) names.emplace_back(state.name);

@@ -4,6 +4,7 @@
 
 #include "dashpot/base/error.h"
 #include "dashpot/damper/kinds/family/family_model.h"
+#include "dashpot/damper/kinds/family/presets.h"
 #include "dashpot/identify/fit/family_gates_fit.h"
 #include "dashpot/identify/fit/fit.h"
 #include "dashpot/identify/fit/network_trainer.h"

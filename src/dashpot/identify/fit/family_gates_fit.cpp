@@ -7,7 +7,7 @@
 #include <tuple>
 
 #include "dashpot/base/error.h"
-#include "dashpot/identify/fit/bank_records.h"
+#include "dashpot/identify/fit/free_run_records.h"
 #include "dashpot/identify/fit/training_samples.h"
 #include "dashpot/identify/judge/stroke.h"
 #include "dashpot/numerics/symmetric.h"

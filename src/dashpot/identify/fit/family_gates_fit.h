@@ -3,7 +3,7 @@
 
 #include "dashpot/base/monitor.h"
 #include "dashpot/damper/kinds/family/family_force.h"
-#include "dashpot/damper/registry.h"
+#include "dashpot/damper/kinds/family/presets.h"
 
 namespace dashpot {
 

@@ -5,6 +5,7 @@
 #include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
 #include "dashpot/damper/registry.h"
+#include "dashpot/identify/fit/fit.h"
 
 namespace dashpot {
 namespace {
@@ -16,7 +17,7 @@ std::vector<std::string> models_of(const std::string& word) {
   if (word == "all" || word == "family") {
     std::vector<std::string> names = model_names();
     std::erase_if(names, [&](const std::string& name) {
-      return (model_info(name).kind == "family") != (word == "family");
+      return (model_info(name).kind == ModelKind::Family) != (word == "family");
     });
     return names;
   }

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "dashpot/base/parallel.h"
+#include "dashpot/damper/kinds/hybrid/presets.h"
 #include "dashpot/identify/fit/fit.h"
 #include "dashpot/identify/fit/hybrid_residuals.h"
 #include "dashpot/identify/fit/law_solution.h"
@@ -30,11 +31,11 @@ HybridData data_of(const LawSolution& law, const HybridPreset& preset,
                    const std::vector<Record>& training, const std::string& drive_unit,
                    OffsetMode offset) {
   HybridData data{law.unknowns, {}, {}, offset};
-  std::vector<const BankRecord*> records;
+  std::vector<const FreeRunRecord*> records;
   for (const Record& record : training)
     data.records.push_back({damper_inputs(record, drive_unit), record.time,
                             record.channel("force").samples, record.warm_up});
-  for (const BankRecord& record : data.records) records.push_back(&record);
+  for (const FreeRunRecord& record : data.records) records.push_back(&record);
   // Where the drive stays, a campaign is a few motions that repeat, and a bank would tell these
   // apart.
   if (drive_range(training, drive_unit).varies)

@@ -93,7 +93,7 @@ SignalRows HybridResiduals::signals(std::span<const double> law_unknowns) const 
   double* row = rows.values.data();
   std::vector<double> state(source.state_size());
   for (const ScoredPart& part : parts_) {
-    const BankRecord& record = data_.records[part.record];
+    const FreeRunRecord& record = data_.records[part.record];
     source.rest(record.inputs.front(), state);
     for (std::size_t k = 0; k < part.last; ++k) {
       if (k > 0)

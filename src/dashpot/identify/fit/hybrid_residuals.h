@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "dashpot/damper/kinds/hybrid/hybrid_model.h"
-#include "dashpot/damper/nets/train_bank.h"
+#include "dashpot/damper/nets/free_run_record.h"
 #include "dashpot/identify/fit/law_unknowns.h"
 #include "dashpot/numerics/least_squares.h"
 #include "dashpot/record/split.h"
@@ -37,7 +37,7 @@ GatedNetwork with_weights(GatedNetwork network, std::span<const double> weights)
 struct HybridData {
   LawUnknowns unknowns;
   HysteresisBank bank;
-  std::vector<BankRecord> records;
+  std::vector<FreeRunRecord> records;
   OffsetMode offset = OffsetMode::Record;
 };
 

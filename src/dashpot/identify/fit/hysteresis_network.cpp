@@ -4,9 +4,10 @@
 
 #include "dashpot/base/error.h"
 #include "dashpot/base/parallel.h"
-#include "dashpot/damper/nets/train_bank.h"
-#include "dashpot/identify/fit/bank_records.h"
+#include "dashpot/damper/kinds/hysteresis_network/presets.h"
+#include "dashpot/damper/kinds/hysteresis_network/train_hysteresis_network.h"
 #include "dashpot/identify/fit/fit.h"
+#include "dashpot/identify/fit/free_run_records.h"
 #include "dashpot/identify/fit/member_report.h"
 #include "dashpot/identify/fit/starting_bank.h"
 #include "dashpot/identify/fit/trials.h"
@@ -19,14 +20,14 @@ constexpr std::size_t kTrialSamples = 2500;             // of a trial of a decay
 constexpr int kIterations = 60, kTrialIterations = 25;  // stopping early, too, keeps weights small
 constexpr std::array kDecays{1e-3, 1e-4, 1e-5};
 
-using Records = std::vector<const BankRecord*>;
+using Records = std::vector<const FreeRunRecord*>;
 
 /// Mean square of each of the bank's signals over all records.
 std::vector<double> mean_squares(const HysteresisBank& bank, const Records& records) {
   std::vector<double> squares(bank.signal_count()), signals(bank.signal_count()),
       state(bank.size());
   double samples = 0;
-  for (const BankRecord* record : records) {
+  for (const FreeRunRecord* record : records) {
     bank.rest(record->inputs.front(), state);
     for (std::size_t k = 0; k < record->inputs.size(); ++k) {
       if (k > 0)
@@ -56,7 +57,7 @@ GatedNetwork standardised(const HysteresisBank& bank, const Records& records,
   return network;
 }
 
-std::size_t hidden_of(const StateNetworkPreset& preset, const NetworkDesign& design) {
+std::size_t hidden_of(const HysteresisNetworkPreset& preset, const NetworkDesign& design) {
   if (design.hidden.size() > 1)
     throw Error("--network hidden", std::string(preset.name) + " has one hidden layer",
                 "give one number, as hidden=8");
@@ -64,16 +65,16 @@ std::size_t hidden_of(const StateNetworkPreset& preset, const NetworkDesign& des
 }
 
 /// One preset on one set of records.
-class BankFit {
+class HysteresisNetworkFit {
  public:
-  BankFit(const StateNetworkPreset& preset, const std::vector<Record>& training,
-          const std::string& drive_unit, const IdentifyOptions& options)
+  HysteresisNetworkFit(const HysteresisNetworkPreset& preset, const std::vector<Record>& training,
+                       const std::string& drive_unit, const IdentifyOptions& options)
       : options_(options),
         hidden_(hidden_of(preset, options.network)),
         members_(options.network.members.value_or(preset.members)),
         iterations_(static_cast<int>(options.network.epochs.value_or(kIterations))),
-        records_(bank_records(training, drive_unit)) {
-    for (const BankRecord& record : records_) all_.push_back(&record);
+        records_(free_run_records(training, drive_unit)) {
+    for (const FreeRunRecord& record : records_) all_.push_back(&record);
     const DriveRange drive = drive_range(training, drive_unit);
     start_.bank = starting_bank({preset.path_states, preset.velocity_lags, preset.current_lags},
                                 all_, drive.varies);
@@ -82,8 +83,8 @@ class BankFit {
   }
 
   struct Member {
-    BankNetwork network;
-    BankTrainReport report;
+    HysteresisNetwork network;
+    FreeRunTrainReport report;
   };
 
   /// Members differ in their random start alone.
@@ -99,11 +100,11 @@ class BankFit {
   /// The price of weights with which trials foretell best what was held back from them.
   double best_decay(const Trials& trials) const {
     return trials.best_price(
-        kDecays, options_.threads, [this](const BankTrial& trial, double decay) {
+        kDecays, options_.threads, [this](const FreeRunTrial& trial, double decay) {
           const Effort effort{decay, std::min(kTrialIterations, iterations_)};
-          const BankNetwork found = fit(trial.training, kTrialSamples, effort).network;
+          const HysteresisNetwork found = fit(trial.training, kTrialSamples, effort).network;
           double squares = 0;
-          for (const BankRecord* record : trial.held_back)
+          for (const FreeRunRecord* record : trial.held_back)
             squares += squares_left(found, *record, options_.offset == OffsetMode::Record);
           return squares;
         });
@@ -115,7 +116,7 @@ class BankFit {
     std::uint64_t start = 0;
   };
   Member fit(const Records& records, std::size_t most_samples, Effort effort) const {
-    const BankTrainOptions options{
+    const HysteresisNetworkTrainOptions options{
         .max_iterations = effort.iterations,
         .weight_decay = effort.decay,
         .offsets = options_.offset == OffsetMode::Record,
@@ -130,22 +131,24 @@ class BankFit {
   const IdentifyOptions& options_;
   std::size_t hidden_, members_;
   int iterations_;
-  std::vector<BankRecord> records_;
+  std::vector<FreeRunRecord> records_;
   Records all_;
-  BankNetwork start_;
+  HysteresisNetwork start_;
   double decay_ = 0;
 };
 
 }  // namespace
 
-FitReport fit_state_network(const StateNetworkPreset& preset, const std::vector<Record>& training,
-                            const std::string& drive_unit, const IdentifyOptions& options) {
-  const std::vector<BankFit::Member> members =
-      BankFit(preset, training, drive_unit, options).members();
+FitReport fit_hysteresis_network(const HysteresisNetworkPreset& preset,
+                                 const std::vector<Record>& training, const std::string& drive_unit,
+                                 const IdentifyOptions& options) {
+  const std::vector<HysteresisNetworkFit::Member> members =
+      HysteresisNetworkFit(preset, training, drive_unit, options).members();
   FitReport report = report_of_members(members);
-  std::vector<BankNetwork> networks;
-  for (const BankFit::Member& member : members) networks.push_back(member.network);
-  report.model = std::make_shared<HysteresisNetwork>(std::string(preset.name), std::move(networks));
+  std::vector<HysteresisNetwork> networks;
+  for (const HysteresisNetworkFit::Member& member : members) networks.push_back(member.network);
+  report.model =
+      std::make_shared<HysteresisNetworkModel>(std::string(preset.name), std::move(networks));
   return report;
 }
 

@@ -7,6 +7,7 @@
 #include "dashpot/base/error.h"
 #include "dashpot/base/parallel.h"
 #include "dashpot/damper/kinds/narx/narx_model.h"
+#include "dashpot/damper/kinds/narx/presets.h"
 #include "dashpot/damper/kinds/narx/train_narx.h"
 #include "dashpot/damper/nets/ensemble.h"
 #include "dashpot/identify/fit/fit.h"
@@ -29,7 +30,7 @@ constexpr double kUsualStep = 1e-3;
 
 /// What preset and design make together.
 struct NarxPlan {
-  NarxPlan(const NetworkPreset& preset, const NetworkDesign& design)
+  NarxPlan(const NarxPreset& preset, const NetworkDesign& design)
       : name(preset.name),
         inputs(preset.inputs),
         hidden(design.hidden.empty() ? preset.hidden : design.hidden),
@@ -363,7 +364,7 @@ Effort full_effort(const NarxPlan& plan, const IdentifyOptions& options, double 
 
 }  // namespace
 
-FitReport fit_narx(const NetworkPreset& preset, const std::vector<Record>& training,
+FitReport fit_narx(const NarxPreset& preset, const std::vector<Record>& training,
                    const std::string& drive_unit, const IdentifyOptions& options) {
   const NarxPlan plan(preset, options.network);
   const Regressors regressors = regressors_of(plan, training, drive_unit);

@@ -1,6 +1,8 @@
 #include <tuple>
 
+#include "dashpot/damper/kinds/narx/presets.h"
 #include "dashpot/damper/kinds/network/network_model.h"
+#include "dashpot/damper/kinds/network/presets.h"
 #include "dashpot/identify/fit/fit.h"
 #include "dashpot/identify/fit/network_trainer.h"
 #include "dashpot/identify/fit/training_samples.h"
@@ -36,6 +38,11 @@ Mlp standardised(const NetworkPreset& preset, const NetworkDesign& design,
 
 FitReport fit_network(const NetworkPreset& preset, const std::vector<Record>& training,
                       const std::string& drive_unit, const IdentifyOptions& options) {
+  // A network that also reads past inputs is a NARX model without feedback.
+  if (options.network.delays.value_or(0) > 0)
+    return fit_narx(narx_preset(preset), training, drive_unit, options);
+
+  // The samples: present inputs, one row per instant.
   const auto rows = [&](const std::vector<DamperInput>& inputs, const std::vector<double>&) {
     std::vector<double> values;
     for (const DamperInput& input : inputs)
@@ -45,6 +52,8 @@ FitReport fit_network(const NetworkPreset& preset, const std::vector<Record>& tr
   const SamplesOf samples_of = [&](const std::vector<Record>& records) {
     return training_samples(records, drive_unit, options.offset, rows);
   };
+
+  // Train the members.
   const Mlp start = standardised(preset, options.network, samples_of(training));
   TrainedEnsemble trained = train_networks(start, training, samples_of, options);
 

@@ -7,7 +7,6 @@
 #include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
 #include "dashpot/damper/nets/kernel.h"
-#include "dashpot/damper/registry.h"
 
 namespace dashpot {
 namespace {
@@ -213,22 +212,6 @@ std::string format_design(const NetworkDesign& design) {
   return join(parts, ",");
 }
 
-std::vector<std::string_view> network_settings_of(const std::string& model) {
-  const std::string_view kind = model_info(model).kind;
-  if (kind == "network")
-    return {"hidden", "activation", "trainer",  "rate",    "schedule", "batch",  "epochs",
-            "l1",     "l2",         "patience", "members", "delays",   "spacing"};
-  if (kind == "family" && !find_family_preset(model).inputs.empty())
-    return {"hidden", "activation", "trainer", "rate",     "schedule", "batch",
-            "epochs", "l1",         "l2",      "patience", "members"};
-  if (kind == "narx")
-    return {"hidden", "activation", "trainer", "epochs",   "l2",     "members",
-            "delays", "feedback",   "spacing", "training", "window", "output"};
-  if (kind == "state_network" || kind == "state_space")
-    return {"hidden", "epochs", "l2", "members"};
-  return {};
-}
-
 bool trains_on_batches(Trainer trainer) {
   return trainer != Trainer::LevenbergMarquardt && trainer != Trainer::Bayesian &&
          trainer != Trainer::Lbfgs;
@@ -244,10 +227,6 @@ bool has_use(Trainer trainer, std::string_view setting) {
   return setting != "l2" || trainer != Trainer::Bayesian;  // which finds it by itself
 }
 
-Trainer usual_trainer(const std::string& model) {
-  return model_info(model).kind == "family" ? Trainer::Adam : Trainer::LevenbergMarquardt;
-}
-
 void require_trainer(const NetworkDesign& design, Trainer usual) {
   const Trainer trainer = design.trainer.value_or(usual);
   const std::string which =
@@ -257,21 +236,6 @@ void require_trainer(const NetworkDesign& design, Trainer usual) {
       throw Error("--network " + std::string(setting.name), which + " has none",
                   setting.name == "l2" ? "it finds the price by itself; trainer=lm has l2"
                                        : "choose a batch trainer, as trainer=adam");
-}
-
-void require_design(const NetworkDesign& design, const std::vector<std::string>& models) {
-  for (const NetworkSetting& setting : kSettings) {
-    if (setting.format(design).empty()) continue;
-    const bool followed = std::any_of(models.begin(), models.end(), [&](const std::string& model) {
-      return std::ranges::count(network_settings_of(model), setting.name) > 0;
-    });
-    if (!followed)
-      throw Error("--network", "none of the models follows '" + std::string(setting.name) + "'",
-                  "choose a network with --models; 'dashpot models NAME' tells what it follows");
-  }
-  for (const std::string& model : models)
-    if (std::ranges::count(network_settings_of(model), "trainer") > 0)
-      require_trainer(design, usual_trainer(model));
 }
 
 }  // namespace dashpot

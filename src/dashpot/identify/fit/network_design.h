@@ -72,13 +72,6 @@ bool has_use(Trainer trainer, std::string_view setting);
 /// The word for it: "lm", "adam".
 std::string_view name_of(Trainer trainer);
 
-/// Names of the settings that a model's fit follows. Throws Error at an unknown model.
-std::vector<std::string_view> network_settings_of(const std::string& model);
-/// Throws Error when something is set that none of these models can follow, or that the trainer
-/// does not use.
-void require_design(const NetworkDesign& design, const std::vector<std::string>& models);
-/// The trainer of a model's networks where none is named.
-Trainer usual_trainer(const std::string& model);
 /// Throws Error when something is set that the trainer (the usual one where none is named) does not
 /// use.
 void require_trainer(const NetworkDesign& design, Trainer usual = Trainer::LevenbergMarquardt);

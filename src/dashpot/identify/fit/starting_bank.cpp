@@ -1,10 +1,10 @@
 #include "dashpot/identify/fit/starting_bank.h"
 
-#include "dashpot/identify/fit/bank_records.h"
+#include "dashpot/identify/fit/free_run_records.h"
 
 namespace dashpot {
 
-HysteresisBank starting_bank(const BankSize& size, const std::vector<const BankRecord*>& records,
+HysteresisBank starting_bank(const BankSize& size, const std::vector<const FreeRunRecord*>& records,
                              bool drive_varies) {
   constexpr double kSlowest = 2,
                    kFastest = 30;  // Dahl rates times the longest and the shortest way

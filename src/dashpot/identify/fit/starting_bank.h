@@ -1,7 +1,8 @@
 #pragma once
 #include <vector>
 
-#include "dashpot/damper/nets/train_bank.h"
+#include "dashpot/damper/nets/free_run_record.h"
+#include "dashpot/damper/nets/hysteresis_bank.h"
 
 namespace dashpot {
 
@@ -11,7 +12,7 @@ struct BankSize {
 };
 
 /// A bank whose rates cover what the records move: Dahl states by the ways between their turns.
-HysteresisBank starting_bank(const BankSize& size, const std::vector<const BankRecord*>& records,
+HysteresisBank starting_bank(const BankSize& size, const std::vector<const FreeRunRecord*>& records,
                              bool drive_varies);
 
 }  // namespace dashpot

@@ -4,9 +4,10 @@
 
 #include "dashpot/base/error.h"
 #include "dashpot/base/parallel.h"
+#include "dashpot/damper/kinds/state_space/presets.h"
 #include "dashpot/damper/kinds/state_space/train_state_space.h"
-#include "dashpot/identify/fit/bank_records.h"
 #include "dashpot/identify/fit/fit.h"
+#include "dashpot/identify/fit/free_run_records.h"
 #include "dashpot/identify/fit/member_report.h"
 #include "dashpot/identify/fit/trials.h"
 
@@ -24,11 +25,11 @@ constexpr double kTolerance = 1e-3;  // stopping early, too, keeps weights small
 constexpr std::array kDecays{1e-3, 1e-4, 1e-5};
 constexpr double kMostStep = 0.005;  // s, of the model
 
-using Records = std::vector<const BankRecord*>;
+using Records = std::vector<const FreeRunRecord*>;
 
 double mean_square_velocity(const Records& records) {
   double squares = 0, samples = 0;
-  for (const BankRecord* record : records) {
+  for (const FreeRunRecord* record : records) {
     for (const DamperInput& input : record->inputs) squares += input.velocity * input.velocity;
     samples += static_cast<double>(record->inputs.size());
   }
@@ -38,7 +39,7 @@ double mean_square_velocity(const Records& records) {
 /// The longest mean sample time, s: no record's steps are then divided but where it is coarse.
 double longest_sample_time(const Records& records) {
   double longest = 0;
-  for (const BankRecord* record : records)
+  for (const FreeRunRecord* record : records)
     longest = std::max(longest, (record->time.back() - record->time.front()) /
                                     static_cast<double>(record->time.size() - 1));
   return longest > 0 ? longest : kMostStep;
@@ -95,8 +96,8 @@ class StateSpaceFit {
                 const std::string& drive_unit, const IdentifyOptions& options)
       : preset_(designed(preset, options.network)),
         options_(options),
-        records_(bank_records(training, drive_unit)) {
-    for (const BankRecord& record : records_) all_.push_back(&record);
+        records_(free_run_records(training, drive_unit)) {
+    for (const FreeRunRecord& record : records_) all_.push_back(&record);
     start_.cell = starting_cell(preset_, all_, drive_range(training, drive_unit));
     start_.network = standardised(start_.cell, all_);
     decay_ = options.network.l2 ? *options.network.l2 : best_decay(Trials(training, drive_unit));
@@ -104,7 +105,7 @@ class StateSpaceFit {
 
   struct Member {
     StateSpaceNetwork network;
-    BankTrainReport report;
+    FreeRunTrainReport report;
   };
 
   /// Members differ in their random start alone: each learns from windows, then from whole records.
@@ -128,13 +129,13 @@ class StateSpaceFit {
   double best_decay(const Trials& trials) const {
     const bool lone = trials.all().size() == 1;
     return trials.best_price(
-        kDecays, options_.threads, [this, lone](const BankTrial& trial, double decay) {
+        kDecays, options_.threads, [this, lone](const FreeRunTrial& trial, double decay) {
           StateSpaceNetwork found =
               from_windows(trial.training, lone ? Effort{decay, kWindowIterations, kWindowSteps}
                                                 : Effort{decay, kTrialIterations, kTrialSteps});
           if (lone) train(found, trial.training, finish(decay, kTrialFinish));
           double squares = 0;
-          for (const BankRecord* record : trial.held_back)
+          for (const FreeRunRecord* record : trial.held_back)
             squares += squares_left(found, *record, options_.offset == OffsetMode::Record);
           return squares;
         });
@@ -164,7 +165,7 @@ class StateSpaceFit {
 
   const StateSpacePreset preset_;
   const IdentifyOptions& options_;
-  std::vector<BankRecord> records_;
+  std::vector<FreeRunRecord> records_;
   Records all_;
   StateSpaceNetwork start_;
   double decay_ = 0;

@@ -3,30 +3,30 @@
 #include <algorithm>
 
 #include "dashpot/base/parallel.h"
-#include "dashpot/identify/fit/bank_records.h"
+#include "dashpot/identify/fit/free_run_records.h"
 #include "dashpot/record/split.h"
 
 namespace dashpot {
 
 Trials::Trials(const std::vector<Record>& training, const std::string& drive_unit) {
   for (const Fold& fold : trial_folds(training)) {
-    BankTrial trial;
-    trial.training = keep(bank_records(fold.training, drive_unit));
-    trial.held_back = keep(bank_records(fold.left_out, drive_unit));
+    FreeRunTrial trial;
+    trial.training = keep(free_run_records(fold.training, drive_unit));
+    trial.held_back = keep(free_run_records(fold.left_out, drive_unit));
     trials_.push_back(std::move(trial));
   }
 }
 
-std::vector<const BankRecord*> Trials::keep(std::vector<BankRecord> records) {
-  std::vector<const BankRecord*> pointers;
-  for (const BankRecord& record : kept_.emplace_back(std::move(records)))
+std::vector<const FreeRunRecord*> Trials::keep(std::vector<FreeRunRecord> records) {
+  std::vector<const FreeRunRecord*> pointers;
+  for (const FreeRunRecord& record : kept_.emplace_back(std::move(records)))
     pointers.push_back(&record);
   return pointers;
 }
 
 double Trials::best_price(
     std::span<const double> prices, int threads,
-    const std::function<double(const BankTrial&, double)>& squares_left) const {
+    const std::function<double(const FreeRunTrial&, double)>& squares_left) const {
   std::vector<double> squares(prices.size() * trials_.size());
   parallel_for(squares.size(), threads, [&](std::size_t k) {
     squares[k] = squares_left(trials_[k / prices.size()], prices[k % prices.size()]);

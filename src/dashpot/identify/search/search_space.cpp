@@ -9,6 +9,7 @@
 #include "dashpot/base/file.h"
 #include "dashpot/base/random.h"
 #include "dashpot/base/text.h"
+#include "dashpot/identify/fit/fit.h"
 
 namespace dashpot {
 namespace {
@@ -148,7 +149,7 @@ std::string format_axis(const SearchAxis& axis) {
 
 void require_space(const SearchSpace& space, const std::string& model) {
   const std::string where = "--over";
-  const std::vector<std::string_view> followed = network_settings_of(model);
+  const std::span<const std::string_view> followed = network_settings_of(model);
   const std::vector<std::string> known(followed.begin(), followed.end());
   if (known.empty())
     throw Error(where, model + " is no network: it has no settings to search", "give a network");

@@ -11,7 +11,7 @@ class RangeDamper final : public DamperModel {
  public:
   explicit RangeDamper(ForceRange range) : range_(std::move(range)) {}
 
-  std::string kind() const override { return "range"; }
+  ModelKind kind() const override { return ModelKind::Other; }
   std::string name() const override { return "force_range"; }
   bool needs_displacement() const noexcept override { return false; }
   std::size_t parameter_count() const noexcept override { return 2 * range_.velocity.size(); }

@@ -44,10 +44,9 @@ std::string against_damper(const MountedDamper& damper) {
     return "its driver limits the current's rate or samples";
   if (damper.motion_ratio != 1) return "its damper moves otherwise than its strut";
   if (damper.force_factor != 1) return "its damper is built otherwise than its model";
-  if (const auto* network = dynamic_cast<const NetworkModel*>(damper.model.get()))
-    return against_network(*network);
-  if (const auto* law = dynamic_cast<const LawModel*>(damper.model.get())) return against_law(*law);
-  return "a " + damper.model->kind() + " has no lanes";
+  if (const auto* network = model_as<NetworkModel>(*damper.model)) return against_network(*network);
+  if (const auto* law = model_as<LawModel>(*damper.model)) return against_law(*law);
+  return "the model " + damper.model->name() + " has no lanes";
 }
 
 std::string against_ground(const BatchVehicle& vehicle) {
@@ -161,10 +160,10 @@ LaneVehicle lane_vehicle(const BatchVehicle& vehicle) {
   set_plant(plant, lane.numbers);
   set_limits(plant, lane.numbers);
   lane.numbers.driver_lag = damper.driver.lag_rate;
-  if (const auto* network = dynamic_cast<const NetworkModel*>(damper.model.get()))
+  if (const auto* network = model_as<NetworkModel>(*damper.model))
     set_network(*network, lane);
   else
-    set_law(dynamic_cast<const LawModel&>(*damper.model), lane);
+    set_law(*model_as<LawModel>(*damper.model), lane);
   const Strut& strut = plant.struts[0];
   lane.shape.lags = (lane.numbers.driver_lag > 0) + (lane.numbers.model_lag > 0);
   lane.shape.resists_more = plant.tyres_may_lift || strut.friction > 0 ||

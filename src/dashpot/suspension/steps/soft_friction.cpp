@@ -11,7 +11,7 @@ class SoftFriction final : public DamperModel {
  public:
   explicit SoftFriction(std::shared_ptr<const DamperModel> model) : model_(std::move(model)) {}
 
-  std::string kind() const override { return model_->kind(); }
+  ModelKind kind() const override { return model_->kind(); }
   std::string name() const override { return model_->name(); }
   bool needs_displacement() const noexcept override { return model_->needs_displacement(); }
   std::size_t parameter_count() const noexcept override { return model_->parameter_count(); }

@@ -27,7 +27,7 @@ HybridModel viscous(double low, double high) {
 TEST_CASE("the network adds to the law's force and is held beyond the training records") {
   const HybridModel model = viscous(-1, 1);
   CHECK(model.name() == "bingham+network");
-  CHECK(model.kind() == "hybrid");
+  CHECK(model.kind() == ModelKind::Hybrid);
   CHECK_FALSE(model.needs_displacement());
   CHECK_CLOSE(model.force({0, 0.2, 1}, {}), 1000 * 0.2 + 50 * 2 * 0.2, 1e-14, 0);
   // At 2 m/s the mixed signal would be 4; it stays at 1, and the law goes on. So does a current

@@ -21,7 +21,7 @@ TEST_CASE("the force of a state space is the members' mean and the offset") {
               1e-12, 0);
   CHECK(first.spread(input, all.first(4)) == 0);
   CHECK(both.state_size() == 8);
-  CHECK(both.kind() == "state_space");
+  CHECK(both.kind() == ModelKind::StateSpace);
   // 4 rates, 3 neurons of 6, 2 x 3 rows over 1 + 2 + 1 + 3; 2 neurons of 6, 7 terms of 3 gates
   CHECK(both.parameter_count() == 2 * (4 + 18 + 42 + 12 + 21));
   CHECK_FALSE(both.needs_displacement());

@@ -1,6 +1,6 @@
 #include "dashpot/damper/kinds/state_space/train_state_space.h"
 
-#include "damper/nets/bank_record_example.h"
+#include "damper/nets/free_run_record_example.h"
 #include "state_space_example.h"
 #include "support.h"
 
@@ -8,7 +8,7 @@ using namespace dashpot;
 
 namespace {
 
-std::vector<BankRecord> measured(std::size_t samples) {
+std::vector<FreeRunRecord> measured(std::size_t samples) {
   return measured(StateSpaceModel("truth", {example_state_space(3)}), samples, 10);
 }
 
@@ -22,7 +22,7 @@ StateSpaceNetwork start() {
 }
 
 void check_gradient(const StateSpaceTrainOptions& options) {
-  const std::vector<BankRecord> records = measured(90);
+  const std::vector<FreeRunRecord> records = measured(90);
   const StateSpaceNetwork model = example_state_space(4);
   const std::size_t count = state_space_cost(model, all_of(records), options).gradient.size();
   std::vector<double> at = model.cell.parameters();
@@ -31,7 +31,7 @@ void check_gradient(const StateSpaceTrainOptions& options) {
   at.insert(at.end(), model.network.neurons.begin(), model.network.neurons.end());
   at.insert(at.end(), model.network.gates.begin(), model.network.gates.end());
   REQUIRE(at.size() == count);
-  const BankCost cost = state_space_cost(model, all_of(records), options, at);
+  const FreeRunCost cost = state_space_cost(model, all_of(records), options, at);
   for (std::size_t k = 0; k < count; ++k) {
     const auto moved = [&](double by) {
       std::vector<double> x = at;
@@ -54,12 +54,13 @@ TEST_CASE("the gradient is that of the cost over windows, encoder included") {
 }
 
 TEST_CASE("windows, then whole records: a state space foretells motions it has not seen") {
-  const std::vector<BankRecord> records = measured(400);
-  const std::vector<const BankRecord*> seen{&records[0], &records[2]};
+  const std::vector<FreeRunRecord> records = measured(400);
+  const std::vector<const FreeRunRecord*> seen{&records[0], &records[2]};
   const auto trained = [&] {
     StateSpaceNetwork model = start();
     train(model, seen, {.max_iterations = 15, .weight_decay = 1e-6, .window = 50});
-    const BankTrainReport report = train(model, seen, {.max_iterations = 40, .weight_decay = 1e-7});
+    const FreeRunTrainReport report =
+        train(model, seen, {.max_iterations = 40, .weight_decay = 1e-7});
     CHECK(report.iterations > 0);
     return model;
   };
@@ -76,11 +77,11 @@ TEST_CASE("windows, then whole records: a state space foretells motions it has n
 }
 
 TEST_CASE("records too short for a window serve whole") {
-  const std::vector<BankRecord> records = measured(15);
+  const std::vector<FreeRunRecord> records = measured(15);
   StateSpaceNetwork model = start();
   CHECK(train(model, all_of(records), {.max_iterations = 2, .window = 400}).rmse > 0);
-  std::vector<BankRecord> tiny = measured(12);
-  for (BankRecord& record : tiny) record.first = 0;
-  const std::vector<BankRecord> one(tiny.begin(), tiny.begin() + 1);
+  std::vector<FreeRunRecord> tiny = measured(12);
+  for (FreeRunRecord& record : tiny) record.first = 0;
+  const std::vector<FreeRunRecord> one(tiny.begin(), tiny.begin() + 1);
   CHECK(std::isfinite(state_space_cost(model, all_of(one), {.window = 400}).cost));
 }

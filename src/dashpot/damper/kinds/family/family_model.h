@@ -35,7 +35,7 @@ class FamilyModel final : public DamperModel {
  public:
   FamilyModel(std::shared_ptr<const Family> family, FamilyMember member, double offset = 0);
 
-  std::string kind() const override { return "family"; }
+  ModelKind kind() const override { return ModelKind::Family; }
   std::string name() const override { return family_->name; }
   bool needs_displacement() const noexcept override;
   std::size_t parameter_count() const noexcept override {

@@ -17,7 +17,7 @@ class FuzzyModel final : public DamperModel {
   FuzzyModel(std::string name, FuzzyInputs inputs, Sugeno sugeno, double offset = 0,
              const std::string& where = {});
 
-  std::string kind() const override { return "fuzzy"; }
+  ModelKind kind() const override { return ModelKind::Fuzzy; }
   std::string name() const override { return name_; }
   bool needs_displacement() const noexcept override { return inputs_.has("displacement"); }
   /// The rules' and memberships', and a lag for each state.

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "dashpot/base/error.h"
-#include "dashpot/damper/registry.h"
+#include "dashpot/damper/kinds/hybrid/presets.h"
 
 namespace dashpot {
 namespace {

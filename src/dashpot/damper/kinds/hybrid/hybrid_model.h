@@ -59,7 +59,7 @@ class HybridModel final : public DamperModel {
   HybridModel(HybridSource source, SignalMixing mixing, GatedNetwork network, double offset = 0,
               const std::string& where = {});
 
-  std::string kind() const override { return "hybrid"; }
+  ModelKind kind() const override { return ModelKind::Hybrid; }
   std::string name() const override;
   bool needs_displacement() const noexcept override { return law().needs_displacement(); }
   std::size_t parameter_count() const noexcept override;
@@ -71,6 +71,7 @@ class HybridModel final : public DamperModel {
   bool flows() const noexcept override { return true; }
   double flow(const DamperInput& input, std::span<const double> state,
               std::span<double> rates) const noexcept override;
+  const LawModel* law_inside() const noexcept override { return &source_.law; }
   std::unique_ptr<DamperModel> with_offset(double newton) const override;
   Value to_json() const override;
 

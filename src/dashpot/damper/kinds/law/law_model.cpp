@@ -5,7 +5,6 @@
 
 #include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
-#include "dashpot/damper/kinds/law/integrate.h"
 
 namespace dashpot {
 namespace {
@@ -89,11 +88,6 @@ void LawModel::rest(const DamperInput& input, std::span<double> state) const noe
     law_->rest(p.data(), input.displacement, input.velocity, state.data());
   }
   if (lag_rate_ > 0) state[law_->states.size()] = input.current;
-}
-
-void LawModel::advance(const DamperInput& from, const DamperInput& to, double dt,
-                       std::span<double> state) const noexcept {
-  integrate(*this, from, to, dt, state);
 }
 
 double LawModel::force(const DamperInput& input, std::span<const double> state) const noexcept {

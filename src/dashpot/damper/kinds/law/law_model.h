@@ -23,7 +23,7 @@ class LawModel final : public DamperModel {
   /// it.
   static LawModel constant(const Law& law, const std::vector<double>& parameters);
 
-  std::string kind() const override { return "law"; }
+  ModelKind kind() const override { return ModelKind::Law; }
   std::string name() const override { return std::string(law_->name); }
   bool needs_displacement() const noexcept override;
   /// Coefficients of the parameters that the law does not call fixed.
@@ -39,6 +39,7 @@ class LawModel final : public DamperModel {
   bool flows() const noexcept override { return true; }
   double flow(const DamperInput& input, std::span<const double> state,
               std::span<double> rates) const noexcept override;
+  const LawModel* law_inside() const noexcept override { return this; }
   std::unique_ptr<DamperModel> with_offset(double newton) const override;
   Value to_json() const override;
 

@@ -1,7 +1,7 @@
 #include "dashpot/base/error.h"
 #include "dashpot/base/units.h"
 #include "dashpot/damper/kinds/law/law_model.h"
-#include "dashpot/damper/registry.h"
+#include "dashpot/damper/law_list.h"
 
 namespace dashpot {
 namespace {

@@ -24,7 +24,7 @@ class NarxModel final : public DamperModel {
   NarxModel(std::string name, Regressors regressors, std::vector<Mlp> members, double offset = 0,
             const std::string& where = {});
 
-  std::string kind() const override { return "narx"; }
+  ModelKind kind() const override { return ModelKind::Narx; }
   std::string name() const override { return name_; }
   bool needs_displacement() const noexcept override { return needs_displacement_; }
   std::size_t parameter_count() const noexcept override;

@@ -19,7 +19,7 @@ class NetworkModel final : public DamperModel {
   NetworkModel(std::string name, std::vector<std::string> inputs, std::vector<Mlp> members,
                double offset = 0);
 
-  std::string kind() const override { return "network"; }
+  ModelKind kind() const override { return ModelKind::Network; }
   std::string name() const override { return name_; }
   bool needs_displacement() const noexcept override;
   std::size_t parameter_count() const noexcept override;

@@ -5,7 +5,7 @@
 
 #include "dashpot/damper/kinds/state_space/state_space_cell.h"
 #include "dashpot/damper/nets/gated_network.h"
-#include "dashpot/damper/nets/state_network.h"
+#include "dashpot/damper/nets/stateful_ensemble.h"
 
 namespace dashpot {
 
@@ -25,15 +25,15 @@ struct StateSpaceNetwork {
 
 /// Velocity and current -> force through states that act back on themselves. Bounded by
 /// construction for bounded inputs: the states are.
-class StateSpaceModel final : public StateNetwork<StateSpaceNetwork> {
+class StateSpaceModel final : public StatefulEnsemble<StateSpaceNetwork> {
  public:
   /// Throws Error, beginning with `where` (the name when empty), when the parts do not fit
   /// together.
   StateSpaceModel(std::string name, std::vector<StateSpaceNetwork> members, double offset = 0,
                   const std::string& where = {})
-      : StateNetwork(std::move(name), std::move(members), offset, where) {}
+      : StatefulEnsemble(std::move(name), std::move(members), offset, where) {}
 
-  std::string kind() const override { return "state_space"; }
+  ModelKind kind() const override { return ModelKind::StateSpace; }
   std::unique_ptr<DamperModel> with_offset(double newton) const override {
     return std::make_unique<StateSpaceModel>(name(), members(), offset() + newton);
   }

@@ -64,7 +64,7 @@ Value StateSpaceNetwork::to_json() const {
 }
 
 std::unique_ptr<StateSpaceModel> state_space_model_from_json(const Value& value) {
-  return state_network_from_json<StateSpaceModel>(value, "a state-space model", read_member);
+  return stateful_ensemble_from_json<StateSpaceModel>(value, "a state-space model", read_member);
 }
 
 }  // namespace dashpot

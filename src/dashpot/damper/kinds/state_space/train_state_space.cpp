@@ -14,23 +14,23 @@ namespace {
 constexpr std::size_t kMoments = 4;      // that the encoder sees
 constexpr double kMomentSpacing = 0.01;  // s
 
-using Records = std::vector<const BankRecord*>;
+using Records = std::vector<const FreeRunRecord*>;
 
 /// A part of a record that is run freely.
 struct Window {
-  const BankRecord* record;
+  const FreeRunRecord* record;
   std::size_t begin, end, first;  ///< first: scored from here on
   std::vector<double> features;   ///< what the encoder sees; none: from rest
   std::vector<double> currents;   ///< standardised, behind their lags, at its beginning
 };
 
-Window whole(const BankRecord& record) {
+Window whole(const FreeRunRecord& record) {
   return {&record, 0, record.inputs.size(), record.first, {}, {}};
 }
 
 std::vector<Window> wholes(const Records& records) {
   std::vector<Window> all;
-  for (const BankRecord* record : records) all.push_back(whole(*record));
+  for (const FreeRunRecord* record : records) all.push_back(whole(*record));
   return all;
 }
 
@@ -57,7 +57,7 @@ void encode(const StateSpaceCell& cell, const double* weights, const Window& win
 template <class Use>
 void run_cell(const StateSpaceCell& cell, const double* encoder, const Window& window,
               std::size_t stride, StateSpaceCell::Slopes* slopes, Use use) {
-  const BankRecord& record = *window.record;
+  const FreeRunRecord& record = *window.record;
   std::vector<double> state(cell.size()), signals(cell.signal_count());
   if (window.features.empty())
     cell.rest(record.inputs.front(), state, slopes);
@@ -84,14 +84,14 @@ class Windows {
     if (options_.window == 0) return wholes(records);
     std::vector<Window> all;
     std::size_t steps = 0;
-    for (const BankRecord* record : records) steps += record->inputs.size() - record->first;
+    for (const FreeRunRecord* record : records) steps += record->inputs.size() - record->first;
     const std::size_t every = (steps + options_.most_steps - 1) / options_.most_steps;
-    for (const BankRecord* record : records) add(*record, every, all);
+    for (const FreeRunRecord* record : records) add(*record, every, all);
     return all.empty() ? wholes(records) : all;
   }
 
  private:
-  void add(const BankRecord& record, std::size_t every, std::vector<Window>& all) const {
+  void add(const FreeRunRecord& record, std::size_t every, std::vector<Window>& all) const {
     const StateSpaceCell& cell = model_.cell;
     const std::size_t samples = record.inputs.size();
     if (samples < 2) return;
@@ -168,7 +168,7 @@ void fill(const StateSpaceNetwork& model, const std::vector<double>& raw,
 void linearise(const StateSpaceNetwork& model, const double* encoder, std::size_t encoder_weights,
                const std::vector<Window>& windows, std::size_t stride, RowSink& sink) {
   for (std::size_t w = 0; w < windows.size(); ++w) {
-    const BankRecord* record = windows[w].record;
+    const FreeRunRecord* record = windows[w].record;
     StateSpaceCell::Slopes slopes(model.cell, encoder_weights);
     run_cell(model.cell, encoder, windows[w], stride, &slopes,
              [&](std::size_t k, const std::vector<double>& signals) {
@@ -192,7 +192,7 @@ void find_ranges(StateSpaceNetwork& model, const Records& records) {
     s.low = kInfinity;
     s.high = -kInfinity;
   }
-  for (const BankRecord* record : records)
+  for (const FreeRunRecord* record : records)
     run_cell(model.cell, nullptr, whole(*record), 1, nullptr,
              [&](std::size_t, const std::vector<double>& raw) {
                for (std::size_t k = 0; k < raw.size(); ++k) {
@@ -240,8 +240,8 @@ FreeRunSearchResult run_search(StateSpaceNetwork model, const Records& records,
 
 }  // namespace
 
-BankTrainReport train(StateSpaceNetwork& model, const Records& records,
-                      const StateSpaceTrainOptions& options) {
+FreeRunTrainReport train(StateSpaceNetwork& model, const Records& records,
+                         const StateSpaceTrainOptions& options) {
   const FreeRunSearchResult found = run_search(model, records, options, options.max_iterations, {});
   set_unknowns(model, found.unknowns);
   for (const double offset : found.offsets)
@@ -251,14 +251,14 @@ BankTrainReport train(StateSpaceNetwork& model, const Records& records,
   return {found.converged, found.iterations, model.network.output_scale * found.rms};
 }
 
-BankCost state_space_cost(const StateSpaceNetwork& model, const Records& records,
-                          const StateSpaceTrainOptions& options,
-                          const std::vector<double>& unknowns) {
+FreeRunCost state_space_cost(const StateSpaceNetwork& model, const Records& records,
+                             const StateSpaceTrainOptions& options,
+                             const std::vector<double>& unknowns) {
   const FreeRunSearchResult at = run_search(model, records, options, 0, unknowns);
   return {at.cost, at.half_gradient};
 }
 
-double squares_left(const StateSpaceNetwork& model, const BankRecord& record, bool offset) {
+double squares_left(const StateSpaceNetwork& model, const FreeRunRecord& record, bool offset) {
   double sum = 0, squares = 0, n = 0;
   run_cell(model.cell, nullptr, whole(record), 1, nullptr,
            [&](std::size_t k, const std::vector<double>& signals) {

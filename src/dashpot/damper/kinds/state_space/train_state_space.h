@@ -3,11 +3,11 @@
 #include <vector>
 
 #include "dashpot/damper/kinds/state_space/state_space_model.h"
-#include "dashpot/damper/nets/train_bank.h"
+#include "dashpot/damper/nets/free_run_record.h"
 
 namespace dashpot {
 
-/// Prices as in BankTrainOptions.
+/// Prices as in HysteresisNetworkTrainOptions.
 struct StateSpaceTrainOptions {
   int max_iterations = 100;
   double tolerance = 1e-4;
@@ -27,17 +27,17 @@ struct StateSpaceTrainOptions {
 /// Levenberg-Marquardt over cell and network together, in free run over windows or, from rest, over
 /// whole records; derivatives of the states are brought along, so that the Jacobian is exact.
 /// Offsets of records as for a bank of states. The same bits for the same input.
-BankTrainReport train(StateSpaceNetwork& model, const std::vector<const BankRecord*>& records,
-                      const StateSpaceTrainOptions& options);
+FreeRunTrainReport train(StateSpaceNetwork& model, const std::vector<const FreeRunRecord*>& records,
+                         const StateSpaceTrainOptions& options);
 
 /// Cost of train(), and half its gradient by the unknowns: the cell's parameters, the encoder's
 /// weights, neurons and gates. At the start of train() when `unknowns` is empty.
-BankCost state_space_cost(const StateSpaceNetwork& model,
-                          const std::vector<const BankRecord*>& records,
-                          const StateSpaceTrainOptions& options,
-                          const std::vector<double>& unknowns = {});
+FreeRunCost state_space_cost(const StateSpaceNetwork& model,
+                             const std::vector<const FreeRunRecord*>& records,
+                             const StateSpaceTrainOptions& options,
+                             const std::vector<double>& unknowns = {});
 
 /// What a model leaves of a record's scored samples, N^2, their mean taken out first when `offset`.
-double squares_left(const StateSpaceNetwork& model, const BankRecord& record, bool offset);
+double squares_left(const StateSpaceNetwork& model, const FreeRunRecord& record, bool offset);
 
 }  // namespace dashpot

@@ -1,12 +1,12 @@
-#include "dashpot/damper/kinds/hysteresis_network/hysteresis_network.h"
+#include "dashpot/damper/kinds/hysteresis_network/hysteresis_network_model.h"
 #include "dashpot/damper/nets/gated_network_json.h"
 
 namespace dashpot {
 namespace {
 
-BankNetwork read_member(const Value& value) {
+HysteresisNetwork read_member(const Value& value) {
   ObjectReader reader(value, "a member");
-  BankNetwork member;
+  HysteresisNetwork member;
   member.bank.path_rates = reader.required("path_rates").as_numbers();
   member.bank.velocity_rates = reader.required("velocity_rates").as_numbers();
   member.bank.current_rates = reader.required("current_rates").as_numbers();
@@ -17,7 +17,7 @@ BankNetwork read_member(const Value& value) {
 
 }  // namespace
 
-Value BankNetwork::to_json() const {
+Value HysteresisNetwork::to_json() const {
   Value out = Value::object({{"path_rates", Value::array(bank.path_rates)},
                              {"velocity_rates", Value::array(bank.velocity_rates)},
                              {"current_rates", Value::array(bank.current_rates)}});
@@ -25,8 +25,9 @@ Value BankNetwork::to_json() const {
   return out;
 }
 
-std::unique_ptr<HysteresisNetwork> hysteresis_network_from_json(const Value& value) {
-  return state_network_from_json<HysteresisNetwork>(value, "a state network", read_member);
+std::unique_ptr<HysteresisNetworkModel> hysteresis_network_model_from_json(const Value& value) {
+  return stateful_ensemble_from_json<HysteresisNetworkModel>(value, "a hysteresis network",
+                                                             read_member);
 }
 
 }  // namespace dashpot

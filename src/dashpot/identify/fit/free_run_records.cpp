@@ -1,4 +1,4 @@
-#include "dashpot/identify/fit/bank_records.h"
+#include "dashpot/identify/fit/free_run_records.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,24 +8,24 @@
 #include "dashpot/identify/judge/stroke.h"
 
 namespace dashpot {
-std::vector<BankRecord> bank_records(const std::vector<Record>& records,
-                                     const std::string& drive_unit) {
-  std::vector<BankRecord> all;
+std::vector<FreeRunRecord> free_run_records(const std::vector<Record>& records,
+                                            const std::string& drive_unit) {
+  std::vector<FreeRunRecord> all;
   for (const Record& record : records)
     all.push_back({damper_inputs(record, drive_unit), record.time, record.channel("force").samples,
                    record.warm_up});
   return all;
 }
 
-std::size_t scored_samples(const std::vector<const BankRecord*>& records) {
+std::size_t scored_samples(const std::vector<const FreeRunRecord*>& records) {
   std::size_t samples = 0;
-  for (const BankRecord* record : records) samples += record->inputs.size() - record->first;
+  for (const FreeRunRecord* record : records) samples += record->inputs.size() - record->first;
   return samples;
 }
 
-double force_deviation(const std::vector<const BankRecord*>& records) {
+double force_deviation(const std::vector<const FreeRunRecord*>& records) {
   double squares = 0, samples = 0;
-  for (const BankRecord* record : records) {
+  for (const FreeRunRecord* record : records) {
     const auto first = record->force.begin() + static_cast<std::ptrdiff_t>(record->first);
     const double n = static_cast<double>(record->force.end() - first);
     const double sum = std::accumulate(first, record->force.end(), 0.0);
@@ -36,9 +36,9 @@ double force_deviation(const std::vector<const BankRecord*>& records) {
   return deviation > 0 ? deviation : 1;
 }
 
-WayRange way_range(const std::vector<const BankRecord*>& records) {
+WayRange way_range(const std::vector<const FreeRunRecord*>& records) {
   WayRange range{INFINITY, 0};
-  for (const BankRecord* record : records) {
+  for (const FreeRunRecord* record : records) {
     const double way = mean_stroke(record->inputs, record->time).way;
     range.shortest = std::min(range.shortest, way);
     range.longest = std::max(range.longest, way);

@@ -1,17 +1,17 @@
-#include "dashpot/damper/kinds/hysteresis_network/hysteresis_network.h"
+#include "dashpot/damper/kinds/hysteresis_network/hysteresis_network_model.h"
 
 #include <algorithm>
 
-#include "damper/nets/bank_network_example.h"
+#include "damper/kinds/hysteresis_network/hysteresis_network_example.h"
 #include "support.h"
 
 using namespace dashpot;
 
 namespace {
 
-HysteresisNetwork example() {
-  return HysteresisNetwork("hysteresis_network", {example_bank_network(1), example_bank_network(2)},
-                           4.5);
+HysteresisNetworkModel example() {
+  return HysteresisNetworkModel(
+      "hysteresis_network", {example_hysteresis_network(1), example_hysteresis_network(2)}, 4.5);
 }
 
 double bound_of(const GatedNetwork& network, double fastest) {
@@ -30,9 +30,9 @@ double bound_of(const GatedNetwork& network, double fastest) {
 }  // namespace
 
 TEST_CASE("the force is the members' mean and the offset") {
-  const HysteresisNetwork both = example();
-  const HysteresisNetwork first("a", {example_bank_network(1)}),
-      second("b", {example_bank_network(2)});
+  const HysteresisNetworkModel both = example();
+  const HysteresisNetworkModel first("a", {example_hysteresis_network(1)}),
+      second("b", {example_hysteresis_network(2)});
   const std::vector<double> state{0.1, -0.3, 0.02, 0.5, 0.6, 0.7, -0.05, 1.2};
   const DamperInput input{9, 0.1, 1};
   const std::span<const double> all(state);
@@ -51,8 +51,8 @@ TEST_CASE("the force is the members' mean and the offset") {
 }
 
 TEST_CASE("a million random steps of any size stay within the bound that the weights give") {
-  const BankNetwork member = example_bank_network();
-  const HysteresisNetwork model("test", {member});
+  const HysteresisNetwork member = example_hysteresis_network();
+  const HysteresisNetworkModel model("test", {member});
   std::vector<double> state(model.state_size());
   Random random(11);
   const auto any = [&](double least, double most) {
@@ -74,21 +74,21 @@ TEST_CASE("a million random steps of any size stay within the bound that the wei
 TEST_CASE("offsets add up and JSON keeps every bit") {
   const auto moved = example().with_offset(3);
   const auto back =
-      hysteresis_network_from_json(parse_json(format_json(moved->to_json()), "m.json"));
+      hysteresis_network_model_from_json(parse_json(format_json(moved->to_json()), "m.json"));
   CHECK(format_json(back->to_json()) == format_json(moved->to_json()));
   const std::vector<double> state(8, 0.1);
   CHECK(back->force({0, 0.4, 1}, state) == moved->force({0, 0.4, 1}, state));
   CHECK_CLOSE(moved->force({0, 0.4, 1}, state), example().force({0, 0.4, 1}, state) + 3, 1e-14, 0);
 }
 
-TEST_CASE("a state network that does not fit together is refused") {
+TEST_CASE("a hysteresis network that does not fit together is refused") {
   const auto message = [](const std::string& from, const std::string& to) {
     std::string text =
-        format_json(HysteresisNetwork("x", {example_bank_network()}).to_json(), false);
+        format_json(HysteresisNetworkModel("x", {example_hysteresis_network()}).to_json(), false);
     const std::size_t at = text.find(from);
     REQUIRE(at != std::string::npos);
     text.replace(at, from.size(), to);
-    return message_of([&] { hysteresis_network_from_json(parse_json(text, "m.json")); });
+    return message_of([&] { hysteresis_network_model_from_json(parse_json(text, "m.json")); });
   };
   const auto mentions = [](const std::string& text, const char* part) {
     CAPTURE(text);
@@ -108,5 +108,6 @@ TEST_CASE("a state network that does not fit together is refused") {
   CHECK(mentions(message("1000", "-1"), "the output scale is not a positive number"));
   CHECK(mentions(message("\"neurons\"", "\"neuron\""), "needs 'neurons'"));
   CHECK(mentions(message("\"offset\"", "\"off\""), "needs 'offset'"));
-  CHECK(message_of([] { HysteresisNetwork("x", {}); }).find("has no members") != std::string::npos);
+  CHECK(message_of([] { HysteresisNetworkModel("x", {}); }).find("has no members") !=
+        std::string::npos);
 }

@@ -16,7 +16,7 @@ namespace dashpot {
 /// Velocity and current -> force through states of its own: the mean of a few members, each of
 /// which has states() that follow the motion and a `network` that reads them.
 template <class Member>
-class StateNetwork : public DamperModel {
+class StatefulEnsemble : public DamperModel {
  public:
   std::string name() const override { return name_; }
   bool needs_displacement() const noexcept override { return false; }
@@ -73,8 +73,8 @@ class StateNetwork : public DamperModel {
  protected:
   /// Throws Error, beginning with `where` (the name when empty), when a member's parts do not fit
   /// together: Member::require_sound says so.
-  StateNetwork(std::string name, std::vector<Member> members, double offset,
-               const std::string& where)
+  StatefulEnsemble(std::string name, std::vector<Member> members, double offset,
+                   const std::string& where)
       : name_(std::move(name)), members_(std::move(members)), offset_(offset) {
     const std::string& place = where.empty() ? name_ : where;
     if (members_.empty())
@@ -108,8 +108,8 @@ class StateNetwork : public DamperModel {
 
 /// What to_json() wrote; `what`: the model in words, for errors. Throws Error.
 template <class Model, class ReadMember>
-std::unique_ptr<Model> state_network_from_json(const Value& value, const char* what,
-                                               ReadMember read_member) {
+std::unique_ptr<Model> stateful_ensemble_from_json(const Value& value, const char* what,
+                                                   ReadMember read_member) {
   ObjectReader reader(value, what);
   std::string name = reader.string("name");
   std::vector<decltype(read_member(value))> members;

@@ -1,20 +1,20 @@
-#include "dashpot/damper/nets/train_bank.h"
+#include "dashpot/damper/kinds/hysteresis_network/train_hysteresis_network.h"
 
-#include "bank_network_example.h"
-#include "bank_record_example.h"
+#include "damper/nets/free_run_record_example.h"
+#include "hysteresis_network_example.h"
 #include "support.h"
 
 using namespace dashpot;
 
 namespace {
 
-std::vector<BankRecord> measured(const BankNetwork& truth, std::size_t samples) {
-  return measured(HysteresisNetwork("truth", {truth}), samples, 20);
+std::vector<FreeRunRecord> measured(const HysteresisNetwork& truth, std::size_t samples) {
+  return measured(HysteresisNetworkModel("truth", {truth}), samples, 20);
 }
 
 /// Other weights and rates than the truth's.
-BankNetwork start() {
-  BankNetwork model = example_bank_network(9);
+HysteresisNetwork start() {
+  HysteresisNetwork model = example_hysteresis_network(9);
   model.bank.set_rates(std::vector<double>{90, 700, 80, 30});
   return model;
 }
@@ -22,24 +22,24 @@ BankNetwork start() {
 }  // namespace
 
 TEST_CASE("the gradient is that of the cost, rates, offsets and decays included") {
-  const std::vector<BankRecord> records = measured(example_bank_network(), 150);
-  const BankTrainOptions options{
+  const std::vector<FreeRunRecord> records = measured(example_hysteresis_network(), 150);
+  const HysteresisNetworkTrainOptions options{
       .weight_decay = 0.01, .rate_decay = 0.02, .offset_decay = 0.3, .stride = 2};
-  const BankNetwork model = start();
-  const BankCost at = bank_cost(model, all_of(records), options);
+  const HysteresisNetwork model = start();
+  const FreeRunCost at = hysteresis_network_cost(model, all_of(records), options);
   // Moves of rates are measured from the model that a training starts from, so their price has no
   // slope here.
   const auto slope = [&](auto move) {
-    BankNetwork above = model, below = model;
+    HysteresisNetwork above = model, below = model;
     move(above, 1e-5);
     move(below, -1e-5);
-    return (bank_cost(above, all_of(records), options).cost -
-            bank_cost(below, all_of(records), options).cost) /
+    return (hysteresis_network_cost(above, all_of(records), options).cost -
+            hysteresis_network_cost(below, all_of(records), options).cost) /
            2e-5;
   };
   std::size_t k = 0;
   for (; k < model.bank.size(); ++k)
-    CHECK_CLOSE(2 * at.gradient[k], slope([&](BankNetwork& m, double by) {
+    CHECK_CLOSE(2 * at.gradient[k], slope([&](HysteresisNetwork& m, double by) {
                   std::vector<double> rates = m.bank.rates();
                   rates[k] *= std::exp(by);
                   m.bank.set_rates(rates);
@@ -47,25 +47,29 @@ TEST_CASE("the gradient is that of the cost, rates, offsets and decays included"
                 1e-6, 1e-8);
   for (std::size_t i = 0; i < model.network.neurons.size(); ++i)
     CHECK_CLOSE(2 * at.gradient[k++],
-                slope([&](BankNetwork& m, double by) { m.network.neurons[i] += by; }), 1e-6, 1e-8);
+                slope([&](HysteresisNetwork& m, double by) { m.network.neurons[i] += by; }), 1e-6,
+                1e-8);
   for (std::size_t i = 0; i < model.network.gates.size(); ++i)
     CHECK_CLOSE(2 * at.gradient[k++],
-                slope([&](BankNetwork& m, double by) { m.network.gates[i] += by; }), 1e-6, 1e-8);
+                slope([&](HysteresisNetwork& m, double by) { m.network.gates[i] += by; }), 1e-6,
+                1e-8);
 }
 
 TEST_CASE(
     "training finds a network that foretells motions it has not seen, and the same one again") {
-  const std::vector<BankRecord> records = measured(example_bank_network(), 400);
-  const BankTrainOptions options{.max_iterations = 80, .weight_decay = 1e-7};
-  const std::vector<const BankRecord*> seen{&records[0], &records[2]};
-  BankNetwork found = start(), again = start();
-  const BankTrainReport report = train(found, seen, options);
+  const std::vector<FreeRunRecord> records = measured(example_hysteresis_network(), 400);
+  const HysteresisNetworkTrainOptions options{.max_iterations = 80, .weight_decay = 1e-7};
+  const std::vector<const FreeRunRecord*> seen{&records[0], &records[2]};
+  HysteresisNetwork found = start(), again = start();
+  const FreeRunTrainReport report = train(found, seen, options);
   train(again, seen, options);
   CHECK(found.network.neurons == again.network.neurons);
   CHECK(found.network.gates == again.network.gates);
   CHECK(found.bank.rates() == again.bank.rates());
-  const auto left = [&](const BankNetwork& model) { return squares_left(model, records[1], true); };
-  BankNetwork none = start();
+  const auto left = [&](const HysteresisNetwork& model) {
+    return squares_left(model, records[1], true);
+  };
+  HysteresisNetwork none = start();
   none.network.gates.assign(none.network.gates.size(), 0.0);
   CHECK(std::sqrt(left(found) / left(none)) < 0.02);
   CHECK(report.rmse < 15);  // N, of some 1000
@@ -73,24 +77,24 @@ TEST_CASE(
 }
 
 TEST_CASE("offsets of records stay out of the model, their mean goes in") {
-  const std::vector<BankRecord> records = measured(example_bank_network(), 200);
-  BankNetwork found = start();
-  const BankTrainReport free =
+  const std::vector<FreeRunRecord> records = measured(example_hysteresis_network(), 200);
+  HysteresisNetwork found = start();
+  const FreeRunTrainReport free =
       train(found, all_of(records), {.max_iterations = 60, .weight_decay = 1e-7});
-  BankNetwork held = start();
-  const BankTrainReport bound =
+  HysteresisNetwork held = start();
+  const FreeRunTrainReport bound =
       train(held, all_of(records), {.max_iterations = 60, .weight_decay = 1e-7, .offsets = false});
   CHECK(free.rmse < bound.rmse / 2);
 }
 
 TEST_CASE("signals are held within those of the records") {
-  const std::vector<BankRecord> records = measured(example_bank_network(), 200);
-  BankNetwork found = start();
+  const std::vector<FreeRunRecord> records = measured(example_hysteresis_network(), 200);
+  HysteresisNetwork found = start();
   train(found, all_of(records), {.max_iterations = 3});
   const GatedNetwork::Signal &velocity = found.network.signals.front(),
                              &current = found.network.signals.back();
   double top = 0;
-  for (const BankRecord& record : records)
+  for (const FreeRunRecord& record : records)
     for (const DamperInput& input : record.inputs) top = std::max(top, input.velocity);
   CHECK_CLOSE(velocity.high * velocity.scale, top, 1e-12, 0);
   CHECK(current.high <= 0.8);  // (1.8 - 1) / 1

@@ -1,4 +1,4 @@
-#include "dashpot/damper/nets/train_bank.h"
+#include "dashpot/damper/kinds/hysteresis_network/train_hysteresis_network.h"
 
 #include <algorithm>
 #include <array>
@@ -14,7 +14,7 @@ namespace {
 /// `slopes`: the signals' derivatives by the logarithm of the one rate that each has; none for the
 /// velocity.
 template <class Use>
-void run_bank(const HysteresisBank& bank, const BankRecord& record, std::size_t stride,
+void run_bank(const HysteresisBank& bank, const FreeRunRecord& record, std::size_t stride,
               bool with_slopes, Use use) {
   std::vector<double> state(bank.size()), slopes(with_slopes ? bank.size() : 0);
   std::vector<double> signals(bank.signal_count());
@@ -30,7 +30,7 @@ void run_bank(const HysteresisBank& bank, const BankRecord& record, std::size_t 
 }
 
 /// Unknowns: ln rates, neurons, gates.
-std::vector<double> unknowns_of(const BankNetwork& model) {
+std::vector<double> unknowns_of(const HysteresisNetwork& model) {
   std::vector<double> x;
   for (const double rate : model.bank.rates()) x.push_back(std::log(rate));
   x.insert(x.end(), model.network.neurons.begin(), model.network.neurons.end());
@@ -38,7 +38,7 @@ std::vector<double> unknowns_of(const BankNetwork& model) {
   return x;
 }
 
-void set_unknowns(BankNetwork& model, const std::vector<double>& x) {
+void set_unknowns(HysteresisNetwork& model, const std::vector<double>& x) {
   const double* at = x.data();
   std::vector<double> rates(model.bank.size());
   for (double& rate : rates) rate = std::exp(*at++);
@@ -48,7 +48,7 @@ void set_unknowns(BankNetwork& model, const std::vector<double>& x) {
 }
 
 /// One sample: derivatives of the output by the unknowns, then the residual.
-void fill(const BankNetwork& model, const std::vector<double>& raw,
+void fill(const HysteresisNetwork& model, const std::vector<double>& raw,
           const std::vector<double>& slopes, double force, double* row) {
   const GatedNetwork& network = model.network;
   std::array<double, GatedNetwork::kMaxSignals> z, by_signals;
@@ -64,9 +64,9 @@ void fill(const BankNetwork& model, const std::vector<double>& raw,
   row[model.parameter_count()] = output - force / network.output_scale;
 }
 
-void linearise(const BankNetwork& model, const std::vector<const BankRecord*>& records,
+void linearise(const HysteresisNetwork& model, const std::vector<const FreeRunRecord*>& records,
                std::size_t stride, RowSink& sink) {
-  for (const BankRecord* record : records) {
+  for (const FreeRunRecord* record : records) {
     run_bank(
         model.bank, *record, stride, true,
         [&](std::size_t k, const std::vector<double>& signals, const std::vector<double>& slopes) {
@@ -76,13 +76,13 @@ void linearise(const BankNetwork& model, const std::vector<const BankRecord*>& r
   }
 }
 
-void find_ranges(BankNetwork& found, const std::vector<const BankRecord*>& records) {
+void find_ranges(HysteresisNetwork& found, const std::vector<const FreeRunRecord*>& records) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   for (GatedNetwork::Signal& s : found.network.signals) {
     s.low = kInfinity;
     s.high = -kInfinity;
   }
-  for (const BankRecord* record : records)
+  for (const FreeRunRecord* record : records)
     run_bank(found.bank, *record, 1, false,
              [&](std::size_t, const std::vector<double>& raw, const std::vector<double>&) {
                for (std::size_t k = 0; k < raw.size(); ++k) {
@@ -93,8 +93,9 @@ void find_ranges(BankNetwork& found, const std::vector<const BankRecord*>& recor
              });
 }
 
-FreeRunSearchResult run_search(BankNetwork model, const std::vector<const BankRecord*>& records,
-                               const BankTrainOptions& options, int max_iterations) {
+FreeRunSearchResult run_search(HysteresisNetwork model,
+                               const std::vector<const FreeRunRecord*>& records,
+                               const HysteresisNetworkTrainOptions& options, int max_iterations) {
   FreeRunProblem problem;
   problem.start = unknowns_of(model);
   problem.prices.assign(problem.start.size(), options.weight_decay);
@@ -114,8 +115,8 @@ FreeRunSearchResult run_search(BankNetwork model, const std::vector<const BankRe
 
 }  // namespace
 
-BankTrainReport train(BankNetwork& model, const std::vector<const BankRecord*>& records,
-                      const BankTrainOptions& options) {
+FreeRunTrainReport train(HysteresisNetwork& model, const std::vector<const FreeRunRecord*>& records,
+                         const HysteresisNetworkTrainOptions& options) {
   const FreeRunSearchResult found = run_search(model, records, options, options.max_iterations);
   set_unknowns(model, found.unknowns);
   for (const double offset : found.offsets)
@@ -124,13 +125,14 @@ BankTrainReport train(BankNetwork& model, const std::vector<const BankRecord*>& 
   return {found.converged, found.iterations, model.network.output_scale * found.rms};
 }
 
-BankCost bank_cost(const BankNetwork& model, const std::vector<const BankRecord*>& records,
-                   const BankTrainOptions& options) {
+FreeRunCost hysteresis_network_cost(const HysteresisNetwork& model,
+                                    const std::vector<const FreeRunRecord*>& records,
+                                    const HysteresisNetworkTrainOptions& options) {
   const FreeRunSearchResult at = run_search(model, records, options, 0);
   return {at.cost, at.half_gradient};
 }
 
-double squares_left(const BankNetwork& model, const BankRecord& record, bool offset) {
+double squares_left(const HysteresisNetwork& model, const FreeRunRecord& record, bool offset) {
   double sum = 0, squares = 0, n = 0;
   run_bank(model.bank, record, 1, false,
            [&](std::size_t k, const std::vector<double>& signals, const std::vector<double>&) {

@@ -3,17 +3,17 @@
 #include <vector>
 
 #include "dashpot/damper/model.h"
-#include "dashpot/damper/nets/train_bank.h"
+#include "dashpot/damper/nets/free_run_record.h"
 
 namespace dashpot {
 
 /// What `truth` makes of two-tone motions of three sizes, a record each, at a current that is
 /// switched; an offset of -100, 0, 100 N. The first `warm_up` samples do not count.
-inline std::vector<BankRecord> measured(const DamperModel& truth, std::size_t samples,
-                                        std::size_t warm_up) {
-  std::vector<BankRecord> records(3);
+inline std::vector<FreeRunRecord> measured(const DamperModel& truth, std::size_t samples,
+                                           std::size_t warm_up) {
+  std::vector<FreeRunRecord> records(3);
   for (std::size_t r = 0; r < records.size(); ++r) {
-    BankRecord& record = records[r];
+    FreeRunRecord& record = records[r];
     record.first = warm_up;
     std::vector<double> state(truth.state_size());
     for (std::size_t k = 0; k < samples; ++k) {
@@ -32,9 +32,9 @@ inline std::vector<BankRecord> measured(const DamperModel& truth, std::size_t sa
   return records;
 }
 
-inline std::vector<const BankRecord*> all_of(const std::vector<BankRecord>& records) {
-  std::vector<const BankRecord*> all;
-  for (const BankRecord& record : records) all.push_back(&record);
+inline std::vector<const FreeRunRecord*> all_of(const std::vector<FreeRunRecord>& records) {
+  std::vector<const FreeRunRecord*> all;
+  for (const FreeRunRecord& record : records) all.push_back(&record);
   return all;
 }
 

@@ -2,27 +2,27 @@
 #include <string>
 #include <vector>
 
-#include "dashpot/damper/nets/train_bank.h"
+#include "dashpot/damper/nets/free_run_record.h"
 #include "dashpot/record/record.h"
 
-// What fits of state networks ask of their records.
+// Records as the fits of models with states of their own take them, and figures of them.
 namespace dashpot {
 
-std::vector<BankRecord> bank_records(const std::vector<Record>& records,
-                                     const std::string& drive_unit);
+std::vector<FreeRunRecord> free_run_records(const std::vector<Record>& records,
+                                            const std::string& drive_unit);
 
 /// Scored samples of all.
-std::size_t scored_samples(const std::vector<const BankRecord*>& records);
+std::size_t scored_samples(const std::vector<const FreeRunRecord*>& records);
 
 /// Of the scored force, each record's mean taken out; 1 for a force that never changes.
-double force_deviation(const std::vector<const BankRecord*>& records);
+double force_deviation(const std::vector<const FreeRunRecord*>& records);
 
 /// The least and the greatest of the records' mean ways between two turns, m. A turn is a change of
 /// direction at a tenth of the record's top speed at least, so that noise at rest is none.
 struct WayRange {
   double shortest = 0, longest = 0;
 };
-WayRange way_range(const std::vector<const BankRecord*>& records);
+WayRange way_range(const std::vector<const FreeRunRecord*>& records);
 
 /// `count` rates in equal ratios from low to high; one alone stands in the middle.
 std::vector<double> spaced_rates(double low, double high, std::size_t count);

@@ -1,8 +1,8 @@
-#include "dashpot/damper/kinds/hysteresis_network/hysteresis_network.h"
+#include "dashpot/damper/kinds/hysteresis_network/hysteresis_network_model.h"
 
 namespace dashpot {
 
-void BankNetwork::require_sound(const std::string& where) const {
+void HysteresisNetwork::require_sound(const std::string& where) const {
   bank.require_sound(where);
   if (const std::size_t lags = bank.current_rates.size();
       lags < 1 || lags > GatedNetwork::kMaxCurrents)

@@ -1,5 +1,3 @@
-#include "dashpot/damper/kinds/law/integrate.h"
-
 #include <array>
 #include <math.h>  // the C text says fabs, not std::fabs
 
@@ -8,7 +6,7 @@
 namespace dashpot {
 namespace {
 
-// What the C text asks for: this law and these parameters, whatever the law.
+// The functions that the C text calls, here for whatever law the model has.
 
 using LawParameters = std::array<double, kMaxParams>;
 
@@ -40,9 +38,9 @@ inline void law_explicit_step(const LawModel* m, const LawParameters* const* p, 
 
 }  // namespace
 
-void integrate(const LawModel& model, const DamperInput& from, const DamperInput& to, double dt,
-               std::span<double> state) noexcept {
-  law_advance(&model, &from, &to, dt, state.data());
+void LawModel::advance(const DamperInput& from, const DamperInput& to, double dt,
+                       std::span<double> state) const noexcept {
+  law_advance(this, &from, &to, dt, state.data());
 }
 
 }  // namespace dashpot

@@ -5,12 +5,12 @@
 
 #include "dashpot/damper/nets/gated_network.h"
 #include "dashpot/damper/nets/hysteresis_bank.h"
-#include "dashpot/damper/nets/state_network.h"
+#include "dashpot/damper/nets/stateful_ensemble.h"
 
 namespace dashpot {
 
 /// A bank of states and the network that reads it.
-struct BankNetwork {
+struct HysteresisNetwork {
   HysteresisBank bank;
   GatedNetwork network;
 
@@ -23,20 +23,20 @@ struct BankNetwork {
 
 /// Velocity and current -> force with hysteresis. Bounded by construction for bounded inputs: the
 /// states are, and nothing feeds back.
-class HysteresisNetwork final : public StateNetwork<BankNetwork> {
+class HysteresisNetworkModel final : public StatefulEnsemble<HysteresisNetwork> {
  public:
   /// Throws Error, beginning with `where` (the name when empty), when the parts do not fit
   /// together.
-  HysteresisNetwork(std::string name, std::vector<BankNetwork> members, double offset = 0,
-                    const std::string& where = {})
-      : StateNetwork(std::move(name), std::move(members), offset, where) {}
+  HysteresisNetworkModel(std::string name, std::vector<HysteresisNetwork> members,
+                         double offset = 0, const std::string& where = {})
+      : StatefulEnsemble(std::move(name), std::move(members), offset, where) {}
 
-  std::string kind() const override { return "state_network"; }
+  ModelKind kind() const override { return ModelKind::HysteresisNetwork; }
   std::unique_ptr<DamperModel> with_offset(double newton) const override {
-    return std::make_unique<HysteresisNetwork>(name(), members(), offset() + newton);
+    return std::make_unique<HysteresisNetworkModel>(name(), members(), offset() + newton);
   }
 };
 
-std::unique_ptr<HysteresisNetwork> hysteresis_network_from_json(const Value& value);
+std::unique_ptr<HysteresisNetworkModel> hysteresis_network_model_from_json(const Value& value);
 
 }  // namespace dashpot

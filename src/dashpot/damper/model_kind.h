@@ -1,0 +1,75 @@
+#pragma once
+#include <array>
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace dashpot {
+
+/// The kinds of models, in the order in which lists show them. A kind has one name everywhere: its
+/// folder in damper/kinds/, its file in identify/fit/ and in export/c/, its word in model files.
+enum class ModelKind {
+  Law,
+  Network,
+  Narx,
+  HysteresisNetwork,
+  StateSpace,
+  Fuzzy,
+  Hybrid,
+  Family,
+  Other  ///< stands last, behind the kinds that model files have: a passive curve, for example
+};
+constexpr std::size_t kModelKinds = static_cast<std::size_t>(ModelKind::Other);
+
+/// What a kind is called in model files and in lists.
+struct ModelKindName {
+  ModelKind kind;
+  std::string_view name;
+  std::string_view former = {};  ///< in files of earlier versions, which are still read
+};
+inline constexpr std::array kModelKindNames{
+    ModelKindName{ModelKind::Law, "law"},
+    ModelKindName{ModelKind::Network, "network"},
+    ModelKindName{ModelKind::Narx, "narx"},
+    ModelKindName{ModelKind::HysteresisNetwork, "hysteresis_network", "state_network"},
+    ModelKindName{ModelKind::StateSpace, "state_space"},
+    ModelKindName{ModelKind::Fuzzy, "fuzzy"},
+    ModelKindName{ModelKind::Hybrid, "hybrid"},
+    ModelKindName{ModelKind::Family, "family"},
+};
+
+namespace detail {
+template <const auto& kTable, ModelKind kKind>
+constexpr bool has_row() {
+  constexpr auto kPlace = static_cast<std::size_t>(kKind);
+  static_assert(kPlace < kTable.size(), "this table has no row for this kind of model");
+  static_assert(kTable[kPlace].kind == kKind, "the rows do not stand in the order of ModelKind");
+  return true;
+}
+
+template <const auto& kTable, std::size_t... kPlaces>
+constexpr bool has_rows(std::index_sequence<kPlaces...>) {
+  static_assert(kTable.size() <= kModelKinds, "this table has more rows than there are kinds");
+  return (has_row<kTable, static_cast<ModelKind>(kPlaces)>() && ...);
+}
+}  // namespace detail
+
+/// The row of a kind, which must not be Other, in a layer's table: an array with one row per kind,
+/// each with a `kind`, in the order of ModelKind. A table that lacks a row does not compile, and
+/// the message names the table and the kind.
+template <const auto& kTable>
+constexpr const auto& row_of(ModelKind kind) {
+  static_assert(detail::has_rows<kTable>(std::make_index_sequence<kModelKinds>{}));
+  return kTable[static_cast<std::size_t>(kind)];
+}
+
+constexpr std::string_view name_of(ModelKind kind) {
+  return kind == ModelKind::Other ? "other" : row_of<kModelKindNames>(kind).name;
+}
+
+/// The kind of that name, or of that former name. Throws Error(where, "unknown kind ...") which
+/// says what is known.
+ModelKind parse_model_kind(std::string_view name, const std::string& where);
+
+}  // namespace dashpot
