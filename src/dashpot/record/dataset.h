@@ -32,7 +32,8 @@ struct PassedOver {
   std::string file, why;
 };
 
-/// Records that are identified and judged together.
+/// Records that are identified and judged together, in the order in which they are shown: by
+/// condition, then by drive level.
 struct Dataset {
   std::string name;
   std::string citation;
@@ -45,6 +46,7 @@ struct Dataset {
   std::optional<LeaveOut> leave_out;  ///< stated in the dataset file
 };
 
+/// How load_dataset looks for statements and derives velocity.
 struct LoadOptions {
   std::string
       dataset_file;  ///< "" : dataset.yaml beside the data, else a shipped one that recognises it
@@ -53,10 +55,13 @@ struct LoadOptions {
   Monitor monitor;
 };
 
-/// Reads files and folders (CSV, DAQ text, MAT, the family paper's JSON; each also as .gz) or a
-/// dataset file (.yaml) into one dataset, in SI and Dashpot's signs, with a velocity channel on
-/// every record that has displacement or velocity. Throws Error on anything that cannot be used;
-/// what is passed over stands in `passed_over`.
+/// Reads files and folders (CSV, DAQ text, MAT, the family paper's JSON; each also as .gz, except
+/// MAT) or a dataset file (.yaml) into one dataset, in SI and Dashpot's signs, with a velocity
+/// channel on every record that has displacement or velocity.
+///
+/// A file that the caller named itself, or that a dataset file states, is read or refused; other
+/// files of a folder may be passed over and then stand in `passed_over` with the reason. Throws
+/// Error on anything that cannot be used. The same files give the same dataset, to the bit.
 Dataset load_dataset(const std::vector<std::filesystem::path>& paths,
                      const LoadOptions& options = {});
 

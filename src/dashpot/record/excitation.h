@@ -10,6 +10,7 @@
 
 namespace dashpot {
 
+/// Where the piston is at an instant, and how fast it moves.
 struct MotionPoint {
   double displacement, velocity;  ///< m, m/s
 };
@@ -28,7 +29,8 @@ struct DriveSignal {
   std::function<double(double t)> at;
 };
 
-/// What a sequence says of itself.
+/// What lists and documentation show of a sequence. Texts are UTF-8 literals; `params` is the table
+/// from which values are parsed, checked and described.
 struct SequenceInfo {
   std::string_view name, title, equation, source, remarks;
   std::vector<ParameterRow> params;
@@ -58,15 +60,17 @@ std::span<const MotionSequence> motion_sequences();
 std::span<const DriveSequence> drive_sequences();
 
 /// From a text like "AM" or "AM,carrier=10,amplitude=4mm": a name in any case, and values for some
-/// of its parameters, in the unit of the table unless one is stated. Throws Error(where, ...) on an
-/// unknown name or parameter and on a value that is out of bounds.
+/// of its parameters, in the unit of the table unless one is stated. The results own what they need
+/// and may be copied and called from several threads. Throws Error(where, ...) on an unknown name
+/// or parameter and on a value that is out of bounds.
 PistonMotion make_motion(const std::string& text, std::uint64_t seed,
                          const std::string& where = "motion");
 DriveSignal make_drive(const std::string& text, const DriveFrame& frame,
                        const std::string& where = "drive");
 
 /// The first `count` bits of the maximum-length sequence of a shift register of `order` bits (3 ...
-/// 16, else Error) that starts with `start` in it, not 0. Its period is 2^order - 1.
+/// 16) that starts with `start` in it, whose lowest `order` bits must not all be 0. Its period is
+/// 2^order - 1. Throws Error otherwise.
 std::vector<bool> maximum_length_bits(int order, std::uint32_t start, std::size_t count);
 
 }  // namespace dashpot

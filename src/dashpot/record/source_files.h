@@ -14,16 +14,16 @@ struct SourcePath {
   bool named = false;    ///< pointed at itself, so that it may not be passed over
 };
 
-/// The files of the paths, folders (also behind links) searched to the bottom, sorted by name with
-/// numbers in their order
-/// ("run2" before "run10"); hidden files left out. Throws Error on a path that cannot be read.
+/// The files of the paths; folders, also behind links, are searched to the bottom, sorted by name
+/// with numbers in their order ("run2" before "run10"). Hidden files are left out. Throws Error on
+/// a path that cannot be read and on a file that is given twice.
 std::vector<SourcePath> list_files(const std::vector<std::filesystem::path>& paths);
 
 /// Whether a pattern with * ? [...] fits the relative path or the file's name.
 bool matches(const std::string& pattern, const SourcePath& file);
 
-/// Table of the files of a folder, with a column "file": it selects them and states their
-/// conditions.
+/// A table of the files of a folder (manifest.csv), with a column "file": it selects them and
+/// states their conditions. All cells are texts until number() is asked.
 class Manifest {
  public:
   Manifest() = default;

@@ -20,7 +20,7 @@ std::vector<std::string> conditions(const Dataset& dataset) {
   return all;
 }
 
-/// Ascending.
+/// The constant drive levels of the records, ascending, each once.
 std::vector<double> levels(const Dataset& dataset) {
   std::vector<double> all;
   for (const Record& record : dataset.records)
@@ -52,6 +52,8 @@ std::string ways_that_work(const Dataset& dataset) {
   throw Error(dataset.name, "cannot be divided so: " + what, ways_that_work(dataset));
 }
 
+/// One fold that leaves out the records for which `left_out` is true. The words behind the first of
+/// its name are what the message names when there is no such record.
 template <class Chosen>
 Fold fold_by(const Dataset& dataset, const std::string& name, const Chosen& left_out) {
   Fold fold;
@@ -75,6 +77,8 @@ std::vector<Fold> by_condition(const Dataset& dataset, const LeaveOut& how) {
   return folds;
 }
 
+/// The levels to leave out one after the other: those asked for, else all but the lowest and
+/// highest.
 std::vector<double> chosen_levels(const Dataset& dataset, const LeaveOut& how) {
   if (how.values.empty()) {
     const std::vector<double> all = levels(dataset);
@@ -118,7 +122,8 @@ std::vector<Fold> by_record(const Dataset& dataset, const LeaveOut& how) {
   return folds;
 }
 
-/// "gap 0.001, pole_length 0.006": what a record has of these conditions.
+/// "gap 0.001, pole_length 0.006": the values of these conditions of a record. Throws Error when it
+/// lacks one.
 std::string values_of(const Record& record, const std::vector<std::string>& names) {
   std::vector<std::string> parts;
   for (const std::string& name : names) {
@@ -192,7 +197,7 @@ void hold_back_part(const Record& record, std::size_t part, std::size_t parts, F
   fold.training.push_back(std::move(after));
 }
 
-/// Run from the start and scored at the end.
+/// Holds back the end of each part. The model still runs from the start of the record.
 TrialParts without_ends(const ScoredParts& parts, double share) {
   TrialParts trial;
   for (const ScoredPart& part : parts) {
@@ -246,10 +251,12 @@ std::vector<Fold> hold_back(const std::vector<Record>& training, const LeaveOut&
     return by_condition(dataset, {});
   if (judged.by == LeaveOut::By::Current && levels(dataset).size() > 2)
     return by_current(dataset, {});
+
   // With few parts, fits on what is left know much less than the one that they stand for.
   constexpr std::size_t kParts = 6, kLeastRecords = 3;
   const bool whole = judged.by != LeaveOut::By::Fraction && training.size() >= kLeastRecords;
   const std::size_t parts = whole ? std::min(kParts, training.size()) : kParts;
+
   std::vector<Fold> folds;
   for (std::size_t part = 0; part < parts; ++part) {
     Fold fold;
@@ -273,28 +280,34 @@ ScoredParts all_parts(const std::vector<Record>& records) {
 }
 
 std::vector<TrialParts> trial_parts(const std::vector<Record>& training) {
-  constexpr std::size_t kHands = 4;
+  constexpr std::size_t kMostGroups = 4;
   constexpr double kEnd = 0.3;
   Dataset dataset;
   dataset.records = training;
   const ScoredParts parts = all_parts(training);
   std::vector<TrialParts> trials;
+
   const auto hold_back = [&](const auto& chosen) {
     TrialParts trial;
     for (const ScoredPart& part : parts)
       (chosen(training[part.record]) ? trial.held_back : trial.training).push_back(part);
     if (!trial.training.empty()) trials.push_back(std::move(trial));
   };
+
+  // Conditions, dealt in turn to a few groups of which each is held back once.
   const std::vector<std::string> all = conditions(dataset);
-  const std::size_t hands = std::min(all.size(), kHands);
-  for (std::size_t hand = 0; hands > 1 && hand < hands; ++hand)
+  const std::size_t groups = std::min(all.size(), kMostGroups);
+  for (std::size_t group = 0; groups > 1 && group < groups; ++group)
     hold_back([&](const Record& record) {
       const auto condition = std::find(all.begin(), all.end(), record.condition) - all.begin();
-      return static_cast<std::size_t>(condition) % hands == hand;
+      return static_cast<std::size_t>(condition) % groups == group;
     });
+
+  // Each inner level of the drive.
   const std::vector<double> steps = levels(dataset);
   for (std::size_t k = 1; k + 1 < steps.size(); ++k)
     hold_back([&](const Record& record) { return record.drive_level == steps[k]; });
+
   if (trials.empty()) trials.push_back(without_ends(parts, kEnd));
   return trials;
 }

@@ -6,7 +6,8 @@
 
 namespace dashpot {
 
-/// One division of a dataset: what a model is fitted on and what it is judged on.
+/// One division of a dataset: what a model is fitted on and what it is judged on. Both hold copies
+/// of the records.
 struct Fold {
   std::string name;  ///< "without 5 mm 3 Hz"
   std::vector<Record> training;
@@ -17,8 +18,9 @@ struct Fold {
 /// current, record, or the end of the only one.
 LeaveOut default_leave_out(const Dataset& dataset);
 
-/// Throws Error when the dataset cannot be divided so: one condition only, say; the message names
-/// the ways that would work.
+/// The folds of a dataset, in the order of its records or of the values asked for. Throws Error
+/// when the dataset cannot be divided so, with one condition only, say; the message names the ways
+/// that would work.
 std::vector<Fold> split(const Dataset& dataset, const LeaveOut& leave_out);
 
 /// Divides a training part once more, without a look at what is judged: by condition or current
@@ -42,8 +44,8 @@ struct TrialParts {
   ScoredParts training, held_back;
 };
 /// Divisions of a training part on which a fit tries what it must choose by itself. Conditions are
-/// dealt in turn to four at most, and each inner level of the drive is held back; of records that
-/// have neither, the last 30 %. One at least.
+/// dealt in turn to at most four groups, each held back once; so is each inner level of the drive.
+/// Of records that have neither, the last 30 % are held back. At least one.
 std::vector<TrialParts> trial_parts(const std::vector<Record>& training);
 /// The same with copies of the records.
 std::vector<Fold> trial_folds(const std::vector<Record>& training);

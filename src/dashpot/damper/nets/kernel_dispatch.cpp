@@ -1,5 +1,5 @@
-// Chooses the widest kernel that this processor runs. Apart from kernel.h, so that tables.h, which
-// it needs, may include that.
+// Chooses the kernel for an instruction set. It stands apart from kernel.h so that simd/tables.h,
+// which it includes, may include kernel.h without a circle.
 #include <type_traits>
 
 #include "dashpot/damper/nets/kernel.h"
