@@ -35,8 +35,7 @@ std::string refusal(const RawTable& table, const ColumnUses& uses) {
   const std::string how = table.named() ? "state in a dataset file which column it is: 'channels: "
                                           "{force: {column: NAME, unit: N}}'"
                                         : "no line names the columns: state them by number in a "
-                                          "dataset file: 'channels: {force: {column: "
-                                          "2, unit: N}}'";
+                                          "dataset file: 'channels: {force: {column: 2, unit: N}}'";
   return "no column is " + missing + " by its name (it has " + table.column_list() + "); " + how;
 }
 
@@ -189,8 +188,7 @@ void add_velocity(Record& record, const BuildContext& context) {
   if (!(record.sample_time > 0))
     throw Error(record.source, "velocity cannot be derived: the time stamps are not uniform",
                 "state in a dataset file a velocity column, 'resample: RATE' (Hz), or the "
-                "'sample_rate' when "
-                "the stamps are wrong");
+                "'sample_rate' when the stamps are wrong");
 
   double cutoff = context.statement->velocity_cutoff_hz;
   std::string basis = "stated";

@@ -20,9 +20,7 @@ constexpr Names kNames[] = {
     {"time", "time tiempo tempo zeit timestamp", "t tout Tout"},
     {"displacement",
      "displacement displace displ disp dist stroke position pos desplazamiento deslocamento "
-     "posicion posicao "
-     "carrera "
-     "curso weg hub extension travel",
+     "posicion posicao carrera curso weg hub extension travel",
      "x X d D s"},
     {"velocity", "velocity vel speed velocidad velocidade geschwindigkeit xdot dxdt", "v"},
     {"acceleration", "acceleration accel aceleracion aceleracao beschleunigung", "a acc"},

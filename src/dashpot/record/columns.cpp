@@ -60,6 +60,8 @@ ColumnUse use_stated(const RawTable& table, const ChannelStatement& statement,
   use.channel = statement.channel;
   use.stated = true;
   use.basis = "stated in " + stated_in;
+
+  // The unit: as stated, else as the file gives it, else SI, which the readings then say.
   std::string unit = statement.unit;
   if (unit.empty()) {
     const RawColumn& column = table.columns[use.column];

@@ -30,6 +30,7 @@ LeaveOut parse_leave_out(const std::string& text) {
     throw Error("", "cannot leave out by '" + text + "'",
                 "'condition', 'current', 'current=0.5,1', 'record', 'fraction=0.3', 'roles' or "
                 "'each=gap,pole_length'");
+
   LeaveOut out;
   out.by = way->by;
   if (equals == std::string::npos && out.by == LeaveOut::By::Each)
@@ -37,6 +38,8 @@ LeaveOut parse_leave_out(const std::string& text) {
                 "conditions of the records: 'each=gap,pole_length'");
   if (equals == std::string::npos) return out;
   const std::string rest = text.substr(equals + 1);
+
+  // The value: a number for a fraction, a list of names or levels for all others.
   if (out.by == LeaveOut::By::Fraction) {
     out.fraction = parse_number(rest).value_or(0);
     if (!(out.fraction > 0 && out.fraction < 1))

@@ -151,8 +151,8 @@ std::vector<Fold> by_each(const Dataset& dataset, const LeaveOut& how) {
   return folds;
 }
 
-/// The left-out record runs from its start, so that the model reaches its state, and is scored at
-/// its end.
+/// Leaves out the end of every record. The left-out record runs from its start, so that the model
+/// reaches its state, and is scored at its end.
 std::vector<Fold> by_fraction(const Dataset& dataset, const LeaveOut& how) {
   Fold fold;
   fold.name = "without the last " + format_number(100 * how.fraction, 3) + " % of each record";
@@ -180,8 +180,9 @@ std::vector<Fold> by_roles(const Dataset& dataset) {
   return {fold};
 }
 
-/// One of equal stretches of the scored samples is left out, and run from the record's start; what
-/// lies before and after it serves the fit, as two records.
+/// Divides the scored samples of a record into equal stretches and leaves one out: it is run from
+/// the record's start and scored on that stretch. What lies before and after it serves the fit, as
+/// two records.
 void hold_back_part(const Record& record, std::size_t part, std::size_t parts, Fold& fold) {
   const std::size_t scored = record.size() - std::min(record.warm_up, record.size());
   const std::size_t from = record.warm_up + scored * part / parts;
@@ -190,6 +191,7 @@ void hold_back_part(const Record& record, std::size_t part, std::size_t parts, F
   if (to < from + kLeast) return;
   fold.left_out.push_back(record.slice(0, to));
   fold.left_out.back().warm_up = from;
+
   if (part > 0) fold.training.push_back(record.slice(0, from));
   if (part + 1 == parts) return;
   Record after = record.slice(to, record.size());

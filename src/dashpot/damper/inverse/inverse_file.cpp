@@ -72,11 +72,13 @@ InverseFile parse_inverse(std::string_view text, const std::string& source) {
   file.drive_unit = reader.string("drive_unit");
   const double sample_time = reader.number("sample_time");
   file.domain = read_domain(reader.required("domain"), file.drive_unit);
+
   file.network = read_network(reader.required("network"), sample_time, file.domain);
   if (const Value* quality = reader.optional("quality")) {
     ObjectReader(*quality, "the quality");  // any keys, but a mapping
     file.quality = *quality;
   }
+
   file.provenance = read_provenance(reader.required("provenance"));
   reader.finish();
   return file;

@@ -3,10 +3,13 @@
 
 namespace dashpot {
 
-/// The least current at which the forward model gives the wanted force, found by search: for any
-/// model. A free run of the model, driven by the coil's current, supplies its states. Where no
-/// current gives the force, the one that comes nearest; where current has no effect, the present
-/// one.
+/// The inverse of any model: the least current at which the forward model gives the wanted force,
+/// found by a bracketed search. A free run of the model, driven by the coil's current, supplies its
+/// states.
+///
+/// Where no current gives the force, the one that comes nearest; where current has no effect, the
+/// present one. Finds the first crossing among eight equal parts of the current range, so a force
+/// that rises and falls within one of them may hide its crossing.
 class NumericInverse final : public InverseModel {
  public:
   NumericInverse(const DamperModel& forward, const InverseLimits& limits);

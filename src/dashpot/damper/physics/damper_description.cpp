@@ -37,8 +37,7 @@ constexpr std::array kFields{
                      "at 40 degC; 0: from the fluid's data sheet"},
     DescriptionField{&D::viscosity_exponent, "viscosity_exponent", "1/K", 0, 0, 0.2,
                      "share of the viscosity that each kelvin above 40 degC takes; 0: none (data "
-                     "sheets of MR fluids "
-                     "give one temperature)"},
+                     "sheets of MR fluids give one temperature)"},
     DescriptionField{&D::temperature, "temperature", "K", 313.15, 200, 500, "of fluid and coil"},
     DescriptionField{&D::yield_stress, "yield_stress", "Pa", 0, 0, 1e6,
                      "in place of magnetic circuit and fluid; 0: from these"},
