@@ -1,5 +1,5 @@
-// What DamperModel.predict() stands beside, in C++: dashpot_run on the same rows, and free_run on inputs that
-// are gathered and trusted. predict MODEL.json SAMPLES
+// What DamperModel.predict() stands beside, in C++: dashpot_run on the same rows, and free_run on
+// inputs that are gathered and trusted. predict MODEL.json SAMPLES
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -7,8 +7,8 @@
 
 #include "dashpot.h"
 #include "dashpot/base/parallel.h"
-#include "dashpot/damper/model_file.h"
-#include "dashpot/identify/judge/evaluate.h"
+#include "dashpot/evaluate.h"
+#include "dashpot/model_file.h"
 
 namespace {
 

@@ -1,5 +1,6 @@
+#include "dashpot/export.h"
+
 #include "dashpot/base/file.h"
-#include "dashpot/export/exporter.h"
 #include "handles.h"
 #include "status.h"
 #include "words.h"

@@ -4,7 +4,8 @@
 #include <vector>
 
 #include "dashpot.h"
-#include "dashpot/identify/identify.h"
+#include "dashpot/identify.h"
+#include "dashpot/rank.h"
 #include "status.h"
 
 // What stands behind the pointers of dashpot.h.

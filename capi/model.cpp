@@ -88,7 +88,7 @@ dashpot_status dashpot_model_get_info(const dashpot_model* model, dashpot_model_
     *info = {.name = model->name.c_str(),
              .kind = model->kind.c_str(),
              .title = model->title.c_str(),
-             .drive_unit = file.drive_unit.c_str(),
+             .drive_unit = to_string(file.drive_unit).c_str(),
              .state_size = model->state_size,
              .parameter_count = model->damper->parameter_count(),
              .needs_displacement = model->damper->needs_displacement(),

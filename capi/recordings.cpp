@@ -69,11 +69,12 @@ void add(dashpot_recordings& recordings, const dashpot_table& table) {
   const bool is_current = built.record.find("current") != nullptr;
   if (!is_current && !built.record.find("voltage"))
     throw Error(name, "has neither current nor voltage", "a column of one of them drives the coil");
-  const std::string drive_unit = is_current ? "A" : "V";
+  const DriveUnit drive_unit = is_current ? DriveUnit::Ampere : DriveUnit::Volt;
   if (records.empty()) recordings.dataset.drive_unit = drive_unit;
   if (drive_unit != recordings.dataset.drive_unit)
-    throw Error(name, "is driven in " + drive_unit,
-                "the recordings before it are driven in " + recordings.dataset.drive_unit);
+    throw Error(
+        name, "is driven in " + to_string(drive_unit),
+        "the recordings before it are driven in " + to_string(recordings.dataset.drive_unit));
   recordings.name_rests.push_back(split_name(name).rest);
   std::ranges::move(built.readings, std::back_inserter(recordings.dataset.readings));
   records.push_back(std::move(built.record));

@@ -1,6 +1,6 @@
 #pragma once
 #include "dashpot.h"
-#include "dashpot/record/dataset.h"
+#include "dashpot/dataset.h"
 
 namespace dashpot::capi {
 

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "dashpot.h"
-#include "dashpot/base/error.h"
+#include "dashpot/error.h"
 
 namespace dashpot::capi {
 

@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "dashpot.h"
-#include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
+#include "dashpot/error.h"
 
 namespace dashpot::capi {
 namespace {

@@ -2,9 +2,9 @@
 #include <optional>
 #include <string>
 
-#include "dashpot/export/exporter.h"
+#include "dashpot/export.h"
 #include "dashpot/identify/fit/fit_words.h"
-#include "dashpot/suspension/vehicle.h"
+#include "dashpot/vehicle.h"
 
 namespace dashpot::capi {
 

@@ -2,7 +2,7 @@
 #include <functional>
 
 #include "dashpot.h"
-#include "dashpot/base/monitor.h"
+#include "dashpot/monitor.h"
 
 namespace dashpot::capi {
 

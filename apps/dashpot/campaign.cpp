@@ -36,7 +36,7 @@ std::vector<double> levels_over(double low, double high) {
 }
 
 std::string drive_column(const Dataset& campaign) {
-  return campaign.drive_unit == "V" ? "voltage_V" : "current_A";
+  return campaign.drive_unit == DriveUnit::Volt ? "voltage_V" : "current_A";
 }
 
 std::string file_name(const Record& record) {
@@ -57,7 +57,7 @@ struct Column {
 
 std::string csv_of(const Record& record, const Dataset& campaign) {
   constexpr int kTimeDigits = 12;  // so that equal steps read back as equal
-  const std::string drive = campaign.drive_unit == "V" ? "voltage" : "current";
+  const std::string drive = drive_channel(campaign.drive_unit);
   std::vector<Column> columns{{"t_s", record.time, 1, kTimeDigits},
                               {"x_mm", record.channel("displacement").samples, 1000},
                               {"F_N", record.channel("force").samples},
@@ -95,7 +95,7 @@ std::string dataset_yaml(const Dataset& campaign, const ParameterSet& damper,
   std::string text =
       "# Written by " + quoted(command) + "\n# True model (" + damper.source + "):\n#   " +
       format_json(damper.model.to_json(), false) + "\nname: " + quoted(campaign.name) +
-      "\ncitation: " + quoted(campaign.citation) + "\ndrive: " + campaign.drive_unit +
+      "\ncitation: " + quoted(campaign.citation) + "\ndrive: " + to_string(campaign.drive_unit) +
       "\nnotes: " + public_notes(campaign) + "\nfiles:\n";
   for (const Record& record : campaign.records) {
     text += fmt::format("  - match: {}  # {}\n    name: {}\n    condition: {}\n",

@@ -6,7 +6,7 @@
 #include <variant>
 #include <vector>
 
-#include "dashpot/base/error.h"
+#include "dashpot/error.h"
 
 namespace dashpot::cli {
 

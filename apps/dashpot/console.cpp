@@ -8,8 +8,8 @@
 #include <fmt/core.h>
 #include <sys/ioctl.h>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
+#include "dashpot/error.h"
 #include "dashpot/report/safe_text.h"
 #include "layout.h"
 

@@ -4,8 +4,8 @@
 #include <string>
 #include <string_view>
 
-#include "dashpot/base/monitor.h"
-#include "dashpot/base/value.h"
+#include "dashpot/monitor.h"
+#include "dashpot/value.h"
 #include "progress.h"
 
 namespace dashpot::cli {

@@ -5,8 +5,9 @@
 #include <vector>
 
 #include "command.h"
-#include "dashpot/damper/driver.h"
-#include "dashpot/damper/model_file.h"
+#include "dashpot/drive.h"
+#include "dashpot/driver.h"
+#include "dashpot/model_file.h"
 
 namespace dashpot::cli {
 
@@ -27,7 +28,8 @@ ModelFile load_damper_file(const DamperChoice& choice, const std::string& comman
 
 /// A damper and the range of its current.
 struct Damper {
-  std::string name, drive_unit;
+  std::string name;
+  DriveUnit drive_unit = DriveUnit::Ampere;
   std::unique_ptr<DamperModel> model;
   double drive_min = 0, drive_max = 0;
   std::optional<Domain> domain;  ///< of a model file

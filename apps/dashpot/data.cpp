@@ -18,12 +18,13 @@ std::string drive_levels(const Dataset& dataset) {
   for (const Record& record : dataset.records)
     if (record.drive_level) levels.insert(*record.drive_level);
   if (levels.empty()) return "the drive varies within the records";
-  const std::string noun = dataset.drive_unit == "V" ? "voltage" : "current";
+  const std::string noun = drive_channel(dataset.drive_unit);
   if (levels.size() == 1)
-    return fmt::format("1 {}, {} {}", noun, format_number(*levels.begin()), dataset.drive_unit);
+    return fmt::format("1 {}, {} {}", noun, format_number(*levels.begin()),
+                       to_string(dataset.drive_unit));
   return fmt::format("{} {} ... {} {}", counted(levels.size(), noun),
                      format_number(*levels.begin()), format_number(*levels.rbegin()),
-                     dataset.drive_unit);
+                     to_string(dataset.drive_unit));
 }
 
 }  // namespace

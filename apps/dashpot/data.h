@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "command.h"
-#include "dashpot/record/dataset.h"
+#include "dashpot/dataset.h"
 
 namespace dashpot::cli {
 

@@ -7,6 +7,7 @@
 #include "commands.h"
 #include "console.h"
 #include "dashpot/base/text.h"
+#include "dashpot/rank.h"
 #include "data.h"
 #include "identify_options.h"
 #include "recovery.h"

@@ -10,6 +10,7 @@
 #include "dashpot/damper/kinds/family/family_model.h"
 #include "dashpot/identify/fit/fit_words.h"
 #include "dashpot/identify/judge/extrapolation.h"
+#include "dashpot/rank.h"
 #include "dashpot/report/interval_table.h"
 #include "dashpot/report/report_json.h"
 #include "data.h"
@@ -52,9 +53,9 @@ std::vector<std::string> pooled_row(const std::string& name, const Metrics& m) {
           "",   ""};
 }
 
-std::string record_table(const Evaluation& evaluation, const std::string& drive_unit, int width) {
-  Table table({"record", ">" + drive_unit, ">RMSE N", ">rms/half-span %", ">ESR %", ">fit %",
-               ">energy error %", ">offset N"});
+std::string record_table(const Evaluation& evaluation, DriveUnit drive_unit, int width) {
+  Table table({"record", ">" + to_string(drive_unit), ">RMSE N", ">rms/half-span %", ">ESR %",
+               ">fit %", ">energy error %", ">offset N"});
   for (const RecordResult& r : evaluation.records) table.row(record_row(r));
   if (evaluation.pooled.samples > 0) {
     table.row(pooled_row("all", evaluation.pooled));

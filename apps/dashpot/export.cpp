@@ -1,3 +1,5 @@
+#include "dashpot/export.h"
+
 #include <algorithm>
 #include <filesystem>
 #include <memory>
@@ -11,7 +13,6 @@
 #include "dashpot/base/text.h"
 #include "dashpot/base/units.h"
 #include "dashpot/export/c/c_inverse.h"
-#include "dashpot/export/exporter.h"
 #include "export_control.h"
 
 namespace dashpot::cli {

@@ -5,8 +5,8 @@
 #include <memory>
 
 #include "console.h"
-#include "dashpot/base/error.h"
 #include "dashpot/damper/inverse/registry.h"
+#include "dashpot/error.h"
 #include "dashpot/export/c/c_controller.h"
 #include "dashpot/export/c/c_inverse.h"
 #include "dashpot/identify/judge/track.h"

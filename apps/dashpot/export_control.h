@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "damper_choice.h"
-#include "dashpot/export/exporter.h"
+#include "dashpot/export.h"
 #include "vehicle_options.h"
 
 namespace dashpot::cli {

@@ -3,6 +3,7 @@
 #include "console.h"
 #include "dashpot/base/text.h"
 #include "dashpot/damper/registry.h"
+#include "dashpot/identify/fit/network_design.h"
 
 namespace dashpot::cli {
 namespace {

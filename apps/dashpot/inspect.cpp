@@ -71,7 +71,7 @@ Value inspect_json(const Dataset& dataset, const std::vector<VelocityCheck>& che
                                         {"cutoff_hz", check.cutoff_hz},
                                         {"rms_percent", check.rms_percent}}));
   return Value::object({{"name", dataset.name},
-                        {"drive_unit", dataset.drive_unit},
+                        {"drive_unit", to_string(dataset.drive_unit)},
                         {"columns", std::move(columns)},
                         {"records", std::move(records)},
                         {"derived_velocity", std::move(velocities)},

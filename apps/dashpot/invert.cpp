@@ -8,8 +8,9 @@
 #include "dashpot/base/text.h"
 #include "dashpot/damper/inverse/inverse_file.h"
 #include "dashpot/damper/inverse/numeric.h"
+#include "dashpot/identify.h"
 #include "dashpot/identify/fit/fit_inverse.h"
-#include "dashpot/identify/identify.h"
+#include "dashpot/rank.h"
 #include "dashpot/report/track_figure.h"
 #include "dashpot/report/words.h"
 #include "data.h"
@@ -56,7 +57,7 @@ struct Bench {
   MotionRange range;
   std::vector<InverseTrial> trials;
   std::optional<Dataset> recordings;
-  std::string drive_unit;
+  DriveUnit drive_unit = DriveUnit::None;
 };
 
 Bench make_bench(const Settings& settings, Console& console) {
@@ -69,8 +70,8 @@ Bench make_bench(const Settings& settings, Console& console) {
   }
   bench.damper = load_damper(settings.damper, "invert", console);
   if (recorded && bench.damper.drive_unit != bench.drive_unit)
-    throw Error(bench.damper.name, "is driven by " + bench.damper.drive_unit +
-                                       ", the recordings by " + bench.drive_unit);
+    throw Error(bench.damper.name, "is driven by " + to_string(bench.damper.drive_unit) +
+                                       ", the recordings by " + to_string(bench.drive_unit));
   bench.drive_unit = bench.damper.drive_unit;
   bench.driver = driver_of(bench.damper, settings.damper);
   if (bench.damper.domain) bench.range = motion_range(*bench.damper.domain);
@@ -144,7 +145,7 @@ std::vector<Candidate> teach_all(const Settings& settings, const Bench& bench, C
 
 std::string table_of(const std::vector<Candidate>& candidates,
                      const std::vector<TrackReport>& numeric, const Bench& bench, int width) {
-  std::vector<std::string> titles{"inverse", ">current rms " + bench.drive_unit};
+  std::vector<std::string> titles{"inverse", ">current rms " + to_string(bench.drive_unit)};
   for (const InverseTrial& trial : bench.trials) titles.push_back(">" + trial.name + " %");
   Table table(titles);
   const auto row = [&](const std::string& name, const std::string& current,

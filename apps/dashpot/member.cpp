@@ -8,8 +8,8 @@
 #include "dashpot/base/text.h"
 #include "dashpot/base/units.h"
 #include "dashpot/damper/kinds/family/family_model.h"
-#include "dashpot/damper/model_file.h"
 #include "dashpot/damper/physics/damper_description.h"
+#include "dashpot/model_file.h"
 #include "layout.h"
 
 namespace dashpot::cli {

@@ -5,7 +5,6 @@
 
 #include <fmt/core.h>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
 #include "dashpot/damper/inverse/polynomial.h"
 #include "dashpot/damper/kinds/family/family_force.h"
@@ -22,6 +21,7 @@
 #include "dashpot/damper/kinds/state_space/state_space_model.h"
 #include "dashpot/damper/nets/mlp.h"
 #include "dashpot/damper/registry.h"
+#include "dashpot/error.h"
 #include "dashpot/identify/fit/fit.h"
 #include "dashpot/report/safe_text.h"
 #include "layout.h"
@@ -64,7 +64,7 @@ LawModel driven_example(const Law& law) {
                              : follows ? std::vector<double>{param.value, pace * param.value}
                                        : std::vector<double>{param.value});
   }
-  return LawModel(law, std::move(d), "A", 0);
+  return LawModel(law, std::move(d), DriveUnit::Ampere, 0);
 }
 
 /// How a wanted force becomes a current.

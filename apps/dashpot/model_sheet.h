@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "dashpot/base/value.h"
+#include "dashpot/value.h"
 
 namespace dashpot::cli {
 

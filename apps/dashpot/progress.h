@@ -2,7 +2,7 @@
 #include <chrono>
 #include <string>
 
-#include "dashpot/base/monitor.h"
+#include "dashpot/monitor.h"
 
 namespace dashpot::cli {
 

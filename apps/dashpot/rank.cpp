@@ -1,3 +1,5 @@
+#include "dashpot/rank.h"
+
 #include <memory>
 
 #include <fmt/core.h>

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "dashpot/damper/kinds/law/law_model.h"
-#include "dashpot/identify/identify.h"
+#include "dashpot/identify.h"
 
 namespace dashpot::cli {
 

@@ -9,6 +9,7 @@
 
 #include "console.h"
 #include "dashpot/base/file.h"
+#include "dashpot/rank.h"
 #include "dashpot/report/interval_table.h"
 #include "dashpot/report/words.h"
 #include "layout.h"

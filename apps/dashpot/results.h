@@ -5,7 +5,8 @@
 
 #include "command.h"
 #include "dashpot/base/date.h"
-#include "dashpot/identify/identify.h"
+#include "dashpot/identify.h"
+#include "dashpot/rank.h"
 #include "dashpot/report/report.h"
 
 namespace dashpot::cli {

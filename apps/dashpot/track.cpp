@@ -12,7 +12,7 @@
 #include "dashpot/damper/inverse/inverse_file.h"
 #include "dashpot/damper/inverse/observer.h"
 #include "dashpot/damper/inverse/registry.h"
-#include "dashpot/record/dataset.h"
+#include "dashpot/dataset.h"
 #include "dashpot/report/track_figure.h"
 #include "dashpot/report/words.h"
 #include "layout.h"
@@ -104,7 +104,8 @@ std::unique_ptr<InverseModel> make_inverse(const std::string& word, const Damper
   if (!is_path(word)) return find_inverse(word).make(*damper.model, limits);
   InverseFile file = load_inverse(word);
   if (file.drive_unit != damper.drive_unit)
-    throw Error(word, "gives " + file.drive_unit + ", but the damper takes " + damper.drive_unit);
+    throw Error(word, "gives " + to_string(file.drive_unit) + ", but the damper takes " +
+                          to_string(damper.drive_unit));
   return std::make_unique<HistoryNetwork>(std::move(file.network), limits);
 }
 
@@ -140,8 +141,8 @@ std::string table_of(const std::vector<TrackedScheme>& tracked, int width) {
   return table.text(static_cast<std::size_t>(width));
 }
 
-std::string csv_of(const TrackReport& r, const Motion& motion, const std::string& unit) {
-  const std::string drive = unit == "V" ? "voltage_V" : "current_A";
+std::string csv_of(const TrackReport& r, const Motion& motion, DriveUnit unit) {
+  const std::string drive = unit == DriveUnit::Volt ? "voltage_V" : "current_A";
   std::string text = "t_s,x_mm,v_m/s,F_wanted_N,F_obtained_N,command_" + drive + ",coil_" + drive +
                      ",F_least_N,F_greatest_N\n";
   constexpr int kDigits = 9;
@@ -156,8 +157,8 @@ std::string csv_of(const TrackReport& r, const Motion& motion, const std::string
   return text;
 }
 
-void write_curves(const std::vector<TrackedScheme>& tracked, const Task& task,
-                  const std::string& unit, const std::filesystem::path& folder, Console& console) {
+void write_curves(const std::vector<TrackedScheme>& tracked, const Task& task, DriveUnit unit,
+                  const std::filesystem::path& folder, Console& console) {
   for (const auto& [name, report] : tracked)
     write_file(folder / (name + ".csv"), csv_of(report, task.motion, unit));
   console.print("\nCurves   " + (folder / "*.csv").string() + '\n');
@@ -190,7 +191,7 @@ int run(const Settings& settings, Console& console) {
       return kNotUsable;
     }
   console.print('\n' + console.bold(damper.name) + ", " + format_number(options.current_min) +
-                " ... " + format_number(options.current_max) + ' ' + damper.drive_unit +
+                " ... " + format_number(options.current_max) + ' ' + to_string(damper.drive_unit) +
                 ", coil lag " +
                 (options.lag_rate > 0 ? format_number(1000 / options.lag_rate) + " ms" : "none") +
                 "\nWanted force: " + task.description + ", span " +

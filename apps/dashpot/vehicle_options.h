@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "command.h"
-#include "dashpot/suspension/vehicle.h"
+#include "dashpot/vehicle.h"
 
 namespace dashpot::cli {
 

@@ -4,13 +4,13 @@
 
 #include "console.h"
 #include "dashpot/base/text.h"
+#include "dashpot/controller.h"
 #include "dashpot/damper/parameter_set.h"
-#include "dashpot/suspension/control/controller.h"
+#include "dashpot/plant.h"
 #include "dashpot/suspension/damper_words.h"
 #include "dashpot/suspension/ground/ground_sequences.h"
 #include "dashpot/suspension/ground/recorded_ground.h"
 #include "dashpot/suspension/passive_curve.h"
-#include "dashpot/suspension/plants/plant_set.h"
 #include "layout.h"
 #include "sequence_sheet.h"
 
@@ -91,12 +91,12 @@ void list_dampers(Listing& list) {
   Table sets({"parameter set", "damper", ">drive to", "unit"});
   for (const std::string& name : parameter_set_names()) {
     const ParameterSet set = load_parameter_set(name);
-    sets.row({name, set.damper, format_number(set.drive_max), set.model.drive_unit()});
+    sets.row({name, set.damper, format_number(set.drive_max), to_string(set.model.drive_unit())});
     list.json.push_back(Value::object({{"name", name},
                                        {"kind", "parameter set"},
                                        {"damper", set.damper},
                                        {"drive_max", set.drive_max},
-                                       {"drive_unit", set.model.drive_unit()}}));
+                                       {"drive_unit", to_string(set.model.drive_unit())}}));
   }
   list.text += '\n' + curves.text(list.width) + '\n' + sets.text(list.width);
 }

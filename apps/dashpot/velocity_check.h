@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "dashpot/record/dataset.h"
+#include "dashpot/dataset.h"
 
 namespace dashpot::cli {
 

@@ -1,6 +1,6 @@
-#include "dashpot/base/error.h"
 #include "dashpot/damper/nets/mlp_evaluator.h"
 #include "dashpot/damper/nets/train_batches.h"
+#include "dashpot/error.h"
 #include "rides.h"
 
 using namespace dashpot;
@@ -8,17 +8,17 @@ using namespace peer;
 
 namespace {
 
-/// Seconds that the core takes for one multiplication and addition, when it does nothing else in all its
-/// lanes: twelve chains hide that each link takes a few cycles. The fastest of a few runs.
+/// Seconds that the core takes for one multiplication and addition, when it does nothing else in
+/// all its lanes: twelve chains hide that each link takes a few cycles. The fastest of a few runs.
 #if defined(__x86_64__)
-#define DASHPOT_CHAINS(lanes)                                                                                \
-  [] {                                                                                                       \
-    long count = 100000;                                                                                     \
-    asm volatile(                                                                                            \
-        "vzeroall\n1:\n.irp k, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11\n"                                       \
-        "vfmadd231ps %%" lanes "15, %%" lanes "15, %%" lanes "\\k\n.endr\ndec %0\njnz 1b\n"                  \
-        : "+r"(count)::"cc", "xmm0", "xmm1", "xmm2", "xmm3", "xmm4", "xmm5", "xmm6", "xmm7", "xmm8", "xmm9", \
-          "xmm10", "xmm11", "xmm12", "xmm13", "xmm14", "xmm15");                                             \
+#define DASHPOT_CHAINS(lanes)                                                                \
+  [] {                                                                                       \
+    long count = 100000;                                                                     \
+    asm volatile(                                                                            \
+        "vzeroall\n1:\n.irp k, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11\n"                       \
+        "vfmadd231ps %%" lanes "15, %%" lanes "15, %%" lanes "\\k\n.endr\ndec %0\njnz 1b\n"  \
+        : "+r"(count)::"cc", "xmm0", "xmm1", "xmm2", "xmm3", "xmm4", "xmm5", "xmm6", "xmm7", \
+          "xmm8", "xmm9", "xmm10", "xmm11", "xmm12", "xmm13", "xmm14", "xmm15");             \
   }
 double seconds_per_lane(double lanes, void (*chains)()) {
   double best = HUGE_VAL;
@@ -51,7 +51,8 @@ double train_one_epoch(SimdLevel level) {
 template <class Real>
 double latency(const std::vector<std::size_t>& layers) {
   const MlpEvaluator<Real> evaluator(network(layers));
-  Real inputs[8] = {Real(0.1), Real(-0.2), Real(0.3), Real(0.1), Real(0.5), Real(-0.1), Real(0.2), Real(0.7)};
+  Real inputs[8] = {Real(0.1), Real(-0.2), Real(0.3), Real(0.1),
+                    Real(0.5), Real(-0.1), Real(0.2), Real(0.7)};
   return time_of(20000, [&] { inputs[0] = Real(0.1) * evaluator.evaluate(inputs); });
 }
 
@@ -67,7 +68,8 @@ double fit_iteration(int round) {
   Mlp mlp = network(kTanh, static_cast<std::uint64_t>(round));
   int iterations = 0;
   const double seconds = time_of(1, [&] {
-    iterations = train(mlp, samples, {.max_iterations = 20, .tolerance = 0, .weight_decay = 0}).iterations;
+    iterations =
+        train(mlp, samples, {.max_iterations = 20, .tolerance = 0, .weight_decay = 0}).iterations;
   });
   return seconds / iterations;
 }

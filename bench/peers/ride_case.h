@@ -5,17 +5,18 @@
 #include <memory>
 #include <numbers>
 
-#include "dashpot/damper/laws/modified_bouc_wen.h"
 #include "dashpot/damper/kinds/network/network_model.h"
+#include "dashpot/damper/laws/modified_bouc_wen.h"
 #include "dashpot/damper/parameter_set.h"
-#include "dashpot/suspension/ground/ground_motion.h"
+#include "dashpot/drive.h"
+#include "dashpot/ground_motion.h"
+#include "dashpot/mounted_damper.h"
+#include "dashpot/plant.h"
 #include "dashpot/suspension/ground/road_profile.h"
-#include "dashpot/suspension/mounted_damper.h"
-#include "dashpot/suspension/plants/plant_set.h"
 #include "peer.h"
 
-// The ride that all integrators take: the one-sensor paper's quarter car, 10 s of a class C road at 20 m/s,
-// Mix-1 at 1 kHz, rtol 1e-6, atol 1e-9.
+// The ride that all integrators take: the one-sensor paper's quarter car, 10 s of a class C road at
+// 20 m/s, Mix-1 at 1 kHz, rtol 1e-6, atol 1e-9.
 namespace peer {
 
 constexpr double kRideSeconds = 10, kSample = 1e-3, kRelative = 1e-6, kAbsolute = 1e-9;
@@ -64,12 +65,13 @@ inline dashpot::MountedDamper ride_damper(Ride ride) {
   const dashpot::LawModel published = dashpot::load_parameters("spencer1997");
   dashpot::Dependence parameters = published.parameters();
   parameters.coefficients[published.law().index_of("x0")] = {0};
-  damper.model = std::make_shared<dashpot::LawModel>(published.law(), parameters, "V", published.lag_rate());
+  damper.model = std::make_shared<dashpot::LawModel>(
+      published.law(), parameters, dashpot::DriveUnit::Volt, published.lag_rate());
   return damper;
 }
 
-/// The same as equations for a general integrator: y = body, wheel, their speeds; then the law's two states
-/// and its coil's voltage.
+/// The same as equations for a general integrator: y = body, wheel, their speeds; then the law's
+/// two states and its coil's voltage.
 class RideEquations {
  public:
   RideEquations(Ride ride, int vehicle) : ride_(ride), heights_(ride_road(vehicle).tracks[0]) {
@@ -79,8 +81,8 @@ class RideEquations {
       mlp_ = network.members().front();
       for (int n = 0; n < 10; ++n) {  // on raw inputs
         const double* w = &mlp_.parameters[2 * n];
-        neurons_[n] = {w[0] / mlp_.input_scale[0], w[1] / mlp_.input_scale[1], mlp_.parameters[20 + n],
-                       mlp_.parameters[30 + n] * mlp_.output_scale};
+        neurons_[n] = {w[0] / mlp_.input_scale[0], w[1] / mlp_.input_scale[1],
+                       mlp_.parameters[20 + n], mlp_.parameters[30 + n] * mlp_.output_scale};
         neurons_[n][2] -= neurons_[n][0] * mlp_.input_mean[0] + neurons_[n][1] * mlp_.input_mean[1];
       }
       bias_ = mlp_.output_mean + mlp_.output_scale * mlp_.parameters[40];
@@ -99,8 +101,8 @@ class RideEquations {
   std::size_t size() const { return ride_ == Ride::Network ? 4 : 7; }
   const std::vector<double>& heights() const { return heights_; }
 
-  /// Of the network: its neurons (by velocity, by current, bias, out), bias; of the law: its parameters
-  /// without current, the slopes of alpha, c0 and c1 by it, the lag's rate.
+  /// Of the network: its neurons (by velocity, by current, bias, out), bias; of the law: its
+  /// parameters without current, the slopes of alpha, c0 and c1 by it, the lag's rate.
   std::vector<double> numbers() const {
     std::vector<double> all;
     if (ride_ == Ride::Network) {
@@ -133,12 +135,13 @@ class RideEquations {
     dy[3] = (spring - kTyre * (y[1] - road(t))) / kWheel;
   }
 
-  /// A sample of Mix-1: hard where the body moves slower than at the crossover. Whether the command has
-  /// changed.
+  /// A sample of Mix-1: hard where the body moves slower than at the crossover. Whether the command
+  /// has changed.
   bool control(double body_velocity, double body_acceleration) {
     const double rate = 2 * std::numbers::pi * kCrossover * body_velocity, before = command;
-    command =
-        body_acceleration * body_acceleration - rate * rate <= 0 ? kDriveMax[static_cast<int>(ride_)] : 0;
+    command = body_acceleration * body_acceleration - rate * rate <= 0
+                  ? kDriveMax[static_cast<int>(ride_)]
+                  : 0;
     return command != before;
   }
 
@@ -154,7 +157,8 @@ class RideEquations {
   }
   double network(double v, double i) const {
     double force = bias_;
-    for (const auto& [by_v, by_i, bias, out] : neurons_) force += out * std::tanh(by_v * v + by_i * i + bias);
+    for (const auto& [by_v, by_i, bias, out] : neurons_)
+      force += out * std::tanh(by_v * v + by_i * i + bias);
     return force;
   }
   /// The road as Dashpot has it: a cubic between its points, one per sample.
@@ -181,17 +185,19 @@ class RideEquations {
 /// Body, wheel and their speeds at each sample.
 using RideTrace = std::vector<std::array<double, 4>>;
 
-/// Where the trace lies that all others are compared with, written by the peer that makes it: SUNDIALS at
-/// rtol 1e-10.
+/// Where the trace lies that all others are compared with, written by the peer that makes it:
+/// SUNDIALS at rtol 1e-10.
 inline std::string reference_file(Ride ride) {
-  return std::string("/tmp/dashpot_bench_") + (ride == Ride::Network ? "network" : "bouc_wen") + ".reference";
+  return std::string("/tmp/dashpot_bench_") + (ride == Ride::Network ? "network" : "bouc_wen") +
+         ".reference";
 }
 inline void write_reference(Ride ride, const RideTrace& trace) {
   std::ofstream file(reference_file(ride), std::ios::binary);
   file.write(reinterpret_cast<const char*>(trace.data()),
              static_cast<std::streamsize>(trace.size() * sizeof trace[0]));
 }
-/// Greatest distance of a channel from the reference, of its greatest magnitude. NaN without a reference.
+/// Greatest distance of a channel from the reference, of its greatest magnitude. NaN without a
+/// reference.
 inline double error_of(Ride ride, const RideTrace& trace) {
   RideTrace reference(kSamples10s + 1);
   std::ifstream file(reference_file(ride), std::ios::binary);
@@ -212,8 +218,8 @@ inline double error_of(Ride ride, const RideTrace& trace) {
 
 constexpr const char* kRideTasks[] = {"ride_network", "ride_bouc_wen"};
 
-/// Tasks of a general integrator: run(ride, trace or null) rides the first vehicle and returns CPU seconds.
-/// One vehicle and a batch are the same to it.
+/// Tasks of a general integrator: run(ride, trace or null) rides the first vehicle and returns CPU
+/// seconds. One vehicle and a batch are the same to it.
 template <class Run>
 void add_ride_tasks(std::map<std::string, Task>& tasks, Run run) {
   for (const Ride ride : {Ride::Network, Ride::BoucWen}) {

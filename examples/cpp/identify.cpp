@@ -1,11 +1,12 @@
 // The C++ library from another project: identify RECORDINGS
-#include "dashpot/identify/identify.h"
+#include "dashpot/identify.h"
 
 #include <cstdio>
 #include <exception>
 
-#include "dashpot/record/dataset.h"
-#include "dashpot/record/split.h"
+#include "dashpot/dataset.h"
+#include "dashpot/rank.h"
+#include "dashpot/split.h"
 
 int main(int argc, char** argv) {
   try {

@@ -1,6 +1,6 @@
 #pragma once
-#include "dashpot/base/value.h"
 #include "dashpot/report/document.h"
+#include "dashpot/value.h"
 #include "studies/family/family_study.h"
 
 namespace dashpot {

@@ -3,7 +3,7 @@
 #include <iterator>
 
 #include "dashpot/base/parallel.h"
-#include "dashpot/identify/identify.h"
+#include "dashpot/identify.h"
 #include "studies/family/family_study.h"
 
 namespace dashpot {

@@ -67,7 +67,7 @@ StudiedNetwork train_family_network(const FamilyRule& rule, const TrainingSample
   if (rule.inputs == FamilyRule::Inputs::Raw) draw_normal_weights(network.mlp, seed);
   BatchTrainOptions options;
   options.rate = rule.rate;
-  options.schedule.kind = rule.falls ? Schedule::Kind::Cosine : Schedule::Kind::Constant;
+  options.schedule.kind = rule.falls ? RateSchedule::Cosine : RateSchedule::Constant;
   options.batch = rule.batch;
   options.epochs = rule.epochs;
   options.l2 = rule.l2;

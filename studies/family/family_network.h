@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "dashpot/base/monitor.h"
 #include "dashpot/damper/nets/mlp.h"
-#include "dashpot/identify/judge/metrics.h"
+#include "dashpot/evaluate.h"
+#include "dashpot/monitor.h"
 #include "studies/family/family_samples.h"
 
 namespace dashpot {

@@ -8,8 +8,8 @@
 
 #include <fmt/format.h>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/random.h"
+#include "dashpot/error.h"
 #include "dashpot/record/cycles.h"
 
 namespace dashpot {

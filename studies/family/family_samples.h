@@ -6,7 +6,8 @@
 #include <vector>
 
 #include "dashpot/damper/nets/mlp.h"
-#include "dashpot/record/dataset.h"
+#include "dashpot/dataset.h"
+#include "dashpot/drive.h"
 
 namespace dashpot {
 
@@ -22,7 +23,7 @@ struct FamilySamples {
   std::vector<Record> cycles;
   std::vector<Record>
       runs;  ///< the records up to their cycles' ends, scored on these: for what remembers
-  std::string drive_unit;
+  DriveUnit drive_unit = DriveUnit::None;
   TrainingSamples samples;         ///< the cycles one behind the other
   std::vector<std::size_t> first;  ///< of each cycle in them, and their number
 

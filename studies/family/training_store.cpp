@@ -1,9 +1,9 @@
 #include "studies/family/training_store.h"
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/file.h"
-#include "dashpot/base/value.h"
+#include "dashpot/error.h"
 #include "dashpot/identify/rank/fit_identity.h"
+#include "dashpot/value.h"
 
 namespace dashpot {
 namespace {

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "dashpot/identify/judge/evaluate.h"
+#include "dashpot/evaluate.h"
 #include "dashpot/record/differentiate.h"
 #include "dashpot/report/words.h"
 #include "studies/one_sensor/one_sensor_parts.h"
@@ -194,7 +194,7 @@ DocumentSection excitation_section(const OneSensorView& view) {
                       {}};
   for (const DamperStudy& one : view.study.dampers) {
     const StudiedDamper& damper = one.damper;
-    const bool is_voltage = damper.drive_unit == "V";
+    const bool is_voltage = damper.drive_unit == DriveUnit::Volt;
     const Channel moved{"displacement", "Displacement (mm)", {}, {}},
         driven{
             is_voltage ? "voltage" : "current", is_voltage ? "Voltage (V)" : "Current (A)", {}, {}};

@@ -101,7 +101,7 @@ StudiedFit studied_fit(const StudiedModel& model, const std::vector<Record>& tra
   return {std::move(thinned), options};
 }
 
-StudiedResult judge(const FitReport& fit, const Fold& fold, const std::string& drive_unit) {
+StudiedResult judge(const FitReport& fit, const Fold& fold, DriveUnit drive_unit) {
   StudiedResult result;
   result.parameters = fit.model->parameter_count();
   result.seconds = fit.seconds;

@@ -1,7 +1,8 @@
 #pragma once
 #include <vector>
 
-#include "dashpot/identify/identify.h"
+#include "dashpot/drive.h"
+#include "dashpot/identify.h"
 #include "studies/one_sensor/one_sensor_study.h"
 
 // One fit of the one-sensor study, and how it is judged.
@@ -16,6 +17,6 @@ StudiedFit studied_fit(const StudiedModel& model, const std::vector<Record>& tra
                        IdentifyOptions options);
 
 /// The fit's model on the left-out records, at their full rate.
-StudiedResult judge(const FitReport& fit, const Fold& fold, const std::string& drive_unit);
+StudiedResult judge(const FitReport& fit, const Fold& fold, DriveUnit drive_unit);
 
 }  // namespace dashpot

@@ -10,7 +10,7 @@
 
 #include "dashpot/base/parallel.h"
 #include "dashpot/damper/registry.h"
-#include "dashpot/identify/identify.h"
+#include "dashpot/identify.h"
 #include "dashpot/identify/rank/fit_store.h"
 #include "studies/one_sensor/one_sensor_fit.h"
 

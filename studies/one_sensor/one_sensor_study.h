@@ -4,11 +4,12 @@
 #include <string>
 #include <vector>
 
-#include "dashpot/base/monitor.h"
+#include "dashpot/dataset.h"
+#include "dashpot/drive.h"
+#include "dashpot/evaluate.h"
 #include "dashpot/identify/fit/network_design.h"
-#include "dashpot/identify/judge/evaluate.h"
-#include "dashpot/record/dataset.h"
-#include "dashpot/record/split.h"
+#include "dashpot/monitor.h"
+#include "dashpot/split.h"
 
 namespace dashpot {
 
@@ -20,7 +21,7 @@ struct StudiedDamper {
   std::string name;         ///< "MR1"
   std::string description;  ///< a sentence
   bool is_virtual = false;
-  std::string drive_unit = "A";
+  DriveUnit drive_unit = DriveUnit::Ampere;
   /// The paper's, each recorded twice; of other data the divisions, of which each leaves something
   /// out.
   std::vector<Fold> experiments;

@@ -6,7 +6,7 @@
 
 #include "dashpot/base/parallel.h"
 #include "dashpot/damper/registry.h"
-#include "dashpot/identify/identify.h"
+#include "dashpot/identify.h"
 
 namespace dashpot {
 namespace {
@@ -35,7 +35,7 @@ std::vector<double> known_coefficients(const ParamInfo& param) {
 
 FitReport fit_once(const Law& law, const RecoveryStudyOptions& options, int repetition) {
   const Dataset data =
-      run_virtual_bench(known_damper(law), "A", recovery_bench(options, repetition));
+      run_virtual_bench(known_damper(law), DriveUnit::Ampere, recovery_bench(options, repetition));
   IdentifyOptions identification;
   identification.seed = options.seed;
   identification.threads = 1;
@@ -45,7 +45,7 @@ FitReport fit_once(const Law& law, const RecoveryStudyOptions& options, int repe
     if (param.fit == Fit::Scale)
       identification.choices.push_back(
           {.parameter = std::string(param.name), .fixed = param.value});
-  return identify(std::string(law.name), data.records, "A", identification);
+  return identify(std::string(law.name), data.records, DriveUnit::Ampere, identification);
 }
 
 /// Adds what the fits say of one coefficient.
@@ -79,9 +79,10 @@ LawRecovery judge(const Law& law, const std::vector<FitReport>& fits) {
     if (law.params[p].fit == Fit::Bias || law.params[p].fit == Fit::Drive) continue;
     const Form form = truth.parameters().forms[p];
     for (std::size_t c = 0; c < coefficient_count(form); ++c) {
-      ParameterRecovery row{.name = coefficient_name(law.params[p].name, form, c),
-                            .unit = coefficient_unit(law.params[p].unit, form, c, "A"),
-                            .truth = truth.parameters().coefficients[p][c]};
+      ParameterRecovery row{
+          .name = coefficient_name(law.params[p].name, form, c),
+          .unit = coefficient_unit(law.params[p].unit, form, c, DriveUnit::Ampere),
+          .truth = truth.parameters().coefficients[p][c]};
       std::vector<const FittedParameter*> found;
       for (const FitReport& fit : fits)
         for (const FittedParameter& fitted : fit.parameters)
@@ -124,7 +125,7 @@ LawModel known_damper(const Law& law) {
                                       : estimated             ? known_coefficients(param)
                                                               : std::vector<double>{param.value});
   }
-  return LawModel(law, std::move(dependence), "A", 0);
+  return LawModel(law, std::move(dependence), DriveUnit::Ampere, 0);
 }
 
 BenchOptions recovery_bench(const RecoveryStudyOptions& options, int repetition) {

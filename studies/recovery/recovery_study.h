@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "dashpot/base/monitor.h"
 #include "dashpot/damper/kinds/law/law_model.h"
 #include "dashpot/damper/virtual_bench.h"
+#include "dashpot/monitor.h"
 
 namespace dashpot {
 

@@ -16,7 +16,7 @@ std::vector<Record> recorded(const DamperModel& damper, const std::vector<BenchT
                              std::uint64_t seed) {
   BenchOptions bench = one_sensor_bench({});
   bench.seed = seed;
-  return run_virtual_bench(damper, "A", tests, bench).records;
+  return run_virtual_bench(damper, DriveUnit::Ampere, tests, bench).records;
 }
 
 /// Fitted on the fold's training, judged on the rest.
@@ -28,8 +28,8 @@ NetworkDamper identified(std::string name, std::string description, const Fold& 
   options.seed = seed;
   options.threads = 1;
   const StudiedFit fit = studied_fit(*wanted, fold.training, options);
-  const FitReport report = identify(wanted->model, fit.training, "A", fit.options);
-  const StudiedResult result = judge(report, fold, "A");
+  const FitReport report = identify(wanted->model, fit.training, DriveUnit::Ampere, fit.options);
+  const StudiedResult result = judge(report, fold, DriveUnit::Ampere);
   double low = INFINITY, high = -INFINITY;
   for (const Record& record : fold.left_out) {
     const auto [least, greatest] = std::ranges::minmax_element(record.channel("force").samples);
@@ -49,7 +49,7 @@ std::vector<BenchTest> passive_tests(bool second, std::uint64_t seed) {
   for (const BenchExperiment& experiment : bench_experiments().first(2)) {
     std::string motion(experiment.switched.motion);
     if (second && !experiment.second.empty()) motion.append(",").append(experiment.second);
-    tests.push_back(at_level(sequence_test(motion, seed), 0, "A"));
+    tests.push_back(at_level(sequence_test(motion, seed), 0, DriveUnit::Ampere));
   }
   return tests;
 }

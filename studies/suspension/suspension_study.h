@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "dashpot/base/monitor.h"
-#include "dashpot/identify/judge/metrics.h"
+#include "dashpot/evaluate.h"
+#include "dashpot/monitor.h"
 #include "dashpot/suspension/ride/gain_curves.h"
 #include "dashpot/suspension/ride/ride_bound.h"
-#include "dashpot/suspension/vehicle.h"
+#include "dashpot/vehicle.h"
 
 // The one-sensor paper's last section: its quarter car with the identified damper and Mix-1-sensor
 // control.

@@ -7,8 +7,8 @@
 #include <thread>
 #include <vector>
 
-#include "dashpot/base/error.h"
-#include "dashpot/base/monitor.h"
+#include "dashpot/error.h"
+#include "dashpot/monitor.h"
 #include "support.h"
 
 using namespace dashpot;

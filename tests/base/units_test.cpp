@@ -49,8 +49,8 @@ TEST_CASE("what is no unit is refused") {
 }
 
 TEST_CASE("a voltage-driven model counts per volt") {
-  CHECK(with_drive_unit("N*s/(m*A)", "V") == "N*s/(m*V)");
-  CHECK(with_drive_unit("N/A^2", "V") == "N/V^2");
-  CHECK(with_drive_unit("N/A", "A") == "N/A");
-  CHECK(with_drive_unit("mA", "V") == "mA");
+  CHECK(with_drive_unit("N*s/(m*A)", DriveUnit::Volt) == "N*s/(m*V)");
+  CHECK(with_drive_unit("N/A^2", DriveUnit::Volt) == "N/V^2");
+  CHECK(with_drive_unit("N/A", DriveUnit::Ampere) == "N/A");
+  CHECK(with_drive_unit("mA", DriveUnit::Volt) == "mA");
 }

@@ -1,4 +1,4 @@
-#include "dashpot/base/value.h"
+#include "dashpot/value.h"
 
 #include <limits>
 

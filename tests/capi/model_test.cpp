@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "dashpot/damper/parameter_set.h"
-#include "dashpot/identify/judge/evaluate.h"
+#include "dashpot/evaluate.h"
 #include "handles.h"
 
 namespace {

@@ -5,7 +5,7 @@
 #include <thread>
 
 #include "dashpot/base/file.h"
-#include "dashpot/base/value.h"
+#include "dashpot/value.h"
 #include "handles.h"
 
 using dashpot::parse_json;

@@ -1,6 +1,6 @@
-#include "dashpot/base/value.h"
 #include "dashpot/suspension/ground/ground_sequences.h"
-#include "dashpot/suspension/vehicle.h"
+#include "dashpot/value.h"
+#include "dashpot/vehicle.h"
 #include "handles.h"
 
 TEST_CASE("a vehicle by words drives as it does inside the library") {

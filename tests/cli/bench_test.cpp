@@ -1,8 +1,8 @@
 #include <fstream>
 
 #include "dashpot/base/file.h"
-#include "dashpot/base/value.h"
-#include "dashpot/record/dataset.h"
+#include "dashpot/dataset.h"
+#include "dashpot/value.h"
 #include "program.h"
 
 using namespace dashpot;
@@ -10,7 +10,7 @@ using namespace dashpot;
 TEST_CASE("bench: the files read back as the campaign that was asked for") {
   const Dataset dataset = load_dataset({small_campaign() / "dataset.yaml"});
   REQUIRE(dataset.records.size() == 9);
-  CHECK(dataset.drive_unit == "V");
+  CHECK(dataset.drive_unit == DriveUnit::Volt);
   for (const Record& record : dataset.records) {
     CHECK(record.drive_level.has_value());
     CHECK_CLOSE(record.sample_time, 1.0 / 200, 1e-9, 0);
@@ -22,7 +22,7 @@ TEST_CASE("bench: the files read back as the campaign that was asked for") {
 TEST_CASE("bench: a folder is understood by the dataset file in it") {
   const Dataset dataset = load_dataset({small_campaign()});
   CHECK(dataset.records.size() == 9);
-  CHECK(dataset.drive_unit == "V");
+  CHECK(dataset.drive_unit == DriveUnit::Volt);
 }
 
 TEST_CASE("bench: the same seed gives the same bytes, another seed others") {

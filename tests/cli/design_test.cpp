@@ -2,8 +2,8 @@
 
 #include "damper/kinds/family/example_family.h"
 #include "dashpot/base/file.h"
-#include "dashpot/base/value.h"
-#include "dashpot/damper/model_file.h"
+#include "dashpot/model_file.h"
+#include "dashpot/value.h"
 #include "program.h"
 
 using namespace dashpot;

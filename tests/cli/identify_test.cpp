@@ -1,7 +1,7 @@
 #include <filesystem>
 
 #include "dashpot/base/file.h"
-#include "dashpot/base/value.h"
+#include "dashpot/value.h"
 #include "program.h"
 
 using namespace dashpot;

@@ -1,5 +1,5 @@
 #include "damper/kinds/family/example_family.h"
-#include "dashpot/damper/model_file.h"
+#include "dashpot/model_file.h"
 #include "program.h"
 
 using namespace dashpot;

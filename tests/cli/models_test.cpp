@@ -1,6 +1,6 @@
 #include "dashpot/base/file.h"
-#include "dashpot/base/value.h"
 #include "dashpot/damper/registry.h"
+#include "dashpot/value.h"
 #include "program.h"
 
 using namespace dashpot;

@@ -1,5 +1,5 @@
-#include "dashpot/base/value.h"
 #include "dashpot/damper/physics/damper_physics.h"
+#include "dashpot/value.h"
 #include "program.h"
 
 using namespace dashpot;

@@ -2,7 +2,7 @@
 
 #include "dashpot/base/file.h"
 #include "dashpot/base/text.h"
-#include "dashpot/base/value.h"
+#include "dashpot/value.h"
 #include "program.h"
 
 using namespace dashpot;

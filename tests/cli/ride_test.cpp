@@ -1,5 +1,5 @@
 #include "dashpot/base/file.h"
-#include "dashpot/base/value.h"
+#include "dashpot/value.h"
 #include "program.h"
 
 using namespace dashpot;

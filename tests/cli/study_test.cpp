@@ -1,7 +1,7 @@
 #include <tuple>
 
 #include "dashpot/base/file.h"
-#include "dashpot/base/value.h"
+#include "dashpot/value.h"
 #include "identify/family_example.h"
 #include "program.h"
 

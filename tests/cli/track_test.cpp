@@ -1,7 +1,7 @@
 #include <sstream>
 
 #include "dashpot/base/file.h"
-#include "dashpot/base/value.h"
+#include "dashpot/value.h"
 #include "program.h"
 
 using namespace dashpot;

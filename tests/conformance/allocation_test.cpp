@@ -66,7 +66,7 @@ TEST_CASE("stepping a law allocates nothing") {
       d.coefficients.emplace_back(coefficient_count(info.form), 0.0).front() = info.value;
       if (info.fit == Fit::Drive) d.coefficients.back() = {0, 1};
     }
-    const LawModel model(law, d, "A", 100);
+    const LawModel model(law, d, DriveUnit::Ampere, 100);
     check_stepping(model);
     const std::size_t before = allocations;
     const std::vector<double> control(10);

@@ -4,6 +4,7 @@
 #include "dashpot/base/file.h"
 #include "dashpot/base/text.h"
 #include "dashpot/export/c/c_source.h"
+#include "dashpot/export/c/c_text.h"
 #include "dashpot/export/export_run.h"
 #include "export/example_models.h"
 #include "support.h"

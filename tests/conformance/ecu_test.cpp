@@ -4,6 +4,7 @@
 #include "dashpot/damper/kinds/hysteresis_network/presets.h"
 #include "dashpot/export/c/c_controller.h"
 #include "dashpot/export/c/c_source.h"
+#include "dashpot/export/c/c_text.h"
 #include "dashpot/export/export_run.h"
 #include "export/example_models.h"
 #include "support.h"

@@ -36,7 +36,7 @@ void check_flow(const DamperModel& model) {
 
 LawModel lagging(const Law& law) {
   const LawModel model = LawModel::constant(law, defaults(law));
-  return LawModel(law, model.parameters(), "A", 190);
+  return LawModel(law, model.parameters(), DriveUnit::Ampere, 190);
 }
 
 }  // namespace

@@ -51,7 +51,7 @@ TEST_CASE("laws with states: order 4 under inputs that are straight lines, 2 und
       d.coefficients.push_back(info.fit == Fit::Fixed ? std::vector{info.value}
                                                       : std::vector{info.value, 0.5 * info.value});
     }
-    const LawModel driven(law, d, "A", 40);
+    const LawModel driven(law, d, DriveUnit::Ampere, 40);
     CHECK(measured_order([&](int n) { return force_after_ramp(driven, n); }, 64) > 3.7);
     // Between samples the sine is taken as straight: that error, of order 2, is what is left.
     const LawModel constant = LawModel::constant(law, defaults(law));

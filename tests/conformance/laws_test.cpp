@@ -193,13 +193,13 @@ TEST_CASE("JSON gives back the same model to the last bit") {
         d.coefficients.back().push_back(anywhere(info, random));
       if (info.fit == Fit::Drive) d.coefficients.back() = {0, 1};
     }
-    const LawModel model(law, d, "V", random.uniform(0, 300));
+    const LawModel model(law, d, DriveUnit::Volt, random.uniform(0, 300));
     const auto back = law_model_from_json(parse_json(format_json(model.to_json()), "m.json"));
     CHECK(&back->law() == &law);
     CHECK(back->parameters().forms == d.forms);
     CHECK(back->parameters().coefficients == d.coefficients);
     CHECK(back->lag_rate() == model.lag_rate());
-    CHECK(back->drive_unit() == "V");
+    CHECK(back->drive_unit() == DriveUnit::Volt);
   });
 }
 

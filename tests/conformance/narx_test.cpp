@@ -7,7 +7,7 @@
 #include "dashpot/damper/kinds/law/law_model.h"
 #include "dashpot/damper/kinds/narx/narx_model.h"
 #include "dashpot/damper/parameter_set.h"
-#include "dashpot/identify/identify.h"
+#include "dashpot/identify.h"
 #include "support.h"
 
 using namespace dashpot;
@@ -88,7 +88,9 @@ std::shared_ptr<const DamperModel> trained_model(const DamperModel& damper, std:
   const double noise = choose(0.0, 1.0, 10.0, 100.0);
   const std::vector<Record> records{
       record_of(random_run(damper, 200 + random.index(300), noise, seed + 1))};
-  return identify(choose("narx_one_sensor", "narx_two_sensors"), records, "A", options).model;
+  return identify(choose("narx_one_sensor", "narx_two_sensors"), records, DriveUnit::Ampere,
+                  options)
+      .model;
 }
 
 struct Outcome {

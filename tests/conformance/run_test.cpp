@@ -41,7 +41,7 @@ void check_run(const DamperModel& model, const std::vector<DamperInput>& inputs)
 /// As exported models, but without a lag, so that a law without states has none.
 LawModel quick(const Law& law) {
   const LawModel lagging = example_law(law);
-  return LawModel(law, lagging.parameters(), "A", 0);
+  return LawModel(law, lagging.parameters(), DriveUnit::Ampere, 0);
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ BenchOptions without_flaws() {
 }
 
 Record record_of(const DamperModel& damper, const BenchTest& test, const BenchOptions& options) {
-  return run_virtual_bench(damper, "A", std::vector{test}, options).records.at(0);
+  return run_virtual_bench(damper, DriveUnit::Ampere, std::vector{test}, options).records.at(0);
 }
 
 /// Force of a virtual damper over the last half of ten periods of a sine, seen in its F-v map.
@@ -29,7 +29,8 @@ struct Loop {
 };
 
 Loop loop_of(const std::string& damper, double amplitude, double frequency, double current) {
-  const BenchTest test = at_level(sine_test({amplitude, frequency}, 10 / frequency), current, "A");
+  const BenchTest test =
+      at_level(sine_test({amplitude, frequency}, 10 / frequency), current, DriveUnit::Ampere);
   BenchOptions options = without_flaws();
   options.sample_rate = 1000 * frequency;
   const Record record = record_of(load_parameters(damper), test, options);
@@ -72,7 +73,7 @@ TEST_CASE(
 
 TEST_CASE("the sensor of velocity has its noise, and changes no other channel") {
   const LawModel damper = LawModel::constant(find_law("bingham"), {5000, 0, 0, 0});
-  const BenchTest test = at_level(sequence_test("AM,duration=20", 1), 1, "A");
+  const BenchTest test = at_level(sequence_test("AM,duration=20", 1), 1, DriveUnit::Ampere);
   BenchOptions noisy;
   noisy.velocity_sensor = true;
   noisy.velocity_noise = 0.01;

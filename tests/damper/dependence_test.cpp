@@ -31,13 +31,13 @@ TEST_CASE("coefficients have names and units") {
   CHECK(coefficient_name("c0", Form::Constant, 0) == "c0");
   CHECK(coefficient_name("c0", Form::Linear, 1) == "c0_b");
   CHECK(coefficient_name("c0", Form::Quadratic, 2) == "c0_c");
-  CHECK(coefficient_unit("N*s/m", Form::Linear, 0, "A") == "N*s/m");
-  CHECK(coefficient_unit("N*s/m", Form::Linear, 1, "A") == "N*s/(m*A)");
-  CHECK(coefficient_unit("N", Form::Quadratic, 2, "V") == "N/V^2");
-  CHECK(coefficient_unit("1", Form::Linear, 1, "A") == "1/A");
-  CHECK(coefficient_unit("1/(m*s)", Form::Linear, 1, "A") == "1/(m*s*A)");
-  CHECK(coefficient_unit("N", Form::Exponential, 1, "A") == "N");
-  CHECK(coefficient_unit("N", Form::Exponential, 2, "V") == "1/V");
+  CHECK(coefficient_unit("N*s/m", Form::Linear, 0, DriveUnit::Ampere) == "N*s/m");
+  CHECK(coefficient_unit("N*s/m", Form::Linear, 1, DriveUnit::Ampere) == "N*s/(m*A)");
+  CHECK(coefficient_unit("N", Form::Quadratic, 2, DriveUnit::Volt) == "N/V^2");
+  CHECK(coefficient_unit("1", Form::Linear, 1, DriveUnit::Ampere) == "1/A");
+  CHECK(coefficient_unit("1/(m*s)", Form::Linear, 1, DriveUnit::Ampere) == "1/(m*s*A)");
+  CHECK(coefficient_unit("N", Form::Exponential, 1, DriveUnit::Ampere) == "N");
+  CHECK(coefficient_unit("N", Form::Exponential, 2, DriveUnit::Volt) == "1/V");
   for (const char* unit : {"N", "N/m", "1/m^2", "s/m", "1"})
-    CHECK(parse_unit(coefficient_unit(unit, Form::Quadratic, 2, "A")).has_value());
+    CHECK(parse_unit(coefficient_unit(unit, Form::Quadratic, 2, DriveUnit::Ampere)).has_value());
 }

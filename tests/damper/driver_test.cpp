@@ -1,4 +1,4 @@
-#include "dashpot/damper/driver.h"
+#include "dashpot/driver.h"
 
 #include <array>
 #include <cmath>

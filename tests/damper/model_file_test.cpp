@@ -1,4 +1,4 @@
-#include "dashpot/damper/model_file.h"
+#include "dashpot/model_file.h"
 
 #include "damper/kinds/hybrid/hybrid_model_example.h"
 #include "damper/kinds/state_space/state_space_example.h"
@@ -14,10 +14,10 @@ using namespace dashpot;
 
 namespace {
 
-ModelFile example(std::unique_ptr<DamperModel> model, std::string drive_unit) {
+ModelFile example(std::unique_ptr<DamperModel> model, DriveUnit drive_unit) {
   ModelFile file;
   file.model = std::move(model);
-  file.drive_unit = std::move(drive_unit);
+  file.drive_unit = drive_unit;
   file.sample_time = 1.0 / 3004.8;
   file.domain = {-0.015, 0.015, -0.3, 0.3, 0, 2.25};
   file.provenance = {"2026-01-02T03:04:05Z",
@@ -31,7 +31,7 @@ ModelFile example(std::unique_ptr<DamperModel> model, std::string drive_unit) {
 }
 
 ModelFile spencer() {
-  return example(std::make_unique<LawModel>(load_parameters("spencer1997")), "V");
+  return example(std::make_unique<LawModel>(load_parameters("spencer1997")), DriveUnit::Volt);
 }
 
 Mlp small_network() {
@@ -74,7 +74,7 @@ TEST_CASE("a network's file comes back as it was, to the last bit") {
       example(std::make_unique<NetworkModel>("mlp_one_sensor",
                                              std::vector<std::string>{"velocity", "current"},
                                              std::vector{small_network()}, 4.5),
-              "A");
+              DriveUnit::Ampere);
   const ModelFile loaded = parse_model(format_model(saved), "m.json");
   CHECK(format_model(loaded) == format_model(saved));
   for (const double v : {-0.2, 0.0, 0.13})
@@ -90,7 +90,7 @@ TEST_CASE("a fuzzy model's file comes back as it was, to the last bit") {
                       .output_scale = 812.5};
   const ModelFile saved = example(
       std::make_unique<FuzzyModel>("anfis", FuzzyInputs({"velocity"}, {}, "test"), sugeno, 4.5),
-      "A");
+      DriveUnit::Ampere);
   const ModelFile loaded = parse_model(format_model(saved), "m.json");
   CHECK(format_model(loaded) == format_model(saved));
   CHECK(loaded.model->force({0, 0.13, 0.5}, {}) == saved.model->force({0, 0.13, 0.5}, {}));
@@ -107,7 +107,7 @@ TEST_CASE("a hysteresis network's file comes back as it was, to the last bit") {
   const ModelFile saved =
       example(std::make_unique<HysteresisNetworkModel>("hysteresis_network",
                                                        std::vector<HysteresisNetwork>{member}, 4.5),
-              "A");
+              DriveUnit::Ampere);
   const ModelFile loaded = parse_model(format_model(saved), "m.json");
   CHECK(format_model(loaded) == format_model(saved));
   const std::vector<double> state{0.3, 0.6};
@@ -118,7 +118,7 @@ TEST_CASE("a state space's file comes back as it was, to the last bit") {
   const ModelFile saved =
       example(std::make_unique<StateSpaceModel>("neural_state_space",
                                                 std::vector{example_state_space()}, 4.5),
-              "A");
+              DriveUnit::Ampere);
   const ModelFile loaded = parse_model(format_model(saved), "m.json");
   CHECK(format_model(loaded) == format_model(saved));
   const std::vector<double> state{0.3, 0.6, -0.2, 0.1};
@@ -126,7 +126,7 @@ TEST_CASE("a state space's file comes back as it was, to the last bit") {
 }
 
 TEST_CASE("a hybrid's file comes back as it was, to the last bit, and its law keeps its bounds") {
-  const ModelFile saved = example(std::make_unique<HybridModel>(example_hybrid()), "V");
+  const ModelFile saved = example(std::make_unique<HybridModel>(example_hybrid()), DriveUnit::Volt);
   const ModelFile loaded = parse_model(format_model(saved), "m.json");
   CHECK(format_model(loaded) == format_model(saved));
   std::vector<double> state(saved.model->state_size());
@@ -134,7 +134,8 @@ TEST_CASE("a hybrid's file comes back as it was, to the last bit, and its law ke
   CHECK(loaded.model->force({0.01, 0.13, 0.5}, state) ==
         saved.model->force({0.01, 0.13, 0.5}, state));
   CHECK(message_of([&] {
-          parse_model(format_model(example(std::make_unique<HybridModel>(example_hybrid()), "A")),
+          parse_model(format_model(example(std::make_unique<HybridModel>(example_hybrid()),
+                                           DriveUnit::Ampere)),
                       "m.json");
         }).find("drive_unit is V, but A for the file") != std::string::npos);
 }

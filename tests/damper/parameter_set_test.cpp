@@ -23,7 +23,7 @@ TEST_CASE("centimetres are converted: Spencer's set in SI") {
   CHECK_CLOSE(coefficient("gamma", 0), 3.63e6, 1e-15, 0);
   CHECK(coefficient("A", 0) == 301);
   CHECK(model.lag_rate() == 190);
-  CHECK(model.drive_unit() == "V");
+  CHECK(model.drive_unit() == DriveUnit::Volt);
 }
 
 TEST_CASE(

@@ -29,7 +29,7 @@ double mean(const std::vector<double>& x) {
 }  // namespace
 
 TEST_CASE("without flaws the bench gives the closed form: a sine through a viscous damper") {
-  const Dataset data = run_virtual_bench(viscous(), "A", clean());
+  const Dataset data = run_virtual_bench(viscous(), DriveUnit::Ampere, clean());
   REQUIRE(data.records.size() == 1);
   const Record& record = data.records[0];
   CHECK(record.size() == 2001);  // 4 cycles of 1 s at 500 Hz, both ends
@@ -53,8 +53,8 @@ TEST_CASE("the flaws are as large as asked for") {
   options.force_noise = 0.01;
   options.force_offset = 30;
   options.force_resolution = 4;
-  const Record record = run_virtual_bench(viscous(), "A", options).records[0];
-  const Record ideal = run_virtual_bench(viscous(), "A", clean()).records[0];
+  const Record record = run_virtual_bench(viscous(), DriveUnit::Ampere, options).records[0];
+  const Record ideal = run_virtual_bench(viscous(), DriveUnit::Ampere, clean()).records[0];
   const std::vector<double>& force = record.channel("force").samples;
   for (const double f : force) CHECK(f == 4 * std::round(f / 4));
   // over whole cycles the viscous force has mean 0: what is left is the offset that the note tells
@@ -74,13 +74,13 @@ TEST_CASE("the flaws are as large as asked for") {
 
 TEST_CASE("the whole matrix is run, the same for the same seed") {
   const LawModel damper = viscous();
-  const Dataset once = run_virtual_bench(damper, "V", {}),
-                again = run_virtual_bench(damper, "V", {});
+  const Dataset once = run_virtual_bench(damper, DriveUnit::Volt, {}),
+                again = run_virtual_bench(damper, DriveUnit::Volt, {});
   BenchOptions other;
   other.seed = 2;
-  const Dataset different = run_virtual_bench(damper, "V", other);
+  const Dataset different = run_virtual_bench(damper, DriveUnit::Volt, other);
   CHECK(once.records.size() == 20);
-  CHECK(once.drive_unit == "V");
+  CHECK(once.drive_unit == DriveUnit::Volt);
   CHECK(once.notes.at(0).find("\"law\":\"bingham\"") != std::string::npos);
   for (std::size_t k = 0; k < once.records.size(); ++k) {
     CHECK(once.records[k].channel("force").samples == again.records[k].channel("force").samples);
@@ -95,7 +95,7 @@ TEST_CASE("a bench that cannot run says why") {
   const auto message = [](auto change) {
     BenchOptions options;
     change(options);
-    return message_of([&] { run_virtual_bench(viscous(), "A", options); });
+    return message_of([&] { run_virtual_bench(viscous(), DriveUnit::Ampere, options); });
   };
   CHECK(message([](BenchOptions& o) { o.motions.clear(); }).find("no motion") != std::string::npos);
   CHECK(message([](BenchOptions& o) { o.motions = {{0.01, 200}}; }).find("200 Hz") !=
@@ -104,6 +104,6 @@ TEST_CASE("a bench that cannot run says why") {
         std::string::npos);
   CHECK(message([](BenchOptions& o) { o.sample_rate = 1e12; }).find("at most 1e+08") !=
         std::string::npos);
-  CHECK(message_of([] { run_virtual_bench(viscous(), "mA", {}); }).find("write A or V") !=
+  CHECK(message_of([] { run_virtual_bench(viscous(), DriveUnit::None, {}); }).find("no drive") !=
         std::string::npos);
 }

@@ -1,8 +1,8 @@
 #include <filesystem>
 
 #include "damper/kinds/family/example_family.h"
-#include "dashpot/base/error.h"
 #include "dashpot/design/design.h"
+#include "dashpot/error.h"
 #include "dashpot/report/design_report.h"
 #include "support.h"
 

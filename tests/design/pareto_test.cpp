@@ -4,7 +4,7 @@
 #include <atomic>
 #include <cmath>
 
-#include "dashpot/base/error.h"
+#include "dashpot/error.h"
 #include "support.h"
 
 using namespace dashpot;

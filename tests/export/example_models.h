@@ -12,7 +12,8 @@
 #include "dashpot/damper/kinds/law/law_model.h"
 #include "dashpot/damper/kinds/network/network_model.h"
 #include "dashpot/damper/registry.h"
-#include "dashpot/export/exporter.h"
+#include "dashpot/drive.h"
+#include "dashpot/export.h"
 
 struct ExampleModel {
   std::string name;  ///< a name in C
@@ -31,7 +32,7 @@ inline dashpot::LawModel example_law(const dashpot::Law& law) {
       d.coefficients.back() = {info.value, 1.5 * info.value, 0.7};
     if (info.fit == dashpot::Fit::Drive) d.coefficients.back() = {0, 1};
   }
-  return dashpot::LawModel(law, d, "A", 100);
+  return dashpot::LawModel(law, d, dashpot::DriveUnit::Ampere, 100);
 }
 
 /// Velocity and current, ten tanh neurons, random weights; a force of some 1 kN.

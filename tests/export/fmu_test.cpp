@@ -180,7 +180,7 @@ TEST_CASE("FMU: units have their SI factors") {
 TEST_CASE("FMU: a voltage-driven damper takes volts") {
   const ExampleModel& model = example("bouc_wen");
   ExportedModel volts = exported(*model.model);
-  volts.drive_unit = "V";
+  volts.drive_unit = DriveUnit::Volt;
   const std::string text = unzipped(fmu_of(volts, 3, sources_only())).at("modelDescription.xml");
   CHECK(text.find("name=\"u\"") != std::string::npos);
   CHECK(text.find("name=\"i\"") == std::string::npos);

@@ -163,7 +163,7 @@ TEST_CASE("FMU: a law's parameters can be set, within their bounds, and hold fro
     const std::size_t alpha = law.index_of("alpha"), k0 = law.index_of("k0");
     changed.coefficients[alpha][0] *= 1.5;
     changed.coefficients[k0][0] *= 0.5;
-    const LawModel other(law, changed, "A", 60);
+    const LawModel other(law, changed, DriveUnit::Ampere, 60);
     const std::string alpha_a = coefficient_name("alpha", changed.forms[alpha], 0);
     const unsigned k0_reference =
         fmu.reference("parameter." + coefficient_name("k0", changed.forms[k0], 0));

@@ -21,7 +21,7 @@ LawModel viscous() {
                                  ? std::vector{20.0}
                                  : std::vector{info.fit == Fit::Fixed ? info.value : 0.0});
   }
-  return LawModel(find_law("bingham"), d, "A", 100);
+  return LawModel(find_law("bingham"), d, DriveUnit::Ampere, 100);
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <unistd.h>
 
-#include "dashpot/base/error.h"
+#include "dashpot/error.h"
 
 namespace {
 

@@ -1,5 +1,5 @@
+#include "dashpot/dataset.h"
 #include "dashpot/record/conditions.h"
-#include "dashpot/record/dataset.h"
 #include "dashpot/record/readers/family_json.h"
 #include "fuzz.h"
 

@@ -16,8 +16,8 @@
 #include "dashpot/damper/kinds/hybrid/hybrid_model.h"
 #include "dashpot/damper/kinds/law/law_model.h"
 #include "dashpot/damper/kinds/network/network_model.h"
-#include "dashpot/damper/model_file.h"
 #include "dashpot/damper/parameter_set.h"
+#include "dashpot/model_file.h"
 #include "fuzz.h"
 
 namespace fs = std::filesystem;
@@ -81,7 +81,7 @@ std::string daq_seed() {
   return text;
 }
 
-std::string model_seed(std::unique_ptr<dashpot::DamperModel> model, const std::string& drive_unit) {
+std::string model_seed(std::unique_ptr<dashpot::DamperModel> model, DriveUnit drive_unit) {
   dashpot::ModelFile file;
   file.model = std::move(model);
   file.drive_unit = drive_unit;
@@ -101,15 +101,17 @@ void model_seeds(const fs::path& folder) {
       folder / "fuzzy",
       model_seed(std::make_unique<FuzzyModel>(
                      "anfis", FuzzyInputs({"velocity", "current"}, {0.01, 0.02}, "seed"), sugeno),
-                 "A"));
+                 DriveUnit::Ampere));
   write_file(folder / "family_gates",
-             model_seed(example_family(dashpot::FamilyTarget::Residual).with_offset(0), "A"));
-  write_file(folder / "family_network", model_seed(example_family_network().with_offset(0), "A"));
+             model_seed(example_family(dashpot::FamilyTarget::Residual).with_offset(0),
+                        DriveUnit::Ampere));
+  write_file(folder / "family_network",
+             model_seed(example_family_network().with_offset(0), DriveUnit::Ampere));
   const Regressors regressors = example_regressors();
   write_file(folder / "narx",
              model_seed(std::make_unique<NarxModel>("narx_one_sensor", regressors,
                                                     std::vector{example_narx_network(regressors)}),
-                        "A"));
+                        DriveUnit::Ampere));
   Mlp mlp;
   mlp.layers = {2, 1, 1};
   mlp.parameters = {0.1, 0.2, 0.3, 0.4, 0.5};
@@ -119,15 +121,15 @@ void model_seeds(const fs::path& folder) {
     write_file(folder / ("network_" + std::to_string(members)),
                model_seed(std::make_unique<NetworkModel>("mlp_one_sensor", inputs,
                                                          std::vector(members, mlp)),
-                          "A"));
+                          DriveUnit::Ampere));
   write_file(folder / "hysteresis_network",
              model_seed(std::make_unique<HysteresisNetworkModel>(
                             "hysteresis_network", std::vector{example_hysteresis_network()}),
-                        "A"));
+                        DriveUnit::Ampere));
   write_file(folder / "state_space",
              model_seed(std::make_unique<StateSpaceModel>("neural_state_space",
                                                           std::vector{example_state_space()}),
-                        "A"));
+                        DriveUnit::Ampere));
   write_file(folder / "hybrid",
              model_seed(std::make_unique<HybridModel>(example_hybrid()), law.drive_unit()));
 }

@@ -32,7 +32,8 @@ void put(const fs::path& file, const std::string& content) {
   fuzz_file((file.parent_path().filename() / file.filename()).string(), content);
 }
 
-const std::string kModel = "bingham", kDrive = "A";
+const std::string kModel = "bingham";
+const DriveUnit kDrive = DriveUnit::Ampere;
 
 /// A store with one fit in it.
 struct KeptFit {

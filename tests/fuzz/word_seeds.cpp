@@ -2,8 +2,8 @@
 #include <vector>
 
 #include "dashpot/base/file.h"
+#include "dashpot/controller.h"
 #include "dashpot/record/excitation.h"
-#include "dashpot/suspension/control/controller.h"
 #include "dashpot/suspension/ground/ground_sequences.h"
 #include "fuzz.h"
 

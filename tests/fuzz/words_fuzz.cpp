@@ -1,10 +1,10 @@
 #include "dashpot/base/units.h"
-#include "dashpot/base/value.h"
 #include "dashpot/identify/fit/network_design.h"
 #include "dashpot/identify/fit/parameter_choice.h"
 #include "dashpot/identify/search/search_space.h"
 #include "dashpot/record/channel_names.h"
 #include "dashpot/record/excitation.h"
+#include "dashpot/value.h"
 #include "fuzz.h"
 
 // Words of options, units and names of columns; JSON and YAML below all files.

@@ -3,7 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "dashpot/record/dataset.h"
+#include "dashpot/dataset.h"
+#include "dashpot/drive.h"
 
 namespace dashpot {
 
@@ -12,7 +13,7 @@ namespace dashpot {
 inline Dataset small_family() {
   Dataset family;
   family.name = "small";
-  family.drive_unit = "A";
+  family.drive_unit = DriveUnit::Ampere;
   for (const double viscosity : {0.28, 0.042})
     for (const double length : {0.006, 0.01})
       for (const double gap : {0.001, 0.002})

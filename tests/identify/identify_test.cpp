@@ -1,11 +1,12 @@
-#include "dashpot/identify/identify.h"
+#include "dashpot/identify.h"
 
 #include <atomic>
 
-#include "dashpot/base/error.h"
 #include "dashpot/damper/parameter_set.h"
 #include "dashpot/damper/registry.h"
 #include "dashpot/damper/virtual_bench.h"
+#include "dashpot/error.h"
+#include "dashpot/rank.h"
 #include "support.h"
 
 using namespace dashpot;
@@ -19,14 +20,14 @@ Dataset small_campaign() {
   options.drive_levels = {0, 0.5, 1};
   options.sample_rate = 200;
   options.cycles = 2;
-  return run_virtual_bench(load_parameters("kwok2006"), "A", options);
+  return run_virtual_bench(load_parameters("kwok2006"), DriveUnit::Ampere, options);
 }
 
 }  // namespace
 
 TEST_CASE("known parameters lie in their intervals, give or take the odds") {
   const Dataset data = small_campaign();
-  const FitReport report = identify("tanh_kwok", data.records, "A", {});
+  const FitReport report = identify("tanh_kwok", data.records, DriveUnit::Ampere, {});
   CHECK(report.status == FitReport::Status::Converged);
   const LawModel truth = load_parameters("kwok2006");
   std::vector<double> p(truth.law().params.size());
@@ -48,7 +49,7 @@ TEST_CASE("known parameters lie in their intervals, give or take the odds") {
 
 TEST_CASE("offsets of the records are found") {
   const Dataset data = small_campaign();
-  const FitReport report = identify("tanh_kwok", data.records, "A", {});
+  const FitReport report = identify("tanh_kwok", data.records, DriveUnit::Ampere, {});
   REQUIRE(report.offsets.size() == data.records.size());
   double sum = 0;
   for (const auto& [record, offset] : report.offsets) sum += offset;
@@ -84,7 +85,7 @@ TEST_CASE("the saved model is the ranked one, with its domain and where it comes
   CHECK_CLOSE(file.domain.displacement_max, 0.01, 0.01, 0);
   CHECK(file.provenance.training_records.size() == data.records.size());
   const ModelFile again = parse_model(format_model(file), "again");
-  const Evaluation e = evaluate(*again.model, data.records, "A");
+  const Evaluation e = evaluate(*again.model, data.records, DriveUnit::Ampere);
   CHECK_CLOSE(e.pooled.rmse, ranking.models[0].training.pooled.rmse, 1e-3, 0);
 }
 
@@ -98,21 +99,22 @@ TEST_CASE("a monitor stops a fit") {
   options.monitor.stop = &stop;
   for (const std::string& model : model_names()) {
     CAPTURE(model);
-    CHECK_THROWS_AS(identify(model, data.records, "A", options), Interrupted);
+    CHECK_THROWS_AS(identify(model, data.records, DriveUnit::Ampere, options), Interrupted);
   }
 }
 
 TEST_CASE("records that cannot serve are refused in words") {
-  CHECK(message_of([] { identify("bingham", {}, "A", {}); }) ==
+  CHECK(message_of([] { identify("bingham", {}, DriveUnit::Ampere, {}); }) ==
         "bingham: there is no record to fit it on");
   Dataset data = small_campaign();
   for (Record& record : data.records)
     std::erase_if(record.channels, [](const Channel& c) { return c.name == "displacement"; });
   CHECK(message_of([&] {
-          identify("tanh_kwok", data.records, "A", {});
+          identify("tanh_kwok", data.records, DriveUnit::Ampere, {});
         }).find("has no displacement") != std::string::npos);
   for (Record& record : data.records)
     for (double& v : record.find("velocity")->samples) v = 0;
-  CHECK(message_of([&] { identify("bingham", data.records, "A", {}); }).find("nothing moves") !=
-        std::string::npos);
+  CHECK(message_of([&] {
+          identify("bingham", data.records, DriveUnit::Ampere, {});
+        }).find("nothing moves") != std::string::npos);
 }

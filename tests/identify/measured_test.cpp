@@ -4,7 +4,8 @@
 
 #include "dashpot/base/file.h"
 #include "dashpot/damper/parameter_set.h"
-#include "dashpot/identify/identify.h"
+#include "dashpot/identify.h"
+#include "dashpot/rank.h"
 #include "support.h"
 
 using namespace dashpot;
@@ -149,7 +150,8 @@ TEST_CASE("sysidentpy: the stated parameters meet the second half of the data an
   const auto rmse = [&](std::size_t first, std::size_t last) {
     Record part = record.slice(0, last);
     part.warm_up = first;
-    return evaluate(load_parameters("leva_piroddi2002"), {part}, "V", {.offset = OffsetMode::None})
+    return evaluate(load_parameters("leva_piroddi2002"), {part}, DriveUnit::Volt,
+                    {.offset = OffsetMode::None})
         .pooled.rmse;
   };
   // What the dataset file of the exchanged halves and the parameter file say of these recordings,

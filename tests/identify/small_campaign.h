@@ -1,6 +1,7 @@
 #pragma once
 #include "dashpot/damper/parameter_set.h"
 #include "dashpot/damper/virtual_bench.h"
+#include "dashpot/drive.h"
 
 namespace dashpot {
 
@@ -18,7 +19,7 @@ inline Dataset small_campaign(std::vector<SineMotion> motions, const SmallCampai
   bench.sample_rate = options.sample_rate;
   bench.cycles = 1;
   bench.force_noise = 0;
-  return run_virtual_bench(load_parameters("kwok2006"), "A", bench);
+  return run_virtual_bench(load_parameters("kwok2006"), DriveUnit::Ampere, bench);
 }
 
 }  // namespace dashpot

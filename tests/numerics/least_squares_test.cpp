@@ -6,7 +6,7 @@
 #include <limits>
 #include <unistd.h>
 
-#include "dashpot/base/error.h"
+#include "dashpot/error.h"
 #include "support.h"
 
 using namespace dashpot;

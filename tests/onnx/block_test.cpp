@@ -5,6 +5,7 @@
 #include "conformance/c_compile.h"
 #include "conformance/control_cases.h"
 #include "dashpot/export/c/c_model.h"
+#include "dashpot/export/c/c_text.h"
 #include "dashpot/export/onnx/onnx.h"
 #include "runtime.h"
 

@@ -3,8 +3,8 @@
 #include <filesystem>
 
 #include "dashpot/base/text.h"
-#include "dashpot/base/value.h"
 #include "dashpot/export/c/c_block.h"
+#include "dashpot/value.h"
 #include "support.h"
 
 using Rows = std::vector<std::vector<double>>;

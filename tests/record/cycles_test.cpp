@@ -2,7 +2,7 @@
 
 #include <numbers>
 
-#include "dashpot/record/dataset.h"
+#include "dashpot/dataset.h"
 #include "support.h"
 
 using namespace dashpot;

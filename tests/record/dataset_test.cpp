@@ -1,4 +1,4 @@
-#include "dashpot/record/dataset.h"
+#include "dashpot/dataset.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 
 #include "dashpot/base/file.h"
 #include "dashpot/record/dataset_file.h"
-#include "dashpot/record/split.h"
+#include "dashpot/split.h"
 #include "support.h"
 
 using namespace dashpot;
@@ -48,7 +48,7 @@ TEST_CASE("a folder of CSV files is understood by its names") {
   folder.write("notes.txt", "nothing but words\n");
   const Dataset dataset = load(folder.path());
   REQUIRE(dataset.records.size() == 2);
-  CHECK(dataset.drive_unit == "A");
+  CHECK(dataset.drive_unit == DriveUnit::Ampere);
   CHECK(*dataset.records[0].drive_level == 0);
   CHECK(*dataset.records[1].drive_level == 0.5);
   CHECK(dataset.records[0].condition == "10 mm 1 Hz");
@@ -128,7 +128,7 @@ files:
   CHECK(has(record.channel("velocity").origin, "12 Hz zero-phase (stated)"));
   CHECK_CLOSE(record.conditions.at(0).second, 298.15, 1e-12, 0);
   CHECK(!record.drive_level);
-  CHECK(dataset.drive_unit == "V");
+  CHECK(dataset.drive_unit == DriveUnit::Volt);
   CHECK(format_leave_out(*dataset.leave_out) == "fraction=0.25");
 }
 
@@ -204,14 +204,14 @@ TEST_CASE("the shipped dataset files recognise the measured recordings") {
     if (path.empty()) return;
     const Dataset dataset = load(path);
     CHECK(dataset.name == shipped.name);
-    CHECK(dataset.drive_unit == shipped.drive);
+    CHECK(to_string(dataset.drive_unit) == shipped.drive);
     CHECK(dataset.records.size() == shipped.records);
     REQUIRE(dataset.leave_out);
     CHECK(split(dataset, *dataset.leave_out).size() == shipped.folds);
     for (const Record& record : dataset.records) {
       CHECK(record.sample_time > 0);
       CHECK(record.find("velocity"));
-      CHECK(record.find(dataset.drive_unit == "A" ? "current" : "voltage"));
+      CHECK(record.find(dataset.drive_unit == DriveUnit::Ampere ? "current" : "voltage"));
     }
   }
 }

@@ -1,4 +1,4 @@
-#include "dashpot/record/record.h"
+#include "dashpot/record.h"
 
 #include "support.h"
 

@@ -1,5 +1,6 @@
-#include "dashpot/record/split.h"
+#include "dashpot/split.h"
 
+#include "dashpot/record/trial_parts.h"
 #include "support.h"
 
 using namespace dashpot;

@@ -25,7 +25,7 @@ TEST_CASE("leaderboard: thirty models within 100 columns, each with its figures"
     CHECK(contains(lines[0], title));
   CHECK(contains(lines[2], "modified_bouc_wen"));
   CHECK(contains(lines[31], "1 diverged"));
-  CHECK(contains(breakdown_table(example.ranking, "A"), "0.8 A"));
+  CHECK(contains(breakdown_table(example.ranking, DriveUnit::Ampere), "0.8 A"));
 }
 
 TEST_CASE("leaderboard: a fit that failed stands in the table without figures") {
@@ -36,7 +36,7 @@ TEST_CASE("leaderboard: a fit that failed stands in the table without figures") 
   CHECK(contains(lines[4], "bingham"));
   CHECK(contains(lines[4], "fit failed"));
   CHECK(!contains(lines[4], "yes"));
-  CHECK(!contains(breakdown_table(example.ranking, "A", 160), "bingham"));
+  CHECK(!contains(breakdown_table(example.ranking, DriveUnit::Ampere, 160), "bingham"));
 }
 
 TEST_CASE("what a model does beyond its data, in a word") {

@@ -1,13 +1,13 @@
-#include "dashpot/suspension/simulate.h"
+#include "dashpot/simulate.h"
 
 #include <cmath>
 #include <numbers>
 
 #include "dashpot/damper/parameter_set.h"
 #include "dashpot/damper/registry.h"
+#include "dashpot/plant.h"
 #include "dashpot/suspension/ground/deterministic.h"
 #include "dashpot/suspension/ground/ground_sequences.h"
-#include "dashpot/suspension/plants/plant_set.h"
 #include "dashpot/suspension/ride/ride.h"
 #include "dashpot/suspension/steps/integrator.h"
 #include "support.h"
@@ -24,8 +24,9 @@ MountedDamper linear_damper(double soft, double hard, double lag_rate = 0) {
     parameters.forms.push_back(damping ? Form::Linear : Form::Constant);
     parameters.coefficients.push_back(damping ? std::vector{soft, hard - soft} : std::vector{0.0});
   }
-  return {.model = std::make_shared<LawModel>(find_law("bingham"), parameters, "A", 0),
-          .driver = {.current_min = 0, .current_max = 1, .lag_rate = lag_rate}};
+  return {
+      .model = std::make_shared<LawModel>(find_law("bingham"), parameters, DriveUnit::Ampere, 0),
+      .driver = {.current_min = 0, .current_max = 1, .lag_rate = lag_rate}};
 }
 
 /// The prototype of Spencer et al. without its accumulator's force, at a voltage.
@@ -33,10 +34,10 @@ MountedDamper spencer_damper(double voltage) {
   const LawModel published = load_parameters("spencer1997");
   Dependence parameters = published.parameters();
   parameters.coefficients[published.law().index_of("x0")] = {0};
-  return {
-      .model = std::make_shared<LawModel>(published.law(), parameters, "V", published.lag_rate()),
-      .driver = {.current_min = 0, .current_max = 2.25},
-      .current = voltage};
+  return {.model = std::make_shared<LawModel>(published.law(), parameters, DriveUnit::Volt,
+                                              published.lag_rate()),
+          .driver = {.current_min = 0, .current_max = 2.25},
+          .current = voltage};
 }
 
 double greatest(const Trace& trace, const char* channel) {

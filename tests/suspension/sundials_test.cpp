@@ -11,9 +11,9 @@
 #include "dashpot/damper/kinds/law/law_model.h"
 #include "dashpot/damper/kinds/network/network_model.h"
 #include "dashpot/damper/parameter_set.h"
+#include "dashpot/plant.h"
 #include "dashpot/suspension/ground/ground_sequences.h"
 #include "dashpot/suspension/lanes/batch.h"
-#include "dashpot/suspension/plants/plant_set.h"
 #include "support.h"
 
 using namespace dashpot;
@@ -164,7 +164,8 @@ std::shared_ptr<const DamperModel> spencer_model() {
   const LawModel published = load_parameters("spencer1997");
   Dependence parameters = published.parameters();
   parameters.coefficients[published.law().index_of("x0")] = {0};
-  return std::make_shared<LawModel>(published.law(), parameters, "V", published.lag_rate());
+  return std::make_shared<LawModel>(published.law(), parameters, DriveUnit::Volt,
+                                    published.lag_rate());
 }
 
 /// Spencer et al. 1997 with Dyke et al.'s voltage laws, in SI: states y, z and the coil's voltage,

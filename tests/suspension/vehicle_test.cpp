@@ -1,10 +1,11 @@
-#include "dashpot/suspension/vehicle.h"
+#include "dashpot/vehicle.h"
 
 #include <numbers>
 
-#include "dashpot/damper/model_file.h"
 #include "dashpot/damper/parameter_set.h"
 #include "dashpot/damper/registry.h"
+#include "dashpot/model_file.h"
+#include "dashpot/suspension/damper_state.h"
 #include "dashpot/suspension/damper_words.h"
 #include "dashpot/suspension/domain_use.h"
 #include "dashpot/suspension/ground/ground_sequences.h"
@@ -35,7 +36,7 @@ TEST_CASE("dampers by words") {
   CHECK(ideal.motion_ratio == 0.5);
   CHECK_CLOSE(ideal.lag_rate, 2 * std::numbers::pi * 50, 1e-12, 0);
   const ChosenDamper spencer = choose_damper("spencer1997,x0=0");
-  CHECK(spencer.drive_unit == "V");
+  CHECK(spencer.drive_unit == DriveUnit::Volt);
   CHECK(spencer.drive_max == 2.25);
   CHECK(spencer.lag_rate == 190);
   CHECK(force(spencer, 0, 0) == 0);  // no accumulator's force

@@ -9,7 +9,7 @@
 
 #include <sys/wait.h>
 
-#include "dashpot/base/error.h"
+#include "dashpot/error.h"
 
 namespace dashpot {
 

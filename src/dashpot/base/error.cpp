@@ -1,4 +1,4 @@
-#include "dashpot/base/error.h"
+#include "dashpot/error.h"
 
 namespace dashpot {
 

@@ -12,7 +12,7 @@
 #include <sys/stat.h>
 #include <sys/types.h>
 
-#include "dashpot/base/error.h"
+#include "dashpot/error.h"
 
 namespace fs = std::filesystem;
 

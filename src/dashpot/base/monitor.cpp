@@ -1,8 +1,8 @@
-#include "dashpot/base/monitor.h"
+#include "dashpot/monitor.h"
 
 #include <mutex>
 
-#include "dashpot/base/error.h"
+#include "dashpot/error.h"
 
 namespace dashpot {
 

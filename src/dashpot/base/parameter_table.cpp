@@ -1,11 +1,11 @@
-#include "dashpot/base/parameter_table.h"
+#include "dashpot/parameter_table.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
 #include "dashpot/base/units.h"
+#include "dashpot/error.h"
 
 namespace dashpot {
 namespace {

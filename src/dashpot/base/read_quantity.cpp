@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/units.h"
+#include "dashpot/error.h"
 
 namespace dashpot {
 

@@ -1,7 +1,7 @@
 #pragma once
 #include <string_view>
 
-#include "dashpot/base/value.h"
+#include "dashpot/value.h"
 
 namespace dashpot {
 

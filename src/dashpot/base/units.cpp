@@ -4,8 +4,8 @@
 #include <cmath>
 #include <vector>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
+#include "dashpot/error.h"
 
 namespace dashpot {
 namespace {
@@ -204,13 +204,13 @@ double parse_quantity(std::string_view text, std::string_view si_unit, const std
   return unit.factor * number + unit.offset;
 }
 
-std::string with_drive_unit(std::string_view unit, std::string_view drive_unit) {
+std::string with_drive_unit(std::string_view unit, DriveUnit drive_unit) {
   std::string out(unit);
-  if (drive_unit == "A") return out;
+  if (drive_unit == DriveUnit::Ampere) return out;
   for (std::size_t k = 0; k < out.size(); ++k) {
     const bool starts = k == 0 || !std::isalpha(static_cast<unsigned char>(out[k - 1]));
     const bool ends = k + 1 == out.size() || !std::isalpha(static_cast<unsigned char>(out[k + 1]));
-    if (out[k] == 'A' && starts && ends) out.replace(k, 1, drive_unit);
+    if (out[k] == 'A' && starts && ends) out.replace(k, 1, to_string(drive_unit));
   }
   return out;
 }

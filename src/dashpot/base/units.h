@@ -4,6 +4,8 @@
 #include <string>
 #include <string_view>
 
+#include "dashpot/drive.h"
+
 namespace dashpot {
 
 /// Exponents of the SI base units kg, m, s, A, K.
@@ -30,6 +32,6 @@ double parse_quantity(std::string_view text, std::string_view si_unit, const std
 
 /// `unit` (an SI unit text with powers of A, as in a law's table) with V in place of A: parameters
 /// of a model that is driven by a voltage. "N*s/(m*A)" -> "N*s/(m*V)".
-std::string with_drive_unit(std::string_view unit, std::string_view drive_unit);
+std::string with_drive_unit(std::string_view unit, DriveUnit drive_unit);
 
 }  // namespace dashpot

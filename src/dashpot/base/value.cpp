@@ -1,9 +1,9 @@
-#include "dashpot/base/value.h"
+#include "dashpot/value.h"
 
 #include <algorithm>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
+#include "dashpot/error.h"
 
 namespace dashpot {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "dashpot/base/error.h"
-#include "dashpot/base/value.h"
+#include "dashpot/error.h"
+#include "dashpot/value.h"
 
 // The only file that includes the JSON library.
 namespace dashpot {

@@ -1,8 +1,8 @@
 #include <yaml-cpp/yaml.h>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
-#include "dashpot/base/value.h"
+#include "dashpot/error.h"
+#include "dashpot/value.h"
 
 // The only file that includes the YAML library.
 namespace dashpot {

@@ -35,8 +35,8 @@ BenchTest sequence_test(const std::string& motion, std::uint64_t seed, const std
   return test;
 }
 
-BenchTest at_level(BenchTest test, double level, const std::string& drive_unit) {
-  test.name = test.condition + ", " + format_number(level) + " " + drive_unit;
+BenchTest at_level(BenchTest test, double level, DriveUnit drive_unit) {
+  test.name = test.condition + ", " + format_number(level) + " " + to_string(drive_unit);
   test.drive.at = [level](double) { return level; };
   test.level = level;
   return test;

@@ -2,6 +2,7 @@
 #include <optional>
 #include <string>
 
+#include "dashpot/drive.h"
 #include "dashpot/record/excitation.h"
 
 namespace dashpot {
@@ -28,7 +29,7 @@ BenchTest sequence_test(const std::string& motion, std::uint64_t seed,
 
 /// The same motion under a constant drive, and under a sequence (see make_drive), which lasts as
 /// long.
-BenchTest at_level(BenchTest test, double level, const std::string& drive_unit);
+BenchTest at_level(BenchTest test, double level, DriveUnit drive_unit);
 BenchTest under_sequence(BenchTest test, const std::string& drive, DriveFrame frame,
                          const std::string& where = "drive");
 

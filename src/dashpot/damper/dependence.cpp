@@ -4,8 +4,8 @@
 #include <cmath>
 #include <utility>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
+#include "dashpot/error.h"
 
 namespace dashpot {
 namespace {
@@ -45,8 +45,8 @@ std::string coefficient_name(std::string_view param, Form form, std::size_t inde
 }
 
 std::string coefficient_unit(std::string_view unit, Form form, std::size_t index,
-                             std::string_view drive_unit) {
-  std::string text(unit), drive(drive_unit);
+                             DriveUnit drive_unit) {
+  std::string text(unit), drive(to_string(drive_unit));
   if (form == Form::Exponential) return index < 2 ? text : "1/" + drive;
   if (index == 0) return text;
   if (index > 1) drive.append("^").append(std::to_string(index));

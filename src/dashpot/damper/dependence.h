@@ -4,13 +4,10 @@
 #include <string_view>
 #include <vector>
 
-namespace dashpot {
+#include "dashpot/drive.h"
+#include "dashpot/fit_choices.h"
 
-/// How a parameter depends on the coil current i. The polynomials stand in the order of their
-/// degree:
-///   Constant p_a;  Linear p_a + p_b i;  Quadratic ... + p_c i^2;  Cubic ... + p_d i^3;
-///   Exponential p_b + (p_a - p_b) exp(-p_c i): from p_a without current to p_b in saturation.
-enum class Form { Constant, Linear, Quadratic, Cubic, Exponential };
+namespace dashpot {
 
 std::string_view name_of(Form form);
 Form parse_form(std::string_view text, const std::string& where);  ///< throws Error
@@ -33,6 +30,6 @@ std::string coefficient_name(std::string_view param, Form form, std::size_t inde
 /// The coefficient's unit: "N*s/m" -> "N*s/(m*A)" for the linear one ("V" for a voltage-driven
 /// model).
 std::string coefficient_unit(std::string_view unit, Form form, std::size_t index,
-                             std::string_view drive_unit);
+                             DriveUnit drive_unit);
 
 }  // namespace dashpot

@@ -1,10 +1,10 @@
-#include "dashpot/damper/driver.h"
+#include "dashpot/driver.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
+#include "dashpot/error.h"
 
 namespace dashpot {
 

@@ -1,7 +1,7 @@
 #include "dashpot/damper/file_parts.h"
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
+#include "dashpot/error.h"
 
 namespace dashpot {
 namespace {
@@ -14,15 +14,20 @@ struct Axis {
   double Domain::* max;
 };
 
-std::vector<Axis> axes(const std::string& drive_unit) {
+std::vector<Axis> axes(DriveUnit drive_unit) {
   return {{"displacement", "m", &Domain::displacement_min, &Domain::displacement_max},
           {"velocity", "m/s", &Domain::velocity_min, &Domain::velocity_max},
-          {"drive", drive_unit, &Domain::current_min, &Domain::current_max}};
+          {"drive", to_string(drive_unit), &Domain::current_min, &Domain::current_max}};
 }
 
 }  // namespace
 
-Value to_json(const Domain& domain, const std::string& drive_unit) {
+DriveUnit read_drive_unit(ObjectReader& reader) {
+  const Value& unit = reader.required("drive_unit");
+  return parse_drive_unit(unit.as_string(), unit.where());
+}
+
+Value to_json(const Domain& domain, DriveUnit drive_unit) {
   Value out = Value::object();
   for (const Axis& axis : axes(drive_unit))
     out.add(
@@ -31,7 +36,7 @@ Value to_json(const Domain& domain, const std::string& drive_unit) {
   return out;
 }
 
-Domain read_domain(const Value& value, const std::string& drive_unit) {
+Domain read_domain(const Value& value, DriveUnit drive_unit) {
   Domain domain;
   ObjectReader reader(value, "the domain");
   for (const Axis& axis : axes(drive_unit)) {

@@ -2,8 +2,9 @@
 #include <string>
 #include <string_view>
 
-#include "dashpot/base/value.h"
-#include "dashpot/damper/model_file.h"
+#include "dashpot/drive.h"
+#include "dashpot/model_file.h"
+#include "dashpot/value.h"
 
 // What the files of models and of inverses have in common.
 namespace dashpot {
@@ -15,9 +16,13 @@ struct FileFormat {
 /// Reads "format" and "version". Throws Error where they are others.
 void require_format(ObjectReader& reader, const FileFormat& format);
 
-Value to_json(const Domain& domain, const std::string& drive_unit);
+/// The key "drive_unit" of a model file or of a part of it. Throws Error where it is neither A nor
+/// V.
+DriveUnit read_drive_unit(ObjectReader& reader);
+
+Value to_json(const Domain& domain, DriveUnit drive_unit);
 /// Throws Error naming the key on anything unknown, missing, in another unit or out of order.
-Domain read_domain(const Value& value, const std::string& drive_unit);
+Domain read_domain(const Value& value, DriveUnit drive_unit);
 
 Value to_json(const Provenance& from);
 Provenance read_provenance(const Value& value);

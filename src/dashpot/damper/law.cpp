@@ -1,7 +1,7 @@
 #include "dashpot/damper/law.h"
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
+#include "dashpot/error.h"
 
 namespace dashpot {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "dashpot/damper/dependence.h"
-#include "dashpot/damper/input.h"
+#include "dashpot/damper_input.h"
 
 namespace dashpot {
 

@@ -1,6 +1,6 @@
-#include "dashpot/damper/model.h"
-
 #include <cmath>
+
+#include "dashpot/damper_model.h"
 
 namespace dashpot {
 

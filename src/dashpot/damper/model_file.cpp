@@ -1,11 +1,11 @@
-#include "dashpot/damper/model_file.h"
+#include "dashpot/model_file.h"
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/file.h"
 #include "dashpot/base/text.h"
 #include "dashpot/damper/file_parts.h"
 #include "dashpot/damper/kinds/law/law_model.h"
 #include "dashpot/damper/registry.h"
+#include "dashpot/error.h"
 
 namespace dashpot {
 namespace {
@@ -15,8 +15,8 @@ constexpr FileFormat kFormat{"dashpot-model", "a model file", 1};
 /// A law says its drive unit itself, and its parameters have bounds all over the file's domain.
 void require_law(const LawModel& law, const ModelFile& file, const std::string& where) {
   if (law.drive_unit() != file.drive_unit)
-    throw Error(where,
-                "drive_unit is " + law.drive_unit() + ", but " + file.drive_unit + " for the file");
+    throw Error(where, "drive_unit is " + to_string(law.drive_unit()) + ", but " +
+                           to_string(file.drive_unit) + " for the file");
   require_bounds(law, file.domain.current_min, where);
   require_bounds(law, file.domain.current_max, where);
 }
@@ -27,7 +27,7 @@ std::string format_model(const ModelFile& file) {
   Value document = Value::object({{"format", kFormat.name},
                                   {"version", kFormat.version},
                                   {"kind", name_of(file.model->kind())},
-                                  {"drive_unit", file.drive_unit},
+                                  {"drive_unit", to_string(file.drive_unit)},
                                   {"sample_time", file.sample_time},
                                   {"domain", to_json(file.domain, file.drive_unit)},
                                   {"model", file.model->to_json()},
@@ -45,7 +45,7 @@ ModelFile parse_model(std::string_view text, const std::string& source) {
   // Read what the model is for.
   ModelFile file;
   const Value& kind = reader.required("kind");
-  file.drive_unit = reader.string("drive_unit");
+  file.drive_unit = read_drive_unit(reader);
   file.sample_time = reader.number("sample_time");
   if (!(file.sample_time >= 0))
     throw Error(reader.required("sample_time").where(), "is negative",

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
+#include "dashpot/error.h"
 
 namespace dashpot {
 

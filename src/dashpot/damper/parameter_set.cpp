@@ -4,9 +4,9 @@
 #include <filesystem>
 
 #include "dashpot/base/data_folder.h"
-#include "dashpot/base/error.h"
 #include "dashpot/base/file.h"
 #include "dashpot/base/text.h"
+#include "dashpot/error.h"
 
 namespace fs = std::filesystem;
 

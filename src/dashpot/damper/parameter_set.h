@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "dashpot/damper/kinds/law/law_model.h"
-#include "dashpot/damper/model_file.h"
+#include "dashpot/model_file.h"
 
 namespace dashpot {
 

@@ -18,6 +18,7 @@
 #include "dashpot/damper/kinds/network/presets.h"
 #include "dashpot/damper/kinds/state_space/presets.h"
 #include "dashpot/damper/kinds/state_space/state_space_model.h"
+#include "dashpot/error.h"
 
 namespace dashpot {
 namespace {

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "dashpot/damper/law_list.h"
-#include "dashpot/damper/model.h"
 #include "dashpot/damper/model_info.h"
+#include "dashpot/damper_model.h"
 
 // Every model that is known by name, laws first, then the presets of the other kinds.
 namespace dashpot {

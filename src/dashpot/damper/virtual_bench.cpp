@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/random.h"
 #include "dashpot/base/text.h"
+#include "dashpot/error.h"
 #include "dashpot/record/differentiate.h"
 
 namespace dashpot {
@@ -78,7 +78,7 @@ Channel derived_velocity(const std::vector<double>& displacement, double dt) {
           "derived from displacement, " + format_number(cutoff) + " Hz zero-phase"};
 }
 
-Record run_test(const DamperModel& damper, const BenchTest& test, const std::string& drive_unit,
+Record run_test(const DamperModel& damper, const BenchTest& test, DriveUnit drive_unit,
                 const BenchOptions& options, Random& random) {
   Truth truth = simulate(damper, test, options);
   const double offset = options.force_offset * random.normal();
@@ -101,7 +101,7 @@ Record run_test(const DamperModel& damper, const BenchTest& test, const std::str
   record.channels.push_back({"displacement", "m", std::move(displacement), "simulated sensor"});
   record.channels.push_back(std::move(velocity));
   record.channels.push_back({"force", "N", std::move(force), "simulated load cell"});
-  record.channels.push_back({drive_unit == "V" ? "voltage" : "current", drive_unit,
+  record.channels.push_back({drive_channel(drive_unit), to_string(drive_unit),
                              std::move(truth.drive),
                              test.level ? "constant, as set" : "as commanded"});
   record.notes.push_back("true force offset " + format_number(offset, 6) + " N");
@@ -110,10 +110,10 @@ Record run_test(const DamperModel& damper, const BenchTest& test, const std::str
   return record;
 }
 
-void require_usable(const std::string& drive_unit, std::span<const BenchTest> tests,
+void require_usable(DriveUnit drive_unit, std::span<const BenchTest> tests,
                     const BenchOptions& options) {
-  if (drive_unit != "A" && drive_unit != "V")
-    throw Error("virtual bench", "drive unit '" + drive_unit + "'", "write A or V");
+  if (drive_unit == DriveUnit::None)
+    throw Error("virtual bench", "the damper has no drive", "a damper driven in A or V");
   if (tests.empty())
     throw Error("virtual bench", "no motion or no drive level", "give at least one of each");
   if (!(options.sample_rate > 0)) throw Error("virtual bench", "the sample rate must be above 0");
@@ -148,7 +148,7 @@ std::vector<BenchTest> bench_sines(const BenchOptions& options) {
   return tests;
 }
 
-Dataset run_virtual_bench(const DamperModel& damper, const std::string& drive_unit,
+Dataset run_virtual_bench(const DamperModel& damper, DriveUnit drive_unit,
                           const BenchOptions& options) {
   std::vector<BenchTest> tests;
   for (const BenchTest& sine : bench_sines(options))
@@ -157,7 +157,7 @@ Dataset run_virtual_bench(const DamperModel& damper, const std::string& drive_un
   return run_virtual_bench(damper, drive_unit, tests, options);
 }
 
-Dataset run_virtual_bench(const DamperModel& damper, const std::string& drive_unit,
+Dataset run_virtual_bench(const DamperModel& damper, DriveUnit drive_unit,
                           std::span<const BenchTest> tests, const BenchOptions& options) {
   require_usable(drive_unit, tests, options);
   Random random(options.seed);

@@ -5,8 +5,9 @@
 #include <vector>
 
 #include "dashpot/damper/bench_test.h"
-#include "dashpot/damper/model.h"
-#include "dashpot/record/dataset.h"
+#include "dashpot/damper_model.h"
+#include "dashpot/dataset.h"
+#include "dashpot/drive.h"
 
 namespace dashpot {
 
@@ -33,10 +34,10 @@ std::vector<BenchTest> bench_sines(const BenchOptions& options);
 /// The campaign as a dataset: channels displacement, force and drive, velocity derived as from a
 /// real recording unless there is a sensor. Conditions, drive levels and the true offsets (in the
 /// notes) are filled in.
-Dataset run_virtual_bench(const DamperModel& damper, const std::string& drive_unit,
+Dataset run_virtual_bench(const DamperModel& damper, DriveUnit drive_unit,
                           const BenchOptions& options);
 /// The same for any tests: of the options, those of the matrix do not count.
-Dataset run_virtual_bench(const DamperModel& damper, const std::string& drive_unit,
+Dataset run_virtual_bench(const DamperModel& damper, DriveUnit drive_unit,
                           std::span<const BenchTest> tests, const BenchOptions& options);
 
 }  // namespace dashpot

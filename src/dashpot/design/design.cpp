@@ -6,9 +6,9 @@
 
 #include <fmt/format.h>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
 #include "dashpot/design/model_limits.h"
+#include "dashpot/error.h"
 
 namespace dashpot {
 namespace {

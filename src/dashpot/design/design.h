@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "dashpot/base/monitor.h"
 #include "dashpot/design/conflict.h"
 #include "dashpot/design/pareto.h"
 #include "dashpot/design/sensitivity.h"
+#include "dashpot/monitor.h"
 
 namespace dashpot {
 

@@ -91,8 +91,8 @@ DesignLaw law_of_design(const DamperDescription& damper, const DesignRequest& re
   const LawFit& best = exponential.rms <= cubic.rms ? exponential : cubic;
   const double lag = 1 / model.evaluate(damper, {grid.current, grid.velocity}).time_constant;
   DesignLaw result{.rms_error = best.rms, .largest_force = grid.largest};
-  result.file.model =
-      std::make_unique<LawModel>(law, best.parameters, "A", std::isfinite(lag) ? lag : 0);
+  result.file.model = std::make_unique<LawModel>(law, best.parameters, DriveUnit::Ampere,
+                                                 std::isfinite(lag) ? lag : 0);
   result.file.domain = {-0.5 * damper.stroke, 0.5 * damper.stroke, -grid.velocity, grid.velocity, 0,
                         grid.current};
   result.file.provenance.dataset = damper.name;

@@ -1,6 +1,6 @@
 #pragma once
-#include "dashpot/damper/model_file.h"
 #include "dashpot/design/design_problem.h"
+#include "dashpot/model_file.h"
 
 namespace dashpot {
 

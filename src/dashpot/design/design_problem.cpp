@@ -5,8 +5,8 @@
 #include <cmath>
 #include <optional>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/random.h"
+#include "dashpot/error.h"
 
 namespace dashpot {
 namespace {

@@ -4,10 +4,10 @@
 #include <limits>
 #include <numbers>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
 #include "dashpot/damper/kinds/family/family_model.h"
 #include "dashpot/design/design_model.h"
+#include "dashpot/error.h"
 
 namespace dashpot {
 namespace {
@@ -125,8 +125,8 @@ std::unique_ptr<DesignModel> load_family_design_model(const std::filesystem::pat
   if (!model_as<FamilyModel>(*file.model))
     throw Error(path.string(), "is a model of one damper, not of a family",
                 "a file that 'dashpot identify --models family' wrote");
-  if (file.drive_unit != "A")
-    throw Error(path.string(), "is driven by " + file.drive_unit,
+  if (file.drive_unit != DriveUnit::Ampere)
+    throw Error(path.string(), "is driven by " + to_string(file.drive_unit),
                 "a family of coils whose current is known");
   return std::make_unique<FamilyDesignModel>(std::move(file));
 }

@@ -6,8 +6,8 @@
 #include <memory>
 #include <nlopt.h>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/parallel.h"
+#include "dashpot/error.h"
 #include "dashpot/numerics/global_search.h"
 
 namespace dashpot {

@@ -2,8 +2,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "dashpot/base/monitor.h"
 #include "dashpot/design/design_problem.h"
+#include "dashpot/monitor.h"
 
 namespace dashpot {
 

@@ -12,9 +12,9 @@
 #include <pagmo/problem.hpp>
 #include <pagmo/utils/multi_objective.hpp>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/parallel.h"
 #include "dashpot/base/random.h"
+#include "dashpot/error.h"
 
 namespace dashpot {
 namespace {

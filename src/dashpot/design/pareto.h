@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "dashpot/base/monitor.h"
+#include "dashpot/monitor.h"
 
 namespace dashpot {
 

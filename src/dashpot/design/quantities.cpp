@@ -6,8 +6,8 @@
 #include <numbers>
 #include <vector>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
+#include "dashpot/error.h"
 
 namespace dashpot {
 namespace {

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/parallel.h"
 #include "dashpot/base/random.h"
+#include "dashpot/error.h"
 
 namespace dashpot {
 namespace {

@@ -1,12 +1,11 @@
-#include "dashpot/export/exporter.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdlib>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
+#include "dashpot/error.h"
+#include "dashpot/export.h"
 #include "dashpot/export/c/c_block.h"
 #include "dashpot/export/c/c_source.h"
 #include "dashpot/export/c/c_wrappers.h"

@@ -1,11 +1,11 @@
-#include "dashpot/identify/identify.h"
+#include "dashpot/identify.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/parallel.h"
 #include "dashpot/damper/registry.h"
+#include "dashpot/error.h"
 #include "dashpot/identify/fit/fit.h"
 
 namespace dashpot {
@@ -22,8 +22,8 @@ void require_usable(const std::string& model, const std::vector<Record>& trainin
 
 /// Gives the model the mean offset of its training records as its bias, and reports what each
 /// record differs by.
-void settle_offsets(FitReport& report, const std::vector<Record>& training,
-                    const std::string& drive_unit, const IdentifyOptions& options) {
+void settle_offsets(FitReport& report, const std::vector<Record>& training, DriveUnit drive_unit,
+                    const IdentifyOptions& options) {
   if (options.offset == OffsetMode::None) return;
   const Evaluation on_training =
       evaluate(*report.model, training, drive_unit, {.threads = options.threads});
@@ -48,7 +48,7 @@ void settle_offsets(FitReport& report, const std::vector<Record>& training,
 }  // namespace
 
 FitReport identify(const std::string& model, const std::vector<Record>& training,
-                   const std::string& drive_unit, const IdentifyOptions& options) {
+                   DriveUnit drive_unit, const IdentifyOptions& options) {
   require_usable(model, training);
   const double begin = cpu_seconds();
   FitReport report = fit_of(model_info(model).kind).fit(model, training, drive_unit, options);

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
+#include "dashpot/error.h"
 
 namespace dashpot {
 namespace {

@@ -3,7 +3,7 @@
 #include <Eigen/Dense>
 #include <Eigen/Eigenvalues>
 
-#include "dashpot/base/error.h"
+#include "dashpot/error.h"
 
 namespace dashpot {
 namespace {

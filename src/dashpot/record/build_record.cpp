@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
+#include "dashpot/error.h"
 #include "dashpot/record/differentiate.h"
 #include "dashpot/record/time_base.h"
 
@@ -260,10 +260,10 @@ void doubt_units(Record& record, const ColumnUses& uses) {
 /// drive that is constant.
 void add_drive(Record& record, const std::optional<KnownLevel>& level) {
   if (level) {
-    const char* name = level->unit == "V" ? "voltage" : "current";
+    const std::string& name = drive_channel(level->unit);
     record.drive_level = level->value;
     if (!record.find(name))
-      record.channels.push_back({name, level->unit,
+      record.channels.push_back({name, to_string(level->unit),
                                  std::vector<double>(record.size(), level->value),
                                  "constant, from " + level->basis});
     return;

@@ -3,16 +3,17 @@
 #include <string>
 #include <vector>
 
+#include "dashpot/dataset.h"
+#include "dashpot/drive.h"
+#include "dashpot/record.h"
 #include "dashpot/record/columns.h"
-#include "dashpot/record/dataset.h"
-#include "dashpot/record/record.h"
 
 namespace dashpot {
 
 /// A drive level that is known from beside the table.
 struct KnownLevel {
   double value = 0;
-  std::string unit;   ///< "A" or "V"
+  DriveUnit unit = DriveUnit::Ampere;
   std::string basis;  ///< "manifest.csv", "file name"
 };
 

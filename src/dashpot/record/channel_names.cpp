@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "dashpot/base/text.h"
-#include "dashpot/record/record.h"
+#include "dashpot/record.h"
 
 namespace dashpot {
 namespace {

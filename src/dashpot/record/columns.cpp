@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <set>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
 #include "dashpot/base/units.h"
+#include "dashpot/error.h"
 #include "dashpot/record/channel_names.h"
 
 namespace dashpot {

@@ -93,7 +93,8 @@ NameParts split_name(std::string_view stem) {
     std::string rest = strip_separators(std::string(stem.substr(0, k))),
                 tail = strip_separators(std::string(stem.substr(unit + 1)));
     if (!rest.empty() && !tail.empty()) rest += "_";
-    return {KnownLevel{milli ? *value / 1000 : *value, std::string(1, stem[unit]), "file name"},
+    return {KnownLevel{milli ? *value / 1000 : *value,
+                       parse_drive_unit(stem.substr(unit, 1), "file name"), "file name"},
             rest + tail};
   }
   return {std::nullopt, std::string(stem)};

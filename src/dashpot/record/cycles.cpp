@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dashpot/base/error.h"
+#include "dashpot/error.h"
 
 namespace dashpot {
 namespace {

@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "dashpot/record/record.h"
+#include "dashpot/record.h"
 
 namespace dashpot {
 

@@ -4,12 +4,12 @@
 #include <cmath>
 
 #include "dashpot/base/data_folder.h"
-#include "dashpot/base/error.h"
 #include "dashpot/base/file.h"
 #include "dashpot/base/text.h"
 #include "dashpot/base/units.h"
-#include "dashpot/base/value.h"
+#include "dashpot/error.h"
 #include "dashpot/record/channel_names.h"
+#include "dashpot/value.h"
 
 namespace fs = std::filesystem;
 
@@ -225,11 +225,8 @@ DatasetFile load_dataset_file(const fs::path& path) {
   out.name = reader.string("name", path.stem().string());
   out.citation = reader.string("citation", "");
   out.root = path.parent_path() / reader.string("root", ".");
-
-  out.drive_unit = reader.string("drive", "");
-  if (!out.drive_unit.empty() && out.drive_unit != "A" && out.drive_unit != "V")
-    throw Error(reader.required("drive").where(), "drive '" + out.drive_unit + "' is unknown",
-                "'A' (current) or 'V' (voltage)");
+  if (const Value* drive = reader.optional("drive"); drive && !drive->as_string().empty())
+    out.drive_unit = parse_drive_unit(drive->as_string(), drive->where());
 
   // How the records are left out by default: its errors get the place in this file.
   out.manifest = reader.string("manifest", "");

@@ -6,8 +6,8 @@
 #include <variant>
 #include <vector>
 
-#include "dashpot/record/leave_out.h"
-#include "dashpot/record/record.h"
+#include "dashpot/dataset.h"
+#include "dashpot/drive.h"
 
 namespace dashpot {
 
@@ -57,8 +57,8 @@ struct DatasetFile {
   std::string path;  ///< "" when nothing was stated
   std::string name, citation;
   std::filesystem::path root;
-  std::string drive_unit;  ///< "A", "V" or "" (inferred)
-  std::string manifest;    ///< "" : manifest.csv when there is one
+  std::optional<DriveUnit> drive_unit;  ///< empty: inferred from the channels
+  std::string manifest;                 ///< "" : manifest.csv when there is one
   std::optional<LeaveOut> leave_out;
   std::string recognise_file, recognise_sha256;
   std::vector<FileStatement> files;

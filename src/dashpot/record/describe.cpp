@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "dashpot/base/text.h"
-#include "dashpot/record/dataset.h"
+#include "dashpot/dataset.h"
 
 namespace dashpot {
 namespace {
@@ -86,10 +86,10 @@ std::string fastest(const Record& record) {
   return format_number(most, 3);
 }
 
-std::string drive(const Record& record, const std::string& unit) {
-  if (record.drive_level) return format_number(*record.drive_level) + " " + unit;
-  const std::string varying = range(record, unit == "V" ? "voltage" : "current", 1);
-  return varying == "-" ? "unknown" : varying + " " + unit;
+std::string drive(const Record& record, DriveUnit unit) {
+  if (record.drive_level) return format_number(*record.drive_level) + " " + to_string(unit);
+  const std::string varying = range(record, drive_channel(unit), 1);
+  return varying == "-" ? "unknown" : varying + " " + to_string(unit);
 }
 
 std::string role(const Record& record) {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
+#include "dashpot/error.h"
 #include "dashpot/numerics/filter.h"
 #include "dashpot/numerics/spectrum.h"
 

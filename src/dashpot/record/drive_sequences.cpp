@@ -4,10 +4,10 @@
 #include <cmath>
 #include <memory>
 
-#include "dashpot/base/error.h"
-#include "dashpot/base/parameter_table.h"
 #include "dashpot/base/random.h"
 #include "dashpot/base/text.h"
+#include "dashpot/error.h"
+#include "dashpot/parameter_table.h"
 #include "dashpot/record/excitation.h"
 
 namespace dashpot {

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "dashpot/base/parameter_table.h"
+#include "dashpot/parameter_table.h"
 
 namespace dashpot {
 

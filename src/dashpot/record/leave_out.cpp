@@ -1,11 +1,10 @@
-#include "dashpot/record/leave_out.h"
-
 #include <algorithm>
 #include <iterator>
 #include <string_view>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
+#include "dashpot/dataset.h"
+#include "dashpot/error.h"
 
 namespace dashpot {
 namespace {

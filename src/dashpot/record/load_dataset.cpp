@@ -2,12 +2,12 @@
 #include <cmath>
 #include <map>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/file.h"
 #include "dashpot/base/text.h"
+#include "dashpot/dataset.h"
+#include "dashpot/error.h"
 #include "dashpot/record/build_record.h"
 #include "dashpot/record/conditions.h"
-#include "dashpot/record/dataset.h"
 #include "dashpot/record/dataset_file.h"
 #include "dashpot/record/readers/reader.h"
 #include "dashpot/record/source_files.h"
@@ -197,7 +197,7 @@ class Loader {
   /// the file's name. A stated drive column makes all of them silent but the first.
   std::optional<KnownLevel> known_level(const SourcePath& file, const FileStatement& statement,
                                         const RawTable& table, const NameParts& name) const {
-    const std::string unit = sources_.stated.drive_unit.empty() ? "A" : sources_.stated.drive_unit;
+    const DriveUnit unit = sources_.stated.drive_unit.value_or(DriveUnit::Ampere);
     const std::string file_name = file.path.filename().string();
     if (const auto* level = std::get_if<double>(&statement.level))
       return KnownLevel{*level, unit, stated_in_};
@@ -274,11 +274,10 @@ class Loader {
       voltage += record.find("voltage") != nullptr;
     }
     const std::size_t count = dataset_.records.size();
-    dataset_.drive_unit = !sources_.stated.drive_unit.empty() ? sources_.stated.drive_unit
-                          : current >= voltage                ? "A"
-                                                              : "V";
+    dataset_.drive_unit = sources_.stated.drive_unit.value_or(current >= voltage ? DriveUnit::Ampere
+                                                                                 : DriveUnit::Volt);
 
-    const std::size_t driven = dataset_.drive_unit == "A" ? current : voltage;
+    const std::size_t driven = dataset_.drive_unit == DriveUnit::Ampere ? current : voltage;
     if (driven < count)
       dataset_.notes.push_back(
           std::to_string(count - driven) + " of " + std::to_string(count) +

@@ -4,9 +4,9 @@
 #include <memory>
 #include <numbers>
 
-#include "dashpot/base/error.h"
-#include "dashpot/base/parameter_table.h"
 #include "dashpot/base/text.h"
+#include "dashpot/error.h"
+#include "dashpot/parameter_table.h"
 #include "dashpot/record/excitation.h"
 #include "dashpot/record/road_deflection.h"
 

@@ -1,9 +1,9 @@
-#include "dashpot/record/record.h"
+#include "dashpot/record.h"
 
 #include <algorithm>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
+#include "dashpot/error.h"
 
 namespace dashpot {
 namespace {

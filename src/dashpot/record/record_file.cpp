@@ -3,9 +3,9 @@
 #include <matio.h>
 #include <memory>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/file.h"
 #include "dashpot/base/text.h"
+#include "dashpot/error.h"
 
 namespace fs = std::filesystem;
 

@@ -1,7 +1,7 @@
 #pragma once
 #include <filesystem>
 
-#include "dashpot/record/record.h"
+#include "dashpot/record.h"
 
 namespace dashpot {
 

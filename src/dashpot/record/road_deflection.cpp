@@ -6,8 +6,8 @@
 #include <memory>
 #include <numbers>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/random.h"
+#include "dashpot/error.h"
 
 namespace dashpot {
 namespace {

@@ -6,8 +6,8 @@
 #include <map>
 #include <set>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
+#include "dashpot/error.h"
 #include "dashpot/record/channel_names.h"
 #include "dashpot/record/readers/csv.h"
 
@@ -138,11 +138,11 @@ double Manifest::number(const std::string& file, const std::string& column) cons
   return *value;
 }
 
-std::optional<std::pair<std::string, std::string>> Manifest::level_column() const {
+std::optional<std::pair<std::string, DriveUnit>> Manifest::level_column() const {
   for (const std::string& name : names_) {
     const std::string channel = recognise_channel(name, "").channel;
     if (channel == "current" || channel == "voltage")
-      return std::pair(name, channel == "current" ? std::string("A") : std::string("V"));
+      return std::pair(name, channel == "current" ? DriveUnit::Ampere : DriveUnit::Volt);
   }
   return std::nullopt;
 }

@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "dashpot/drive.h"
+
 namespace dashpot {
 
 /// A file that the caller pointed at, alone or through its folder.
@@ -38,7 +40,7 @@ class Manifest {
   /// As a number; throws Error naming the manifest when it is none.
   double number(const std::string& file, const std::string& column) const;
   /// The first column that is a current (A) or a voltage (V) by its name, with its unit.
-  std::optional<std::pair<std::string, std::string>> level_column() const;
+  std::optional<std::pair<std::string, DriveUnit>> level_column() const;
   const std::vector<std::string>& columns() const { return names_; }
 
  private:

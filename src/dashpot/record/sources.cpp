@@ -4,9 +4,9 @@
 #include <optional>
 #include <set>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/file.h"
 #include "dashpot/base/text.h"
+#include "dashpot/error.h"
 #include "dashpot/record/readers/reader.h"
 
 namespace fs = std::filesystem;

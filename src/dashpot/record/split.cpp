@@ -1,10 +1,11 @@
-#include "dashpot/record/split.h"
+#include "dashpot/split.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
+#include "dashpot/error.h"
+#include "dashpot/record/trial_parts.h"
 
 namespace dashpot {
 namespace {
@@ -105,7 +106,7 @@ std::vector<Fold> by_current(const Dataset& dataset, const LeaveOut& how) {
   std::vector<Fold> folds;
   for (const double level : chosen_levels(dataset, how))
     folds.push_back(fold_by(
-        dataset, "without " + format_number(level) + " " + dataset.drive_unit,
+        dataset, "without " + format_number(level) + " " + to_string(dataset.drive_unit),
         [&](const Record& r) { return r.drive_level && same_level(*r.drive_level, level); }));
   return folds;
 }

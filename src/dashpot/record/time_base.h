@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "dashpot/record.h"
 #include "dashpot/record/readers/table.h"
-#include "dashpot/record/record.h"
 
 namespace dashpot {
 

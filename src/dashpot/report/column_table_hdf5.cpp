@@ -1,8 +1,8 @@
 #include <hdf5.h>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/file.h"
 #include "dashpot/base/text.h"
+#include "dashpot/error.h"
 #include "dashpot/report/column_table.h"
 
 namespace dashpot {

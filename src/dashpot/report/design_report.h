@@ -2,8 +2,8 @@
 #include <string>
 #include <vector>
 
-#include "dashpot/base/value.h"
 #include "dashpot/design/design.h"
+#include "dashpot/value.h"
 
 namespace dashpot {
 

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "dashpot/base/value.h"
 #include "dashpot/report/text_table.h"
+#include "dashpot/value.h"
 
 namespace dashpot {
 

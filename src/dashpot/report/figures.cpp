@@ -4,8 +4,9 @@
 
 #include <fmt/format.h>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
+#include "dashpot/error.h"
+#include "dashpot/rank.h"
 #include "dashpot/report/gnuplot.h"
 #include "dashpot/report/report.h"
 #include "dashpot/report/series.h"

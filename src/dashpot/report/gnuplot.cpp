@@ -5,9 +5,9 @@
 #include <fmt/format.h>
 
 #include "dashpot/base/child_process.h"
-#include "dashpot/base/error.h"
 #include "dashpot/base/file.h"
 #include "dashpot/base/text.h"
+#include "dashpot/error.h"
 
 namespace dashpot {
 

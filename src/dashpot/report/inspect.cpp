@@ -17,10 +17,6 @@ namespace {
 
 constexpr double kPointsOfPage = 250000;  ///< about 16 bytes each in base64
 
-const Channel* drive_channel(const Record& record, const std::string& unit) {
-  return record.find(unit == "V" ? "voltage" : "current");
-}
-
 /// A second velocity, from displacement, for a record that brings a velocity of its own.
 Channel derived_velocity(const Record& record) {
   const Channel* velocity = record.find("velocity");
@@ -35,13 +31,13 @@ Channel derived_velocity(const Record& record) {
 }
 
 /// The curves of one record; channels that are missing are null.
-Value curves_json(const Record& record, const std::string& drive_unit, const Channel& derived,
+Value curves_json(const Record& record, DriveUnit drive_unit, const Channel& derived,
                   std::size_t points) {
   const std::pair<const char*, const Channel*> shown[] = {
       {"displacement", record.find("displacement")},
       {"velocity", record.find("velocity")},
       {"force", record.find("force")},
-      {"drive", drive_channel(record, drive_unit)},
+      {"drive", record.find(drive_channel(drive_unit))},
       {"derived_velocity", derived.samples.empty() ? nullptr : &derived}};
   std::vector<std::span<const double>> leading{record.time};
   for (const auto& [name, channel] : shown)
@@ -65,7 +61,7 @@ std::string role_name(Role role) {
   return role == Role::Training ? "training" : role == Role::LeftOut ? "left out" : "";
 }
 
-Value record_json(const Record& record, const std::string& drive_unit, std::size_t points) {
+Value record_json(const Record& record, DriveUnit drive_unit, std::size_t points) {
   const Channel derived = derived_velocity(record);
   const Channel* velocity = record.find("velocity");
   Value json =

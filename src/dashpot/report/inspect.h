@@ -1,7 +1,7 @@
 #pragma once
 #include <string>
 
-#include "dashpot/record/dataset.h"
+#include "dashpot/dataset.h"
 
 namespace dashpot {
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "dashpot/identify/judge/conformal.h"
+#include "dashpot/rank.h"
 #include "dashpot/report/text_table.h"
 #include "dashpot/report/words.h"
 

@@ -1,7 +1,8 @@
 #pragma once
 #include <string>
 
-#include "dashpot/identify/identify.h"
+#include "dashpot/identify.h"
+#include "dashpot/rank.h"
 
 namespace dashpot {
 

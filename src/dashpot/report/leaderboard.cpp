@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "dashpot/base/text.h"
+#include "dashpot/identify/judge/stress.h"
 #include "dashpot/report/interval_table.h"
 #include "dashpot/report/safe_text.h"
 #include "dashpot/report/text_table.h"
@@ -125,14 +126,14 @@ std::string leaderboard_table(const Ranking& ranking, int width) {
   return text_table(leaderboard_columns(), leaderboard_rows(ranking), width);
 }
 
-std::string breakdown_table(const Ranking& ranking, const std::string& drive_unit, int width) {
-  const Breakdown table = breakdown(ranking, drive_unit);
+std::string breakdown_table(const Ranking& ranking, DriveUnit drive_unit, int width) {
+  const Breakdown table = breakdown(ranking, to_string(drive_unit));
   return text_table(table.columns, table.rows, width);
 }
 
 std::string markdown_leaderboard(const ReportInput& input, const std::string& heading) {
   const Ranking& ranking = input.ranking;
-  const Breakdown parts = breakdown(ranking, input.dataset.drive_unit);
+  const Breakdown parts = breakdown(ranking, to_string(input.dataset.drive_unit));
   std::string text = heading + " " + markdown_cell(input.dataset.name) + "\n\n" +
                      markdown_cell(verdict(ranking)) +
                      "\n\nLeft out: " + format_leave_out(ranking.leave_out) + ". " +

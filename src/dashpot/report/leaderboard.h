@@ -1,6 +1,8 @@
 #pragma once
 #include <string>
 
+#include "dashpot/drive.h"
+#include "dashpot/rank.h"
 #include "dashpot/report/report.h"
 
 namespace dashpot {
@@ -11,7 +13,7 @@ namespace dashpot {
 /// One row per model, best first, within `width` columns.
 std::string leaderboard_table(const Ranking& ranking, int width = 100);
 /// RMS error by speed and ESR by drive, one row per model.
-std::string breakdown_table(const Ranking& ranking, const std::string& drive_unit, int width = 100);
+std::string breakdown_table(const Ranking& ranking, DriveUnit drive_unit, int width = 100);
 
 /// The same two tables and how they were made, without a date, as a part of a page: `heading` is
 /// "##", say.

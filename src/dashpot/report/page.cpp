@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "dashpot/base/error.h"
+#include "dashpot/error.h"
 #include "dashpot/report/safe_text.h"
 
 namespace dashpot {

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "dashpot/base/value.h"
+#include "dashpot/value.h"
 
 namespace dashpot {
 

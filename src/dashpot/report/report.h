@@ -3,8 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "dashpot/base/value.h"
-#include "dashpot/identify/identify.h"
+#include "dashpot/identify.h"
+#include "dashpot/rank.h"
+#include "dashpot/value.h"
 
 namespace dashpot {
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "dashpot/damper/force_band.h"
+#include "dashpot/identify/judge/stress.h"
 #include "dashpot/report/safe_text.h"
 #include "dashpot/report/words.h"
 
@@ -148,7 +150,7 @@ Value dataset_json(const Dataset& dataset) {
     files.push_back(Value::object({{"path", file.path}, {"sha256", file.sha256}}));
   return Value::object({{"name", dataset.name},
                         {"citation", dataset.citation},
-                        {"drive_unit", dataset.drive_unit},
+                        {"drive_unit", to_string(dataset.drive_unit)},
                         {"records", dataset.records.size()},
                         {"files", std::move(files)},
                         {"notes", Value::array(dataset.notes)}});

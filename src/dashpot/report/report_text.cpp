@@ -157,7 +157,7 @@ std::string markdown_report(const ReportInput& input) {
 
 std::string csv_report(const ReportInput& input) {
   std::string text =
-      "model,record,condition,drive_" + input.dataset.drive_unit + ",left_out,samples";
+      "model,record,condition,drive_" + to_string(input.dataset.drive_unit) + ",left_out,samples";
   for (const auto& [name, member] : kMetricColumns) text += std::string(",") + name;
   text += ",esr_without_offset_percent,offset_N,energy_error_percent,diverged_at_s\n";
   for (const RankedModel& model : input.ranking.models) {

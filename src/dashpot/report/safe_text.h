@@ -3,7 +3,7 @@
 #include <string_view>
 #include <vector>
 
-#include "dashpot/base/value.h"
+#include "dashpot/value.h"
 
 namespace dashpot {
 

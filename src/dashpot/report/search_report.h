@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "dashpot/base/value.h"
 #include "dashpot/identify/search/search.h"
+#include "dashpot/value.h"
 
 namespace dashpot {
 

@@ -95,7 +95,8 @@ std::vector<FigurePanel> time_panels(const Simulation& s) {
   panels.push_back(time_panel(s, strut + "_deflection", strut + ", deflection", "mm", 1000));
   panels.push_back(time_panel(s, strut + "_force", strut + ", damper force", "N"));
   if (is_driven(vehicle)) {
-    const std::string unit = vehicle.drive_unit.empty() ? "0 to 1" : vehicle.drive_unit;
+    const std::string unit =
+        vehicle.drive_unit == DriveUnit::None ? "0 to 1" : to_string(vehicle.drive_unit);
     panels.push_back(time_panel(s, strut + "_current", strut + ", drive", unit));
     if (s.against && !is_driven(*s.against->vehicle))
       panels.back().series.erase(panels.back().series.begin());

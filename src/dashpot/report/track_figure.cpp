@@ -24,7 +24,7 @@ std::string curve(const std::string& data, const std::string& columns, const std
 }  // namespace
 
 std::vector<std::filesystem::path> write_track_figure(const std::vector<TrackedScheme>& schemes,
-                                                      const std::string& drive_unit,
+                                                      DriveUnit drive_unit,
                                                       const std::filesystem::path& folder) {
   GnuplotFigure figure(17, 13);
   const TrackReport& first = schemes.front().report;
@@ -52,9 +52,10 @@ std::vector<std::filesystem::path> write_track_figure(const std::vector<TrackedS
   }
   figure.command("set multiplot layout 2,1\nset xrange [] noextend\nset lmargin 10\nset rmargin 2");
   figure.command("set ylabel 'Force (N)' offset 1,0\nplot " + join(forces, ", "));
-  figure.command("unset key\nset bmargin 3.2\nset ylabel '" +
-                 std::string(drive_unit == "V" ? "Coil voltage (V)" : "Coil current (A)") +
-                 "'\nset xlabel 'Time (s)'\nplot " + join(currents, ", ") + "\nunset multiplot");
+  figure.command(
+      "unset key\nset bmargin 3.2\nset ylabel '" +
+      std::string(drive_unit == DriveUnit::Volt ? "Coil voltage (V)" : "Coil current (A)") +
+      "'\nset xlabel 'Time (s)'\nplot " + join(currents, ", ") + "\nunset multiplot");
   return figure.write(folder, "track");
 }
 

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "dashpot/drive.h"
 #include "dashpot/identify/judge/track.h"
 
 namespace dashpot {
@@ -17,7 +18,7 @@ struct TrackedScheme {
 /// currents, as track.svg and track.pdf; all schemes share one wanted force. At least one, of which
 /// the first four are drawn. Returns the paths. Throws Error when gnuplot is missing.
 std::vector<std::filesystem::path> write_track_figure(const std::vector<TrackedScheme>& schemes,
-                                                      const std::string& drive_unit,
+                                                      DriveUnit drive_unit,
                                                       const std::filesystem::path& folder);
 
 }  // namespace dashpot

@@ -6,13 +6,13 @@
 #include <filesystem>
 #include <numbers>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
 #include "dashpot/base/units.h"
 #include "dashpot/damper/inverse/observer.h"
-#include "dashpot/damper/model_file.h"
 #include "dashpot/damper/parameter_set.h"
 #include "dashpot/damper/registry.h"
+#include "dashpot/error.h"
+#include "dashpot/model_file.h"
 #include "dashpot/suspension/passive_curve.h"
 #include "dashpot/suspension/steps/soft_friction.h"
 
@@ -44,7 +44,7 @@ std::shared_ptr<const DamperModel> linear_damper(double soft, double hard) {
     parameters.forms.push_back(damping ? Form::Linear : Form::Constant);
     parameters.coefficients.push_back(damping ? std::vector{soft, hard - soft} : std::vector{0.0});
   }
-  return std::make_shared<LawModel>(law, parameters, "A", 0);
+  return std::make_shared<LawModel>(law, parameters, DriveUnit::Ampere, 0);
 }
 
 std::string damping_text(double value) { return format_number(value) + " N*s/m"; }
@@ -53,7 +53,7 @@ using Words = std::span<const std::string>;
 
 ChosenDamper make_simple(const SimpleDamper& kind, Words settings, const std::string& where) {
   const std::vector<double> p = parse_values(kind.parameters, settings, kind.name, where);
-  ChosenDamper damper{.drive_unit = ""};
+  ChosenDamper damper{.drive_unit = DriveUnit::None};
   if (kind.name == "viscous") {
     damper.name = "viscous, " + damping_text(p[0]);
     damper.model = linear_damper(p[0], p[0]);

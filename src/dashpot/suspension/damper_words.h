@@ -5,9 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "dashpot/base/parameter_table.h"
-#include "dashpot/damper/model.h"
-#include "dashpot/suspension/plants/plant_set.h"
+#include "dashpot/damper_model.h"
+#include "dashpot/drive.h"
+#include "dashpot/parameter_table.h"
+#include "dashpot/plant.h"
 
 namespace dashpot {
 
@@ -27,7 +28,8 @@ std::span<const ParameterRow> mounting_settings();
 struct ChosenDamper {
   std::string name;                          ///< "viscous, 1500 N*s/m", "spencer1997"
   std::shared_ptr<const DamperModel> model;  ///< without the lag of its coil
-  std::string drive_unit = "A";         ///< "" where nothing drives it but a number from 0 to 1
+  DriveUnit drive_unit =
+      DriveUnit::Ampere;                ///< "" where nothing drives it but a number from 0 to 1
   double drive_min = 0, drive_max = 0;  ///< of its data; equal: passive, nothing drives it
   double lag_rate = 0;                  ///< 1/s, of its coil; 0: none
   double motion_ratio = 1;              ///< how far it moves as the strut moves by one

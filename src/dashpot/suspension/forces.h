@@ -2,10 +2,10 @@
 #include <span>
 #include <vector>
 
-#include "dashpot/suspension/ground/ground_motion.h"
-#include "dashpot/suspension/mounted_damper.h"
+#include "dashpot/ground_motion.h"
+#include "dashpot/mounted_damper.h"
+#include "dashpot/plant.h"
 #include "dashpot/suspension/plants/linear.h"
-#include "dashpot/suspension/plants/plant.h"
 
 namespace dashpot {
 

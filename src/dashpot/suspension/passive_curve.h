@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "dashpot/damper/model.h"
+#include "dashpot/damper_model.h"
 
 namespace dashpot {
 

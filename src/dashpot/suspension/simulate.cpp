@@ -1,10 +1,11 @@
-#include "dashpot/suspension/simulate.h"
+#include "dashpot/simulate.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
+#include "dashpot/error.h"
+#include "dashpot/suspension/control/sensors.h"
 #include "dashpot/suspension/steps/integrator.h"
 #include "dashpot/suspension/trace.h"
 

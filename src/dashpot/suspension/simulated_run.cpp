@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
+#include "dashpot/error.h"
 #include "dashpot/suspension/domain_use.h"
 
 namespace dashpot {
@@ -16,8 +16,9 @@ std::string name_of(const Vehicle& vehicle) {
   std::string text = join(names, "; ");
   if (vehicle.limits.current_min < vehicle.limits.current_max) {
     const std::string drive = format_number(vehicle.dampers.front().current);
-    text += vehicle.drive_unit.empty() ? " at drive " + drive
-                                       : " at " + drive + ' ' + vehicle.drive_unit;
+    text += vehicle.drive_unit == DriveUnit::None
+                ? " at drive " + drive
+                : " at " + drive + ' ' + to_string(vehicle.drive_unit);
   }
   return text;
 }

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "dashpot/suspension/ride/ride_measures.h"
-#include "dashpot/suspension/vehicle.h"
+#include "dashpot/vehicle.h"
 
 namespace dashpot {
 

@@ -2,7 +2,7 @@
 #include <span>
 #include <vector>
 
-#include "dashpot/suspension/simulate.h"
+#include "dashpot/simulate.h"
 #include "dashpot/suspension/steps/step_method.h"
 
 namespace dashpot {

@@ -1,14 +1,15 @@
-#include "dashpot/suspension/vehicle.h"
+#include "dashpot/vehicle.h"
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/file.h"
 #include "dashpot/base/text.h"
 #include "dashpot/damper/inverse/inverse_file.h"
 #include "dashpot/damper/inverse/registry.h"
+#include "dashpot/error.h"
+#include "dashpot/suspension/damper_state.h"
 #include "dashpot/suspension/damper_words.h"
 
 namespace dashpot {
@@ -66,11 +67,12 @@ std::vector<ChosenDamper> choose_dampers(const VehicleWords& words, const PlantS
 
 /// What drives them, which is the same for all that anything drives.
 struct DriveRange {
-  std::string unit;
+  DriveUnit unit = DriveUnit::None;
   double low = 0, high = 0;  ///< equal: all are passive
 
   std::string text(double value) const {
-    return unit.empty() ? format_number(value) : format_number(value) + ' ' + unit;
+    return unit == DriveUnit::None ? format_number(value)
+                                   : format_number(value) + ' ' + to_string(unit);
   }
 };
 

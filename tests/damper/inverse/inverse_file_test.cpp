@@ -11,7 +11,7 @@ using namespace dashpot;
 namespace {
 
 InverseFile example_file(const InverseNetworkPreset& preset) {
-  InverseFile file{.network = example_network(preset), .drive_unit = "V"};
+  InverseFile file{.network = example_network(preset), .drive_unit = DriveUnit::Volt};
   file.domain = {.displacement_min = -0.02, .displacement_max = 0.01, .current_max = 1};
   file.quality = Value::object({{"left_out_current_rmse", 0.1 / 3}});
   file.provenance.command = "dashpot invert";
@@ -40,7 +40,7 @@ TEST_CASE("inverse file: read back bit for bit, and the same currents") {
     CHECK(format_inverse(again) == format_inverse(file));
     CHECK(again.network.taps == file.network.taps);
     CHECK(again.network.mlp.parameters == file.network.mlp.parameters);
-    CHECK(again.drive_unit == "V");
+    CHECK(again.drive_unit == DriveUnit::Volt);
 
     const HistoryNetwork one(file.network, {}), other(again.network, {});
     std::vector<double> state(one.state_size()), others(other.state_size());

@@ -4,6 +4,7 @@
 
 #include "dashpot/damper/inverse/inverse.h"
 #include "dashpot/damper/kinds/law/law_model.h"
+#include "dashpot/drive.h"
 
 // What the tests of the inverses share.
 
@@ -31,7 +32,7 @@ inline dashpot::LawModel driven(const dashpot::Law& law, double lag_rate) {
     else
       d.coefficients.push_back({info.value});
   }
-  return LawModel(law, d, "A", lag_rate);
+  return LawModel(law, d, DriveUnit::Ampere, lag_rate);
 }
 
 /// A model that counts how often its force is asked for; its copies count together.

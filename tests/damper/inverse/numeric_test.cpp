@@ -20,8 +20,8 @@ LawModel bingham(std::vector<double> friction) {
                                            : Form::Quadratic;
   return LawModel(
       find_law("bingham"),
-      {{Form::Constant, form, Form::Constant, Form::Constant}, {{1000}, friction, {20}, {0}}}, "A",
-      0);
+      {{Form::Constant, form, Form::Constant, Form::Constant}, {{1000}, friction, {20}, {0}}},
+      DriveUnit::Ampere, 0);
 }
 
 }  // namespace

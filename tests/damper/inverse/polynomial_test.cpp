@@ -17,7 +17,7 @@ LawModel sp_lozoya() {
                   {{Form::Linear, Form::Constant, Form::Constant, Form::Constant, Form::Constant,
                     Form::Constant},
                    {{0, 600.95}, {37.85}, {22.15}, {2830.86}, {-7897.21}, {0}}},
-                  "A", 0);
+                  DriveUnit::Ampere, 0);
 }
 
 /// Bingham with c0 = 1000 + 500 i and the friction 100 + 1000 i - 250 i^2, whose summit lies at 2
@@ -26,7 +26,7 @@ LawModel parabola() {
   return LawModel(find_law("bingham"),
                   {{Form::Linear, Form::Quadratic, Form::Constant, Form::Constant},
                    {{1000, 500}, {100, 1000, -250}, {20}, {0}}},
-                  "A", 0);
+                  DriveUnit::Ampere, 0);
 }
 
 }  // namespace
@@ -61,7 +61,7 @@ TEST_CASE("a cubic dependence: the least current that gives the force") {
   const LawModel model(find_law("bingham"),
                        {{Form::Constant, Form::Cubic, Form::Constant, Form::Constant},
                         {{0}, {100, 600, -900, 400}, {0}, {0}}},
-                       "A", 0);
+                       DriveUnit::Ampere, 0);
   // 600 i - 900 i^2 + 400 i^3 rises to 125 at 0.5 and falls to 100 at 1: 120 N is met three times
   // in 0
   // ... 1.5.

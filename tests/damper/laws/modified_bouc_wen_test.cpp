@@ -28,7 +28,7 @@ LawModel spencer_si() {
   };
   add({14000, 69500}), add({2100, 350}), add({28300, 295}), add({4690}), add({500}), add({0.143});
   add({3.63e6}), add({3.63e6}), add({301}), add({2}), add({0});
-  return LawModel(law, d, "V", 190);
+  return LawModel(law, d, DriveUnit::Volt, 190);
 }
 
 }  // namespace
@@ -135,7 +135,7 @@ TEST_CASE("the 200 kN set with n = 10 and z without a unit: TC-4.6b") {
     std::vector<double> forces;
   };
   const ParameterSet set = load_parameter_set("yang2002");
-  const LawModel settled(set.model.law(), set.model.parameters(), "A",
+  const LawModel settled(set.model.law(), set.model.parameters(), DriveUnit::Ampere,
                          0);  // the coil at its current
   for (const Case& printed :
        {Case{0.5,

@@ -10,7 +10,7 @@ TEST_CASE("modified LuGre: TC-4.14") {
   const Dependence drive{
       {Form::Linear, Form::Constant, Form::Linear, Form::Constant, Form::Constant},
       {{1.8e4, 4e4}, {200}, {100, 2300}, {190}, {0}}};
-  const LawModel model(find_law("modified_lugre"), drive, "V", 0);
+  const LawModel model(find_law("modified_lugre"), drive, DriveUnit::Volt, 0);
   const auto found = at_times(model, {0.01, 1, 1}, {0.05, 0.2, 0.5, 1, 2});
   check_states(found, 0, {2.3372673e-3, 4.3992388e-3, -3.8064923e-3, 3.7213381e-3, 3.7232005e-3},
                1e-12);

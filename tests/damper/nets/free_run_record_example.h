@@ -2,8 +2,8 @@
 #include <cmath>
 #include <vector>
 
-#include "dashpot/damper/model.h"
 #include "dashpot/damper/nets/free_run_record.h"
+#include "dashpot/damper_model.h"
 
 namespace dashpot {
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <numeric>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/random.h"
 #include "dashpot/damper/nets/normal_equations.h"
+#include "dashpot/error.h"
 #include "support.h"
 
 using namespace dashpot;

@@ -2,12 +2,12 @@
 #include <limits>
 #include <numeric>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/random.h"
 #include "dashpot/damper/nets/ensemble.h"
 #include "dashpot/damper/nets/flush_to_zero.h"
 #include "dashpot/damper/nets/train_batches.h"
 #include "dashpot/damper/nets/train_lbfgs.h"
+#include "dashpot/error.h"
 #include "support.h"
 
 using namespace dashpot;
@@ -69,7 +69,7 @@ TEST_CASE("every optimiser reaches the least squares line, in both precisions") 
       CAPTURE(static_cast<int>(optimiser));
       Mlp mlp = network({1, 1});
       BatchTrainOptions options{.optimiser = optimiser, .rate = 0.02, .epochs = 200};
-      options.schedule.kind = Schedule::Kind::Cosine;  // so that the noise of the batches dies out
+      options.schedule.kind = RateSchedule::Cosine;  // so that the noise of the batches dies out
       options.single_precision = single;
       const TrainReport report = train_batches(mlp, samples, options);
       CHECK_CLOSE(mlp.parameters[0], slope, 0, 2e-4);
@@ -106,10 +106,10 @@ TEST_CASE("schedules") {
   Schedule schedule{.warm_up = 2};
   CHECK_CLOSE(schedule.share(1, 10), 0.5, 1e-15, 0);
   CHECK(schedule.share(5, 10) == 1);
-  schedule = {.kind = Schedule::Kind::Step, .step_epochs = 3, .step_factor = 0.5};
+  schedule = {.kind = RateSchedule::Step, .step_epochs = 3, .step_factor = 0.5};
   CHECK(schedule.share(2.9, 10) == 1);
   CHECK(schedule.share(6.1, 10) == 0.25);
-  schedule = {.kind = Schedule::Kind::Cosine, .warm_up = 2, .final_share = 0.1};
+  schedule = {.kind = RateSchedule::Cosine, .warm_up = 2, .final_share = 0.1};
   CHECK_CLOSE(schedule.share(2, 10), 1, 1e-15, 0);
   CHECK_CLOSE(schedule.share(6, 10), 0.55, 1e-15, 0);
   CHECK_CLOSE(schedule.share(10, 10), 0.1, 1e-14, 0);

@@ -1,6 +1,7 @@
 #include "dashpot/damper/kinds/family/family_model.h"
+#include "dashpot/identify.h"
 #include "dashpot/identify/fit/family_gates_fit.h"
-#include "dashpot/identify/identify.h"
+#include "dashpot/rank.h"
 #include "support.h"
 
 using namespace dashpot;
@@ -59,7 +60,7 @@ Dataset family_data(double spread) {
 
 double spread_of(const Dataset& data) {
   const FitReport report =
-      identify("family_gated", data.records, "A", {.offset = OffsetMode::None});
+      identify("family_gated", data.records, DriveUnit::Ampere, {.offset = OffsetMode::None});
   REQUIRE(report.parameters.size() == 1);
   return report.parameters.front().value;
 }
@@ -87,13 +88,13 @@ TEST_CASE("the paper's network learns a small family, the same for the same seed
   options.network.epochs = 60;
   for (const char* name : {"family_h3x15", "family_h3x15_residual", "family_h3x15_total"}) {
     CAPTURE(name);
-    const FitReport report = identify(name, data.records, "A", options);
+    const FitReport report = identify(name, data.records, DriveUnit::Ampere, options);
     const Evaluation on_training =
-        evaluate(*report.model, data.records, "A", {.offset = OffsetMode::None});
+        evaluate(*report.model, data.records, DriveUnit::Ampere, {.offset = OffsetMode::None});
     CHECK(on_training.pooled.r2 > 0.99);
     CHECK(on_training.records.front().extrapolations.empty());
     options.threads = 1;
-    const FitReport again = identify(name, data.records, "A", options);
+    const FitReport again = identify(name, data.records, DriveUnit::Ampere, options);
     CHECK(format_json(again.model->to_json()) == format_json(report.model->to_json()));
   }
 }
@@ -102,7 +103,7 @@ TEST_CASE("records without a member's conditions are refused") {
   Dataset data = family_data(0);
   std::erase_if(data.records[3].conditions, [](const auto& c) { return c.first == "gap"; });
   CHECK(message_of([&] {
-          identify("family_gated", data.records, "A", {});
+          identify("family_gated", data.records, DriveUnit::Ampere, {});
         }).find("no condition 'gap'") != std::string::npos);
 }
 

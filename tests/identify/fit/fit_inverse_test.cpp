@@ -89,7 +89,7 @@ TEST_CASE("fit inverse: records whose current varies teach feedback, too") {
   bench.sample_rate = 200;
   bench.force_noise = bench.force_offset = bench.displacement_noise = 0;
   bench.velocity_sensor = true;
-  const Dataset data = run_virtual_bench(set.model, "A", tests, bench);
+  const Dataset data = run_virtual_bench(set.model, DriveUnit::Ampere, tests, bench);
   const InverseFit fit = fit_inverse(data, {.by = LeaveOut::By::Fraction, .fraction = 0.3}, nullptr,
                                      options_for("chang_zhou"));
   CHECK(fit.warnings.empty());

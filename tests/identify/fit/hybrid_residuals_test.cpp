@@ -37,7 +37,7 @@ TEST_CASE("the joint Jacobian is that of the residuals, by the law's unknowns an
   const Law& law = find_law("modified_bouc_wen");
   DataScale scale{.force = 1500, .stroke = 0.02, .speed = 0.18};
   scale.drive = {.low = 0.3, .high = 1.7, .varies = true, .levels = 0};
-  const LawUnknowns unknowns(law, scale, "A", OffsetMode::Record);
+  const LawUnknowns unknowns(law, scale, DriveUnit::Ampere, OffsetMode::Record);
   const HybridData data{unknowns, {{200}, {60}, {40}}, records, OffsetMode::Record};
   const HybridResiduals residuals(data, {{0, 20, 200}, {1, 50, 150}}, 3);
   CHECK(residuals.size() == 60 + 34);

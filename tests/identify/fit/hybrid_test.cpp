@@ -2,7 +2,7 @@
 #include "dashpot/damper/parameter_set.h"
 #include "dashpot/damper/registry.h"
 #include "dashpot/damper/virtual_bench.h"
-#include "dashpot/identify/identify.h"
+#include "dashpot/identify.h"
 #include "dashpot/identify/rank/fit_store.h"
 #include "identify/small_campaign.h"
 #include "support.h"
@@ -21,21 +21,23 @@ Dataset campaign(std::vector<SineMotion> motions) {
 TEST_CASE("the network adds what the law lacks, with the same bits on any number of threads") {
   const std::vector<Record> training = campaign({{0.01, 1}, {0.005, 3}}).records;
   const Dataset unseen = campaign({{0.007, 2}});
-  const FitReport law = identify("viscous_dahl", training, "A", {});
-  const FitReport one = identify("viscous_dahl+network", training, "A", {.threads = 1});
-  const FitReport three = identify("viscous_dahl+network", training, "A", {.threads = 3});
+  const FitReport law = identify("viscous_dahl", training, DriveUnit::Ampere, {});
+  const FitReport one =
+      identify("viscous_dahl+network", training, DriveUnit::Ampere, {.threads = 1});
+  const FitReport three =
+      identify("viscous_dahl+network", training, DriveUnit::Ampere, {.threads = 3});
   CHECK(format_json(one.model->to_json()) == format_json(three.model->to_json()));
   CHECK(one.model->name() == "viscous_dahl+network");
   CHECK(one.offsets.size() == training.size());
   CHECK(one.training_rmse < 0.9 * law.training_rmse);
-  const double of_law = evaluate(*law.model, unseen.records, "A").pooled.esr;
-  CHECK(evaluate(*one.model, unseen.records, "A").pooled.esr < 0.8 * of_law);
+  const double of_law = evaluate(*law.model, unseen.records, DriveUnit::Ampere).pooled.esr;
+  CHECK(evaluate(*one.model, unseen.records, DriveUnit::Ampere).pooled.esr < 0.8 * of_law);
 }
 
 TEST_CASE("the law inside learns with the network, and no interval is claimed for it") {
   const std::vector<Record> training = campaign({{0.01, 1}}).records;
-  const FitReport fit = identify("viscous_dahl+network", training, "A", {});
-  const FitReport law = identify("viscous_dahl", training, "A", {});
+  const FitReport fit = identify("viscous_dahl+network", training, DriveUnit::Ampere, {});
+  const FitReport law = identify("viscous_dahl", training, DriveUnit::Ampere, {});
   REQUIRE(fit.parameters.size() == law.parameters.size());
   bool moved = false;
   for (std::size_t k = 0; k < law.parameters.size(); ++k) {
@@ -52,13 +54,13 @@ TEST_CASE("what is chosen for a parameter holds for the law inside; the store ke
   options.choices = {{.law = "bingham+network", .parameter = "c0", .fixed = 1234},
                      {.law = "bingham", .parameter = "c0", .fixed = 5678}};
   const std::vector<Record> training = campaign({{0.01, 1}}).records;
-  const FitReport fit = identify("bingham+network", training, "A", options);
+  const FitReport fit = identify("bingham+network", training, DriveUnit::Ampere, options);
   const auto& model = dynamic_cast<const HybridModel&>(*fit.model);
   CHECK(model.law().parameters().coefficients[0] == std::vector<double>{1234});
 
   const TemporaryFolder folder;
   const FitStore store(folder.path(), "test");
-  const FitStore::Request request{"bingham+network", training, "A", options};
+  const FitStore::Request request{"bingham+network", training, DriveUnit::Ampere, options};
   store.save(request, fit);
   const auto kept = store.load(request);
   REQUIRE(kept);

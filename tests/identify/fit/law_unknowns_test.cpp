@@ -35,7 +35,7 @@ TEST_CASE("units give the size of a quantity in the data") {
 
 TEST_CASE("unknowns are values of the parameters across the currents of the data") {
   const Law& law = find_law("bingham");
-  const LawUnknowns unknowns(law, example_scale(3), "A", OffsetMode::Record);
+  const LawUnknowns unknowns(law, example_scale(3), DriveUnit::Ampere, OffsetMode::Record);
   // c0 linear: two, f_c quadratic: three; f0 is the nuisance offset, v_s is fixed
   REQUIRE(unknowns.size() == 5);
   const LawModel start = unknowns.model(unknowns.start());
@@ -49,7 +49,8 @@ TEST_CASE("unknowns are values of the parameters across the currents of the data
 }
 
 TEST_CASE("coefficients are linear in the unknowns, with the weights that they state") {
-  const LawUnknowns unknowns(find_law("bingham"), example_scale(3), "V", OffsetMode::None);
+  const LawUnknowns unknowns(find_law("bingham"), example_scale(3), DriveUnit::Volt,
+                             OffsetMode::None);
   std::vector<double> u = unknowns.start();
   for (std::size_t k = 0; k < u.size(); ++k) u[k] += 0.1 * static_cast<double>(k);
   for (const auto& c : unknowns.coefficients(u)) {
@@ -63,11 +64,13 @@ TEST_CASE("coefficients are linear in the unknowns, with the weights that they s
 }
 
 TEST_CASE("fewer currents, simpler dependence; a varying drive adds the lag") {
-  CHECK(LawUnknowns(find_law("bingham"), example_scale(2), "A", OffsetMode::Record).size() == 4);
-  CHECK(LawUnknowns(find_law("bingham"), example_scale(1), "A", OffsetMode::Record).size() == 2);
+  CHECK(LawUnknowns(find_law("bingham"), example_scale(2), DriveUnit::Ampere, OffsetMode::Record)
+            .size() == 4);
+  CHECK(LawUnknowns(find_law("bingham"), example_scale(1), DriveUnit::Ampere, OffsetMode::Record)
+            .size() == 2);
   DataScale varying = example_scale(0);
   varying.drive.varies = true;
-  const LawUnknowns unknowns(find_law("bingham"), varying, "A", OffsetMode::Record);
+  const LawUnknowns unknowns(find_law("bingham"), varying, DriveUnit::Ampere, OffsetMode::Record);
   CHECK(unknowns.size() == 6);
   CHECK(unknowns.coefficients(unknowns.start()).back().name == "lag_rate");
 }
@@ -77,7 +80,7 @@ TEST_CASE("every law starts inside its bounds, whatever the size of the damper")
     for (const double force : {20.0, 3000.0, 200000.0}) {
       DataScale scale = example_scale(3);
       scale.force = force;
-      const LawUnknowns unknowns(*law, scale, "A", OffsetMode::Record);
+      const LawUnknowns unknowns(*law, scale, DriveUnit::Ampere, OffsetMode::Record);
       Random random(1);
       for (const std::vector<double>& start : {unknowns.start(), unknowns.start(&random)})
         for (std::size_t k = 0; k < start.size(); ++k) {

@@ -1,6 +1,7 @@
 #include "dashpot/base/text.h"
 #include "dashpot/damper/kinds/narx/narx_model.h"
-#include "dashpot/identify/identify.h"
+#include "dashpot/identify.h"
+#include "dashpot/identify/fit/network_design.h"
 #include "identify/small_campaign.h"
 #include "support.h"
 
@@ -30,23 +31,23 @@ TEST_CASE(
     "a NARX network learns a damper in free run, with the same bits on any number of threads") {
   const std::vector<Record> training = campaign({{0.01, 1}, {0.005, 3}}).records;
   IdentifyOptions options = with("hidden=6,epochs=20,l2=1e-5");
-  const FitReport one = identify("narx_one_sensor", training, "A", options);
+  const FitReport one = identify("narx_one_sensor", training, DriveUnit::Ampere, options);
   options.threads = 3;
-  const FitReport three = identify("narx_one_sensor", training, "A", options);
+  const FitReport three = identify("narx_one_sensor", training, DriveUnit::Ampere, options);
   CHECK(format_json(one.model->to_json()) == format_json(three.model->to_json()));
   CHECK(one.offsets.size() == training.size());
-  const Evaluation seen = evaluate(*one.model, training, "A");
+  const Evaluation seen = evaluate(*one.model, training, DriveUnit::Ampere);
   CHECK(seen.pooled.esr < 1);
   CHECK_CLOSE(one.training_rmse, seen.pooled.rmse, 0.5, 0);
   REQUIRE(seen.one_step);
   CHECK(seen.one_step->esr < 1);
-  CHECK(evaluate(*one.model, campaign({{0.007, 2}}).records, "A").pooled.esr < 3);
+  CHECK(evaluate(*one.model, campaign({{0.007, 2}}).records, DriveUnit::Ampere).pooled.esr < 3);
 }
 
 TEST_CASE("a network's design says what it reads and what comes back") {
   const std::vector<Record> training = campaign({{0.01, 1}}).records;
   const FitReport fit =
-      identify("narx_two_sensors", training, "A",
+      identify("narx_two_sensors", training, DriveUnit::Ampere,
                with("hidden=3-2,activation=relu,delays=1,feedback=3,spacing=2,members=2,"
                     "training=series_parallel,output=bounded,epochs=5"));
   const NarxModel& model = narx(fit);
@@ -59,7 +60,7 @@ TEST_CASE("a network's design says what it reads and what comes back") {
         std::vector{Activation::Relu, Activation::Relu, Activation::Tanh});
   CHECK(model.needs_displacement());
   const auto error = [&](const char* settings) {
-    return identify("narx_one_sensor", training, "A", with(settings)).training_rmse;
+    return identify("narx_one_sensor", training, DriveUnit::Ampere, with(settings)).training_rmse;
   };
   CHECK(error("hidden=4,l2=1e-5,trainer=lbfgs,window=60,epochs=150") <
         error("hidden=4,l2=1e-5,training=series_parallel"));
@@ -70,16 +71,16 @@ TEST_CASE(
     "threads") {
   const std::vector<Record> training = campaign({{0.01, 1}, {0.005, 3}}).records;
   IdentifyOptions options = with("hidden=3,epochs=5");
-  const FitReport one = identify("narx_one_sensor", training, "A", options);
+  const FitReport one = identify("narx_one_sensor", training, DriveUnit::Ampere, options);
   options.threads = 3;
-  CHECK(format_json(identify("narx_one_sensor", training, "A", options).model->to_json()) ==
+  CHECK(format_json(
+            identify("narx_one_sensor", training, DriveUnit::Ampere, options).model->to_json()) ==
         format_json(one.model->to_json()));
   std::size_t tried = 0;
   for (const char* price : {"1e-2", "1e-3", "1e-4", "1e-5"}) {
     const std::string settings = std::string("hidden=3,epochs=5,l2=") + price;
-    tried +=
-        format_json(identify("narx_one_sensor", training, "A", with(settings)).model->to_json()) ==
-        format_json(one.model->to_json());
+    tried += format_json(identify("narx_one_sensor", training, DriveUnit::Ampere, with(settings))
+                             .model->to_json()) == format_json(one.model->to_json());
   }
   CHECK(tried == 1);
 }
@@ -88,7 +89,7 @@ TEST_CASE(
     "a step of the network is a millisecond, or a sample where that is longer, unless stated") {
   const std::vector<Record> training = campaign({{0.01, 1}}, 3000).records;
   const auto step = [&](const std::string& settings) {
-    return narx(identify("narx_one_sensor", training, "A",
+    return narx(identify("narx_one_sensor", training, DriveUnit::Ampere,
                          with("hidden=2,epochs=2,l2=1e-5" + settings)))
         .feedback_step();
   };
@@ -99,37 +100,38 @@ TEST_CASE(
 TEST_CASE("a model that can diverge says so, a bounded one does not") {
   const std::vector<Record> training = campaign({{0.01, 1}}).records;
   const auto warnings = [&](const std::string& settings) {
-    return identify("narx_one_sensor", training, "A",
+    return identify("narx_one_sensor", training, DriveUnit::Ampere,
                     with("hidden=3,epochs=3,activation=relu" + settings))
         .warnings.size();
   };
   CHECK(warnings("") == 1);
   CHECK(warnings(",output=bounded") == 0);
   CHECK(message_of([&] {
-          identify("narx_one_sensor", training, "A", with("trainer=adam"));
+          identify("narx_one_sensor", training, DriveUnit::Ampere, with("trainer=adam"));
         }).find("lm or lbfgs") != std::string::npos);
 }
 
 TEST_CASE("a static preset with delays reads past inputs and feeds nothing back") {
   const std::vector<Record> training = campaign({{0.01, 1}, {0.005, 3}}).records;
   const FitReport fit =
-      identify("mlp_one_sensor", training, "A", with("hidden=5,l2=1e-4,delays=2"));
+      identify("mlp_one_sensor", training, DriveUnit::Ampere, with("hidden=5,l2=1e-4,delays=2"));
   CHECK(narx(fit).regressors().count() == 3 + 1);
   CHECK(fit.model->name() == "mlp_one_sensor");
-  const Evaluation seen = evaluate(*fit.model, training, "A");
+  const Evaluation seen = evaluate(*fit.model, training, DriveUnit::Ampere);
   CHECK_FALSE(seen.one_step);
-  const FitReport present = identify("mlp_one_sensor", training, "A", with("hidden=5"));
+  const FitReport present =
+      identify("mlp_one_sensor", training, DriveUnit::Ampere, with("hidden=5"));
   CHECK(seen.pooled.esr <
-        evaluate(*present.model, training, "A").pooled.esr);  // there is hysteresis
+        evaluate(*present.model, training, DriveUnit::Ampere).pooled.esr);  // there is hysteresis
 }
 
 TEST_CASE("records of several rates are brought to the step of the slowest") {
   std::vector<Record> training = campaign({{0.01, 1}}, 100).records;
   for (const Record& record : campaign({{0.01, 1.5}}, 250).records) training.push_back(record);
   const FitReport fit =
-      identify("narx_one_sensor", training, "A", with("hidden=4,epochs=15,l2=1e-5"));
+      identify("narx_one_sensor", training, DriveUnit::Ampere, with("hidden=4,epochs=15,l2=1e-5"));
   CHECK(fit.model->feedback_step() == 0.01);
-  const Evaluation seen = evaluate(*fit.model, training, "A");
+  const Evaluation seen = evaluate(*fit.model, training, DriveUnit::Ampere);
   CHECK(seen.pooled.esr < 3);
   REQUIRE(seen.one_step);
   CHECK(seen.one_step->esr < 3);
@@ -137,7 +139,7 @@ TEST_CASE("records of several rates are brought to the step of the slowest") {
 
 TEST_CASE("records that are shorter than the network's past are refused") {
   std::vector<Record> training = {campaign({{0.01, 1}}).records.front().slice(0, 10)};
-  const std::string message =
-      message_of([&] { identify("narx_one_sensor", training, "A", with("delays=20")); });
+  const std::string message = message_of(
+      [&] { identify("narx_one_sensor", training, DriveUnit::Ampere, with("delays=20")); });
   CHECK(message.find("no record is longer than the network's past") != std::string::npos);
 }

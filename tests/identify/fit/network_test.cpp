@@ -1,11 +1,12 @@
 #include <cmath>
 #include <numbers>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/random.h"
 #include "dashpot/base/text.h"
 #include "dashpot/damper/kinds/network/network_model.h"
-#include "dashpot/identify/identify.h"
+#include "dashpot/error.h"
+#include "dashpot/identify.h"
+#include "dashpot/identify/fit/network_design.h"
 #include "support.h"
 
 using namespace dashpot;
@@ -52,7 +53,7 @@ FitReport fitted(const std::vector<std::string>& settings, const std::vector<Rec
                  IdentifyOptions options = {.starts = 1, .threads = 1}) {
   for (const std::string& text : settings)
     parse_network_setting(text, "--network", options.network);
-  return identify("mlp_one_sensor", records, "A", options);
+  return identify("mlp_one_sensor", records, DriveUnit::Ampere, options);
 }
 
 /// Root mean square of the model's error against the damper itself, over its motions at its

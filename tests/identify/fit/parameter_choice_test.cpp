@@ -3,7 +3,7 @@
 #include "dashpot/damper/kinds/law/law_model.h"
 #include "dashpot/damper/registry.h"
 #include "dashpot/damper/virtual_bench.h"
-#include "dashpot/identify/identify.h"
+#include "dashpot/identify.h"
 #include "support.h"
 
 using namespace dashpot;
@@ -18,14 +18,14 @@ Dataset bingham_campaign(std::vector<double> levels = {0, 0.5, 1}) {
   const LawModel damper(find_law("bingham"),
                         {{Form::Linear, Form::Linear, Form::Constant, Form::Constant},
                          {{2000, 1000}, {300, 400}, {0}, {0}}},
-                        "A", 0);
+                        DriveUnit::Ampere, 0);
   BenchOptions options;
   options.motions = {{0.01, 1}};
   options.drive_levels = std::move(levels);
   options.sample_rate = 200;
   options.cycles = 2;
   options.displacement_noise = options.displacement_resolution = 0;
-  return run_virtual_bench(damper, "A", options);
+  return run_virtual_bench(damper, DriveUnit::Ampere, options);
 }
 
 FitReport fitted(const Dataset& data, const std::vector<ParameterChoice>& choices) {
@@ -34,7 +34,7 @@ FitReport fitted(const Dataset& data, const std::vector<ParameterChoice>& choice
   options.threads = 1;
   options.choices = choices;
   require_choices(choices, {"bingham"});
-  return identify("bingham", data.records, "A", options);
+  return identify("bingham", data.records, DriveUnit::Ampere, options);
 }
 
 double value_of(const FitReport& report, const std::string& name) {

@@ -4,7 +4,8 @@
 #include <numbers>
 
 #include "dashpot/base/random.h"
-#include "dashpot/identify/identify.h"
+#include "dashpot/identify.h"
+#include "dashpot/rank.h"
 #include "support.h"
 
 using namespace dashpot;

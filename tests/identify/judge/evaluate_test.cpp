@@ -1,4 +1,4 @@
-#include "dashpot/identify/judge/evaluate.h"
+#include "dashpot/evaluate.h"
 
 #include "dashpot/damper/kinds/law/law_model.h"
 #include "dashpot/damper/registry.h"
@@ -31,8 +31,8 @@ LawModel viscous_model(double damping) {
 }  // namespace
 
 TEST_CASE("the offset of a record is found, taken out, and shown") {
-  const Evaluation e =
-      evaluate(viscous_model(1000), {viscous_record("a", 40), viscous_record("b", -10)}, "A");
+  const Evaluation e = evaluate(
+      viscous_model(1000), {viscous_record("a", 40), viscous_record("b", -10)}, DriveUnit::Ampere);
   CHECK_CLOSE(e.records[0].offset, 40, 1e-12, 0);
   CHECK_CLOSE(e.records[1].offset, -10, 1e-12, 0);
   CHECK_CLOSE(e.pooled.rmse, 0, 0, 1e-10);
@@ -44,13 +44,16 @@ TEST_CASE("a known offset is used, and none is looked for when told so") {
   const std::vector<Record> records = {viscous_record("a", 40)};
   EvaluateOptions options;
   options.known_offsets = {{"a", 25}};
-  CHECK_CLOSE(evaluate(viscous_model(1000), records, "A", options).pooled.rmse, 15, 1e-12, 0);
-  CHECK_CLOSE(evaluate(viscous_model(1000), records, "A", {.offset = OffsetMode::None}).pooled.rmse,
-              40, 1e-12, 0);
+  CHECK_CLOSE(evaluate(viscous_model(1000), records, DriveUnit::Ampere, options).pooled.rmse, 15,
+              1e-12, 0);
+  CHECK_CLOSE(
+      evaluate(viscous_model(1000), records, DriveUnit::Ampere, {.offset = OffsetMode::None})
+          .pooled.rmse,
+      40, 1e-12, 0);
 }
 
 TEST_CASE("energy: a damper that is 10 % too strong dissipates 10 % too much") {
-  const Evaluation e = evaluate(viscous_model(1100), {viscous_record("a", 0)}, "A");
+  const Evaluation e = evaluate(viscous_model(1100), {viscous_record("a", 0)}, DriveUnit::Ampere);
   CHECK_CLOSE(e.records[0].energy_error, 10, 1e-9, 0);
 }
 
@@ -58,13 +61,13 @@ TEST_CASE("warm-up samples are simulated and not scored") {
   Record record = viscous_record("a", 0);
   record.find("force")->samples[3] = 1e6;
   record.warm_up = 10;
-  const Evaluation e = evaluate(viscous_model(1000), {record}, "A");
+  const Evaluation e = evaluate(viscous_model(1000), {record}, DriveUnit::Ampere);
   CHECK(e.pooled.samples == 190);
   CHECK_CLOSE(e.pooled.rmse, 0, 0, 1e-10);
 }
 
 TEST_CASE("bands of speed cover every sample once") {
-  const Evaluation e = evaluate(viscous_model(900), {viscous_record("a", 0)}, "A");
+  const Evaluation e = evaluate(viscous_model(900), {viscous_record("a", 0)}, DriveUnit::Ampere);
   std::size_t samples = 0;
   for (const BandResult& band : e.bands) samples += band.metrics.samples;
   CHECK(samples == e.pooled.samples);
@@ -76,7 +79,7 @@ TEST_CASE("a run that diverges is reported with its time and never averaged") {
   // hopeless for an explicit one
   const LawModel wild =
       LawModel::constant(find_law("landau_surrogate"), {800, 1000, 1e-6, 1e-6, -10, 0, 1, 0});
-  const Evaluation e = evaluate(wild, {viscous_record("a", 0)}, "A");
+  const Evaluation e = evaluate(wild, {viscous_record("a", 0)}, DriveUnit::Ampere);
   CHECK(e.diverged == 1);
   REQUIRE(e.records[0].diverged_at);
   CHECK(*e.records[0].diverged_at < 1);
@@ -88,9 +91,10 @@ TEST_CASE("a missing channel is named") {
   record.channels.erase(record.channels.begin());
   const LawModel needs_x = LawModel::constant(find_law("tanh_kwok"), {1000, 0, 0, 1, 0, 0});
   CHECK(message_of([&] {
-          evaluate(needs_x, {record}, "A");
+          evaluate(needs_x, {record}, DriveUnit::Ampere);
         }).find("run 7: has no displacement, which tanh_kwok needs") == 0);
-  CHECK(message_of([&] { evaluate(viscous_model(1), {record}, "V"); }).find("run 7") == 0);
+  CHECK(message_of([&] { evaluate(viscous_model(1), {record}, DriveUnit::Volt); }).find("run 7") ==
+        0);
 }
 
 TEST_CASE("the range of a switching drive leaves its spikes out") {
@@ -98,7 +102,7 @@ TEST_CASE("the range of a switching drive leaves its spikes out") {
   record.drive_level.reset();
   record.find("current")->samples[7] = -5;
   record.find("current")->samples[8] = 9;
-  const DriveRange range = drive_range({record}, "A");
+  const DriveRange range = drive_range({record}, DriveUnit::Ampere);
   CHECK(range.varies);
   CHECK(range.low == 1);
   CHECK(range.high == 1);
@@ -115,15 +119,15 @@ TEST_CASE("figures by drive: one per constant level; quarters of its range where
                        {"current", "A", drive, {}}};
     return record;
   };
-  const Evaluation levels = evaluate(zero, {record_at({2, 2, 2}, 2), record_at({1, 1, 1}, 1)}, "A",
-                                     {.offset = OffsetMode::None});
+  const Evaluation levels = evaluate(zero, {record_at({2, 2, 2}, 2), record_at({1, 1, 1}, 1)},
+                                     DriveUnit::Ampere, {.offset = OffsetMode::None});
   REQUIRE(levels.drive.size() == 2);
   CHECK(levels.drive[0].low == 1);
   CHECK(levels.drive[0].metrics.rmse ==
         1);  // the force of these records is their drive, the model's 0
   CHECK(levels.drive[1].metrics.rmse == 2);
-  const Evaluation varying =
-      evaluate(zero, {record_at({0, 1, 2, 3, 4, 4}, {})}, "A", {.offset = OffsetMode::None});
+  const Evaluation varying = evaluate(zero, {record_at({0, 1, 2, 3, 4, 4}, {})}, DriveUnit::Ampere,
+                                      {.offset = OffsetMode::None});
   REQUIRE(varying.drive.size() == 4);
   CHECK(varying.drive[0].metrics.samples == 1);  // [0, 1)
   CHECK(varying.drive[3].metrics.samples == 3);  // [3, 4], both ends

@@ -1,7 +1,6 @@
-#include "dashpot/identify/judge/metrics.h"
-
 #include <vector>
 
+#include "dashpot/evaluate.h"
 #include "support.h"
 
 using namespace dashpot;

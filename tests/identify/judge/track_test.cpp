@@ -17,7 +17,7 @@ LawModel damper(double lag_rate) {
   return LawModel(find_law("bingham"),
                   {{Form::Constant, Form::Linear, Form::Constant, Form::Constant},
                    {{1000}, {100, 800}, {0}, {0}}},
-                  "A", lag_rate);
+                  DriveUnit::Ampere, lag_rate);
 }
 
 /// The damper's force at this current, by its equation.

@@ -3,6 +3,8 @@
 #include "dashpot/base/file.h"
 #include "dashpot/damper/parameter_set.h"
 #include "dashpot/damper/virtual_bench.h"
+#include "dashpot/identify/judge/stress.h"
+#include "dashpot/rank.h"
 #include "support.h"
 
 using namespace dashpot;
@@ -16,7 +18,7 @@ Dataset campaign() {
   options.drive_levels = {0.5, 1};
   options.sample_rate = 100;
   options.cycles = 2;
-  return run_virtual_bench(load_parameters("kwok2006"), "A", options);
+  return run_virtual_bench(load_parameters("kwok2006"), DriveUnit::Ampere, options);
 }
 
 std::size_t files_in(const fs::path& folder) {
@@ -32,9 +34,9 @@ TEST_CASE("a kept fit comes back whole, law or network") {
   const IdentifyOptions options{.starts = 1};
   for (const std::string model : {"tanh_kwok", "mlp_one_sensor"}) {
     CAPTURE(model);
-    const FitStore::Request request{model, data.records, "A", options};
+    const FitStore::Request request{model, data.records, DriveUnit::Ampere, options};
     CHECK(!store.load(request));
-    const FitReport made = identify(model, data.records, "A", options);
+    const FitReport made = identify(model, data.records, DriveUnit::Ampere, options);
     store.save(request, made);
     const auto kept = store.load(request);
     REQUIRE(kept);
@@ -57,7 +59,8 @@ TEST_CASE("another program, sample, record, option or drive is another fit") {
   const TemporaryFolder folder;
   const Dataset data = campaign();
   const FitStore store(folder.path(), "1");
-  const std::string model = "bingham", other = "tanh_kwok", ampere = "A", volt = "V";
+  const std::string model = "bingham", other = "tanh_kwok";
+  const DriveUnit ampere = DriveUnit::Ampere, volt = DriveUnit::Volt;
   const IdentifyOptions options;
   store.save({model, data.records, ampere, options},
              identify(model, data.records, ampere, options));
@@ -85,7 +88,8 @@ TEST_CASE("another program, sample, record, option or drive is another fit") {
 TEST_CASE("a damaged file is no fit, and is written anew") {
   const TemporaryFolder folder;
   const Dataset data = campaign();
-  const std::string model = "bingham", unit = "A";
+  const std::string model = "bingham";
+  const DriveUnit unit = DriveUnit::Ampere;
   const FitStore store(folder.path(), "1");
   const IdentifyOptions options;
   const FitStore::Request request{model, data.records, unit, options};

@@ -2,9 +2,10 @@
 
 #include <cmath>
 
-#include "dashpot/base/error.h"
 #include "dashpot/damper/parameter_set.h"
 #include "dashpot/damper/virtual_bench.h"
+#include "dashpot/error.h"
+#include "dashpot/rank.h"
 #include "dashpot/report/search_report.h"
 #include "support.h"
 
@@ -19,7 +20,7 @@ const Dataset& campaign() {
     options.drive_levels = {0.5, 1};
     options.sample_rate = 100;
     options.cycles = 2;
-    return run_virtual_bench(load_parameters("kwok2006"), "A", options);
+    return run_virtual_bench(load_parameters("kwok2006"), DriveUnit::Ampere, options);
   }();
   return data;
 }

@@ -2,8 +2,8 @@
 
 #include <zlib.h>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/random.h"
+#include "dashpot/error.h"
 #include "dashpot/record/readers/csv_dialect.h"
 #include "dashpot/record/readers/reader.h"
 #include "support.h"

@@ -2,9 +2,9 @@
 
 #include <matio.h>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/file.h"
 #include "dashpot/base/random.h"
+#include "dashpot/error.h"
 #include "dashpot/record/readers/mat_guard.h"
 #include "support.h"
 

@@ -4,7 +4,7 @@
 #include <atomic>
 #include <set>
 
-#include "dashpot/base/error.h"
+#include "dashpot/error.h"
 #include "identify/family_example.h"
 #include "studies/family/training_store.h"
 #include "support.h"

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <atomic>
 
-#include "dashpot/base/error.h"
 #include "dashpot/damper/parameter_set.h"
 #include "dashpot/damper/virtual_bench.h"
+#include "dashpot/error.h"
 #include "dashpot/identify/rank/fit_store.h"
 #include "support.h"
 
@@ -20,8 +20,9 @@ Record sine_record(double frequency, std::uint64_t seed) {
   bench.sample_rate = 400;
   bench.velocity_sensor = true;
   bench.seed = seed;
-  const BenchTest test = at_level(sine_test({0.02, frequency}, 1), 1, "A");
-  Record record = run_virtual_bench(damper.model, "A", std::vector{test}, bench).records.front();
+  const BenchTest test = at_level(sine_test({0.02, frequency}, 1), 1, DriveUnit::Ampere);
+  Record record =
+      run_virtual_bench(damper.model, DriveUnit::Ampere, std::vector{test}, bench).records.front();
   record.name += ", seed " + std::to_string(seed);
   return record;
 }

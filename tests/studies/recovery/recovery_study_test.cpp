@@ -2,7 +2,7 @@
 
 #include <atomic>
 
-#include "dashpot/base/error.h"
+#include "dashpot/error.h"
 #include "support.h"
 
 using namespace dashpot;

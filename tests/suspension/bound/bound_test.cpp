@@ -4,10 +4,10 @@
 
 #include "dashpot/base/random.h"
 #include "dashpot/numerics/riccati.h"
+#include "dashpot/plant.h"
 #include "dashpot/suspension/bound/optimum.h"
 #include "dashpot/suspension/bound/relaxation.h"
 #include "dashpot/suspension/ground/ground_sequences.h"
-#include "dashpot/suspension/plants/plant_set.h"
 #include "support.h"
 
 using namespace dashpot;

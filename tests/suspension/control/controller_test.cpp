@@ -1,12 +1,12 @@
-#include "dashpot/suspension/control/controller.h"
+#include "dashpot/controller.h"
 
 #include <cmath>
 #include <numbers>
 
+#include "dashpot/plant.h"
 #include "dashpot/suspension/control/damping_law.h"
 #include "dashpot/suspension/control/regulator.h"
 #include "dashpot/suspension/plants/linear.h"
-#include "dashpot/suspension/plants/plant_set.h"
 #include "support.h"
 
 using namespace dashpot;

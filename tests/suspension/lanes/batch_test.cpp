@@ -3,8 +3,8 @@
 #include "dashpot/damper/kinds/network/network_model.h"
 #include "dashpot/damper/parameter_set.h"
 #include "dashpot/damper/registry.h"
+#include "dashpot/plant.h"
 #include "dashpot/suspension/ground/ground_sequences.h"
-#include "dashpot/suspension/plants/plant_set.h"
 #include "support.h"
 
 using namespace dashpot;

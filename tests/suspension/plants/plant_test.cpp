@@ -1,9 +1,8 @@
-#include "dashpot/suspension/plants/plant.h"
+#include "dashpot/plant.h"
 
 #include <complex>
 
 #include "dashpot/suspension/plants/linear.h"
-#include "dashpot/suspension/plants/plant_set.h"
 #include "support.h"
 
 using namespace dashpot;

@@ -3,8 +3,8 @@
 #include <set>
 
 #include "dashpot/damper/kinds/law/law_model.h"
-#include "dashpot/damper/model_file.h"
 #include "dashpot/damper/registry.h"
+#include "dashpot/model_file.h"
 #include "dashpot/suspension/sweep/inputs.h"
 #include "support.h"
 

@@ -3,7 +3,7 @@
 #include <atomic>
 #include <cstring>
 
-#include "dashpot/base/error.h"
+#include "dashpot/error.h"
 #include "dashpot/identify/search/trial_store.h"
 #include "dashpot/suspension/ground/ground_sequences.h"
 #include "dashpot/suspension/ride/ride.h"

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <limits>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
 #include "dashpot/damper/nets/mlp_json.h"
+#include "dashpot/error.h"
 
 namespace dashpot {
 namespace {

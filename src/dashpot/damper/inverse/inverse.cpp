@@ -3,8 +3,8 @@
 #include <cmath>
 #include <math.h>  // the C text says isfinite, not std::isfinite
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
+#include "dashpot/error.h"
 
 namespace dashpot {
 

@@ -3,7 +3,7 @@
 #include <span>
 #include <string>
 
-#include "dashpot/damper/model.h"
+#include "dashpot/damper_model.h"
 
 namespace dashpot {
 

@@ -2,10 +2,10 @@
 
 #include <cmath>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/file.h"
 #include "dashpot/damper/file_parts.h"
 #include "dashpot/damper/nets/mlp_json.h"
+#include "dashpot/error.h"
 
 namespace dashpot {
 namespace {
@@ -56,7 +56,7 @@ InverseNetwork read_network(const Value& value, double sample_time, const Domain
 std::string format_inverse(const InverseFile& file) {
   return format_json(Value::object({{"format", kFormat.name},
                                     {"version", kFormat.version},
-                                    {"drive_unit", file.drive_unit},
+                                    {"drive_unit", to_string(file.drive_unit)},
                                     {"sample_time", file.network.spacing},
                                     {"domain", to_json(file.domain, file.drive_unit)},
                                     {"network", to_json(file.network)},
@@ -69,7 +69,7 @@ InverseFile parse_inverse(std::string_view text, const std::string& source) {
   ObjectReader reader(document, "a file of an inverse");
   require_format(reader, kFormat);
   InverseFile file;
-  file.drive_unit = reader.string("drive_unit");
+  file.drive_unit = read_drive_unit(reader);
   const double sample_time = reader.number("sample_time");
   file.domain = read_domain(reader.required("domain"), file.drive_unit);
 

@@ -4,7 +4,8 @@
 #include <string_view>
 
 #include "dashpot/damper/inverse/history_network.h"
-#include "dashpot/damper/model_file.h"
+#include "dashpot/drive.h"
+#include "dashpot/model_file.h"
 
 namespace dashpot {
 
@@ -12,7 +13,7 @@ namespace dashpot {
 struct InverseFile {
   InverseNetwork
       network;  ///< its spacing stands in the file as the sample time, its currents as the domain's
-  std::string drive_unit = "A";
+  DriveUnit drive_unit = DriveUnit::Ampere;
   Domain domain;  ///< of what it was taught
   Provenance provenance;
   Value quality;  ///< figures on what it had not seen; may be null

@@ -6,10 +6,10 @@
 #include <memory>
 #include <numbers>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
 #include "dashpot/damper/inverse/observer.h"
 #include "dashpot/damper/inverse/random_signal.h"
+#include "dashpot/error.h"
 
 namespace dashpot {
 namespace {

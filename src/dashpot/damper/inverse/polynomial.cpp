@@ -4,7 +4,7 @@
 #include <cmath>
 #include <math.h>  // the C texts say fabs, not std::fabs
 
-#include "dashpot/base/error.h"
+#include "dashpot/error.h"
 
 namespace dashpot {
 namespace {

@@ -4,13 +4,13 @@
 #include <array>
 #include <cmath>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
 #include "dashpot/damper/inverse/numeric.h"
 #include "dashpot/damper/inverse/observer.h"
 #include "dashpot/damper/inverse/polynomial.h"
 #include "dashpot/damper/inverse/switching.h"
 #include "dashpot/damper/inverse/train_inverse.h"
+#include "dashpot/error.h"
 
 namespace dashpot {
 namespace {

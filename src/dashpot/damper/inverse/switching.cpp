@@ -5,7 +5,7 @@
 #include <cmath>
 #include <math.h>  // the C text says fabs, not std::fabs
 
-#include "dashpot/base/error.h"
+#include "dashpot/error.h"
 
 namespace dashpot {
 namespace {

@@ -5,7 +5,7 @@
 #include <numeric>
 #include <tuple>
 
-#include "dashpot/base/error.h"
+#include "dashpot/error.h"
 
 namespace dashpot {
 namespace {

@@ -1,9 +1,9 @@
 #pragma once
 #include <span>
 
-#include "dashpot/base/monitor.h"
 #include "dashpot/damper/inverse/inverse_run.h"
 #include "dashpot/damper/inverse/network_presets.h"
+#include "dashpot/monitor.h"
 
 namespace dashpot {
 

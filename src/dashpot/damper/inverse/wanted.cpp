@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
 #include "dashpot/damper/inverse/random_signal.h"
+#include "dashpot/error.h"
 
 namespace dashpot {
 namespace {

@@ -1,11 +1,10 @@
 #pragma once
-#include <cstdint>
 #include <string>
 #include <string_view>
 
-namespace dashpot {
+#include "dashpot/fit_choices.h"
 
-enum class Activation : std::uint8_t { Identity, Relu, Tanh, Sigmoid };
+namespace dashpot {
 
 /// "identity", "relu", "tanh", "sigmoid".
 std::string_view name_of(Activation activation);

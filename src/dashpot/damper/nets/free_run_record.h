@@ -2,7 +2,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "dashpot/damper/input.h"
+#include "dashpot/damper_input.h"
 
 namespace dashpot {
 

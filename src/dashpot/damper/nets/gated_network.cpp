@@ -5,9 +5,9 @@
 #include <cmath>
 #include <numeric>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/random.h"
 #include "dashpot/damper/nets/tanh.h"
+#include "dashpot/error.h"
 
 namespace dashpot {
 namespace {

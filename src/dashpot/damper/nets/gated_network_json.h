@@ -1,6 +1,6 @@
 #pragma once
-#include "dashpot/base/value.h"
 #include "dashpot/damper/nets/gated_network.h"
+#include "dashpot/value.h"
 
 namespace dashpot {
 

@@ -2,7 +2,7 @@
 #include <span>
 #include <vector>
 
-#include "dashpot/damper/model.h"
+#include "dashpot/damper_model.h"
 
 namespace dashpot {
 

@@ -1,8 +1,8 @@
 #pragma once
 #include <string>
 
-#include "dashpot/base/value.h"
 #include "dashpot/damper/nets/mlp.h"
+#include "dashpot/value.h"
 
 namespace dashpot {
 

@@ -6,10 +6,10 @@
 #include <utility>
 #include <vector>
 
-#include "dashpot/base/error.h"
-#include "dashpot/base/value.h"
-#include "dashpot/damper/model.h"
 #include "dashpot/damper/nets/gated_network.h"
+#include "dashpot/damper_model.h"
+#include "dashpot/error.h"
+#include "dashpot/value.h"
 
 namespace dashpot {
 

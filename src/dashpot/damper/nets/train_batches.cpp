@@ -142,8 +142,8 @@ TrainReport run(Mlp& mlp, const TrainingSamples& samples, const BatchTrainOption
 double Schedule::share(double epoch, double epochs) const {
   if (epoch < warm_up) return epoch / warm_up;
   const double since = epoch - warm_up;
-  if (kind == Kind::Step) return std::pow(step_factor, std::floor(since / step_epochs));
-  if (kind == Kind::Cosine) {
+  if (kind == RateSchedule::Step) return std::pow(step_factor, std::floor(since / step_epochs));
+  if (kind == RateSchedule::Cosine) {
     const double done = std::min(1.0, since / (epochs - warm_up));
     return final_share + (1 - final_share) * 0.5 * (1 + std::cos(std::numbers::pi * done));
   }

@@ -3,13 +3,13 @@
 #include <functional>
 
 #include "dashpot/damper/nets/mlp.h"
+#include "dashpot/fit_choices.h"
 
 namespace dashpot {
 
 /// The learning rate over the epochs: a linear warm-up from 0, then one of these.
 struct Schedule {
-  enum class Kind { Constant, Step, Cosine };
-  Kind kind = Kind::Constant;
+  RateSchedule kind = RateSchedule::Constant;
   double warm_up = 0;                          ///< epochs
   double step_epochs = 30, step_factor = 0.1;  ///< Step: every so many epochs, times this
   double final_share = 0;                      ///< Cosine: of the full rate, at the last epoch

@@ -4,11 +4,11 @@
 #include <array>
 
 #include "dashpot/base/data_folder.h"
-#include "dashpot/base/error.h"
 #include "dashpot/base/file.h"
 #include "dashpot/base/read_quantity.h"
 #include "dashpot/base/text.h"
-#include "dashpot/base/value.h"
+#include "dashpot/error.h"
+#include "dashpot/value.h"
 
 namespace dashpot {
 namespace {

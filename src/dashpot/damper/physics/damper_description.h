@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
-#include "dashpot/base/value.h"
 #include "dashpot/damper/physics/fluid.h"
+#include "dashpot/value.h"
 
 namespace dashpot {
 

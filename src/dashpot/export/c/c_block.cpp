@@ -1,6 +1,7 @@
 #include "dashpot/export/c/c_block.h"
 
 #include "dashpot/export/c/c_model.h"
+#include "dashpot/export/c/c_text.h"
 
 namespace dashpot {
 namespace {

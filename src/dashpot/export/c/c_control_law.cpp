@@ -4,7 +4,7 @@
 #include <array>
 #include <cctype>
 
-#include "dashpot/base/error.h"
+#include "dashpot/error.h"
 #include "dashpot/export/c/c_model.h"
 #include "dashpot/export/c/c_text.h"
 

@@ -2,7 +2,7 @@
 #include <set>
 #include <string>
 
-#include "dashpot/suspension/control/controller.h"
+#include "dashpot/controller.h"
 
 namespace dashpot {
 

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 
-#include "dashpot/base/error.h"
+#include "dashpot/damper/inverse/inverse.h"
+#include "dashpot/error.h"
 #include "dashpot/export/c/c_inverse.h"
 #include "dashpot/export/c/c_model.h"
+#include "dashpot/suspension/control/sensors.h"
 
 namespace dashpot {
 namespace {

@@ -3,7 +3,7 @@
 
 #include "dashpot/export/c/c_control_law.h"
 #include "dashpot/export/c/c_text.h"
-#include "dashpot/suspension/vehicle.h"
+#include "dashpot/vehicle.h"
 
 namespace dashpot {
 

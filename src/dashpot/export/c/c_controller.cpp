@@ -2,8 +2,9 @@
 
 #include <algorithm>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
+#include "dashpot/damper/inverse/inverse.h"
+#include "dashpot/error.h"
 #include "dashpot/export/c/c_control_path.h"
 #include "dashpot/export/c/c_controller_run.h"
 #include "dashpot/export/c/c_model.h"
@@ -116,7 +117,7 @@ std::vector<std::pair<std::string, std::string>> facts(const Vehicle& vehicle,
       {"damping_max", format_number(limits.damping_max)},
       {"low", format_number(limits.current_min)},
       {"high", format_number(limits.current_max)},
-      {"unit", vehicle.drive_unit.empty() ? "" : " " + vehicle.drive_unit},
+      {"unit", vehicle.drive_unit == DriveUnit::None ? "" : " " + to_string(vehicle.drive_unit)},
       {"inverse", inverse_text(vehicle.dampers.front())},
       {"sensors", sensors_text(vehicle, path)},
       {"deviations", std::string(c_deviations())},
@@ -139,7 +140,7 @@ std::vector<CPort> ports_of(const Vehicle& vehicle, const CControlPath& path) {
   std::vector<CPort> ports;
   for (const StrutSignal* signal : path.measured) {
     const std::string name(signal->name),
-        unit(signal->unit.empty() ? vehicle.drive_unit : signal->unit);
+        unit(signal->unit.empty() ? to_string(vehicle.drive_unit) : signal->unit);
     ports.push_back({name, unit, std::string(signal->meaning), "struts[#]." + name,
                      vehicle.dampers.size(), strut_parts(vehicle, unit)});
   }
@@ -168,24 +169,25 @@ CBlock c_controller_block(const Vehicle& vehicle, const ExportOptions& options) 
   const ControlLimits& limits = vehicle.limits;
   const std::string usual =
       without_marks(split(vehicle.controller_name, ',').front()) + "_controller";
-  return {.name = c_name(options.name.empty() ? usual : options.name),
-          .title = "the controller " + vehicle.controller_name + " for " + vehicle.set.name,
-          .about = join(about, " "),
-          .precision = options.c_precision(),
-          .header = filled(kHeader + interface + kCHeaderEnd, values),
-          .source = "#include \"@prefix@.h\"\n\n#include <math.h>\n\n#define STRUT_STATE " +
-                    number(path.strut_state) + "\n\n" + with_texts(path.code) +
-                    std::string(c_text("control_api.c")),
-          .step = "damper_step(&model, &input, commands);",
-          .inputs = ports_of(vehicle, path),
-          .commands = {{"command", vehicle.drive_unit, "to the damper", "commands[#]",
-                        vehicle.dampers.size(), strut_parts(vehicle, vehicle.drive_unit)}},
-          .state_size = vehicle.dampers.size() * path.strut_state,
-          .sample_time = limits.sample_time,
-          .range = limits.current_max - limits.current_min,
-          .tolerance = tolerance_of(vehicle, path, options.c_precision()),
-          .samples = controller_run(vehicle, path, kTestSteps),
-          .version = options.version};
+  return {
+      .name = c_name(options.name.empty() ? usual : options.name),
+      .title = "the controller " + vehicle.controller_name + " for " + vehicle.set.name,
+      .about = join(about, " "),
+      .precision = options.c_precision(),
+      .header = filled(kHeader + interface + kCHeaderEnd, values),
+      .source = "#include \"@prefix@.h\"\n\n#include <math.h>\n\n#define STRUT_STATE " +
+                number(path.strut_state) + "\n\n" + with_texts(path.code) +
+                std::string(c_text("control_api.c")),
+      .step = "damper_step(&model, &input, commands);",
+      .inputs = ports_of(vehicle, path),
+      .commands = {{"command", to_string(vehicle.drive_unit), "to the damper", "commands[#]",
+                    vehicle.dampers.size(), strut_parts(vehicle, to_string(vehicle.drive_unit))}},
+      .state_size = vehicle.dampers.size() * path.strut_state,
+      .sample_time = limits.sample_time,
+      .range = limits.current_max - limits.current_min,
+      .tolerance = tolerance_of(vehicle, path, options.c_precision()),
+      .samples = controller_run(vehicle, path, kTestSteps),
+      .version = options.version};
 }
 
 }  // namespace dashpot

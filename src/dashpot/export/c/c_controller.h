@@ -1,6 +1,6 @@
 #pragma once
 #include "dashpot/export/c/c_block.h"
-#include "dashpot/suspension/vehicle.h"
+#include "dashpot/vehicle.h"
 
 namespace dashpot {
 

@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "dashpot/export/export_run.h"
+#include "dashpot/suspension/control/sensors.h"
+#include "dashpot/suspension/damper_state.h"
 
 namespace dashpot {
 namespace {

@@ -6,6 +6,7 @@
 #include "dashpot/base/text.h"
 #include "dashpot/damper/inverse/switching.h"
 #include "dashpot/export/c/c_model.h"
+#include "dashpot/export/c/c_text.h"
 #include "dashpot/export/export_run.h"
 
 namespace dashpot {
@@ -115,7 +116,7 @@ std::vector<CBlock::Sample> run_of(const ExportedInverse& exported) {
 
 CBlock c_inverse_block(const ExportedInverse& inverse, const ExportOptions& options) {
   const InverseLimits& limits = inverse.model.limits();
-  const std::string& unit = inverse.drive_unit;
+  const std::string& unit = to_string(inverse.drive_unit);
   const std::size_t size = std::max<std::size_t>(1, inverse.model.state_size());
   const std::string about = filled(kAbout, {{"unit", unit},
                                             {"low", format_number(limits.current_min)},

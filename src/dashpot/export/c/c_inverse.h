@@ -1,6 +1,7 @@
 #pragma once
 #include "dashpot/damper/inverse/inverse_file.h"
 #include "dashpot/damper/inverse/observer.h"
+#include "dashpot/drive.h"
 #include "dashpot/export/c/c_block.h"
 
 namespace dashpot {
@@ -24,7 +25,8 @@ const Observer* observer_of(const InverseModel& inverse);
 /// An inverse with what an export says of it.
 struct ExportedInverse {
   const InverseModel& model;
-  std::string title, drive_unit = "A";
+  std::string title;
+  DriveUnit drive_unit = DriveUnit::Ampere;
   Domain domain;  ///< of the motions along which it is checked
 };
 

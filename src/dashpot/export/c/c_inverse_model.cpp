@@ -1,14 +1,15 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dashpot/base/error.h"
 #include "dashpot/damper/inverse/history_network.h"
 #include "dashpot/damper/inverse/numeric.h"
 #include "dashpot/damper/inverse/polynomial.h"
 #include "dashpot/damper/inverse/switching.h"
 #include "dashpot/damper/kinds/law/law_model.h"
+#include "dashpot/error.h"
 #include "dashpot/export/c/c_inverse.h"
 #include "dashpot/export/c/c_model.h"
+#include "dashpot/export/c/c_text.h"
 
 namespace dashpot {
 namespace {

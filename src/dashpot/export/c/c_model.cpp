@@ -2,7 +2,6 @@
 
 #include <array>
 
-#include "dashpot/base/error.h"
 #include "dashpot/damper/kinds/family/family_model.h"
 #include "dashpot/damper/kinds/fuzzy/fuzzy_model.h"
 #include "dashpot/damper/kinds/hybrid/hybrid_model.h"
@@ -11,6 +10,7 @@
 #include "dashpot/damper/kinds/narx/narx_model.h"
 #include "dashpot/damper/kinds/network/network_model.h"
 #include "dashpot/damper/kinds/state_space/state_space_model.h"
+#include "dashpot/error.h"
 
 namespace dashpot {
 namespace {

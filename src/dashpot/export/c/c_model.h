@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "dashpot/damper/model.h"
+#include "dashpot/damper_model.h"
 
 namespace dashpot {
 

@@ -6,6 +6,7 @@
 #include "dashpot/damper/kinds/law/law_model.h"
 #include "dashpot/damper/registry.h"
 #include "dashpot/export/c/c_model.h"
+#include "dashpot/export/c/c_text.h"
 #include "dashpot/export/export_run.h"
 
 namespace dashpot {
@@ -99,7 +100,7 @@ std::vector<std::pair<std::string, std::string>> facts(const ExportedModel& mode
   const Domain& d = model.domain;
   return {{"title", title_of(model.model)},
           {"prefix", source.prefix},
-          {"unit", model.drive_unit},
+          {"unit", to_string(model.drive_unit)},
           {"x_min", format_number(d.displacement_min)},
           {"x_max", format_number(d.displacement_max)},
           {"v_min", format_number(d.velocity_min)},
@@ -122,7 +123,7 @@ std::vector<CSource::Variable> states_of(const DamperModel& model) {
       states.push_back(
           {std::string(state.name), std::string(state.unit), "internal state of the law"});
     if (law->lag_rate() > 0)
-      states.push_back({"coil_current", law->drive_unit(), "current in the coil"});
+      states.push_back({"coil_current", to_string(law->drive_unit()), "current in the coil"});
   }
   return states;
 }
@@ -146,7 +147,7 @@ CSource c_source(const ExportedModel& model, const ExportOptions& options) {
       .state_size = model.model.state_size(),
       .inputs = {{"displacement", "m", "extension positive"},
                  {"velocity", "m/s", "extension positive"},
-                 {"current", model.drive_unit, "command to the coil"}},
+                 {"current", to_string(model.drive_unit), "command to the coil"}},
       .outputs = {{"force", "N", "positive when it resists extension"}},
       .states = code.has_derivatives ? states_of(model.model) : std::vector<CSource::Variable>{},
       .sample_time = export_sample_time(model, options),

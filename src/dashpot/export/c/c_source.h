@@ -1,6 +1,6 @@
 #pragma once
+#include "dashpot/export.h"
 #include "dashpot/export/c/c_model.h"
-#include "dashpot/export/exporter.h"
 
 namespace dashpot {
 

@@ -6,8 +6,8 @@
 #include <functional>
 #include <limits>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
+#include "dashpot/error.h"
 
 namespace dashpot {
 namespace {

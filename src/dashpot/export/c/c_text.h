@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "dashpot/export.h"
+
 namespace dashpot {
 
 /// The C99 texts that come with Dashpot, by file name.
@@ -16,8 +18,6 @@ std::string_view c_text(std::string_view name);
 /// Code with each line `#include "name.h"` that names such a text replaced by it, each once,
 /// without its guard and what it includes in <>.
 std::string with_texts(std::string_view code);
-
-enum class CPrecision { Double, Single };
 
 /// C code in double precision as code of this precision, comments untouched: in single precision
 /// `double` becomes `float`, `exp` becomes `expf`, 0.5 becomes 0.5F.

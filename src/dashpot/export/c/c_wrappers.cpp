@@ -5,6 +5,7 @@
 #include "dashpot/base/text.h"
 #include "dashpot/export/c/c_model.h"
 #include "dashpot/export/c/c_source.h"
+#include "dashpot/export/c/c_text.h"
 
 namespace dashpot {
 namespace {
@@ -115,7 +116,7 @@ std::vector<std::pair<std::string, std::string>> facts(const ExportedModel& mode
   const Domain& d = model.domain;
   return {{"name", source.prefix},
           {"title", in_markup(title_of(model.model))},
-          {"unit", model.drive_unit.empty() ? "1" : model.drive_unit},
+          {"unit", model.drive_unit == DriveUnit::None ? "1" : to_string(model.drive_unit)},
           {"sample_time", c_number(source.sample_time)},
           {"x_min", format_number(d.displacement_min)},
           {"x_max", format_number(d.displacement_max)},

@@ -1,5 +1,5 @@
 #pragma once
-#include "dashpot/export/exporter.h"
+#include "dashpot/export.h"
 
 namespace dashpot {
 

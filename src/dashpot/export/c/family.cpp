@@ -1,8 +1,8 @@
 #include <cmath>
 
-#include "dashpot/base/error.h"
 #include "dashpot/damper/kinds/family/family_model.h"
 #include "dashpot/damper/physics/plate_flow.h"
+#include "dashpot/error.h"
 #include "dashpot/export/c/c_model.h"
 #include "dashpot/export/c/c_text.h"
 

@@ -1,7 +1,7 @@
 #include <algorithm>
 
-#include "dashpot/base/error.h"
 #include "dashpot/damper/kinds/law/law_model.h"
+#include "dashpot/error.h"
 #include "dashpot/export/c/c_model.h"
 #include "dashpot/export/c/c_text.h"
 

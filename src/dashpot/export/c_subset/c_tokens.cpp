@@ -4,8 +4,8 @@
 #include <cctype>
 #include <map>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
+#include "dashpot/error.h"
 
 namespace dashpot::trace {
 namespace {

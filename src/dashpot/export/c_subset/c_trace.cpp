@@ -1,6 +1,6 @@
 #include "dashpot/export/c_subset/c_trace.h"
 
-#include "dashpot/base/error.h"
+#include "dashpot/error.h"
 
 namespace dashpot::trace {
 

@@ -1,4 +1,4 @@
-#include "dashpot/base/error.h"
+#include "dashpot/error.h"
 #include "dashpot/export/c_subset/c_functions.h"
 #include "dashpot/export/c_subset/c_trace.h"
 

@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "dashpot/base/error.h"
+#include "dashpot/error.h"
 #include "dashpot/export/c_subset/c_trace.h"
 
 namespace dashpot::trace {

@@ -7,8 +7,8 @@
 
 #include <fmt/chrono.h>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/file.h"
+#include "dashpot/error.h"
 
 namespace dashpot {
 namespace {

@@ -1,7 +1,7 @@
 #include <memory>
 #include <zip.h>
 
-#include "dashpot/base/error.h"
+#include "dashpot/error.h"
 #include "dashpot/export/fmu/fmu.h"
 
 namespace dashpot {

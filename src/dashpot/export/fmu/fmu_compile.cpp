@@ -2,9 +2,9 @@
 #include <unistd.h>
 
 #include "dashpot/base/child_process.h"
-#include "dashpot/base/error.h"
 #include "dashpot/base/file.h"
 #include "dashpot/base/text.h"
+#include "dashpot/error.h"
 #include "dashpot/export/fmu/fmu.h"
 
 namespace dashpot {

@@ -34,7 +34,7 @@ double extent(double low, double high) { return std::max(std::abs(low), std::abs
 
 void add_ports(const ExportedModel& model, Fmu& fmu) {
   const Domain& d = model.domain;
-  const bool volts = model.drive_unit == "V";
+  const bool volts = model.drive_unit == DriveUnit::Volt;
   auto& list = fmu.variables;
   list.push_back({.name = "s",
                   .unit = "m",
@@ -45,7 +45,7 @@ void add_ports(const ExportedModel& model, Fmu& fmu) {
                   .meaning = "its velocity, extension positive",
                   .nominal = extent(d.velocity_min, d.velocity_max)});
   list.push_back({.name = volts ? "u" : "i",
-                  .unit = model.drive_unit,
+                  .unit = to_string(model.drive_unit),
                   .meaning = volts ? "voltage commanded" : "current commanded to the coil",
                   .nominal = extent(d.current_min, d.current_max)});
   list.push_back({.role = Role::Output,
@@ -112,7 +112,8 @@ std::string domain_text(const ExportedModel& model) {
   };
   return "Known for displacements " + span(d.displacement_min, d.displacement_max, "m") +
          ", velocities " + span(d.velocity_min, d.velocity_max, "m/s") + " and commands " +
-         span(d.current_min, d.current_max, model.drive_unit) + "; beyond, it extrapolates.";
+         span(d.current_min, d.current_max, to_string(model.drive_unit)) +
+         "; beyond, it extrapolates.";
 }
 
 void describe(const ExportedModel& model, Fmu& fmu) {

@@ -1,4 +1,5 @@
 #include "dashpot/export/c/c_model.h"
+#include "dashpot/export/c/c_text.h"
 #include "dashpot/export/fmu/fmu.h"
 
 namespace dashpot {

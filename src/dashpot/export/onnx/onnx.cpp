@@ -2,10 +2,11 @@
 
 #include <algorithm>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
 #include "dashpot/damper/kinds/law/law_model.h"
+#include "dashpot/error.h"
 #include "dashpot/export/c/c_model.h"
+#include "dashpot/export/c/c_text.h"
 #include "dashpot/export/onnx/calculation.h"
 #include "dashpot/export/onnx/live_nodes.h"
 #include "dashpot/export/onnx/onnx_graph.h"
@@ -168,7 +169,7 @@ Rows facts_of(const ExportedModel& model) {
           {"origin", model.origin},
           {"domain_displacement", span_text(d.displacement_min, d.displacement_max, "m")},
           {"domain_velocity", span_text(d.velocity_min, d.velocity_max, "m/s")},
-          {"domain_current", span_text(d.current_min, d.current_max, model.drive_unit)}};
+          {"domain_current", span_text(d.current_min, d.current_max, to_string(model.drive_unit))}};
 }
 
 std::vector<std::string> state_names(const DamperModel& model) {
@@ -195,7 +196,7 @@ CBlock damper_block(const ExportedModel& model, const ExportOptions& options) {
           .step = "commands[0] = damper_step(&model, &input);",
           .inputs = {{"displacement", "m", "extension positive", "displacement"},
                      {"velocity", "m/s", "extension positive", "velocity"},
-                     {"current", model.drive_unit, "command to the coil", "current"}},
+                     {"current", to_string(model.drive_unit), "command to the coil", "current"}},
           .commands = {{"force", "N", "positive when it resists extension", "commands[0]"}},
           .state_size = size,
           .sample_time = sample_time,

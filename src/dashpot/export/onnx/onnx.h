@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "dashpot/export/exporter.h"
+#include "dashpot/export.h"
 
 namespace dashpot {
 

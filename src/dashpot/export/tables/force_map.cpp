@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
+#include "dashpot/error.h"
 #include "dashpot/export/export_run.h"
 
 namespace dashpot {
@@ -30,7 +30,7 @@ double settled_force(const ExportedModel& model, double velocity, double current
   if (!std::isfinite(force))
     throw Error(model.model.name(), "has no finite force at " + format_number(velocity) +
                                         " m/s and " + format_number(current) + " " +
-                                        model.drive_unit);
+                                        to_string(model.drive_unit));
   return force;
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "dashpot/export/exporter.h"
+#include "dashpot/export.h"
 
 namespace dashpot {
 

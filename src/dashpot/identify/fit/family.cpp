@@ -2,9 +2,9 @@
 #include <cmath>
 #include <tuple>
 
-#include "dashpot/base/error.h"
 #include "dashpot/damper/kinds/family/family_model.h"
 #include "dashpot/damper/kinds/family/presets.h"
+#include "dashpot/error.h"
 #include "dashpot/identify/fit/family_gates_fit.h"
 #include "dashpot/identify/fit/fit.h"
 #include "dashpot/identify/fit/network_trainer.h"
@@ -19,7 +19,7 @@ constexpr double kRate = 5e-3, kL2 = 5e-3;
 constexpr std::size_t kBatch = 100, kEpochs = 200;
 
 std::vector<FamilyRecord> family_records(const std::vector<Record>& training,
-                                         const std::string& drive_unit) {
+                                         DriveUnit drive_unit) {
   std::vector<FamilyRecord> records;
   for (const Record& record : training) {
     require_member(record.conditions, record.name);
@@ -129,7 +129,7 @@ NetworkDesign completed(NetworkDesign design) {
 }
 
 LearnedForce fit_networks(const FamilyPreset& preset, const FamilyBaseline& baseline,
-                          const std::vector<Record>& training, const std::string& drive_unit,
+                          const std::vector<Record>& training, DriveUnit drive_unit,
                           const IdentifyOptions& asked, FitReport& report) {
   IdentifyOptions options = asked;
   options.network = completed(asked.network);
@@ -160,8 +160,8 @@ LearnedForce fit_gates(const FamilyPreset& preset, const std::vector<FamilyRecor
   return {std::make_shared<GatedFamily>(std::move(fit.gates)), fit.build_spread};
 }
 
-double rmse_of(const FamilyModel& model, const std::vector<Record>& training,
-               const std::string& drive_unit, const IdentifyOptions& options) {
+double rmse_of(const FamilyModel& model, const std::vector<Record>& training, DriveUnit drive_unit,
+               const IdentifyOptions& options) {
   return evaluate(model, training, drive_unit,
                   {.offset = options.offset, .threads = options.threads})
       .pooled.rmse;
@@ -170,7 +170,7 @@ double rmse_of(const FamilyModel& model, const std::vector<Record>& training,
 }  // namespace
 
 FitReport fit_family(const FamilyPreset& preset, const std::vector<Record>& training,
-                     const std::string& drive_unit, const IdentifyOptions& options) {
+                     DriveUnit drive_unit, const IdentifyOptions& options) {
   options.monitor.check();
   const std::vector<FamilyRecord> records = family_records(training, drive_unit);
   FitReport report;

@@ -6,7 +6,7 @@
 #include <map>
 #include <tuple>
 
-#include "dashpot/base/error.h"
+#include "dashpot/error.h"
 #include "dashpot/identify/fit/free_run_records.h"
 #include "dashpot/identify/fit/training_samples.h"
 #include "dashpot/identify/judge/stroke.h"

@@ -1,9 +1,9 @@
 #pragma once
 #include <vector>
 
-#include "dashpot/base/monitor.h"
 #include "dashpot/damper/kinds/family/family_force.h"
 #include "dashpot/damper/kinds/family/presets.h"
+#include "dashpot/monitor.h"
 
 namespace dashpot {
 

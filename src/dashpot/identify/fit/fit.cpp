@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 
-#include "dashpot/base/error.h"
 #include "dashpot/damper/kinds/family/presets.h"
 #include "dashpot/damper/kinds/fuzzy/presets.h"
 #include "dashpot/damper/kinds/hybrid/presets.h"
@@ -12,6 +11,7 @@
 #include "dashpot/damper/kinds/network/presets.h"
 #include "dashpot/damper/kinds/state_space/presets.h"
 #include "dashpot/damper/registry.h"
+#include "dashpot/error.h"
 
 namespace dashpot {
 namespace {
@@ -19,13 +19,13 @@ namespace {
 using Settings = std::span<const std::string_view>;
 
 FitReport fit_law_named(std::string_view model, const std::vector<Record>& training,
-                        const std::string& drive_unit, const IdentifyOptions& options) {
+                        DriveUnit drive_unit, const IdentifyOptions& options) {
   return fit_law(find_law(model), training, drive_unit, options);
 }
 
 template <auto presets, auto fit>
 FitReport fit_preset(std::string_view model, const std::vector<Record>& training,
-                     const std::string& drive_unit, const IdentifyOptions& options) {
+                     DriveUnit drive_unit, const IdentifyOptions& options) {
   return fit(find_preset(presets(), model), training, drive_unit, options);
 }
 

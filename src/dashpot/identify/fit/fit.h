@@ -5,7 +5,8 @@
 #include <vector>
 
 #include "dashpot/damper/model_kind.h"
-#include "dashpot/identify/identify.h"
+#include "dashpot/drive.h"
+#include "dashpot/identify.h"
 
 // The fits behind identify(): one per kind of model, each in the file of its name. All take the
 // records together in free run, throw Error when the records cannot serve, and report a fit that
@@ -21,32 +22,32 @@ struct NarxPreset;
 struct NetworkPreset;
 struct StateSpacePreset;
 
-FitReport fit_law(const Law& law, const std::vector<Record>& training,
-                  const std::string& drive_unit, const IdentifyOptions& options);
+FitReport fit_law(const Law& law, const std::vector<Record>& training, DriveUnit drive_unit,
+                  const IdentifyOptions& options);
 /// With delayed inputs (--network delays) a static network becomes a NARX model: fit_narx() then.
 FitReport fit_network(const NetworkPreset& preset, const std::vector<Record>& training,
-                      const std::string& drive_unit, const IdentifyOptions& options);
+                      DriveUnit drive_unit, const IdentifyOptions& options);
 FitReport fit_narx(const NarxPreset& preset, const std::vector<Record>& training,
-                   const std::string& drive_unit, const IdentifyOptions& options);
+                   DriveUnit drive_unit, const IdentifyOptions& options);
 FitReport fit_hysteresis_network(const HysteresisNetworkPreset& preset,
-                                 const std::vector<Record>& training, const std::string& drive_unit,
+                                 const std::vector<Record>& training, DriveUnit drive_unit,
                                  const IdentifyOptions& options);
 FitReport fit_state_space(const StateSpacePreset& preset, const std::vector<Record>& training,
-                          const std::string& drive_unit, const IdentifyOptions& options);
+                          DriveUnit drive_unit, const IdentifyOptions& options);
 FitReport fit_fuzzy(const FuzzyPreset& preset, const std::vector<Record>& training,
-                    const std::string& drive_unit, const IdentifyOptions& options);
+                    DriveUnit drive_unit, const IdentifyOptions& options);
 FitReport fit_hybrid(const HybridPreset& preset, const std::vector<Record>& training,
-                     const std::string& drive_unit, const IdentifyOptions& options);
+                     DriveUnit drive_unit, const IdentifyOptions& options);
 /// Needs the conditions of a whole family member on each record. Throws Error where one is missing.
 FitReport fit_family(const FamilyPreset& preset, const std::vector<Record>& training,
-                     const std::string& drive_unit, const IdentifyOptions& options);
+                     DriveUnit drive_unit, const IdentifyOptions& options);
 
 /// How models of a kind are fitted.
 struct KindFit {
   ModelKind kind;
   /// Fits the registered model of that name, which must be of this kind.
   FitReport (*fit)(std::string_view model, const std::vector<Record>& training,
-                   const std::string& drive_unit, const IdentifyOptions& options);
+                   DriveUnit drive_unit, const IdentifyOptions& options);
   /// Names of the settings (network_settings()) that the fit of that model follows.
   std::span<const std::string_view> (*settings)(std::string_view model);
   Trainer trainer = Trainer::LevenbergMarquardt;  ///< where the user names none

@@ -5,10 +5,11 @@
 #include <numbers>
 #include <numeric>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/parallel.h"
 #include "dashpot/base/text.h"
-#include "dashpot/identify/judge/evaluate.h"
+#include "dashpot/error.h"
+#include "dashpot/evaluate.h"
+#include "dashpot/record/trial_parts.h"
 
 namespace dashpot {
 namespace {
@@ -40,7 +41,7 @@ void remove_zero(InverseRun& run, const DamperModel& forward, const Record& reco
   for (double& force : run.force) force -= zero;
 }
 
-InverseRun run_of(const Record& record, const std::string& drive_unit, const DamperModel* forward,
+InverseRun run_of(const Record& record, DriveUnit drive_unit, const DamperModel* forward,
                   const InverseTraining& training) {
   if (record.sample_time == 0)
     throw Error(record.name, "is not sampled at equal steps of time", "resample it");
@@ -65,7 +66,7 @@ InverseRun run_of(const Record& record, const std::string& drive_unit, const Dam
 
 void require_serving(const Dataset& dataset, const InverseNetworkPreset& preset) {
   const DriveRange drive = drive_range(dataset.records, dataset.drive_unit);
-  const std::string unit = " " + dataset.drive_unit;
+  const std::string unit = " " + to_string(dataset.drive_unit);
   if (!(drive.low < drive.high))
     throw Error(dataset.name,
                 "the drive is " + format_number(drive.low) + unit +

@@ -3,9 +3,9 @@
 #include <vector>
 
 #include "dashpot/damper/inverse/train_inverse.h"
-#include "dashpot/damper/model_file.h"
 #include "dashpot/identify/judge/track.h"
-#include "dashpot/record/split.h"
+#include "dashpot/model_file.h"
+#include "dashpot/split.h"
 
 namespace dashpot {
 

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
 #include "dashpot/damper/registry.h"
+#include "dashpot/error.h"
 #include "dashpot/identify/fit/fit.h"
 
 namespace dashpot {

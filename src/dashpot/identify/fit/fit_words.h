@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "dashpot/identify/identify.h"
+#include "dashpot/identify.h"
 
 namespace dashpot {
 

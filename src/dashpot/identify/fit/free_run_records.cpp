@@ -4,12 +4,12 @@
 #include <cmath>
 #include <numeric>
 
-#include "dashpot/identify/judge/evaluate.h"
+#include "dashpot/evaluate.h"
 #include "dashpot/identify/judge/stroke.h"
 
 namespace dashpot {
 std::vector<FreeRunRecord> free_run_records(const std::vector<Record>& records,
-                                            const std::string& drive_unit) {
+                                            DriveUnit drive_unit) {
   std::vector<FreeRunRecord> all;
   for (const Record& record : records)
     all.push_back({damper_inputs(record, drive_unit), record.time, record.channel("force").samples,

@@ -3,13 +3,14 @@
 #include <vector>
 
 #include "dashpot/damper/nets/free_run_record.h"
-#include "dashpot/record/record.h"
+#include "dashpot/drive.h"
+#include "dashpot/record.h"
 
 // Records as the fits of models with states of their own take them, and figures of them.
 namespace dashpot {
 
 std::vector<FreeRunRecord> free_run_records(const std::vector<Record>& records,
-                                            const std::string& drive_unit);
+                                            DriveUnit drive_unit);
 
 /// Scored samples of all.
 std::size_t scored_samples(const std::vector<const FreeRunRecord*>& records);

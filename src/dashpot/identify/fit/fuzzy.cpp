@@ -99,8 +99,8 @@ Sugeno starting_grid(const FuzzyPreset& preset, const TrainingSamples& samples) 
 /// One preset on one set of records.
 class FuzzyFit {
  public:
-  FuzzyFit(const FuzzyPreset& preset, const std::vector<Record>& training,
-           const std::string& drive_unit, const IdentifyOptions& options)
+  FuzzyFit(const FuzzyPreset& preset, const std::vector<Record>& training, DriveUnit drive_unit,
+           const IdentifyOptions& options)
       : preset_(preset), training_(training), drive_unit_(drive_unit), options_(options) {}
 
   struct Result {
@@ -150,14 +150,14 @@ class FuzzyFit {
 
   const FuzzyPreset& preset_;
   const std::vector<Record>& training_;
-  const std::string& drive_unit_;
+  DriveUnit drive_unit_;
   const IdentifyOptions& options_;
 };
 
 }  // namespace
 
 FitReport fit_fuzzy(const FuzzyPreset& preset, const std::vector<Record>& training,
-                    const std::string& drive_unit, const IdentifyOptions& options) {
+                    DriveUnit drive_unit, const IdentifyOptions& options) {
   const FuzzyFit search(preset, training, drive_unit, options);
   FuzzyFit::Result best =
       search.fit(search.find_lags(), kSamples, FuzzyTrainOptions{}.max_iterations);

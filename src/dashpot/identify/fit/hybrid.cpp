@@ -10,6 +10,7 @@
 #include "dashpot/identify/fit/hybrid_residuals.h"
 #include "dashpot/identify/fit/law_solution.h"
 #include "dashpot/identify/fit/starting_bank.h"
+#include "dashpot/record/trial_parts.h"
 
 namespace dashpot {
 namespace {
@@ -28,8 +29,7 @@ double mean_square(std::span<const double> errors) {
 }
 
 HybridData data_of(const LawSolution& law, const HybridPreset& preset,
-                   const std::vector<Record>& training, const std::string& drive_unit,
-                   OffsetMode offset) {
+                   const std::vector<Record>& training, DriveUnit drive_unit, OffsetMode offset) {
   HybridData data{law.unknowns, {}, {}, offset};
   std::vector<const FreeRunRecord*> records;
   for (const Record& record : training)
@@ -47,8 +47,8 @@ HybridData data_of(const LawSolution& law, const HybridPreset& preset,
 /// One law with its network on one set of records.
 class HybridFit {
  public:
-  HybridFit(const HybridPreset& preset, const std::vector<Record>& training,
-            const std::string& drive_unit, const IdentifyOptions& options, const LawSolution& law)
+  HybridFit(const HybridPreset& preset, const std::vector<Record>& training, DriveUnit drive_unit,
+            const IdentifyOptions& options, const LawSolution& law)
       : options_(options),
         law_(law),
         data_(data_of(law, preset, training, drive_unit, options.offset)),
@@ -199,7 +199,7 @@ std::vector<FittedParameter> parameters_of(const LawUnknowns& unknowns, std::spa
 }  // namespace
 
 FitReport fit_hybrid(const HybridPreset& preset, const std::vector<Record>& training,
-                     const std::string& drive_unit, const IdentifyOptions& options) {
+                     DriveUnit drive_unit, const IdentifyOptions& options) {
   const LawSolution law = solve_law(*preset.law, training, drive_unit, options, preset.name);
   FitReport report;
   report.status = status_of(law.solved);

@@ -7,7 +7,8 @@
 #include "dashpot/damper/nets/free_run_record.h"
 #include "dashpot/identify/fit/law_unknowns.h"
 #include "dashpot/numerics/least_squares.h"
-#include "dashpot/record/split.h"
+#include "dashpot/record/trial_parts.h"
+#include "dashpot/split.h"
 
 namespace dashpot {
 

@@ -2,10 +2,10 @@
 #include <array>
 #include <cmath>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/parallel.h"
 #include "dashpot/damper/kinds/hysteresis_network/presets.h"
 #include "dashpot/damper/kinds/hysteresis_network/train_hysteresis_network.h"
+#include "dashpot/error.h"
 #include "dashpot/identify/fit/fit.h"
 #include "dashpot/identify/fit/free_run_records.h"
 #include "dashpot/identify/fit/member_report.h"
@@ -68,7 +68,7 @@ std::size_t hidden_of(const HysteresisNetworkPreset& preset, const NetworkDesign
 class HysteresisNetworkFit {
  public:
   HysteresisNetworkFit(const HysteresisNetworkPreset& preset, const std::vector<Record>& training,
-                       const std::string& drive_unit, const IdentifyOptions& options)
+                       DriveUnit drive_unit, const IdentifyOptions& options)
       : options_(options),
         hidden_(hidden_of(preset, options.network)),
         members_(options.network.members.value_or(preset.members)),
@@ -140,7 +140,7 @@ class HysteresisNetworkFit {
 }  // namespace
 
 FitReport fit_hysteresis_network(const HysteresisNetworkPreset& preset,
-                                 const std::vector<Record>& training, const std::string& drive_unit,
+                                 const std::vector<Record>& training, DriveUnit drive_unit,
                                  const IdentifyOptions& options) {
   const std::vector<HysteresisNetworkFit::Member> members =
       HysteresisNetworkFit(preset, training, drive_unit, options).members();

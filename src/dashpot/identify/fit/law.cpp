@@ -29,7 +29,7 @@ Thinning trial_thinning(const Law& law, const std::vector<Record>& training, boo
 struct Task {
   const Law& law;
   const std::vector<Record>& training;
-  const std::string& drive_unit;
+  DriveUnit drive_unit;
   const IdentifyOptions& options;
   LawUnknowns unknowns;
 
@@ -216,16 +216,15 @@ FitReport::Status status_of(const LeastSquaresReport& solved) {
   return solved.converged ? FitReport::Status::Converged : FitReport::Status::IterationLimit;
 }
 
-LawSolution solve_law(const Law& law, const std::vector<Record>& training,
-                      const std::string& drive_unit, const IdentifyOptions& options,
-                      std::string_view model) {
+LawSolution solve_law(const Law& law, const std::vector<Record>& training, DriveUnit drive_unit,
+                      const IdentifyOptions& options, std::string_view model) {
   return solve_all({law, training, drive_unit, options,
                     LawUnknowns(law, data_scale(training, drive_unit), drive_unit, options.offset,
                                 options.choices, model)});
 }
 
-FitReport fit_law(const Law& law, const std::vector<Record>& training,
-                  const std::string& drive_unit, const IdentifyOptions& options) {
+FitReport fit_law(const Law& law, const std::vector<Record>& training, DriveUnit drive_unit,
+                  const IdentifyOptions& options) {
   const auto [unknowns, solved, noise] = solve_law(law, training, drive_unit, options);
   FitReport report;
   report.status = status_of(solved);

@@ -21,7 +21,7 @@ void thin(std::vector<T>& samples, std::size_t first, std::size_t stride) {
 }  // namespace
 
 LawResiduals::LawResiduals(const LawUnknowns& unknowns, const std::vector<Record>& records,
-                           std::string_view drive_unit, OffsetMode offset, const Thinning& thinning)
+                           DriveUnit drive_unit, OffsetMode offset, const Thinning& thinning)
     : unknowns_(&unknowns), offset_(offset), constant_drive_(!unknowns.fits_lag()) {
   constexpr std::size_t kFewest = 200;
   for (const Record& record : records) {

@@ -3,6 +3,7 @@
 #include <utility>
 #include <vector>
 
+#include "dashpot/drive.h"
 #include "dashpot/identify/fit/law_unknowns.h"
 #include "dashpot/numerics/least_squares.h"
 
@@ -20,7 +21,7 @@ struct Thinning {
 class LawResiduals {
  public:
   LawResiduals(const LawUnknowns& unknowns, const std::vector<Record>& records,
-               std::string_view drive_unit, OffsetMode offset, const Thinning& thinning = {});
+               DriveUnit drive_unit, OffsetMode offset, const Thinning& thinning = {});
 
   /// Residuals of the data alone.
   std::size_t size() const { return size_; }

@@ -2,8 +2,9 @@
 #include <string>
 #include <vector>
 
+#include "dashpot/drive.h"
+#include "dashpot/identify.h"
 #include "dashpot/identify/fit/law_unknowns.h"
-#include "dashpot/identify/identify.h"
 #include "dashpot/numerics/least_squares.h"
 
 namespace dashpot {
@@ -22,9 +23,8 @@ struct LawSolution {
   LeastSquaresReport solved;
   Noise noise;
 };
-LawSolution solve_law(const Law& law, const std::vector<Record>& training,
-                      const std::string& drive_unit, const IdentifyOptions& options,
-                      std::string_view model = {});
+LawSolution solve_law(const Law& law, const std::vector<Record>& training, DriveUnit drive_unit,
+                      const IdentifyOptions& options, std::string_view model = {});
 
 FitReport::Status status_of(const LeastSquaresReport& solved);
 

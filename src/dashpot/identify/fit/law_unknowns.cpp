@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
 #include "dashpot/base/units.h"
+#include "dashpot/error.h"
 
 namespace dashpot {
 namespace {
@@ -54,7 +54,7 @@ double DataScale::of_unit(std::string_view unit) const {
   return std::pow(force, kg) * std::pow(stroke, m - kg) * std::pow(stroke / speed, s + 2 * kg);
 }
 
-DataScale data_scale(const std::vector<Record>& records, std::string_view drive_unit) {
+DataScale data_scale(const std::vector<Record>& records, DriveUnit drive_unit) {
   DataScale scale{.force = 0, .stroke = 0, .speed = 0, .drive = drive_range(records, drive_unit)};
   for (const Record& record : records) {
     scale.force = std::max(scale.force, half_span(record.channel("force").samples));
@@ -74,11 +74,11 @@ DataScale data_scale(const std::vector<Record>& records, std::string_view drive_
   return scale;
 }
 
-LawUnknowns::LawUnknowns(const Law& law, const DataScale& scale, std::string drive_unit,
+LawUnknowns::LawUnknowns(const Law& law, const DataScale& scale, DriveUnit drive_unit,
                          OffsetMode offset, const std::vector<ParameterChoice>& choices,
                          std::string_view model)
     : law_(&law),
-      drive_unit_(std::move(drive_unit)),
+      drive_unit_(drive_unit),
       drive_min_(scale.drive.low),
       drive_max_(scale.drive.high) {
   if (model.empty()) model = law.name;

@@ -5,8 +5,9 @@
 
 #include "dashpot/base/random.h"
 #include "dashpot/damper/kinds/law/law_model.h"
+#include "dashpot/drive.h"
+#include "dashpot/evaluate.h"
 #include "dashpot/identify/fit/parameter_choice.h"
-#include "dashpot/identify/judge/evaluate.h"
 
 namespace dashpot {
 
@@ -21,7 +22,7 @@ struct DataScale {
   /// ...
   double of_unit(std::string_view unit) const;
 };
-DataScale data_scale(const std::vector<Record>& records, std::string_view drive_unit);
+DataScale data_scale(const std::vector<Record>& records, DriveUnit drive_unit);
 
 /// The unknowns of a law's fit. A parameter that depends on current is described by its values at
 /// one to four currents across the data's range (an exponential one by its ends and its rate), so
@@ -30,7 +31,7 @@ DataScale data_scale(const std::vector<Record>& records, std::string_view drive_
 class LawUnknowns {
  public:
   /// model: whose choices hold, a hybrid's or the law's own (when empty).
-  LawUnknowns(const Law& law, const DataScale& scale, std::string drive_unit, OffsetMode offset,
+  LawUnknowns(const Law& law, const DataScale& scale, DriveUnit drive_unit, OffsetMode offset,
               const std::vector<ParameterChoice>& choices = {}, std::string_view model = {});
 
   std::size_t size() const { return lower_.size(); }
@@ -103,7 +104,7 @@ class LawUnknowns {
   double drive_span() const { return drive_max_ > drive_min_ ? drive_max_ - drive_min_ : 1; }
 
   const Law* law_;
-  std::string drive_unit_;
+  DriveUnit drive_unit_;
   double drive_min_, drive_max_;
   std::vector<Row> rows_;   ///< one per parameter of the law
   std::optional<Row> lag_;  ///< when the drive varies

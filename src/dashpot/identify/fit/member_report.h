@@ -1,7 +1,7 @@
 #pragma once
 #include <algorithm>
 
-#include "dashpot/identify/identify.h"
+#include "dashpot/identify.h"
 
 namespace dashpot {
 

@@ -4,17 +4,18 @@
 #include <tuple>
 #include <utility>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/parallel.h"
 #include "dashpot/damper/kinds/narx/narx_model.h"
 #include "dashpot/damper/kinds/narx/presets.h"
 #include "dashpot/damper/kinds/narx/train_narx.h"
 #include "dashpot/damper/nets/ensemble.h"
+#include "dashpot/error.h"
 #include "dashpot/identify/fit/fit.h"
 #include "dashpot/identify/fit/member_report.h"
 #include "dashpot/identify/fit/training_samples.h"
-#include "dashpot/record/split.h"
 #include "dashpot/record/time_base.h"
+#include "dashpot/record/trial_parts.h"
+#include "dashpot/split.h"
 
 namespace dashpot {
 namespace {
@@ -68,7 +69,7 @@ double step_of(const Record& record) {
 
 /// A drive that is steady in each record has no past to tell.
 Regressors regressors_of(const NarxPlan& plan, const std::vector<Record>& training,
-                         const std::string& drive_unit) {
+                         DriveUnit drive_unit) {
   double step = 0;
   for (const Record& record : training) step = std::max(step, step_of(record));
   const double samples_per_step = plan.spacing
@@ -87,7 +88,7 @@ class NarxData {
  public:
   /// Of finer records, some of the grids that lie in them: every so many-th sample, from several
   /// first ones on, and of long ones some parts, so that there are about `most` rows.
-  NarxData(Regressors of, const std::vector<Record>& records, const std::string& drive_unit,
+  NarxData(Regressors of, const std::vector<Record>& records, DriveUnit drive_unit,
            std::size_t most)
       : regressors(std::move(of)) {
     double seconds = 0;
@@ -148,8 +149,7 @@ class NarxData {
     }
   }
 
-  void add(const Record& record, std::size_t group, std::size_t first,
-           const std::string& drive_unit) {
+  void add(const Record& record, std::size_t group, std::size_t first, DriveUnit drive_unit) {
     const double step = regressors.sample_time;
     if (record.time.back() - record.time[first] <
         step * static_cast<double>(regressors.depth() + 2))
@@ -310,7 +310,7 @@ class NarxFit {
 
 /// Without what the force zeros of its records differ by.
 NarxData training_data(const NarxPlan& plan, const Regressors& regressors,
-                       const std::vector<Record>& records, const std::string& drive_unit,
+                       const std::vector<Record>& records, DriveUnit drive_unit,
                        const IdentifyOptions& options, std::size_t most) {
   NarxData data(regressors, records, drive_unit, most);
   if (options.offset == OffsetMode::None)
@@ -322,7 +322,7 @@ NarxData training_data(const NarxPlan& plan, const Regressors& regressors,
 
 /// The price of weights with which short trainings foretell best what was held back from them.
 double best_decay(const NarxPlan& plan, const Regressors& regressors,
-                  const std::vector<Record>& training, const std::string& drive_unit,
+                  const std::vector<Record>& training, DriveUnit drive_unit,
                   const IdentifyOptions& options) {
   if (options.network.l2) return *options.network.l2;
   const std::vector<Fold> folds = trial_folds(training);
@@ -365,7 +365,7 @@ Effort full_effort(const NarxPlan& plan, const IdentifyOptions& options, double 
 }  // namespace
 
 FitReport fit_narx(const NarxPreset& preset, const std::vector<Record>& training,
-                   const std::string& drive_unit, const IdentifyOptions& options) {
+                   DriveUnit drive_unit, const IdentifyOptions& options) {
   const NarxPlan plan(preset, options.network);
   const Regressors regressors = regressors_of(plan, training, drive_unit);
   const NarxData data = training_data(plan, regressors, training, drive_unit, options, kMostRows);

@@ -37,7 +37,7 @@ Mlp standardised(const NetworkPreset& preset, const NetworkDesign& design,
 }  // namespace
 
 FitReport fit_network(const NetworkPreset& preset, const std::vector<Record>& training,
-                      const std::string& drive_unit, const IdentifyOptions& options) {
+                      DriveUnit drive_unit, const IdentifyOptions& options) {
   // A network that also reads past inputs is a NARX model without feedback.
   if (options.network.delays.value_or(0) > 0)
     return fit_narx(narx_preset(preset), training, drive_unit, options);

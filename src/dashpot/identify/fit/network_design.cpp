@@ -4,9 +4,9 @@
 #include <array>
 #include <cmath>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
 #include "dashpot/damper/nets/kernel.h"
+#include "dashpot/error.h"
 
 namespace dashpot {
 namespace {
@@ -29,9 +29,9 @@ constexpr std::array kTrainers{Word{"lm", Trainer::LevenbergMarquardt},
                                Word{"rmsprop", Trainer::RmsProp},
                                Word{"adam", Trainer::Adam},
                                Word{"adamw", Trainer::AdamW}};
-constexpr std::array kSchedules{Word{"constant", Schedule::Kind::Constant},
-                                Word{"step", Schedule::Kind::Step},
-                                Word{"cosine", Schedule::Kind::Cosine}};
+constexpr std::array kSchedules{Word{"constant", RateSchedule::Constant},
+                                Word{"step", RateSchedule::Step},
+                                Word{"cosine", RateSchedule::Cosine}};
 constexpr std::array kFeedbackTrainings{Word{"series_parallel", FeedbackTraining::SeriesParallel},
                                         Word{"free_run", FeedbackTraining::FreeRun}};
 

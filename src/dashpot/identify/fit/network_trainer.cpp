@@ -6,7 +6,11 @@
 
 #include "dashpot/base/parallel.h"
 #include "dashpot/damper/nets/normal_equations.h"
+#include "dashpot/damper/nets/train_batches.h"
 #include "dashpot/damper/nets/train_lbfgs.h"
+#include "dashpot/identify/fit/network_design.h"
+#include "dashpot/record/trial_parts.h"
+#include "dashpot/split.h"
 
 namespace dashpot {
 namespace {
@@ -106,7 +110,7 @@ class Training {
     BatchTrainOptions how{
         .optimiser = optimiser_of(*design.trainer), .seed = seed, .stopping = stopping};
     how.epochs = design.epochs ? static_cast<int>(*design.epochs) : kBatchEpochs;
-    how.schedule.kind = design.schedule.value_or(Schedule::Kind::Cosine);
+    how.schedule.kind = design.schedule.value_or(RateSchedule::Cosine);
     how.schedule.step_epochs = how.epochs / 3.0;
     how.rate = design.rate.value_or(how.rate);
     how.batch = design.batch.value_or(how.batch);

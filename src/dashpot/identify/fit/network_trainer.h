@@ -1,6 +1,6 @@
 #pragma once
 #include "dashpot/damper/nets/ensemble.h"
-#include "dashpot/identify/identify.h"
+#include "dashpot/identify.h"
 
 namespace dashpot {
 

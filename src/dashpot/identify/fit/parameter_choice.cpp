@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
 #include "dashpot/base/units.h"
 #include "dashpot/damper/registry.h"
+#include "dashpot/error.h"
 
 namespace dashpot {
 namespace {

@@ -5,28 +5,9 @@
 #include <vector>
 
 #include "dashpot/damper/law.h"
+#include "dashpot/fit_choices.h"
 
 namespace dashpot {
-
-/// What is known of a parameter before the fit: a normal distribution, at every current.
-struct Prior {
-  double value = 0, deviation = 0;  ///< SI
-};
-
-struct ParameterBounds {
-  double lower = 0, upper = 0;  ///< SI
-};
-
-/// What a user decides about one parameter of a fit.
-struct ParameterChoice {
-  std::string law;  ///< the law or hybrid meant; empty: every one that has the parameter
-  std::string parameter;
-  std::optional<Form> form;
-  std::optional<double> fixed;  ///< SI
-  bool free = false;            ///< estimated, though the table keeps it fixed
-  std::optional<ParameterBounds> bounds;
-  std::optional<Prior> prior;
-};
 
 /// The coil's first-order lag is fitted beside the law's own parameters when the drive varies
 /// within a record.

@@ -2,10 +2,10 @@
 #include <array>
 #include <cmath>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/parallel.h"
 #include "dashpot/damper/kinds/state_space/presets.h"
 #include "dashpot/damper/kinds/state_space/train_state_space.h"
+#include "dashpot/error.h"
 #include "dashpot/identify/fit/fit.h"
 #include "dashpot/identify/fit/free_run_records.h"
 #include "dashpot/identify/fit/member_report.h"
@@ -93,7 +93,7 @@ StateSpacePreset designed(StateSpacePreset preset, const NetworkDesign& design) 
 class StateSpaceFit {
  public:
   StateSpaceFit(const StateSpacePreset& preset, const std::vector<Record>& training,
-                const std::string& drive_unit, const IdentifyOptions& options)
+                DriveUnit drive_unit, const IdentifyOptions& options)
       : preset_(designed(preset, options.network)),
         options_(options),
         records_(free_run_records(training, drive_unit)) {
@@ -174,7 +174,7 @@ class StateSpaceFit {
 }  // namespace
 
 FitReport fit_state_space(const StateSpacePreset& preset, const std::vector<Record>& training,
-                          const std::string& drive_unit, const IdentifyOptions& options) {
+                          DriveUnit drive_unit, const IdentifyOptions& options) {
   const std::vector<StateSpaceFit::Member> members =
       StateSpaceFit(preset, training, drive_unit, options).members();
   FitReport report = report_of_members(members);

@@ -4,7 +4,7 @@
 
 namespace dashpot {
 
-TrainingSamples training_samples(const std::vector<Record>& records, const std::string& drive_unit,
+TrainingSamples training_samples(const std::vector<Record>& records, DriveUnit drive_unit,
                                  OffsetMode offset, const InputRows& rows) {
   TrainingSamples samples;
   for (std::size_t r = 0; r < records.size(); ++r) {

@@ -5,7 +5,8 @@
 #include <vector>
 
 #include "dashpot/damper/nets/mlp.h"
-#include "dashpot/identify/judge/evaluate.h"
+#include "dashpot/drive.h"
+#include "dashpot/evaluate.h"
 
 namespace dashpot {
 
@@ -14,7 +15,7 @@ using InputRows = std::function<std::vector<double>(const std::vector<DamperInpu
                                                     const std::vector<double>& time)>;
 
 /// All samples of all records from their warm-up on; a group per record with OffsetMode::Record.
-TrainingSamples training_samples(const std::vector<Record>& records, const std::string& drive_unit,
+TrainingSamples training_samples(const std::vector<Record>& records, DriveUnit drive_unit,
                                  OffsetMode offset, const InputRows& rows);
 
 /// Mean and standard deviation of every `stride`-th value from `first` on; a constant has scale 1.

@@ -4,11 +4,11 @@
 
 #include "dashpot/base/parallel.h"
 #include "dashpot/identify/fit/free_run_records.h"
-#include "dashpot/record/split.h"
+#include "dashpot/split.h"
 
 namespace dashpot {
 
-Trials::Trials(const std::vector<Record>& training, const std::string& drive_unit) {
+Trials::Trials(const std::vector<Record>& training, DriveUnit drive_unit) {
   for (const Fold& fold : trial_folds(training)) {
     FreeRunTrial trial;
     trial.training = keep(free_run_records(fold.training, drive_unit));

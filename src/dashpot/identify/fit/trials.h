@@ -6,7 +6,8 @@
 #include <vector>
 
 #include "dashpot/damper/nets/free_run_record.h"
-#include "dashpot/record/record.h"
+#include "dashpot/drive.h"
+#include "dashpot/record.h"
 
 namespace dashpot {
 
@@ -18,7 +19,7 @@ struct FreeRunTrial {
 /// The divisions of trial_folds() as fits of models with states of their own take them.
 class Trials {
  public:
-  Trials(const std::vector<Record>& training, const std::string& drive_unit);
+  Trials(const std::vector<Record>& training, DriveUnit drive_unit);
   Trials(const Trials&) = delete;
   Trials& operator=(const Trials&) = delete;
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "dashpot/damper/force_band.h"
-#include "dashpot/identify/judge/evaluate.h"
+#include "dashpot/evaluate.h"
 
 namespace dashpot {
 

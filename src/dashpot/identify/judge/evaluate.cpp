@@ -1,13 +1,13 @@
-#include "dashpot/identify/judge/evaluate.h"
+#include "dashpot/evaluate.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/parallel.h"
 #include "dashpot/base/text.h"
+#include "dashpot/error.h"
 #include "dashpot/identify/judge/one_step.h"
 
 namespace dashpot {
@@ -15,15 +15,11 @@ namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-std::string_view drive_channel(std::string_view drive_unit) {
-  return drive_unit == "V" ? "voltage" : "current";
-}
-
-const std::vector<double>& drive_samples(const Record& record, std::string_view drive_unit) {
-  const std::string_view name = drive_channel(drive_unit);
+const std::vector<double>& drive_samples(const Record& record, DriveUnit drive_unit) {
+  const std::string& name = drive_channel(drive_unit);
   if (const Channel* drive = record.find(name)) return drive->samples;
-  throw Error(record.name, "has no known " + std::string(name),
-              "give it as a column, in the file name (run_0.5" + std::string(drive_unit) +
+  throw Error(record.name, "has no known " + name,
+              "give it as a column, in the file name (run_0.5" + to_string(drive_unit) +
                   ".csv), in manifest.csv or in a dataset file");
 }
 
@@ -71,8 +67,8 @@ double energy_error_percent(const RecordResult& r) {
   return 100 * (model - truth) / std::abs(truth);
 }
 
-RecordResult evaluate_record(const DamperModel& model, const Record& record,
-                             std::string_view drive_unit, const EvaluateOptions& options) {
+RecordResult evaluate_record(const DamperModel& model, const Record& record, DriveUnit drive_unit,
+                             const EvaluateOptions& options) {
   RecordResult result;
   result.record = record.name;
   result.condition = record.condition;
@@ -241,7 +237,7 @@ const RecordResult* Evaluation::worst_covered() const {
   return worst;
 }
 
-std::vector<DamperInput> damper_inputs(const Record& record, std::string_view drive_unit) {
+std::vector<DamperInput> damper_inputs(const Record& record, DriveUnit drive_unit) {
   const std::vector<double>& velocity = record.channel("velocity").samples;
   const std::vector<double>& drive = drive_samples(record, drive_unit);
   const Channel* displacement = record.find("displacement");
@@ -251,7 +247,7 @@ std::vector<DamperInput> damper_inputs(const Record& record, std::string_view dr
   return inputs;
 }
 
-DriveRange drive_range(const std::vector<Record>& records, std::string_view drive_unit) {
+DriveRange drive_range(const std::vector<Record>& records, DriveUnit drive_unit) {
   DriveRange range;
   std::vector<double> samples, levels;
   for (const Record& record : records) {
@@ -273,7 +269,7 @@ DriveRange drive_range(const std::vector<Record>& records, std::string_view driv
   return range;
 }
 
-Domain domain_of(const std::vector<Record>& records, std::string_view drive_unit) {
+Domain domain_of(const std::vector<Record>& records, DriveUnit drive_unit) {
   const DriveRange drive = drive_range(records, drive_unit);
   Domain domain{INFINITY, -INFINITY, INFINITY, -INFINITY, drive.low, drive.high};
   for (const Record& record : records)
@@ -306,7 +302,7 @@ FreeRun free_run(const DamperModel& model, const std::vector<DamperInput>& input
 }
 
 Evaluation evaluate(const DamperModel& model, const std::vector<Record>& records,
-                    std::string_view drive_unit, const EvaluateOptions& options) {
+                    DriveUnit drive_unit, const EvaluateOptions& options) {
   for (const Record& record : records)
     if (model.needs_displacement() && !record.find("displacement"))
       throw Error(record.name, "has no displacement, which " + model.name() + " needs",

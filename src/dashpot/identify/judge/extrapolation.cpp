@@ -4,8 +4,8 @@
 
 #include <fmt/core.h>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
+#include "dashpot/error.h"
 
 namespace dashpot {
 namespace {
@@ -22,8 +22,8 @@ std::vector<Quantity> quantities(const ModelFile& file) {
   const Domain& d = file.domain;
   std::vector<Quantity> all = {
       {"velocity", "m/s", d.velocity_min, d.velocity_max, &DamperInput::velocity},
-      {file.drive_unit == "V" ? "voltage" : "current", file.drive_unit, d.current_min,
-       d.current_max, &DamperInput::current}};
+      {drive_channel(file.drive_unit), to_string(file.drive_unit), d.current_min, d.current_max,
+       &DamperInput::current}};
   if (file.model->needs_displacement())
     all.push_back(
         {"displacement", "m", d.displacement_min, d.displacement_max, &DamperInput::displacement});
@@ -95,8 +95,8 @@ std::vector<std::string> outside_family(const Evaluation& evaluation) {
 void require_same_drive(const ModelFile& file, const Dataset& dataset, const std::string& where) {
   if (file.drive_unit == dataset.drive_unit) return;
   throw Error(where,
-              "the model is driven in " + file.drive_unit + ", but the recordings are driven in " +
-                  dataset.drive_unit,
+              "the model is driven in " + to_string(file.drive_unit) +
+                  ", but the recordings are driven in " + to_string(dataset.drive_unit),
               "a model serves recordings of its own kind of drive");
 }
 

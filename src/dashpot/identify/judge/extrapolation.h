@@ -2,9 +2,9 @@
 #include <string>
 #include <vector>
 
-#include "dashpot/base/value.h"
-#include "dashpot/damper/model_file.h"
-#include "dashpot/identify/judge/evaluate.h"
+#include "dashpot/evaluate.h"
+#include "dashpot/model_file.h"
+#include "dashpot/value.h"
 
 namespace dashpot {
 

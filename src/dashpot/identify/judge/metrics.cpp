@@ -1,7 +1,7 @@
-#include "dashpot/identify/judge/metrics.h"
-
 #include <algorithm>
 #include <cmath>
+
+#include "dashpot/evaluate.h"
 
 namespace dashpot {
 

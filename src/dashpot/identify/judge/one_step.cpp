@@ -3,7 +3,7 @@
 #include <cmath>
 #include <vector>
 
-#include "dashpot/identify/judge/evaluate.h"
+#include "dashpot/evaluate.h"
 #include "dashpot/record/time_base.h"
 
 namespace dashpot {
@@ -18,8 +18,8 @@ bool on_grid(const Record& record, double step) {
 
 }  // namespace
 
-ErrorSums one_step_errors(const DamperModel& model, const Record& record,
-                          std::string_view drive_unit, double offset) {
+ErrorSums one_step_errors(const DamperModel& model, const Record& record, DriveUnit drive_unit,
+                          double offset) {
   const double step = model.feedback_step();
   if (step == 0) return {};
   if (!on_grid(record, step)) {

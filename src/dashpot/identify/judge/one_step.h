@@ -1,9 +1,10 @@
 #pragma once
 #include <string_view>
 
-#include "dashpot/damper/model.h"
-#include "dashpot/identify/judge/metrics.h"
-#include "dashpot/record/record.h"
+#include "dashpot/damper_model.h"
+#include "dashpot/drive.h"
+#include "dashpot/evaluate.h"
+#include "dashpot/record.h"
 
 namespace dashpot {
 
@@ -11,7 +12,7 @@ namespace dashpot {
 /// `offset`, N) at each of its steps instead: one step ahead. A figure that flatters: at high
 /// sample rates the last force foretells the next by itself. Without samples for a model that feeds
 /// nothing back.
-ErrorSums one_step_errors(const DamperModel& model, const Record& record,
-                          std::string_view drive_unit, double offset);
+ErrorSums one_step_errors(const DamperModel& model, const Record& record, DriveUnit drive_unit,
+                          double offset);
 
 }  // namespace dashpot

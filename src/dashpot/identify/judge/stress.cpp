@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dashpot/identify/judge/evaluate.h"
+#include "dashpot/evaluate.h"
 
 namespace dashpot {
 

@@ -1,15 +1,8 @@
 #pragma once
-#include "dashpot/damper/model.h"
+#include "dashpot/damper_model.h"
+#include "dashpot/evaluate.h"
 
 namespace dashpot {
-
-/// What became of a model that was driven beyond its data.
-struct StressRun {
-  double seconds = 0;        ///< simulated; 0: not run
-  bool finite = false;       ///< the force was a number all along
-  double largest_share = 0;  ///< largest |F| over the force span of the data
-  bool is_bounded() const;   ///< finite, and within kStressSpans spans
-};
 
 inline constexpr double kStressFactor = 2;   ///< of the domain's amplitude and of its speed
 inline constexpr double kStressSeconds = 5;  ///< simulated

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dashpot/base/error.h"
 #include "dashpot/damper/inverse/observer.h"
+#include "dashpot/error.h"
 
 namespace dashpot {
 namespace {

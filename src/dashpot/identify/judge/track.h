@@ -1,10 +1,10 @@
 #pragma once
 #include <vector>
 
-#include "dashpot/damper/driver.h"
 #include "dashpot/damper/inverse/inverse.h"
 #include "dashpot/damper/inverse/wanted.h"
-#include "dashpot/identify/judge/metrics.h"
+#include "dashpot/driver.h"
+#include "dashpot/evaluate.h"
 
 namespace dashpot {
 

@@ -2,6 +2,8 @@
 
 #include "dashpot/base/file.h"
 #include "dashpot/base/text.h"
+#include "dashpot/damper/dependence.h"
+#include "dashpot/identify/fit/network_design.h"
 
 namespace dashpot {
 namespace {

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "dashpot/base/result_file.h"
-#include "dashpot/identify/identify.h"
+#include "dashpot/identify.h"
 
 // What kept results are found again by: all that a fit depends on, as text.
 namespace dashpot {

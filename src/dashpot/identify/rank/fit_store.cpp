@@ -4,10 +4,11 @@
 #include <cmath>
 #include <limits>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/file.h"
 #include "dashpot/base/text.h"
+#include "dashpot/error.h"
 #include "dashpot/identify/rank/fit_identity.h"
+#include "dashpot/model_file.h"
 
 namespace dashpot {
 namespace {
@@ -91,7 +92,7 @@ FitStore::FitStore(std::filesystem::path folder, std::string program)
 
 std::string FitStore::key_of(const Request& request) const {
   std::vector<std::string> parts{program_, request.model, fingerprint(request.training),
-                                 request.drive_unit};
+                                 to_string(request.drive_unit)};
   for (const auto& [name, value] : describe_options(request.options)) parts.push_back(value);
   return join(parts, "\n");
 }

@@ -3,7 +3,8 @@
 #include <optional>
 #include <string>
 
-#include "dashpot/identify/identify.h"
+#include "dashpot/drive.h"
+#include "dashpot/identify.h"
 
 namespace dashpot {
 
@@ -18,7 +19,7 @@ class FitStore {
   struct Request {
     const std::string& model;
     const std::vector<Record>& training;
-    const std::string& drive_unit;
+    DriveUnit drive_unit;
     const IdentifyOptions& options;
   };
   /// Nothing when there is no such fit, or when its file cannot be read as one.

@@ -1,17 +1,21 @@
+#include "dashpot/rank.h"
+
 #include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cmath>
 #include <limits>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/parallel.h"
 #include "dashpot/base/text.h"
 #include "dashpot/damper/kinds/law/law_model.h"
 #include "dashpot/damper/registry.h"
-#include "dashpot/identify/identify.h"
+#include "dashpot/error.h"
+#include "dashpot/identify.h"
 #include "dashpot/identify/judge/conformal.h"
+#include "dashpot/identify/judge/stress.h"
 #include "dashpot/identify/rank/fit_store.h"
+#include "dashpot/record/trial_parts.h"
 
 namespace dashpot {
 namespace {
@@ -23,7 +27,7 @@ bool is_one_division(const LeaveOut& leave_out) {
 
 /// Nanoseconds for one advance and one force as a simulation asks for them, measured over a whole
 /// record.
-double step_cost(const DamperModel& model, const Record& record, std::string_view drive_unit) {
+double step_cost(const DamperModel& model, const Record& record, DriveUnit drive_unit) {
   const std::vector<DamperInput> inputs = damper_inputs(record, drive_unit);
   std::vector<double> state(model.state_size()), force(inputs.size());
   double best = INFINITY;
@@ -59,7 +63,7 @@ void drop_curves(Evaluation& evaluation) {
 
 /// How long a fit takes beside the others: the unknowns, times what a force costs, times the number
 /// of tries.
-double expected_cost(const std::string& model, const Record& record, std::string_view drive_unit) {
+double expected_cost(const std::string& model, const Record& record, DriveUnit drive_unit) {
   constexpr double kNetwork = 3000;  // a training beside the fit of a law without states, measured
   const Law* inside = law_inside(model);
   if (!inside) return kNetwork;

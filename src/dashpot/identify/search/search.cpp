@@ -8,12 +8,13 @@
 #include <mutex>
 #include <tuple>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/file.h"
 #include "dashpot/base/parallel.h"
 #include "dashpot/base/text.h"
 #include "dashpot/damper/nets/kernel.h"
+#include "dashpot/error.h"
 #include "dashpot/identify/rank/fit_identity.h"
+#include "dashpot/split.h"
 
 namespace dashpot {
 namespace {
@@ -280,12 +281,12 @@ NamedTexts describe_search(const Dataset& dataset, const LeaveOut& leave_out,
   for (const SearchAxis& axis : options.space.axes) axes.push_back(format_axis(axis));
   IdentifyOptions fit = options.fit;
   fit.network = options.space.fixed;
-  NamedTexts texts{
-      {"data", fingerprint(dataset.records) + dataset.drive_unit + describe_roles(dataset)},
-      {"left out", format_leave_out(leave_out)},
-      {"model", options.model},
-      {"searched", join(axes, " ")},
-      {"method", std::string(name_of(options.method))}};
+  NamedTexts texts{{"data", fingerprint(dataset.records) + to_string(dataset.drive_unit) +
+                                describe_roles(dataset)},
+                   {"left out", format_leave_out(leave_out)},
+                   {"model", options.model},
+                   {"searched", join(axes, " ")},
+                   {"method", std::string(name_of(options.method))}};
   for (auto& [name, value] : describe_options(fit)) texts.emplace_back(name, value);
   if (options.method == SearchMethod::Halving)
     texts.emplace_back("effort", options.effort == SearchEffort::Samples ? "samples" : "epochs");

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "dashpot/identify/identify.h"
+#include "dashpot/identify.h"
 #include "dashpot/identify/search/search_space.h"
 #include "dashpot/identify/search/trial_store.h"
 

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <set>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/file.h"
 #include "dashpot/base/random.h"
 #include "dashpot/base/text.h"
+#include "dashpot/error.h"
 #include "dashpot/identify/fit/fit.h"
 
 namespace dashpot {

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "dashpot/base/result_file.h"
-#include "dashpot/identify/judge/metrics.h"
+#include "dashpot/evaluate.h"
 
 namespace dashpot {
 

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <limits>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
+#include "dashpot/error.h"
 #include "dashpot/record/readers/csv_dialect.h"
 #include "dashpot/record/readers/line_source.h"
 

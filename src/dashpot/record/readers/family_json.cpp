@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/file.h"
-#include "dashpot/base/value.h"
+#include "dashpot/error.h"
+#include "dashpot/value.h"
 
 namespace fs = std::filesystem;
 

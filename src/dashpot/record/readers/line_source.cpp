@@ -4,7 +4,7 @@
 #include <cstring>
 #include <zlib.h>
 
-#include "dashpot/base/error.h"
+#include "dashpot/error.h"
 
 namespace fs = std::filesystem;
 

@@ -9,8 +9,8 @@
 #include <memory>
 #include <mutex>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/file.h"
+#include "dashpot/error.h"
 #include "dashpot/record/readers/line_source.h"
 #include "dashpot/record/readers/mat_guard.h"
 

@@ -6,7 +6,7 @@
 #include <vector>
 #include <zlib.h>
 
-#include "dashpot/base/error.h"
+#include "dashpot/error.h"
 
 namespace dashpot {
 namespace {

@@ -1,7 +1,7 @@
 #include "dashpot/record/readers/reader.h"
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
+#include "dashpot/error.h"
 #include "dashpot/record/readers/csv.h"
 #include "dashpot/record/readers/daq_text.h"
 #include "dashpot/record/readers/family_json.h"

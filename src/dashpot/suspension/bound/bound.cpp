@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/parallel.h"
+#include "dashpot/error.h"
 #include "dashpot/suspension/bound/optimum.h"
 #include "dashpot/suspension/bound/relaxation.h"
 

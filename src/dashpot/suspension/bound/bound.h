@@ -1,10 +1,10 @@
 #pragma once
 #include <vector>
 
+#include "dashpot/simulate.h"
 #include "dashpot/suspension/bound/force_range.h"
 #include "dashpot/suspension/bound/range_damper.h"
 #include "dashpot/suspension/bound/sampled_plant.h"
-#include "dashpot/suspension/simulate.h"
 
 // What the best semi-active suspension that knew the road in advance could do on it
 // (docs/bound.md).

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
+#include "dashpot/error.h"
 
 namespace dashpot {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
-#include "dashpot/damper/model.h"
+#include "dashpot/damper_model.h"
+#include "dashpot/mounted_damper.h"
 #include "dashpot/suspension/bound/force_range.h"
-#include "dashpot/suspension/mounted_damper.h"
 
 namespace dashpot {
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "dashpot/base/error.h"
+#include "dashpot/error.h"
 #include "dashpot/numerics/minimise.h"
 
 namespace dashpot {

@@ -5,8 +5,8 @@
 #include <Eigen/Dense>
 #include <unsupported/Eigen/MatrixFunctions>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
+#include "dashpot/error.h"
 #include "dashpot/suspension/plants/linear.h"
 
 namespace dashpot {

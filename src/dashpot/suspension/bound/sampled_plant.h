@@ -1,9 +1,9 @@
 #pragma once
 #include <vector>
 
+#include "dashpot/ground_motion.h"
 #include "dashpot/numerics/small_matrix.h"
-#include "dashpot/suspension/ground/ground_motion.h"
-#include "dashpot/suspension/plants/plant.h"
+#include "dashpot/plant.h"
 
 namespace dashpot {
 

@@ -1,7 +1,7 @@
 #pragma once
 #include <math.h>  // the C texts say fmin, not std::fmin
 
-#include "dashpot/suspension/control/controller.h"
+#include "dashpot/controller.h"
 
 // What the C texts of c_text/ ask for. They are taken in within namespace dashpot.
 namespace dashpot {

@@ -1,10 +1,10 @@
-#include "dashpot/suspension/control/controller.h"
+#include "dashpot/controller.h"
 
 #include <algorithm>
 #include <array>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
+#include "dashpot/error.h"
 #include "dashpot/suspension/control/damping_law.h"
 
 namespace dashpot {

@@ -5,8 +5,8 @@
 #include <numbers>
 #include <utility>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
+#include "dashpot/error.h"
 
 namespace dashpot {
 namespace {

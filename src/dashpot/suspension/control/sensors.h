@@ -4,23 +4,9 @@
 #include <vector>
 
 #include "dashpot/base/random.h"
-#include "dashpot/suspension/control/controller.h"
+#include "dashpot/controller.h"
 
 namespace dashpot {
-
-/// What stands between the plant and its controller. Ideal by default: the laws see what is.
-struct SensorOptions {
-  bool in_car = false;  ///< a body accelerometer and a deflection sensor per strut; the rest is
-                        ///< made from these
-  double acceleration_noise = 0.05;       ///< m/s^2, standard deviation
-  double acceleration_resolution = 0.01;  ///< m/s^2
-  double deflection_noise = 5e-5;         ///< m, standard deviation
-  double deflection_resolution = 2e-5;    ///< m
-  double delay = 0;                       ///< s, of both, in whole samples
-  double integration_corner = 0.15;  ///< Hz: slower motions are left out of the body's velocity
-  double derivative_corner = 80;     ///< Hz: of the deflection's derivative
-  std::uint64_t seed = 1;
-};
 
 /// Sensors and filters of all struts. Mutable: noise and memories are its own.
 class Sensors {

@@ -1,5 +1,5 @@
 #pragma once
-#include "dashpot/suspension/ground/ground_motion.h"
+#include "dashpot/ground_motion.h"
 
 namespace dashpot {
 

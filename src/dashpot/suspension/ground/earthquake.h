@@ -2,7 +2,7 @@
 #include <filesystem>
 #include <string_view>
 
-#include "dashpot/suspension/ground/ground_motion.h"
+#include "dashpot/ground_motion.h"
 
 namespace dashpot {
 

@@ -2,8 +2,8 @@
 
 #include <array>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
+#include "dashpot/error.h"
 #include "dashpot/suspension/ground/deterministic.h"
 #include "dashpot/suspension/ground/recorded_ground.h"
 #include "dashpot/suspension/ground/road_profile.h"

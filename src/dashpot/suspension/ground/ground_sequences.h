@@ -3,8 +3,8 @@
 #include <span>
 #include <string>
 
+#include "dashpot/ground_motion.h"
 #include "dashpot/record/excitation.h"
-#include "dashpot/suspension/ground/ground_motion.h"
 
 namespace dashpot {
 
@@ -18,12 +18,5 @@ std::span<const GroundSequence> ground_sequences();
 
 /// Throws Error "unknown motion of the ground ...; did you mean ...".
 const GroundSequence& find_ground_sequence(std::string_view name, const std::string& where = {});
-
-/// From a text like "iso8608,class=C,speed=72km/h" or "step,height=3cm"; "class=C" stands for the
-/// roughness of that class. A file's: "measured,file=road.txt,speed=72km/h" or
-/// "earthquake,file=el_centro.dat,unit=g0", as recorded_grounds() has them. Throws Error(where,
-/// ...) on an unknown name or parameter and on a value that is out of bounds.
-GroundPointer make_ground(const std::string& text, std::uint64_t seed,
-                          const std::string& where = "road");
 
 }  // namespace dashpot

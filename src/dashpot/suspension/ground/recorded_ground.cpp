@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 
-#include "dashpot/base/error.h"
-#include "dashpot/base/parameter_table.h"
 #include "dashpot/base/text.h"
+#include "dashpot/error.h"
+#include "dashpot/parameter_table.h"
 #include "dashpot/suspension/ground/earthquake.h"
 #include "dashpot/suspension/ground/road_profile.h"
 

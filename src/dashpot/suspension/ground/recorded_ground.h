@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "dashpot/suspension/ground/ground_motion.h"
+#include "dashpot/ground_motion.h"
 
 namespace dashpot {
 

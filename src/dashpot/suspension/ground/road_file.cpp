@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
 #include "dashpot/base/units.h"
+#include "dashpot/error.h"
 #include "dashpot/record/readers/reader.h"
 #include "dashpot/suspension/ground/deterministic.h"
 #include "dashpot/suspension/ground/earthquake.h"

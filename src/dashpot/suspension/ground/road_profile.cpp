@@ -5,9 +5,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/random.h"
 #include "dashpot/base/text.h"
+#include "dashpot/error.h"
 #include "dashpot/numerics/spectrum.h"
 
 namespace dashpot {

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "dashpot/suspension/ground/ground_motion.h"
+#include "dashpot/ground_motion.h"
 
 namespace dashpot {
 

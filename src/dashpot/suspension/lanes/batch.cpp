@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/parallel.h"
 #include "dashpot/damper/nets/aligned.h"
+#include "dashpot/error.h"
 #include "dashpot/suspension/lanes/lane_pilot.h"
 #include "dashpot/suspension/lanes/lane_vehicle.h"
 #include "dashpot/suspension/ride/ride.h"

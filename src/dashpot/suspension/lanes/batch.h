@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "dashpot/suspension/simulate.h"
+#include "dashpot/simulate.h"
 
 namespace dashpot {
 

@@ -2,6 +2,8 @@
 #include <span>
 #include <vector>
 
+#include "dashpot/suspension/control/sensors.h"
+#include "dashpot/suspension/damper_state.h"
 #include "dashpot/suspension/lanes/batch.h"
 #include "dashpot/suspension/lanes/ride.h"
 

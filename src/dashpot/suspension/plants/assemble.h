@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "dashpot/suspension/plants/plant.h"
+#include "dashpot/plant.h"
 
 namespace dashpot {
 

@@ -2,7 +2,7 @@
 #include <complex>
 #include <vector>
 
-#include "dashpot/suspension/plants/plant.h"
+#include "dashpot/plant.h"
 
 namespace dashpot {
 

@@ -1,10 +1,10 @@
-#include "dashpot/suspension/plants/plant.h"
+#include "dashpot/plant.h"
 
 #include <algorithm>
 #include <array>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
+#include "dashpot/error.h"
 
 namespace dashpot {
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "dashpot/suspension/damper_state.h"
+
 namespace dashpot {
 
 PlantEquations::PlantEquations(const PlantForces& forces, const PlantState& start)

@@ -1,12 +1,11 @@
-#include "dashpot/suspension/plants/plant_set.h"
-
 #include <algorithm>
 
 #include "dashpot/base/data_folder.h"
-#include "dashpot/base/error.h"
 #include "dashpot/base/file.h"
 #include "dashpot/base/text.h"
-#include "dashpot/base/value.h"
+#include "dashpot/error.h"
+#include "dashpot/plant.h"
+#include "dashpot/value.h"
 
 namespace dashpot {
 namespace {

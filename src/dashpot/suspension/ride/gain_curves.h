@@ -1,9 +1,9 @@
 #pragma once
 #include <vector>
 
-#include "dashpot/base/monitor.h"
+#include "dashpot/monitor.h"
 #include "dashpot/suspension/ride/ride.h"
-#include "dashpot/suspension/vehicle.h"
+#include "dashpot/vehicle.h"
 
 namespace dashpot {
 

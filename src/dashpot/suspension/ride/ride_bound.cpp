@@ -1,6 +1,6 @@
 #include "dashpot/suspension/ride/ride_bound.h"
 
-#include "dashpot/base/error.h"
+#include "dashpot/error.h"
 #include "dashpot/suspension/ground/deterministic.h"
 
 namespace dashpot {

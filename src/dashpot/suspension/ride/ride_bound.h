@@ -2,7 +2,7 @@
 #include <vector>
 
 #include "dashpot/suspension/bound/bound.h"
-#include "dashpot/suspension/vehicle.h"
+#include "dashpot/vehicle.h"
 
 namespace dashpot {
 

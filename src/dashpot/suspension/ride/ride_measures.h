@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "dashpot/suspension/vehicle.h"
+#include "dashpot/vehicle.h"
 
 namespace dashpot {
 

@@ -6,9 +6,9 @@
 #include <functional>
 #include <mutex>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/parallel.h"
 #include "dashpot/base/text.h"
+#include "dashpot/error.h"
 #include "dashpot/suspension/ground/deterministic.h"
 #include "dashpot/suspension/ground/ground_sequences.h"
 

@@ -7,8 +7,8 @@
 #include <numbers>
 #include <string>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
+#include "dashpot/error.h"
 #include "dashpot/suspension/ride/ride.h"
 
 namespace dashpot {

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <map>
 
+#include "dashpot/suspension/damper_state.h"
 #include "dashpot/suspension/propagator.h"
 #include "dashpot/suspension/steps/step_method.h"
 

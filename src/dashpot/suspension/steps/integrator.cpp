@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dashpot/suspension/damper_state.h"
+
 namespace dashpot {
 
 PlantState PlantState::at_rest(const Plant& plant, const std::vector<MountedDamper>& dampers,

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "dashpot/base/value.h"
+#include "dashpot/value.h"
 
 namespace dashpot {
 namespace {

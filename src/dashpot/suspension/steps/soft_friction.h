@@ -1,7 +1,7 @@
 #pragma once
 #include <memory>
 
-#include "dashpot/damper/model.h"
+#include "dashpot/damper_model.h"
 
 namespace dashpot {
 

@@ -2,8 +2,9 @@
 #include <memory>
 #include <vector>
 
+#include "dashpot/mounted_damper.h"
+#include "dashpot/suspension/damper_state.h"
 #include "dashpot/suspension/forces.h"
-#include "dashpot/suspension/mounted_damper.h"
 
 namespace dashpot {
 

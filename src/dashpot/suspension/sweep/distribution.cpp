@@ -5,10 +5,10 @@
 
 #include <boost/math/special_functions/erf.hpp>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/read_quantity.h"
 #include "dashpot/base/text.h"
 #include "dashpot/base/units.h"
+#include "dashpot/error.h"
 
 namespace dashpot {
 namespace {

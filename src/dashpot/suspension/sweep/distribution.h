@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "dashpot/base/parameter_table.h"
-#include "dashpot/base/value.h"
+#include "dashpot/parameter_table.h"
+#include "dashpot/value.h"
 
 namespace dashpot {
 

@@ -6,11 +6,11 @@
 
 #include <boost/random/sobol.hpp>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/random.h"
 #include "dashpot/base/text.h"
 #include "dashpot/base/units.h"
 #include "dashpot/damper/parameter_set.h"
+#include "dashpot/error.h"
 #include "dashpot/suspension/damper_words.h"
 #include "dashpot/suspension/ground/ground_sequences.h"
 #include "dashpot/suspension/ground/road_profile.h"

@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "dashpot/suspension/lanes/batch.h"
-#include "dashpot/suspension/vehicle.h"
+#include "dashpot/vehicle.h"
 
 namespace dashpot {
 

@@ -3,10 +3,10 @@
 #include <algorithm>
 
 #include "dashpot/base/data_folder.h"
-#include "dashpot/base/error.h"
 #include "dashpot/base/file.h"
 #include "dashpot/base/read_quantity.h"
 #include "dashpot/base/text.h"
+#include "dashpot/error.h"
 #include "dashpot/suspension/sweep/inputs.h"
 
 namespace dashpot {

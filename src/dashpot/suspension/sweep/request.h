@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "dashpot/suspension/sweep/distribution.h"
-#include "dashpot/suspension/vehicle.h"
+#include "dashpot/vehicle.h"
 
 namespace dashpot {
 

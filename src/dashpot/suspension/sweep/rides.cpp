@@ -4,7 +4,7 @@
 #include <map>
 #include <span>
 
-#include "dashpot/base/error.h"
+#include "dashpot/error.h"
 #include "dashpot/suspension/ground/ground_sequences.h"
 #include "dashpot/suspension/lanes/batch.h"
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "dashpot/base/monitor.h"
+#include "dashpot/monitor.h"
 #include "dashpot/suspension/sweep/inputs.h"
 #include "dashpot/suspension/sweep/store.h"
 

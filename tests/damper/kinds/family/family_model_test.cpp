@@ -1,7 +1,7 @@
 #include "dashpot/damper/kinds/family/family_model.h"
 
 #include "dashpot/base/random.h"
-#include "dashpot/damper/model_file.h"
+#include "dashpot/model_file.h"
 #include "example_family.h"
 #include "support.h"
 

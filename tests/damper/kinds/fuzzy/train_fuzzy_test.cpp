@@ -2,8 +2,8 @@
 
 #include <numeric>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/random.h"
+#include "dashpot/error.h"
 #include "support.h"
 
 using namespace dashpot;

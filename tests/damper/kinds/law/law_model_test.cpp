@@ -2,9 +2,9 @@
 
 #include <vector>
 
-#include "dashpot/base/value.h"
 #include "dashpot/damper/parameter_set.h"
 #include "dashpot/damper/registry.h"
+#include "dashpot/value.h"
 #include "support.h"
 
 using namespace dashpot;
@@ -16,7 +16,7 @@ LawModel current_times_speed(double rate) {
   return LawModel(
       find_law("bingham"),
       {{Form::Linear, Form::Constant, Form::Constant, Form::Constant}, {{0, 1}, {0}, {0}, {0}}},
-      "A", rate);
+      DriveUnit::Ampere, rate);
 }
 
 }  // namespace
@@ -123,14 +123,13 @@ TEST_CASE("a wrong number of parameters or coefficients is refused") {
           LawModel(law,
                    {{Form::Linear, Form::Constant, Form::Constant, Form::Constant},
                     {{1}, {0}, {0}, {0}}},
-                   "A", 0);
+                   DriveUnit::Ampere, 0);
         }) == "parameters of bingham, c0: has 1 coefficients; a linear one has 2");
-  CHECK(message_of([&] { LawModel(law, load_parameters("kwok2006").parameters(), "A", 0); }) != "");
   CHECK(message_of([&] {
-          LawModel(law, LawModel::constant(law, {1, 2, 3, 0}).parameters(), "mA", 0);
-        }) == "drive_unit: is 'mA'; write A (current) or V (voltage)");
+          LawModel(law, load_parameters("kwok2006").parameters(), DriveUnit::Ampere, 0);
+        }) != "");
   CHECK(message_of([&] {
-          LawModel(law, LawModel::constant(law, {1, 2, 3, 0}).parameters(), "A", -1);
+          LawModel(law, LawModel::constant(law, {1, 2, 3, 0}).parameters(), DriveUnit::Ampere, -1);
         }) == "lag_rate: is -1; write a rate in 1/s, 0 for none");
 }
 

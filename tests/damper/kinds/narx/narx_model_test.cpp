@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "dashpot/identify/judge/evaluate.h"
+#include "dashpot/evaluate.h"
 #include "narx_example.h"
 #include "support.h"
 

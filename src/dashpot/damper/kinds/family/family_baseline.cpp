@@ -3,9 +3,9 @@
 #include <array>
 #include <cmath>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
 #include "dashpot/damper/physics/plate_flow.h"
+#include "dashpot/error.h"
 
 namespace dashpot {
 namespace {

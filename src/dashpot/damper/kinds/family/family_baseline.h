@@ -2,7 +2,7 @@
 #include <string_view>
 
 #include "dashpot/damper/kinds/family/family_member.h"
-#include "dashpot/damper/model.h"
+#include "dashpot/damper_model.h"
 
 namespace dashpot {
 

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "dashpot/damper/kinds/family/family_member.h"
-#include "dashpot/damper/model.h"
 #include "dashpot/damper/nets/hysteresis_bank.h"
 #include "dashpot/damper/nets/mlp_evaluator.h"
+#include "dashpot/damper_model.h"
 
 namespace dashpot {
 

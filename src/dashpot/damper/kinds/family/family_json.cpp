@@ -1,7 +1,7 @@
-#include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
 #include "dashpot/damper/kinds/family/family_model.h"
 #include "dashpot/damper/nets/mlp_json.h"
+#include "dashpot/error.h"
 
 namespace dashpot {
 namespace {

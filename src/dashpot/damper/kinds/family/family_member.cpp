@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
 #include "dashpot/damper/physics/damper_physics.h"
+#include "dashpot/error.h"
 
 namespace dashpot {
 namespace {

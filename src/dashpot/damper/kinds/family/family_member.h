@@ -4,8 +4,8 @@
 #include <string_view>
 #include <vector>
 
-#include "dashpot/base/value.h"
-#include "dashpot/damper/model.h"
+#include "dashpot/damper_model.h"
+#include "dashpot/value.h"
 
 namespace dashpot {
 

@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
 #include "dashpot/damper/kinds/family/family_force.h"
 #include "dashpot/damper/nets/mlp_json.h"
+#include "dashpot/error.h"
 
 namespace dashpot {
 namespace {

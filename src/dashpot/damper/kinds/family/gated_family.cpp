@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dashpot/base/error.h"
 #include "dashpot/damper/kinds/family/family_force.h"
+#include "dashpot/error.h"
 
 namespace dashpot {
 namespace {

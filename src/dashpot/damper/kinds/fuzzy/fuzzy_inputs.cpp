@@ -4,9 +4,9 @@
 #include <array>
 #include <cmath>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
 #include "dashpot/damper/lag.h"
+#include "dashpot/error.h"
 
 namespace dashpot {
 namespace {

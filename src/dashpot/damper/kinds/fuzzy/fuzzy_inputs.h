@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "dashpot/damper/model.h"
+#include "dashpot/damper_model.h"
 
 namespace dashpot {
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "dashpot/base/error.h"
+#include "dashpot/error.h"
 
 namespace dashpot {
 namespace {

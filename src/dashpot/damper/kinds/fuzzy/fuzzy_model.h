@@ -5,7 +5,7 @@
 
 #include "dashpot/damper/kinds/fuzzy/fuzzy_inputs.h"
 #include "dashpot/damper/kinds/fuzzy/sugeno.h"
-#include "dashpot/damper/model.h"
+#include "dashpot/damper_model.h"
 
 namespace dashpot {
 

@@ -1,9 +1,9 @@
 #include <array>
 #include <cmath>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
 #include "dashpot/damper/kinds/fuzzy/fuzzy_model.h"
+#include "dashpot/error.h"
 
 namespace dashpot {
 namespace {

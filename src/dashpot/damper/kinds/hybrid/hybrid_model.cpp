@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 
-#include "dashpot/base/error.h"
 #include "dashpot/damper/kinds/hybrid/presets.h"
+#include "dashpot/error.h"
 
 namespace dashpot {
 namespace {

@@ -1,10 +1,11 @@
 #include "dashpot/damper/kinds/law/law_model.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
-#include "dashpot/base/error.h"
 #include "dashpot/base/text.h"
+#include "dashpot/error.h"
 
 namespace dashpot {
 namespace {
@@ -36,14 +37,10 @@ void require_shape(const Law& law, const Dependence& parameters) {
 
 }  // namespace
 
-LawModel::LawModel(const Law& law, Dependence parameters, std::string drive_unit, double lag_rate)
-    : law_(&law),
-      parameters_(std::move(parameters)),
-      drive_unit_(std::move(drive_unit)),
-      lag_rate_(lag_rate) {
+LawModel::LawModel(const Law& law, Dependence parameters, DriveUnit drive_unit, double lag_rate)
+    : law_(&law), parameters_(std::move(parameters)), drive_unit_(drive_unit), lag_rate_(lag_rate) {
   require_shape(law, parameters_);
-  if (drive_unit_ != "A" && drive_unit_ != "V")
-    throw Error("drive_unit", "is '" + drive_unit_ + "'", "write A (current) or V (voltage)");
+  assert(drive_unit_ != DriveUnit::None);
   if (!(lag_rate_ >= 0 && std::isfinite(lag_rate_)))
     throw Error("lag_rate", "is " + format_number(lag_rate_), "write a rate in 1/s, 0 for none");
   for (std::size_t k = 0; k < law.params.size(); ++k) {
@@ -65,7 +62,7 @@ LawModel LawModel::constant(const Law& law, const std::vector<double>& parameter
     dependence.forms[k] = Form::Linear;
     dependence.coefficients[k] = {0, 1};
   }
-  return LawModel(law, std::move(dependence), "A", 0);
+  return LawModel(law, std::move(dependence), DriveUnit::Ampere, 0);
 }
 
 bool LawModel::needs_displacement() const noexcept { return law_->needs_displacement; }
@@ -149,7 +146,7 @@ void require_bounds(const LawModel& model, double current, const std::string& wh
     throw Error(
         where,
         std::string(info.name) + " is " + format_number(p[k]) + " " + std::string(info.unit) +
-            " at " + format_number(current) + " " + model.drive_unit(),
+            " at " + format_number(current) + " " + to_string(model.drive_unit()),
         "it must lie within " + format_number(info.lower) + " ... " + format_number(info.upper));
   }
 }

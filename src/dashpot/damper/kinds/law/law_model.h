@@ -7,7 +7,8 @@
 
 #include "dashpot/damper/dependence.h"
 #include "dashpot/damper/law.h"
-#include "dashpot/damper/model.h"
+#include "dashpot/damper_model.h"
+#include "dashpot/drive.h"
 
 namespace dashpot {
 
@@ -15,10 +16,10 @@ namespace dashpot {
 /// an RK4 integrator whose number of steps follows from the law's rate.
 class LawModel final : public DamperModel {
  public:
-  /// drive_unit: "A" or "V". lag_rate: 1/s, i' = -lag_rate (i - command); 0: no lag. Throws Error
+  /// drive_unit: not None. lag_rate: 1/s, i' = -lag_rate (i - command); 0: no lag. Throws Error
   /// when the number of parameters or of their coefficients is not what the law and the forms ask
   /// for.
-  LawModel(const Law& law, Dependence parameters, std::string drive_unit, double lag_rate);
+  LawModel(const Law& law, Dependence parameters, DriveUnit drive_unit, double lag_rate);
   /// Every parameter constant, at the values given (in table order), no lag; tests and examples use
   /// it.
   static LawModel constant(const Law& law, const std::vector<double>& parameters);
@@ -65,12 +66,12 @@ class LawModel final : public DamperModel {
   const Law& law() const { return *law_; }
   const Dependence& parameters() const { return parameters_; }
   double lag_rate() const { return lag_rate_; }
-  const std::string& drive_unit() const { return drive_unit_; }
+  DriveUnit drive_unit() const { return drive_unit_; }
 
  private:
   const Law* law_;
   Dependence parameters_;
-  std::string drive_unit_;
+  DriveUnit drive_unit_;
   double lag_rate_;
   bool follows_current_ = false;  ///< some parameter depends on the current
   /// The polynomials' coefficients by power of the current, padded with zeros: one straight loop

@@ -1,7 +1,8 @@
-#include "dashpot/base/error.h"
 #include "dashpot/base/units.h"
+#include "dashpot/damper/file_parts.h"
 #include "dashpot/damper/kinds/law/law_model.h"
 #include "dashpot/damper/law_list.h"
+#include "dashpot/error.h"
 
 namespace dashpot {
 namespace {
@@ -45,7 +46,7 @@ Value LawModel::to_json() const {
                                   {"coefficients", Value::array(parameters_.coefficients[k])},
                                   {"unit", law_->params[k].unit}}));
   return Value::object({{"law", law_->name},
-                        {"drive_unit", drive_unit_},
+                        {"drive_unit", to_string(drive_unit_)},
                         {"lag_rate", lag_rate_},
                         {"parameters", parameters}});
 }
@@ -54,7 +55,7 @@ std::unique_ptr<LawModel> law_model_from_json(const Value& value) {
   ObjectReader reader(value, "a law model");
   const Value& name = reader.required("law");
   const Law& law = find_law(name.as_string(), name.where());
-  const std::string drive_unit = reader.string("drive_unit");
+  const DriveUnit drive_unit = read_drive_unit(reader);
   const double lag_rate = reader.number("lag_rate");
   const Value& parameters = reader.required("parameters");
   reader.finish();

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dashpot/base/error.h"
 #include "dashpot/damper/kinds/network/network_model.h"
 #include "dashpot/damper/nets/mlp_json.h"
+#include "dashpot/error.h"
 
 namespace dashpot {
 namespace {

@@ -4,8 +4,8 @@
 #include <string_view>
 #include <vector>
 
-#include "dashpot/damper/model.h"
 #include "dashpot/damper/nets/ensemble.h"
+#include "dashpot/damper_model.h"
 
 namespace dashpot {
 

@@ -1,6 +1,6 @@
-#include "dashpot/base/error.h"
 #include "dashpot/damper/kinds/state_space/state_space_model.h"
 #include "dashpot/damper/nets/gated_network_json.h"
+#include "dashpot/error.h"
 
 namespace dashpot {
 namespace {

@@ -1,58 +1,15 @@
 #pragma once
-#include <memory>
+#include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "dashpot/base/monitor.h"
-#include "dashpot/damper/model_file.h"
-#include "dashpot/identify/fit/network_design.h"
-#include "dashpot/identify/fit/parameter_choice.h"
-#include "dashpot/identify/judge/evaluate.h"
-#include "dashpot/identify/judge/stress.h"
-#include "dashpot/record/split.h"
+#include "dashpot/evaluate.h"
+#include "dashpot/identify.h"
+#include "dashpot/model_file.h"
+#include "dashpot/split.h"
 
 namespace dashpot {
-
-struct IdentifyOptions {
-  OffsetMode offset = OffsetMode::Record;
-  std::vector<ParameterChoice> choices;  ///< laws only
-  NetworkDesign network;                 ///< networks only
-  int starts = 4;
-  int search = 0;  ///< evaluations of a global search that gives one more start; 0: none
-  std::uint64_t seed = 1;
-  int threads = 0;
-  Monitor monitor;
-};
-
-/// A fitted parameter with its 95 % interval. Networks and fuzzy models have none.
-struct FittedParameter {
-  std::string name, unit, meaning;
-  double value = 0;
-  double low = 0, high = 0;  ///< 95 % interval; equal to value when fixed
-  bool fixed = false;
-  bool at_bound = false;
-  bool weak = false;  ///< cannot be told from these data; the message says with what
-};
-
-struct FitReport {
-  enum class Status { Converged, IterationLimit, Failed };
-  Status status = Status::Failed;
-  std::string message;
-  std::shared_ptr<const DamperModel> model;  ///< with the mean record offset as its bias
-  std::vector<FittedParameter> parameters;
-  std::vector<std::pair<std::string, double>>
-      offsets;                        ///< N, per training record, beyond the model's bias
-  std::vector<std::string> warnings;  ///< identifiability, bounds, divergence, in words
-  int iterations = 0;
-  double seconds = 0;        ///< CPU time
-  double training_rmse = 0;  ///< N, free run
-};
-
-/// Fits the model of that name (a law, or a preset of a network or fuzzy model) to all records
-/// together in free run. Throws Error when the records cannot serve (a channel missing, no motion).
-/// Not converging is a status.
-FitReport identify(const std::string& model, const std::vector<Record>& training,
-                   const std::string& drive_unit, const IdentifyOptions& options);
 
 class FitStore;
 

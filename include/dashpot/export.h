@@ -6,15 +6,18 @@
 #include <string_view>
 #include <vector>
 
-#include "dashpot/damper/model_file.h"
-#include "dashpot/export/c/c_text.h"
+#include "dashpot/drive.h"
+#include "dashpot/model_file.h"
 
 namespace dashpot {
+
+/// The numbers in which exported code computes.
+enum class CPrecision { Double, Single };
 
 /// A model with what an export says of it.
 struct ExportedModel {
   const DamperModel& model;
-  std::string drive_unit = "A";
+  DriveUnit drive_unit = DriveUnit::Ampere;
   Domain domain;           ///< where it was identified, or where its parameters hold
   double sample_time = 0;  ///< s, of the training data; 0: mixed or unknown
   std::string origin;      ///< where it comes from, in words

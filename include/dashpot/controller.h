@@ -1,13 +1,14 @@
 #pragma once
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "dashpot/base/parameter_table.h"
-#include "dashpot/suspension/plants/plant.h"
+#include "dashpot/parameter_table.h"
+#include "dashpot/plant.h"
 
 namespace dashpot {
 
@@ -85,5 +86,19 @@ ControllerPointer make_controller(const std::string& text, const ControlContext&
                                   const std::string& where = "controller");
 /// Whether it feeds the plant's state back.
 bool needs_plant_state(const std::string& text);
+
+/// What stands between the plant and its controller. Ideal by default: the laws see what is.
+struct SensorOptions {
+  bool in_car = false;  ///< a body accelerometer and a deflection sensor per strut; the rest is
+                        ///< made from these
+  double acceleration_noise = 0.05;       ///< m/s^2, standard deviation
+  double acceleration_resolution = 0.01;  ///< m/s^2
+  double deflection_noise = 5e-5;         ///< m, standard deviation
+  double deflection_resolution = 2e-5;    ///< m
+  double delay = 0;                       ///< s, of both, in whole samples
+  double integration_corner = 0.15;  ///< Hz: slower motions are left out of the body's velocity
+  double derivative_corner = 80;     ///< Hz: of the deflection's derivative
+  std::uint64_t seed = 1;
+};
 
 }  // namespace dashpot

@@ -3,9 +3,10 @@
 #include <string>
 #include <vector>
 
-#include "dashpot/damper/model_file.h"
-#include "dashpot/suspension/plants/plant_set.h"
-#include "dashpot/suspension/simulate.h"
+#include "dashpot/drive.h"
+#include "dashpot/model_file.h"
+#include "dashpot/plant.h"
+#include "dashpot/simulate.h"
 
 namespace dashpot {
 
@@ -36,7 +37,8 @@ struct Vehicle {
   std::vector<MountedDamper> dampers;          ///< one per strut
   std::vector<std::string> damper_names;       ///< one per strut
   std::vector<std::optional<Domain>> domains;  ///< where each damper's data were
-  std::string drive_unit;        ///< of the dampers; empty: a place between 0 and 1, or none
+  DriveUnit drive_unit =
+      DriveUnit::None;           ///< of the dampers; empty: a place between 0 and 1, or none
   ControllerPointer controller;  ///< null: none
   std::string controller_name;   ///< as it was named; empty: none
   ControlLimits limits;

@@ -1,18 +1,52 @@
 #pragma once
+#include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
-#include "dashpot/damper/force_band.h"
-#include "dashpot/damper/model.h"
-#include "dashpot/identify/judge/metrics.h"
-#include "dashpot/record/dataset.h"
+#include "dashpot/damper_model.h"
+#include "dashpot/dataset.h"
+#include "dashpot/drive.h"
+#include "dashpot/value.h"
 
 namespace dashpot {
 
+/// Errors of a modelled force against a measured one. Several records pool by adding sums.
+struct ErrorSums {
+  std::size_t n = 0;
+  double squared = 0, absolute = 0, largest = 0;   ///< of e = measured - modelled
+  double force = 0, force_squared = 0, error = 0;  ///< sums of F, F^2, e
+  double force_min = 0, force_max = 0;             ///< N
+  void add(double measured, double modelled);
+  void add(const ErrorSums& other);
+};
+
+/// MODELS.md 11; every figure by its name.
+struct Metrics {
+  std::size_t samples = 0;
+  double rmse = 0;           ///< N
+  double rms_half_span = 0;  ///< %, 200 rmse / (Fmax - Fmin): what the one-sensor paper prints
+  double rms_span = 0;       ///< %, 100 rmse / (Fmax - Fmin)
+  double nrmse_max = 0;      ///< %, 100 rmse / max |F|
+  double esr = 0;            ///< %, 100 sum e^2 / sum (F - mean F)^2, a power ratio
+  double r2 = 0;             ///< 1 - esr
+  double rrse = 0;           ///< sqrt(esr)
+  double fit = 0;            ///< %, 100 (1 - rrse)
+  double vaf = 0;            ///< %, 100 (1 - var e / var F)
+  double mae = 0;            ///< N
+  double max_error = 0;      ///< N
+};
+Metrics metrics(const ErrorSums& sums);
+Value to_json(const Metrics& metrics);
+
+/// Energy dissipated, J: integral of F v dt by the trapezoidal rule.
+double dissipated_energy(std::span<const double> time, std::span<const double> velocity,
+                         std::span<const double> force);
+
 /// The record's motion and drive as the model sees them. Throws Error naming the missing channel.
 /// A record without displacement gives 0 there.
-std::vector<DamperInput> damper_inputs(const Record& record, std::string_view drive_unit);
+std::vector<DamperInput> damper_inputs(const Record& record, DriveUnit drive_unit);
 
 /// Where the drive of these records lies, A or V: all of it when it is constant in each, else the
 /// middle 99 % of its samples, so that spikes at switching do not stretch the range.
@@ -21,10 +55,10 @@ struct DriveRange {
   bool varies = false;     ///< within a record
   std::size_t levels = 0;  ///< distinct constant levels
 };
-DriveRange drive_range(const std::vector<Record>& records, std::string_view drive_unit);
+DriveRange drive_range(const std::vector<Record>& records, DriveUnit drive_unit);
 
 /// Where motion and drive of these records lie.
-Domain domain_of(const std::vector<Record>& records, std::string_view drive_unit);
+Domain domain_of(const std::vector<Record>& records, DriveUnit drive_unit);
 
 /// Force over a record in free run: the model sees motion and current only. From rest at the first
 /// sample. `diverged_at`: time of the first force that is not finite or out of the model's range;
@@ -108,6 +142,14 @@ struct Evaluation {
   std::size_t diverged = 0;
 };
 
+/// What became of a model that was driven beyond its data.
+struct StressRun {
+  double seconds = 0;        ///< simulated; 0: not run
+  bool finite = false;       ///< the force was a number all along
+  double largest_share = 0;  ///< largest |F| over the force span of the data
+  bool is_bounded() const;   ///< finite, and within kStressSpans spans
+};
+
 /// Free run over each record, scored from its warm-up on. Records whose `offset` is preset (by
 /// name) keep it: an offset learnt on the training part of a record serves its left-out part.
 struct EvaluateOptions {
@@ -117,7 +159,7 @@ struct EvaluateOptions {
   int threads = 0;
 };
 Evaluation evaluate(const DamperModel& model, const std::vector<Record>& records,
-                    std::string_view drive_unit, const EvaluateOptions& options = {});
+                    DriveUnit drive_unit, const EvaluateOptions& options = {});
 
 /// Several evaluations (one per fold) as one.
 Evaluation pool(const std::vector<Evaluation>& evaluations);

@@ -5,9 +5,9 @@
 #include <utility>
 #include <vector>
 
-#include "dashpot/base/value.h"
-#include "dashpot/damper/input.h"
 #include "dashpot/damper/model_kind.h"
+#include "dashpot/damper_input.h"
+#include "dashpot/value.h"
 
 namespace dashpot {
 
@@ -103,5 +103,24 @@ template <class Model>
 const Model* model_as(const DamperModel& model) {
   return dynamic_cast<const Model*>(&model);
 }
+
+/// An interval of the force around a model's: force -half ... force +half, its width by what is
+/// known at run time. Constant in each band of speed, linear in the drive between knots, constant
+/// beyond them; and the wider the less an ensemble's members agree.
+struct ForceBand {
+  double level = 0.9;       ///< share of samples that it claims to cover
+  std::size_t records = 0;  ///< left-out records, or parts of them, that its width comes from
+  std::vector<double>
+      speeds;  ///< m/s, ascending: |v| where one band of speed ends and the next begins
+  std::vector<double> drives;      ///< A or V, ascending: the knots, at least one
+  std::vector<double> half_width;  ///< N, one row per band of speed, one column per knot
+
+  double spread = 0;  ///< times the members' spread, N, is added in quadrature
+
+  /// `members_spread`: DamperModel::spread of the model there.
+  double half_width_at(const DamperInput& input, double members_spread = 0) const noexcept;
+  /// The same shape, `factor` times as wide.
+  ForceBand scaled(double factor) const;
+};
 
 }  // namespace dashpot

@@ -1,48 +1,16 @@
 #pragma once
 #include <algorithm>
 #include <array>
-#include <memory>
 #include <span>
+#include <vector>
 
-#include "dashpot/base/parameter_table.h"
-#include "dashpot/damper/driver.h"
-#include "dashpot/damper/inverse/inverse.h"
-#include "dashpot/damper/model.h"
-#include "dashpot/suspension/control/controller.h"
+#include "dashpot/controller.h"
+#include "dashpot/driver.h"
+#include "dashpot/mounted_damper.h"
 
 namespace dashpot {
 
-/// Corrects a wanted force by what the measured one misses. Its integral stands still while the
-/// current is at one of its limits.
-struct ForceLoop {
-  double proportional = 0;  ///< 1
-  double integral = 0;      ///< 1/s
-  double derivative = 0;    ///< s
-  bool is_closed() const noexcept { return proportional != 0 || integral != 0 || derivative != 0; }
-};
 ParameterTable force_loop_settings();
-
-/// A damper in its strut: model, coil driver, and the way from a demand to a current.
-struct MountedDamper {
-  std::shared_ptr<const DamperModel> model;
-  DriverOptions driver;
-  /// Wanted force -> current. Without it damping is mapped in a straight line onto the driver's
-  /// currents, and a force is that damping which gives it at this speed.
-  std::shared_ptr<const InverseModel> inverse;
-  ForceLoop loop;
-  double current = 0;  ///< A, commanded where there is no controller
-  double motion_ratio =
-      1;  ///< the damper's travel over the strut's; its force counts there by as much
-  /// This piece's force over its model's, as built: neither inverse nor controller knows of it.
-  double force_factor = 1;
-
-  /// What a force of the model comes to at the strut.
-  double at_strut(double force) const noexcept { return motion_ratio * (force_factor * force); }
-  /// The motion of the strut as the damper has it.
-  DamperInput at_damper(const DamperInput& strut) const noexcept {
-    return {motion_ratio * strut.displacement, motion_ratio * strut.velocity, strut.current};
-  }
-};
 
 /// The way from a demand to a command, with the memories of inverse and force loop.
 class CommandPath {

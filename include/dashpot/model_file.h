@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "dashpot/base/value.h"
-#include "dashpot/damper/force_band.h"
-#include "dashpot/damper/model.h"
+#include "dashpot/damper_model.h"
+#include "dashpot/drive.h"
+#include "dashpot/value.h"
 
 namespace dashpot {
 
@@ -27,7 +27,7 @@ struct Provenance {
 /// A model with all that must travel with it: a versioned JSON file.
 struct ModelFile {
   std::unique_ptr<DamperModel> model;
-  std::string drive_unit = "A";
+  DriveUnit drive_unit = DriveUnit::Ampere;
   double sample_time = 0;  ///< s, of the training data; 0 when mixed
   Domain domain;
   Provenance provenance;

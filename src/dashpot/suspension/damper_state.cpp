@@ -1,8 +1,9 @@
-#include "dashpot/suspension/mounted_damper.h"
+#include "dashpot/suspension/damper_state.h"
 
 #include <algorithm>
 #include <array>
 
+#include "dashpot/damper/inverse/inverse.h"
 #include "dashpot/suspension/control/control_text.h"
 
 namespace dashpot {

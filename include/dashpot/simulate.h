@@ -3,13 +3,12 @@
 #include <string>
 #include <vector>
 
-#include "dashpot/base/monitor.h"
-#include "dashpot/record/record.h"
-#include "dashpot/suspension/control/controller.h"
-#include "dashpot/suspension/control/sensors.h"
-#include "dashpot/suspension/ground/ground_motion.h"
-#include "dashpot/suspension/mounted_damper.h"
-#include "dashpot/suspension/plants/plant.h"
+#include "dashpot/controller.h"
+#include "dashpot/ground_motion.h"
+#include "dashpot/monitor.h"
+#include "dashpot/mounted_damper.h"
+#include "dashpot/plant.h"
+#include "dashpot/record.h"
 
 namespace dashpot {
 

@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <limits>
 #include <memory>
 #include <span>
@@ -43,5 +44,12 @@ class GroundMotion {
 };
 
 using GroundPointer = std::unique_ptr<const GroundMotion>;
+
+/// From a text like "iso8608,class=C,speed=72km/h" or "step,height=3cm"; "class=C" stands for the
+/// roughness of that class. A file's: "measured,file=road.txt,speed=72km/h" or
+/// "earthquake,file=el_centro.dat,unit=g0", as recorded_grounds() has them. Throws Error(where,
+/// ...) on an unknown name or parameter and on a value that is out of bounds.
+GroundPointer make_ground(const std::string& text, std::uint64_t seed,
+                          const std::string& where = "road");
 
 }  // namespace dashpot

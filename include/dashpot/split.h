@@ -1,0 +1,26 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "dashpot/dataset.h"
+
+namespace dashpot {
+
+/// One division of a dataset: what a model is fitted on and what it is judged on. Both hold copies
+/// of the records.
+struct Fold {
+  std::string name;  ///< "without 5 mm 3 Hz"
+  std::vector<Record> training;
+  std::vector<Record> left_out;  ///< judged from `warm_up` on
+};
+
+/// What the dataset file states; else the strictest way that the records allow: by condition,
+/// current, record, or the end of the only one.
+LeaveOut default_leave_out(const Dataset& dataset);
+
+/// The folds of a dataset, in the order of its records or of the values asked for. Throws Error
+/// when the dataset cannot be divided so, with one condition only, say; the message names the ways
+/// that would work.
+std::vector<Fold> split(const Dataset& dataset, const LeaveOut& leave_out);
+
+}  // namespace dashpot

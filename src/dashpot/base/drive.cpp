@@ -1,0 +1,26 @@
+#include "dashpot/drive.h"
+
+#include <array>
+
+#include "dashpot/error.h"
+
+namespace dashpot {
+
+const std::string& to_string(DriveUnit unit) {
+  static const std::array<std::string, 3> kUnits{"", "A", "V"};
+  return kUnits[static_cast<std::size_t>(unit)];
+}
+
+DriveUnit parse_drive_unit(std::string_view text, const std::string& where) {
+  for (const DriveUnit unit : {DriveUnit::Ampere, DriveUnit::Volt})
+    if (text == to_string(unit)) return unit;
+  throw Error(where, "drive unit '" + std::string(text) + "' is unknown",
+              "write A (current) or V (voltage)");
+}
+
+const std::string& drive_channel(DriveUnit unit) {
+  static const std::string kCurrent = "current", kVoltage = "voltage";
+  return unit == DriveUnit::Volt ? kVoltage : kCurrent;
+}
+
+}  // namespace dashpot
