@@ -227,9 +227,9 @@ DatasetFile load_dataset_file(const fs::path& path) {
   out.root = path.parent_path() / reader.string("root", ".");
   if (const Value* drive = reader.optional("drive"); drive && !drive->as_string().empty())
     out.drive_unit = parse_drive_unit(drive->as_string(), drive->where());
+  out.manifest = reader.string("manifest", "");
 
   // How the records are left out by default: its errors get the place in this file.
-  out.manifest = reader.string("manifest", "");
   if (const Value* leave_out = reader.optional("leave_out")) {
     try {
       out.leave_out = parse_leave_out(leave_out->as_string());

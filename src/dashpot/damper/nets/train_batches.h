@@ -18,6 +18,7 @@ struct Schedule {
   double share(double epoch, double epochs) const;
 };
 
+/// Everything but the samples.
 struct BatchTrainOptions {
   Optimiser optimiser = Optimiser::Adam;
   double rate = 1e-3;
@@ -38,9 +39,9 @@ struct BatchTrainOptions {
   SimdLevel level = simd_levels().back();
 };
 
-/// Mini-batch descent on the mean squared error, standardised units. Starts from mlp.parameters;
-/// its layers and scales must be set; one output; samples without groups. The same bits for the
-/// same input and level.
+/// Descent on the mean squared error in mini-batches, standardised units, one thread. Starts from
+/// mlp.parameters, or from a start of the seed when these are empty; its layers and scales must be
+/// set; one output; samples without groups. The same bits for the same input and level.
 TrainReport train_batches(Mlp& mlp, const TrainingSamples& samples,
                           const BatchTrainOptions& options);
 
