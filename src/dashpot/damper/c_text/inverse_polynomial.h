@@ -10,6 +10,7 @@ typedef struct PolynomialNumbers {
   double negligible;  /* N, less than which no current changes anything */
 } PolynomialNumbers;
 
+/* c: the force over s = 0 ... 1, from the least current to the most, through degree + 1 currents */
 static inline void polynomial_force(const Observer* m, const PolynomialNumbers* p,
                                     const InverseInput* input, double* state, double* c) {
   double f[4] = {0, 0, 0, 0};
@@ -27,6 +28,7 @@ static inline double polynomial_wanted(const Observer* m, const PolynomialNumber
   PolynomialError error;
   double places[4];
   FirstRoot found;
+
   observer_follow(m, input, state);
   polynomial_force(m, p, input, state, error.c);
   error.wanted = input->wanted;

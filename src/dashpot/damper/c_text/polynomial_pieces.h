@@ -1,6 +1,7 @@
 /* c[0] + c[1] s + c[2] s^2 + c[3] s^3 over s = 0 ... 1, as C99 text that the library takes in and
  * the C export ships. */
 
+/* The polynomial at s. */
 static inline double polynomial_at(const double* c, double s) {
   return c[0] + (s * (c[1] + (s * (c[2] + (s * c[3])))));
 }
@@ -12,6 +13,8 @@ static inline void polynomial_through(const double* f, int degree, double* c) {
   c[1] = d1;
   c[2] = 0;
   c[3] = 0;
+
+  /* The divided differences d1, d2 and d3 as they are there for each degree. */
   if (degree == 2) {
     const double d2 = f[2] - (2 * f[1]) + f[0];
     c[1] = n * (d1 - (d2 / 2));

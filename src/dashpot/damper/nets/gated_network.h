@@ -11,9 +11,9 @@ namespace dashpot {
 ///
 ///   F = sum_j (sum_k G_jk c_k(u)) t_j,   t = [1, z, tanh(W [z, u] + b)],   c = [1, u_m, u_m u_n]
 ///
-/// The force grows with a current no faster than its square. Signals stand in one array, motions first. Odd in the motions but for b, the current's
-/// part of W and the first row of G. Plain data: at most kMaxSignals signals, kMaxCurrents of them
-/// currents.
+/// The force grows with a current no faster than its square. Signals stand in one array, motions
+/// first. Odd in the motions but for b, the current's part of W and the first row of G. Plain data:
+/// at most kMaxSignals signals, kMaxCurrents of them currents.
 struct GatedNetwork {
   /// standardised = (raw - mean) / scale, held within low ... high: beyond the data, current and
   /// neurons stay as at their edge. The motions themselves, among t, are not held: they go on along

@@ -145,6 +145,8 @@ const DescriptionField& find_description_field(std::string_view name, const std:
 
 void require_possible(const DamperDescription& d, const std::string& where) {
   for (const DescriptionField& field : kFields) require_within(d.*field.field, field, where);
+
+  // What no single field's bounds can say: the parts must fit into each other.
   const auto millimetres = [](double m) { return format_number(1000 * m) + " mm"; };
   if (d.rod_diameter >= d.bore_diameter)
     throw Error(where, "rod_diameter is " + millimetres(d.rod_diameter),
@@ -156,6 +158,7 @@ void require_possible(const DamperDescription& d, const std::string& where) {
         where,
         "no piston is left between slot or rod, gap and a bore of " + millimetres(d.bore_diameter),
         "a wider bore or a smaller gap");
+
   if (d.yield_law != YieldLaw::Carlson && !d.fluid->family)
     throw Error(where, "the family paper has no yield stress of " + std::string(d.fluid->name),
                 "yield: carlson, or fluid: 122EG or 140CG");
@@ -169,12 +172,16 @@ DamperDescription parse_description(std::string_view text, const std::string& so
   if (const Value* fluid = reader.optional("fluid"))
     description.fluid = &find_fluid(fluid->as_string(), fluid->where());
   reader.string("note", "");
+
   read_law(reader, "yield", kYieldLaws, description.yield_law);
   read_law(reader, "circuit", kCircuitLaws, description.circuit_law);
   read_law(reader, "flow", kFlowLaws, description.flow_law);
+
+  // Fields that are not given keep the table's defaults.
   for (const DescriptionField& field : kFields)
     if (const Value* value = reader.optional(field.name))
       description.*field.field = read_field(*value, field);
+
   reader.finish();
   require_possible(description, source);
   return description;

@@ -28,8 +28,9 @@ enum class FlowLaw {
   Paper        ///< equations 13 to 15 of the family paper, dimensionally right
 };
 
-/// A damper as its drawing, its coil and its fluid say. SI. A field of 0 that says so follows from
-/// others.
+/// A damper as its drawing, its coil and its fluid say, in SI. description_fields() gives each
+/// number's unit, default, bounds and meaning. A field of 0 whose meaning says so follows from
+/// others. `fluid` points into the table of fluids and is never null.
 struct DamperDescription {
   std::string name;
   const Fluid* fluid = nullptr;
@@ -55,20 +56,22 @@ struct DescriptionField {
   double value, lower, upper;  ///< default and bounds
   std::string_view meaning;
 };
+/// All fields, in the order in which they are written.
 std::span<const DescriptionField> description_fields();
-/// In the field's unit and within its bounds. Throws Error.
+/// Reads a number in the field's unit, or with a unit of its own, and checks its bounds. Throws
+/// Error(file:line, ...).
 double read_field(const Value& value, const DescriptionField& field);
 /// Throws Error(where, "unknown field ...").
 const DescriptionField& find_description_field(std::string_view name, const std::string& where);
 
-/// YAML: "gap: 1 mm", "turns: 150", "fluid: 140CG", "flow: plate". Throws Error that names file and
-/// line. What cannot be together (a rod wider than the bore) is refused too.
+/// From YAML: "gap: 1 mm", "turns: 150", "fluid: 140CG", "flow: plate". Throws Error that names
+/// file and line. What cannot be together (a rod wider than the bore) is refused too.
 DamperDescription parse_description(std::string_view text, const std::string& source);
 DamperDescription load_description(const std::filesystem::path& path);
-/// One that comes with Dashpot, of data/dampers.
+/// A description that comes with Dashpot, of data/dampers. Throws Error "unknown damper ...".
 DamperDescription named_description(const std::string& name);
 std::vector<std::string> description_names();
-/// As YAML that reads back as the same.
+/// As YAML that reads back as the same, to the bit.
 std::string format_description(const DamperDescription& description);
 
 /// Throws Error where fields cannot be together; `where` begins the message.
