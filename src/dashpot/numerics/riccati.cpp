@@ -41,7 +41,7 @@ std::vector<double> regulator_gain(const RegulatorProblem& p) {
   const Eigen::VectorXd pivots = Eigen::MatrixXd(r.matrixL()).diagonal();
   if (r.info() != Eigen::Success || pivots.minCoeff() < 1e-7 * pivots.maxCoeff())
     throw Error("regulator", "a combination of inputs costs nothing",
-                "a price on the inputs themselves");
+                "a weight on the inputs themselves");
 
   // Remove the cross term: with v = u + R^-1 N'x the weights are Q - N R^-1 N' and R alone.
   const Eigen::MatrixXd a = map_of(p.a, p.states, p.states) - b * r.solve(cross.transpose());
@@ -53,9 +53,9 @@ std::vector<double> regulator_gain(const RegulatorProblem& p) {
   hamiltonian << a, -b * r.solve(b.transpose()), -q, -a.transpose();
   const Eigen::MatrixXcd stable = stable_subspace(hamiltonian);
   // Columns of a subspace: P V1 = V2.
-  const Eigen::MatrixXd price =
+  const Eigen::MatrixXd cost =
       stable.topRows(n).transpose().partialPivLu().solve(stable.bottomRows(n).transpose()).real();
-  const Matrix gain = r.solve(b.transpose() * price.transpose() + cross.transpose());
+  const Matrix gain = r.solve(b.transpose() * cost.transpose() + cross.transpose());
   return {gain.data(), gain.data() + gain.size()};
 }
 

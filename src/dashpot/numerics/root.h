@@ -3,13 +3,14 @@
 
 namespace dashpot {
 
-/// A place and the function's value there.
+/// One end of a bracket: a place and the function's value there.
 struct RootEnd {
   double x, value;
 };
 
-/// Where f is within `tolerance` of 0, between a place where it is negative and one where it is
-/// not. Regula falsi with Illinois' weights (Dowell and Jarratt 1971).
+/// Finds where f is within `tolerance` of 0, between a place where it is negative (`low`) and one
+/// where it is not (`high`). Regula falsi with Illinois' weights (Dowell and Jarratt 1971), at most
+/// 100 evaluations. f may be of any type that is called with a double.
 template <class Function>
 double find_root(Function f, RootEnd low, RootEnd high, double tolerance) {
   constexpr int kMost = 100;

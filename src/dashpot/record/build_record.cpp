@@ -230,7 +230,8 @@ void settle_sign(Record& record, const ColumnUses& uses) {
       "it)");
 }
 
-/// What dampers on test benches span, generously: beyond it the unit is doubtful, and only that.
+/// The span that dampers on test benches have, generously: beyond it the unit is doubtful, and only
+/// that.
 struct UsualSpan {
   std::string_view channel;
   double least, most;  ///< SI

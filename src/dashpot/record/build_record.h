@@ -17,7 +17,7 @@ struct KnownLevel {
   std::string basis;  ///< "manifest.csv", "file name"
 };
 
-/// What is known beside the table when it becomes a record.
+/// Everything that is known beside the table when it becomes a record.
 struct BuildContext {
   const FileStatement* statement = nullptr;
   std::string stated_in;  ///< the dataset file's name, for the table of readings

@@ -7,7 +7,8 @@
 
 namespace dashpot {
 
-/// What a column is by its name: "F_N" -> force in N; "Desplazamiento [mm]" -> displacement in mm.
+/// The channel and unit that a column's name stands for: "F_N" is force in N, "Desplazamiento [mm]"
+/// displacement in mm.
 struct NamedChannel {
   std::string channel;  ///< "" when not recognised; "time" for the time base
   std::string unit;     ///< "" when the name holds none

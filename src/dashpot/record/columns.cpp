@@ -173,7 +173,7 @@ ColumnUses understand_columns(const RawTable& table, const FileStatement& statem
     same->push_back({k, named});
   }
 
-  // Of those that claim the same channel one is used, or the file is refused.
+  // One of those that claim the same channel is used, or the file is refused.
   for (const auto& group : claims) use_claims(group, table, out);
   return out;
 }

@@ -190,7 +190,7 @@ FileStatement read_files(const Value& value) {
     out.only_stated = true;
   }
 
-  // What is done to the samples.
+  // Cuts and filters of the samples.
   if (const Value* cut = reader.optional("cut")) read_cut(*cut, out);
   out.resample_hz = positive_number(reader, "resample");
   out.velocity_cutoff_hz = positive_number(reader, "velocity_cutoff").value_or(0);
@@ -229,7 +229,7 @@ DatasetFile load_dataset_file(const fs::path& path) {
     out.drive_unit = parse_drive_unit(drive->as_string(), drive->where());
   out.manifest = reader.string("manifest", "");
 
-  // How the records are left out by default: its errors get the place in this file.
+  // The default way to leave records out: its errors get the place in this file.
   if (const Value* leave_out = reader.optional("leave_out")) {
     try {
       out.leave_out = parse_leave_out(leave_out->as_string());

@@ -37,7 +37,7 @@ struct FrequencyModulated {
 
 void require_band(double low, double high, std::string_view name) {
   if (!(low <= high))
-    throw Error(std::string(name), "its band of frequencies ends below its begin");
+    throw Error(std::string(name), "its band of frequencies ends below its start");
 }
 
 /// Where the speed limit reduces the amplitude, the amplitude changes with the frequency. This is

@@ -37,7 +37,7 @@ class Manifest {
   bool lists(const std::string& file) const { return row_of(file) != nullptr; }
   /// The cell of a file; nothing when the file or the column is not there.
   std::optional<std::string> cell(const std::string& file, const std::string& column) const;
-  /// As a number; throws Error naming the manifest when it is none.
+  /// The cell as a number; throws Error naming the manifest when it is none.
   double number(const std::string& file, const std::string& column) const;
   /// The first column that is a current (A) or a voltage (V) by its name, with its unit.
   std::optional<std::pair<std::string, DriveUnit>> level_column() const;

@@ -3,7 +3,7 @@
  * polynomial_pieces.h define, root_search.h with RootError as PolynomialError, and ROOT_TOLERANCE.
  */
 
-/* What the inverse knows beside the observer. */
+/* The numbers of the inverse itself, beside the observer's. */
 typedef struct PolynomialNumbers {
   int degree;
   double least, most; /* currents */
@@ -21,8 +21,8 @@ static inline void polynomial_force(const Observer* m, const PolynomialNumbers* 
   polynomial_through(f, p->degree, c);
 }
 
-/* Of several currents that give the force, the least; where none does, the one that comes nearest;
- * where current has no effect, the present one. */
+/* The current that gives the wanted force: the least of several; where none does, the one that
+ * comes nearest; where current has no effect, the present one. */
 static inline double polynomial_wanted(const Observer* m, const PolynomialNumbers* p,
                                        const InverseInput* input, double* state) {
   PolynomialError error;

@@ -3,7 +3,7 @@
  * SearchError.
  */
 
-/* What the search knows beside the observer. */
+/* The numbers of the search itself, beside the observer's. */
 typedef struct SearchNumbers {
   double least, most; /* currents */
   double negligible;  /* N, less than which no current changes anything */

@@ -28,8 +28,8 @@ static inline void polynomial_through(const double* f, int degree, double* c) {
   }
 }
 
-/* Where its slope vanishes within (0, 1), with 0 and 1: increasing, four at most. Returns how many.
- */
+/* The places within (0, 1) where the slope vanishes, between 0 and 1: increasing, at most four.
+ * Returns how many. */
 static inline int monotone_pieces(const double* c, double* places) {
   const double a = 3 * c[3], b = 2 * c[2], root = (b * b) - (4 * a * c[1]);
   int count = 1;

@@ -14,8 +14,8 @@ static inline int bracket_holds(const RootBracket* b) {
   return ((b->f_low <= 0) != (b->f_high <= 0)) && (isnan(b->f_low + b->f_high) == 0);
 }
 
-/* Where f crosses zero in a bracket that holds a crossing: secants that keep the bracket
- * (Illinois), halving it where they gain little. Right for a jump, too. 60 steps at most. */
+/* The place where f crosses zero in a bracket that holds a crossing: secants that keep the bracket
+ * (Illinois), halving it where they gain little. Right for a jump, too. At most 60 steps. */
 static inline double root_crossing(const RootError* f, const RootBracket* bracket,
                                    double tolerance) {
   RootBracket b = *bracket;
@@ -51,7 +51,7 @@ static inline double root_crossing(const RootError* f, const RootBracket* bracke
   return (found != 0) ? x : (0.5 * (b.low + b.high));
 }
 
-/* What a search along increasing places found. */
+/* The result of a search along increasing places. */
 typedef struct FirstRoot {
   double place;     /* of the first crossing, or else where |f| is least */
   int crosses;      /* f crosses zero there */

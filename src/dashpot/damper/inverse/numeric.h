@@ -18,7 +18,7 @@ class NumericInverse final : public InverseModel {
   std::size_t state_size() const noexcept override { return observer_.state_size() + kOwn; }
   void rest(const DamperInput& input, std::span<double> state) const noexcept override;
   const Observer& observer() const { return observer_; }
-  /// N, less than which no current changes anything.
+  /// Forces that differ by less, N, count as equal: no current changes anything.
   double negligible() const { return 1e-6 * observer_.current_effect(); }
 
  protected:

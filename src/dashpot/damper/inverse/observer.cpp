@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kMostSteps = 64;  // of a horizon
 
-// What the C text asks for.
+// The functions that the C text below calls.
 
 inline int observed_states(const Observer* m) { return static_cast<int>(m->model().state_size()); }
 inline double observer_step(const Observer* m) { return m->limits().sample_time; }
@@ -69,7 +69,7 @@ Observer::Observer(const DamperModel& model, const InverseLimits& limits)
     here = later;
   }
 
-  // What the current can do at all, over that horizon.
+  // The greatest effect of the current over that horizon.
   if (steps_ > 0)
     probe([&](const InverseInput& input, std::span<double> state) {
       effect_ = std::max(effect_, std::abs(force(limits_.current_max, input, state) -

@@ -16,7 +16,7 @@ struct PolynomialError {
   double wanted;
 };
 
-// What the C texts ask for.
+// The functions that the C texts below call.
 
 #include "dashpot/damper/c_text/polynomial_pieces.h"
 

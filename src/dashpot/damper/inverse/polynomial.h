@@ -24,7 +24,7 @@ class PolynomialInverse final : public InverseModel {
   }
   int degree() const { return degree_; }
   const Observer& observer() const { return observer_; }
-  /// N, less than which no current changes anything.
+  /// Forces that differ by less, N, count as equal: no current changes anything.
   double negligible() const { return 1e-6 * observer_.current_effect(); }
 
  protected:

@@ -7,7 +7,7 @@
 
 namespace dashpot {
 
-/// How a network is taught to invert a damper.
+/// Settings for teaching a network to invert a damper.
 struct InverseTraining {
   double spacing = 5e-3;  ///< s between two delays
   double current_min = 0, current_max = 1;

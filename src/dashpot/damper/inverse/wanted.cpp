@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kTwoPi = 2 * std::numbers::pi;
 
-/// As many samples as the options ask for, x and v from at(t).
+/// Makes as many samples as the options ask for, x and v from at(t).
 template <class At>
 Motion sampled(const MotionOptions& options, At at) {
   constexpr double kMostSamples = 1e7;

@@ -15,7 +15,7 @@ struct Motion {
   std::size_t size() const { return displacement.size(); }
 };
 
-/// How a motion is made.
+/// Size, duration and sampling of a motion.
 struct MotionOptions {
   double amplitude = 0.02;    ///< m; of a random motion twice its standard deviation
   double frequency = 1;       ///< Hz; of a random motion the highest

@@ -35,7 +35,7 @@ struct SampleBlocks {
   double centring(const Group& group) const {
     return group.size > 0 ? 1 / (group.size * (1 + offset_decay)) : 0;
   }
-  /// What an offset of the group adds to the squared error.
+  /// The penalty that an offset of the group adds to the squared error.
   double offset_penalty(const Group& group, double offset) const {
     return offset == 0 ? 0 : offset_decay * group.size * offset * offset;
   }

@@ -35,7 +35,7 @@ NeuronLayer<Real> shape_of(const Mlp& mlp, std::size_t layer, std::size_t sample
   return shape;
 }
 
-/// What the kernel knows of each column: `lanes` has room for three rows of them.
+/// Fills in counts, ones and bounds of each column: `lanes` has room for three rows of them.
 template <class Real>
 void describe_lanes(NeuronLayer<Real>& layer, Real* lanes) {
   Real *counts = lanes, *ones = counts + layer.columns, *bounds = ones + layer.columns;

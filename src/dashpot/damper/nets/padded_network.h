@@ -34,12 +34,12 @@ class PaddedNetwork {
   /// numbers apart, and a row may be copied over with what lies behind its inputs: a 1, then zeros.
   Real* input(std::size_t sample) { return layers_.front().in + sample * input_step(); }
   std::size_t input_step() const { return layers_.front().in_step; }
-  /// Of one output neuron, a number per sample: forward() fills it.
+  /// Outputs of one output neuron, a number per sample: forward() fills it.
   const Real* output(std::size_t neuron) const {
     return layers_.back().out + neuron * layers_.back().out_step;
   }
-  /// Of one output neuron, a number per sample: the derivative of the loss by its output, to be
-  /// filled before backward(), which changes it.
+  /// Room for the derivatives of the loss by the outputs of one output neuron, a number per sample:
+  /// to be filled before backward(), which changes it.
   Real* output_slope(std::size_t neuron) {
     return layers_.back().deltas + neuron * layers_.back().out_step;
   }

@@ -112,7 +112,7 @@ class StatefulEnsemble : public DamperModel {
   std::size_t state_size_ = 0;
 };
 
-/// What to_json() wrote; `what`: the model in words, for errors. Throws Error.
+/// Reads what to_json() wrote; `what` names the model in errors. Throws Error.
 template <class Model, class ReadMember>
 std::unique_ptr<Model> stateful_ensemble_from_json(const Value& value, const char* what,
                                                    ReadMember read_member) {

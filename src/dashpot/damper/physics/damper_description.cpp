@@ -146,7 +146,7 @@ const DescriptionField& find_description_field(std::string_view name, const std:
 void require_possible(const DamperDescription& d, const std::string& where) {
   for (const DescriptionField& field : kFields) require_within(d.*field.field, field, where);
 
-  // What no single field's bounds can say: the parts must fit into each other.
+  // No single field's bounds can say this: the parts must fit into each other.
   const auto millimetres = [](double m) { return format_number(1000 * m) + " mm"; };
   if (d.rod_diameter >= d.bore_diameter)
     throw Error(where, "rod_diameter is " + millimetres(d.rod_diameter),
@@ -201,7 +201,7 @@ DamperDescription named_description(const std::string& name) {
 std::vector<std::string> description_names() { return data_names("dampers", ".yaml"); }
 
 std::string format_description(const DamperDescription& d) {
-  // What JSON quotes, YAML reads.
+  // YAML reads texts that are quoted as in JSON.
   std::string text = "name: " + format_json(Value(d.name), false) +
                      "\nfluid: " + std::string(d.fluid->name) +
                      "\nyield: " + std::string(word_of(kYieldLaws, d.yield_law)) +

@@ -10,18 +10,18 @@
 
 namespace dashpot {
 
-/// How the yield stress follows the field.
+/// The law by which the yield stress follows the field.
 enum class YieldLaw {
   Carlson,  ///< Carlson's empirical law, for any fluid
   Paper,    ///< the family paper's polynomials, held where they turn over: 122EG and 140CG
   DataSet  ///< the inputs of the family paper's data: for 122EG its four points, for 140CG as Paper
 };
-/// How the flux density follows the coil's current.
+/// The law by which the flux density follows the coil's current.
 enum class CircuitLaw {
   Filled,  ///< fluid in the gap, steel that saturates: solved for the flux
   Paper    ///< equations 2 to 8 of the family paper: air in the gap, then saturated
 };
-/// How pressure follows flow.
+/// The law by which pressure follows flow.
 enum class FlowLaw {
   Plate,       ///< Bingham fluid between parallel plates, exact
   MovingWall,  ///< the same where one plate is the piston's land, with its drag
@@ -71,7 +71,7 @@ DamperDescription load_description(const std::filesystem::path& path);
 /// A description that comes with Dashpot, of data/dampers. Throws Error "unknown damper ...".
 DamperDescription named_description(const std::string& name);
 std::vector<std::string> description_names();
-/// As YAML that reads back as the same, to the bit.
+/// The description as YAML that reads back as the same, to the bit.
 std::string format_description(const DamperDescription& description);
 
 /// Throws Error where fields cannot be together; `where` begins the message.

@@ -54,8 +54,8 @@ struct FluidState {
 };
 FluidState fluid_state(const DamperDescription& description, double current);
 
-/// What a user should know of the numbers, one sentence each: laws outside their range, a coil that
-/// does not fit, saturation. Empty when there is nothing to say.
+/// Warnings that a user should read with the numbers, one sentence each: laws outside their range,
+/// a coil that does not fit, saturation. Empty when there are none.
 std::vector<std::string> physics_warnings(const DamperDescription& description,
                                           const DamperPhysics& physics);
 

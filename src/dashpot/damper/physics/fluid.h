@@ -32,7 +32,8 @@ const Fluid& find_fluid(std::string_view name, const std::string& where = {});
 /// of the paper's polynomial: four points, straight between them, held beyond the last.
 double measured_yield_stress_122eg(double field);
 
-/// What is wrong with the family paper's polynomials for this fluid up to a field in A/m, in words.
+/// The faults of the family paper's polynomials for this fluid up to a field in A/m, a sentence
+/// each.
 std::vector<std::string> family_warnings(const Fluid& fluid, double largest_field);
 
 }  // namespace dashpot

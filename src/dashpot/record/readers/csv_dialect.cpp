@@ -53,8 +53,8 @@ struct Guess {
   }
 };
 
-/// How well a separator and a decimal sign explain the lines: data lines with one common cell
-/// count.
+/// Measures how well a separator and a decimal sign explain the lines: as data lines with one
+/// common cell count.
 Guess try_dialect(const std::vector<std::string>& lines, char separator, char decimal) {
   Guess guess;
   guess.dialect.separator = separator;

@@ -5,7 +5,7 @@
 
 namespace dashpot {
 
-/// How a text table is written.
+/// The conventions of one text table.
 struct CsvDialect {
   char separator = ',';  ///< ' ' stands for any run of blanks
   char decimal = '.';

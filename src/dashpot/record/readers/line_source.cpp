@@ -76,7 +76,7 @@ double LineSource::bytes_per_line() const {
   return line_ == 0 ? 0 : static_cast<double>(consumed_) / static_cast<double>(line_);
 }
 
-/// Moves the begun line to the front and reads on; false at the end of the file.
+/// Moves the unfinished line to the front and reads on; false at the end of the file.
 bool LineSource::fill() {
   if (at_end_) return false;
   std::memmove(buffer_.data(), buffer_.data() + begin_, end_ - begin_);

@@ -9,7 +9,7 @@
 namespace dashpot {
 namespace {
 
-// What the texts above take for granted of the lanes of this instruction set.
+// The texts above rely on this of the lanes of an instruction set.
 static_assert(kKernelAlign % kLaneBytes == 0, "a padded row is whole vectors");
 static_assert(kBlock % (kTileColumns<Form::Samples> * kLanes<float>) == 0 &&
                   kBlock % (kTileColumns<Form::Samples> * kLanes<double>) == 0,

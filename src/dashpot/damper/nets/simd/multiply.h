@@ -28,7 +28,7 @@ struct Rows {
   std::size_t step;
 };
 
-/// What a product's sums start from, and what becomes of them while they are still in registers.
+/// The start of a product's sums, and the last step on them while they are still in registers.
 enum class Form {
   Sum,      ///< from 0
   Gated,    ///< from 0; 0 where `bound` is not positive
@@ -80,7 +80,7 @@ void multiply_tiles(std::size_t tiles, std::size_t first, const Product<Real>& p
   static_assert(kRows <= 16 && kColumns <= 4, "as far as the loops below are unrolled");
   static_assert(kRows * kColumns + kColumns < kRegisters, "a tile stays in registers");
   for (; tiles > 0; --tiles, left += kRows * row_step) {
-    // What the sums start from.
+    // Start the sums.
     Lanes<Real> sums[kRows][kColumns];
 #pragma GCC unroll 16
     for (std::size_t r = 0; r < kRows; ++r, start += product.start.step)
