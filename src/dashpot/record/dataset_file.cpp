@@ -99,6 +99,7 @@ ChannelStatement read_channel(const std::string& channel, const Value& value) {
   return statement;
 }
 
+/// Reads 'time': one of a sample rate, a sample time or a column.
 void read_time(const Value& value, FileStatement& out) {
   ObjectReader reader(value, "a time base");
   const Value* column = reader.optional("column");
@@ -107,6 +108,7 @@ void read_time(const Value& value, FileStatement& out) {
   if ((column != nullptr) + rate.has_value() + out.sample_time.has_value() != 1)
     throw Error(value.where(),
                 "a time base is stated by one of 'column', 'sample_rate' (Hz), 'sample_time' (s)");
+
   if (rate) out.sample_time = 1 / *rate;
   if (column) {
     ChannelStatement statement;
@@ -117,6 +119,7 @@ void read_time(const Value& value, FileStatement& out) {
     if (!statement.unit.empty()) require_unit_of(statement, reader.required("unit").where());
     out.channels.push_back(std::move(statement));
   }
+
   reader.finish();
 }
 

@@ -36,6 +36,7 @@ LeaveOut parse_leave_out(const std::string& text) {
     throw Error("", "'each' does not say of what",
                 "conditions of the records: 'each=gap,pole_length'");
   if (equals == std::string::npos) return out;
+
   const std::string rest = text.substr(equals + 1);
 
   // The value: a number for a fraction, a list of names or levels for all others.

@@ -88,6 +88,7 @@ std::vector<double> chosen_levels(const Dataset& dataset, const LeaveOut& how) {
                               " constant drive level(s): no inner one to leave out");
     return {all.begin() + 1, all.end() - 1};
   }
+
   std::vector<double> out;
   for (const std::string& text : how.values) {
     const auto value = parse_number(text);

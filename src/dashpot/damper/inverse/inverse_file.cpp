@@ -42,11 +42,13 @@ InverseNetwork read_network(const Value& value, double sample_time, const Domain
                          .current_max = domain.current_max,
                          .rate_max = 0,
                          .mlp = {}};
+
   for (const Value& item : reader.required("inputs").items())
     network.taps.push_back(read_tap(item));
   network.rate_max = reader.number("rate_max", 0);
   network.mlp = read_mlp(reader);
   reader.finish();
+
   require_usable(network, value.where());
   return network;
 }
