@@ -18,8 +18,8 @@ struct ColumnReading {
   std::string unit;     ///< as read: "mm"
   double factor = 1;    ///< sample_si = factor * (raw - raw_offset) ...
   double raw_offset = 0;
-  std::string
-      basis;  ///< "header", "stated in utfsm.yaml", "assumed SI: no unit given", "not used: ..."
+  /// "header", "stated in utfsm.yaml", "assumed SI: no unit given", "not used: ...".
+  std::string basis;
 };
 
 struct SourceFile {
@@ -74,8 +74,8 @@ struct Dataset {
 
 /// How load_dataset looks for statements and derives velocity.
 struct LoadOptions {
-  std::string
-      dataset_file;  ///< "" : dataset.yaml beside the data, else a shipped one that recognises it
+  /// "" : dataset.yaml beside the data, else a shipped one that recognises it.
+  std::string dataset_file;
   bool recognise = true;          ///< look among the shipped dataset files
   double velocity_cutoff_hz = 0;  ///< 0: chosen from the sample rate and the motion, and stated
   Monitor monitor;

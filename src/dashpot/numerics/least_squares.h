@@ -12,10 +12,10 @@ namespace dashpot {
 /// in least_squares.cpp only. The order of the unknowns is that of lower, upper and start.
 struct LeastSquaresProblem {
   std::size_t residuals = 0;
-  std::vector<std::size_t> parts = {
-      0};  ///< first residual of each part; J'J is reported part by part
-  std::vector<double> lower,
-      upper;  ///< one per unknown; +-infinity allowed; equal: that unknown is fixed
+  /// First residual of each part, ascending from 0; J'J is reported part by part.
+  std::vector<std::size_t> parts = {0};
+  /// One per unknown; +-infinity allowed; equal: that unknown is fixed.
+  std::vector<double> lower, upper;
   /// Residuals at x. Returns false where they cannot be computed (the step is then rejected), and
   /// so counts a residual that is not finite. Called from several threads at a time.
   std::function<bool(std::span<const double> x, std::span<double> r)> residual;

@@ -11,8 +11,8 @@ namespace {
 
 struct Names {
   std::string_view channel;
-  std::string_view
-      words;  ///< anywhere at the start or end of a name; English, Spanish, Portuguese, German
+  /// Words at the start or end of a name; English, Spanish, Portuguese, German.
+  std::string_view words;
   std::string_view exact;  ///< only as the whole name, case kept
 };
 
@@ -47,8 +47,8 @@ bool contains_word(std::string_view list, std::string_view word) {
 
 /// Letters with accents (UTF-8 or Latin-1) as plain ones: the names stand without.
 std::string fold_accents(std::string_view text) {
-  static constexpr std::string_view kPlain =
-      "aaaaaaaceeeeiiiidnooooo*ouuuuyps";  // of U+00C0 ... and U+00E0 ...
+  // The letters from U+00C0 on, and from U+00E0 on, without their accents.
+  static constexpr std::string_view kPlain = "aaaaaaaceeeeiiiidnooooo*ouuuuyps";
   std::string out;
   for (std::size_t k = 0; k < text.size(); ++k) {
     auto byte = static_cast<unsigned char>(text[k]);

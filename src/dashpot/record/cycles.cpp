@@ -8,8 +8,8 @@
 namespace dashpot {
 namespace {
 
-constexpr double kArmed =
-    0.1;  // of the largest value: how far below zero a crossing must come from
+// A crossing must come from this share of the largest value below zero.
+constexpr double kArmed = 0.1;
 
 /// Places, in samples with their fraction, at which the signal rises through zero.
 std::vector<double> upward_crossings(std::span<const double> samples) {

@@ -12,8 +12,8 @@ namespace dashpot {
 struct Sources {
   std::vector<SourcePath> files;
   std::string pointed_at;  ///< the first path, for messages
-  DatasetFile
-      stated;  ///< without a path when nobody stated anything: every file is tried by its names
+  /// Without a path when nobody stated anything: every file is tried by its names.
+  DatasetFile stated;
 };
 
 /// Separates recordings from a dataset file among the paths; without one looks for dataset.yaml in

@@ -21,8 +21,8 @@ struct InverseRun {
 /// The range of motion over which an inverse is taught or judged.
 struct MotionRange {
   double amplitude = 0.02;  ///< m
-  double frequency =
-      3;  ///< Hz, highest of a random motion with twice its deviation as the amplitude
+  /// Hz, the highest of a random motion, whose standard deviation is half the amplitude.
+  double frequency = 3;
   double speed() const;  ///< m/s, what such a motion hardly exceeds
 };
 

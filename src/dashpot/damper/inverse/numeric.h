@@ -25,8 +25,8 @@ class NumericInverse final : public InverseModel {
   double wanted_current(const InverseInput& input, std::span<double> state) const noexcept override;
 
  private:
-  static constexpr std::size_t kOwn =
-      2;  // the last solution; +1 or -1: its error rose or fell with current
+  // The last solution; +1 or -1: its error rose or fell with current.
+  static constexpr std::size_t kOwn = 2;
 
   Observer observer_;
 };

@@ -13,8 +13,8 @@ namespace dashpot {
 /// in which files hold it; MlpEvaluator, PaddedNetwork and SampleLayers are its fast forms.
 struct Mlp {
   std::vector<std::size_t> layers;  ///< inputs, hidden ..., 1
-  std::vector<Activation>
-      activations;  ///< of each layer behind the inputs; empty: tanh ..., tanh, identity
+  /// One of each layer behind the inputs; empty: tanh ..., tanh, identity.
+  std::vector<Activation> activations;
   std::vector<double> parameters;
   std::vector<double> input_mean, input_scale;  ///< standardised = (raw - mean) / scale
   double output_mean = 0, output_scale = 1;     ///< raw = mean + scale * network
@@ -74,8 +74,8 @@ struct TrainReport {
   bool converged = false;
   int iterations = 0;
   double rmse = 0;  ///< raw units, offsets removed
-  std::vector<double>
-      offsets;  ///< raw units, one per group, mean zero; added to the network's output
+  /// Raw units, one per group, mean zero; added to the network's output.
+  std::vector<double> offsets;
   bool stopped_early = false;
   double left_out_rmse = 0;         ///< raw units; 0 when nothing was left out
   double weight_decay = 0;          ///< of the last step of train()

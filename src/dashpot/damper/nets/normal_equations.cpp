@@ -75,8 +75,8 @@ class Workspace {
 struct Stretch {
   std::size_t first = 0, last = 0;  // blocks
   AlignedVector<double> products;   // columns x columns
-  AlignedVector<double>
-      by_group;  // groups x columns; for the error alone, groups x (sum, sum of squares)
+  // Groups x columns; for the error alone, groups x (sum, sum of squares)
+  AlignedVector<double> by_group;
 };
 
 std::vector<Stretch> make_stretches(std::size_t blocks) {

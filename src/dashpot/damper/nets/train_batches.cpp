@@ -106,8 +106,8 @@ class BatchTrainer {
 
     // Adam's averages start at zero: divide by how much of them has filled up, in rate and epsilon.
     double corrected = rate, decay = 0;
-    double epsilon =
-        std::max(options_.epsilon, 1e-30);  // or lanes that no weight has would learn 0 / 0
+    // Above 0, or padded lanes, which have no gradient, would step by 0 / 0.
+    double epsilon = std::max(options_.epsilon, 1e-30);
     if (options_.optimiser == Optimiser::Adam || options_.optimiser == Optimiser::AdamW) {
       momentum_power_ *= options_.momentum;
       square_power_ *= options_.mean_square;

@@ -31,8 +31,8 @@ struct BatchTrainOptions {
   double l1 = 0, l2 = 0;  ///< l1 |w|_1 + l2 |w|^2 / 2 is added to the mean squared error
   double decay = 0;       ///< AdamW: share of the weights that goes per step, before the rate
   bool single_precision = true;
-  std::uint64_t seed =
-      1;  ///< of the order of the samples, and of the start when mlp.parameters is empty
+  /// Seed of the order of the samples, and of the start when mlp.parameters is empty.
+  std::uint64_t seed = 1;
   Stopping stopping;
   std::function<void(int epoch, double rmse)>
       on_epoch;  ///< raw units, while it learned; may throw to stop

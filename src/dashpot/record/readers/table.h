@@ -42,10 +42,10 @@ struct RawTable {
   std::vector<RawColumn> columns;
   std::vector<std::pair<std::string, double>> scalars;  ///< single numbers beside the columns: Ts
   std::optional<double> sample_time;                    ///< s, when the format itself states it
-  std::vector<std::pair<std::string, double>>
-      conditions;  ///< SI, when the format itself states them
-  std::vector<std::pair<std::size_t, std::size_t>>
-      lines;  ///< (row, line) where the numbering jumps
+  /// Conditions in SI, when the format itself states them.
+  std::vector<std::pair<std::string, double>> conditions;
+  /// Pairs of row and line where the numbering jumps.
+  std::vector<std::pair<std::size_t, std::size_t>> lines;
   std::vector<std::string> notes;
 
   std::size_t rows() const { return columns.empty() ? 0 : columns.front().values.size(); }

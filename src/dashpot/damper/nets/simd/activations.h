@@ -17,8 +17,8 @@ inline Lanes<Real> tanh_lanes(Lanes<Real> x) {
   using I = typename LaneTypes<Real>::Integers;
   static_assert(sizeof(I) == sizeof(V), "an exponent is made in the integer under its number");
   constexpr Real kTwoLog2E = static_cast<Real>(2.88539008177792681472);
-  constexpr Real kRound =
-      A::kRound + A::kBias;  // adding it rounds, and leaves k + kBias in the last bits
+  // Adding it rounds, and leaves k + kBias in the last bits.
+  constexpr Real kRound = A::kRound + A::kBias;
   const V y = -larger(V{} - A::kTanhOne, -larger(V{} - A::kTanhOne, x));  // a NaN passes
 
   // Split off k, and make 2^k by moving k + bias into the exponent. z in two steps keeps its

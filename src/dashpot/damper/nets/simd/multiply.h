@@ -125,11 +125,9 @@ inline void multiply_rows(std::size_t rows, const Product<Real>& product,
   using Function = void (*)(std::size_t, std::size_t, const Product<Real>&);
   static constexpr Function kTiles[] = {&multiply_tiles<Real, kForm, Less + 1, kColumns, kStep>...};
 
-  // As few tiles as hold all rows, then as low as that many may be. `higher` of them have one row
-  // more than the others.
-  std::size_t tiles = 1,
-              height =
-                  sizeof...(Less);  // counted up and down, which takes less time than to divide
+  // As few tiles as hold all rows, then as low as that many may be, counted, which takes less time
+  // than to divide. `higher` of them have one row more than the others.
+  std::size_t tiles = 1, height = sizeof...(Less);
   while (tiles * height < rows) ++tiles;
   while (tiles * height > rows) --height;
 
