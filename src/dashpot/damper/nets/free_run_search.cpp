@@ -114,7 +114,7 @@ class Search {
     const VectorXd step = damped.llt().solve(descent), trial = x_ + step;
     const double predicted = 2 * step.dot(descent) - step.dot(matrix * step);
 
-    // Compare with how far it really falls. A refused step costs twice the growth of the last one.
+    // Compare with how far it really falls. Refused in a row, the damping grows faster each time.
     System system = linearise(trial);
     const double gain = (cost() - cost_of(system, trial)) / predicted;
     if (!(gain > 0)) {

@@ -11,8 +11,9 @@ namespace dashpot {
 /// With n unknowns x and, for sample s of record k, the output's derivatives J_s (n numbers) and
 /// the residual r_s, both standardised, it minimises
 ///
-///   (1 / samples) sum over s of (r_s + o_k)^2  +  sum over i of decay_i (x_i - anchor_i)^2
-///                                              +  offset_decay (samples of k / samples) o_k^2
+///   (1 / samples) sum over s of (r_s + o_k)^2
+///     + sum over i of decay_i (x_i - anchor_i)^2
+///     + (1 / samples) sum over k of offset_decay (samples of k) o_k^2
 ///
 /// The offsets o_k, one per record, are linear and are eliminated exactly: the columns of [J r] are
 /// centred per record (not quite wholly, by offset_decay), so that no offset is an unknown. Only
