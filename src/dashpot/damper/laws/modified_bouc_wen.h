@@ -75,6 +75,7 @@ static inline int modified_bouc_wen_step(const ModifiedBoucWen* p, const double*
   const double mean_v = 0.5 * (v[0] + v[1]);
   const double drag = p->c0 + p->c1 + 0.5 * h * p->k0;
   const double push = p->c1 * mean_v - p->k0 * (0.5 * (x[0] + x[1]) - z[0] - 0.5 * h * mean_v);
+
   /* drag w + alpha (z0 + z1(w)) / 2 = push, mirrored so that w >= 0 */
   const double side = push >= p->alpha * z[1] ? 1 : -1;
   const double z0 = side * z[1], share = 0.5 * p->alpha;
@@ -84,6 +85,8 @@ static inline int modified_bouc_wen_step(const ModifiedBoucWen* p, const double*
       (drag + share * h * p->A * fmax(0, normalised_bouc_wen_slope(sigma, p->n, z0 / z_max)));
   double z1 = z0;
   int k;
+
+  /* Newton's method for w within low ... high, by halving where it would leave them. */
   for (k = 0; k < 60; ++k) {
     const double end = normalised_bouc_wen_rise(sigma, p->n, z0 / z_max, p->A / z_max * w * h);
     const double tolerance = 1e-7; /* single precision: 1e-5 */
@@ -104,6 +107,7 @@ static inline int modified_bouc_wen_step(const ModifiedBoucWen* p, const double*
       low = w;
     w = next >= low && next <= high ? next : 0.5 * (low + high);
   }
+
   z[0] += h * (mean_v - side * w);
   z[1] = side * z1;
   return 1;

@@ -100,8 +100,8 @@ FreeRunSearchResult run_search(HysteresisNetwork model,
                                const HysteresisNetworkTrainOptions& options, int max_iterations) {
   FreeRunProblem problem;
   problem.start = unknowns_of(model);
-  problem.prices.assign(problem.start.size(), options.weight_decay);
-  std::fill_n(problem.prices.begin(), model.bank.size(), options.rate_decay);
+  problem.decay.assign(problem.start.size(), options.weight_decay);
+  std::fill_n(problem.decay.begin(), model.bank.size(), options.rate_decay);
   problem.anchors.assign(problem.start.size(), 0.0);  // weights from 0, rates from their start
   std::copy_n(problem.start.begin(), model.bank.size(), problem.anchors.begin());
 

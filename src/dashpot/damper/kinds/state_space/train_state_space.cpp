@@ -240,8 +240,8 @@ FreeRunSearchResult run_search(StateSpaceNetwork model, const Records& records,
   FreeRunProblem problem;
   problem.anchors = unknowns_of(model, encoder_weights);
   problem.start = unknowns.empty() ? problem.anchors : unknowns;
-  problem.prices.assign(problem.start.size(), options.weight_decay);
-  std::fill_n(problem.prices.begin(), model.cell.size(), options.rate_decay);
+  problem.decay.assign(problem.start.size(), options.weight_decay);
+  std::fill_n(problem.decay.begin(), model.cell.size(), options.rate_decay);
   std::fill(problem.anchors.begin() + static_cast<std::ptrdiff_t>(model.cell.size()),
             problem.anchors.end(),
             0.0);  // weights from 0, rates from their start

@@ -1,7 +1,8 @@
-#include "dashpot/damper/nets/kernel.h"
-
+// Chooses the kernel for an instruction set. It stands apart from kernel.h so that simd/tables.h,
+// which it includes, may include kernel.h without a circle.
 #include <type_traits>
 
+#include "dashpot/damper/nets/kernel.h"
 #include "dashpot/damper/nets/simd/tables.h"
 
 namespace dashpot {
