@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "dashpot/damper_input.h"
-#include "dashpot/model_kind.h"
 #include "dashpot/value.h"
 
 namespace dashpot {

@@ -1,4 +1,3 @@
-// Layer: damper
 #pragma once
 #include <array>
 #include <cstddef>
@@ -11,7 +10,7 @@ namespace dashpot {
 
 constexpr std::size_t kModelKinds = static_cast<std::size_t>(ModelKind::Other);
 
-/// The name of a kind in model files and in lists.
+/// What a kind is called in model files and in lists.
 struct ModelKindName {
   ModelKind kind;
   std::string_view name;
@@ -30,16 +29,17 @@ inline constexpr std::array kModelKindNames{
 
 namespace detail {
 template <const auto& kTable, ModelKind kKind>
-struct RowOfKind {
-  static constexpr auto kPlace = static_cast<std::size_t>(kKind);
-  static constexpr bool kStands = kPlace < kTable.size() && kTable[kPlace].kind == kKind;
-  static_assert(kStands, "the table has no row for this kind of model where ModelKind has it");
-};
+constexpr bool has_row() {
+  constexpr auto kPlace = static_cast<std::size_t>(kKind);
+  static_assert(kPlace < kTable.size(), "this table has no row for this kind of model");
+  static_assert(kTable[kPlace].kind == kKind, "the rows do not stand in the order of ModelKind");
+  return true;
+}
 
 template <const auto& kTable, std::size_t... kPlaces>
 constexpr bool has_rows(std::index_sequence<kPlaces...>) {
-  return (RowOfKind<kTable, static_cast<ModelKind>(kPlaces)>::kStands && ...) &&
-         kTable.size() == sizeof...(kPlaces);
+  static_assert(kTable.size() <= kModelKinds, "this table has more rows than there are kinds");
+  return (has_row<kTable, static_cast<ModelKind>(kPlaces)>() && ...);
 }
 }  // namespace detail
 
@@ -48,8 +48,7 @@ constexpr bool has_rows(std::index_sequence<kPlaces...>) {
 /// the message names the table and the kind.
 template <const auto& kTable>
 constexpr const auto& row_of(ModelKind kind) {
-  static_assert(detail::has_rows<kTable>(std::make_index_sequence<kModelKinds>{}),
-                "the table has not one row for every kind of model");
+  static_assert(detail::has_rows<kTable>(std::make_index_sequence<kModelKinds>{}));
   return kTable[static_cast<std::size_t>(kind)];
 }
 
