@@ -2,10 +2,10 @@
 
 #include "dashpot/base/text.h"
 #include "dashpot/report/safe_text.h"
-#include "dashpot/suspension/domain_use.h"
 #include "dashpot/suspension/ground/ground_sequences.h"
+#include "dashpot/suspension/ride/domain_use.h"
 #include "dashpot/suspension/ride/ride_measures.h"
-#include "dashpot/suspension/simulated_run.h"
+#include "dashpot/suspension/ride/simulated_run.h"
 #include "handles.h"
 #include "status.h"
 #include "words.h"

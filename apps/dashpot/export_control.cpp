@@ -47,7 +47,7 @@ CBlockMaker controller_block(VehicleChoice choice, const DamperChoice& damper,
   choice.sample_time = 1000 * sample_time(options);
   auto vehicle = std::make_shared<const Vehicle>(make_vehicle(words_of(choice)));
   for (const std::string& note : vehicle->notes) console.note(note);
-  return [vehicle](const ExportOptions& own) { return c_controller_block(*vehicle, own); };
+  return dashpot::controller_block(vehicle);
 }
 
 CBlockMaker scheme_block(const VehicleChoice& choice, DamperChoice damper,

@@ -37,7 +37,7 @@ std::string_view fit_name(Fit fit) {
   return kNames[static_cast<std::size_t>(fit)];
 }
 
-/// What follows the form in a table for people.
+/// The words that follow the form in a table for people.
 std::string words_of(Fit fit) {
   constexpr std::string_view kWords[] = {"", ", fixed", ", size of the data", " (the coil current)",
                                          ", force zero"};
@@ -67,7 +67,7 @@ LawModel driven_example(const Law& law) {
   return LawModel(law, std::move(d), DriveUnit::Ampere, 0);
 }
 
-/// How a wanted force becomes a current.
+/// Says how a wanted force becomes a current.
 std::string inverse_of(const Law& law) {
   try {
     PolynomialInverse(driven_example(law), InverseLimits{});
@@ -218,15 +218,15 @@ std::vector<std::string> cells(const ParameterLine& p) {
   return {p.name, p.unit, p.value, p.bounds, p.form, p.meaning};
 }
 
-/// "20 x w, 1; u, A": states of one name told together.
+/// "20 x w, 1; u, A": neighbouring states of one name are counted.
 std::string states_text(const std::vector<std::string>& states) {
-  std::vector<std::string> told;
+  std::vector<std::string> parts;
   for (auto at = states.begin(); at != states.end();) {
     const auto end = std::find_if(at, states.end(), [&](const std::string& s) { return s != *at; });
-    told.push_back((end - at > 1 ? std::to_string(end - at) + " x " : "") + *at);
+    parts.push_back((end - at > 1 ? std::to_string(end - at) + " x " : "") + *at);
     at = end;
   }
-  return "states: " + join(told, "; ");
+  return "states: " + join(parts, "; ");
 }
 
 std::string facts(const ModelSheet& sheet) {
@@ -292,6 +292,7 @@ Value sheet_json(const ModelSheet& sheet) {
                                           {"form", name_of(p.form)},
                                           {"fit", fit_name(p.fit)},
                                           {"meaning", p.meaning}}));
+
   return Value::object({{"name", sheet.name},
                         {"kind", sheet.kind},
                         {"title", sheet.title},

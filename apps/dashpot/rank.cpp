@@ -47,11 +47,12 @@ int run(const Settings& settings, Console& console) {
   const RankingSettings& asked = settings.ranking;
   const RankingData data = ranking_data(asked, console);
   const fs::path folder = asked.results.folder;
-  const FitStore store(folder / "fits", program_id());
+  std::optional<FitStore> store;
+  if (!settings.fresh) store.emplace(kept_file(folder, "fits", console), program_id());
   const std::vector<std::string> models = chosen_models(asked.fit, data.dataset, console);
   const Ranking ranking =
       rank(models, data.dataset, data.leave_out, identify_options(asked.fit, models, console),
-           settings.fresh ? nullptr : &store);
+           store ? &*store : nullptr);
   const ReportInput input = report_input(data.dataset, ranking, console);
 
   // The leaderboard is printed; the report that is written has each model in full.
@@ -83,7 +84,7 @@ Command rank_command() {
                       "error on left-out records beside the error on those of the fit, by record, "
                       "speed and drive; number of parameters, cost per step, CPU time of the fit, "
                       "and whether the force stays bounded beyond the data. Finished fits are kept "
-                      "in DIR/fits: the same command goes on where it was interrupted.",
+                      "in DIR/fits.sqlite: the same command goes on where it was interrupted.",
                   .options = ranking_options(settings->ranking),
                   .example = std::string(kExample),
                   .run = [settings](Console& console) { return run(*settings, console); }};

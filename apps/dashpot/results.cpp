@@ -42,6 +42,15 @@ std::vector<Option> result_options(ResultSettings& settings) {
 
 std::string program_id() { return DASHPOT_VERSION " " + sha256_of_file("/proc/self/exe"); }
 
+fs::path kept_file(const fs::path& folder, const std::string& what, Console& console) {
+  const fs::path file = folder / (what + ".sqlite"), older = folder / "fits";
+  if (fs::is_directory(older) && !fs::exists(file))
+    console.note(older.string() + " holds " + what +
+                 " of an older version of Dashpot; they stay as they are and are not used. New " +
+                 what + " are kept in " + file.string());
+  return file;
+}
+
 ReportInput report_input(const Dataset& dataset, const Ranking& ranking, const Console& console) {
   return {.dataset = dataset,
           .ranking = ranking,

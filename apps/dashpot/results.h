@@ -40,6 +40,12 @@ int exit_code_of(const Ranking& ranking, Console& console);
 /// This very build: a fit that another one made may differ.
 std::string program_id();
 
+/// The file in the folder that keeps finished work: "fits.sqlite" for `what` = "fits". Prints a
+/// note where an older version left such work in a folder "fits", which stays as it is and is not
+/// read.
+std::filesystem::path kept_file(const std::filesystem::path& folder, const std::string& what,
+                                Console& console);
+
 /// Input of a report, with the command line and today as its date.
 ReportInput report_input(const Dataset& dataset, const Ranking& ranking, const Console& console);
 

@@ -116,7 +116,7 @@ SearchReport run_search(const RankingData& data, const SearchOptions& options, c
 /// files.
 void write_choices(const RankingData& data, const SearchReport& report, const fs::path& folder,
                    Console& console) {
-  const FitStore fits(folder / "fits", program_id());
+  FitStore fits(kept_file(folder, "fits", console), program_id());
   std::vector<std::pair<std::string, const Trial*>> choices{{"best", report.best()}};
   if (report.smallest() != report.best()) choices.emplace_back("smallest", report.smallest());
   fs::remove(folder / "models" / "smallest.json");  // of a search that went less far
@@ -157,7 +157,7 @@ std::string time_line(const SearchReport& report) {
 int run_in(const fs::path& folder, const RankingData& data, const SearchOptions& options,
            const Settings& settings, Console& console) {
   const fs::path file = folder / "search.sqlite";
-  if (settings.fresh) TrialStore::remove(file);
+  if (settings.fresh) Store::remove(file);
   console.talk("search: " + search_plan(search_rungs(options), options.effort) + '\n');
   const SearchReport report = run_search(data, options, file, console);
   const SearchInput input{data.dataset, report, console.command_line(), DASHPOT_VERSION,

@@ -14,8 +14,6 @@
 namespace dashpot::cli {
 namespace {
 
-namespace fs = std::filesystem;
-
 struct Settings {
   DataSettings data;
   StudyResults results = {.folder = "dashpot-family"};
@@ -34,12 +32,14 @@ constexpr std::string_view kExample =
 int run(const Settings& settings, Console& console) {
   prepare_study(settings.results);
   FamilySamples family = family_samples(load_recordings(settings.data, console));
-  const TrainingStore store(fs::path(settings.results.folder) / "fits", program_id(),
-                            family.cycles);
+  std::optional<TrainingStore> store;
+  if (!settings.results.fresh)
+    store.emplace(kept_file(settings.results.folder, "trainings", console), program_id(),
+                  family.cycles);
   FamilyStudyOptions options = settings.options;
   options.monitor = console.monitor();
   for (const FamilyPreset& preset : family_presets()) options.models.emplace_back(preset.name);
-  if (!settings.results.fresh) options.store = &store;
+  if (store) options.store = &*store;
   const FamilyStudy study = study_family(
       std::move(family), family_experiments(static_cast<std::size_t>(settings.seeds)), options);
   write_study(family_document(study), family_json(study), settings.results, console);
@@ -67,7 +67,7 @@ Command family_study() {
           "damper that they have "
           "not seen. Finished "
           "trainings are kept "
-          "in DIR/fits: the same command goes on where it was interrupted.",
+          "in DIR/trainings.sqlite: the same command goes on where it was interrupted.",
       .options = data_options(settings->data),
       .example = std::string(kExample),
       .run = [settings](Console& console) { return run(*settings, console); }};

@@ -14,8 +14,6 @@
 namespace dashpot::cli {
 namespace {
 
-namespace fs = std::filesystem;
-
 struct Settings {
   DataSettings data;
   std::string leave_out;
@@ -51,8 +49,11 @@ int run(const Settings& settings, Console& console) {
   OneSensorOptions options = settings.options;
   options.most_neurons = static_cast<std::size_t>(settings.most_neurons);
   options.monitor = console.monitor();
-  const FitStore store(fs::path(settings.results.folder) / "fits", program_id());
-  if (!settings.results.fresh) options.store = &store;
+  std::optional<FitStore> store;
+  if (!settings.results.fresh) {
+    store.emplace(kept_file(settings.results.folder, "fits", console), program_id());
+    options.store = &*store;
+  }
   const OneSensorStudy study = study_one_sensor(studied_dampers(settings, console), options);
   write_study(one_sensor_document(study), one_sensor_json(study), settings.results, console);
   if (study.kept_fits > 0) console.note(counted(study.kept_fits, "fit") + " kept from before");
@@ -77,7 +78,8 @@ Command one_sensor_study() {
           "hysteresis "
           "network, which needs the same one sensor. Without DATA on two virtual dampers shaped "
           "after the "
-          "paper's words. Finished fits are kept in DIR/fits: the same command goes on where it "
+          "paper's words. Finished fits are kept in DIR/fits.sqlite: the same command goes on "
+          "where it "
           "was "
           "interrupted.",
       .options = data_options(settings->data),

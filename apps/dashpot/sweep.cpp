@@ -11,6 +11,7 @@
 #include "dashpot/base/text.h"
 #include "dashpot/report/sweep_report.h"
 #include "dashpot/report/words.h"
+#include "dashpot/suspension/sweep/request_file.h"
 #include "results.h"
 #include "study_results.h"
 
@@ -76,7 +77,7 @@ void write_tables(const Sweep& result, const fs::path& folder, Console& console)
 /// The request as it ran, beside its results.
 Sweep run_sweep(const SweepRequest& request, const Settings& settings, Console& console) {
   const fs::path file = fs::path(settings.results.folder) / "sweep.sqlite";
-  if (settings.results.fresh) SweepStore::remove(file);
+  if (settings.results.fresh) Store::remove(file);
   SweepStore store(file, request, program_id());
   console.talk(fmt::format("sweep: {}, {} each, {} s\n", counted(request.vehicles(), "vehicle"),
                            counted(request.controllers.size(), "controller"),

@@ -7,10 +7,10 @@
 #include "dashpot/controller.h"
 #include "dashpot/damper/parameter_set.h"
 #include "dashpot/plant.h"
-#include "dashpot/suspension/damper_words.h"
+#include "dashpot/suspension/dampers/damper_words.h"
+#include "dashpot/suspension/dampers/passive_curve.h"
 #include "dashpot/suspension/ground/ground_sequences.h"
 #include "dashpot/suspension/ground/recorded_ground.h"
-#include "dashpot/suspension/passive_curve.h"
 #include "layout.h"
 #include "sequence_sheet.h"
 

@@ -1,15 +1,36 @@
+// Layer: damper
 #pragma once
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
-#include "dashpot/damper/model_kind.h"
 #include "dashpot/damper_input.h"
+#include "dashpot/model_kind.h"
 #include "dashpot/value.h"
 
 namespace dashpot {
+
+/// The kinds of models, in the order in which lists show them. A kind has one name everywhere: its
+/// folder in damper/kinds/, its file in identify/fit/ and in export/c/, its word in model files.
+enum class ModelKind {
+  Law,
+  Network,
+  Narx,
+  HysteresisNetwork,
+  StateSpace,
+  Fuzzy,
+  Hybrid,
+  Family,
+  Other  ///< stands last, behind the kinds that model files have: a passive curve, for example
+};
+/// The word of a kind in model files and lists: "law", "state_space".
+std::string_view name_of(ModelKind kind);
+/// The kind of that name, or of the name that earlier versions wrote. Throws Error(where, "unknown
+/// kind ...") which says what is known.
+ModelKind parse_model_kind(std::string_view name, const std::string& where);
 
 /// What was constant in a test, SI: {"gap", 1e-3} ...
 using Conditions = std::vector<std::pair<std::string, double>>;
@@ -121,6 +142,19 @@ struct ForceBand {
   double half_width_at(const DamperInput& input, double members_spread = 0) const noexcept;
   /// The same shape, `factor` times as wide.
   ForceBand scaled(double factor) const;
+};
+
+/// Where a model comes from.
+struct Provenance {
+  std::string created;  ///< ISO 8601, UTC
+  std::string command;  ///< the command line that makes it again
+  std::string dataset;
+  std::string citation;
+  struct File {
+    std::string path, sha256;
+  };
+  std::vector<File> files;
+  std::vector<std::string> training_records;
 };
 
 }  // namespace dashpot

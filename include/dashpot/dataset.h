@@ -1,5 +1,7 @@
+// Layer: record
 #pragma once
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,8 +19,8 @@ struct ColumnReading {
   std::string unit;     ///< as read: "mm"
   double factor = 1;    ///< sample_si = factor * (raw - raw_offset) ...
   double raw_offset = 0;
-  std::string
-      basis;  ///< "header", "stated in utfsm.yaml", "assumed SI: no unit given", "not used: ..."
+  /// "header", "stated in utfsm.yaml", "assumed SI: no unit given", "not used: ...".
+  std::string basis;
 };
 
 struct SourceFile {
@@ -31,21 +33,34 @@ struct PassedOver {
   std::string file, why;
 };
 
-/// How records are left out to judge a model. `values` narrows it: the levels, conditions or record
-/// names to leave out one after the other; empty: each (for Current: each inner level, since a
-/// model is not asked to extrapolate in current). Each: `values` names conditions of the records,
-/// gap or viscosity, and what agrees in all of them is left out together.
+/// How records are left out to judge a model: always whole stretches of time, never samples picked
+/// at random, since neighbouring samples of a recording know each other.
 struct LeaveOut {
-  enum class By { Condition, Current, Record, Fraction, Roles, Each };
+  enum class By {
+    Condition,  ///< one motion after the other
+    Current,    ///< one drive level after the other
+    Record,     ///< one record after the other
+    Fraction,   ///< the end of every record
+    Roles,      ///< the parts to which the dataset file gives the role "left_out"
+    Each        ///< one combination of the conditions named in `values` after the other
+  };
   By by = By::Condition;
+  /// Which of them: levels (as texts), conditions or names of records. Empty: each one; for Current
+  /// each inner level, since a model is not asked to extrapolate in current. For Each: names of
+  /// conditions of the records, gap or viscosity; records that agree in all of them are left out
+  /// together.
   std::vector<std::string> values;
-  double fraction = 0.3;  ///< Fraction: share of every record's end that is left out
+  double fraction = 0.3;  ///< Fraction: share of every record's end that is left out, in (0, 1)
 };
-LeaveOut parse_leave_out(
-    const std::string& text);  ///< "current", "current=0.87,1.98", "fraction=0.33"
+
+/// From "current", "current=0.87,1.98", "fraction=0.33", "each=gap,pole_length". Throws Error on an
+/// unknown way and on values that it does not take.
+LeaveOut parse_leave_out(const std::string& text);
+/// The text that parse_leave_out reads back as the same.
 std::string format_leave_out(const LeaveOut& leave_out);
 
-/// Records that are identified and judged together.
+/// Records that are identified and judged together, in the order in which they are shown: by
+/// condition, then by drive level.
 struct Dataset {
   std::string name;
   std::string citation;
@@ -58,18 +73,22 @@ struct Dataset {
   std::optional<LeaveOut> leave_out;  ///< stated in the dataset file
 };
 
+/// How load_dataset looks for statements and derives velocity.
 struct LoadOptions {
-  std::string
-      dataset_file;  ///< "" : dataset.yaml beside the data, else a shipped one that recognises it
+  /// "" : dataset.yaml beside the data, else a shipped one that recognises it.
+  std::string dataset_file;
   bool recognise = true;          ///< look among the shipped dataset files
   double velocity_cutoff_hz = 0;  ///< 0: chosen from the sample rate and the motion, and stated
   Monitor monitor;
 };
 
-/// Reads files and folders (CSV, DAQ text, MAT, the family paper's JSON; each also as .gz) or a
-/// dataset file (.yaml) into one dataset, in SI and Dashpot's signs, with a velocity channel on
-/// every record that has displacement or velocity. Throws Error on anything that cannot be used;
-/// what is passed over stands in `passed_over`.
+/// Reads files and folders (CSV, DAQ text, MAT, the family paper's JSON; each also as .gz, except
+/// MAT) or a dataset file (.yaml) into one dataset, in SI and Dashpot's signs, with a velocity
+/// channel on every record that has displacement or velocity.
+///
+/// A file that the caller named itself, or that a dataset file states, is read or refused; other
+/// files of a folder may be passed over and then stand in `passed_over` with the reason. Throws
+/// Error on anything that cannot be used. The same files give the same dataset, to the bit.
 Dataset load_dataset(const std::vector<std::filesystem::path>& paths,
                      const LoadOptions& options = {});
 

@@ -1,5 +1,5 @@
-#pragma once
 // Layer: base
+#pragma once
 #include <string>
 #include <string_view>
 

@@ -1,3 +1,4 @@
+// Layer: damper
 #pragma once
 #include <limits>
 #include <span>

@@ -1,3 +1,4 @@
+// Layer: identify
 #pragma once
 #include <cstddef>
 #include <optional>

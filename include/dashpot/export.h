@@ -1,5 +1,7 @@
+// Layer: export
 #pragma once
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -8,6 +10,7 @@
 
 #include "dashpot/drive.h"
 #include "dashpot/model_file.h"
+#include "dashpot/vehicle.h"
 
 namespace dashpot {
 
@@ -23,21 +26,20 @@ struct ExportedModel {
   std::string origin;      ///< where it comes from, in words
 };
 
-/// Where no data tell: a stroke of a car's damper.
+/// The motions of a car's damper, for models whose data do not say theirs.
 Domain usual_domain(double current_min, double current_max);
-/// The model of a file, which must stay as long.
+/// The model of a file, which must outlive the result.
 ExportedModel exported_model(const ModelFile& file);
 
 struct ExportOptions {
   std::string name;                     ///< of files and functions: a name in C
   std::optional<CPrecision> precision;  ///< nothing: double in C, single in ONNX
   CPrecision c_precision() const { return precision.value_or(CPrecision::Double); }
-  double sample_time = 0;  ///< s; 0: the model's own
-  bool settable_parameters =
-      false;                    ///< of a law in C: kept behind its state instead of in its code
-  std::string compiler = "cc";  ///< of C, and more of its arguments: for what holds a binary
-  bool sources_only = false;    ///< of an FMU: no binary
-  std::string command, version;
+  double sample_time = 0;            ///< s; 0: the model's own
+  bool settable_parameters = false;  ///< a law's parameters stand behind its state, not in its code
+  std::string compiler = "cc";       ///< for an FMU: a C compiler, and arguments for it
+  bool sources_only = false;         ///< for an FMU: without a binary
+  std::string command, version;      ///< of Dashpot, as the files name them
 };
 
 struct ExportedFile {
@@ -47,6 +49,8 @@ struct ExportedFile {
 struct CBlock;
 /// An inverse or a controller, for options of an exporter's own.
 using CBlockMaker = std::function<CBlock(const ExportOptions&)>;
+/// The controller of a vehicle. The block throws Error where there is none, or one without C text.
+CBlockMaker controller_block(std::shared_ptr<const Vehicle> vehicle);
 
 /// One thing that a model can become.
 struct Exporter {

@@ -1,5 +1,5 @@
-#pragma once
 // Layer: damper
+#pragma once
 #include <cstddef>
 #include <cstdint>
 #include <optional>

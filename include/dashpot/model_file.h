@@ -1,3 +1,4 @@
+// Layer: damper
 #pragma once
 #include <filesystem>
 #include <memory>
@@ -10,19 +11,6 @@
 #include "dashpot/value.h"
 
 namespace dashpot {
-
-/// Where a model comes from.
-struct Provenance {
-  std::string created;  ///< ISO 8601, UTC
-  std::string command;  ///< the command line that makes it again
-  std::string dataset;
-  std::string citation;
-  struct File {
-    std::string path, sha256;
-  };
-  std::vector<File> files;
-  std::vector<std::string> training_records;
-};
 
 /// A model with all that must travel with it: a versioned JSON file.
 struct ModelFile {

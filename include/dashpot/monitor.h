@@ -1,3 +1,4 @@
+// Layer: base
 #pragma once
 #include <atomic>
 #include <functional>

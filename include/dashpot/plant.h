@@ -1,3 +1,4 @@
+// Layer: suspension
 #pragma once
 #include <cstddef>
 #include <optional>
@@ -90,7 +91,7 @@ const PlantModel& find_plant_model(std::string_view name, const std::string& whe
 /// value outside its bounds: "sprung_mass is -5 kg; between 1 and 1e+06 kg".
 Plant make_plant(const PlantModel& model, const NamedValues& values, const std::string& where = {});
 
-/// What a linear damper of a plant is and can become, N*s/m.
+/// Damping of a plant's own damper, N*s/m: as it is, and between what limits it can be set.
 struct DampingRange {
   double least = 0, nominal = 0, greatest = 0;
 };
@@ -114,9 +115,8 @@ std::vector<std::string> plant_set_names();
 PlantSet parse_plant_set(std::string_view text, const std::string& source, const std::string& name,
                          const NamedValues& values = {});
 
-/// A set, or a kind of plant with the numbers of its table. Throws Error "unknown plant ...; did
-/// you mean
-/// ...".
+/// A set, or a kind of plant with the numbers of its table. Throws Error "unknown plant ...; did you
+/// mean ...".
 PlantSet load_plant_set(const std::string& name, const NamedValues& values = {});
 
 }  // namespace dashpot

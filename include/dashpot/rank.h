@@ -1,3 +1,4 @@
+// Layer: identify
 #pragma once
 #include <cstddef>
 #include <optional>
@@ -13,15 +14,15 @@ namespace dashpot {
 
 class FitStore;
 
-/// One model, fitted on everything and judged on what was left out.
+/// One model, fitted on all records and judged on those that its fits had not seen.
 struct RankedModel {
   std::string name, title;
   FitReport fit;        ///< on all records: the model that is saved
   Evaluation training;  ///< of `fit` on all its records
   std::vector<FitReport> fold_fits;
-  std::vector<FitReport>
-      held_back_fits;   ///< where there is one fold: on parts of its training, for the interval
-  Evaluation left_out;  ///< the folds' models, each on its left-out records, pooled
+  /// Of a single fold: fits on parts of its training, for the interval.
+  std::vector<FitReport> held_back_fits;
+  Evaluation left_out;              ///< the folds' models, each on its left-out records, pooled
   std::optional<ForceBand> band;    ///< 90 % interval around the force of `fit`: conformal.h
   double seconds = 0;               ///< CPU time of all its fits
   double nanoseconds_per_step = 0;  ///< cost of advance + force, measured
@@ -42,13 +43,13 @@ struct Ranking {
 /// comes from the other folds' errors; where there is one fold, from further fits, each with a part
 /// of its training held back.
 Ranking rank(const std::vector<std::string>& models, const Dataset& dataset,
-             const LeaveOut& leave_out, const IdentifyOptions& options,
-             const FitStore* store = nullptr);
+             const LeaveOut& leave_out, const IdentifyOptions& options, FitStore* store = nullptr);
 
-/// What was made from these records of the dataset, by this command.
+/// The origin of a model that this command made from these records of the dataset.
 Provenance provenance_of(const Dataset& dataset, std::vector<std::string> records,
                          const std::string& command);
-/// The model as a file: domain and provenance taken from the records.
+/// The model as a file, with domain and provenance taken from the records. Throws Error when the
+/// fit failed.
 ModelFile to_model_file(const RankedModel& ranked, const Dataset& dataset,
                         const std::string& command);
 

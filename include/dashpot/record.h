@@ -1,3 +1,4 @@
+// Layer: record
 #pragma once
 #include <optional>
 #include <span>
@@ -26,7 +27,8 @@ struct Channel {
 
 enum class Role { Unassigned, Training, LeftOut };
 
-/// One test run: channels on one time base, with its conditions and its source.
+/// One test run: channels on one time base, with its conditions and its source. Invariant: `time`
+/// and all `samples` are equally long. A record owns its samples; slices copy them.
 struct Record {
   std::string name;       ///< unique in its dataset
   std::string source;     ///< file, and the part of it: "ME5mm3Hz.txt.gz, rows 9308-17607"
@@ -42,11 +44,13 @@ struct Record {
   std::vector<std::string> notes;  ///< what was done to it: cuts, signs, filters
 
   std::size_t size() const { return time.size(); }
+  /// nullptr where the record has no such channel.
   const Channel* find(std::string_view name) const;
   Channel* find(std::string_view name);
   /// Throws Error naming the record and the channels that it has.
   const Channel& channel(std::string_view name) const;
-  /// Samples first ... last-1 of every channel, as a record of its own.
+  /// Samples first ... last-1 of every channel, as a record of its own. Both are cut off at size().
+  /// The warm-up is what is left of it behind `first`.
   Record slice(std::size_t first, std::size_t last) const;
   /// Becomes that slice, in the memory that it has.
   void keep(std::size_t first, std::size_t last);

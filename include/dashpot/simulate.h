@@ -1,3 +1,4 @@
+// Layer: suspension
 #pragma once
 #include <optional>
 #include <string>

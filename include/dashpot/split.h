@@ -1,3 +1,4 @@
+// Layer: record
 #pragma once
 #include <string>
 #include <vector>
@@ -6,7 +7,8 @@
 
 namespace dashpot {
 
-/// One division of a dataset: what a model is fitted on and what it is judged on.
+/// One division of a dataset: what a model is fitted on and what it is judged on. Both hold copies
+/// of the records.
 struct Fold {
   std::string name;  ///< "without 5 mm 3 Hz"
   std::vector<Record> training;
@@ -17,8 +19,9 @@ struct Fold {
 /// current, record, or the end of the only one.
 LeaveOut default_leave_out(const Dataset& dataset);
 
-/// Throws Error when the dataset cannot be divided so: one condition only, say; the message names
-/// the ways that would work.
+/// The folds of a dataset, in the order of its records or of the values asked for. Throws Error
+/// when the dataset cannot be divided so, with one condition only, say; the message names the ways
+/// that would work.
 std::vector<Fold> split(const Dataset& dataset, const LeaveOut& leave_out);
 
 }  // namespace dashpot

@@ -101,8 +101,8 @@ struct FamilyStudy {
 struct FamilyStudyOptions {
   double effort = 1;  ///< share of each rule's epochs
   int threads = 0;
-  const TrainingStore* store = nullptr;  ///< where finished trainings are found and kept
-  std::vector<std::string> models;       ///< of the registry, to stand beside
+  TrainingStore* store = nullptr;   ///< where finished trainings are found and kept
+  std::vector<std::string> models;  ///< of the registry, to stand beside
   Monitor monitor;
 };
 

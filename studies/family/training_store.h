@@ -2,27 +2,33 @@
 #include <filesystem>
 #include <string>
 
+#include "dashpot/base/store.h"
 #include "studies/family/family_network.h"
 
 namespace dashpot {
 
-/// Finished trainings of a study in a folder, one file each, so that an interrupted study goes on
-/// where it stopped. One is found again only for the same program, data and key.
+/// Finished trainings of the family study in one file, so that an interrupted study goes on where
+/// it stopped. A training is found again only for the same program, data and key. Safe from several
+/// threads.
 class TrainingStore {
  public:
-  /// program: what tells one build of the program from the next.
-  TrainingStore(std::filesystem::path folder, std::string program, const std::vector<Record>& data);
+  static constexpr StoreFormat kFormat{"training", 2,
+                                       "remove this file: its trainings are made again"};
 
-  /// Fills parameters, history and time of a network whose layers and scales stand. False when
-  /// there is no such training, or when its file cannot be read as one.
+  /// Opens the file or makes it, as Store does. program: differs from one build of the program to
+  /// the next.
+  TrainingStore(const std::filesystem::path& path, const std::string& program,
+                const std::vector<Record>& data);
+
+  /// Fills parameters, history and time of a network whose layers and scales are set. False when
+  /// there is no such training, or when what was kept cannot be read: it is made again.
   bool load(const std::string& key, StudiedNetwork& network) const;
-  /// Throws Error when the folder cannot take it.
-  void save(const std::string& key, const StudiedNetwork& network) const;
+  /// Throws Error when the disk cannot take it.
+  void save(const std::string& key, const StudiedNetwork& network);
 
  private:
-  std::filesystem::path file_of(const std::string& key) const;
-  std::filesystem::path folder_;
-  std::string basis_;
+  std::string basis_;  ///< of all keys: a hash of program and data
+  Store store_;
 };
 
 }  // namespace dashpot

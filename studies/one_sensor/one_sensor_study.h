@@ -101,9 +101,9 @@ inline constexpr const char* kHysteresis = "hysteresis";
 struct OneSensorOptions {
   std::uint64_t seed = 1;
   int threads = 0;
-  std::size_t most_neurons = 20;    ///< of the size choice
-  std::vector<std::string> keys;    ///< of the models to fit; empty: all
-  const FitStore* store = nullptr;  ///< where finished fits are found and kept
+  std::size_t most_neurons = 20;  ///< of the size choice
+  std::vector<std::string> keys;  ///< of the models to fit; empty: all
+  FitStore* store = nullptr;      ///< where finished fits are found and kept
   Monitor monitor;
 };
 

@@ -5,8 +5,8 @@
 
 #include "dashpot/base/text.h"
 #include "dashpot/damper/bench_experiments.h"
-#include "dashpot/suspension/damper_words.h"
-#include "dashpot/suspension/passive_curve.h"
+#include "dashpot/suspension/dampers/damper_words.h"
+#include "dashpot/suspension/dampers/passive_curve.h"
 #include "studies/one_sensor/one_sensor_fit.h"
 
 namespace dashpot {

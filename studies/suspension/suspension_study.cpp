@@ -7,7 +7,7 @@
 #include "dashpot/base/parallel.h"
 #include "dashpot/base/text.h"
 #include "dashpot/damper/parameter_set.h"
-#include "dashpot/suspension/damper_words.h"
+#include "dashpot/suspension/dampers/damper_words.h"
 #include "dashpot/suspension/ground/ground_sequences.h"
 #include "dashpot/suspension/plants/linear.h"
 #include "studies/suspension/study_dampers.h"

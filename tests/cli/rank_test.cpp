@@ -42,6 +42,36 @@ TEST_CASE(
 }
 
 TEST_CASE(
+    "rank: fits that an older version kept stay as they are, and are made again beside them") {
+  const TemporaryFolder folder;
+  const fs::path older = folder.write("fits/bingham-d818ac6dd7c05e7b.json",
+                                      "{\"format\": \"dashpot fit 1\", \"key\": \"0.1.0\"}");
+  const std::string command = rank_of("bingham", folder.path()), before = read_file(older);
+  const ProgramResult first = run_dashpot(command);
+  CHECK(first.exit_code == 0);
+  CHECK(contains(first.output, (folder.path() / "fits").string() +
+                                   " holds fits of an older version of Dashpot; they stay as they "
+                                   "are and are not used. New fits are kept in " +
+                                   (folder.path() / "fits.sqlite").string()));
+  CHECK(!contains(first.output, "kept from before"));
+  const ProgramResult again = run_dashpot(command);
+  CHECK(contains(again.output, "4 fits kept from before"));
+  CHECK(!contains(again.output, "older version"));
+  CHECK(read_file(older) == before);
+}
+
+TEST_CASE("rank: what is no file of fits is refused before anything is fitted") {
+  const TemporaryFolder folder;
+  const fs::path file = folder.write("fits.sqlite", std::string(2000, 'x'));
+  const ProgramResult result = run_dashpot(rank_of("bingham", folder.path()));
+  CHECK(result.exit_code == 1);
+  CHECK(contains(result.output,
+                 file.string() + ": is no file of fit results; give another --output"));
+  CHECK(read_file(file) == std::string(2000, 'x'));
+  CHECK(run_dashpot(rank_of("bingham --fresh", folder.path())).exit_code == 0);
+}
+
+TEST_CASE(
     "rank: an interruption ends it soon, with 130 and no report, and what is finished stays") {
   const TemporaryFolder folder;
   REQUIRE(run_dashpot(rank_of("bingham --leave-out fraction=0.3 --starts 1", folder.path()))

@@ -35,11 +35,8 @@ Rows rows_in(const fs::path& folder) {
   Rows rows;
   if (!fs::exists(copy.path() / "search.sqlite")) return rows;
   SQLite::Database database((copy.path() / "search.sqlite").string(), SQLite::OPEN_READWRITE);
-  if (!database.tableExists("fold_result")) return rows;
-  SQLite::Statement select(
-      database,
-      "SELECT design || ' ' || share || ' ' || fold, squared || ' ' || samples || ' ' ||"
-      " seconds || ' ' || finished FROM fold_result");
+  if (!database.tableExists("result")) return rows;
+  SQLite::Statement select(database, "SELECT key, bytes FROM result");
   while (select.executeStep())
     rows[select.getColumn(0).getString()] = select.getColumn(1).getString();
   return rows;

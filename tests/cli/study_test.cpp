@@ -72,9 +72,13 @@ TEST_CASE(
                  "has no condition 'piston_area'"));
   const std::string command =
       "study family " + write_family(folder).string() + " --seeds 1 --effort 0.002" + output;
+  const std::filesystem::path older = folder.write("out/fits/0123456789abcdef01234567.json",
+                                                   "{\"format\": \"dashpot training 1\"}");
   const ProgramResult first = run_dashpot(command);
   CAPTURE(first.output);
   CHECK(first.exit_code == 0);
+  CHECK(contains(first.output, "holds trainings of an older version of Dashpot"));
+  CHECK(read_file(older) == "{\"format\": \"dashpot training 1\"}");
   for (const char* part : {"384 samples", "0.5115", "Figure 9", "Each geometry", "report.html"})
     CHECK(contains(first.output, part));
   CHECK(contains(read_file(folder.path() / "out/report.md"), "# The family paper, repeated"));

@@ -140,6 +140,15 @@ TEST_CASE("a hybrid's file comes back as it was, to the last bit, and its law ke
         }).find("drive_unit is V, but A for the file") != std::string::npos);
 }
 
+TEST_CASE(
+    "a file that an earlier version wrote, with its kind's former name, is read and renamed") {
+  const ModelFile old = load_model(project_file("tests/damper/state_network_model.json"));
+  CHECK(old.model->kind() == ModelKind::HysteresisNetwork);
+  const std::string text = format_model(old);
+  CHECK(text.find("\"kind\": \"hysteresis_network\"") != std::string::npos);
+  CHECK(format_model(parse_model(text, "m.json")) == text);
+}
+
 TEST_CASE("a model file that cannot be used says where and why") {
   const auto mentions = [](const std::string& text, const char* part) {
     CAPTURE(text);
@@ -149,6 +158,9 @@ TEST_CASE("a model file that cannot be used says where and why") {
   CHECK(
       mentions(message_after("\"version\": 1", "\"version\": 2"), "this Dashpot reads version 1"));
   CHECK(mentions(message_after("\"kind\": \"law\"", "\"kind\": \"laws\""), "did you mean 'law'"));
+  CHECK(mentions(
+      message_after("\"kind\": \"law\"", "\"kind\": \"spline\""),
+      "known: law, network, narx, hysteresis_network, state_space, fuzzy, hybrid, family"));
   CHECK(mentions(message_after("\"sample_time\"", "\"sampletime\""), "needs 'sample_time'"));
   CHECK(mentions(message_after("\"quality\"", "\"qualities\""), "unknown key 'qualities'"));
   CHECK(mentions(message_after("\"unit\": \"m/s\"", "\"unit\": \"mm/s\""), "write m/s"));

@@ -4,20 +4,13 @@
 #include <matio.h>
 
 #include "damper/inverse/example_network.h"
-#include "damper/kinds/family/example_family.h"
-#include "damper/kinds/hybrid/hybrid_model_example.h"
-#include "damper/kinds/hysteresis_network/hysteresis_network_example.h"
-#include "damper/kinds/narx/narx_example.h"
-#include "damper/kinds/state_space/state_space_example.h"
 #include "dashpot/base/data_folder.h"
 #include "dashpot/base/file.h"
 #include "dashpot/damper/inverse/inverse_file.h"
-#include "dashpot/damper/kinds/fuzzy/fuzzy_model.h"
-#include "dashpot/damper/kinds/hybrid/hybrid_model.h"
 #include "dashpot/damper/kinds/law/law_model.h"
-#include "dashpot/damper/kinds/network/network_model.h"
 #include "dashpot/damper/parameter_set.h"
 #include "dashpot/model_file.h"
+#include "export/example_models.h"
 #include "fuzz.h"
 
 namespace fs = std::filesystem;
@@ -88,50 +81,15 @@ std::string model_seed(std::unique_ptr<dashpot::DamperModel> model, DriveUnit dr
   return dashpot::format_model(file);
 }
 
+/// One law, and the example of every other kind.
 void model_seeds(const fs::path& folder) {
   using namespace dashpot;
   const LawModel law = load_parameters("spencer1997");
-  write_file(folder / "law", model_seed(std::make_unique<LawModel>(law), law.drive_unit()));
-  const Sugeno sugeno{
-      .inputs = {{}, {}},
-      .memberships = {{Membership::Shape::Bell, 0}, {Membership::Shape::Gaussian, 1}},
-      .rules = {{0, 1}},
-      .consequents = {1, 2, 3}};
-  write_file(
-      folder / "fuzzy",
-      model_seed(std::make_unique<FuzzyModel>(
-                     "anfis", FuzzyInputs({"velocity", "current"}, {0.01, 0.02}, "seed"), sugeno),
-                 DriveUnit::Ampere));
-  write_file(folder / "family_gates",
-             model_seed(example_family(dashpot::FamilyTarget::Residual).with_offset(0),
-                        DriveUnit::Ampere));
-  write_file(folder / "family_network",
-             model_seed(example_family_network().with_offset(0), DriveUnit::Ampere));
-  const Regressors regressors = example_regressors();
-  write_file(folder / "narx",
-             model_seed(std::make_unique<NarxModel>("narx_one_sensor", regressors,
-                                                    std::vector{example_narx_network(regressors)}),
-                        DriveUnit::Ampere));
-  Mlp mlp;
-  mlp.layers = {2, 1, 1};
-  mlp.parameters = {0.1, 0.2, 0.3, 0.4, 0.5};
-  mlp.input_mean = mlp.input_scale = {1, 1};
-  const std::vector<std::string> inputs = {"velocity", "current"};
-  for (const std::size_t members : {1, 2})
-    write_file(folder / ("network_" + std::to_string(members)),
-               model_seed(std::make_unique<NetworkModel>("mlp_one_sensor", inputs,
-                                                         std::vector(members, mlp)),
-                          DriveUnit::Ampere));
-  write_file(folder / "hysteresis_network",
-             model_seed(std::make_unique<HysteresisNetworkModel>(
-                            "hysteresis_network", std::vector{example_hysteresis_network()}),
-                        DriveUnit::Ampere));
-  write_file(folder / "state_space",
-             model_seed(std::make_unique<StateSpaceModel>("neural_state_space",
-                                                          std::vector{example_state_space()}),
-                        DriveUnit::Ampere));
-  write_file(folder / "hybrid",
-             model_seed(std::make_unique<HybridModel>(example_hybrid()), law.drive_unit()));
+  write_file(folder / "law", model_seed(law.with_offset(0), law.drive_unit()));
+  for (const ExampleModel& example : example_models())
+    if (example.model->kind() != ModelKind::Law)
+      write_file(folder / example.name,
+                 model_seed(example.model->with_offset(0), DriveUnit::Ampere));
 }
 
 constexpr const char* kFamily =

@@ -3,7 +3,7 @@
 #include "dashpot/damper/virtual_bench.h"
 #include "dashpot/identify/rank/fit_store.h"
 #include "dashpot/identify/search/trial_store.h"
-#include "dashpot/suspension/sweep/request.h"
+#include "dashpot/suspension/sweep/request_file.h"
 #include "dashpot/suspension/sweep/store.h"
 #include "fuzz.h"
 #include "studies/family/family_network.h"
@@ -17,71 +17,74 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// An empty folder of this process.
-fs::path own_folder(const std::string& name) {
-  const fs::path folder = fuzz_file(name + ".made", "").parent_path() / name;
-  fs::remove_all(folder);
-  fs::create_directories(folder);
-  return folder;
+/// The path of a file of this process that is not there.
+fs::path own_file(const std::string& name) {
+  fs::path file = fuzz_file(name, "");
+  fs::remove(file);
+  return file;
 }
 
-fs::path only_file(const fs::path& folder) { return fs::directory_iterator(folder)->path(); }
+/// A file with one result in it, and that result.
+struct Kept {
+  fs::path file;
+  StoreFormat format;
+  Store::Result result;
 
-/// In the place of a file that was kept.
-void put(const fs::path& file, const std::string& content) {
-  fuzz_file((file.parent_path().filename() / file.filename()).string(), content);
-}
+  Kept(fs::path path, const StoreFormat& of) : file(std::move(path)), format(of) {
+    Store(file, format).for_each([&](std::string_view key, std::string_view bytes) {
+      result = {std::string(key), std::string(bytes)};
+    });
+  }
+  /// Puts other bytes in the place of the result's.
+  void put(const std::string& bytes) const { Store(file, format).save(result.key, bytes); }
+};
 
 const std::string kModel = "bingham";
-const DriveUnit kDrive = DriveUnit::Ampere;
+constexpr DriveUnit kDrive = DriveUnit::Ampere;
 
-/// A store with one fit in it.
-struct KeptFit {
+/// A fit, and what it was made from.
+struct FitExample {
   Dataset data;
   IdentifyOptions options{.starts = 1, .threads = 1};
-  fs::path folder = own_folder("fits");
-  FitStore store{folder, "1"};
-  fs::path file;
 
-  KeptFit() {
+  FitExample() {
     BenchOptions bench;
     bench.motions = {{0.01, 1}};
     bench.drive_levels = {0.5, 1};
     bench.sample_rate = 50;
     bench.cycles = 1;
     data = run_virtual_bench(load_parameters("kwok2006"), kDrive, bench);
-    store.save(request(), identify(kModel, data.records, kDrive, options));
-    file = only_file(folder);
   }
   FitStore::Request request() const { return {kModel, data.records, kDrive, options}; }
+  Kept keep() const {
+    const fs::path file = own_file("fits.sqlite");
+    FitStore(file, "1").save(request(), identify(kModel, data.records, kDrive, options));
+    return {file, FitStore::kFormat};
+  }
 };
 
 void fit_store(const std::string& input) {
-  static const KeptFit kept;
-  put(kept.file, input);
-  const auto fit = kept.store.load(kept.request());
+  static const FitExample example;
+  static const Kept kept = example.keep();
+  kept.put(input);
+  const auto fit = FitStore(kept.file, "1").load(example.request());
   require_true(!fit || fit->model);
 }
 
-/// A store with one trained network in it.
-struct KeptTraining {
-  StudiedNetwork network{.mlp = {.layers = {2, 1, 1}, .parameters = {1, 2, 3, 4, 5}},
-                         .history = {2, 1}};
-  fs::path folder = own_folder("trainings");
-  TrainingStore store{folder, "1", {}};
-  fs::path file;
+const StudiedNetwork kNetwork{.mlp = {.layers = {2, 1, 1}, .parameters = {1, 2, 3, 4, 5}},
+                              .history = {2, 1}};
 
-  KeptTraining() {
-    store.save("key", network);
-    file = only_file(folder);
-  }
-};
+Kept keep_training() {
+  const fs::path file = own_file("trainings.sqlite");
+  TrainingStore(file, "1", {}).save("key", kNetwork);
+  return {file, TrainingStore::kFormat};
+}
 
 void training_store(const std::string& input) {
-  static const KeptTraining kept;
-  put(kept.file, input);
-  StudiedNetwork network = kept.network;
-  (void)kept.store.load("key", network);
+  static const Kept kept = keep_training();
+  kept.put(input);
+  StudiedNetwork network = kNetwork;
+  (void)TrainingStore(kept.file, "1", {}).load("key", network);
   require_true(network.mlp.parameters.size() == 5);
 }
 
@@ -118,8 +121,8 @@ const FuzzTarget targets[] = {{"fit_store", fit_store},
 }  // namespace
 
 void write_store_seeds(const fs::path& folder) {
-  write_file(folder / "fit_store/kept", read_file(KeptFit().file));
-  write_file(folder / "training_store/kept", read_file(KeptTraining().file));
+  write_file(folder / "fit_store/kept", FitExample().keep().result.bytes);
+  write_file(folder / "training_store/kept", keep_training().result.bytes);
   fs::create_directories(folder / "trial_store");
   TrialStore(folder / "trial_store/kept", kSearch).save(kTrial, {});
   fs::create_directories(folder / "sweep_store");

@@ -1,13 +1,13 @@
 #include "dashpot/controller.h"
 #include "dashpot/plant.h"
-#include "dashpot/suspension/damper_words.h"
+#include "dashpot/suspension/dampers/damper_words.h"
+#include "dashpot/suspension/dampers/passive_curve.h"
 #include "dashpot/suspension/ground/earthquake.h"
 #include "dashpot/suspension/ground/ground_sequences.h"
 #include "dashpot/suspension/ground/road_profile.h"
-#include "dashpot/suspension/passive_curve.h"
 #include "dashpot/suspension/plants/linear.h"
-#include "dashpot/suspension/sweep/inputs.h"
-#include "dashpot/suspension/sweep/request.h"
+#include "dashpot/suspension/sweep/draw.h"
+#include "dashpot/suspension/sweep/request_file.h"
 #include "fuzz.h"
 
 // Files and words of vehicles, roads and controllers.

@@ -56,8 +56,8 @@ TEST_CASE("zero-phase filtering is that of scipy") {
     double cutoff_hz, sample_rate;
     std::array<double, 6> y;
   };
-  // scipy 1.10.1: signal.sosfiltfilt(signal.butter(order, cutoff, fs=rate, output='sos'), x) at 0 1
-  // 7 20 38 39
+  // scipy 1.10.1: signal.sosfiltfilt(signal.butter(order, cutoff, fs=rate, output='sos'), x)
+  // at 0 1 7 20 38 39
   const std::array<Golden, 3> goldens{{
       {2,
        30,

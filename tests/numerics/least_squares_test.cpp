@@ -21,11 +21,13 @@ LeastSquaresProblem rosenbrock() {
   problem.residuals = 2;
   problem.lower = {-kInfinity, -kInfinity};
   problem.upper = {kInfinity, kInfinity};
+
   problem.residual = [](std::span<const double> x, std::span<double> r) {
     r[0] = 10 * (x[1] - x[0] * x[0]);
     r[1] = 1 - x[0];
     return true;
   };
+
   problem.jacobian = [residual = problem.residual](std::span<const double> x, std::span<double> r,
                                                    std::span<double* const> columns) {
     if (columns[0]) columns[0][0] = -20 * x[0], columns[0][1] = -1;

@@ -166,12 +166,14 @@ LeastSquaresProblem scaled(const Certified& nist, const std::vector<double>& sta
   problem.residuals = nist.y.size();
   problem.lower.assign(start.size(), -kInfinity);
   problem.upper.assign(start.size(), kInfinity);
+
   problem.residual = [&nist, start](std::span<const double> u, std::span<double> r) {
     std::vector<double> b(u.begin(), u.end());
     for (std::size_t k = 0; k < b.size(); ++k) b[k] *= start[k];
     for (std::size_t i = 0; i < r.size(); ++i) r[i] = nist.model(b, nist.x[i]) - nist.y[i];
     return true;
   };
+
   problem.jacobian = [residual = problem.residual](std::span<const double> u, std::span<double> r,
                                                    std::span<double* const> columns) {
     std::vector<double> up(r.size()), down(r.size()), moved(u.begin(), u.end());

@@ -6,6 +6,7 @@
 #include "conformance/control_cases.h"
 #include "dashpot/export/c/c_model.h"
 #include "dashpot/export/c/c_text.h"
+#include "dashpot/export/c_subset/c_rewrite.h"
 #include "dashpot/export/onnx/onnx.h"
 #include "runtime.h"
 

@@ -168,7 +168,7 @@ TEST_CASE("roles give parts of one record that both run from its start") {
   CHECK(split(dataset, *dataset.leave_out).size() == 1);
 }
 
-// What the folders hold is described in their README and manifests.
+// The README and the manifests of the folders describe their recordings.
 TEST_CASE("utfsm without any dataset file") {
   const auto folder = shared_data("utfsm");
   if (folder.empty()) return;

@@ -95,7 +95,7 @@ TEST_CASE(
 }
 
 TEST_CASE("every motion stays within its band") {
-  // what is beyond are side bands of changes that are quick beside 0.5 Hz
+  // the rest are side bands of changes that are quick beside 0.5 Hz
   CHECK(share_within(make_motion("AM", 1), 1.85, 2.15) > 0.9999);
   CHECK(share_within(make_motion("FM", 1), 0.4, 15.2) > 0.99);
   CHECK(share_within(make_motion("RP", 1), 0.45, 15.05) > 0.9999);

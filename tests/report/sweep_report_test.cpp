@@ -1,5 +1,6 @@
 #include "dashpot/report/sweep_report.h"
 
+#include "dashpot/suspension/sweep/request_file.h"
 #include "support.h"
 
 using namespace dashpot;

@@ -175,7 +175,7 @@ TEST_CASE("controlled quarter car on sines: reference table 7.13 within 3 %" *
               {"pdd", {98.7, 74.6, 51.9, 45.1, 105.9, 506.1, 57.5}},
               {"sh_add", {53.5, 60.3, 52.9, 49.6, 109.0, 520.5, 59.6}},
               {"mix1", {53.9, 60.3, 55.5, 59.8, 112.6, 573.9, 66.8}}};
-  // Where a law switches, the gain hangs on how late the sample is that sees it (skyhook at 8 Hz:
+  // Where a law switches, the gain depends on how late the sample is that sees it (skyhook at 8 Hz:
   // 324 sampled at 1 kHz, 304 at 2 kHz); the reference's own phase is not known. One of the two is
   // met.
   for (const auto& row : rows)
@@ -230,7 +230,7 @@ TEST_CASE("corners of a coil's current are met: a driver that samples, limits it
   CHECK(usual.steps < 10000);
 }
 
-TEST_CASE("a force that jumps costs an error that is told, not hours") {
+TEST_CASE("a force that jumps costs an error that is counted, not hours") {
   const Plant plant = load_plant_set("savaresi_spelta").plant;
   const LawModel friction = LawModel::constant(find_law("bingham"), {500, 300, 0, 0});
   const std::vector<MountedDamper> dampers{{.model = std::make_shared<LawModel>(friction)}};
@@ -240,11 +240,11 @@ TEST_CASE("a force that jumps costs an error that is told, not hours") {
   CHECK(trace.evaluations < 3000000);
   REQUIRE(trace.warnings.size() == 1);
   CHECK(trace.warnings[0].find("the tolerance could not be met in ") == 0);
-  // Held: what the soft spring of the tyre lets through, body and wheel as one.
+  // Held: body and wheel move as one on the soft spring of the tyre.
   CHECK(greatest(trace, "suspension_deflection") < 1e-5);
 }
 
-TEST_CASE("what is without load at the begin alone does not count where the begin is left out") {
+TEST_CASE("a loss of contact at the start does not count where the start is left out") {
   PlantSet set = load_plant_set("tudon_martinez2012", {{"tyres_may_lift", 1}});
   const std::vector<MountedDamper> dampers{linear_damper(900, 900)};
   const GroundPointer bump = make_ground("bump,height=20cm", 1);
@@ -256,7 +256,7 @@ TEST_CASE("what is without load at the begin alone does not count where the begi
   CHECK(rest.warnings.empty());
 }
 
-TEST_CASE("a tyre that may lift has no load below 0, and it is told") {
+TEST_CASE("a tyre that may lift has no load below 0, with a warning") {
   PlantSet set = load_plant_set("tudon_martinez2012", {{"tyres_may_lift", 1}});
   const std::vector<MountedDamper> dampers{linear_damper(900, 900)};
   const GroundPointer sine = make_ground("sine,amplitude=2cm,frequency=7.8", 1);

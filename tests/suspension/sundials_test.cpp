@@ -114,7 +114,7 @@ double apart(const std::vector<std::array<double, 2>>& truth, const Record& reco
 struct Errors {
   double alone, in_lanes;
 };
-/// Of both engines, with a controller where `law` names one.
+/// Both engines' results, with a controller where `law` names one.
 Errors errors_of(std::shared_ptr<const DamperModel> model, const Equations& equations,
                  const char* law, double highest) {
   const Plant plant = load_plant_set("tudon_martinez2012").plant;

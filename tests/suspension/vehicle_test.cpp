@@ -5,10 +5,10 @@
 #include "dashpot/damper/parameter_set.h"
 #include "dashpot/damper/registry.h"
 #include "dashpot/model_file.h"
-#include "dashpot/suspension/damper_state.h"
-#include "dashpot/suspension/damper_words.h"
-#include "dashpot/suspension/domain_use.h"
+#include "dashpot/suspension/dampers/damper_state.h"
+#include "dashpot/suspension/dampers/damper_words.h"
 #include "dashpot/suspension/ground/ground_sequences.h"
+#include "dashpot/suspension/ride/domain_use.h"
 #include "dashpot/suspension/ride/ride.h"
 #include "support.h"
 
@@ -43,7 +43,7 @@ TEST_CASE("dampers by words") {
   CHECK(choose_damper("suv_rear").is_passive());
 }
 
-TEST_CASE("friction that jumps is smoothed, and that is told; a speed that is stated stays") {
+TEST_CASE("friction that jumps is smoothed, with a note; a speed that is stated stays") {
   const TemporaryFolder folder;
   const auto file = [&](double speed) {
     const LawModel model = LawModel::constant(find_law("bingham"), {1000, 100, 0, speed});
@@ -215,11 +215,11 @@ TEST_CASE("vehicles that cannot be are refused, in words") {
   CHECK(refusal({.current = 7}) == "vehicle: a drive of 7 is beyond the greatest, 1");
   VehicleWords words{.plant = "tudon_martinez2012", .controller = "clipped_lqr"};
   words.sensors.in_car = true;
-  CHECK(refusal(words).find("'clipped_lqr' feeds back what no sensor of a car tells") !=
+  CHECK(refusal(words).find("'clipped_lqr' feeds back what no sensor of a car measures") !=
         std::string::npos);
 }
 
-TEST_CASE("a damper that is used where it has no data is told of") {
+TEST_CASE("a damper that is used where it has no data causes a warning") {
   Vehicle vehicle = make_vehicle({.dampers = {"viscous"}});
   vehicle.domains[0] = Domain{.velocity_min = -0.1, .velocity_max = 0.1};
   const GroundPointer sine = make_ground("sine,amplitude=2cm,frequency=1.08", 1);

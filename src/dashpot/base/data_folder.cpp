@@ -10,9 +10,9 @@ namespace dashpot {
 
 namespace {
 
-/// Where the data may lie, the first best: where the user says; beside the program or shared
-/// library that runs, as an installation (which may have been moved) or a Python package has it; in
-/// the source; where it was to be installed.
+/// Folders in which the data may lie, the best first: where the user says; beside the program or
+/// shared library that runs, as an installation (which may have been moved) or a Python package has
+/// it; in the source; where it was to be installed.
 std::vector<fs::path> find_roots() {
   std::vector<fs::path> roots;
   if (const char* stated = std::getenv("DASHPOT_DATA")) roots.emplace_back(stated);

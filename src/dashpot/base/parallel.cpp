@@ -80,12 +80,16 @@ void parallel_for(std::size_t count, int threads, const std::function<void(std::
     for (std::size_t k = 0; k < count; ++k) task(k);
     return;
   }
+
+  // Every thread, the calling one too, takes tasks until none is left.
   Farm farm(count, task);
   const auto work = [&farm] {
     inside_a_task = true;
     farm.work();
     inside_a_task = false;
   };
+
+  // The calling thread waits here; the time of the others counts as its own.
   std::vector<double> spent(workers);
   {
     std::vector<std::jthread> pool;

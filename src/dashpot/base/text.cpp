@@ -16,8 +16,11 @@ std::string_view trim(std::string_view text) {
 
 std::optional<double> parse_number(std::string_view text, char decimal) {
   text = trim(text);
-  if (!text.empty() && text.front() == '+') text.remove_prefix(1);  // from_chars refuses it
+  // from_chars refuses a leading plus.
+  if (!text.empty() && text.front() == '+') text.remove_prefix(1);
   if (text.empty() || text.front() == '+') return std::nullopt;
+
+  // from_chars knows the point only: put it in the place of another sign.
   std::array<char, 64> with_point;
   if (decimal != '.') {
     if (text.size() > with_point.size() || text.find('.') != std::string_view::npos)
@@ -25,6 +28,8 @@ std::optional<double> parse_number(std::string_view text, char decimal) {
     std::replace_copy(text.begin(), text.end(), with_point.begin(), decimal, '.');
     text = {with_point.data(), text.size()};
   }
+
+  // The whole text must be the number.
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;

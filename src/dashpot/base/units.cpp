@@ -81,6 +81,7 @@ constexpr Prefix kPrefixes[] = {{"k", 1e3},       {"c", 1e-2},      {"m", 1e-3},
 const Named* find_named(std::string_view name) {
   for (const Named& unit : kUnits)
     if (unit.name == name) return &unit;
+
   // Words ("Newtons", "VOLTS") may be in any case and in the plural; symbols may not.
   std::string word = lower(name);
   if (word.size() > 4 && word.back() == 's') word.pop_back();
@@ -105,6 +106,7 @@ std::optional<Unit> parse_symbol(std::string_view name) {
 
 /// One factor: "mm", "s^2", "s2", "cm^-2".
 std::optional<Unit> parse_factor(std::string_view text) {
+  // The exponent stands behind a caret, or is a last digit 2 or 3.
   int exponent = 1;
   if (const std::size_t caret = text.find('^'); caret != std::string_view::npos) {
     const auto power = parse_number(text.substr(caret + 1));
@@ -115,9 +117,13 @@ std::optional<Unit> parse_factor(std::string_view text) {
     exponent = text.back() - '0';
     text.remove_suffix(1);
   }
+
+  // An offset (degC) makes no sense in a power.
   auto unit = parse_symbol(text);
   if (!unit || (unit->offset != 0 && exponent != 1)) return std::nullopt;
   if (exponent == 1) return unit;
+
+  // Raise dimension and factor to the power.
   Unit power{{}, std::pow(unit->factor, exponent), 0};
   for (std::size_t k = 0; k < power.dimension.size(); ++k)
     power.dimension[k] = unit->dimension[k] * exponent;
@@ -162,6 +168,8 @@ bool multiply(Unit& unit, std::string_view product, int sign) {
 std::optional<Unit> parse_unit(std::string_view text) {
   const std::string spelled = normalise(text);
   if (spelled.empty() || spelled.size() > 40) return std::nullopt;
+
+  // Products one behind the other: the first counts, those behind a slash divide.
   Unit unit;
   std::string_view rest = spelled;
   int sign = 1;
@@ -189,12 +197,16 @@ double parse_quantity(std::string_view text, std::string_view si_unit, const std
     const auto number = parse_number(trim(text.substr(0, length)));
     return number && std::isfinite(*number) ? number : std::nullopt;
   };
+
+  // The longest beginning that is a number is the number.
   std::size_t length = text.size();
   while (length > 0 && !finite(length)) --length;
   if (length == 0)
     throw Error(where, "'" + std::string(text) + "' is not a number",
                 "a number in " + std::string(si_unit) + ", or one with its unit");
   const double number = *finite(length);
+
+  // The rest, if any, is a unit of the dimension that is asked for.
   const std::string_view suffix = trim(text.substr(length));
   if (suffix.empty()) return number;
   const Unit unit = require_unit(suffix, where);

@@ -33,6 +33,8 @@ Value from_json(const Json& json, const std::string& source, const std::string& 
     for (const auto& [key, item] : json.items())
       value.add(key, from_json(item, source, path.empty() ? key : path + "." + key));
   }
+
+  // Later messages name the file and the way to this value.
   value.set_where(place(source, path));
   return value;
 }
@@ -49,6 +51,8 @@ Json to_json(const Value& value) {
       const double number = value.as_number();
       if (!std::isfinite(number))
         throw Error(value.where(), "a number that is not finite cannot be written as JSON");
+
+      // Whole numbers are written as such: 5, not 5.0. Minus zero keeps its sign.
       constexpr double kLargestExactInteger = 9007199254740992.0;
       if (number == std::floor(number) && std::abs(number) < kLargestExactInteger &&
           !(number == 0 && std::signbit(number)))
@@ -82,6 +86,8 @@ void require_shallow(std::string_view text, const std::string& source) {
   bool in_string = false;
   for (std::size_t k = 0; k < text.size(); ++k) {
     const char c = text[k];
+
+    // Brackets inside a string do not count; a backslash hides the sign behind it.
     if (in_string) {
       if (c == '\\')
         ++k;

@@ -46,6 +46,7 @@ Domain read_domain(const Value& value, DriveUnit drive_unit) {
     domain.*axis.max = ends.number("max");
     const std::string unit = ends.string("unit");
     ends.finish();
+
     if (unit != axis.unit)
       throw Error(range.where(), "unit is '" + unit + "'", "write " + axis.unit);
     if (domain.*axis.min > domain.*axis.max) throw Error(range.where(), "min is above max");
@@ -73,6 +74,8 @@ Provenance read_provenance(const Value& value) {
   from.command = reader.string("command");
   from.dataset = reader.string("dataset");
   from.citation = reader.string("citation");
+
+  // The files that the records came from, and the records themselves.
   for (const Value& item : reader.required("files").items()) {
     ObjectReader file(item, "a provenance file");
     from.files.push_back({file.string("path"), file.string("sha256")});

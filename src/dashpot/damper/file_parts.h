@@ -2,11 +2,11 @@
 #include <string>
 #include <string_view>
 
+#include "dashpot/damper_model.h"
 #include "dashpot/drive.h"
-#include "dashpot/model_file.h"
 #include "dashpot/value.h"
 
-// What the files of models and of inverses have in common.
+// The parts that the files of models and of inverses have in common.
 namespace dashpot {
 
 struct FileFormat {

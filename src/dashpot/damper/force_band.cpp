@@ -60,6 +60,8 @@ ForceBand read_force_band(const Value& value) {
   ObjectReader reader(value, "an interval");
   if (const Value& version = reader.required("version"); version.as_number() != kVersion)
     throw Error(version.where(), "is another version of the interval", "write 1");
+
+  // Read its parts.
   ForceBand band;
   band.level = reader.number("level");
   const double records = reader.number("records");
@@ -76,6 +78,8 @@ ForceBand read_force_band(const Value& value) {
       throw Error(spread->where(), "is not positive", "leave it out for a single model");
   }
   reader.finish();
+
+  // Check that they fit together.
   if (!(band.level > 0 && band.level < 1))
     throw Error(value.where(), "level is not between 0 and 1");
   if (band.drives.empty() ||

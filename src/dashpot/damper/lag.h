@@ -3,7 +3,7 @@
 
 namespace dashpot {
 
-/// What a first-order lag y' = rate (u - y) makes of an input that is linear over a step:
+/// The output of a first-order lag y' = rate (u - y) for an input that is linear over a step:
 ///   y1 = past y0 + from u0 + to u1.  Exact. The weights are positive and their sum is 1, so y
 ///   stays
 /// between the inputs that it has seen, whatever the step.

@@ -17,7 +17,7 @@ struct StateInfo {
 /// Room that a model keeps for a law's numbers while it steps, so that stepping allocates nothing.
 constexpr std::size_t kMaxStates = 8, kMaxParams = 24;
 
-/// What a parameter is to a fit.
+/// The role that a parameter has in a fit.
 enum class Fit {
   Free,
   Fixed,  ///< keeps its value unless asked for
@@ -58,7 +58,7 @@ struct Law {
   void (*rest)(const double* p, double x, double v, double* z) = nullptr;
   void (*derivative)(const double* p, double x, double v, const double* z, double* dz) = nullptr;
   double (*force)(const double* p, double x, double v, const double* z) = nullptr;
-  /// Of many samples with the same parameters; null with states.
+  /// The forces of many samples with the same parameters; null with states.
   void (*forces)(const double* p, std::span<const DamperInput> inputs, double* force) = nullptr;
   /// Force and derivative at once; null without states.
   double (*flow)(const double* p, double x, double v, const double* z, double* dz) = nullptr;

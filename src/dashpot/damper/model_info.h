@@ -4,13 +4,13 @@
 #include <string_view>
 #include <vector>
 
-#include "dashpot/damper/model_kind.h"
+#include "dashpot/model_kind.h"
 
 namespace dashpot {
 
 struct Law;
 
-/// What a registered model says of itself, whatever its kind. The texts belong to its law or
+/// The description of a registered model, whatever its kind. The texts belong to its law or
 /// preset, which last as long as the program.
 struct ModelInfo {
   std::string_view name;

@@ -1,4 +1,4 @@
-#include "dashpot/damper/model_kind.h"
+#include "dashpot/model_kind.h"
 
 #include <vector>
 
@@ -6,6 +6,10 @@
 #include "dashpot/error.h"
 
 namespace dashpot {
+
+std::string_view name_of(ModelKind kind) {
+  return kind == ModelKind::Other ? "other" : row_of<kModelKindNames>(kind).name;
+}
 
 ModelKind parse_model_kind(std::string_view name, const std::string& where) {
   std::vector<std::string> known;

@@ -36,6 +36,8 @@ ParameterSet parse_parameter_set(std::string_view text, const std::string& sourc
   const std::vector<double> ends = range.as_numbers();
   if (ends.size() != 2 || !(ends[0] <= ends[1]))
     throw Error(range.where(), "is not a range", "write [lowest, highest]");
+
+  // Read the rest; the bounds must hold at both ends of the range.
   ParameterSet set{
       .name = name,
       .damper = reader.string("damper"),

@@ -26,10 +26,10 @@ std::vector<std::string> parameter_set_names();
 /// Throws Error "unknown parameter set 'spencer'; did you mean ..." or on what is wrong in the
 /// file.
 ParameterSet load_parameter_set(const std::string& name);
-/// As load_parameter_set, but only the model.
+/// Does what load_parameter_set() does, and gives the model alone.
 LawModel load_parameters(const std::string& name);
 
-/// As a model file, which says where its numbers come from and whether they are an example.
+/// The set as a model file, which says where its numbers come from and whether they are an example.
 ModelFile to_model_file(const ParameterSet& set);
 
 /// The text of such a file. `source` stands in messages.

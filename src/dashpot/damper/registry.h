@@ -11,7 +11,7 @@
 // Every model that is known by name, laws first, then the presets of the other kinds.
 namespace dashpot {
 
-/// What the model of that name says of itself. Throws Error(where, "unknown model ...").
+/// The description of the model of that name. Throws Error(where, "unknown model ...").
 const ModelInfo& model_info(std::string_view name, const std::string& where = {});
 
 /// The usual models, in the order of their kinds: all but the hybrids of most laws.
@@ -23,7 +23,8 @@ std::vector<std::string> more_model_names();
 /// not known.
 const Law* law_inside(std::string_view name);
 
-/// What DamperModel::to_json() of a model of that kind wrote. Throws Error with the key at fault.
+/// Reads what DamperModel::to_json() of a model of that kind wrote. Throws Error with the key at
+/// fault.
 std::unique_ptr<DamperModel> read_model(ModelKind kind, const Value& value);
 
 }  // namespace dashpot

@@ -33,6 +33,8 @@ Truth simulate(const DamperModel& damper, const BenchTest& test, const BenchOpti
   DamperInput now = piston(test, 0);
   std::vector<double> state(damper.state_size());
   damper.rest(now, state);
+
+  // Take a sample, then bring the damper to the next one in smaller steps.
   Truth truth;
   for (std::size_t k = 0; k < samples; ++k) {
     const double t = static_cast<double>(k) * dt;
@@ -50,7 +52,7 @@ Truth simulate(const DamperModel& damper, const BenchTest& test, const BenchOpti
   return truth;
 }
 
-/// What a sensor with this zero, noise and converter makes of true values.
+/// The readings of a sensor with this zero, noise and converter.
 std::vector<double> measure(std::vector<double> values, double zero, double noise,
                             double resolution, Random& random) {
   for (double& value : values) {
@@ -167,6 +169,8 @@ Dataset run_virtual_bench(const DamperModel& damper, DriveUnit drive_unit,
   dataset.drive_unit = drive_unit;
   for (const BenchTest& test : tests)
     dataset.records.push_back(run_test(damper, test, drive_unit, options, random));
+
+  // Say what it is made of, so that nobody takes it for a measurement.
   dataset.notes.push_back("simulated, not measured; the true model is " +
                           format_json(damper.to_json(), false));
   dataset.notes.push_back(

@@ -50,6 +50,8 @@ std::vector<DamperInput> export_run(const Domain& domain, double sample_time, st
   const double top_speed = std::min(-domain.velocity_min, domain.velocity_max);
   const double reach = std::min(0.5 * (domain.displacement_max - domain.displacement_min),
                                 std::abs(top_speed) / motion.top_slope());
+
+  // Motion and command about the middle of the domain, as far as its limits and speeds allow.
   const double centre = middle(domain.displacement_min, domain.displacement_max);
   const double current = middle(domain.current_min, domain.current_max);
   const double swing = 0.5 * (domain.current_max - domain.current_min);

@@ -11,12 +11,14 @@ struct ExportRunOptions {
   double fastest = 6;  ///< Hz, of the motion; the command changes half as fast
 };
 
-/// Motion and command within a domain at equal steps, from a seed: sums of sines of random phase,
-/// the velocity that of the displacement. What exported models are checked along.
+/// Motion and command within a domain at equal steps of `sample_time` s, along which exported
+/// models are checked: sums of sines with random phases from a seed; the velocity is the slope of
+/// the displacement.
 std::vector<DamperInput> export_run(const Domain& domain, double sample_time, std::size_t count,
                                     const ExportRunOptions& options = {});
 
-/// The model's force along inputs at equal steps, from rest at the first.
+/// The model's force, N, along inputs (one at least) that lie `sample_time` s apart, from rest at
+/// the first.
 std::vector<double> force_along(const DamperModel& model, const std::vector<DamperInput>& inputs,
                                 double sample_time);
 

@@ -15,9 +15,12 @@ namespace {
 void filter_forward(const std::vector<Biquad>& sections, std::vector<double>& x) {
   double level = x.front();
   for (const Biquad& s : sections) {
+    // Both memories stand where a constant `level` would have brought them, so that the start makes
+    // no transient.
     const double settled = level * (s.b0 + s.b1 + s.b2) / (1 + s.a1 + s.a2);
     double z2 = s.b2 * level - s.a2 * settled;
     double z1 = s.b1 * level - s.a1 * settled + z2;
+
     for (double& sample : x) {
       const double in = sample;
       const double out = s.b0 * in + z1;
@@ -25,6 +28,8 @@ void filter_forward(const std::vector<Biquad>& sections, std::vector<double>& x)
       z2 = s.b2 * in - s.a2 * out;
       sample = out;
     }
+
+    // The next section's input starts at what this one settles to.
     level = settled;
   }
 }
@@ -69,9 +74,13 @@ std::vector<Biquad> butterworth_lowpass(int order, double cutoff_hz, double dt) 
 std::vector<double> filter_zero_phase(const std::vector<Biquad>& sections,
                                       std::span<const double> x, std::size_t margin) {
   if (x.empty()) return {};
+
+  // Lengthen both ends, so that what transient is left dies outside of the record.
   if (margin == 0) margin = 3 * (2 * sections.size() + 1);
   margin = std::min(margin, x.size() - 1);
   std::vector<double> y = extend_odd(x, margin);
+
+  // A second pass from the end takes back the phase shift of the first.
   for (int pass = 0; pass < 2; ++pass) {
     filter_forward(sections, y);
     std::reverse(y.begin(), y.end());

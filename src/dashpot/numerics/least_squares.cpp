@@ -154,12 +154,15 @@ ceres::Solver::Options ceres_options(const LeastSquaresOptions& options, Listene
 /// Runs Ceres from report.x on; `held` unknowns stay where they are.
 void run(const LeastSquaresProblem& problem, const std::vector<bool>& held,
          const ceres::Solver::Options& options, WholeProblem& whole, LeastSquaresReport& report) {
+  // One block of residuals over one parameter block per unknown.
   ceres::Problem::Options ownership;
   ownership.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
   ceres::Problem target(ownership);
   std::vector<double*> blocks;
   for (double& x : report.x) blocks.push_back(&x);
   target.AddResidualBlock(&whole, nullptr, blocks);
+
+  // Bounds: an unknown that is held is a constant; infinite bounds are not given to Ceres at all.
   for (std::size_t k = 0; k < blocks.size(); ++k) {
     if (held[k]) {
       target.SetParameterBlockConstant(blocks[k]);
@@ -170,8 +173,11 @@ void run(const LeastSquaresProblem& problem, const std::vector<bool>& held,
     if (std::isfinite(problem.upper[k]))
       target.SetParameterUpperBound(blocks[k], 0, problem.upper[k]);
   }
+
   ceres::Solver::Summary summary;
   ceres::Solve(options, &target, &summary);
+
+  // Ceres counts the evaluation at the start as an iteration; the report does not.
   report.converged = summary.termination_type == ceres::CONVERGENCE;
   report.message = summary.message;
   report.iterations += std::max(0, static_cast<int>(summary.iterations.size()) - 1);
@@ -192,6 +198,8 @@ std::vector<double> normal_matrix(const std::vector<double>& jacobian, std::size
 /// Cost, J'J and J'r at report.x; rows and columns of fixed unknowns are zero.
 void describe_end(const WholeProblem& whole, const LeastSquaresProblem& problem,
                   LeastSquaresReport& report) {
+  // Residuals and Jacobian at the end, without the columns of fixed unknowns. Where the derivatives
+  // fail the residuals may still be there.
   const std::size_t n = report.x.size(), m = problem.residuals;
   std::vector<double> r(m), jacobian(m * n, 0.0);
   std::vector<double*> columns(n, nullptr);
@@ -202,8 +210,11 @@ void describe_end(const WholeProblem& whole, const LeastSquaresProblem& problem,
     report.cost = std::numeric_limits<double>::infinity();
     return;
   }
+
   report.cost = 0.5 * std::inner_product(r.begin(), r.end(), r.begin(), 0.0);
   if (!has_jacobian) return;
+
+  // Gradient and, part by part, the normal matrices, which add up to the whole one.
   report.normal_matrix.assign(n * n, 0.0);
   report.gradient.assign(n, 0.0);
   for (std::size_t a = 0; a < n; ++a)
@@ -229,6 +240,7 @@ bool release(const LeastSquaresProblem& problem, const LeastSquaresReport& repor
     // The gain that the unknown's own curvature promises must be worth another run.
     const double curvature = report.normal_matrix[k * held.size() + k];
     if (report.gradient[k] * report.gradient[k] < 2e-6 * report.cost * curvature) continue;
+
     held[k] = false;
     released[k] = any = true;
   }

@@ -8,13 +8,14 @@
 
 namespace dashpot {
 
-/// min 0.5 |r(x)|^2 within bounds. Levenberg-Marquardt by Ceres.
+/// A problem min 0.5 |r(x)|^2 within bounds, for Levenberg-Marquardt by Ceres. Ceres itself appears
+/// in least_squares.cpp only. The order of the unknowns is that of lower, upper and start.
 struct LeastSquaresProblem {
   std::size_t residuals = 0;
-  std::vector<std::size_t> parts = {
-      0};  ///< first residual of each part; J'J is reported part by part
-  std::vector<double> lower,
-      upper;  ///< one per unknown; +-infinity allowed; equal: that unknown is fixed
+  /// First residual of each part, ascending from 0; J'J is reported part by part.
+  std::vector<std::size_t> parts = {0};
+  /// One per unknown; +-infinity allowed; equal: that unknown is fixed.
+  std::vector<double> lower, upper;
   /// Residuals at x. Returns false where they cannot be computed (the step is then rejected), and
   /// so counts a residual that is not finite. Called from several threads at a time.
   std::function<bool(std::span<const double> x, std::span<double> r)> residual;
@@ -25,6 +26,7 @@ struct LeastSquaresProblem {
       jacobian;
 };
 
+/// When to stop and how to differentiate.
 struct LeastSquaresOptions {
   int max_iterations = 100;
   double function_tolerance = 1e-8;  ///< stop when the cost falls by less than this share
@@ -36,6 +38,8 @@ struct LeastSquaresOptions {
   std::function<void(int iteration, double cost)> on_iteration;  ///< may throw to stop
 };
 
+/// How the search ended. n unknowns, m residuals: normal_matrix is n x n, gradient n; rows and
+/// columns of fixed unknowns are zero.
 struct LeastSquaresReport {
   bool converged = false;
   std::string message;
@@ -47,7 +51,9 @@ struct LeastSquaresReport {
   std::vector<double> gradient;                    ///< J'r at the end, likewise
 };
 
-/// The start is moved into the bounds first. What the callbacks throw comes out.
+/// Solves it from `start`, one number per unknown, which is moved into the bounds first. Not
+/// converging is a status in the report; exceptions of the callbacks end the search and are passed
+/// on. The same input gives the same bits, whatever the number of threads.
 LeastSquaresReport solve(const LeastSquaresProblem& problem, std::vector<double> start,
                          const LeastSquaresOptions& options = {});
 

@@ -65,6 +65,8 @@ MinimiseReport minimise(const SmoothFunction& function, std::vector<double> star
   report.x = std::move(start);
   std::exception_ptr failure;
   Listener listener(options, report.x, failure);
+
+  // L-BFGS is Ceres' default direction; the line search keeps Wolfe's conditions.
   ceres::GradientProblemSolver::Options how;
   how.max_num_iterations = options.max_iterations;
   how.function_tolerance = options.function_tolerance;
@@ -72,11 +74,14 @@ MinimiseReport minimise(const SmoothFunction& function, std::vector<double> star
   how.logging_type = ceres::SILENT;
   how.update_state_every_iteration = true;
   how.callbacks.push_back(&listener);
+
   const ceres::GradientProblem problem(
       new Wrapped(function, report.x.size(), failure));  // which owns it
   ceres::GradientProblemSolver::Summary summary;
   ceres::Solve(how, problem, report.x.data(), &summary);
   if (failure) std::rethrow_exception(failure);
+
+  // Its list of iterations holds the evaluation at the start too, which is none.
   report.converged = summary.termination_type == ceres::CONVERGENCE;
   report.message = summary.message;
   report.iterations = static_cast<int>(summary.iterations.size()) - 1;

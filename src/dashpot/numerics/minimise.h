@@ -6,11 +6,12 @@
 
 namespace dashpot {
 
-/// A smooth function without bounds: its value at x, and its gradient there. Returns false where it
-/// cannot be computed.
+/// A smooth function without bounds: writes its value at x and its gradient there, one number per
+/// unknown. Returns false where it cannot be computed; the line search then takes a smaller step.
 using SmoothFunction =
     std::function<bool(std::span<const double> x, double& value, std::span<double> gradient)>;
 
+/// When to stop.
 struct MinimiseOptions {
   int max_iterations = 500;
   double function_tolerance = 1e-9;  ///< stop when the value falls by less than this share
@@ -19,6 +20,7 @@ struct MinimiseOptions {
   std::function<bool(int iteration, double value, std::span<const double> x)> on_iteration;
 };
 
+/// How the search ended: `x` is the best point, `value` the function there.
 struct MinimiseReport {
   bool converged = false;
   std::string message;
@@ -27,7 +29,8 @@ struct MinimiseReport {
   std::vector<double> x;
 };
 
-/// L-BFGS with a line search after Wolfe, by Ceres. What the callbacks throw comes out.
+/// L-BFGS with a line search after Wolfe, by Ceres. Not converging is a status in the report;
+/// exceptions of the callbacks end the search and are passed on.
 MinimiseReport minimise(const SmoothFunction& function, std::vector<double> start,
                         const MinimiseOptions& options = {});
 

@@ -34,20 +34,28 @@ std::vector<double> regulator_gain(const RegulatorProblem& p) {
   const auto n = static_cast<Eigen::Index>(p.states);
   const Eigen::MatrixXd b = map_of(p.b, p.states, p.inputs),
                         cross = map_of(p.n, p.states, p.inputs);
+
+  // The weights on the inputs must be positive definite with digits to spare, since they are
+  // inverted.
   const Eigen::LLT<Eigen::MatrixXd> r(map_of(p.r, p.inputs, p.inputs));
   const Eigen::VectorXd pivots = Eigen::MatrixXd(r.matrixL()).diagonal();
   if (r.info() != Eigen::Success || pivots.minCoeff() < 1e-7 * pivots.maxCoeff())
     throw Error("regulator", "a combination of inputs costs nothing",
-                "a price on the inputs themselves");
+                "a weight on the inputs themselves");
+
+  // Remove the cross term: with v = u + R^-1 N'x the weights are Q - N R^-1 N' and R alone.
   const Eigen::MatrixXd a = map_of(p.a, p.states, p.states) - b * r.solve(cross.transpose());
   const Eigen::MatrixXd q = map_of(p.q, p.states, p.states) - cross * r.solve(cross.transpose());
+
+  // The stabilising solution P maps the upper half of the stable subspace onto the lower: P V1 =
+  // V2.
   Eigen::MatrixXd hamiltonian(2 * n, 2 * n);
   hamiltonian << a, -b * r.solve(b.transpose()), -q, -a.transpose();
   const Eigen::MatrixXcd stable = stable_subspace(hamiltonian);
   // Columns of a subspace: P V1 = V2.
-  const Eigen::MatrixXd price =
+  const Eigen::MatrixXd cost =
       stable.topRows(n).transpose().partialPivLu().solve(stable.bottomRows(n).transpose()).real();
-  const Matrix gain = r.solve(b.transpose() * price.transpose() + cross.transpose());
+  const Matrix gain = r.solve(b.transpose() * cost.transpose() + cross.transpose());
   return {gain.data(), gain.data() + gain.size()};
 }
 

@@ -3,7 +3,8 @@
 
 namespace dashpot {
 
-/// x' = A x + B u with the price x'Q x + 2 x'N u + u'R u. Matrices row by row.
+/// A linear-quadratic regulator: x' = A x + B u with the cost x'Q x + 2 x'N u + u'R u, integrated
+/// over all time. Matrices row by row.
 struct RegulatorProblem {
   std::size_t states = 0, inputs = 0;
   std::vector<double> a;  ///< states x states
@@ -13,9 +14,9 @@ struct RegulatorProblem {
   std::vector<double> r;  ///< inputs x inputs, positive definite
 };
 
-/// K of u = -K x that costs least (inputs x states), from the stable subspace of the Hamiltonian
-/// matrix. Throws Error where there is none: a mode on the imaginary axis that the price does not
-/// see or the input not reach.
+/// The gain K (inputs x states, row by row) of the input u = -K x that costs least, from the stable
+/// subspace of the Hamiltonian matrix. Throws Error where there is none: a mode on the imaginary
+/// axis that the cost does not see or the input does not reach, or inputs that cost nothing.
 std::vector<double> regulator_gain(const RegulatorProblem& problem);
 
 }  // namespace dashpot

@@ -4,8 +4,8 @@
 
 namespace dashpot {
 
-/// A matrix of a size known when compiled, row by row: for recursions that multiply millions of
-/// them.
+/// A matrix of a size known when compiled, row by row on the stack: for recursions that multiply
+/// millions of them. Sizes that do not fit do not compile.
 template <std::size_t Rows, std::size_t Columns>
 struct SmallMatrix {
   std::array<double, Rows * Columns> values{};

@@ -14,6 +14,8 @@ namespace dashpot {
 PowerSpectrum power_spectrum(std::span<const double> x, double dt) {
   if (x.empty()) return {};
   const double mean = std::accumulate(x.begin(), x.end(), 0.0) / static_cast<double>(x.size());
+
+  // Subtract the mean and apply the window; its power is divided out at the end.
   const std::size_t padded = std::max<std::size_t>(2, std::bit_ceil(x.size()));
   std::vector<double> windowed(padded, 0.0);
   double window_power = 0;
@@ -45,6 +47,7 @@ std::vector<double> sum_of_harmonics(std::span<const std::complex<double>> lines
   std::vector<std::complex<double>> half(points / 2 + 1);
   std::copy(lines.begin(), lines.end(), half.begin());
   half[0] *= 2;  // a constant has no mirror image
+
   Eigen::FFT<double> fft;
   fft.SetFlag(Eigen::FFT<double>::HalfSpectrum);
   fft.SetFlag(Eigen::FFT<double>::Unscaled);

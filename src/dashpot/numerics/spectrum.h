@@ -5,18 +5,19 @@
 
 namespace dashpot {
 
-/// Share of a signal's power at the frequencies 0, spacing_hz, 2 spacing_hz ... up to half the
+/// The share of a signal's power at the frequencies 0, spacing_hz, 2 spacing_hz ... up to half the
 /// sample rate.
 struct PowerSpectrum {
   double spacing_hz = 0;
   std::vector<double> power;  ///< unit of the signal squared, per line
 };
 
-/// Periodogram of x less its mean, under a Hann window, padded with zeros to a power of two. dt s.
+/// Periodogram of x less its mean, under a Hann window, padded with zeros to a power of two. dt in
+/// s. The powers add up to about the variance of x. Empty for an empty signal.
 PowerSpectrum power_spectrum(std::span<const double> x, double dt);
 
-/// y_j = sum over k of Re(lines_k exp(2 pi i j k / points)). points: a power of two, at least twice
-/// the lines.
+/// Adds harmonics up: y_j = sum over k of Re(lines_k exp(2 pi i j k / points)), j = 0 ... points -
+/// 1. points: a power of two, at least twice the lines.
 std::vector<double> sum_of_harmonics(std::span<const std::complex<double>> lines,
                                      std::size_t points);
 

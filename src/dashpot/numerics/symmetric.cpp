@@ -20,8 +20,12 @@ Eigen::Map<const RowMajor> as_matrix(std::span<const double> values, std::size_t
 SymmetricInverse invert_symmetric(std::span<const double> matrix, std::size_t n, double tolerance) {
   SymmetricInverse result{std::vector<double>(n * n, 0.0), {}};
   if (n == 0) return result;
+
+  // Decompose, and call an eigenvalue weak by comparison with the largest in magnitude.
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(as_matrix(matrix, n));
   const double floor = tolerance * eigen.eigenvalues().cwiseAbs().maxCoeff();
+
+  // inverse = sum of v v' / lambda over the directions that are not weak.
   Eigen::Map<RowMajor> inverse(result.inverse.data(), eigen.eigenvalues().size(),
                                eigen.eigenvalues().size());
   for (Eigen::Index i = 0; i < eigen.eigenvalues().size(); ++i) {

@@ -22,19 +22,20 @@ const ColumnUse* find_use(const ColumnUses& uses, std::string_view channel) {
   return nullptr;
 }
 
-/// "" when the table is a recording of a damper: a motion and a force.
+/// Empty when the table is a recording of a damper, that is when it has a motion and a force; else
+/// why not, and what to state in a dataset file.
 std::string refusal(const RawTable& table, const ColumnUses& uses) {
   const bool motion = find_use(uses, "displacement") || find_use(uses, "velocity");
   const bool force = find_use(uses, "force");
   if (motion && force) return {};
+
   const std::string missing = !motion && !force ? "displacement (or velocity) and force"
                               : motion          ? "force"
                                                 : "displacement (or velocity)";
   const std::string how = table.named() ? "state in a dataset file which column it is: 'channels: "
                                           "{force: {column: NAME, unit: N}}'"
                                         : "no line names the columns: state them by number in a "
-                                          "dataset file: 'channels: {force: {column: "
-                                          "2, unit: N}}'";
+                                          "dataset file: 'channels: {force: {column: 2, unit: N}}'";
   return "no column is " + missing + " by its name (it has " + table.column_list() + "); " + how;
 }
 
@@ -48,7 +49,8 @@ void require_numbers(const RawTable& table, const ColumnUse& use) {
               "write it as 12.5, or leave the row out");
 }
 
-/// s, of a single number beside the columns that is a sample time or a rate by its name.
+/// Sample time in s from a single number beside the columns whose name says that it is a sample
+/// time or a rate; `basis` says which.
 std::optional<double> sample_time_of_scalars(const RawTable& table, std::string& basis) {
   for (const auto& [name, value] : table.scalars) {
     const std::string word = lower(name);
@@ -61,11 +63,15 @@ std::optional<double> sample_time_of_scalars(const RawTable& table, std::string&
   return std::nullopt;
 }
 
-/// Takes the time column, or makes time; how it was understood, in words.
+/// Takes the time column or makes the time stamps. Returns in words how time was understood. A
+/// stated sample time goes before a time column, a time column before the file's own interval.
 std::string set_time(Record& record, RawTable& table, const ColumnUses& uses,
                      const FileStatement& statement) {
   std::string basis = "stated";
   std::optional<double> step = statement.sample_time;
+
+  // A time column: keep its stamps where they are not uniform, else put them on the uniform grid
+  // that its printed digits round.
   if (const ColumnUse* use = find_use(uses, "time"); use && !step) {
     record.time = std::move(table.columns[use->column].values);
     require_increasing(record.time, table);
@@ -75,19 +81,23 @@ std::string set_time(Record& record, RawTable& table, const ColumnUses& uses,
     make_uniform(record.time, record.time[0], record.sample_time);
     return "uniform within the printed digits";
   }
+
+  // No time column: the sample time that the format states, then one beside the columns.
   if (!step && (step = table.sample_time)) basis = "row times the file's sampling interval";
   if (!step) step = sample_time_of_scalars(table, basis);
   if (!step)
     throw Error(
         table.file, "no column is time by its name (it has " + table.column_list() + ")",
         "state in a dataset file 'time: {sample_rate: 1000}' or 'time: {column: NAME, unit: s}'");
+
   record.sample_time = *step;
   record.time.resize(table.rows());
   make_uniform(record.time, 0, *step);
   return basis;
 }
 
-/// Squares and products of such numbers leave the range of a double, and no damper has them.
+/// Refuses numbers that no damper has: their squares and products would leave the range of a
+/// double.
 void require_scale(const Channel& channel, const RawTable& table, const ColumnUse& use) {
   constexpr double kLargest = 1e30, kSmallest = 1e-30;
   double largest = 0;
@@ -95,6 +105,7 @@ void require_scale(const Channel& channel, const RawTable& table, const ColumnUs
   const bool measured =
       channel.name == "force" || channel.name == "displacement" || channel.name == "velocity";
   if (largest <= kLargest && (largest == 0 || largest >= kSmallest || !measured)) return;
+
   throw Error(table.file,
               channel.name + " (" + label(table.columns[use.column], use.column) + ") reaches " +
                   format_number(largest) + " " + channel.unit + ", which no test gives",
@@ -102,6 +113,7 @@ void require_scale(const Channel& channel, const RawTable& table, const ColumnUs
                   ": {column: NAME, unit: UNIT}}'");
 }
 
+/// Moves the used columns into channels, in SI and in Dashpot's signs.
 void take_channels(Record& record, RawTable& table, const ColumnUses& uses) {
   for (const ColumnUse& use : uses.used) {
     if (use.channel == "time") continue;
@@ -110,6 +122,7 @@ void take_channels(Record& record, RawTable& table, const ColumnUses& uses) {
                     "column " + label(column, use.column)};
     if (use.unit != use.si_unit) channel.origin += ", " + use.unit + " -> " + use.si_unit;
     if (use.factor < 0) channel.origin += ", sign flipped";
+
     for (double& value : channel.samples) value = use.factor * (value - use.raw_offset);
     require_scale(channel, table, use);
     record.channels.push_back(std::move(channel));
@@ -121,6 +134,7 @@ const Channel& motion_of(const Record& record) {
   return displacement ? *displacement : record.channel("velocity");
 }
 
+/// Applies the stated cuts, first by time, then by rest at both ends of the motion.
 void cut(Record& record, const FileStatement& statement) {
   const double from = statement.cut_from.value_or(record.time.front());
   const double to = statement.cut_to.value_or(record.time.back());
@@ -128,12 +142,15 @@ void cut(Record& record, const FileStatement& statement) {
       std::lower_bound(record.time.begin(), record.time.end(), from) - record.time.begin());
   auto last = static_cast<std::size_t>(
       std::upper_bound(record.time.begin(), record.time.end(), to) - record.time.begin());
+
   if (last < first + 2)
     throw Error(
         record.name,
         "the cut from " + format_number(from) + " s to " + format_number(to) + " s leaves nothing",
         "the record runs from " + format_number(record.time.front()) + " s to " +
             format_number(record.time.back()) + " s");
+
+  // Rest is looked for within what the times leave.
   if (statement.cut_rest) {
     const std::size_t n = last - first;
     const auto [begin, end] = moving_part(std::span(record.time).subspan(first, n),
@@ -141,6 +158,7 @@ void cut(Record& record, const FileStatement& statement) {
     last = first + end;
     first += begin;
   }
+
   if (first == 0 && last == record.size()) return;
   const std::string note =
       "cut to " + format_number(record.time[first], 6) + "..." +
@@ -162,20 +180,23 @@ void centre(Record& record, const ColumnUses& uses) {
   }
 }
 
+/// Derives velocity from displacement where no column gives it. The cut-off is that of the dataset
+/// file, else the caller's, else chosen from the motion.
 void add_velocity(Record& record, const BuildContext& context) {
   if (record.find("velocity")) return;
   const std::vector<double>& x = record.channel("displacement").samples;
   if (!(record.sample_time > 0))
     throw Error(record.source, "velocity cannot be derived: the time stamps are not uniform",
                 "state in a dataset file a velocity column, 'resample: RATE' (Hz), or the "
-                "'sample_rate' when "
-                "the stamps are wrong");
+                "'sample_rate' when the stamps are wrong");
+
   double cutoff = context.statement->velocity_cutoff_hz;
   std::string basis = "stated";
   if (!(cutoff > 0) && context.velocity_cutoff_hz > 0)
     cutoff = context.velocity_cutoff_hz, basis = "as asked";
   if (!(cutoff > 0))
     cutoff = choose_cutoff_hz(x, record.sample_time), basis = "chosen from the motion";
+
   try {
     record.channels.push_back({"velocity", "m/s",
                                differentiate_zero_phase(x, record.sample_time, cutoff),
@@ -186,11 +207,13 @@ void add_velocity(Record& record, const BuildContext& context) {
   }
 }
 
-/// A damper takes energy out. When nobody stated the sign of the force and it puts energy in, it is
-/// recorded the other way round.
+/// A damper takes energy out. When nobody stated the sign of the force and the record puts energy
+/// in, it was recorded the other way round. A net energy below 20 % of what goes to and fro decides
+/// nothing: a spring or noise can make it.
 void settle_sign(Record& record, const ColumnUses& uses) {
   Channel* force = record.find("force");
   if (find_use(uses, "force")->stated) return;
+
   const std::vector<double>& v = record.channel("velocity").samples;
   double energy = 0, throughput = 0;
   for (std::size_t k = 1; k < record.size(); ++k) {
@@ -198,6 +221,7 @@ void settle_sign(Record& record, const ColumnUses& uses) {
     energy += part;
     throughput += std::abs(part);
   }
+
   if (energy > -0.2 * throughput || throughput == 0) return;
   for (double& value : force->samples) value = -value;
   force->origin += ", sign flipped";
@@ -206,7 +230,8 @@ void settle_sign(Record& record, const ColumnUses& uses) {
       "it)");
 }
 
-/// What dampers on test benches span, generously: beyond it the unit is doubtful, and only that.
+/// The span that dampers on test benches have, generously: beyond it the unit is doubtful, and only
+/// that.
 struct UsualSpan {
   std::string_view channel;
   double least, most;  ///< SI
@@ -214,6 +239,7 @@ struct UsualSpan {
 };
 constexpr UsualSpan kUsualSpans[] = {{"displacement", 1e-4, 2, "mm"}, {"force", 2, 2e6, "kN"}};
 
+/// Notes, without refusing, a span that is unusual for dampers on benches.
 void doubt_units(Record& record, const ColumnUses& uses) {
   for (const UsualSpan& usual : kUsualSpans) {
     const ColumnUse* use = find_use(uses, usual.channel);
@@ -222,6 +248,7 @@ void doubt_units(Record& record, const ColumnUses& uses) {
     const auto [low, high] = std::minmax_element(channel.samples.begin(), channel.samples.end());
     const double span = *high - *low;
     if (span == 0 || (span >= usual.least && span <= usual.most)) continue;
+
     const bool assumed = use->basis.find("assumed") != std::string::npos;
     record.notes.push_back(channel.name + " spans " + format_number(span) + " " + channel.unit +
                            ": is its unit " + use->unit + " right? It was " +
@@ -230,6 +257,8 @@ void doubt_units(Record& record, const ColumnUses& uses) {
   }
 }
 
+/// Adds the drive as a channel where it is known from beside the table, and finds the level of a
+/// drive that is constant.
 void add_drive(Record& record, const std::optional<KnownLevel>& level) {
   if (level) {
     const std::string& name = drive_channel(level->unit);
@@ -240,6 +269,8 @@ void add_drive(Record& record, const std::optional<KnownLevel>& level) {
                                  "constant, from " + level->basis});
     return;
   }
+
+  // A recorded drive: constant when it moves by no more than sensor noise.
   for (const char* name : {"current", "voltage"}) {
     const Channel* drive = record.find(name);
     if (!drive) continue;
@@ -253,6 +284,7 @@ void add_drive(Record& record, const std::optional<KnownLevel>& level) {
   }
 }
 
+/// One row for each column of the file: how it was used, or why not.
 std::vector<ColumnReading> readings_of(const RawTable& table, const ColumnUses& uses,
                                        const std::string& time_basis) {
   std::vector<ColumnReading> readings;
@@ -265,6 +297,7 @@ std::vector<ColumnReading> readings_of(const RawTable& table, const ColumnUses& 
     if (use.centre) reading.basis += "; mean of the record subtracted";
     readings.push_back(std::move(reading));
   }
+
   if (!find_use(uses, "time"))
     readings.push_back({table.file, "(row)", "time", "s", 1, 0, time_basis});
   for (const auto& [column, why] : uses.unused)
@@ -276,6 +309,8 @@ std::vector<ColumnReading> readings_of(const RawTable& table, const ColumnUses& 
 
 BuiltRecord build_record(RawTable table, const BuildContext& context) {
   BuiltRecord built;
+
+  // Understand the columns, and refuse what is no recording before looking at its numbers.
   const ColumnUses uses = understand_columns(table, *context.statement, context.stated_in);
   built.refusal = refusal(table, uses);
   if (!built.refusal.empty()) return built;
@@ -285,6 +320,8 @@ BuiltRecord build_record(RawTable table, const BuildContext& context) {
         table.file,
         "has " + std::to_string(table.rows()) + (table.rows() == 1 ? " sample" : " samples"),
         "a recording has at least 2, and hundreds to be of use");
+
+  // Name and conditions: those of the file, then those of the dataset file.
   Record& record = built.record;
   record.name = context.name;
   record.source = table.part.empty() ? table.file : table.file + ", " + table.part;
@@ -292,10 +329,14 @@ BuiltRecord build_record(RawTable table, const BuildContext& context) {
   record.conditions.insert(record.conditions.end(), context.statement->conditions.begin(),
                            context.statement->conditions.end());
   record.notes = table.notes;
+
+  // Time and channels, which take over the columns' memory; unused columns give theirs back.
   built.readings = readings_of(table, uses, set_time(record, table, uses, *context.statement));
   for (const auto& [column, why] : uses.unused)
     std::vector<double>().swap(table.columns[column].values);
   take_channels(record, table, uses);
+
+  // Cut before anything that depends on what is left: resampling, means, the filter's cut-off.
   cut(record, *context.statement);
   if (context.statement->resample_hz) resample(record, *context.statement->resample_hz);
   centre(record, uses);

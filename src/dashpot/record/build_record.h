@@ -17,7 +17,7 @@ struct KnownLevel {
   std::string basis;  ///< "manifest.csv", "file name"
 };
 
-/// What a table is turned into a record with.
+/// Everything that is known beside the table when it becomes a record.
 struct BuildContext {
   const FileStatement* statement = nullptr;
   std::string stated_in;  ///< the dataset file's name, for the table of readings
@@ -32,8 +32,13 @@ struct BuiltRecord {
   std::string refusal;  ///< not empty: why this table is not a recording of a damper
 };
 
-/// Table -> record in SI: channels, signs, time base, cuts, velocity. Takes the table's columns.
-/// Throws Error(file:line, ...) on numbers that cannot be used.
+/// The one way from a table of a file to a record in SI: channels and signs, time base, cuts,
+/// resampling, centring, velocity, drive level. Every later room takes a Record for granted:
+/// uniform or increasing time, all channels equally long, velocity present.
+///
+/// Takes the table's columns, so that a long recording is in memory once. Throws Error(file:line,
+/// ...) on numbers that cannot be used, and Error(file, ...) on time, units or cuts that cannot be;
+/// a table that merely is no damper recording is no error but a `refusal`.
 BuiltRecord build_record(RawTable table, const BuildContext& context);
 
 }  // namespace dashpot

@@ -11,8 +11,8 @@ namespace {
 
 struct Names {
   std::string_view channel;
-  std::string_view
-      words;  ///< anywhere at the start or end of a name; English, Spanish, Portuguese, German
+  /// Words at the start or end of a name; English, Spanish, Portuguese, German.
+  std::string_view words;
   std::string_view exact;  ///< only as the whole name, case kept
 };
 
@@ -20,9 +20,7 @@ constexpr Names kNames[] = {
     {"time", "time tiempo tempo zeit timestamp", "t tout Tout"},
     {"displacement",
      "displacement displace displ disp dist stroke position pos desplazamiento deslocamento "
-     "posicion posicao "
-     "carrera "
-     "curso weg hub extension travel",
+     "posicion posicao carrera curso weg hub extension travel",
      "x X d D s"},
     {"velocity", "velocity vel speed velocidad velocidade geschwindigkeit xdot dxdt", "v"},
     {"acceleration", "acceleration accel aceleracion aceleracao beschleunigung", "a acc"},
@@ -32,7 +30,7 @@ constexpr Names kNames[] = {
     {"temperature", "temperature temp temperatura temperatur", "Temp"},
 };
 
-/// May mean two things: the unit must tell.
+/// A name that may mean two things; the unit must decide.
 struct Ambiguous {
   std::string_view name, first, second;
 };
@@ -49,8 +47,8 @@ bool contains_word(std::string_view list, std::string_view word) {
 
 /// Letters with accents (UTF-8 or Latin-1) as plain ones: the names stand without.
 std::string fold_accents(std::string_view text) {
-  static constexpr std::string_view kPlain =
-      "aaaaaaaceeeeiiiidnooooo*ouuuuyps";  // of U+00C0 ... and U+00E0 ...
+  // The letters from U+00C0 on, and from U+00E0 on, without their accents.
+  static constexpr std::string_view kPlain = "aaaaaaaceeeeiiiidnooooo*ouuuuyps";
   std::string out;
   for (std::size_t k = 0; k < text.size(); ++k) {
     auto byte = static_cast<unsigned char>(text[k]);
@@ -100,33 +98,42 @@ struct Parts {
 };
 
 /// The ways in which a column name may hold a unit, the plainest first: "x [mm]", "x (mm)", "x/mm",
-/// "x, mm", "x in mm", "F_N", "v_mm_s".
+/// "x, mm", "x in mm", "F_N", "v_mm_s". Only texts that parse as a unit count.
 std::vector<Parts> possible_parts(std::string_view column) {
   std::vector<Parts> parts;
   const auto add = [&](std::string_view name, std::string unit) {
     unit = std::string(trim(unit));
     if (!trim(name).empty() && parse_unit(unit)) parts.push_back({std::string(trim(name)), unit});
   };
+
+  // In brackets.
   for (const auto& [open, close] :
        {std::pair{'[', ']'}, std::pair{'(', ')'}, std::pair{'{', '}'}}) {
     const std::size_t from = column.find(open), to = column.rfind(close);
     if (from != std::string_view::npos && to != std::string_view::npos && to > from)
       add(column.substr(0, from), std::string(column.substr(from + 1, to - from - 1)));
   }
+
+  // Behind the first mark.
   for (const std::string_view mark : {"/", ",", " in ", " ", "_"})
     if (const std::size_t at = column.find(mark); at != std::string_view::npos)
       add(column.substr(0, at), std::string(column.substr(at + mark.size())));
+
+  // Behind the last underscore, or the last two as a quotient: "v_mm_s" is in mm/s.
   if (const std::size_t last = column.rfind('_'); last != std::string_view::npos && last > 0) {
     add(column.substr(0, last), std::string(column.substr(last + 1)));
     if (const std::size_t before = column.rfind('_', last - 1); before != std::string_view::npos)
       add(column.substr(0, before), std::string(column.substr(before + 1, last - before - 1)) +
                                         "/" + std::string(column.substr(last + 1)));
   }
+
   if (const std::size_t last = column.rfind(' '); last != std::string_view::npos)
     add(column.substr(0, last), std::string(column.substr(last + 1)));
   return parts;
 }
 
+/// Channel of a name and its unit, which may be empty. The problem says why a familiar name is not
+/// used.
 NamedChannel resolve(const std::string& name, const std::string& unit) {
   const auto parsed = unit.empty() ? std::nullopt : parse_unit(unit);
   for (const Ambiguous& word : kAmbiguous) {
@@ -138,17 +145,20 @@ NamedChannel resolve(const std::string& name, const std::string& unit) {
             "'" + name + "' may be " + std::string(word.first) + " or " + std::string(word.second),
             false};
   }
+
+  // Refuse what is no measurement, and units of another dimension.
   const std::string channel = channel_of(name);
   if (channel.empty()) return {};
   if (is_wish(name)) return {{}, unit, "'" + name + "' is not a measurement by its name", false};
   if (parsed && !fits(channel, *parsed))
     return {{}, unit, "unit '" + unit + "' does not fit " + channel, false};
+
   const bool letters_only = std::none_of(name.begin(), name.end(),
                                          [](char c) { return (c >= '0' && c <= '9') || c == '('; });
   return {channel, unit, {}, letters_only && words_of(name).size() == 1};
 }
 
-/// "x(2)".
+/// "x(2)": one column of a matrix in a MAT file.
 bool is_matrix_column(std::string_view name) {
   const std::size_t open = name.rfind('(');
   return open != std::string_view::npos && open > 0 && name.back() == ')' &&
@@ -169,6 +179,9 @@ NamedChannel recognise_channel(std::string_view column, std::string_view row_uni
   const std::string whole(trim(column)), row(row_unit);
   if (is_matrix_column(whole))
     return {{}, {}, "a column of a matrix has no name of its own", false};
+
+  // Try the ways to split name and unit; the first that is a channel counts, and the first problem
+  // is kept.
   NamedChannel refused;
   for (const Parts& parts : possible_parts(whole)) {
     NamedChannel found = resolve(parts.name, parts.unit);
@@ -179,6 +192,8 @@ NamedChannel recognise_channel(std::string_view column, std::string_view row_uni
     if (!found.channel.empty()) return found;
     if (refused.problem.empty()) refused = found;
   }
+
+  // No unit in the name: it is the whole name, with the unit of the row below.
   if (!refused.problem.empty()) return refused;
   if (!row.empty() && !parse_unit(row)) return {{}, {}, "unit '" + row + "' is unknown", false};
   return resolve(whole, row);

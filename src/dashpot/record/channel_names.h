@@ -7,7 +7,8 @@
 
 namespace dashpot {
 
-/// What a column is by its name: "F_N" -> force in N; "Desplazamiento [mm]" -> displacement in mm.
+/// The channel and unit that a column's name stands for: "F_N" is force in N, "Desplazamiento [mm]"
+/// displacement in mm.
 struct NamedChannel {
   std::string channel;  ///< "" when not recognised; "time" for the time base
   std::string unit;     ///< "" when the name holds none
@@ -16,8 +17,8 @@ struct NamedChannel {
 };
 
 /// `row_unit`: from a units row; "" when there is none. Conservative: a name that may mean two
-/// things
-/// ("V", "A" without a unit) or a wish instead of a measurement ("target force") is not used.
+/// things ("V", "A" without a unit) or a wish instead of a measurement ("target force") is not
+/// used, since a wrong channel costs more than a question. Never throws.
 NamedChannel recognise_channel(std::string_view column, std::string_view row_unit);
 
 /// SI unit text of a channel or "time"; "" for a channel that is not standard.

@@ -16,11 +16,14 @@ std::string column_name(const RawTable& table, std::size_t column) {
   return name.empty() ? "column " + std::to_string(column + 1) : name;
 }
 
+/// Index of the column that a statement means, by number or by name. Throws Error when it is
+/// missing.
 std::size_t find_column(const RawTable& table, const ChannelStatement& statement) {
   if (statement.index > table.columns.size())
     throw Error(table.file, "has no column " + std::to_string(statement.index),
                 "it has " + table.column_list());
   if (statement.index > 0) return statement.index - 1;
+
   std::vector<std::string> names;
   for (std::size_t k = 0; k < table.columns.size(); ++k) {
     if (table.columns[k].name == statement.column) return k;
@@ -35,10 +38,13 @@ std::size_t find_column(const RawTable& table, const ChannelStatement& statement
               "it has " + table.column_list());
 }
 
+/// Fills in how raw numbers become SI: sample = sign * scale * (raw - offset), then the unit's own
+/// factor and offset, written as one factor and one offset.
 void set_unit(ColumnUse& use, const std::string& unit_text, const ChannelStatement& statement) {
   const std::string_view si = si_unit(use.channel);
   use.unit = unit_text.empty() ? std::string(si) : unit_text;
   use.si_unit = si.empty() ? use.unit : std::string(si);
+
   const Unit unit = use.unit.empty() ? Unit{} : require_unit(use.unit, statement.where);
   // A channel without a standard unit keeps the unit of its file.
   const double to_si = si.empty() ? 1 : unit.factor, shift = si.empty() ? 0 : unit.offset;
@@ -54,6 +60,8 @@ ColumnUse use_stated(const RawTable& table, const ChannelStatement& statement,
   use.channel = statement.channel;
   use.stated = true;
   use.basis = "stated in " + stated_in;
+
+  // The unit: as stated, else as the file gives it, else SI, which the readings then say.
   std::string unit = statement.unit;
   if (unit.empty()) {
     const RawColumn& column = table.columns[use.column];
@@ -75,7 +83,8 @@ bool same_values(const RawColumn& a, const RawColumn& b) {
   return !a.bad && !b.bad && a.values == b.values;
 }
 
-/// The one of several claims that counts: the only plain name, or all hold the same values.
+/// The one of several claims that counts: the only plain name, or any when all hold the same
+/// values; nullptr when that does not decide.
 const Claim* choose(const std::vector<Claim>& claims, const RawTable& table) {
   const Claim* plain = nullptr;
   std::size_t plain_names = 0;
@@ -83,6 +92,7 @@ const Claim* choose(const std::vector<Claim>& claims, const RawTable& table) {
     if (claim.named.plain && plain_names++ == 0) plain = &claim;
   if (claims.size() == 1) return &claims.front();
   if (plain_names == 1) return plain;
+
   const bool same = std::all_of(claims.begin(), claims.end(), [&](const Claim& claim) {
     return same_values(table.columns[claim.column], table.columns[claims.front().column]);
   });
@@ -99,6 +109,7 @@ const Claim* choose(const std::vector<Claim>& claims, const RawTable& table) {
                   ": {column: " + column_name(table, claims[0].column) + "}}'");
 }
 
+/// Uses the chosen column of a channel; notes the others as unused.
 void use_claims(const std::vector<Claim>& claims, const RawTable& table, ColumnUses& out) {
   const Claim* chosen = choose(claims, table);
   if (!chosen) refuse_two(claims, table);
@@ -106,10 +117,12 @@ void use_claims(const std::vector<Claim>& claims, const RawTable& table, ColumnU
     if (&claim != chosen)
       out.unused.emplace_back(claim.column, "not used: '" + column_name(table, chosen->column) +
                                                 "' is the " + claim.named.channel);
+
   if (!chosen->named.problem.empty())
     throw Error(table.where(0),
                 "column '" + column_name(table, chosen->column) + "' has " + chosen->named.problem,
                 "state the right one in a dataset file, or correct the header");
+
   ColumnUse use;
   use.column = chosen->column;
   use.channel = chosen->named.channel;
@@ -127,12 +140,17 @@ ColumnUses understand_columns(const RawTable& table, const FileStatement& statem
   ColumnUses out;
   std::set<std::size_t> taken;
   std::set<std::string> stated;
+
+  // Statements first: a column that is stated is not looked at again.
   for (const ChannelStatement& channel : statement.channels) {
     out.used.push_back(use_stated(table, channel, stated_in));
     taken.insert(out.used.back().column);
     if (!stated.insert(channel.channel).second)
       throw Error(channel.where, channel.channel + " is stated twice");
   }
+
+  // The rest speak by their names, unless the dataset file says that only stated columns count.
+  // Group what they claim by channel.
   std::vector<std::vector<Claim>> claims;
   for (std::size_t k = 0; k < table.columns.size(); ++k) {
     if (taken.count(k)) continue;
@@ -147,12 +165,15 @@ ColumnUses understand_columns(const RawTable& table, const FileStatement& statem
                                                       : "name not known"));
       continue;
     }
+
     auto same = std::find_if(claims.begin(), claims.end(), [&](const auto& c) {
       return c.front().named.channel == named.channel;
     });
     if (same == claims.end()) same = claims.insert(claims.end(), std::vector<Claim>{});
     same->push_back({k, named});
   }
+
+  // One of those that claim the same channel is used, or the file is refused.
   for (const auto& group : claims) use_claims(group, table, out);
   return out;
 }

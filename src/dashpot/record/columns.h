@@ -24,8 +24,9 @@ struct ColumnUses {
   std::vector<std::pair<std::size_t, std::string>> unused;  ///< column, why
 };
 
-/// What every column of a table is, from the statements and, where these are silent, the names.
-/// Throws Error when a stated column is missing or two columns claim one channel.
+/// Decides what every column of a table is: by the statements and, where these are silent, by its
+/// name. Channels appear once. `stated_in` names the dataset file in messages. Throws Error when a
+/// stated column is missing, a channel is stated twice or two different columns claim one channel.
 ColumnUses understand_columns(const RawTable& table, const FileStatement& statement,
                               const std::string& stated_in);
 

@@ -29,9 +29,13 @@ Motion motion_of(const Record& record) {
   Motion motion;
   motion.velocity = !channel;
   if (!channel) channel = &record.channel("velocity");
+
   const auto [low, high] = std::minmax_element(channel->samples.begin(), channel->samples.end());
   const double middle = 0.5 * (*low + *high);
   motion.amplitude = 0.5 * (*high - *low);
+
+  // Count crossings upwards of a band of +-20 % of the amplitude about the middle, from first to
+  // last.
   bool below = false;
   std::size_t crossings = 0;
   double first = 0, last = 0;
@@ -54,7 +58,7 @@ bool close(double a, double b) {
 std::string describe_motion(const Motion& motion) {
   const std::string text =
       format_number(motion.amplitude * 1e3, 2) + (motion.velocity ? " mm/s" : " mm");
-  // Less than two crossings: no frequency can be told.
+  // One crossing or none leaves the frequency unknown.
   return motion.frequency > 0 ? text + " " + format_number(motion.frequency, 2) + " Hz" : text;
 }
 
@@ -68,11 +72,15 @@ bool states_motion(const std::string& name) {
 NameParts split_name(std::string_view stem) {
   for (std::size_t k = 0; k < stem.size(); ++k) {
     if (!is_digit(stem[k]) || (k > 0 && (is_digit(stem[k - 1]) || stem[k - 1] == '.'))) continue;
+
+    // The digits of a number, at most one point between them.
     std::size_t end = k;
     while (end < stem.size() &&
            (is_digit(stem[end]) ||
             (stem[end] == '.' && end + 1 < stem.size() && is_digit(stem[end + 1]))))
       ++end;
+
+    // A drive level is a number followed by A, mA, V or mV as a word of its own.
     const auto value = parse_number(stem.substr(k, end - k));
     const bool milli = end < stem.size() && stem[end] == 'm';
     const std::size_t unit = end + (milli ? 1 : 0);
@@ -80,6 +88,8 @@ NameParts split_name(std::string_view stem) {
         value && unit < stem.size() && (stem[unit] == 'A' || stem[unit] == 'V') &&
         (unit + 1 == stem.size() || !(is_letter(stem[unit + 1]) || is_digit(stem[unit + 1])));
     if (!is_level) continue;
+
+    // The name without it, as one word.
     std::string rest = strip_separators(std::string(stem.substr(0, k))),
                 tail = strip_separators(std::string(stem.substr(unit + 1)));
     if (!rest.empty() && !tail.empty()) rest += "_";
@@ -94,10 +104,14 @@ void infer_conditions(std::vector<Record>& records, const std::vector<std::strin
   std::vector<std::pair<Motion, std::string>> known;
   for (std::size_t k = 0; k < records.size(); ++k) {
     if (!records[k].condition.empty()) continue;
+
+    // The name may state the motion itself.
     if (states_motion(name_rests[k])) {
       records[k].condition = name_rests[k];
       continue;
     }
+
+    // Else records that move alike share the words of the first.
     const Motion motion = motion_of(records[k]);
     const auto same = std::find_if(known.begin(), known.end(), [&](const auto& other) {
       return other.first.velocity == motion.velocity &&

@@ -8,8 +8,8 @@
 
 namespace dashpot {
 
-/// "sine_5mm_3Hz_0.25A" -> 0.25 A and "sine_5mm_3Hz". No level when no number has the unit A, mA, V
-/// or mV.
+/// A file's name taken apart: "sine_5mm_3Hz_0.25A" -> 0.25 A and "sine_5mm_3Hz". No level when no
+/// number has the unit A, mA, V or mV.
 struct NameParts {
   std::optional<KnownLevel> level;
   std::string rest;

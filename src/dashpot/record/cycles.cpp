@@ -8,14 +8,16 @@
 namespace dashpot {
 namespace {
 
-constexpr double kArmed =
-    0.1;  // of the largest value: how far below zero a crossing must come from
+// A crossing must come from this share of the largest value below zero.
+constexpr double kArmed = 0.1;
 
-/// Where the signal rises through zero, in samples.
+/// Places, in samples with their fraction, at which the signal rises through zero.
 std::vector<double> upward_crossings(std::span<const double> samples) {
   double largest = 0;
   for (const double value : samples) largest = std::max(largest, std::abs(value));
   std::vector<double> crossings;
+
+  // A crossing counts once the signal has been clearly below zero since the last one.
   bool is_armed = false;
   for (std::size_t i = 1; i < samples.size(); ++i) {
     const double before = samples[i - 1], now = samples[i];

@@ -36,7 +36,7 @@ std::optional<double> positive_number(ObjectReader& reader, std::string_view key
   return number;
 }
 
-/// A text or a list of texts.
+/// One text or a list of texts, as a list.
 std::vector<std::string> texts(const Value& value) {
   if (value.kind() != Value::Kind::Array) return {value.as_string()};
   std::vector<std::string> out;
@@ -64,18 +64,24 @@ void require_unit_of(const ChannelStatement& statement, const std::string& where
                 "a unit that converts to " + std::string(si));
 }
 
+/// Reads one entry of 'channels': a column's name or number, or an object that states more.
 ChannelStatement read_channel(const std::string& channel, const Value& value) {
   ChannelStatement statement;
   statement.channel = channel;
   statement.where = value.where();
+
   if (value.kind() != Value::Kind::Object) {
     read_column(value, statement);
     return statement;
   }
+
+  // Column and unit, which must fit the channel.
   ObjectReader reader(value, "a channel");
   read_column(reader.required("column"), statement);
   statement.unit = reader.string("unit", "");
   if (!statement.unit.empty()) require_unit_of(statement, reader.required("unit").where());
+
+  // The numbers of sample = sign * scale * (raw - offset): finite, and the scale not 0.
   statement.scale = reader.number("scale", 1);
   statement.offset = reader.number("offset", 0);
   statement.sign = reader.number("sign", 1);
@@ -83,6 +89,7 @@ ChannelStatement read_channel(const std::string& channel, const Value& value) {
     throw Error(reader.required("sign").where(), "'sign' is neither 1 nor -1");
   if (!std::isfinite(statement.scale) || statement.scale == 0 || !std::isfinite(statement.offset))
     throw Error(statement.where, "'scale' or 'offset' is not a usable number");
+
   const std::string centre = reader.string("centre", "");
   if (!centre.empty() && centre != "mean")
     throw Error(reader.required("centre").where(), "'centre' is '" + centre + "'",
@@ -92,6 +99,7 @@ ChannelStatement read_channel(const std::string& channel, const Value& value) {
   return statement;
 }
 
+/// Reads 'time': one of a sample rate, a sample time or a column.
 void read_time(const Value& value, FileStatement& out) {
   ObjectReader reader(value, "a time base");
   const Value* column = reader.optional("column");
@@ -100,6 +108,7 @@ void read_time(const Value& value, FileStatement& out) {
   if ((column != nullptr) + rate.has_value() + out.sample_time.has_value() != 1)
     throw Error(value.where(),
                 "a time base is stated by one of 'column', 'sample_rate' (Hz), 'sample_time' (s)");
+
   if (rate) out.sample_time = 1 / *rate;
   if (column) {
     ChannelStatement statement;
@@ -110,6 +119,7 @@ void read_time(const Value& value, FileStatement& out) {
     if (!statement.unit.empty()) require_unit_of(statement, reader.required("unit").where());
     out.channels.push_back(std::move(statement));
   }
+
   reader.finish();
 }
 
@@ -168,20 +178,27 @@ std::vector<RoleStatement> read_roles(const Value& value) {
   return roles;
 }
 
+/// Reads one entry of 'files'. Stating channels means that only these columns are used.
 FileStatement read_files(const Value& value) {
   ObjectReader reader(value, "an entry of 'files'");
   FileStatement out;
   out.where = value.where();
   out.match = texts(reader.required("match"));
+
+  // Time and channels.
   if (const Value* time = reader.optional("time")) read_time(*time, out);
   if (const Value* channels = reader.optional("channels")) {
     for (const auto& [channel, statement] : channels->members())
       out.channels.push_back(read_channel(channel, statement));
     out.only_stated = true;
   }
+
+  // Cuts and filters of the samples.
   if (const Value* cut = reader.optional("cut")) read_cut(*cut, out);
   out.resample_hz = positive_number(reader, "resample");
   out.velocity_cutoff_hz = positive_number(reader, "velocity_cutoff").value_or(0);
+
+  // Name, condition, drive level and roles of the records.
   out.name = reader.string("name", "");
   out.condition = reader.string("condition", "");
   if (const Value* level = reader.optional("level")) out.level = read_level(*level);
@@ -206,6 +223,7 @@ DatasetFile load_dataset_file(const fs::path& path) {
   const Value value = parse_yaml(read_file(path), path.string());
   ObjectReader reader(value, "a dataset file");
   DatasetFile out;
+
   out.path = path.string();
   out.name = reader.string("name", path.stem().string());
   out.citation = reader.string("citation", "");
@@ -213,6 +231,8 @@ DatasetFile load_dataset_file(const fs::path& path) {
   if (const Value* drive = reader.optional("drive"); drive && !drive->as_string().empty())
     out.drive_unit = parse_drive_unit(drive->as_string(), drive->where());
   out.manifest = reader.string("manifest", "");
+
+  // The default way to leave records out: its errors get the place in this file.
   if (const Value* leave_out = reader.optional("leave_out")) {
     try {
       out.leave_out = parse_leave_out(leave_out->as_string());
@@ -220,6 +240,7 @@ DatasetFile load_dataset_file(const fs::path& path) {
       throw Error(leave_out->where(), error.what());
     }
   }
+
   if (const Value* recognise = reader.optional("recognise")) read_recognise(*recognise, out);
   for (const Value& files : reader.required("files").items())
     out.files.push_back(read_files(files));

@@ -11,8 +11,8 @@
 
 namespace dashpot {
 
-/// How a channel is made from a column, as a dataset file states it:
-/// sample = sign * scale * (raw - offset), in `unit`, then converted to SI.
+/// How a channel is made from a column, as a dataset file states it: sample = sign * scale * (raw -
+/// offset), in `unit`, then converted to SI.
 struct ChannelStatement {
   std::string channel;    ///< a standard channel, "time", or a name of its own
   std::string column;     ///< name in the file; "" when `index` says which
@@ -32,7 +32,8 @@ struct RoleStatement {
 /// A drive level: a number, one number per part of the file, or a column of the manifest.
 using LevelStatement = std::variant<std::monostate, double, std::vector<double>, std::string>;
 
-/// What is stated about the files of one kind.
+/// What a dataset file states about the files that one set of patterns matches. What it does not
+/// state is inferred.
 struct FileStatement {
   std::vector<std::string> match;  ///< patterns relative to the root: "*.csv"
   std::vector<ChannelStatement> channels;
@@ -51,6 +52,7 @@ struct FileStatement {
 };
 
 /// A dataset file: what people state about recordings. docs/dataset-files.md explains every key.
+/// One that nobody wrote (path "") matches every file and states nothing else.
 struct DatasetFile {
   std::string path;  ///< "" when nothing was stated
   std::string name, citation;
@@ -63,7 +65,8 @@ struct DatasetFile {
   std::vector<std::string> notes;
 };
 
-/// Throws Error(file:line, ...) on an unknown key, unit, role or number.
+/// Parses and checks; no recording is opened. Throws Error(file:line, ...) on an unknown key, unit,
+/// role or number.
 DatasetFile load_dataset_file(const std::filesystem::path& path);
 
 /// The dataset files that ship with Dashpot: of $DASHPOT_DATA, the source tree or the installation.

@@ -50,12 +50,15 @@ std::vector<Understood> group_readings(const std::vector<ColumnReading>& reading
   for (const ColumnReading& reading : readings) {
     const std::string name = std::filesystem::path(reading.file).filename().string();
     if (files.empty() || files.back().files.front() != name) files.push_back({{}, {name}});
+
     Row row{reading.column, reading.channel.empty() ? "-" : reading.channel, reading.unit,
             conversion(reading), reading.basis};
     std::vector<Row>& rows = files.back().rows;
     // The parts of one file are read alike.
     if (std::find(rows.begin(), rows.end(), row) == rows.end()) rows.push_back(std::move(row));
   }
+
+  // Files that were understood alike become one group.
   for (Understood& file : files) {
     const auto same = std::find_if(groups.begin(), groups.end(),
                                    [&](const Understood& g) { return g.rows == file.rows; });
@@ -151,6 +154,7 @@ std::string note_list(const Dataset& dataset) {
     add_note(of_files, "passed over: " + why, file);
   for (const Record& record : dataset.records) {
     for (const std::string& note : record.notes) add_note(of_records, note, record.name);
+
     std::vector<std::string> conditions;
     for (const auto& [name, value] : record.conditions)
       conditions.push_back(name + " " + format_number(value));
@@ -159,6 +163,7 @@ std::string note_list(const Dataset& dataset) {
       if (!channel.origin.starts_with("column "))
         add_note(of_records, channel.name + " " + channel.origin, record.name);
   }
+
   std::string out;
   for (const SharedNote& note : of_files) out += "  " + format_note(note, "files") + "\n";
   for (const SharedNote& note : of_records) out += "  " + format_note(note, "records") + "\n";
@@ -171,6 +176,7 @@ std::string describe(const Dataset& dataset) {
   std::string out = dataset.name + ": " + std::to_string(dataset.records.size()) +
                     " records from " + std::to_string(dataset.files.size()) + " files\n";
   if (!dataset.citation.empty()) out += "  cite: " + dataset.citation + "\n";
+
   for (const Understood& group : group_readings(dataset.readings)) {
     out.append("\n").append(group.files.front());
     if (group.files.size() > 1)

@@ -17,6 +17,8 @@ void to_slope(std::vector<double>& x, double dt) {
   const std::size_t last = x.size() - 1;
   const double first_slope = (-3 * x[0] + 4 * x[1] - x[2]) / (2 * dt);
   const double last_slope = (3 * x[last] - 4 * x[last - 1] + x[last - 2]) / (2 * dt);
+
+  // Overwrite from the left, keeping the one value that the next difference still needs.
   double before = x[0];
   for (std::size_t i = 1; i < last; ++i) {
     const double here = x[i];
@@ -63,6 +65,8 @@ double choose_cutoff_hz(std::span<const double> x, double dt) {
   const PowerSpectrum spectrum = mean_spectrum(x, dt);
   const double wanted =
       kPowerShare * std::accumulate(spectrum.power.begin(), spectrum.power.end(), 0.0);
+
+  // The lowest frequency below which the wanted share of the power lies.
   double power = 0, motion_hz = 0;
   for (std::size_t k = 0; k < spectrum.power.size() && power < wanted; ++k) {
     power += spectrum.power[k];

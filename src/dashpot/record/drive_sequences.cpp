@@ -158,6 +158,8 @@ std::vector<bool> maximum_length_bits(int order, std::uint32_t start, std::size_
   const std::uint32_t mask = (std::uint32_t{1} << order) - 1;
   std::uint32_t word = start & mask;
   if (word == 0) throw Error("shift register", "it starts empty", "at least one bit set");
+
+  // Give the highest bit, then shift in the parity of the taps.
   std::vector<bool> bits(count);
   for (std::size_t k = 0; k < count; ++k) {
     bits[k] = (word >> (order - 1) & 1) != 0;

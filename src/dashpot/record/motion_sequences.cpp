@@ -19,7 +19,7 @@ struct AmplitudeModulated {
   double amplitude, speed_max, carrier, modulation, depth, duration;
 };
 
-/// The amplitude rises from its least, so that the motion starts at rest.
+/// The amplitude starts at its least, so that the motion starts at rest.
 PistonMotion amplitude_modulated(std::span<const double> values, std::uint64_t) {
   const auto p = values_as<AmplitudeModulated>(values);
   const double w = kTurn * p.carrier, slow = kTurn * p.modulation, share = p.depth / (1 + p.depth);
@@ -37,11 +37,11 @@ struct FrequencyModulated {
 
 void require_band(double low, double high, std::string_view name) {
   if (!(low <= high))
-    throw Error(std::string(name), "its band of frequencies ends below its begin");
+    throw Error(std::string(name), "its band of frequencies ends below its start");
 }
 
-/// Where speed limits the amplitude, it changes with the frequency at this speed over speed_max, at
-/// most: the greatest f' / (2 pi f^2).
+/// Where the speed limit reduces the amplitude, the amplitude changes with the frequency. This is
+/// the most of that extra speed, as a share of speed_max: the greatest f' / (2 pi f^2).
 double speed_of_amplitude(double mean, double swing, double slow) {
   const double c = 4 * swing / (mean + std::sqrt(mean * mean + 8 * swing * swing));
   const double f = mean - swing * c;
@@ -52,9 +52,13 @@ double speed_of_amplitude(double mean, double swing, double slow) {
 PistonMotion frequency_modulated(std::span<const double> values, std::uint64_t) {
   const auto p = values_as<FrequencyModulated>(values);
   require_band(p.frequency_min, p.frequency_max, "FM");
+
+  // Frequency between the two as mean - swing cos(slow t); the speed limit leaves room for the
+  // changing amplitude.
   const double mean = 0.5 * (p.frequency_min + p.frequency_max), swing = p.frequency_max - mean;
   const double slow = kTurn * p.modulation;
   const double speed = p.speed_max / std::hypot(1, speed_of_amplitude(mean, swing, slow));
+
   return {{}, p.duration, [=](double t) -> MotionPoint {
             constexpr double kSharpness = 8;
             const double f = mean - swing * std::cos(slow * t),
@@ -118,9 +122,12 @@ struct SteppedFrequency {
 PistonMotion stepped_frequency(std::span<const double> values, std::uint64_t) {
   const auto p = values_as<SteppedFrequency>(values);
   require_band(p.frequency_min, p.frequency_max, "SFS");
+
   constexpr double kMost = 10000, kRounding = 1e-9;
   const double last = std::floor((p.frequency_max - p.frequency_min) / p.step + kRounding);
   if (last >= kMost) throw Error("SFS", format_number(last) + " frequencies", "a larger step");
+
+  // One packet for each frequency: whole periods, at least for the time to hold.
   Pieces<Packet> packets;
   for (int k = 0; k <= static_cast<int>(last); ++k) {
     const double f = p.frequency_min + k * p.step;
@@ -156,8 +163,11 @@ struct VariableSlopes {
 PistonMotion variable_slopes(std::span<const double> values, std::uint64_t) {
   const auto p = values_as<VariableSlopes>(values);
   if (!(p.speed_min <= p.speed_max)) throw Error("TPNVS", "speed_min is above speed_max");
+
   const double distance = 2 * p.amplitude;
   const double reachable = std::sqrt(p.acceleration * distance);  // the ends would meet
+
+  // Speeds in equal ratios, each in both directions as often as asked.
   Pieces<Stroke> strokes;
   for (int k = 0; k < static_cast<int>(p.levels); ++k) {
     const double wanted = p.speed_min * std::pow(p.speed_max / p.speed_min, k / (p.levels - 1));

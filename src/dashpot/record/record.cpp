@@ -53,6 +53,8 @@ Record Record::slice(std::size_t first, std::size_t last) const {
     return std::vector<double>(all.begin() + static_cast<std::ptrdiff_t>(first),
                                all.begin() + static_cast<std::ptrdiff_t>(last));
   };
+
+  // Everything but the samples is the same; what remains of the warm-up shrinks with the start.
   Record out;
   out.name = name;
   out.source = source;

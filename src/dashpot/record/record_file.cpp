@@ -68,6 +68,7 @@ void save_mat(const Record& record, const fs::path& path) {
     const std::unique_ptr<mat_t, Close> file(
         Mat_CreateVer(unfinished.c_str(), nullptr, MAT_FT_MAT5));
     if (!file) throw Error(path.string(), "cannot be written");
+
     std::string units = "time s";
     write_vector(file.get(), "time", record.time, path);
     for (const Channel& channel : record.channels) {

@@ -5,10 +5,13 @@
 
 namespace dashpot {
 
-/// Time and channels as columns "name [unit]", in SI, with nine digits.
+/// Time and channels as columns "name [unit]", in SI, time with twelve digits and channels with
+/// nine. Goes to a temporary name first, which is then renamed; throws Error when the file cannot
+/// be written.
 void save_csv(const Record& record, const std::filesystem::path& path);
 
-/// The same as vectors of a MATLAB 5 file, "time" and one per channel; units in the string "units".
+/// The same as vectors of a MATLAB 5 file, "time" and one per channel; units in the text "units".
+/// All digits are kept. Throws Error when the file cannot be written.
 void save_mat(const Record& record, const std::filesystem::path& path);
 
 }  // namespace dashpot

@@ -30,6 +30,7 @@ double deflection_density(const RoadDeflection& road, double f) {
   return road.roughness * kReference * kReference * road.vehicle_speed / (f * f) * gain * gain;
 }
 
+/// Displacement and velocity at equal steps of time, and the cubic that has both between them.
 struct Knots {
   double step = 0;
   std::vector<double> x, v;
@@ -44,7 +45,8 @@ struct Knots {
   }
 };
 
-/// Each sine turns on by a constant angle from knot to knot.
+/// Adds a sine to the knots. Its phase turns by a constant angle from knot to knot, so that one
+/// multiplication takes the place of a sine each.
 void add_sine(Knots& knots, double amplitude, double f, double phase) {
   const Complex turn = std::polar(1.0, kTurn * f * knots.step);
   Complex now = std::polar(amplitude, phase);
@@ -54,7 +56,8 @@ void add_sine(Knots& knots, double amplitude, double f, double phase) {
   }
 }
 
-/// Over the first second, with a slope that is zero at both ends.
+/// Fades in over the first second by a share whose slope is zero at both ends. The velocity gets
+/// the share's own slope too, so that it stays the derivative of the displacement.
 void fade_in(Knots& knots) {
   constexpr double kFade = 1;  // s
   const double w = std::numbers::pi / kFade;
@@ -65,6 +68,7 @@ void fade_in(Knots& knots) {
   }
 }
 
+/// Scales down, never up, until amplitude and speed are kept between the knots, too.
 void scale_into(Knots& knots, double amplitude, double speed_max) {
   const auto size = [](double a, double b) { return std::abs(a) < std::abs(b); };
   // Between knots a wave of 64 knots can rise by 1 - cos(pi / 64).
@@ -82,18 +86,23 @@ PistonMotion road_deflection(const RoadDeflection& road, std::uint64_t seed) {
   constexpr int kSines = 300;
   if (!(road.frequency_min < road.frequency_max))
     throw Error("RP", "frequency_min is not below frequency_max");
+
+  // Knots 64 to the shortest period, one more than the duration needs at the end.
   Random random(seed);
   auto knots = std::make_shared<Knots>();
   knots->step = 1 / (64 * road.frequency_max);
   const auto count = static_cast<std::size_t>(std::ceil(road.duration / knots->step)) + 2;
   knots->x.assign(count, 0);
   knots->v.assign(count, 0);
+
+  // One sine from each of equal bands, with a random frequency within it and a random phase.
   const double band = (road.frequency_max - road.frequency_min) / kSines;
   for (int k = 0; k < kSines; ++k) {
     const double f = road.frequency_min + band * (k + random.uniform());
     add_sine(*knots, std::sqrt(2 * deflection_density(road, f) * band), f,
              random.uniform(0, kTurn));
   }
+
   fade_in(*knots);
   scale_into(*knots, road.amplitude, road.speed_max);
   return {{}, road.duration, [knots](double t) { return knots->at(t); }};

@@ -16,7 +16,8 @@ namespace fs = std::filesystem;
 namespace dashpot {
 namespace {
 
-/// Folders behind links are searched too, each folder once.
+/// Lists the files below a folder. Folders behind links are searched too, each folder once, so that
+/// a link to a folder above ends the search instead of turning it in circles.
 class FolderSearch {
  public:
   FolderSearch(const fs::path& root, std::vector<SourcePath>& out) : root_(root), out_(out) {
@@ -50,12 +51,14 @@ class FolderSearch {
   std::set<fs::path> seen_;
 };
 
-/// strverscmp puts leading zeros first, which file names want too: run01 before run1.
+/// Order of names with numbers by their value. strverscmp puts leading zeros first, which file
+/// names want too: run01 before run1.
 bool by_number(const SourcePath& a, const SourcePath& b) {
   return strverscmp(a.relative.c_str(), b.relative.c_str()) < 0;
 }
 
-/// A recording that is there twice could be fitted and then judged on as if it had not been seen.
+/// Throws where two paths lead to one file: a recording that is there twice could be fitted and
+/// then judged on as if it had not been seen.
 void refuse_doubles(const std::vector<SourcePath>& files) {
   std::map<fs::path, fs::path> seen;
   for (const SourcePath& file : files) {
@@ -72,16 +75,19 @@ std::vector<SourcePath> list_files(const std::vector<fs::path>& paths) {
   std::vector<SourcePath> out;
   for (const fs::path& path : paths) {
     if (path.empty()) throw Error("", "a path is empty", "give files, folders or a dataset file");
+
     std::error_code error;
     const fs::file_status status = fs::status(path, error);
     if (!fs::exists(status))
       throw Error(path.string(), error && error != std::errc::no_such_file_or_directory
                                      ? "cannot be read: " + error.message()
                                      : "there is no such file or folder");
+
     if (!fs::is_directory(status)) {
       out.push_back({path, path.filename().string(), true});
       continue;
     }
+
     std::vector<SourcePath> inside;
     FolderSearch(path, inside);
     std::sort(inside.begin(), inside.end(), by_number);

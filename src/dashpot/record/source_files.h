@@ -16,16 +16,16 @@ struct SourcePath {
   bool named = false;    ///< pointed at itself, so that it may not be passed over
 };
 
-/// The files of the paths, folders (also behind links) searched to the bottom, sorted by name with
-/// numbers in their order
-/// ("run2" before "run10"); hidden files left out. Throws Error on a path that cannot be read.
+/// The files of the paths; folders, also behind links, are searched to the bottom, sorted by name
+/// with numbers in their order ("run2" before "run10"). Hidden files are left out. Throws Error on
+/// a path that cannot be read and on a file that is given twice.
 std::vector<SourcePath> list_files(const std::vector<std::filesystem::path>& paths);
 
 /// Whether a pattern with * ? [...] fits the relative path or the file's name.
 bool matches(const std::string& pattern, const SourcePath& file);
 
-/// Table of the files of a folder, with a column "file": it selects them and states their
-/// conditions.
+/// A table of the files of a folder (manifest.csv), with a column "file": it selects them and
+/// states their conditions. All cells are texts until number() is asked.
 class Manifest {
  public:
   Manifest() = default;
@@ -37,7 +37,7 @@ class Manifest {
   bool lists(const std::string& file) const { return row_of(file) != nullptr; }
   /// The cell of a file; nothing when the file or the column is not there.
   std::optional<std::string> cell(const std::string& file, const std::string& column) const;
-  /// As a number; throws Error naming the manifest when it is none.
+  /// The cell as a number; throws Error naming the manifest when it is none.
   double number(const std::string& file, const std::string& column) const;
   /// The first column that is a current (A) or a voltage (V) by its name, with its unit.
   std::optional<std::pair<std::string, DriveUnit>> level_column() const;

@@ -50,6 +50,8 @@ std::optional<DatasetFile> find_shipped(const std::vector<SourcePath>& files) {
   return best;
 }
 
+/// Takes the dataset file out of the paths, or finds dataset.yaml in the only folder; empty when
+/// there is none. Throws Error on a second one.
 fs::path stated_dataset_file(std::vector<fs::path>& paths, const LoadOptions& options) {
   fs::path stated = options.dataset_file;
   for (auto at = paths.begin(); at != paths.end();) {
@@ -59,6 +61,7 @@ fs::path stated_dataset_file(std::vector<fs::path>& paths, const LoadOptions& op
     if (yaml) stated = *at;
     at = yaml ? paths.erase(at) : at + 1;
   }
+
   if (stated.empty() && paths.size() == 1 && is_file(paths[0] / "dataset.yaml"))
     stated = paths[0] / "dataset.yaml";
   return stated;
@@ -91,15 +94,21 @@ const FileStatement* statement_for(const DatasetFile& stated, const SourcePath& 
 Sources find_sources(std::vector<fs::path> paths, const LoadOptions& options) {
   if (paths.empty() && options.dataset_file.empty())
     throw Error("", "no recordings given", "give files, folders or a dataset file");
+
   Sources sources;
+
+  // A dataset file of the caller's, which may say where the recordings are.
   const fs::path stated = stated_dataset_file(paths, options);
   if (!stated.empty()) {
     sources.stated = load_dataset_file(stated);
     if (paths.empty()) paths = {sources.stated.root};
+
     sources.pointed_at = paths.front().string();
     sources.files = list_files(paths);
     return sources;
   }
+
+  // None: perhaps a shipped dataset file knows these recordings by their content.
   sources.pointed_at = paths.front().string();
   sources.files = list_files(paths);
   if (options.recognise)
@@ -111,6 +120,7 @@ Sources find_sources(std::vector<fs::path> paths, const LoadOptions& options) {
                                       " states");
       return sources;
     }
+
   sources.stated = nothing_stated(paths);
   return sources;
 }

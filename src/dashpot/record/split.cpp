@@ -10,15 +10,6 @@
 namespace dashpot {
 namespace {
 
-struct Way {
-  LeaveOut::By by;
-  std::string_view name;
-};
-constexpr Way kWays[] = {
-    {LeaveOut::By::Condition, "condition"}, {LeaveOut::By::Current, "current"},
-    {LeaveOut::By::Record, "record"},       {LeaveOut::By::Fraction, "fraction"},
-    {LeaveOut::By::Roles, "roles"},         {LeaveOut::By::Each, "each"}};
-
 template <class T>
 void add_new(std::vector<T>& values, const T& value) {
   if (std::find(values.begin(), values.end(), value) == values.end()) values.push_back(value);
@@ -30,7 +21,7 @@ std::vector<std::string> conditions(const Dataset& dataset) {
   return all;
 }
 
-/// Ascending.
+/// The constant drive levels of the records, ascending, each once.
 std::vector<double> levels(const Dataset& dataset) {
   std::vector<double> all;
   for (const Record& record : dataset.records)
@@ -62,6 +53,8 @@ std::string ways_that_work(const Dataset& dataset) {
   throw Error(dataset.name, "cannot be divided so: " + what, ways_that_work(dataset));
 }
 
+/// One fold that leaves out the records for which `left_out` is true. The words behind the first of
+/// its name are what the message names when there is no such record.
 template <class Chosen>
 Fold fold_by(const Dataset& dataset, const std::string& name, const Chosen& left_out) {
   Fold fold;
@@ -85,6 +78,8 @@ std::vector<Fold> by_condition(const Dataset& dataset, const LeaveOut& how) {
   return folds;
 }
 
+/// The levels to leave out one after the other: those asked for, else all but the lowest and
+/// highest.
 std::vector<double> chosen_levels(const Dataset& dataset, const LeaveOut& how) {
   if (how.values.empty()) {
     const std::vector<double> all = levels(dataset);
@@ -93,6 +88,7 @@ std::vector<double> chosen_levels(const Dataset& dataset, const LeaveOut& how) {
                               " constant drive level(s): no inner one to leave out");
     return {all.begin() + 1, all.end() - 1};
   }
+
   std::vector<double> out;
   for (const std::string& text : how.values) {
     const auto value = parse_number(text);
@@ -128,7 +124,8 @@ std::vector<Fold> by_record(const Dataset& dataset, const LeaveOut& how) {
   return folds;
 }
 
-/// "gap 0.001, pole_length 0.006": what a record has of these conditions.
+/// "gap 0.001, pole_length 0.006": the values of these conditions of a record. Throws Error when it
+/// lacks one.
 std::string values_of(const Record& record, const std::vector<std::string>& names) {
   std::vector<std::string> parts;
   for (const std::string& name : names) {
@@ -156,8 +153,8 @@ std::vector<Fold> by_each(const Dataset& dataset, const LeaveOut& how) {
   return folds;
 }
 
-/// The left-out record runs from its start, so that the model reaches its state, and is scored at
-/// its end.
+/// Leaves out the end of every record. The left-out record runs from its start, so that the model
+/// reaches its state, and is scored at its end.
 std::vector<Fold> by_fraction(const Dataset& dataset, const LeaveOut& how) {
   Fold fold;
   fold.name = "without the last " + format_number(100 * how.fraction, 3) + " % of each record";
@@ -185,8 +182,9 @@ std::vector<Fold> by_roles(const Dataset& dataset) {
   return {fold};
 }
 
-/// One of equal stretches of the scored samples is left out, and run from the record's start; what
-/// lies before and after it serves the fit, as two records.
+/// Divides the scored samples of a record into equal stretches and leaves one out: it is run from
+/// the record's start and scored on that stretch. What lies before and after it serves the fit, as
+/// two records.
 void hold_back_part(const Record& record, std::size_t part, std::size_t parts, Fold& fold) {
   const std::size_t scored = record.size() - std::min(record.warm_up, record.size());
   const std::size_t from = record.warm_up + scored * part / parts;
@@ -195,6 +193,7 @@ void hold_back_part(const Record& record, std::size_t part, std::size_t parts, F
   if (to < from + kLeast) return;
   fold.left_out.push_back(record.slice(0, to));
   fold.left_out.back().warm_up = from;
+
   if (part > 0) fold.training.push_back(record.slice(0, from));
   if (part + 1 == parts) return;
   Record after = record.slice(to, record.size());
@@ -202,7 +201,7 @@ void hold_back_part(const Record& record, std::size_t part, std::size_t parts, F
   fold.training.push_back(std::move(after));
 }
 
-/// Run from the start and scored at the end.
+/// Holds back the end of each part. The model still runs from the start of the record.
 TrialParts without_ends(const ScoredParts& parts, double share) {
   TrialParts trial;
   for (const ScoredPart& part : parts) {
@@ -216,47 +215,6 @@ TrialParts without_ends(const ScoredParts& parts, double share) {
 }
 
 }  // namespace
-
-LeaveOut parse_leave_out(const std::string& text) {
-  const std::size_t equals = text.find('=');
-  const std::string name = lower(trim(std::string_view(text).substr(0, equals)));
-  const auto way = std::find_if(std::begin(kWays), std::end(kWays),
-                                [&](const Way& w) { return w.name == name; });
-  if (way == std::end(kWays))
-    throw Error("", "cannot leave out by '" + text + "'",
-                "'condition', 'current', 'current=0.5,1', 'record', 'fraction=0.3', 'roles' or "
-                "'each=gap,pole_length'");
-  LeaveOut out;
-  out.by = way->by;
-  if (equals == std::string::npos && out.by == LeaveOut::By::Each)
-    throw Error("", "'each' does not say of what",
-                "conditions of the records: 'each=gap,pole_length'");
-  if (equals == std::string::npos) return out;
-  const std::string rest = text.substr(equals + 1);
-  if (out.by == LeaveOut::By::Fraction) {
-    out.fraction = parse_number(rest).value_or(0);
-    if (!(out.fraction > 0 && out.fraction < 1))
-      throw Error("", "fraction '" + rest + "' cannot be left out",
-                  "a number between 0 and 1: 'fraction=0.3'");
-    return out;
-  }
-  if (out.by == LeaveOut::By::Roles)
-    throw Error("", "'roles' takes no values", "the dataset file states them");
-  for (const std::string& value : split(rest, ',')) {
-    if (trim(value).empty())
-      throw Error("", "an empty value in '" + text + "'", "as 'current=0.5,1'");
-    out.values.emplace_back(trim(value));
-  }
-  return out;
-}
-
-std::string format_leave_out(const LeaveOut& leave_out) {
-  const auto way = std::find_if(std::begin(kWays), std::end(kWays),
-                                [&](const Way& w) { return w.by == leave_out.by; });
-  std::string text(way->name);
-  if (leave_out.by == LeaveOut::By::Fraction) return text + "=" + format_exact(leave_out.fraction);
-  return leave_out.values.empty() ? text : text + "=" + join(leave_out.values, ",");
-}
 
 LeaveOut default_leave_out(const Dataset& dataset) {
   if (dataset.leave_out) return *dataset.leave_out;
@@ -297,10 +255,12 @@ std::vector<Fold> hold_back(const std::vector<Record>& training, const LeaveOut&
     return by_condition(dataset, {});
   if (judged.by == LeaveOut::By::Current && levels(dataset).size() > 2)
     return by_current(dataset, {});
+
   // With few parts, fits on what is left know much less than the one that they stand for.
   constexpr std::size_t kParts = 6, kLeastRecords = 3;
   const bool whole = judged.by != LeaveOut::By::Fraction && training.size() >= kLeastRecords;
   const std::size_t parts = whole ? std::min(kParts, training.size()) : kParts;
+
   std::vector<Fold> folds;
   for (std::size_t part = 0; part < parts; ++part) {
     Fold fold;
@@ -324,28 +284,34 @@ ScoredParts all_parts(const std::vector<Record>& records) {
 }
 
 std::vector<TrialParts> trial_parts(const std::vector<Record>& training) {
-  constexpr std::size_t kHands = 4;
+  constexpr std::size_t kMostGroups = 4;
   constexpr double kEnd = 0.3;
   Dataset dataset;
   dataset.records = training;
   const ScoredParts parts = all_parts(training);
   std::vector<TrialParts> trials;
+
   const auto hold_back = [&](const auto& chosen) {
     TrialParts trial;
     for (const ScoredPart& part : parts)
       (chosen(training[part.record]) ? trial.held_back : trial.training).push_back(part);
     if (!trial.training.empty()) trials.push_back(std::move(trial));
   };
+
+  // Conditions, dealt in turn to a few groups of which each is held back once.
   const std::vector<std::string> all = conditions(dataset);
-  const std::size_t hands = std::min(all.size(), kHands);
-  for (std::size_t hand = 0; hands > 1 && hand < hands; ++hand)
+  const std::size_t groups = std::min(all.size(), kMostGroups);
+  for (std::size_t group = 0; groups > 1 && group < groups; ++group)
     hold_back([&](const Record& record) {
       const auto condition = std::find(all.begin(), all.end(), record.condition) - all.begin();
-      return static_cast<std::size_t>(condition) % hands == hand;
+      return static_cast<std::size_t>(condition) % groups == group;
     });
+
+  // Each inner level of the drive.
   const std::vector<double> steps = levels(dataset);
   for (std::size_t k = 1; k + 1 < steps.size(); ++k)
     hold_back([&](const Record& record) { return record.drive_level == steps[k]; });
+
   if (trials.empty()) trials.push_back(without_ends(parts, kEnd));
   return trials;
 }

@@ -68,6 +68,7 @@ double snapped(double step, double tolerance, double digit) {
   return step;
 }
 
+/// Straight lines between the values; both grids ascend.
 std::vector<double> interpolate(const std::vector<double>& from, const std::vector<double>& values,
                                 const std::vector<double>& to) {
   std::vector<double> out;
@@ -86,6 +87,9 @@ std::vector<double> interpolate(const std::vector<double>& from, const std::vect
 double uniform_step(std::span<const double> stamps) {
   if (stamps.size() < 2) return 0;
   const Line line = fit_line(stamps);
+
+  // To what are the stamps printed: a fixed decimal place, or so many significant digits, whose
+  // place grows with the stamp?
   const double digit = printed_digit(stamps);
   const int digits = digit > 0 ? significant_digits(stamps) : 0;
   const double coarsest =
@@ -98,6 +102,8 @@ double uniform_step(std::span<const double> stamps) {
         digits > 0 ? std::max(digit, std::pow(10.0, 1 - digits) * power_of_ten(t)) : digit;
     return (rounded ? 0.6 * place : 0) + 1e-6 * line.step + 1e-15 * std::abs(t);
   };
+
+  // All stamps must lie on the line within that rounding.
   for (std::size_t k = 0; k < stamps.size(); ++k)
     if (std::abs(stamps[k] - (line.start + line.step * static_cast<double>(k))) >
         tolerance(stamps[k]))
@@ -129,9 +135,11 @@ void make_uniform(std::span<double> stamps, double start, double sample_time) {
 void resample(Record& record, double rate_hz) {
   const double duration = record.time.back() - record.time.front();
   const double count = std::floor(duration * rate_hz * (1 + 1e-12)) + 1;
+
   if (count < 2 || count > 1e9)
     throw Error(record.name, "resampling to " + format_number(rate_hz) + " Hz gives " +
                                  format_number(count, 12) + " samples");
+
   std::vector<double> time(static_cast<std::size_t>(count));
   make_uniform(time, record.time.front(), 1 / rate_hz);
   for (Channel& channel : record.channels)
@@ -147,10 +155,14 @@ std::pair<std::size_t, std::size_t> moving_part(std::span<const double> time,
   constexpr double kRest = 0.3, kShare = 0.02;
   const auto [low, high] = std::minmax_element(motion.begin(), motion.end());
   const double threshold = kShare * 0.5 * (*high - *low);
+
+  // Walk inwards from both ends while the signal stays near its value there.
   std::size_t first = 0, last = motion.size();
   while (first < last && std::abs(motion[first] - motion.front()) <= threshold) ++first;
   if (first == last) return {0, motion.size()};
   while (last > first && std::abs(motion[last - 1] - motion.back()) <= threshold) --last;
+
+  // Rest that is shorter than this may be a turning point: keep it.
   if (time[first] - time.front() < kRest) first = 0;
   if (time.back() - time[last - 1] < kRest) last = motion.size();
   return {first, last};

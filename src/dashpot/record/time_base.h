@@ -9,7 +9,8 @@
 namespace dashpot {
 
 /// The step of a uniform grid that all stamps agree with, within the rounding of their printed
-/// digits; 0 when there is none.
+/// digits; 0 when there is none, or fewer than two stamps. In the unit of the stamps. A step within
+/// the tolerance of a whole rate or of the printed digits becomes exactly that.
 double uniform_step(std::span<const double> stamps);
 
 /// Throws Error at the first stamp that is repeated or runs backwards. `table` gives its place.
@@ -18,7 +19,8 @@ void require_increasing(std::span<const double> stamps, const RawTable& table);
 /// Each stamp becomes start + row * sample_time.
 void make_uniform(std::span<double> stamps, double start, double sample_time);
 
-/// All channels on a uniform grid of that rate by linear interpolation; adds a note.
+/// Puts all channels on a uniform grid of that rate by linear interpolation, from the first stamp
+/// on; adds a note. Throws Error when fewer than 2 or more than 1e9 samples would result.
 void resample(Record& record, double rate_hz);
 
 /// First and one-past-last sample of what moves: rest of at least 0.3 s at either end is left out.

@@ -27,8 +27,8 @@ struct TrialParts {
   ScoredParts training, held_back;
 };
 /// Divisions of a training part on which a fit tries what it must choose by itself. Conditions are
-/// dealt in turn to four at most, and each inner level of the drive is held back; of records that
-/// have neither, the last 30 %. One at least.
+/// dealt in turn to at most four groups, each held back once; so is each inner level of the drive.
+/// Of records that have neither, the last 30 % are held back. At least one.
 std::vector<TrialParts> trial_parts(const std::vector<Record>& training);
 /// The same with copies of the records.
 std::vector<Fold> trial_folds(const std::vector<Record>& training);

@@ -194,8 +194,8 @@ std::vector<fs::path> write_figures(const ReportInput& input, const fs::path& fo
     paths.insert(paths.end(), more.begin(), more.end());
   };
   add(ranking_bars(input.ranking, folder));
-  add(loops(*best, input.dataset.drive_unit, &RecordResult::velocity, folder));
-  add(loops(*best, input.dataset.drive_unit, &RecordResult::displacement, folder));
+  add(loops(*best, to_string(input.dataset.drive_unit), &RecordResult::velocity, folder));
+  add(loops(*best, to_string(input.dataset.drive_unit), &RecordResult::displacement, folder));
   add(force_trace(*best, worst == records.end() ? records.front() : *worst, folder));
   return paths;
 }

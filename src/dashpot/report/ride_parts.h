@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "dashpot/report/document.h"
-#include "dashpot/suspension/simulated_run.h"
+#include "dashpot/suspension/ride/simulated_run.h"
 
 // Parts that the pages of a suspension share.
 namespace dashpot {

@@ -1,6 +1,6 @@
 #pragma once
 #include "dashpot/report/document.h"
-#include "dashpot/suspension/simulated_run.h"
+#include "dashpot/suspension/ride/simulated_run.h"
 
 namespace dashpot {
 

@@ -58,6 +58,8 @@ class Simulation {
     const double end = options_.duration;
     Trace trace;
     integrator_.refresh(state_);
+
+    // Jumps, samples and outputs at this instant, then on to the next of them.
     while (true) {
       meet_jumps();
       if (samples.strikes(state_.time)) control();
@@ -90,6 +92,8 @@ class Simulation {
   void control() {
     const Plant& plant = setting_.plant;
     const std::size_t n = plant.size();
+
+    // Signals as the sensors see them; ideal ones give the plant's state as well.
     for (std::size_t s = 0; s < signals_.size(); ++s) signals_[s] = signals_of(s);
     sensors_.measure(signals_);
     std::vector<double>& x = plant_state_;
@@ -100,6 +104,8 @@ class Simulation {
       forces_.resting_place(state_.time, resting_);
       for (std::size_t k = 0; k < n; ++k) x[k] -= resting_[k];
     }
+
+    // Each demand on its way to a current; forces are others where one has changed.
     setting_.controller->step(signals_, x, controller_state_, demands_);
     bool changed = false;
     for (std::size_t s = 0; s < signals_.size(); ++s)
@@ -135,12 +141,16 @@ class Simulation {
     trace.record = writer_.take();
     trace.steps = integrator_.counts().steps;
     trace.evaluations = integrator_.counts().evaluations;
+
+    // Shares of the time, after the start that does not count.
     const auto first = trace.diverged_at
                            ? 0
                            : std::ranges::lower_bound(trace.record.time, options_.discard) -
                                  trace.record.time.begin();
     trace.contact_lost = contact_lost(trace.record, plant, static_cast<std::size_t>(first));
     const double stopped = stops_met(trace.record, plant, static_cast<std::size_t>(first));
+
+    // Warnings.
     if (trace.contact_lost > 0)
       trace.warnings.push_back((plant.tyres_may_lift
                                     ? "a tyre has no contact in "
@@ -179,6 +189,7 @@ void require_fitting(const Setting& setting, const SimulateOptions& options) {
                                 std::to_string(setting.dampers.size()));
   for (const MountedDamper& damper : setting.dampers)
     if (!damper.model) throw Error(plant.name, "a damper has no model");
+
   if (!(options.duration > 0))
     throw Error("simulation", "a duration of " + format_number(options.duration) + " s", "above 0");
   if (options.step && !(*options.step > 0)) throw Error("simulation", "its step is not above 0");

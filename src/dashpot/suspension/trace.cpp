@@ -7,7 +7,7 @@ namespace {
 
 std::string per_time(const std::string& unit, const char* time) { return unit + "/" + time; }
 
-/// Of the samples from `first` on that some part marks: is_marked(part, its channel's value).
+/// Share of the samples from `first` on that some part marks: is_marked(part, its channel's value).
 template <class Part, class Mark>
 double share_marked(const Record& trace, const std::vector<Part>& parts, const char* channel,
                     std::size_t first, Mark is_marked) {
@@ -29,6 +29,8 @@ TraceWriter::TraceWriter(const Plant& plant, const PlantForces& forces, const Gr
     record_.channels.push_back({.name = name, .unit = unit, .origin = "simulated"});
     record_.channels.back().samples.reserve(samples);
   };
+
+  // Channels in the order in which write() adds their samples.
   for (const Coordinate& c : plant.coordinates) {
     channel(c.name, c.unit);
     channel(c.name + "_velocity", per_time(c.unit, "s"));
@@ -51,6 +53,7 @@ TraceWriter::TraceWriter(const Plant& plant, const PlantForces& forces, const Gr
     channel(tyre.name + "_load", "N");
   }
   if (!plant.ground.empty()) channel("ground_acceleration", "m/s^2");
+
   record_.time.reserve(samples);
   record_.name = plant.name;
   record_.condition = ground.description();
@@ -73,6 +76,8 @@ void TraceWriter::write(const PlantState& state) {
   const std::size_t n = plant_.size();
   const double *q = state.x.data(), *v = q + n;
   record_.time.push_back(state.time);
+
+  // Samples in the order of the channels.
   place_ = 0;
   for (std::size_t k = 0; k < n; ++k) {
     add(q[k]);

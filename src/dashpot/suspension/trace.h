@@ -2,12 +2,14 @@
 #include <span>
 #include <vector>
 
-#include "dashpot/simulate.h"
+#include "dashpot/ground_motion.h"
+#include "dashpot/plant.h"
+#include "dashpot/record.h"
 #include "dashpot/suspension/steps/step_method.h"
 
 namespace dashpot {
 
-/// Writes what a plant does, sample by sample, into the channels of a Trace.
+/// Writes what a plant does, sample by sample, into the channels of a record.
 class TraceWriter {
  public:
   TraceWriter(const Plant& plant, const PlantForces& forces, const GroundMotion& ground,

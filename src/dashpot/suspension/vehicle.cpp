@@ -9,8 +9,8 @@
 #include "dashpot/damper/inverse/inverse_file.h"
 #include "dashpot/damper/inverse/registry.h"
 #include "dashpot/error.h"
-#include "dashpot/suspension/damper_state.h"
-#include "dashpot/suspension/damper_words.h"
+#include "dashpot/suspension/dampers/damper_state.h"
+#include "dashpot/suspension/dampers/damper_words.h"
 
 namespace dashpot {
 namespace {
@@ -29,6 +29,8 @@ PlantSet load_plant(const VehicleWords& words) {
   if (set.kind.empty())
     throw Error(words.where,
                 set.name + " has matrices, no parameter '" + words.values.front() + "'");
+
+  // A plant that is made from parameters takes other values for some of them.
   const PlantModel& model = find_plant_model(set.kind);
   NamedValues values;
   for (const std::string& text : words.values) {
@@ -53,6 +55,8 @@ std::vector<ChosenDamper> choose_dampers(const VehicleWords& words, const PlantS
     texts = {"ideal,damping_min=" + format_exact(set.damping->least) +
              ",damping_max=" + format_exact(set.damping->greatest)};
   }
+
+  // One text for all struts, or one per strut.
   const std::size_t places = set.plant.struts.size();
   if (texts.size() != 1 && texts.size() != places)
     throw Error(words.where,
@@ -65,7 +69,7 @@ std::vector<ChosenDamper> choose_dampers(const VehicleWords& words, const PlantS
   return chosen;
 }
 
-/// What drives them, which is the same for all that anything drives.
+/// The range over which the dampers are driven, the same for all that are not passive.
 struct DriveRange {
   DriveUnit unit = DriveUnit::None;
   double low = 0, high = 0;  ///< equal: all are passive
@@ -91,6 +95,8 @@ DriveRange drive_range(const std::vector<ChosenDamper>& dampers, const VehicleWo
     if (!first) range = {damper.drive_unit, damper.drive_min, damper.drive_max};
     first = first ? first : &damper;
   }
+
+  // A greatest current that is stated takes the place of the data's.
   if (words.current_max > 0 && first) range.high = words.current_max;
   if (first && !(range.low < range.high))
     throw Error(words.where, "a greatest drive of " + range.text(range.high) +
@@ -111,24 +117,27 @@ std::string damping_note(const ChosenDamper& damper, const DampingRange& damping
          " mm at " + format_number(speed) + " m/s of the damper";
 }
 
-/// What the controller knows of the dampers: the mean over those that it drives.
+/// The dampers' limits as the controller knows them: the mean over those that it drives.
 ControlLimits control_limits(const std::vector<ChosenDamper>& dampers, const DriveRange& drive,
                              const VehicleWords& words, std::vector<std::string>& notes) {
   ControlLimits limits{0, 0, drive.low, drive.high, words.sample_time};
   if (!(words.sample_time > 0))
     throw Error(words.where, "the controller's sample time is not above 0");
+
+  // The mean over those that are driven, with a note for each damping that is not stated.
   double driven = 0;
-  std::vector<std::string> told;
+  std::vector<std::string> noted;
   for (const ChosenDamper& damper : dampers) {
-    const bool is_known = std::ranges::find(told, damper.name) != told.end();
+    const bool is_known = std::ranges::find(noted, damper.name) != noted.end();
     const DampingRange damping = damping_between(damper, drive.low, drive.high);
     if (!damper.damping && !is_known) notes.push_back(damping_note(damper, damping, drive));
-    told.push_back(damper.name);
+    noted.push_back(damper.name);
     if (damper.is_passive() && drive.low < drive.high) continue;
     limits.damping_min += damping.least;
     limits.damping_max += damping.greatest;
     ++driven;
   }
+
   limits.damping_min /= driven;
   limits.damping_max /= driven;
   return limits;
@@ -150,6 +159,8 @@ MountedDamper mount(const ChosenDamper& damper, const DriveRange& drive,
                         .motion_ratio = damper.motion_ratio,
                         .force_factor = damper.force_factor};
   if (damper.is_passive()) return mounted;
+
+  // A driven one has a coil and, perhaps, an inverse with a force loop.
   mounted.driver = {.current_min = drive.low,
                     .current_max = drive.high,
                     .lag_rate = words.lag_rate >= 0 ? words.lag_rate : damper.lag_rate};
@@ -162,6 +173,7 @@ MountedDamper mount(const ChosenDamper& damper, const DriveRange& drive,
         force_loop_settings(), split(words.force_loop, ','), "the force loop", words.where);
     mounted.loop = {gains[0], gains[1], gains[2]};
   }
+
   mounted.current = words.controller.empty() ? std::max(words.current, drive.low) : drive.low;
   return mounted;
 }
@@ -176,7 +188,8 @@ void add_controller(Vehicle& vehicle, const DriveRange& drive, const VehicleWord
       make_controller(words.controller, {vehicle.limits, vehicle.set.plant}, words.where);
   vehicle.controller_name = words.controller;
   if (words.sensors.in_car && needs_plant_state(words.controller))
-    throw Error(words.where, "'" + words.controller + "' feeds back what no sensor of a car tells",
+    throw Error(words.where,
+                "'" + words.controller + "' feeds back what no sensor of a car measures",
                 "ideal sensors, or another controller");
 }
 
@@ -197,11 +210,15 @@ Vehicle make_vehicle(const VehicleWords& words) {
   if (!vehicle.set.verified)
     vehicle.notes.push_back("the numbers of " + vehicle.set.name +
                             " are an example: " + vehicle.set.reason);
+
+  // Dampers, and the range over which all that are driven are driven.
   const std::vector<ChosenDamper> chosen = choose_dampers(words, vehicle.set);
   const DriveRange drive = drive_range(chosen, words);
   if (drive.low < drive.high && !(words.current <= drive.high))
     throw Error(words.where, "a drive of " + drive.text(words.current) +
                                  " is beyond the greatest, " + drive.text(drive.high));
+
+  // Each in its strut; a note that several have stands once.
   vehicle.drive_unit = drive.unit;
   for (const ChosenDamper& damper : chosen) {
     for (const std::string& note : damper.notes)
@@ -211,6 +228,7 @@ Vehicle make_vehicle(const VehicleWords& words) {
     vehicle.damper_names.push_back(damper.name);
     vehicle.domains.push_back(damper.domain);
   }
+
   vehicle.limits = control_limits(chosen, drive, words, vehicle.notes);
   add_controller(vehicle, drive, words);
   return vehicle;

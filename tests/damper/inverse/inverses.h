@@ -6,7 +6,7 @@
 #include "dashpot/damper/kinds/law/law_model.h"
 #include "dashpot/drive.h"
 
-// What the tests of the inverses share.
+// Parts that the tests of the inverses share.
 
 /// One call of an inverse whose state starts from rest at the input's motion and current.
 inline double first_command(const dashpot::InverseModel& inverse,
@@ -25,6 +25,7 @@ inline dashpot::LawModel driven(const dashpot::Law& law, double lag_rate) {
     const bool drives = info.fit == Fit::Drive;
     const bool follows = drives || (info.form != Form::Constant && info.fit == Fit::Free);
     d.forms.push_back(follows ? Form::Linear : Form::Constant);
+
     if (drives)
       d.coefficients.push_back({0, 1});
     else if (follows)
@@ -41,7 +42,7 @@ class CountingModel final : public dashpot::DamperModel {
   CountingModel(std::unique_ptr<dashpot::DamperModel> model, std::size_t* count)
       : model_(std::move(model)), count_(count) {}
 
-  ModelKind kind() const override { return model_->kind(); }
+  dashpot::ModelKind kind() const override { return model_->kind(); }
   std::string name() const override { return model_->name(); }
   bool needs_displacement() const noexcept override { return model_->needs_displacement(); }
   std::size_t parameter_count() const noexcept override { return model_->parameter_count(); }

@@ -63,8 +63,7 @@ TEST_CASE("a cubic dependence: the least current that gives the force") {
                         {{0}, {100, 600, -900, 400}, {0}, {0}}},
                        DriveUnit::Ampere, 0);
   // 600 i - 900 i^2 + 400 i^3 rises to 125 at 0.5 and falls to 100 at 1: 120 N is met three times
-  // in 0
-  // ... 1.5.
+  // in 0 ... 1.5.
   const PolynomialInverse inverse(model, {.current_max = 1.5});
   CHECK(inverse.degree() == 3);
   const double current = first_command(inverse, {.wanted = 220, .velocity = 1});

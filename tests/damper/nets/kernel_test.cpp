@@ -23,12 +23,14 @@ Mlp network(std::vector<std::size_t> layers, Activation hidden,
   Random random(4);
   mlp.activations.assign(layers.size() - 1, hidden);
   mlp.activations.back() = output;
+
   for (std::size_t k = 0; k < layers.front(); ++k) {
     mlp.input_mean.push_back(random.uniform(-1, 1));
     mlp.input_scale.push_back(random.uniform(0.5, 2));
   }
   mlp.output_mean = 3;
   mlp.output_scale = 20;
+
   mlp.layers = std::move(layers);
   initialise(mlp, 8);
   for (double& w : mlp.parameters) w += random.uniform(-0.1, 0.1);  // biases too

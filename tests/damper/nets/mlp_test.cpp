@@ -47,7 +47,7 @@ Mlp damper_network() {
   return mlp;
 }
 
-/// Price of the residuals with every group's best offset, from evaluate() alone.
+/// Cost of the residuals with every group's best offset, from evaluate() alone.
 double plain_error(const Mlp& mlp, const TrainingSamples& samples, double offset_decay) {
   std::vector<double> sum(samples.groups), size(samples.groups);
   double squares = 0;

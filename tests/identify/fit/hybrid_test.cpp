@@ -59,7 +59,7 @@ TEST_CASE("what is chosen for a parameter holds for the law inside; the store ke
   CHECK(model.law().parameters().coefficients[0] == std::vector<double>{1234});
 
   const TemporaryFolder folder;
-  const FitStore store(folder.path(), "test");
+  FitStore store(folder.path() / "fits.sqlite", "test");
   const FitStore::Request request{"bingham+network", training, DriveUnit::Ampere, options};
   store.save(request, fit);
   const auto kept = store.load(request);

@@ -19,6 +19,7 @@ std::filesystem::path write_mat(const TemporaryFolder& folder, mat_ft version,
       folder.path() / (std::to_string(version) + "-" + std::to_string(compression) + ".mat");
   mat_t* file = Mat_CreateVer(path.c_str(), nullptr, version);
   REQUIRE(file);
+
   double x[] = {1, 2, 3}, force[] = {10, 20, 30, 40, 50, 60}, step[] = {0.01};
   const auto write = [&](const char* name, double* data, std::size_t rows, std::size_t columns) {
     std::size_t dims[] = {rows, columns};
@@ -26,6 +27,7 @@ std::filesystem::path write_mat(const TemporaryFolder& folder, mat_ft version,
     Mat_VarWrite(file, variable, compression);
     Mat_VarFree(variable);
   };
+
   write("x", x, 3, 1);
   write("F", force, 3, 2);
   write("Ts", step, 1, 1);

@@ -102,8 +102,8 @@ TEST_CASE(
 TEST_CASE("the same bits on any number of threads and from kept trainings; it can be stopped") {
   const TemporaryFolder folder;
   const FamilySamples family = family_samples(small_family());
-  const TrainingStore store(folder.path(), "test", family.cycles),
-      other(folder.path(), "other", family.cycles);
+  const std::filesystem::path file = folder.path() / "trainings.sqlite";
+  std::optional<TrainingStore> store(std::in_place, file, "test", family.cycles);
   const std::vector<FamilyExperiment> experiments{
       {FamilyProtocol::Geometries, quick_rule({5, 5}), 2},
       {FamilyProtocol::AllSamples, quick_rule({4}), 3},
@@ -113,12 +113,12 @@ TEST_CASE("the same bits on any number of threads and from kept trainings; it ca
   const FamilyStudy one = study_family(family, experiments, options);
   CHECK(one.networks.size() == 2 * 4 + 3);  // what two experiments share is trained once
   options.threads = 3;
-  options.store = &store;
+  options.store = &*store;
   const FamilyStudy three = study_family(family, experiments, options),
                     kept = study_family(family, experiments, options);
   CHECK(three.kept == 0);
   CHECK(kept.kept == 11);
-  options.store = &other;
+  store.emplace(file, "other", family.cycles);
   CHECK(study_family(family, {experiments[1]}, options).kept == 0);
   for (const FamilyExperiment& e : experiments)
     for (const FamilyStudy* study : {&three, &kept})

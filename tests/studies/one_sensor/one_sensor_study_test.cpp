@@ -102,7 +102,7 @@ TEST_CASE(
 
 TEST_CASE("the same bits on any number of threads, and from kept fits; a study can be stopped") {
   const TemporaryFolder folder;
-  const FitStore store(folder.path(), "test");
+  FitStore store(folder.path() / "fits.sqlite", "test");
   OneSensorOptions options = quick({kStatic, "bingham"});
   options.threads = 1;
   const OneSensorStudy one = study_one_sensor({small_damper()}, options);

@@ -45,8 +45,8 @@ TEST_CASE("a sampled car moves as the simulator moves it") {
   CHECK_CLOSE(follow_shares(car, range, holding, shares).value, simulated.tyre_force, 1e-3, 0);
 }
 
-TEST_CASE("without limits the certificate is the linear regulator's price") {
-  // A step of the road is a start away from rest: the price is that of the feedback which another
+TEST_CASE("without limits the certificate is the linear regulator's cost") {
+  // A step of the road is a start away from rest: the cost is that of the feedback which another
   // solver, by the Hamiltonian matrix, finds for endless time.
   const Plant plant = load_plant_set("tudon_martinez2012").plant;
   const double ms = 387, mu = 139.5, ks = 37300, kt = 295200, height = 0.03, holding = 1e-6;
@@ -64,7 +64,7 @@ TEST_CASE("without limits the certificate is the linear regulator's price") {
   const GroundPointer step = make_ground("step,height=3cm", 1);
   const SampledPlant car(plant, *step, 20, 1e-3);
   const RideIndex index{1, holding};
-  double x[4] = {-height, -height, 0, 0}, price = 0;
+  double x[4] = {-height, -height, 0, 0}, cost = 0;
   constexpr double kStep = 5e-5;
   for (int k = 0; k < 100000; ++k) {  // midpoint rule
     const auto rate = [&](const double* s, double* d) {
@@ -78,12 +78,12 @@ TEST_CASE("without limits the certificate is the linear regulator's price") {
     double d[4], middle[4];
     rate(x, d);
     for (int i = 0; i < 4; ++i) middle[i] = x[i] + 0.5 * kStep * d[i];
-    price += kStep * rate(middle, d);
+    cost += kStep * rate(middle, d);
     for (int i = 0; i < 4; ++i) x[i] += kStep * d[i];
   }
   const std::optional<double> least = certified_minimum(car, {}, index, {car.cells(), 0, {}});
   REQUIRE(least);
-  CHECK_CLOSE(*least, price, 1e-5, 0);
+  CHECK_CLOSE(*least, cost, 1e-5, 0);
 }
 
 TEST_CASE("with one damping there is one motion, and a narrow range lies close to it") {

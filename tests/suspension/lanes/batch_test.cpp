@@ -175,7 +175,7 @@ TEST_CASE("measures in lanes are those of the trace by simulate()") {
   CHECK_CLOSE(lanes.current, alone.measures.current, 1e-5, 0);
 }
 
-TEST_CASE("a result hangs neither on the number of threads nor on what else is in the batch") {
+TEST_CASE("a result depends neither on the number of threads nor on what else is in the batch") {
   const Fleet networks(network_damper({2, 10, 1}, {"velocity", "current"}), "mix1", 19),
       laws(spencer_damper(), "mix1", 7);
   std::vector<BatchVehicle> mixed;

@@ -1,7 +1,7 @@
 #include "dashpot/suspension/ride/ride_measures.h"
 
 #include "dashpot/suspension/ground/ground_sequences.h"
-#include "dashpot/suspension/simulated_run.h"
+#include "dashpot/suspension/ride/simulated_run.h"
 #include "support.h"
 
 using namespace dashpot;
@@ -47,7 +47,7 @@ TEST_CASE("a steady sine: comfort, tyre load, travel and energy in closed form")
   CHECK_CLOSE(value(run, "damper_force"), 2280 * speed * std::sqrt(2.0), 1e-3, 0);
 }
 
-TEST_CASE("the begin counts where the ground is not alike all along") {
+TEST_CASE("the start counts where the ground is not alike all along") {
   CHECK(usual_discard(*make_ground("iso8608,length=100", 1), 20) == 5);
   CHECK(usual_discard(*make_ground("iso8608,length=100", 1), 10) == 0);
   CHECK(usual_discard(*make_ground("step", 1), 20) == 0);
@@ -75,8 +75,8 @@ TEST_CASE(
       "earthquake,file=" + (folder / "el_centro_g.dat").string() + ",unit=g0,time_scale=0.2";
   // MODELS.md 8.5: displacement cm, drift cm, acceleration cm/s^2 of each floor; N. The passive
   // rows as an independent simulation has them with this record; the last one as published by Dyke
-  // et al. (recalled), whose LQG sees accelerations: ours feeds back the state, at prices that come
-  // near their peaks.
+  // et al. (recalled), whose LQG sees accelerations: ours feeds back the state, with weights that
+  // come near their peaks.
   const char* const optimal =
       "clipped_optimal,deflection=0,tyre_deflection=0,force=0.01,top_acceleration=1000";
   const struct {

@@ -98,7 +98,7 @@ TEST_CASE("the page of a ride has a section each for road, frequency and step") 
   CHECK(page.verdict.find("mix1: ") != std::string::npos);
 }
 
-TEST_CASE("with a bound the page tells what is possible, and no controller is beyond it" *
+TEST_CASE("with a bound the page shows what is possible, and no controller is beyond it" *
           doctest::test_suite("long")) {
   RideStudyOptions options = small_study();
   options.frequencies = {8};

@@ -96,7 +96,7 @@ TEST_CASE("a distribution that makes no sense is refused with file, line and wha
       {"{gauss: 400 kg}", "unknown key 'gauss'"},
       {"{from: 300 kg, to: 500 kg}", "unknown key 'from'"},
       {"[]", "no sprung_mass to choose from"},
-      {"400 kg", "tells not how sprung_mass varies"}};
+      {"400 kg", "does not say how sprung_mass varies"}};
   for (const auto& [yaml, part] : cases) {
     const std::string message = message_of([&] { read(yaml); });
     CAPTURE(message);

@@ -1,11 +1,10 @@
-#include "dashpot/suspension/sweep/request.h"
-
 #include <set>
 
 #include "dashpot/damper/kinds/law/law_model.h"
 #include "dashpot/damper/registry.h"
 #include "dashpot/model_file.h"
-#include "dashpot/suspension/sweep/inputs.h"
+#include "dashpot/suspension/sweep/draw.h"
+#include "dashpot/suspension/sweep/request_file.h"
 #include "support.h"
 
 using namespace dashpot;

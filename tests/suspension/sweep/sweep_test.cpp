@@ -3,11 +3,14 @@
 #include <atomic>
 #include <cstring>
 
+#include <SQLiteCpp/SQLiteCpp.h>
+
+#include "dashpot/base/file.h"
 #include "dashpot/error.h"
-#include "dashpot/identify/search/trial_store.h"
 #include "dashpot/suspension/ground/ground_sequences.h"
 #include "dashpot/suspension/ride/ride.h"
 #include "dashpot/suspension/ride/weighting.h"
+#include "dashpot/suspension/sweep/request_file.h"
 #include "support.h"
 
 using namespace dashpot;
@@ -141,10 +144,42 @@ TEST_CASE("another sweep's file is refused with what differs") {
   other = example(2);
   other.inputs.pop_back();
   CHECK(message(other).find("holds another sweep (inputs: ") != std::string::npos);
-  CHECK(message_of([&] { TrialStore(file, {}); }).find("holds no results of a search") !=
-        std::string::npos);
-  SweepStore::remove(file);
-  CHECK(!fs::exists(file));
+}
+
+TEST_CASE("a sweep that an older version kept is refused with what to do, and stays as it is") {
+  const TemporaryFolder folder;
+  const fs::path file = folder.path() / "sweep.sqlite";
+  {
+    SQLite::Database older(file.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
+    older.exec(
+        "PRAGMA application_id = 1146114888; PRAGMA user_version = 1;"
+        "CREATE TABLE sweep (name TEXT PRIMARY KEY, value TEXT NOT NULL) STRICT;"
+        "INSERT INTO sweep VALUES ('seed', '1');"
+        "CREATE TABLE ride (controller TEXT NOT NULL, vehicle INTEGER NOT NULL, travel REAL,"
+        " PRIMARY KEY (vehicle, controller)) STRICT, WITHOUT ROWID;"
+        "INSERT INTO ride VALUES ('skyhook', 0, 0.1);");
+  }
+  const std::string before = read_file(file);
+  CHECK(message_of([&] { run(example(2), file); }) ==
+        file.string() +
+            ": was written by an older version of Dashpot, which this one cannot read; give "
+            "another --output, or begin anew with --fresh");
+  CHECK(read_file(file) == before);
+}
+
+TEST_CASE("a damaged ride is made again in its place") {
+  const TemporaryFolder folder;
+  const fs::path file = folder.path() / "sweep.sqlite";
+  const SweepRequest request = example(2);
+  const Sweep whole = run(request, file);
+  {
+    SQLite::Database database(file.string(), SQLite::OPEN_READWRITE);
+    database.exec("UPDATE result SET bytes = x'00' WHERE key < '000000000001'");
+  }
+  const Sweep mended = run(request, file);
+  CHECK(mended.kept == 2);
+  CHECK(same_bits(whole, mended));
+  CHECK(run(request, file).kept == 4);
 }
 
 TEST_CASE("what does not fit together is told before anything rides") {

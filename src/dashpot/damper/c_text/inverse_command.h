@@ -5,12 +5,12 @@
  * that should flow.
  */
 
-/* What is no number becomes the least current. */
+/* The current held within the limits; a current that is no number becomes the least. */
 static inline double inverse_within(const InverseModel* m, double current) {
   return (current > inverse_least(m)) ? fmin(current, inverse_most(m)) : inverse_least(m);
 }
 
-/* Where the input is not finite, the present current. */
+/* The command. Where the input is not finite, it is the present current. */
 static inline double inverse_command(const InverseModel* m, const InverseInput* input,
                                      double* state) {
   const double held = inverse_within(m, input->current);

@@ -8,6 +8,7 @@
  * Its state: the model's own, room to try, and the last displacement, velocity and current.
  */
 
+/* Keeps the input until the next step, which starts from it. */
 static inline void observer_remember(const Observer* m, const DamperInput* input, double* state) {
   double* last = &state[2 * observed_states(m)];
   last[0] = input->displacement;
@@ -15,6 +16,7 @@ static inline void observer_remember(const Observer* m, const DamperInput* input
   last[2] = input->current;
 }
 
+/* State after a long rest at this input. */
 static inline void observer_rest(const Observer* m, const DamperInput* input, double* state) {
   observed_rest(m, input, state);
   observer_remember(m, input, state);
@@ -25,6 +27,8 @@ static inline void observer_follow(const Observer* m, const InverseInput* input,
   const double* last = &state[2 * observed_states(m)];
   int finite = 1, k;
   DamperInput before, now;
+
+  /* The step: from the last input that was remembered to the present one. */
   now.displacement = input->displacement;
   now.velocity = input->velocity;
   now.current = input->current;
@@ -32,8 +36,11 @@ static inline void observer_follow(const Observer* m, const InverseInput* input,
   before.velocity = last[1];
   /* A coil without lag jumped to its present current at the last command. */
   before.current = (observer_lags(m) != 0) ? last[2] : input->current;
+
   observed_advance(m, &before, &now, observer_step(m), state);
   observer_remember(m, &now, state);
+
+  /* A model that diverged starts anew. */
   for (k = 0; k < observed_states(m); ++k) {
     if (isfinite(state[k]) == 0) {
       finite = 0;
@@ -53,12 +60,16 @@ static inline double observer_force(const Observer* m, double current, const Inv
   from.displacement = input->displacement;
   from.velocity = input->velocity;
   from.current = current;
+
+  /* A horizon is tried on a copy of the model's state. */
   if (observer_horizon(m) > 0) {
     trial = &state[observed_states(m)];
     for (k = 0; k < observed_states(m); ++k) {
       trial[k] = state[k];
     }
   }
+
+  /* Over it the motion goes on at its present velocity, with the current held. */
   for (k = 0; k < observer_horizon(m); ++k) {
     DamperInput to = from;
     to.displacement += to.velocity * observer_step(m);

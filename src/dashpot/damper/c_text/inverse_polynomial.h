@@ -3,13 +3,14 @@
  * polynomial_pieces.h define, root_search.h with RootError as PolynomialError, and ROOT_TOLERANCE.
  */
 
-/* What the inverse knows beside the observer. */
+/* The numbers of the inverse itself, beside the observer's. */
 typedef struct PolynomialNumbers {
   int degree;
   double least, most; /* currents */
   double negligible;  /* N, less than which no current changes anything */
 } PolynomialNumbers;
 
+/* c: the force over s = 0 ... 1, from the least current to the most, through degree + 1 currents */
 static inline void polynomial_force(const Observer* m, const PolynomialNumbers* p,
                                     const InverseInput* input, double* state, double* c) {
   double f[4] = {0, 0, 0, 0};
@@ -20,13 +21,14 @@ static inline void polynomial_force(const Observer* m, const PolynomialNumbers* 
   polynomial_through(f, p->degree, c);
 }
 
-/* Of several currents that give the force, the least; where none does, the one that comes nearest;
- * where current has no effect, the present one. */
+/* The current that gives the wanted force: the least of several; where none does, the one that
+ * comes nearest; where current has no effect, the present one. */
 static inline double polynomial_wanted(const Observer* m, const PolynomialNumbers* p,
                                        const InverseInput* input, double* state) {
   PolynomialError error;
   double places[4];
   FirstRoot found;
+
   observer_follow(m, input, state);
   polynomial_force(m, p, input, state, error.c);
   error.wanted = input->wanted;

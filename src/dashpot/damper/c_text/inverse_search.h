@@ -3,7 +3,7 @@
  * SearchError.
  */
 
-/* What the search knows beside the observer. */
+/* The numbers of the search itself, beside the observer's. */
 typedef struct SearchNumbers {
   double least, most; /* currents */
   double negligible;  /* N, less than which no current changes anything */
@@ -39,6 +39,9 @@ static inline double search_wanted(const Observer* m, const SearchNumbers* p,
       done = 1;
     }
   }
+
+  /* Else over the whole range: the first of its parts in which the force is met. own[1] keeps the
+   * side for the next search. */
   if (done == 0) {
     double places[SEARCH_CELLS + 1];
     FirstRoot found;

@@ -13,11 +13,14 @@ static inline int law_own_steps(const LawModel* m, const LawPath* path, int coun
     const double t = k * h;
     double x[2], v[2];
     LawParameters middle;
+
+    /* One set of parameters serves the whole step: that of its middle. */
     law_parameters(m, law_path_current(path, t + h / 2), &middle);
     x[0] = path->x + path->x_slope * t;
     x[1] = path->x + path->x_slope * (t + h);
     v[0] = path->v + path->v_slope * t;
     v[1] = path->v + path->v_slope * (t + h);
+
     done = law_own_step(m, &middle, x, v, h, z);
   }
   return done;
@@ -36,12 +39,16 @@ static inline void law_explicit_steps(const LawModel* m, const LawPath* path,
   for (k = 0; k < count; ++k) {
     const double t = k * h;
     double x[3], v[3];
+
+    /* Motion at the step's start, middle and end. */
     x[0] = path->x + path->x_slope * t;
     x[1] = path->x + path->x_slope * (t + h / 2);
     x[2] = path->x + path->x_slope * (t + h);
     v[0] = path->v + path->v_slope * t;
     v[1] = path->v + path->v_slope * (t + h / 2);
     v[2] = path->v + path->v_slope * (t + h);
+
+    /* Parameters there. The end's serve the next step as its start, so two sets take turns. */
     if (path->varies != 0) {
       LawParameters* end = &ends[k % 2];
       law_parameters(m, law_path_current(path, (k + 0.5) * h), &middle);
@@ -49,6 +56,7 @@ static inline void law_explicit_steps(const LawModel* m, const LawPath* path,
       stages[1] = &middle;
       stages[2] = end;
     }
+
     law_explicit_step(m, stages, x, v, h, z);
     stages[0] = stages[2];
   }
@@ -66,10 +74,14 @@ static inline void law_integrate(const LawModel* m, const LawPath* path, double*
   const double many_steps = 3, own_step_ratio = 6;
   const int exact = law_own_step_is_exact(m);
   int done = 0;
+
+  /* An exact step needs no smaller ones while the parameters stay. */
   if ((exact != 0) && (path->varies == 0)) {
     done = law_own_steps(m, path, 1, z);
   }
+
   if (done == 0) {
+    /* The fastest rate at either end of the step decides how many steps are wanted. */
     const double top_speed = fmax(fabs(path->v), fabs(path->v + path->v_slope * path->dt));
     double rate, wanted;
     LawParameters start, end;
@@ -79,7 +91,10 @@ static inline void law_integrate(const LawModel* m, const LawPath* path, double*
       law_parameters(m, law_path_current(path, path->dt), &end);
       rate = fmax(rate, law_rate(m, &end, top_speed));
     }
+
     wanted = ceil(rate * path->dt / step_limit);
+
+    /* The law's own step where many are wanted; explicit ones else, or where the law declines. */
     if (wanted > ((exact != 0) ? 1 : many_steps)) {
       const int count = (exact != 0) ? 1 : 1 + (int)ceil(fmin(wanted, most_steps) / own_step_ratio);
       done = law_own_steps(m, path, count, z);

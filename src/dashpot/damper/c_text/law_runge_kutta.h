@@ -9,11 +9,15 @@ static inline void law_runge_kutta(const LawParameters* const* p, const double* 
   double k4[LAW_MOST_STATES] = {0}, trial[LAW_MOST_STATES];
   const double half = h / 2;
   int k;
+
+  /* Slopes at the start, twice in the middle, and at the end. */
   law_derivative(p[0], x[0], v[0], z, k1);
+
   for (k = 0; k < count; ++k) {
     trial[k] = z[k] + half * k1[k];
   }
   law_derivative(p[1], x[1], v[1], trial, k2);
+
   for (k = 0; k < count; ++k) {
     trial[k] = z[k] + half * k2[k];
   }

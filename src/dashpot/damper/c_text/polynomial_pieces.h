@@ -1,6 +1,7 @@
 /* c[0] + c[1] s + c[2] s^2 + c[3] s^3 over s = 0 ... 1, as C99 text that the library takes in and
  * the C export ships. */
 
+/* The polynomial at s. */
 static inline double polynomial_at(const double* c, double s) {
   return c[0] + (s * (c[1] + (s * (c[2] + (s * c[3])))));
 }
@@ -12,6 +13,8 @@ static inline void polynomial_through(const double* f, int degree, double* c) {
   c[1] = d1;
   c[2] = 0;
   c[3] = 0;
+
+  /* The divided differences d1, d2 and d3 as they are there for each degree. */
   if (degree == 2) {
     const double d2 = f[2] - (2 * f[1]) + f[0];
     c[1] = n * (d1 - (d2 / 2));
@@ -25,8 +28,8 @@ static inline void polynomial_through(const double* f, int degree, double* c) {
   }
 }
 
-/* Where its slope vanishes within (0, 1), with 0 and 1: increasing, four at most. Returns how many.
- */
+/* The places within (0, 1) where the slope vanishes, between 0 and 1: increasing, at most four.
+ * Returns how many. */
 static inline int monotone_pieces(const double* c, double* places) {
   const double a = 3 * c[3], b = 2 * c[2], root = (b * b) - (4 * a * c[1]);
   int count = 1;

@@ -64,6 +64,7 @@ void require_usable(const InverseNetwork& network, const std::string& where) {
                       std::string(name_of(tap.signal)),
                   std::to_string(least) + " to " + std::to_string(InverseNetwork::kMostDelay));
   }
+
   if (!(spacing >= 1e-5 && spacing <= 1))
     throw Error(where, "its step is not between 1e-5 and 1 s");
   if (!is_range(current_min, current_max)) throw Error(where, "its currents are no range");
@@ -83,6 +84,8 @@ HistoryNetwork::HistoryNetwork(InverseNetwork network, const InverseLimits& limi
     throw Error(network_.name, "was taught currents of " + format_number(network_.current_min) +
                                    " ... " + format_number(network_.current_max) +
                                    ", none of which the driver gives");
+
+  // Where each tap lies in the state, which keeps one row of signals per sample, newest first.
   const std::size_t stride = network_.stride(limits.sample_time);
   for (const Tap& tap : network_.taps) {
     const std::size_t row = static_cast<std::size_t>(tap.delay) * stride;
@@ -99,11 +102,15 @@ void HistoryNetwork::rest(const DamperInput& input, std::span<double> state) con
 double HistoryNetwork::wanted_current(const InverseInput& input,
                                       std::span<double> state) const noexcept {
   std::copy_backward(state.begin(), state.end() - kSignals, state.end());
+
   const double last = state[kSignals + kCurrent];
   const std::array row{input.displacement, input.velocity, input.wanted, last};
   std::ranges::copy(row, state.begin());
+
   std::array<double, Mlp::kMaxWidth> inputs;
   for (std::size_t k = 0; k < places_.size(); ++k) inputs[k] = state[places_[k]];
+
+  // Within the currents that it was taught, and no further from the last one than the rate allows.
   double current = evaluator_.evaluate(inputs.data());
   current = current > low_ ? std::min(current, high_) : low_;  // NaN becomes the least
   return state[kCurrent] = std::clamp(current, last - most_change_, last + most_change_);

@@ -21,7 +21,8 @@ std::string_view name_of(Tap::Signal signal);
 /// Throws Error with the names that there are.
 Tap::Signal tap_signal_named(std::string_view name, const std::string& where);
 
-/// A network from motion, wanted force and its own past currents to the current.
+/// A network from motion, wanted force and its own past currents to the current, and the domain
+/// that it was taught over. Plain data; HistoryNetwork runs it.
 struct InverseNetwork {
   static constexpr int kMostDelay = 100;
 
@@ -41,8 +42,9 @@ struct InverseNetwork {
 /// Throws Error(where, ...) on taps, numbers or a shape that no network can have.
 void require_usable(const InverseNetwork& network, const std::string& where);
 
-/// The network at work, in free run on its own past answers. Never NaN: input that is not finite is
-/// not looked at, and what overflows gives the least current.
+/// An InverseNetwork at work, in free run on its own past answers. Its state holds the four signals
+/// of so many past samples, newest first: kSignals numbers a row. Never NaN: input that is not
+/// finite is not looked at, and what overflows gives the least current.
 class HistoryNetwork final : public InverseModel {
  public:
   /// Throws Error where the network is not usable, the sample time cannot serve its delays, or its

@@ -16,7 +16,7 @@ struct InverseText {
 
 namespace {
 
-// What the C text asks for.
+// The functions that the C text below calls.
 
 inline double inverse_least(const InverseModel* m) { return m->limits().current_min; }
 inline double inverse_most(const InverseModel* m) { return m->limits().current_max; }

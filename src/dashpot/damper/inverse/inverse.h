@@ -7,7 +7,7 @@
 
 namespace dashpot {
 
-/// What a controller knows at the instant at which it commands.
+/// The state of damper and controller at the instant of a command.
 struct InverseInput {
   double wanted = 0;        ///< N, the force wanted at this motion
   double displacement = 0;  ///< m, extension positive
@@ -16,7 +16,7 @@ struct InverseInput {
   double measured = 0;      ///< N, the force now; only schemes with feedback look at it
 };
 
-/// What every inverse must know of the coil and of its own clock.
+/// Range of the current, and the clocks of controller and coil.
 struct InverseLimits {
   double current_min = 0, current_max = 1;  ///< A (or V)
   double sample_time = 1e-3;                ///< s between two commands
@@ -27,8 +27,9 @@ struct InverseLimits {
   double lag_rate = 0;
 };
 
-/// Wanted force in, current out: of equal rank to DamperModel. The description is immutable; the
-/// state is a flat array of the caller's.
+/// From a wanted force to the current that gives it: of equal rank to DamperModel. The description
+/// is immutable and may be shared by threads; the state is a flat array of the caller's,
+/// state_size() numbers, set by rest(). One command() per sample_time.
 class InverseModel {
  public:
   /// Throws Error when the limits are no range or the sample time is not above 0.
@@ -41,7 +42,7 @@ class InverseModel {
   virtual void rest(const DamperInput&, std::span<double>) const noexcept {}
 
   /// Current to command now, A, always within the limits. Where the input is not finite, it is the
-  /// present current. Allocates nothing.
+  /// present current. Allocates nothing and throws nothing.
   double command(const InverseInput& input, std::span<double> state) const noexcept;
 
   const InverseLimits& limits() const { return limits_; }

@@ -42,11 +42,13 @@ InverseNetwork read_network(const Value& value, double sample_time, const Domain
                          .current_max = domain.current_max,
                          .rate_max = 0,
                          .mlp = {}};
+
   for (const Value& item : reader.required("inputs").items())
     network.taps.push_back(read_tap(item));
   network.rate_max = reader.number("rate_max", 0);
   network.mlp = read_mlp(reader);
   reader.finish();
+
   require_usable(network, value.where());
   return network;
 }
@@ -72,11 +74,13 @@ InverseFile parse_inverse(std::string_view text, const std::string& source) {
   file.drive_unit = read_drive_unit(reader);
   const double sample_time = reader.number("sample_time");
   file.domain = read_domain(reader.required("domain"), file.drive_unit);
+
   file.network = read_network(reader.required("network"), sample_time, file.domain);
   if (const Value* quality = reader.optional("quality")) {
     ObjectReader(*quality, "the quality");  // any keys, but a mapping
     file.quality = *quality;
   }
+
   file.provenance = read_provenance(reader.required("provenance"));
   reader.finish();
   return file;

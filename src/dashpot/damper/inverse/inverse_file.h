@@ -11,8 +11,8 @@ namespace dashpot {
 
 /// An inverse network with all that must travel with it: a versioned JSON file.
 struct InverseFile {
-  InverseNetwork
-      network;  ///< its spacing stands in the file as the sample time, its currents as the domain's
+  /// Its spacing stands in the file as the sample time, its currents as the domain's.
+  InverseNetwork network;
   DriveUnit drive_unit = DriveUnit::Ampere;
   Domain domain;  ///< of what it was taught
   Provenance provenance;

@@ -23,8 +23,10 @@ BenchTest noise_test(const MotionRange& range, const InverseLimits& limits, std:
   Random random(seed);
   const auto motion = std::make_shared<RandomSignal>(random, 0, range.frequency);
   const auto drive = std::make_shared<RandomSignal>(random, 0, kCurrentBand);
+
   const double sigma = range.amplitude / 2, low = limits.current_min;
   const double half = 0.5 * (limits.current_max - limits.current_min);
+
   BenchTest test;
   test.name = test.condition = "noise";
   test.motion.duration = kDuration;
@@ -72,14 +74,20 @@ InverseRun run_on_model(const DamperModel& forward, const std::string& name,
       .name = name, .sample_time = limits.sample_time, .inputs = inputs, .force = {}, .weight = {}};
   std::vector<double> state(observer.state_size());
   observer.rest(inputs.front(), state);
+
   for (std::size_t k = 0; k < inputs.size(); ++k) {
+    // Bring the model's states to this sample.
     const auto& [x, v, i] = inputs[k];
     const InverseInput now{0, x, v, i, 0};
     if (k > 0) observer.follow(now, state);
+
+    // Slope of the force over the current: between two currents on either side of the present one,
+    // both within the limits.
     const double least = std::max(i - nudge, limits.current_min);
     const double most = std::max(std::min(i + nudge, limits.current_max), least + nudge);
     const double slope =
         (observer.force(most, now, state) - observer.force(least, now, state)) / (most - least);
+
     run.force.push_back(observer.force(i, now, state));
     run.weight.push_back(slope * slope);
     if (!std::isfinite(run.force.back() + run.weight.back()))

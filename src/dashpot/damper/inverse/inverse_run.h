@@ -7,7 +7,8 @@
 
 namespace dashpot {
 
-/// What a damper did, at equal steps of time: what an inverse is taught with.
+/// A damper's motion, current and force at equal steps of time: the examples that an inverse is
+/// taught with.
 struct InverseRun {
   std::string name;
   double sample_time = 1e-3;        ///< s
@@ -17,11 +18,11 @@ struct InverseRun {
   std::size_t size() const { return inputs.size(); }
 };
 
-/// How far and how fast a damper is moved to teach or to judge an inverse.
+/// The range of motion over which an inverse is taught or judged.
 struct MotionRange {
   double amplitude = 0.02;  ///< m
-  double frequency =
-      3;  ///< Hz, highest of a random motion with twice its deviation as the amplitude
+  /// Hz, the highest of a random motion, whose standard deviation is half the amplitude.
+  double frequency = 3;
   double speed() const;  ///< m/s, what such a motion hardly exceeds
 };
 
@@ -30,8 +31,8 @@ struct MotionRange {
 std::vector<BenchTest> teaching_tests(const MotionRange& range, const InverseLimits& limits,
                                       std::uint64_t seed);
 
-/// What the model gives along inputs at equal steps of limits.sample_time, without its coil's lag.
-/// Where only its states feel the current, the force is the one at the Observer's horizon. A sample
+/// Runs the model along inputs at equal steps of limits.sample_time, without its coil's lag. Where
+/// only its states feel the current, the force is the one at the Observer's horizon. A sample
 /// weighs (dF/di)^2, so that an error of the current counts as the error of the force that it
 /// makes: next to nothing where the motion turns. Throws Error when the model diverges.
 InverseRun run_on_model(const DamperModel& forward, const std::string& name,

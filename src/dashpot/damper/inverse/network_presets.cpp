@@ -24,14 +24,14 @@ std::vector<Tap> joined(std::initializer_list<std::vector<Tap>> rows) {
 }
 
 std::vector<InverseNetworkPreset> make_presets() {
+  // All of one size, so that a comparison of them is one of their inputs.
   return {
       {.name = "chang_zhou",
        .title = "Motion, wanted force and its own past current",
        .equation = "i(k) = net(x(k), x(k-1), v(k), v(k-1), f(k), f(k-1), i(k-1)),  7-14-1, tanh",
        .source = "after Chang, Zhou 2002, J. Structural Engineering 128(2), 231-239",
        .remarks = "The kinds of inputs are those of the source as recalled, delays and size are "
-                  "ours; nothing "
-                  "is pruned.",
+                  "ours; nothing is pruned.",
        .taps = joined({taps(Displacement, 0, 1), taps(Velocity, 0, 1), taps(Force, 0, 1),
                        taps(Current, 1, 1)}),
        .hidden = {14}},
@@ -48,8 +48,7 @@ std::vector<InverseNetworkPreset> make_presets() {
        .source = "after Metered, Bonello, Oyadiji 2010, Mechanical Systems and Signal Processing "
                  "24(3), 676-694",
        .remarks = "The kinds of inputs are those of the source as recalled, delays and size are "
-                  "ours. Past "
-                  "displacements stand for the velocity.",
+                  "ours. Past displacements stand for the velocity.",
        .taps = joined({taps(Displacement, 0, 3), taps(Force, 0, 3), taps(Current, 1, 2)}),
        .hidden = {14}},
       {.name = "one_sensor",

@@ -15,7 +15,7 @@ struct InverseNetworkPreset {
   std::vector<std::size_t> hidden;  ///< neurons per hidden layer, tanh
 };
 
-/// All of them, in alphabetical order.
+/// All presets, in alphabetical order.
 std::span<const InverseNetworkPreset> inverse_network_presets();
 std::vector<std::string> inverse_network_names();
 /// Throws Error "unknown inverse network 'zhou'; did you mean ...; known: ...".

@@ -11,7 +11,7 @@ struct SearchError {
   double* state;
 };
 
-// What the C texts ask for.
+// The functions that the C texts below call.
 
 using RootError = SearchError;
 inline double root_error(const RootError* e, double current) {

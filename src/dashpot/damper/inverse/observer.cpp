@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kMostSteps = 64;  // of a horizon
 
-// What the C text asks for.
+// The functions that the C text below calls.
 
 inline int observed_states(const Observer* m) { return static_cast<int>(m->model().state_size()); }
 inline double observer_step(const Observer* m) { return m->limits().sample_time; }
@@ -53,6 +53,7 @@ Observer::Observer(const DamperModel& model, const InverseLimits& limits)
     force_max_ = std::max({force_max_, std::abs(low), std::abs(high)});
     effect_ = std::max(effect_, std::abs(high - low));
   });
+
   // Where the effect of a held current still grows as the square of time, a command aimed at a
   // shorter horizon would swing from limit to limit.
   constexpr double kSettling = 0.4;
@@ -67,6 +68,8 @@ Observer::Observer(const DamperModel& model, const InverseLimits& limits)
     }
     here = later;
   }
+
+  // The greatest effect of the current over that horizon.
   if (steps_ > 0)
     probe([&](const InverseInput& input, std::span<double> state) {
       effect_ = std::max(effect_, std::abs(force(limits_.current_max, input, state) -
@@ -96,11 +99,14 @@ void Observer::probe(
   constexpr double w = 2 * std::numbers::pi * kFrequency;
   const double h = 1.5 / kFrequency / kSteps,
                half = 0.5 * (limits_.current_min + limits_.current_max);
+
   std::vector<double> state(state_size());
   const auto at = [&](int k) {
     return DamperInput{-kAmplitude * std::cos(w * k * h), kAmplitude * w * std::sin(w * k * h),
                        half};
   };
+
+  // Run the model from rest at one end of the stroke, and visit equally spaced instants.
   rest(at(0), state);
   for (int k = 0; k < kSteps; ++k) {
     model_->advance(at(k), at(k + 1), h, std::span(state).first(model_->state_size()));

@@ -12,10 +12,14 @@ struct BareDamper {
   std::unique_ptr<DamperModel> model;
   double lag_rate = 0;  ///< 1/s, what was taken off
 };
+/// A copy of the model without that lag and without its force offset.
 BareDamper without_coil_lag(const DamperModel& model);
 
-/// Follows a damper in free run, and answers what its force would be at another current. Its state
-/// begins with the model's own.
+/// Follows a damper in free run, and answers what its force would be at another current. All
+/// inverses that know a forward model stand on it.
+///
+/// The state, state_size() numbers of the caller's: the model's own, room of the same size to try,
+/// and the last displacement, velocity and current. Immutable after construction.
 class Observer {
  public:
   /// The model without its coil's lag; where that still needs time to answer to the current (only

@@ -16,7 +16,7 @@ struct PolynomialError {
   double wanted;
 };
 
-// What the C texts ask for.
+// The functions that the C texts below call.
 
 #include "dashpot/damper/c_text/polynomial_pieces.h"
 
@@ -59,11 +59,14 @@ PolynomialInverse::PolynomialInverse(const DamperModel& forward, const InverseLi
 /// it.
 double PolynomialInverse::misfit() const {
   constexpr int kPlaces = 13;
+
   double largest = 0;
   const PolynomialNumbers numbers = numbers_of(*this);
   observer_.probe([&](const InverseInput& input, std::span<double> state) {
     double c[kMaxDegree + 1];
     polynomial_force(&observer_, &numbers, &input, state.data(), c);
+
+    // Compare at 13 currents, which are none of those that the polynomial goes through.
     for (int k = 0; k < kPlaces; ++k) {
       const double s = (k + 0.5) / kPlaces;
       const double current =

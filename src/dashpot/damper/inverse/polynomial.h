@@ -5,9 +5,10 @@ namespace dashpot {
 
 /// The inverse in closed form of every law whose force, at a given motion and state, is a
 /// polynomial of the current, up to the third degree: Bingham, hyperbolic tangent,
-/// semi-phenomenological, polynomial, LuGre, as far as their parameters' dependence allows it. The
-/// polynomial is read off the law itself, at one current more than its degree, so that no equation
-/// is written twice. Of several currents that give the force, the least; otherwise as
+/// semi-phenomenological, polynomial, LuGre, as far as their parameters' dependence allows it.
+///
+/// The polynomial is read off the law itself, at one current more than its degree, so that no
+/// equation is written twice. Of several currents that give the force, the least; otherwise as
 /// NumericInverse.
 class PolynomialInverse final : public InverseModel {
  public:
@@ -23,7 +24,7 @@ class PolynomialInverse final : public InverseModel {
   }
   int degree() const { return degree_; }
   const Observer& observer() const { return observer_; }
-  /// N, less than which no current changes anything.
+  /// Forces that differ by less, N, count as equal: no current changes anything.
   double negligible() const { return 1e-6 * observer_.current_effect(); }
 
  protected:

@@ -5,7 +5,8 @@
 
 namespace dashpot {
 
-/// Band-limited noise as a sum of sines: mean 0, variance 1, with its exact derivative.
+/// Band-limited noise as a sum of 16 sines of equal amplitude, one from each of equal bands: mean
+/// 0, variance 1, with its exact derivative. The same random numbers give the same signal.
 class RandomSignal {
  public:
   /// Frequencies between low and high, Hz.

@@ -28,7 +28,7 @@ Inverse make_model(const DamperModel& forward, const InverseLimits& limits) {
   return std::make_unique<Model>(forward, limits);
 }
 
-/// A preset's network, taught on the model in a moment.
+/// Teaches a preset's network on the model, in about a second: the caller waits for it.
 Inverse make_network(std::string_view preset, std::string_view name, const DamperModel& forward,
                      const InverseLimits& limits) {
   InverseTraining training;
@@ -39,10 +39,13 @@ Inverse make_network(std::string_view preset, std::string_view name, const Dampe
       limits.sample_time * std::max(1.0, std::round(training.spacing / limits.sample_time));
   training.current_min = limits.current_min;
   training.current_max = limits.current_max;
+
+  // Two sets of runs, the second from other random numbers, to judge by.
   std::vector<InverseRun> runs[2];
   for (const std::size_t part : {0, 1})
     for (const BenchTest& test : teaching_tests({}, limits, training.seed + part))
       runs[part].push_back(run_on_model(forward, test, limits));
+
   TaughtInverse taught = train_inverse(find_inverse_network(preset), runs[0], runs[1], training);
   taught.network.name = name;
   return std::make_unique<HistoryNetwork>(std::move(taught.network), limits);

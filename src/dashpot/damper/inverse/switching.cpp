@@ -32,6 +32,7 @@ std::string SwitchingInverse::name() const { return kNames[static_cast<std::size
 double SwitchingInverse::wanted_current(const InverseInput& input,
                                         std::span<double>) const noexcept {
   double share = 0;  // of the current range
+
   switch (rule_) {
     case Rule::ClippedOptimal:
       share = clipped_optimal_share(&input, force_max_);

@@ -19,6 +19,7 @@ std::size_t first_sample(const InverseNetwork& network, const InverseRun& run) {
   return static_cast<std::size_t>(longest) * network.stride(run.sample_time);
 }
 
+/// A signal of a run at sample k; `fed` holds the currents that count as its past answers.
 double signal_of(const InverseRun& run, std::size_t k, Tap::Signal signal,
                  const std::vector<double>& fed) {
   switch (signal) {
@@ -86,6 +87,7 @@ std::pair<double, double> moments(const std::vector<double>& values, std::size_t
   return {mean, scale > 0 ? scale : 1};
 }
 
+/// Sets the network's scales from its training samples.
 void standardise(Mlp& mlp, const TrainingSamples& samples) {
   const std::size_t inputs = mlp.layers.front();
   mlp.input_mean.clear();
@@ -98,6 +100,7 @@ void standardise(Mlp& mlp, const TrainingSamples& samples) {
   std::tie(mlp.output_mean, mlp.output_scale) = moments(samples.targets, 0, 1);
 }
 
+/// The preset's network without weights.
 InverseNetwork untrained(const InverseNetworkPreset& preset, const InverseTraining& options) {
   InverseNetwork network{.name = std::string(preset.name),
                          .taps = preset.taps,
@@ -111,6 +114,7 @@ InverseNetwork untrained(const InverseNetworkPreset& preset, const InverseTraini
   return network;
 }
 
+/// The currents of the runs themselves.
 Currents true_currents(std::span<const InverseRun> runs) {
   Currents rows;
   for (const InverseRun& run : runs) {
@@ -120,6 +124,7 @@ Currents true_currents(std::span<const InverseRun> runs) {
   return rows;
 }
 
+/// The network's own currents along the runs, in free run.
 Currents all_answers(const InverseNetwork& network, std::span<const InverseRun> runs) {
   Currents rows;
   for (const InverseRun& run : runs) rows.push_back(answers(network, run));
@@ -158,12 +163,16 @@ TaughtInverse train_inverse(const InverseNetworkPreset& preset,
                             std::span<const InverseRun> left_out, const InverseTraining& options) {
   InverseNetwork network = untrained(preset, options);
   Currents fed = true_currents(training), fed_left_out = true_currents(left_out);
+
   TaughtInverse best;
   for (int round = 0; round < (network.feeds_back() ? 1 + options.rounds : 1); ++round) {
+    // Train on one step ahead: the past currents are the true ones in the first round, then those
+    // that the network itself gave.
     const TrainingSamples samples = drawn(network, training, fed, options, options.samples);
     const TrainingSamples others =
         drawn(network, left_out, fed_left_out, options, options.samples / 3);
     if (round == 0) standardise(network.mlp, samples);
+
     TrainOptions train_options;
     train_options.max_iterations = options.iterations;
     train_options.weight_decay = options.weight_decay;
@@ -173,6 +182,7 @@ TaughtInverse train_inverse(const InverseNetworkPreset& preset,
     train_options.on_iteration = [&](int, double) { options.monitor.check(); };
     train(network.mlp, samples, train_options);
 
+    // Judge in free run, which also gives the next round its currents.
     fed = all_answers(network, training);
     fed_left_out = all_answers(network, left_out);
     const double error = weighted_error(left_out, fed_left_out);

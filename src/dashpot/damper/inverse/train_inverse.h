@@ -7,13 +7,14 @@
 
 namespace dashpot {
 
-/// How a network is taught to invert a damper.
+/// Settings for teaching a network to invert a damper.
 struct InverseTraining {
   double spacing = 5e-3;  ///< s between two delays
   double current_min = 0, current_max = 1;
   std::size_t samples = 6000;  ///< drawn from all runs in proportion to their weights
-  double least_weight =
-      0.02;  ///< of the mean one: where the current makes no difference, it keeps in order
+  /// Least weight of a sample, as a share of the mean weight: it keeps the answers in order where
+  /// the current makes no difference.
+  double least_weight = 0.02;
   double weight_decay = 1e-6;
   int iterations = 150;  ///< of Levenberg-Marquardt, per round
   /// Beyond the first: with the fed-back currents that the network itself gave along the runs. The

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kTwoPi = 2 * std::numbers::pi;
 
-/// As many samples as the options ask for, x and v from at(t).
+/// Makes as many samples as the options ask for, x and v from at(t).
 template <class At>
 Motion sampled(const MotionOptions& options, At at) {
   constexpr double kMostSamples = 1e7;
@@ -21,11 +21,13 @@ Motion sampled(const MotionOptions& options, At at) {
   for (const double value : {amplitude, frequency, duration, sample_time})
     if (!(value > 0 && std::isfinite(value)))
       throw Error("motion", "amplitude, frequency, duration and sample time must be above 0");
+
   const double samples = std::floor(duration / sample_time) + 1;
   if (!(samples <= kMostSamples))
     throw Error(
         "motion", "it would have " + format_number(samples) + " samples",
         "at most " + format_number(kMostSamples) + ": a shorter one or a lower sample rate");
+
   Motion motion;
   motion.sample_time = sample_time;
   for (double k = 0; k < samples; ++k) {
@@ -36,6 +38,7 @@ Motion sampled(const MotionOptions& options, At at) {
   return motion;
 }
 
+/// The damper's force along the motion with the current held, N, one per sample.
 std::vector<double> force_at_held_current(const DamperModel& damper, const Motion& motion,
                                           double current) {
   const auto at = [&](std::size_t k) {

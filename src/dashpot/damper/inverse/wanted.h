@@ -15,7 +15,7 @@ struct Motion {
   std::size_t size() const { return displacement.size(); }
 };
 
-/// How a motion is made.
+/// Size, duration and sampling of a motion.
 struct MotionOptions {
   double amplitude = 0.02;    ///< m; of a random motion twice its standard deviation
   double frequency = 1;       ///< Hz; of a random motion the highest
@@ -23,7 +23,8 @@ struct MotionOptions {
   double sample_time = 1e-3;  ///< s
   std::uint64_t seed = 1;
 };
-/// Both throw Error on a size that makes no sense or more than 1e7 samples.
+/// A sine from the lowest displacement on, and band-limited noise from the seed. Both throw Error
+/// on a size that makes no sense or on more than 1e7 samples.
 Motion sine_motion(const MotionOptions& options);
 Motion random_motion(const MotionOptions& options);
 
@@ -32,7 +33,7 @@ Motion random_motion(const MotionOptions& options);
 std::vector<double> admissible_force(const DamperModel& damper, const Motion& motion,
                                      const InverseLimits& limits, double band, std::uint64_t seed);
 
-/// amplitude sin(2 pi frequency t).
+/// The force amplitude sin(2 pi frequency t), N, one per sample of the motion.
 std::vector<double> sine_force(double amplitude, double frequency, const Motion& motion);
 
 }  // namespace dashpot

@@ -10,13 +10,11 @@ const Law kBingham = static_law<Bingham, bingham_force>({
     .title = "Bingham",
     .equation = "F = c0 v + f_c sgn(v) + f0",
     .source = "Stanway, Sproston, Stevens 1987, J. Electrostatics 20, 167-184; defaults: example "
-              "values of the "
-              "fixed-voltage fit in Spencer et al. 1997, recalled, not verified",
+              "values of the fixed-voltage fit in Spencer et al. 1997, recalled, not verified",
     .remarks =
-        "Two parameters that matter, no hysteresis: the low-speed loop is missing. sgn(0) = 0. "
-        "v_s > 0 replaces sgn(v) by tanh(v / v_s) for solvers that need a smooth force; it is not "
-        "in the "
-        "source and not fitted.",
+        "Two parameters that matter, no hysteresis: the low-speed loop is missing. sgn(0) = 0. v_s "
+        "> 0 replaces sgn(v) by tanh(v / v_s) for solvers that need a smooth force; it is not in "
+        "the source and not fitted.",
     .states = {},
     .params =
         {

@@ -10,13 +10,11 @@ const Law kBiviscous = static_law<Biviscous, biviscous_force>({
     .title = "Biviscous",
     .equation = "F = C_pr v held between C_po v - F_y and C_po v + F_y, + f0",
     .source = "Stanway, Sproston, El-Wahed 1996, Smart Mater. Struct. 5, 464-482, form recalled; "
-              "defaults: an "
-              "example of our own",
+              "defaults: an example of our own",
     .remarks =
         "Bingham with a steep line in place of the jump; no hysteresis. The knee is at v_y = F_y / "
-        "(C_pr - "
-        "C_po). C_pr > C_po is meant, not needed: the force is finite, continuous and dissipative "
-        "without it.",
+        "(C_pr - C_po). C_pr > C_po is meant, not needed: the force is finite, continuous and "
+        "dissipative without it.",
     .states = {},
     .params =
         {

@@ -16,10 +16,9 @@ const Law kBoucWen = with_travel<BoucWen, bouc_wen_travel>(
             "defaults: its fixed-voltage fit, recalled, not verified, with x0 = 0",
         .remarks =
             "z has no scale of its own: of alpha, A, gamma and beta only three numbers are "
-            "independent, so A "
-            "keeps its value in a fit, as do n and x0 (k0 x0 is a constant force, which f0 holds). "
-            "The force "
-            "does not roll off at low speed as a damper's does: modified_bouc_wen adds that.",
+            "independent, so A keeps its value in a fit, as do n and x0 (k0 x0 is a constant "
+            "force, which f0 holds). The force does not roll off at low speed as a damper's does: "
+            "modified_bouc_wen adds that.",
         .states = {{"z", "m"}},
         .params =
             {

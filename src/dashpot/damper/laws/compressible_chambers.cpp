@@ -14,18 +14,12 @@ const Law kCompressibleChambers = with_step<CompressibleChambers, compressible_c
                     "N(G) = G (1 - f_y / G)^2 (1 + f_y / (2 G)) for G > f_y, else 0\n"
                     "F = k e + f_f sgn(v) + f0",
         .source = "Flow balance of two chambers, after J. Intell. Mater. Syst. Struct. 2014, "
-                  "10.1177/1045389X13500576 "
-                  "(abstract only); gap: Phillips 1969; defaults: 0.5 GPa in two chambers of 100 "
-                  "cm^3, else the "
-                  "example of "
-                  "plate_bingham",
+                  "10.1177/1045389X13500576 (abstract only); gap: Phillips 1969; defaults: 0.5 GPa "
+                  "in two chambers of 100 cm^3, else the example of plate_bingham",
         .remarks = "The first-principles model with hysteresis: the fluid's compression is a "
-                   "spring in series with the "
-                   "gap. "
-                   "k = 2 beta A^2 / V holds the bulk modulus with the air in the fluid. Equal and "
-                   "constant chambers; "
-                   "e is the stroke that compression has taken up. Its limit without viscosity is "
-                   "elastoplastic.",
+                   "spring in series with the gap. k = 2 beta A^2 / V holds the bulk modulus with "
+                   "the air in the fluid. Equal and constant chambers; e is the stroke that "
+                   "compression has taken up. Its limit without viscosity is elastoplastic.",
         .states = {{"e", "m"}},
         .params =
             {

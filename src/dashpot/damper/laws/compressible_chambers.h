@@ -52,8 +52,9 @@ static inline double compressible_chambers_solve(double sum, double yielding, do
     const double r = yielding / g, r3 = r * r * r;
     const double excess = g + ratio * plate_bingham_newtonian(g, yielding) - top;
     const double step = excess / (1 + ratio * (1 - fmin(r3, 1)));
+    const double tolerance = 1e-8; /* single precision: 1e-5 */
     g -= step;
-    if (fabs(step) <= 1e-8 * g) break; /* the next step would move by the square of this */
+    if (fabs(step) <= tolerance * g) break; /* the next step would move by the square of this */
   }
   return plate_side(sum) * g;
 }

@@ -12,8 +12,7 @@ const Law kDahl = with_travel<Dahl, dahl_travel>(state_law<Dahl, dahl_force, dah
     .equation = "w' = rho (v - |v| w)\n"
                 "F = kappa_w w + f0",
     .source = "Dahl 1976, AIAA Journal 14, 1675-1682, normalised as in Ikhouane, Rodellar 2007; "
-              "defaults: "
-              "an example of the 1 kN class",
+              "defaults: an example of the 1 kN class",
     .remarks =
         "Friction with a knee in displacement; the force does not know the speed. Two parameters: "
         "a yardstick for viscous_dahl and the Bouc-Wen laws.",

@@ -13,19 +13,14 @@ const Law kFieldChain = static_law<FieldChain, field_chain_force>({
                 "H = a1 B + a3 B^3,  tau = b0 + b1 H + b2 H^2 + b3 H^3, held at its maximum\n"
                 "F = sgn(v) (G + f_f) + f0\n"
                 "G^3 - (c0 |v| + 3/2 Y) G^2 + Y^3 / 2 = 0, largest root,  Y = f_m tau / tau_max",
-    .source = "Family paper (Duchanoy et al. 2019), equations 2-11 and table 1, MRF-140CG; "
-              "flow: Phillips 1969; "
-              "defaults: an example, saturation as in the paper's data set",
+    .source = "Family paper (Duchanoy et al. 2019), equations 2-11 and table 1, MRF-140CG; flow: "
+              "Phillips 1969; defaults: an example, saturation as in the paper's data set",
     .remarks =
         "The circuit-to-fluid chain: how force depends on current follows from it, so that no "
-        "parameter "
-        "does. "
-        "Fitted are the ampere-turns' scale and the forces; lengths and steel keep their "
-        "values, as the data "
-        "cannot tell them from the turns. The paper's saturation knee is soft and its yield "
-        "stress at H = 0 "
-        "is "
-        "4 % of the largest. No hysteresis; v_s > 0 makes the force smooth and is not fitted.",
+        "parameter does. Fitted are the ampere-turns' scale and the forces; lengths and steel "
+        "keep their values, as the data cannot tell them from the turns. The paper's "
+        "saturation knee is soft and its yield stress at H = 0 is 4 % of the largest. No "
+        "hysteresis; v_s > 0 makes the force smooth and is not fitted.",
     .states = {},
     .params =
         {

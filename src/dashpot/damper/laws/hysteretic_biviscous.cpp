@@ -13,13 +13,11 @@ const Law kHystereticBiviscous =
         .equation = "F = C_pr (v - v0 s) held between C_po v - F_y and C_po v + F_y, + f0\n"
                     "z' = r (v - z), a = r (v - z), s = a / sqrt(a^2 + a_s^2)",
         .source = "Wereley, Pang, Kamath 1998, J. Intell. Mater. Syst. Struct. 9, 642-649, form "
-                  "recalled; defaults: an "
-                  "example of our own",
+                  "recalled; defaults: an example of our own",
         .remarks = "s is the source's sgn(a) made smooth: midway between the branches at rest, and "
-                   "with a_s as large as "
-                   "fits find it, a loop that widens with the acceleration as measured ones do. "
-                   "C_pr > C_po and C_pr v0 "
-                   "< F_y are meant, not needed: the force is finite and continuous without them.",
+                   "with a_s as large as fits find it, a loop that widens with the acceleration as "
+                   "measured ones do. C_pr > C_po and C_pr v0 < F_y are meant, not needed: the "
+                   "force is finite and continuous without them.",
         .states = {{"v_f", "m/s"}},
         .params =
             {

@@ -15,13 +15,11 @@ const Law kLandauSurrogate =
                 .equation = "tau p' = v / v_r - (k1 p + k3 p^3 + k5 p^5)\n"
                             "F = f_y p + c v + f0",
                 .source = "none: an own example of models after the theory of phase transitions; "
-                          "not the model of Wang "
-                          "and Kamath 2006, whose equations were not at hand",
+                          "not the model of Wang and Kamath 2006, whose equations were not at hand",
                 .remarks =
                     "The scales of p and of time are free to choose, so v_r takes the size of the "
                     "data and k5 keeps its value in a fit. k1 < 0 gives two wells, and a loop even "
-                    "at low speed. "
-                    "The loop's width is a time, not a displacement.",
+                    "at low speed. The loop's width is a time, not a displacement.",
                 .states = {{"p", "1"}},
                 .params =
                     {

@@ -51,8 +51,9 @@ static inline double landau_surrogate_implicit(const LandauSurrogate* p, double 
     const double s = q * q;
     const double excess = q * (1 + g * (p->k1 + s * (p->k3 + s * p->k5))) - drive;
     const double change = excess / (1 + g * (p->k1 + s * (3 * p->k3 + s * 5 * p->k5)));
+    const double tolerance = 1e-10; /* single precision: 1e-5 */
     q -= change;
-    if (fabs(change) <= 1e-10 * (1 + fabs(q))) break;
+    if (fabs(change) <= tolerance * (1 + fabs(q))) break;
   }
   return q;
 }

@@ -19,10 +19,8 @@ const Law kLargeScaleBoucWen = with_travel<
         "Yang, Spencer, Jung, Carlson 2004, J. Eng. Mech. 130, 1107-1114; the form is recalled, "
         "the defaults are an example of the 200 kN class, not published",
     .remarks = "The fluid's mass and shear thinning, which show in large dampers. The acceleration "
-               "is that "
-               "of the velocity behind a filter, whose rate is not fitted but follows the size of "
-               "the data. "
-               "A and n keep their values in a fit: z has no scale of its own.",
+               "is that of the velocity behind a filter, whose rate is not fitted but follows the "
+               "size of the data. A and n keep their values in a fit: z has no scale of its own.",
     .states = {{"z", "m"}, {"v_f", "m/s"}},
     .params =
         {

@@ -28,7 +28,7 @@ typedef struct LargeScaleBoucWen {
   double f0;    /* N, offset */
 } LargeScaleBoucWen;
 
-/* What z follows. */
+/* The Bouc-Wen law that z follows, without its forces. */
 static inline BoucWen large_scale_bouc_wen_loop(const LargeScaleBoucWen* p) {
   BoucWen loop = {0, 0, 0, 0, 0, 0, 0, 0, 0};
   loop.gamma = p->gamma, loop.beta = p->beta, loop.A = p->A, loop.n = p->n;

@@ -1,7 +1,8 @@
 /* Look-up map: the force over velocity, straight between knots.
  *
- *   F(0) = f0,   F(v_max k) = f0 + p1 ... p6 and F(-v_max k) = f0 + n1 ... n6 at k = 1/32, 1/16,
- * 1/8, 1/4, 1/2, 1
+ *   F(0) = f0
+ *   F(v_max k) = f0 + p1 ... p6,   F(-v_max k) = f0 + n1 ... n6
+ *   k = 1/32, 1/16, 1/8, 1/4, 1/2, 1
  *
  * v m/s (extension positive); F N, same sign as v. No internal state, no hysteresis. The knots are
  * denser where the force bends. Beyond v_max the last slope goes on, as a damper's viscous force
@@ -33,10 +34,14 @@ static inline double lookup_map_force(const LookupMap* p, double x, double v, co
   double knot = 1, slope, magnitude;
   int k = 1;
   (void)x, (void)z;
+
+  /* Find the knot at or beyond this speed; beyond the last one its piece goes on. */
   while (k < 6 && u > knot) {
     knot *= 2;
     ++k;
   }
+
+  /* The straight piece that ends in it. */
   slope = (rise[k] - rise[k - 1]) / (k == 1 ? 1 : 0.5 * knot);
   if (u > 32 && slope < 0) slope = 0;
   magnitude = rise[k] + slope * (u - knot);

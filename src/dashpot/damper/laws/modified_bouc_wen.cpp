@@ -16,18 +16,14 @@ const Law kModifiedBoucWen =
                             "z' = A (v - y') - gamma |v - y'| z |z|^(n-1) - beta (v - y') |z|^n\n"
                             "F = c1 y' + k1 (x - x0) + f0",
                 .source = "Spencer, Dyke, Sain, Carlson 1997, J. Eng. Mech. 123, 230-238; "
-                          "defaults: its prototype damper at "
-                          "1.5 V, with x0 = 0",
+                          "defaults: its prototype damper at 1.5 V, with x0 = 0",
                 .remarks = "z has no scale of its own: of alpha, A, gamma and beta only three "
-                           "numbers are independent, so A "
-                           "keeps "
-                           "its value in a fit; alpha A, gamma A and beta A compare sets with "
-                           "different A (n = 2), and "
-                           "((gamma + beta) A)^(-1/2) is the knee in m. n and x0 keep theirs too: "
-                           "k1 x0 is a constant force, "
-                           "which f0 holds (the source has f0 = 0 and x0 = 0.143 m). beta "
-                           "multiplies w |z|^n; some papers call "
-                           "that gamma. The lag is that of the source's voltage-driven coil.",
+                           "numbers are independent, so A keeps its value in a fit; alpha A, gamma "
+                           "A and beta A compare sets with different A (n = 2), and ((gamma + "
+                           "beta) A)^(-1/2) is the knee in m. n and x0 keep theirs too: k1 x0 is a "
+                           "constant force, which f0 holds (the source has f0 = 0 and x0 = 0.143 "
+                           "m). beta multiplies w |z|^n; some papers call that gamma. The lag is "
+                           "that of the source's voltage-driven coil.",
                 .states = {{"y", "m"}, {"z", "m"}},
                 .params =
                     {

@@ -75,6 +75,7 @@ static inline int modified_bouc_wen_step(const ModifiedBoucWen* p, const double*
   const double mean_v = 0.5 * (v[0] + v[1]);
   const double drag = p->c0 + p->c1 + 0.5 * h * p->k0;
   const double push = p->c1 * mean_v - p->k0 * (0.5 * (x[0] + x[1]) - z[0] - 0.5 * h * mean_v);
+
   /* drag w + alpha (z0 + z1(w)) / 2 = push, mirrored so that w >= 0 */
   const double side = push >= p->alpha * z[1] ? 1 : -1;
   const double z0 = side * z[1], share = 0.5 * p->alpha;
@@ -84,14 +85,17 @@ static inline int modified_bouc_wen_step(const ModifiedBoucWen* p, const double*
       (drag + share * h * p->A * fmax(0, normalised_bouc_wen_slope(sigma, p->n, z0 / z_max)));
   double z1 = z0;
   int k;
+
+  /* Newton's method for w within low ... high, by halving where it would leave them. */
   for (k = 0; k < 60; ++k) {
     const double end = normalised_bouc_wen_rise(sigma, p->n, z0 / z_max, p->A / z_max * w * h);
+    const double tolerance = 1e-7; /* single precision: 1e-5 */
     double excess, slope, next;
     z1 = z_max * end;
     excess = drag * w + share * (z0 + z1) - side * push;
     slope = p->A * normalised_bouc_wen_slope(sigma, p->n, end);
     next = w - excess / (drag + share * h * slope);
-    if (fabs(next - w) <= 1e-7 * high) { /* the next step would move by the square of this */
+    if (fabs(next - w) <= tolerance * high) { /* the next step would move by the square of this */
       z1 = fmin(z1 + slope * h * (next - w), fmax(z0, z_max));
       z1 = fmax(z1, fmin(z0, z_max)); /* it stays between its start and where it settles */
       w = next;
@@ -103,6 +107,7 @@ static inline int modified_bouc_wen_step(const ModifiedBoucWen* p, const double*
       low = w;
     w = next >= low && next <= high ? next : 0.5 * (low + high);
   }
+
   z[0] += h * (mean_v - side * w);
   z[1] = side * z1;
   return 1;

@@ -16,11 +16,9 @@ const Law kNormalisedBoucWen = with_travel<NormalisedBoucWen, normalised_bouc_we
             "Ikhouane, Rodellar 2007, Systems with Hysteresis, Wiley; defaults: an example of the "
             "1 kN class",
         .remarks = "|w| <= 1 whatever the parameters, and each of them can be identified: the "
-                   "scale of z that the "
-                   "other Bouc-Wen laws leave open is gone. sigma = gamma / (gamma + beta): below "
-                   "1/2 the loop would "
-                   "create energy when small, above 1 beta is negative. No displacement, so no "
-                   "accumulator spring.",
+                   "scale of z that the other Bouc-Wen laws leave open is gone. sigma = gamma / "
+                   "(gamma + beta): below 1/2 the loop would create energy when small, above 1 "
+                   "beta is negative. No displacement, so no accumulator spring.",
         .states = {{"w", "1"}},
         .params =
             {

@@ -60,6 +60,8 @@ static inline double normalised_bouc_wen_travel_below_zero(double sigma, double 
                                                            double* s) {
   const double b = 2 * sigma - 1, r = sqrt(fabs(b));
   double to_zero;
+
+  /* The travel after which w arrives at 0; the rest is left to the other side. */
   if (b == 0)
     to_zero = -w;
   else if (n == 1)
@@ -70,6 +72,8 @@ static inline double normalised_bouc_wen_travel_below_zero(double sigma, double 
     *s -= to_zero;
     return 0;
   }
+
+  /* It does not get there: w after the whole travel. */
   if (b == 0)
     w += *s;
   else if (n == 1)

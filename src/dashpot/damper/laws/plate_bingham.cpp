@@ -11,16 +11,12 @@ const Law kPlateBingham = static_law<PlateBingham, plate_bingham_force>({
     .equation = "F = sgn(v) G + f0\n"
                 "G^3 - (c0 |v| + 3/2 f_y) G^2 + f_y^3 / 2 = 0, largest root",
     .source = "Phillips 1969, thesis, UC Berkeley; Wereley, Pang 1998, Smart Mater. Struct. 7, "
-              "732-743; defaults: "
-              "0.28 Pa s and 20 kPa in a gap of 0.5 mm, 20 mm long, 0.12 m wide, piston 500 mm^2: "
-              "an example",
+              "732-743; defaults: 0.28 Pa s and 20 kPa in a gap of 0.5 mm, 20 mm long, 0.12 m "
+              "wide, piston 500 mm^2: an example",
     .remarks =
         "Geometry and fluid enter through two numbers, c0 = 12 eta L A^2 / (w h^3) and f_y = 2 tau "
-        "L "
-        "A / h: with the "
-        "geometry known they give viscosity and yield stress. No hysteresis. sgn(0) = 0. v_s > 0 "
-        "makes the force "
-        "smooth; it is not in the source and not fitted.",
+        "L A / h: with the geometry known they give viscosity and yield stress. No hysteresis. "
+        "sgn(0) = 0. v_s > 0 makes the force smooth; it is not in the source and not fitted.",
     .states = {},
     .params =
         {

@@ -1,12 +1,12 @@
 /* Quasi-static flow of a Bingham fluid through a gap between plates, driven by the piston (valve
  * mode).
  *
- *   F = sgn(v) G + f0,   G the largest root of  G^3 - (N + 3/2 Y) G^2 + Y^3 / 2 = 0,   N = c0 |v|,
- * Y = f_y
+ *   F = sgn(v) G + f0
+ *   G^3 - (N + 3/2 Y) G^2 + Y^3 / 2 = 0, its largest root,   N = c0 |v|,   Y = f_y
  *
  * v m/s (extension positive); F N, same sign as v, sgn(0) = 0. No internal state, no hysteresis.
  * Piston area A, gap length L, width w, height h, viscosity eta and yield stress tau enter through
- * two numbers only, c0 = 12 eta L A^2 / (w h^3),   f_y = 2 tau L A / h, which is why no measured
+ * two numbers only, c0 = 12 eta L A^2 / (w h^3) and f_y = 2 tau L A / h, which is why no measured
  * force tells geometry from fluid. From f_y at v -> 0 the yielding part of G grows to 3/2 f_y at
  * high speed. v_s > 0: f_y tanh(|v| / v_s) in place of f_y, without a jump. Sources: R. W.
  * Phillips, thesis, UC Berkeley 1969; N. M. Wereley, L. Pang, Smart Mater. Struct. 7 (1998)

@@ -12,14 +12,12 @@ const Law kPlateBinghamMixed = static_law<PlateBinghamMixed, plate_bingham_mixed
                 "3 (P - 2T)^2 (P^3 - (1 + 3T + a/2) P^2 + 4T^3) + T a^2 P^2 / 4 = 0,  P = G / N,  "
                 "T = f_y / (2N)",
     .source = "Wereley, Pang 1998, Smart Mater. Struct. 7, 732-743, with drag and sign derived "
-              "from the velocity "
-              "profile; defaults: the example of plate_bingham",
+              "from the velocity profile; defaults: the example of plate_bingham",
     .remarks =
         "The gap's wall is the piston: it moves against the flow and drags. a = w h / A keeps its "
-        "value in a "
-        "fit, as the data hardly tell it from c0 and f_y, which are those of plate_bingham. No "
-        "hysteresis. "
-        "sgn(0) = 0. v_s > 0 makes the force smooth; it is not in the source and not fitted.",
+        "value in a fit, as the data hardly tell it from c0 and f_y, which are those of "
+        "plate_bingham. No hysteresis. sgn(0) = 0. v_s > 0 makes the force smooth; it is not in "
+        "the source and not fitted.",
     .states = {},
     .params =
         {

@@ -2,8 +2,9 @@
  * (mixed mode): the wall moves against the flow and drags.
  *
  *   F = sgn(v) (G + D) + f0,   G as in plate_bingham but with a wall that moves at |v|:
- *   3 (P - 2T)^2 (P^3 - (1 + 3T - V) P^2 + 4T^3) + T V^2 P^2 = 0,   P = G / N,  T = Y / (2N),  V =
- * -a / 2 D = a (G / 2 + a / 12  N G / (G - Y)),   N = c0 |v|,   Y = f_y
+ *   3 (P - 2T)^2 (P^3 - (1 + 3T - V) P^2 + 4T^3) + T V^2 P^2 = 0
+ *   D = a (G / 2 + a / 12  N G / (G - Y))
+ *   P = G / N,   T = Y / (2N),   V = -a / 2,   N = c0 |v|,   Y = f_y
  *
  * v m/s (extension positive); F N, same sign as v, sgn(0) = 0. No internal state, no hysteresis.
  * a = w h / A is the gap's area over the piston's; c0 = 12 eta L A^2 / (w h^3) and f_y = 2 tau L A

@@ -10,12 +10,9 @@ const Law kPlateBinghamShear = static_law<PlateBinghamShear, plate_bingham_shear
     .title = "Parallel plates, Bingham-Papanastasiou fluid, shear mode",
     .equation = "F = c0 v + f_y sgn(v) (1 - exp(-|v| / v_s)) + f0",
     .source = "Wereley, Pang 1998, Smart Mater. Struct. 7, 732-743; onset: Papanastasiou 1987, J. "
-              "Rheol. 31, "
-              "385-404; "
-              "defaults: an example",
+              "Rheol. 31, 385-404; defaults: an example",
     .remarks = "c0 = eta w L / h, f_y = tau w L, v_s = h / m with Papanastasiou's time m. With v_s "
-               "= 0 it is "
-               "Bingham's law. No hysteresis.",
+               "= 0 it is Bingham's law. No hysteresis.",
     .states = {},
     .params =
         {

@@ -12,13 +12,11 @@ const Law kPlateHerschelBulkley = static_law<PlateHerschelBulkley, plate_hersche
                 "(G - f_y) ((1 - r) (1 + n r / (n + 1)))^n = f_v (|v| / v_r)^n",
     .source =
         "Wang, Gordaninejad 1999, J. Intell. Mater. Syst. Struct. 10, 601-608; Wereley 2008, same "
-        "journal 19, "
-        "257-268; defaults: an example",
+        "journal 19, 257-268; defaults: an example",
     .remarks = "n < 1 is shear thinning, n = 1 is plate_bingham with c0 = f_v / v_r. f_v is meant "
-               "at the speed v_r, "
-               "which a fit sets to the top speed of the data. No hysteresis. sgn(0) = 0. v_s > 0 "
-               "makes the force "
-               "smooth; it is not in the source and not fitted.",
+               "at the speed v_r, which a fit sets to the top speed of the data. No hysteresis. "
+               "sgn(0) = 0. v_s > 0 makes the force smooth; it is not in the source and not "
+               "fitted.",
     .states = {},
     .params =
         {

@@ -18,13 +18,10 @@ const Law kPolynomial =
             "of our own at 1 A",
         .remarks =
             "s is sgn(a) made smooth: midway between the branches at rest, and with a_s as large "
-            "as fits "
-            "find it, a loop that widens with the acceleration as measured ones do. The source's "
-            "coefficients are a_k = (m_k + d_k) / v_max^k for rising speed and (m_k - d_k) / "
-            "v_max^k for "
-            "falling; f0 is the mean of both a_0. Held beyond v_max. One set of coefficients "
-            "serves for "
-            "all speeds, so it is poor where slow and fast motions mix.",
+            "as fits find it, a loop that widens with the acceleration as measured ones do. The "
+            "source's coefficients are a_k = (m_k + d_k) / v_max^k for rising speed and (m_k - "
+            "d_k) / v_max^k for falling; f0 is the mean of both a_0. Held beyond v_max. One set of "
+            "coefficients serves for all speeds, so it is poor where slow and fast motions mix.",
         .states = {{"v_f", "m/s"}},
         .params =
             {

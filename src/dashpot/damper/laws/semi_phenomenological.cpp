@@ -11,11 +11,9 @@ const Law kSemiPhenomenological = static_law<SemiPhenomenological, semi_phenomen
     .equation = "F = alpha tanh(a1 v + a2 x) + b1 v + b2 x + f0",
     .source =
         "Guo, Yang, Pan 2006, J. Intell. Mater. Syst. Struct. 17, 3-14; the one-sensor paper; "
-        "defaults: a set "
-        "of Lozoya-Santos et al. at 1 A, recalled, not verified",
+        "defaults: a set of Lozoya-Santos et al. at 1 A, recalled, not verified",
     .remarks = "Algebraic and smooth: a favourite of controllers. alpha is linear in current "
-               "unless told otherwise. "
-               "Assumes a motion centred on x = 0. b2 may be negative.",
+               "unless told otherwise. Assumes a motion centred on x = 0. b2 may be negative.",
     .states = {},
     .params =
         {

@@ -10,11 +10,9 @@ const Law kTanhGuo = static_law<TanhGuo, tanh_guo_force>({
     .title = "Hyperbolic tangent of velocity and position (Guo)",
     .equation = "F = A1 tanh(A3 w) + A2 w + f0, w = v + (V0 / X0) x",
     .source = "Guo, Yang, Pan 2006, J. Intell. Mater. Syst. Struct. 17, 3-14, form recalled; "
-              "defaults: an example "
-              "of our own",
+              "defaults: an example of our own",
     .remarks = "Algebraic and smooth. Assumes a motion centred on x = 0. Only V0 / X0 matters, so "
-               "X0 takes the "
-               "stroke of the data.",
+               "X0 takes the stroke of the data.",
     .states = {},
     .params =
         {

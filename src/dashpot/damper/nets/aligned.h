@@ -5,7 +5,7 @@
 
 namespace dashpot {
 
-/// For arrays that the kernel reads by whole cache lines.
+/// Allocates on cache lines, for arrays that the kernel reads by whole lines.
 template <class T>
 struct CacheLineAllocator {
   using value_type = T;

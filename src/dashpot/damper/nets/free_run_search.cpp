@@ -14,16 +14,18 @@ using Eigen::VectorXd;
 
 constexpr Index kBlock = 256;  // samples of which a Gram matrix is made at a time
 
-/// Gram matrix of [J r] per sample, the records' offsets at their best taken out, and these
-/// offsets.
+/// The problem linearised at one point: the Gram matrix of [J r], (n + 1) x (n + 1) and divided by
+/// the number of samples, with the records' best offsets taken out of it, and these offsets.
 struct System {
   MatrixXd gram;
   std::vector<double> offsets;
-  double offset_price = 0;  ///< per sample, among the squares
+  double offset_penalty = 0;  ///< of the offsets, per sample; part of squares()
 
   double squares() const { return gram(gram.rows() - 1, gram.cols() - 1); }
 };
 
+/// Adds up the Gram matrix. Rows are collected in a block of columns, so that the matrix is updated
+/// by products of matrices and not row by row; a record ends a block.
 class GramSink final : public RowSink {
  public:
   GramSink(Index columns, const FreeRunSearchOptions& options)
@@ -39,11 +41,16 @@ class GramSink final : public RowSink {
 
   void end_record() override {
     flush();
+
+    // The best offset of n samples with the column sums s and the residual sum s_r is
+    // -s_r / (n (1 + offset_decay)). Eliminating it takes s s' / (n (1 + offset_decay)) out of the
+    // Gram matrix.
     const double centring = options_.offsets && n_ > 0 ? 1 / (n_ * (1 + options_.offset_decay)) : 0;
     gram_.selfadjointView<Eigen::Lower>().rankUpdate(sums_, -centring);
     const double offset = -centring * sums_[sums_.size() - 1];
     system_.offsets.push_back(offset);
-    system_.offset_price += options_.offset_decay * n_ * offset * offset;
+    system_.offset_penalty += options_.offset_decay * n_ * offset * offset;
+
     count_ += n_;
     n_ = 0;
     sums_.setZero();
@@ -52,7 +59,7 @@ class GramSink final : public RowSink {
   System system() {
     system_.gram = gram_.selfadjointView<Eigen::Lower>();
     system_.gram /= count_;
-    system_.offset_price /= count_;
+    system_.offset_penalty /= count_;
     return std::move(system_);
   }
 
@@ -74,12 +81,13 @@ class GramSink final : public RowSink {
   System system_;
 };
 
+/// Levenberg-Marquardt over systems of n equations. Invariant: at_ is the problem linearised at x_.
 class Search {
  public:
   Search(const FreeRunProblem& problem, const FreeRunSearchOptions& options)
       : problem_(problem),
         options_(options),
-        prices_(VectorXd::Map(problem.prices.data(), size())),
+        decay_(VectorXd::Map(problem.decay.data(), size())),
         anchors_(VectorXd::Map(problem.anchors.data(), size())),
         x_(VectorXd::Map(problem.start.data(), size())),
         at_(linearise(x_)) {}
@@ -88,19 +96,25 @@ class Search {
   const System& system() const { return at_; }
   double cost() const { return cost_of(at_, x_); }
   bool stuck() const { return damping_ > 1e9; }
+  /// Half the gradient of the cost by the unknowns.
   VectorXd half_gradient() const {
-    return at_.gram.topRightCorner(size(), 1) + (x_ - anchors_).cwiseProduct(prices_);
+    return at_.gram.topRightCorner(size(), 1) + (x_ - anchors_).cwiseProduct(decay_);
   }
 
   /// Tries one step; true when it lowers the cost and was taken.
   bool step() {
+    // Gauss-Newton matrix and descent, with the penalty on the unknowns.
     MatrixXd matrix = at_.gram.topLeftCorner(size(), size());
-    matrix.diagonal() += prices_;
+    matrix.diagonal() += decay_;
     const VectorXd descent = -half_gradient();
+
+    // Solve with the damped diagonal; `predicted` is by how much the linearised cost falls.
     MatrixXd damped = matrix;
     damped.diagonal() *= 1 + damping_;
     const VectorXd step = damped.llt().solve(descent), trial = x_ + step;
     const double predicted = 2 * step.dot(descent) - step.dot(matrix * step);
+
+    // Compare with how far it really falls. Refused in a row, the damping grows faster each time.
     System system = linearise(trial);
     const double gain = (cost() - cost_of(system, trial)) / predicted;
     if (!(gain > 0)) {
@@ -108,6 +122,7 @@ class Search {
       growth_ *= 2;
       return false;
     }
+
     damping_ *= gain > 0.75 ? 0.2 : gain > 0.25 ? 1 : 2;
     growth_ = 2;
     x_ = trial;
@@ -125,12 +140,12 @@ class Search {
   }
 
   double cost_of(const System& system, const VectorXd& x) const {
-    return system.squares() + (x - anchors_).cwiseAbs2().dot(prices_);
+    return system.squares() + (x - anchors_).cwiseAbs2().dot(decay_);
   }
 
   const FreeRunProblem& problem_;
   const FreeRunSearchOptions& options_;
-  VectorXd prices_, anchors_, x_;
+  VectorXd decay_, anchors_, x_;
   System at_;
   double damping_ = 0.01, growth_ = 2;
 };
@@ -141,6 +156,8 @@ FreeRunSearchResult search(const FreeRunProblem& problem, const FreeRunSearchOpt
   constexpr std::size_t kWindow = 3;  // steps over which the cost must still fall
   Search search(problem, options);
   FreeRunSearchResult result;
+
+  // Until the cost stays level over so many taken steps, or no step is small enough to be taken.
   std::vector<double> costs{search.cost()};
   while (!result.converged && result.iterations < options.max_iterations) {
     if (options.on_iteration) options.on_iteration();
@@ -150,12 +167,13 @@ FreeRunSearchResult search(const FreeRunProblem& problem, const FreeRunSearchOpt
                                                      options.tolerance * costs.back();
     result.converged = level || search.stuck();
   }
+
   const VectorXd gradient = search.half_gradient();
   result.unknowns.assign(search.unknowns().begin(), search.unknowns().end());
   result.half_gradient.assign(gradient.begin(), gradient.end());
   result.offsets = search.system().offsets;
   result.cost = search.cost();
-  result.rms = std::sqrt(std::max(0.0, search.system().squares() - search.system().offset_price));
+  result.rms = std::sqrt(std::max(0.0, search.system().squares() - search.system().offset_penalty));
   return result;
 }
 

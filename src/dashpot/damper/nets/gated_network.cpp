@@ -72,10 +72,14 @@ double GatedNetwork::sum(const double* linear, const double* held) const noexcep
   const std::size_t count = gate_count();
   const double* gate = gates.data();
   double sum = 0;
+
+  // Each term of t is gated: multiplied by its own polynomial of the currents.
   const auto add = [&](double term) {
     sum += term * std::inner_product(gate, gate + count, c.begin(), 0.0);
     gate += count;
   };
+
+  // The constant, the motions, then the neurons, in the order of the rows of G.
   add(1);
   for (std::size_t k = 0; k < motions(); ++k) add(linear[k]);
   for (const double *w = neurons.data(), *end = w + neurons.size(); w != end; w += neuron_stride())
@@ -87,9 +91,13 @@ double GatedNetwork::differentiate(const double* z, double* by_parameters,
                                    double* by_signals) const noexcept {
   const std::size_t count = signals.size(), first_current = motions(), width = gate_count();
   const double* u = z + first_current;
+
   std::array<double, kMaxGates> c, by_c{};
   fill_gates(u, c.data());
   std::fill_n(by_signals, count, 0.0);
+
+  // Each gated term: its part of the output, the derivatives by its row of G, and what it adds to
+  // the derivatives by the gates c. Returns the derivative of the output by the term.
   const double* gate = gates.data();
   double* by_gate = by_parameters + neurons.size();
   double sum = 0;
@@ -102,8 +110,11 @@ double GatedNetwork::differentiate(const double* z, double* by_parameters,
     sum += term * gain;
     return gain;
   };
+
   add(1);
   for (std::size_t k = 0; k < first_current; ++k) by_signals[k] += add(z[k]);
+
+  // Neurons: on through tanh to their weights and to the signals.
   for (const double *w = neurons.data(), *end = w + neurons.size(); w != end;
        w += neuron_stride()) {
     const double t = branchless_tanh(std::inner_product(w, w + count, z, w[count]));
@@ -114,6 +125,8 @@ double GatedNetwork::differentiate(const double* z, double* by_parameters,
     }
     *by_parameters++ = delta;
   }
+
+  // From the gates to the currents that they are products of.
   const double *by_current = &by_c[1], *by_product = &by_c[1 + currents];
   for (std::size_t m = 0; m < currents; ++m) {
     by_signals[first_current + m] += *by_current++;

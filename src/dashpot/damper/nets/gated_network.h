@@ -8,9 +8,12 @@ namespace dashpot {
 
 /// A small network whose output is a polynomial of second order in some of its inputs, the currents
 /// u, and of any shape in the others, the motions z:
+///
 ///   F = sum_j (sum_k G_jk c_k(u)) t_j,   t = [1, z, tanh(W [z, u] + b)],   c = [1, u_m, u_m u_n]
-/// Signals stand in one array, motions first. Odd in the motions but for b, the current's part of W
-/// and the first row of G.
+///
+/// The force grows with a current no faster than its square. Signals stand in one array, motions
+/// first. Odd in the motions but for b, the current's part of W and the first row of G. Plain data:
+/// at most kMaxSignals signals, kMaxCurrents of them currents.
 struct GatedNetwork {
   /// standardised = (raw - mean) / scale, held within low ... high: beyond the data, current and
   /// neurons stay as at their edge. The motions themselves, among t, are not held: they go on along
@@ -49,8 +52,8 @@ struct GatedNetwork {
   double output(const double* standardised) const noexcept {
     return sum(standardised, standardised);
   }
-  /// The same and its derivatives: by `neurons`, then
-  /// `gates`, and by the signals.
+  /// The same and its derivatives: by `neurons`, then `gates`, parameter_count() numbers, and by
+  /// the signals, signals.size() numbers. Both are overwritten. Allocates nothing.
   double differentiate(const double* standardised, double* by_parameters,
                        double* by_signals) const noexcept;
 

@@ -9,7 +9,8 @@
 namespace dashpot {
 namespace {
 
-/// Over a way of one direction a Dahl state nears that direction: w1 = s + (w0 - s) exp(-rho way).
+/// A stretch of motion in one direction, 1 or -1, and its length in m. Over it a Dahl state nears
+/// that direction: w1 = s + (w0 - s) exp(-rho length).
 struct Way {
   double direction, length;
 };
@@ -18,6 +19,7 @@ struct Ways {
   Way parts[2];  // before and after the velocity changes its sign
 };
 
+/// The ways of a step in which the velocity is linear: one, or two where it changes its sign.
 Ways ways_of(double from, double to, double dt) noexcept {
   if (from * to >= 0) {
     const double length = dt * (std::abs(from) / 2 + std::abs(to) / 2);
@@ -28,6 +30,7 @@ Ways ways_of(double from, double to, double dt) noexcept {
            {to < 0 ? -1.0 : 1.0, std::abs(to) / 2 * (dt - turn)}}};
 }
 
+/// Brings a Dahl state over these ways; `slope`, unless null, is its derivative by ln rate.
 void slide(const Ways& ways, double rate, double& state, double* slope) noexcept {
   for (const Way& way : ways.parts) {
     if (way.length == 0) continue;

@@ -6,6 +6,16 @@
 
 namespace dashpot {
 
+/// The small-network kernel: every loop over lanes that training and evaluating networks spend
+/// their time in, compiled once per instruction set (simd/) and handed out as tables of functions.
+///
+/// There are two layouts. With neurons as lanes (NeuronLayer) a pass holds any number of samples
+/// and can go backwards: for training on mini-batches, and for one sample as soon as possible. With
+/// samples as lanes (SampleLayer) a pass holds blocks of kBlock samples: for evaluating many of
+/// them and for Jacobians. The kernel owns no memory; PaddedNetwork, SampleLayers and BlockErrors
+/// do. Results differ between instruction sets by rounding, never between runs or numbers of
+/// threads.
+
 /// Instruction sets for which the kernel is compiled, the widest last.
 enum class SimdLevel { Baseline, Avx2, Avx512 };
 /// Those that this processor runs, the fastest last.
@@ -13,18 +23,28 @@ const std::vector<SimdLevel>& simd_levels();
 
 constexpr std::size_t kMaxWidth = 128;  ///< of a layer
 
-/// Rows in the kernel's buffers are whole multiples of this many bytes, whatever the instruction
-/// set.
+/// Rows in the kernel's buffers are whole multiples of this many bytes, a cache line, whatever the
+/// instruction set.
 constexpr std::size_t kKernelAlign = 64;
+/// `count` rounded up to whole cache lines of Real.
 template <class Real>
 constexpr std::size_t padded(std::size_t count) {
   constexpr std::size_t kLanes = kKernelAlign / sizeof(Real);
   return (count + kLanes - 1) / kLanes * kLanes;
 }
 
-/// A layer whose neurons are the lanes. A hidden layer's weights stand input by input (a row of
-/// neurons each), then its biases; those of the output layer neuron by neuron, each row ending with
-/// its bias, which meets the 1 that every row of activations has behind its last value.
+/// A layer whose neurons are the lanes. All rows are padded to whole cache lines:
+///
+///   weights, hidden layer   (inputs + 1) rows of `columns`: one row of neurons per input, then the
+///                           row of biases
+///   weights, output layer   outputs rows of `columns` = in_step: a neuron's inputs, then its bias
+///   in                      samples rows of in_step: the inputs, a 1, zeros. The 1 meets the bias
+///   out, hidden layer       the next layer's `in`
+///   out, output layer       outputs rows of out_step: one row of samples per neuron
+///   deltas                  hidden layer: samples rows of `columns`; output layer: as out
+///   transposed              padded(outputs) rows of padded(inputs)
+///
+/// Padding of weights is zero and stays zero in training, so that padded neurons give 0.
 template <class Real>
 struct NeuronLayer {
   std::size_t inputs, outputs;
@@ -40,8 +60,9 @@ struct NeuronLayer {
   const Real* bounds;  ///< columns: below which no activation lies (with ReLU 0; 1 behind the last)
 };
 
-/// One step of training on flat arrays.
+/// How a training step moves the weights.
 enum class Optimiser { Sgd, Momentum, RmsProp, Adam, AdamW };
+/// The numbers of one training step on flat arrays.
 template <class Real>
 struct UpdateRule {
   Optimiser optimiser;
@@ -58,8 +79,10 @@ struct SampleLayer {
   Activation activation;
   const Real* weights;  ///< outputs x (inputs + 1)
 };
-/// Samples of a block of it.
+/// Samples of a block. Between layers a block is one row of kBlock numbers per neuron.
 constexpr std::size_t kBlock = 64;
+static_assert(kBlock % padded<float>(1) == 0 && kBlock % padded<double>(1) == 0,
+              "a row of a block is whole cache lines, so whole vectors of any instruction set");
 /// Rows of kBlock that a layer may fill: the widest, or inputs that come by whole cache lines.
 constexpr std::size_t kRoomRows = kMaxWidth;
 
@@ -86,12 +109,12 @@ struct Kernel {
   const Real* (*evaluate)(const SampleLayer<Real>* layers, std::size_t count, const Real* inputs,
                           Real* room) noexcept;
 };
-/// Of a level in simd_levels().
+/// The kernel for a level in simd_levels().
 template <class Real>
 const Kernel<Real>& kernel(SimdLevel level);
 
 /// Blocks of samples, one behind the other, of a network with one output, on which its residuals
-/// are linearised.
+/// are linearised. simd/sample_lanes.h shows the rows of a block and of its Jacobian.
 struct JacobianBlocks {
   const SampleLayer<double>* layers;
   std::size_t count;
@@ -103,10 +126,11 @@ struct JacobianBlocks {
   bool passed;                  ///< add_products finds them, as add_errors left them
   double* jacobian;  ///< blocks x columns x kBlock: parameters in the order of Mlp, residual, zeros
 };
-/// Enough for sums over lanes to cost little, few enough for the Jacobian to stay in the second
-/// cache.
+/// Blocks whose Jacobians are filled before their products are taken: enough for sums over lanes to
+/// cost little, few enough for the Jacobians to stay in the second-level cache.
 constexpr std::size_t kBlocksAtOnce = 4;
 
+/// Sums over blocks, for normal equations. Nothing is cleared first: both add.
 struct JacobianKernel {
   /// Adds [J r]' [J r] (columns x columns, the upper triangle); to `sums`, unless it is null, the
   /// sums of J and r over the samples.
@@ -114,6 +138,7 @@ struct JacobianKernel {
   /// Adds the sum of the residuals and that of their squares.
   void (*add_errors)(const JacobianBlocks& blocks, double sums[2]) noexcept;
 };
+/// The Jacobian kernel for a level in simd_levels().
 const JacobianKernel& jacobian_kernel(SimdLevel level);
 
 }  // namespace dashpot

@@ -59,8 +59,9 @@ double Mlp::evaluate(const double* input) const noexcept {
 
 namespace {
 
-/// One row per neuron, as long as `steepness` says, in a random direction; biases within
-/// +-steepness.
+/// Weights of a layer of `outputs` neurons on inputs that span `range`: a row per neuron, of a
+/// length that lets the neurons share the range, in a random direction; biases within +-steepness.
+/// After Nguyen and Widrow.
 void nguyen_widrow(Random& random, double* weight, std::size_t inputs, std::size_t outputs,
                    double range) {
   const double steepness =
@@ -89,6 +90,8 @@ void initialise(Mlp& mlp, std::uint64_t seed) {
     const std::size_t inputs = mlp.layers[layer - 1], outputs = mlp.layers[layer];
     const Activation kind = mlp.activation(layer);
     const bool last = layer + 1 == mlp.layers.size();
+
+    // Saturating layers share out the range of their inputs; others keep the variance.
     if (!last && (kind == Activation::Tanh || kind == Activation::Sigmoid)) {
       nguyen_widrow(random, weight, inputs, outputs, layer == 1 ? kInputRange : 1);
     } else {

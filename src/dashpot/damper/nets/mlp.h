@@ -9,11 +9,12 @@
 namespace dashpot {
 
 /// A multilayer perceptron, inputs and output standardised inside. All weights stand in one flat
-/// vector, layer after layer: W row by row (one row per neuron), then b.
+/// vector, layer after layer: W row by row (one row per neuron), then b. Plain data, in the order
+/// in which files hold it; MlpEvaluator, PaddedNetwork and SampleLayers are its fast forms.
 struct Mlp {
   std::vector<std::size_t> layers;  ///< inputs, hidden ..., 1
-  std::vector<Activation>
-      activations;  ///< of each layer behind the inputs; empty: tanh ..., tanh, identity
+  /// One of each layer behind the inputs; empty: tanh ..., tanh, identity.
+  std::vector<Activation> activations;
   std::vector<double> parameters;
   std::vector<double> input_mean, input_scale;  ///< standardised = (raw - mean) / scale
   double output_mean = 0, output_scale = 1;     ///< raw = mean + scale * network
@@ -21,11 +22,11 @@ struct Mlp {
   static std::size_t parameter_count(const std::vector<std::size_t>& layers);
   static constexpr std::size_t kMaxWidth = dashpot::kMaxWidth;
 
-  /// Of layer 1 ... layers.size() - 1.
+  /// Activation of layer 1 ... layers.size() - 1.
   Activation activation(std::size_t layer) const;
 
-  /// Output at one raw input, in raw units. Allocates nothing. Widths up to kMaxWidth. Plain and by
-  /// the standard library; MlpEvaluator does it fast.
+  /// Output at one raw input, in raw units. Plain and by the standard library, as the reference for
+  /// the fast forms. Allocates nothing. Widths up to kMaxWidth.
   double evaluate(const double* input) const noexcept;
 };
 
@@ -42,9 +43,9 @@ struct TrainingSamples {
   std::size_t groups = 0;
 };
 
-/// When to stop before a network learns the noise: `left_out` has not been met better for
-/// `patience` epochs (or steps of Levenberg-Marquardt or L-BFGS) on end. The best network is what
-/// training gives.
+/// When to stop before a network learns the noise: when the left-out samples have not been met
+/// better for `patience` epochs (or steps of Levenberg-Marquardt or L-BFGS) in a row. Training then
+/// gives the best network, not the last.
 struct Stopping {
   const TrainingSamples* left_out = nullptr;  ///< null: never
   int patience = 20;
@@ -73,8 +74,8 @@ struct TrainReport {
   bool converged = false;
   int iterations = 0;
   double rmse = 0;  ///< raw units, offsets removed
-  std::vector<double>
-      offsets;  ///< raw units, one per group, mean zero; added to the network's output
+  /// Raw units, one per group, mean zero; added to the network's output.
+  std::vector<double> offsets;
   bool stopped_early = false;
   double left_out_rmse = 0;         ///< raw units; 0 when nothing was left out
   double weight_decay = 0;          ///< of the last step of train()
@@ -82,8 +83,12 @@ struct TrainReport {
 };
 
 /// Full-batch Levenberg-Marquardt on the mean squared error, with one free offset per group (a
-/// declared nuisance, eliminated exactly by centring residuals and Jacobian per group). Starts from
-/// mlp.parameters; its layers and scales must be set. The same bits for the same input.
+/// declared nuisance, eliminated exactly by centring residuals and Jacobian per group). For
+/// networks of up to a few hundred weights; train_lbfgs() and train_batches() take larger ones.
+///
+/// Starts from mlp.parameters, or from a start of the seed when these are empty; its layers and
+/// scales must be set. The mean offset goes into the network. The same bits for the same input,
+/// whatever the number of threads.
 TrainReport train(Mlp& mlp, const TrainingSamples& samples, const TrainOptions& options);
 
 }  // namespace dashpot

@@ -42,15 +42,19 @@ void MlpEvaluator<Real>::evaluate(std::span<const Real> inputs,
       kKernelAlign / sizeof(Real);  // what the kernel may read behind a block
   alignas(kKernelAlign) Real room[2 * kRoomRows * kBlock];
   alignas(kKernelAlign) Real last[kMaxWidth * kBlock + kBeyond];
+
   const std::size_t width = single_.inputs();
   assert(inputs.size() == outputs.size() * width);
   for (std::size_t first = 0; first < outputs.size(); first += kBlock) {
+    // The kernel takes whole blocks and reads a little beyond them: the last ones come from a copy
+    // with zeros behind.
     const std::size_t size = std::min(kBlock, outputs.size() - first);
     const Real* raw = inputs.data() + first * width;
     if (first * width + kBlock * width + kBeyond > inputs.size()) {
       std::fill_n(std::copy_n(raw, size * width, last), (kBlock - size) * width + kBeyond, Real{0});
       raw = last;
     }
+
     const Real* result = many_kernel_.evaluate(many_.layers.data(), many_.layers.size(), raw, room);
     Real* const to = outputs.data() + first;
     const Real mean = output_mean_, scale = output_scale_;  // which the loop cannot change

@@ -12,17 +12,21 @@ Mlp on_raw_inputs(Mlp mlp);
 
 /// A network ready to run fast, in raw units; Real is float or double. Safe from several threads.
 template <class Real>
+/// A network with one output, ready to run fast on raw inputs, in raw units; Real is float or
+/// double. Owns copies of the weights. Safe from several threads.
 class MlpEvaluator {
  public:
   explicit MlpEvaluator(const Mlp& mlp, SimdLevel level = simd_levels().back());
 
-  /// Output at one input, as soon as possible. Allocates nothing.
+  /// Output at one input (inputs of the network numbers), as soon as possible. Allocates nothing.
   Real evaluate(const Real* input) const noexcept;
-  /// Outputs at many (row by row), as many per second as possible. Allocates nothing.
+  /// Outputs at many inputs (outputs.size() rows), as many per second as possible. Allocates
+  /// nothing; takes 192 KiB of the stack in double precision, and reads nothing beyond `inputs`.
   void evaluate(std::span<const Real> inputs, std::span<Real> outputs) const noexcept;
 
  private:
-  /// Numbers that one layer stores and the next one reads at once: 64-byte stores are slow at that.
+  /// For one input AVX2 at most: each layer reads at once what the one before has just stored, and
+  /// 64-byte stores are slow at that.
   const Kernel<Real>& one_kernel_;
   const Kernel<Real>& many_kernel_;
   PaddedNetwork<Real> single_;  ///< neurons as lanes

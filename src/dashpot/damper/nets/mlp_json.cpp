@@ -55,6 +55,8 @@ void require_shape(const Mlp& mlp, std::size_t inputs, const std::string& where)
   const auto fail = [&](const std::string& what, const std::string& right) {
     throw Error(where, what, right);
   };
+
+  // Layers, their activations and their weights.
   const auto& layers = mlp.layers;
   if (layers.size() < 2 || layers.front() != inputs || layers.back() != 1)
     fail("the layers do not go from " + std::to_string(inputs) + " inputs to one force",
@@ -69,6 +71,8 @@ void require_shape(const Mlp& mlp, std::size_t inputs, const std::string& where)
   if (const std::size_t wanted = Mlp::parameter_count(layers); mlp.parameters.size() != wanted)
     fail("has " + std::to_string(mlp.parameters.size()) + " weights",
          "these layers need " + std::to_string(wanted));
+
+  // Scales.
   if (mlp.input_mean.size() != inputs || mlp.input_scale.size() != inputs)
     fail("the input means and scales are not one per input", "");
   const auto positive = [](double scale) { return scale > 0 && std::isfinite(scale); };

@@ -13,6 +13,7 @@ namespace dashpot {
 namespace {
 
 constexpr std::size_t kStretches = 8;  // of blocks: as many threads can share the work
+static_assert(kBlock % padded<double>(1) == 0, "each row of a block begins on a cache line");
 
 /// More activations than this are quicker computed again than fetched from memory.
 constexpr std::size_t kMostKept = std::size_t{1} << 20;
@@ -23,7 +24,7 @@ std::size_t activations_per_block(const SampleLayers<double>& layers) {
   return rows * kBlock;
 }
 
-/// What one thread needs to go over blocks.
+/// The buffers with which one thread goes over blocks, and the description of them for the kernel.
 class Workspace {
  public:
   /// `kept`: room for the activations of all blocks, or null.
@@ -40,6 +41,8 @@ class Workspace {
     }
   }
 
+  /// Makes room for the Jacobians of kBlocksAtOnce blocks, `columns` rows of kBlock numbers each.
+  /// The kernel fills the rows of parameters and residual; those that pad them stay zero.
   void prepare_jacobian() {
     blocks_.passed = kept_;
     const std::size_t size = blocks_.columns * kBlock, used = (blocks_.parameters + 1) * kBlock;
@@ -49,6 +52,7 @@ class Workspace {
       std::fill_n(&jacobian_[k * size + used], size - used, 0.0);
   }
 
+  /// Points the description at some blocks.
   const JacobianBlocks& take(std::size_t first, std::size_t blocks) {
     blocks_.rows = samples_.block(first);
     blocks_.blocks = blocks;
@@ -71,8 +75,8 @@ class Workspace {
 struct Stretch {
   std::size_t first = 0, last = 0;  // blocks
   AlignedVector<double> products;   // columns x columns
-  AlignedVector<double>
-      by_group;  // groups x columns; for the error alone, groups x (sum, sum of squares)
+  // Groups x columns; for the error alone, groups x (sum, sum of squares)
+  AlignedVector<double> by_group;
 };
 
 std::vector<Stretch> make_stretches(std::size_t blocks) {
@@ -104,11 +108,14 @@ AlignedVector<double> sums_by_group(const std::vector<Stretch>& stretches) {
   return total;
 }
 
-/// [J r]' [J r] of all, less what the free offsets take out of it.
+/// Adds the stretches up to [J r]' [J r] of all samples, (n + 1) x (n + 1), takes out of it what
+/// the free offsets take up, and cuts it into matrix, gradient and error.
 NormalEquations combine(const std::vector<Stretch>& stretches, const SampleBlocks& blocks,
                         std::size_t n) {
   const std::size_t columns = padded<double>(n + 1);
   const AlignedVector<double> by_group = sums_by_group(stretches);
+
+  // The upper triangle: per pair of columns the sum over the stretches, less the groups' shares.
   std::vector<double> products((n + 1) * (n + 1));
   for (std::size_t a = 0; a <= n; ++a)
     for (std::size_t b = a; b <= n; ++b) {
@@ -120,6 +127,7 @@ NormalEquations combine(const std::vector<Stretch>& stretches, const SampleBlock
       }
     }
 
+  // The last column is the residual's.
   NormalEquations equations;
   equations.matrix.resize(n * n);
   for (std::size_t a = 0; a < n; ++a) {
@@ -140,11 +148,15 @@ SampleBlocks make_blocks(const Mlp& mlp, const TrainingSamples& samples, double 
   SampleBlocks blocks;
   blocks.inputs = inputs;
   blocks.samples = count;
+
+  // The samples of each group, in their order; without groups all are one.
   const bool grouped = !samples.group.empty();
   blocks.offset_decay = grouped ? offset_decay : std::numeric_limits<double>::infinity();
   std::vector<std::vector<std::size_t>> members(grouped ? samples.groups : 1);
   for (std::size_t i = 0; i < count; ++i) members[grouped ? samples.group[i] : 0].push_back(i);
 
+  // Lay each group out in blocks of its own: sample m of a group is lane m % kBlock of block
+  // m / kBlock. Rows that nothing fills are zero, the row that says which samples count among them.
   const std::size_t stride = (inputs + 2) * kBlock;
   for (const std::vector<std::size_t>& group : members) {
     const std::size_t first = blocks.blocks();
@@ -166,7 +178,7 @@ SampleBlocks make_blocks(const Mlp& mlp, const TrainingSamples& samples, double 
 double mean_square(double squared_error, std::span<const double> offsets,
                    const SampleBlocks& blocks) {
   for (std::size_t g = 0; g < offsets.size(); ++g)
-    squared_error -= blocks.offset_price(blocks.groups[g], offsets[g]);
+    squared_error -= blocks.offset_penalty(blocks.groups[g], offsets[g]);
   // Rounding may leave less than nothing; what is not a number stays so.
   return (squared_error < 0 ? 0 : squared_error) / static_cast<double>(blocks.samples);
 }
@@ -189,6 +201,8 @@ NormalEquations BlockErrors::normal_equations(std::span<const double> parameters
   SampleLayers<double> layers(mlp_);
   layers.set_parameters(parameters);
   const std::size_t columns = padded<double>(parameters.size() + 1);
+
+  // Each stretch adds up its products and, per group with an offset, its sums of columns.
   std::vector<Stretch> stretches = make_stretches(blocks_.blocks());
   parallel_for(stretches.size(), threads_, [&](std::size_t k) {
     Workspace work(layers, blocks_,
@@ -209,10 +223,13 @@ GroupedErrors BlockErrors::errors(std::span<const double> parameters,
                                   AlignedVector<double>* activations) const {
   SampleLayers<double> layers(mlp_);
   layers.set_parameters(parameters);
+
+  // Keep the activations for normal_equations() where that pays.
   if (activations) {
     const std::size_t size = blocks_.blocks() * activations_per_block(layers);
     activations->resize(size <= kMostKept ? size : 0);
   }
+
   std::vector<Stretch> stretches = make_stretches(blocks_.blocks());
   parallel_for(stretches.size(), threads_, [&](std::size_t k) {
     Workspace work(layers, blocks_,
@@ -222,6 +239,8 @@ GroupedErrors BlockErrors::errors(std::span<const double> parameters,
       kernel_.add_errors(work.take(first, count), &stretches[k].by_group[2 * group]);
     });
   });
+
+  // Per group the sum of its residuals gives the best offset, which lowers the sum of the squares.
   const AlignedVector<double> sums = sums_by_group(stretches);
   GroupedErrors errors;
   for (std::size_t g = 0; g < blocks_.groups.size(); ++g) {

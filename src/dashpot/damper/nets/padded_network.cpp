@@ -35,7 +35,7 @@ NeuronLayer<Real> shape_of(const Mlp& mlp, std::size_t layer, std::size_t sample
   return shape;
 }
 
-/// What the kernel knows of each column: `lanes` has room for three rows of them.
+/// Fills in counts, ones and bounds of each column: `lanes` has room for three rows of them.
 template <class Real>
 void describe_lanes(NeuronLayer<Real>& layer, Real* lanes) {
   Real *counts = lanes, *ones = counts + layer.columns, *bounds = ones + layer.columns;
@@ -68,6 +68,7 @@ void PaddedNetwork<Real>::place_weights() {
   Parts<Real> parts, lanes;
   std::vector<std::size_t> starts, lane_starts;
   for (std::size_t l = 0; l < layers_.size(); ++l) {
+    // Where each parameter goes: hidden layers input by input, the output layer neuron by neuron.
     const NeuronLayer<Real>& layer = layers_[l];
     const bool last = l + 1 == layers_.size();
     const std::size_t start = parts.take((last ? layer.outputs : layer.inputs + 1) * layer.columns);
@@ -77,9 +78,12 @@ void PaddedNetwork<Real>::place_weights() {
         place_.push_back(start + n * by_neuron + i * by_input);
     for (std::size_t n = 0; n < layer.outputs; ++n)
       place_.push_back(start + n * by_neuron + layer.inputs * by_input);
+
     starts.push_back(start);
     lane_starts.push_back(lanes.take(last ? 0 : 3 * layer.columns));
   }
+
+  // Only now, when the array has its final size, can layers point into it.
   size_ = parts.size();
   weights_.resize(size_);
   lanes_.resize(lanes.size());
@@ -93,6 +97,9 @@ template <class Real>
 void PaddedNetwork<Real>::place_passes(std::size_t samples) {
   const std::size_t rows = padded<Real>(samples);
   gradient_.resize(size_);
+
+  // Share out room: per layer its inputs, deltas and transposed weights, then the network's
+  // outputs.
   Parts<Real> squares, parts;
   struct Places {
     std::size_t transposed, in, deltas;
@@ -104,9 +111,13 @@ void PaddedNetwork<Real>::place_passes(std::size_t samples) {
                       parts.take(rows * layer.in_step),
                       parts.take(last ? layer.outputs * layer.out_step : rows * layer.columns)});
   }
+
   const std::size_t out = parts.take(layers_.back().outputs * layers_.back().out_step);
   transposed_.resize(squares.size());
   passes_.resize(parts.size());
+
+  // Point into it. A layer's outputs are the next one's inputs, and behind the inputs stands the 1
+  // that biases meet.
   for (std::size_t l = 0; l < layers_.size(); ++l) {
     NeuronLayer<Real>& layer = layers_[l];
     layer.gradient = gradient_.data() + (layer.weights - weights_.data());

@@ -12,6 +12,9 @@ namespace dashpot {
 /// forward, and backward to the gradient. Standardised units, any number of outputs. Not safe from
 /// several threads.
 template <class Real>
+/// The layers of a network as the kernel wants them, and room for passes over mini-batches:
+/// forward, and backward to the gradient. Standardised units, any number of outputs. Owns all its
+/// arrays, which NeuronLayer describes. Not safe from several threads.
 class PaddedNetwork {
  public:
   /// `samples`: most that a pass will hold (0: no passes). `level`: one of simd_levels().
@@ -27,16 +30,16 @@ class PaddedNetwork {
   void get_parameters(std::span<double> parameters) const;
   void get_gradient(std::span<double> gradient) const;
 
-  /// The inputs of a sample, to be filled. Between two rows lie input_step() numbers, and a row may
-  /// be copied over with what lies behind its inputs: a 1, then zeros.
+  /// Room for the inputs of a sample, to be filled before forward(). Two rows lie input_step()
+  /// numbers apart, and a row may be copied over with what lies behind its inputs: a 1, then zeros.
   Real* input(std::size_t sample) { return layers_.front().in + sample * input_step(); }
   std::size_t input_step() const { return layers_.front().in_step; }
-  /// Of one output neuron, a number per sample: forward() fills it.
+  /// Outputs of one output neuron, a number per sample: forward() fills it.
   const Real* output(std::size_t neuron) const {
     return layers_.back().out + neuron * layers_.back().out_step;
   }
-  /// Of one output neuron, a number per sample: the derivative of the loss by its output, to be
-  /// filled before backward(), which changes it.
+  /// Room for the derivatives of the loss by the outputs of one output neuron, a number per sample:
+  /// to be filled before backward(), which changes it.
   Real* output_slope(std::size_t neuron) {
     return layers_.back().deltas + neuron * layers_.back().out_step;
   }

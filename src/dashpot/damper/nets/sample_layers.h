@@ -9,6 +9,8 @@ namespace dashpot {
 
 /// A network's weights for blocks of samples.
 template <class Real>
+/// A network's weights as the kernels with samples as lanes want them: neuron by neuron, each row
+/// ending with its bias. Owns them.
 struct SampleLayers {
   std::vector<Real> weights;
   std::vector<SampleLayer<Real>> layers;  ///< point into weights

@@ -16,6 +16,12 @@ namespace dashpot {
 /// Velocity and current -> force through states of its own: the mean of a few members, each of
 /// which has states() that follow the motion and a `network` that reads them.
 template <class Member>
+/// A model from velocity and current to force through states of its own: the mean of a few members,
+/// each of which has states() that follow the motion and a `network` that reads them. Immutable;
+/// the caller's state holds the members' states one after the other.
+///
+/// A Member has states(), with rest, advance, flow, read and size as HysteresisBank has them,
+/// `network`, parameter_count(), to_json() and require_sound(where).
 class StatefulEnsemble : public DamperModel {
  public:
   std::string name() const override { return name_; }
@@ -106,7 +112,7 @@ class StatefulEnsemble : public DamperModel {
   std::size_t state_size_ = 0;
 };
 
-/// What to_json() wrote; `what`: the model in words, for errors. Throws Error.
+/// Reads what to_json() wrote; `what` names the model in errors. Throws Error.
 template <class Model, class ReadMember>
 std::unique_ptr<Model> stateful_ensemble_from_json(const Value& value, const char* what,
                                                    ReadMember read_member) {

@@ -7,13 +7,14 @@
 
 namespace dashpot {
 
-/// Watches training on the left-out samples and keeps the parameters that met them best.
+/// Watches training on the left-out samples and keeps the parameters that met them best. Without
+/// left-out samples it does nothing and never stops.
 class EarlyStopping {
  public:
   /// `mlp` gives layers and scales and must outlive it.
   EarlyStopping(const Mlp& mlp, const Stopping& stopping, double offset_decay = 0);
 
-  /// Judges parameters; true when it is time to stop.
+  /// Judges the parameters of an epoch or step; true when it is time to stop.
   bool judge(std::span<const double> parameters);
   /// Puts the best parameters into `mlp` and their error into the report; false when nothing was
   /// judged.

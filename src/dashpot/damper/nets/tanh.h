@@ -7,9 +7,11 @@ namespace dashpot {
 
 /// Hyperbolic tangent within 4 ulp, without branches or calls, so that loops over it become SIMD
 /// code.
-///   tanh|x| = e / (e + 2),  e = exp(2|x|) - 1 = 2^k expm1(r) + (2^k - 1),  2|x| = k ln 2 + r, |r|
-///   <= ln 2 /
-///   2
+///
+///   tanh|x| = e / (e + 2),   e = exp(2|x|) - 1 = 2^k expm1(r) + (2^k - 1)
+///   2|x| = k ln 2 + r,   |r| <= ln 2 / 2
+///
+/// Exact in sign and odd to the last bit; a NaN stays one.
 inline double branchless_tanh(double x) noexcept {
   constexpr double kLog2E = 1.44269504088896338700,
                    kRound = 0x1.8p52;  // adding kRound rounds to an integer

@@ -48,14 +48,19 @@ class LevenbergMarquardt {
     std::vector<double> damped = matrix_, step(n), trial(n);
     for (std::size_t k = 0; k < n; ++k) damped[k * n + k] += damping_ * scale_[k];
     if (!solve_positive_definite(damped, descent_, step)) return reject();
+
+    // The fall of cost that the linearised problem promises.
     double predicted = 0;
     for (std::size_t k = 0; k < n; ++k) {
       predicted += step[k] * (damping_ * scale_[k] * step[k] + descent_[k]);
       trial[k] = mlp_.parameters[k] + step[k];
     }
+
+    // Take the step if the cost falls at all, and damp by how well the promise was kept.
     const double gain =
         (cost_ - cost_at(errors_.squared_error(trial, &activations_), trial)) / predicted;
     if (!(gain > 0)) return reject();
+
     damping_ *= gain > 0.75 ? 0.1 : gain > 0.25 ? 1 : 2;
     growth_ = 2;
     mlp_.parameters = std::move(trial);

@@ -27,6 +27,8 @@ class BatchTrainer {
         square_(network_.size()),
         residuals_(options.batch),
         random_(options.seed) {
+    // Standardise once, with the 1 that biases meet behind each row, so that a batch is copies of
+    // whole rows.
     const std::size_t count = samples.targets.size(), inputs = network_.inputs(),
                       step = network_.input_step();
     inputs_.resize(count * step);
@@ -38,6 +40,7 @@ class BatchTrainer {
       targets_.push_back(
           static_cast<Real>((samples.targets[s] - mlp.output_mean) / mlp.output_scale));
     }
+
     order_.resize(count);
     std::iota(order_.begin(), order_.end(), 0U);
   }
@@ -72,6 +75,7 @@ class BatchTrainer {
 
   /// The gradient of one batch; returns its sum of squares.
   double learn(std::size_t first, std::size_t size) {
+    // Gather the batch.
     const std::uint32_t* const samples = &order_[first];
     const std::size_t step = network_.input_step();
     for (std::size_t s = 0; s < size; ++s) {
@@ -82,22 +86,28 @@ class BatchTrainer {
       __builtin_prefetch(&inputs_[next * step]);
       __builtin_prefetch(&targets_[next]);
     }
+
     network_.forward(size);
+
+    // Slope of the mean squared error by each output.
     const Real* output = network_.output(0);
     Real* slope = network_.output_slope(0);
     const Real share = Real{2} / static_cast<Real>(size);
     Real* residual = residuals_.data();
     for (std::size_t s = 0; s < size; ++s) residual[s] = output[s] - targets_[samples[s]];
     for (std::size_t s = 0; s < size; ++s) slope[s] = share * residual[s];
+
     network_.backward(size);
     return std::inner_product(residual, residual + size, residual, Real{0});
   }
 
   UpdateRule<Real> rule(double epoch) {
     const double rate = options_.rate * options_.schedule.share(epoch, options_.epochs);
+
+    // Adam's averages start at zero: divide by how much of them has filled up, in rate and epsilon.
     double corrected = rate, decay = 0;
-    double epsilon =
-        std::max(options_.epsilon, 1e-30);  // or lanes that no weight has would learn 0 / 0
+    // Above 0, or padded lanes, which have no gradient, would step by 0 / 0.
+    double epsilon = std::max(options_.epsilon, 1e-30);
     if (options_.optimiser == Optimiser::Adam || options_.optimiser == Optimiser::AdamW) {
       momentum_power_ *= options_.momentum;
       square_power_ *= options_.mean_square;
@@ -105,6 +115,7 @@ class BatchTrainer {
       corrected = rate * root / (1 - momentum_power_);
       epsilon *= root;
     }
+
     if (options_.optimiser == Optimiser::AdamW) decay = rate * options_.decay;
     const auto real = [](double value) { return static_cast<Real>(value); };
     return {

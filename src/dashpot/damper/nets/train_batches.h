@@ -18,6 +18,7 @@ struct Schedule {
   double share(double epoch, double epochs) const;
 };
 
+/// Everything but the samples.
 struct BatchTrainOptions {
   Optimiser optimiser = Optimiser::Adam;
   double rate = 1e-3;
@@ -30,17 +31,17 @@ struct BatchTrainOptions {
   double l1 = 0, l2 = 0;  ///< l1 |w|_1 + l2 |w|^2 / 2 is added to the mean squared error
   double decay = 0;       ///< AdamW: share of the weights that goes per step, before the rate
   bool single_precision = true;
-  std::uint64_t seed =
-      1;  ///< of the order of the samples, and of the start when mlp.parameters is empty
+  /// Seed of the order of the samples, and of the start when mlp.parameters is empty.
+  std::uint64_t seed = 1;
   Stopping stopping;
   std::function<void(int epoch, double rmse)>
       on_epoch;  ///< raw units, while it learned; may throw to stop
   SimdLevel level = simd_levels().back();
 };
 
-/// Mini-batch descent on the mean squared error, standardised units. Starts from mlp.parameters;
-/// its layers and scales must be set; one output; samples without groups. The same bits for the
-/// same input and level.
+/// Descent on the mean squared error in mini-batches, standardised units, one thread. Starts from
+/// mlp.parameters, or from a start of the seed when these are empty; its layers and scales must be
+/// set; one output; samples without groups. The same bits for the same input and level.
 TrainReport train_batches(Mlp& mlp, const TrainingSamples& samples,
                           const BatchTrainOptions& options);
 

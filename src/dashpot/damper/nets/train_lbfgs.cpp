@@ -32,8 +32,11 @@ class FullBatch {
   }
 
   bool evaluate(std::span<const double> w, double& cost, std::span<double> gradient) {
+    // The best offsets at these weights: the gradient with them held is that of the cost at its
+    // least over them.
     const std::size_t count = samples_.targets.size();
     if (!samples_.group.empty()) offsets_ = errors_.errors(w).offsets;
+
     parallel_for(kStretches, options_.threads, [&](std::size_t k) {
       networks_[k]->set_parameters(w);
       sums_[k].squares = 0;
@@ -42,10 +45,14 @@ class FullBatch {
       for (std::size_t first = k * count / kStretches; first < end; first += kPass)
         add(*networks_[k], first, std::min(kPass, end - first), sums_[k]);
     });
+
+    // Add the stretches up in their order.
     double squares = 0;
     for (const Sums& sums : sums_) squares += sums.squares;
     for (std::size_t g = 0; g < offsets_.size(); ++g)
-      squares += blocks_.offset_price(blocks_.groups[g], offsets_[g]);
+      squares += blocks_.offset_penalty(blocks_.groups[g], offsets_[g]);
+
+    // Mean over the samples, and weight decay.
     cost = squares / static_cast<double>(count);
     for (std::size_t p = 0; p < w.size(); ++p) {
       gradient[p] = 2 * options_.weight_decay * w[p];
@@ -74,6 +81,7 @@ class FullBatch {
       for (std::size_t k = 0; k < inputs; ++k)
         network.input(s)[k] =
             (samples_.inputs[(first + s) * inputs + k] - mlp_.input_mean[k]) / mlp_.input_scale[k];
+
     network.forward(size);
     const double share = 2 / static_cast<double>(samples_.targets.size());
     for (std::size_t s = 0; s < size; ++s) {
@@ -83,6 +91,7 @@ class FullBatch {
       sums.squares += residual * residual;
       network.output_slope(0)[s] = share * residual;
     }
+
     network.backward(size);
     sums.pass.resize(sums.gradient.size());
     network.get_gradient(sums.pass);
@@ -116,10 +125,12 @@ TrainReport train_lbfgs(Mlp& mlp, const TrainingSamples& samples, const LbfgsOpt
     report.stopped_early = stopping.judge(w);
     return !report.stopped_early;
   };
+
   const MinimiseReport found =
       minimise([&](std::span<const double> w, double& cost,
                    std::span<double> gradient) { return batch.evaluate(w, cost, gradient); },
                mlp.parameters, how);
+
   mlp.parameters = found.x;
   stopping.finish(mlp, report);
   report.converged = found.converged && !report.stopped_early;

@@ -3,6 +3,7 @@
 
 namespace dashpot {
 
+/// Everything but the samples; TrainOptions explains what both have.
 struct LbfgsOptions {
   int max_iterations = 500;
   double tolerance = 1e-9;     ///< stop when the cost falls by less than this share
@@ -17,7 +18,8 @@ struct LbfgsOptions {
 
 /// Full-batch L-BFGS on mean squared error + weight_decay |w|^2, double precision: for networks
 /// with so many weights that the normal equations of train() cost too much. Offsets of groups as
-/// train() has them: each step looks at the network with the best ones.
+/// train() has them: each evaluation takes the best ones for its weights. Starts as train() does.
+/// The same bits for the same input and level, whatever the number of threads.
 TrainReport train_lbfgs(Mlp& mlp, const TrainingSamples& samples, const LbfgsOptions& options);
 
 }  // namespace dashpot

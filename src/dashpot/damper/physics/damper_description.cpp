@@ -37,8 +37,7 @@ constexpr std::array kFields{
                      "at 40 degC; 0: from the fluid's data sheet"},
     DescriptionField{&D::viscosity_exponent, "viscosity_exponent", "1/K", 0, 0, 0.2,
                      "share of the viscosity that each kelvin above 40 degC takes; 0: none (data "
-                     "sheets of MR fluids "
-                     "give one temperature)"},
+                     "sheets of MR fluids give one temperature)"},
     DescriptionField{&D::temperature, "temperature", "K", 313.15, 200, 500, "of fluid and coil"},
     DescriptionField{&D::yield_stress, "yield_stress", "Pa", 0, 0, 1e6,
                      "in place of magnetic circuit and fluid; 0: from these"},
@@ -146,6 +145,8 @@ const DescriptionField& find_description_field(std::string_view name, const std:
 
 void require_possible(const DamperDescription& d, const std::string& where) {
   for (const DescriptionField& field : kFields) require_within(d.*field.field, field, where);
+
+  // No single field's bounds can say this: the parts must fit into each other.
   const auto millimetres = [](double m) { return format_number(1000 * m) + " mm"; };
   if (d.rod_diameter >= d.bore_diameter)
     throw Error(where, "rod_diameter is " + millimetres(d.rod_diameter),
@@ -157,6 +158,7 @@ void require_possible(const DamperDescription& d, const std::string& where) {
         where,
         "no piston is left between slot or rod, gap and a bore of " + millimetres(d.bore_diameter),
         "a wider bore or a smaller gap");
+
   if (d.yield_law != YieldLaw::Carlson && !d.fluid->family)
     throw Error(where, "the family paper has no yield stress of " + std::string(d.fluid->name),
                 "yield: carlson, or fluid: 122EG or 140CG");
@@ -170,12 +172,16 @@ DamperDescription parse_description(std::string_view text, const std::string& so
   if (const Value* fluid = reader.optional("fluid"))
     description.fluid = &find_fluid(fluid->as_string(), fluid->where());
   reader.string("note", "");
+
   read_law(reader, "yield", kYieldLaws, description.yield_law);
   read_law(reader, "circuit", kCircuitLaws, description.circuit_law);
   read_law(reader, "flow", kFlowLaws, description.flow_law);
+
+  // Fields that are not given keep the table's defaults.
   for (const DescriptionField& field : kFields)
     if (const Value* value = reader.optional(field.name))
       description.*field.field = read_field(*value, field);
+
   reader.finish();
   require_possible(description, source);
   return description;
@@ -195,7 +201,7 @@ DamperDescription named_description(const std::string& name) {
 std::vector<std::string> description_names() { return data_names("dampers", ".yaml"); }
 
 std::string format_description(const DamperDescription& d) {
-  // What JSON quotes, YAML reads.
+  // YAML reads texts that are quoted as in JSON.
   std::string text = "name: " + format_json(Value(d.name), false) +
                      "\nfluid: " + std::string(d.fluid->name) +
                      "\nyield: " + std::string(word_of(kYieldLaws, d.yield_law)) +

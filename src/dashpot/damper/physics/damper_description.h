@@ -10,26 +10,27 @@
 
 namespace dashpot {
 
-/// How the yield stress follows the field.
+/// The law by which the yield stress follows the field.
 enum class YieldLaw {
   Carlson,  ///< Carlson's empirical law, for any fluid
   Paper,    ///< the family paper's polynomials, held where they turn over: 122EG and 140CG
   DataSet  ///< the inputs of the family paper's data: for 122EG its four points, for 140CG as Paper
 };
-/// How the flux density follows the coil's current.
+/// The law by which the flux density follows the coil's current.
 enum class CircuitLaw {
   Filled,  ///< fluid in the gap, steel that saturates: solved for the flux
   Paper    ///< equations 2 to 8 of the family paper: air in the gap, then saturated
 };
-/// How pressure follows flow.
+/// The law by which pressure follows flow.
 enum class FlowLaw {
   Plate,       ///< Bingham fluid between parallel plates, exact
   MovingWall,  ///< the same where one plate is the piston's land, with its drag
   Paper        ///< equations 13 to 15 of the family paper, dimensionally right
 };
 
-/// A damper as its drawing, its coil and its fluid say. SI. A field of 0 that says so follows from
-/// others.
+/// A damper as its drawing, its coil and its fluid say, in SI. description_fields() gives each
+/// number's unit, default, bounds and meaning. A field of 0 whose meaning says so follows from
+/// others. `fluid` points into the table of fluids and is never null.
 struct DamperDescription {
   std::string name;
   const Fluid* fluid = nullptr;
@@ -55,20 +56,22 @@ struct DescriptionField {
   double value, lower, upper;  ///< default and bounds
   std::string_view meaning;
 };
+/// All fields, in the order in which they are written.
 std::span<const DescriptionField> description_fields();
-/// In the field's unit and within its bounds. Throws Error.
+/// Reads a number in the field's unit, or with a unit of its own, and checks its bounds. Throws
+/// Error(file:line, ...).
 double read_field(const Value& value, const DescriptionField& field);
 /// Throws Error(where, "unknown field ...").
 const DescriptionField& find_description_field(std::string_view name, const std::string& where);
 
-/// YAML: "gap: 1 mm", "turns: 150", "fluid: 140CG", "flow: plate". Throws Error that names file and
-/// line. What cannot be together (a rod wider than the bore) is refused too.
+/// From YAML: "gap: 1 mm", "turns: 150", "fluid: 140CG", "flow: plate". Throws Error that names
+/// file and line. What cannot be together (a rod wider than the bore) is refused too.
 DamperDescription parse_description(std::string_view text, const std::string& source);
 DamperDescription load_description(const std::filesystem::path& path);
-/// One that comes with Dashpot, of data/dampers.
+/// A description that comes with Dashpot, of data/dampers. Throws Error "unknown damper ...".
 DamperDescription named_description(const std::string& name);
 std::vector<std::string> description_names();
-/// As YAML that reads back as the same.
+/// The description as YAML that reads back as the same, to the bit.
 std::string format_description(const DamperDescription& description);
 
 /// Throws Error where fields cannot be together; `where` begins the message.

@@ -77,6 +77,7 @@ double slot_mean_diameter(const DamperDescription& d) {
   return d.slot_diameter > 0 ? d.slot_diameter + d.gap : d.bore_diameter - d.gap;
 }
 
+/// Areas that follow from the drawing, where the description does not give them.
 void add_shape(const DamperDescription& d, DamperPhysics& p) {
   const double circumference = d.slot_share * kPi * slot_mean_diameter(d);
   p.gap_area = d.gap_area > 0 ? d.gap_area : circumference * d.gap;
@@ -89,6 +90,7 @@ void add_shape(const DamperDescription& d, DamperPhysics& p) {
   p.magnetic_gap = d.magnetic_gap > 0 ? d.magnetic_gap : 2 * d.gap;
 }
 
+/// The circuit of the family paper: air in the gap, relative permeability 1.
 MagneticCircuit circuit_of(const DamperDescription& d, const DamperPhysics& shape) {
   return {d.turns, d.core_length, shape.magnetic_gap, d.core_area, d.permeability, d.saturation, 1};
 }
@@ -106,15 +108,16 @@ double yield_stress_of(const DamperDescription& d, double field) {
   return family_yield_stress(d.fluid->family, field);
 }
 
-/// Ampere-turns that drive this flux density through steel and fluid. The steel's follows from its
-/// saturation: B = B_sat b / (b + B_sat) with b = mu H.
+/// Ampere-turns that drive this flux density (T, in the core) through steel and fluid. The steel's
+/// field follows from its saturation: B = B_sat b / (b + B_sat) with b = mu H.
 double ampere_turns(const DamperDescription& d, const DamperPhysics& shape, double core) {
   const double steel = core * d.saturation / (d.saturation - core) / (d.permeability * DASHPOT_MU0);
   return steel * d.core_length +
          field_of(d, core * d.core_area / shape.pole_area) * shape.magnetic_gap;
 }
 
-/// The core's flux density: between none and what the steel alone would carry.
+/// The core's flux density, T, that a current drives: between none and what the steel alone would
+/// carry.
 double filled_core_flux_density(const DamperDescription& d, const DamperPhysics& shape,
                                 double current) {
   const double wanted = d.turns * current,
@@ -124,6 +127,7 @@ double filled_core_flux_density(const DamperDescription& d, const DamperPhysics&
   return find_root(off, {0, -wanted}, {most, off(most)}, 1e-14 * wanted);
 }
 
+/// Flux, field and yield stress at a current of either sign.
 FluidState fluid_state(const DamperDescription& d, const DamperPhysics& shape, double current) {
   FluidState state;
   const double magnitude = std::abs(current);
@@ -140,17 +144,23 @@ FluidState fluid_state(const DamperDescription& d, const DamperPhysics& shape, d
   return state;
 }
 
-/// Where there is no current, what a small one sees.
+/// Reluctances and the coil. Both are ratios to the flux, so without current they are those of a
+/// small one.
 void add_circuit(const DamperDescription& d, double current, const FluidState& at_current,
                  DamperPhysics& p) {
   constexpr double kSmall = 1e-6;
   const double seen = std::max(std::abs(current), kSmall);
+
   const FluidState state = seen > kSmall ? at_current : fluid_state(d, p, kSmall);
   const MagneticCircuit circuit = circuit_of(d, p);
+
   const double turns_current = d.turns * seen, flux = state.core_flux_density * d.core_area;
+
   p.core_reluctance = core_reluctance(&circuit);
   p.gap_reluctance = d.circuit_law == CircuitLaw::Paper ? gap_reluctance(&circuit)
                                                         : state.field * p.magnetic_gap / flux;
+
+  // Resistance, inductance and what the current heats.
   const Coil coil{d.turns, d.wire_diameter, d.turn_length, d.resistivity,
                   d.resistivity_coefficient};
   p.resistance = coil_resistance(&coil, d.temperature);
@@ -162,6 +172,8 @@ void add_circuit(const DamperDescription& d, double current, const FluidState& a
   p.coil_fill = d.window_area > 0 ? d.turns * coil_wire_area(&coil) / d.window_area : 0;
 }
 
+/// The state of steel and fluid; the viscosity follows the temperature as far as the description
+/// says how.
 void add_fluid(const DamperDescription& d, const FluidState& state, DamperPhysics& p) {
   p.core_flux_density = state.core_flux_density;
   p.flux = state.core_flux_density * d.core_area;
@@ -173,6 +185,7 @@ void add_fluid(const DamperDescription& d, const FluidState& state, DamperPhysic
   p.viscosity = at_40 * std::exp(-d.viscosity_exponent * (d.temperature - 313.15));
 }
 
+/// Pressures and forces of all three flow laws at a speed, whichever the description chooses.
 void add_flow(const DamperDescription& d, double velocity, DamperPhysics& p) {
   const double speed = std::abs(velocity);
   const PlateGap active{d.pole_length, p.gap_width, d.gap},
@@ -185,6 +198,7 @@ void add_flow(const DamperDescription& d, double velocity, DamperPhysics& p) {
   p.pressure = plate_bingham_pressure(p.newtonian_pressure, p.yield_pressure);
   p.plate_force = p.piston_area * (p.pressure + p.passive_pressure);
 
+  // The wall moves against the flow, in the part with field and in the part without.
   const double wall = p.gap_area * speed / p.flow;  // w h v / Q
   const double moving = plate_moving_wall_pressure(p.newtonian_pressure, p.yield_pressure, wall);
   const double drag = plate_wall_drag(moving, p.newtonian_pressure, p.yield_pressure, wall);
@@ -193,6 +207,7 @@ void add_flow(const DamperDescription& d, double velocity, DamperPhysics& p) {
       p.piston_area * (moving + drag + passive_moving +
                        plate_wall_drag(passive_moving, p.passive_pressure, 0, wall));
 
+  // Equations 13 to 15 of the family paper.
   const double length = d.pole_length + d.passive_length;
   p.viscous_force = 12 * p.viscosity * length * p.piston_area * p.moving_area * speed /
                     (p.gap_area * d.gap * d.gap);
@@ -217,6 +232,7 @@ FluidState fluid_state(const DamperDescription& description, double current) {
 }
 
 DamperPhysics evaluate_physics(const DamperDescription& d, const DamperOperation& operation) {
+  // Shape and spring do not depend on the current.
   DamperPhysics off;
   add_shape(d, off);
   if (d.spring_wire > 0) {
@@ -225,6 +241,8 @@ DamperPhysics evaluate_physics(const DamperDescription& d, const DamperOperation
     off.spring_stiffness_as_printed = spring_stiffness_as_printed(&spring);
     off.spring_force = off.spring_stiffness * operation.displacement;
   }
+
+  // The same chain with the current and without: circuit, fluid, flow.
   DamperPhysics p = off;
   const FluidState state = fluid_state(d, p, operation.current);
   add_circuit(d, operation.current, state, p);
@@ -232,6 +250,8 @@ DamperPhysics evaluate_physics(const DamperDescription& d, const DamperOperation
   add_flow(d, operation.velocity, p);
   add_fluid(d, fluid_state(d, off, 0), off);
   add_flow(d, operation.velocity, off);
+
+  // Forces against the motion, with friction and spring.
   const double side = plate_side(operation.velocity);
   const double damping = flow_force(d, p) + d.friction,
                off_damping = flow_force(d, off) + d.friction;
@@ -248,6 +268,8 @@ std::vector<std::string> physics_warnings(const DamperDescription& d, const Damp
   if (!d.fluid->volume_fraction_verified && d.yield_law == YieldLaw::Carlson)
     warnings.push_back("the volume fraction of " + std::string(d.fluid->name) +
                        " is recalled, not from its data sheet");
+
+  // The coil and its circuit.
   if (p.coil_fill > 0.6)
     warnings.push_back("the coil fills " + format_number(100 * p.coil_fill, 3) +
                        " % of its room with copper; windings reach about 60 %");
@@ -257,6 +279,8 @@ std::vector<std::string> physics_warnings(const DamperDescription& d, const Damp
   if (p.current_density > 10e6)
     warnings.push_back("the wire carries " + format_number(p.current_density / 1e6, 3) +
                        " A/mm^2; more than 10 overheats it when it lasts");
+
+  // Approximations of the flow.
   const double diameter = slot_mean_diameter(d);
   if (d.gap > 0.05 * diameter)
     warnings.push_back(

@@ -8,7 +8,8 @@
 
 namespace dashpot {
 
-/// Everything between a coil current and a force, at one speed. SI.
+/// Everything between a coil current and a force, at one speed, in SI; physics_quantities() gives
+/// each number's unit, name and equation. Quantities that need a flow are 0 at rest.
 struct DamperPhysics {
   double piston_area = 0, gap_area = 0, gap_width = 0, moving_area = 0;  // hydraulics: shape
   double pole_area = 0, magnetic_gap = 0, core_reluctance = 0, gap_reluctance = 0, flux = 0;
@@ -24,7 +25,7 @@ struct DamperPhysics {
   double force = 0, off_force = 0, dynamic_range = 0;
 };
 
-/// One row of the table that names them.
+/// One row of the table that names them; reports and documentation are made from it.
 struct PhysicsQuantity {
   double DamperPhysics::* value;
   std::string_view group;  ///< "hydraulics", "magnetic circuit" ...
@@ -32,20 +33,20 @@ struct PhysicsQuantity {
 };
 std::span<const PhysicsQuantity> physics_quantities();
 
-/// Where a damper works.
+/// The point at which a damper is looked at.
 struct DamperOperation {
   double current = 0;       ///< A
   double velocity = 0;      ///< m/s, extension positive
   double displacement = 0;  ///< m, from where the spring is free
 };
 
-/// The description must be possible (require_possible). The same equations as the laws
-/// plate_bingham and field_chain. Signs as a damper's: force positive when it resists extension.
+/// Evaluates the chain coil, magnetic circuit, fluid, flow, force. The description must be possible
+/// (require_possible). The same equations as the laws plate_bingham and field_chain, from the same
+/// C text. Signs as a damper's: force positive when it resists extension.
 DamperPhysics evaluate_physics(const DamperDescription& description,
                                const DamperOperation& operation);
 
-/// Flux density in the gap and field in the fluid that a current drives; the yield stress that
-/// comes of them.
+/// Flux density in core and gap, field in the fluid, and the yield stress that comes of them.
 struct FluidState {
   double core_flux_density = 0, flux_density = 0;  ///< T
   double field = 0;                                ///< A/m
@@ -53,8 +54,8 @@ struct FluidState {
 };
 FluidState fluid_state(const DamperDescription& description, double current);
 
-/// What a user should know of the numbers: laws outside their range, a coil that does not fit,
-/// saturation.
+/// Warnings that a user should read with the numbers, one sentence each: laws outside their range,
+/// a coil that does not fit, saturation. Empty when there are none.
 std::vector<std::string> physics_warnings(const DamperDescription& description,
                                           const DamperPhysics& physics);
 

@@ -54,6 +54,8 @@ double measured_yield_stress_122eg(double field) {
 std::vector<std::string> family_warnings(const Fluid& fluid, double largest_field) {
   std::vector<std::string> warnings;
   if (!fluid.family) return warnings;
+
+  // The table's own faults.
   const FamilyFluid& table = *fluid.family;
   const std::string name(fluid.name);
   if (fluid.family == &kFamily122EG)
@@ -65,6 +67,8 @@ std::vector<std::string> family_warnings(const Fluid& fluid, double largest_fiel
     warnings.push_back("the yield stress of " + name + " without field, " +
                        kilo(table.yield[0], "Pa") +
                        ", comes from the polynomial's fit, not from the fluid");
+
+  // Use beyond its range.
   if (largest_field > table.held_field)
     warnings.push_back("the yield stress of " + name + " is held at " +
                        kilo(family_yield_stress(&table, largest_field), "Pa") + " above " +

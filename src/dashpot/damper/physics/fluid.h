@@ -8,10 +8,11 @@
 
 namespace dashpot {
 
-/// Of the same table as kFamily140CG.
+/// From the same table of the family paper as kFamily140CG.
 extern const FamilyFluid kFamily122EG;
 
-/// A magnetorheological fluid that is known by name.
+/// A magnetorheological fluid that is known by name. Rows of a table that lives as long as the
+/// program.
 struct Fluid {
   std::string_view name;                ///< "140CG"
   double viscosity;                     ///< Pa*s at 40 degC, from its data sheet
@@ -22,7 +23,7 @@ struct Fluid {
   const FamilyFluid* family = nullptr;  ///< the family paper's polynomials, where it has them
 };
 
-/// 122EG, 132DG and 140CG.
+/// All of them: 122EG, 132DG and 140CG.
 std::span<const Fluid> fluids();
 /// Throws Error "unknown fluid '140CH'; did you mean ...".
 const Fluid& find_fluid(std::string_view name, const std::string& where = {});
@@ -31,7 +32,8 @@ const Fluid& find_fluid(std::string_view name, const std::string& where = {});
 /// of the paper's polynomial: four points, straight between them, held beyond the last.
 double measured_yield_stress_122eg(double field);
 
-/// What is wrong with the family paper's polynomials for this fluid up to a field in A/m, in words.
+/// The faults of the family paper's polynomials for this fluid up to a field in A/m, a sentence
+/// each.
 std::vector<std::string> family_warnings(const Fluid& fluid, double largest_field);
 
 }  // namespace dashpot

@@ -27,8 +27,9 @@ static inline double carlson_field(double phi, double flux_density) {
   for (k = 0; k < 100; ++k) {
     const double rest = exp(-10.97 * y);
     const double step = (flux_density - y - iron * (1 - rest)) / (1 + 10.97 * iron * rest);
+    const double tolerance = 1e-9; /* single precision: 1e-5 */
     y += step;
-    if (fabs(step) <= 1e-9 * y) break; /* the next step would move by the square of this */
+    if (fabs(step) <= tolerance * y) break; /* the next step would move by the square of this */
   }
   return y / DASHPOT_MU0;
 }

@@ -2,13 +2,17 @@
  * text.
  *
  * A gap (length L, width w, height h) that passes Q costs a pressure which two numbers of the same
- * unit set: newtonian  N = 12 eta L Q / (w h^3)   the pressure without yield stress, proportional
- * to the flow yielding   Y = 2 tau L / h            the pressure below which nothing flows Times
- * the piston area they are forces; every function here takes and gives either, for N >= 0 and Y >=
- * 0. In the customary numbers P = p / N and T = w h^2 tau / (12 Q eta) = Y / (2 N). Sources: R. W.
- * Phillips, thesis, UC Berkeley 1969; H. P. Gavin, R. D. Hanson, F. E. Filisko, J. Appl. Mech. 63
- * (1996) 669-675; N. M. Wereley, L. Pang, Smart Mater. Struct. 7 (1998) 732-743. An annular duct is
- * such a gap to the order of (h / diameter)^2.
+ * unit set:
+ *
+ *   newtonian  N = 12 eta L Q / (w h^3)   the pressure without yield stress, in proportion to Q
+ *   yielding   Y = 2 tau L / h            the pressure below which nothing flows
+ *
+ * Times the piston area they are forces; every function here takes and gives either, for N >= 0 and
+ * Y >= 0. In the customary numbers P = p / N and T = w h^2 tau / (12 Q eta) = Y / (2 N). An annular
+ * duct is such a gap to the order of (h / diameter)^2.
+ *
+ * Sources: R. W. Phillips, thesis, UC Berkeley 1969; H. P. Gavin, R. D. Hanson, F. E. Filisko, J.
+ * Appl. Mech. 63 (1996) 669-675; N. M. Wereley, L. Pang, Smart Mater. Struct. 7 (1998) 732-743.
  */
 #ifndef DASHPOT_PLATE_FLOW_H
 #define DASHPOT_PLATE_FLOW_H
@@ -56,23 +60,28 @@ static inline double plate_gavin_pressure(double newtonian, double yielding) {
 }
 
 /* The same with one wall moving at a speed u against the flow, as a piston's land does: wall = w h
- * u / Q >= 0 is the flow it drags along, over Q; valid up to 3. With V = -wall / 2: 3 (P - 2T)^2
- * (P^3 - (1 + 3T - V) P^2
- * + 4T^3) + T V^2 P^2 = 0, by Newton's method from the root without the last term, which is small.
+ * u / Q >= 0 is the flow it drags along, over Q; valid up to 3. With V = -wall / 2:
+ *
+ *   3 (P - 2T)^2 (P^3 - (1 + 3T - V) P^2 + 4T^3) + T V^2 P^2 = 0
+ *
+ * by Newton's method from the root without the last term, which is small.
  */
 static inline double plate_moving_wall_pressure(double newtonian, double yielding, double wall) {
   const double drive = (1 + 0.5 * wall) * newtonian;
   const double small = yielding * wall * wall * newtonian * newtonian / 24;
   double p = plate_bingham_pressure(drive, yielding);
   int k;
+
+  /* In terms of d = p - Y, the pressure beyond yielding. */
   for (k = 0; k < 20 && small > 0; ++k) {
     const double d = p - yielding, s = small / (d * d);
     const double excess = d * d * (d + 1.5 * yielding) - (drive - s) * p * p;
     const double slope = 3 * d * (d + yielding) - 2 * (drive - s + s * p / d) * p;
     const double step = excess / slope;
+    const double tolerance = 1e-9; /* single precision: 1e-5 */
     if (!(d > 0 && slope > 0)) break;
     p -= step;
-    if (fabs(step) <= 1e-9 * d) break; /* the next step would move by the square of this */
+    if (fabs(step) <= tolerance * d) break; /* the next step would move by the square of this */
   }
   return p;
 }
@@ -97,14 +106,17 @@ static inline double plate_herschel_bulkley_pressure(double power, double yieldi
   int k;
   if (!(ratio < 1e15)) return yielding > 0 ? power + (1 + b) * yielding : power;
   if (!(ratio > 1e-200)) return yielding;
+
+  /* Start at the sum of both limits, slow and fast flow. */
   log_ratio = log(ratio);
   d = exp(log_ratio / (1 + n)) + ratio;
   for (k = 0; k < 50; ++k) {
     const double e = 1 / (1 + d), f = 1 / (1 + d + b);
     const double excess = log(d) - log_ratio + n * log(d * (d + 1 + b) * e * e);
     const double step = excess / (1 + n * (1 + d * (f - 2 * e)));
+    const double tolerance = 1e-8; /* single precision: 1e-5 */
     d *= exp(-step);
-    if (fabs(step) <= 1e-8) break; /* the next step would move by the square of this */
+    if (fabs(step) <= tolerance) break; /* the next step would move by the square of this */
   }
   return yielding * (1 + d);
 }

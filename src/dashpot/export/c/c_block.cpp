@@ -2,13 +2,15 @@
 
 #include "dashpot/export/c/c_model.h"
 #include "dashpot/export/c/c_text.h"
+#include "dashpot/export/c_subset/c_rewrite.h"
 
 namespace dashpot {
 namespace {
 
 constexpr const char* kTest =
-    R"(/* Steps through a run and compares the commands with those that Dashpot @version@ computed in double precision.
- * Returns 0 when they agree within @tolerance@ of their range wherever a command makes a difference. */
+    R"(/* Steps through a run and compares the commands with those of Dashpot @version@ in
+ * double precision. Returns 0 when they agree within @tolerance@ of their range wherever a command
+ * makes a difference. */
 #include "@prefix@.h"
 
 #include <math.h>

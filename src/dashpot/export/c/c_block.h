@@ -14,17 +14,17 @@ struct CPort {
   std::string name, unit, meaning;  ///< `unit`: empty where none is known
   std::string place;                ///< in C: "struts[#].deflection", # being which of them
   std::size_t count = 1;
-  std::vector<Part> parts = {};  ///< what each of several is of: a strut, a coordinate
+  std::vector<Part> parts = {};  ///< for each of several: the strut or coordinate it belongs to
 
   /// The place of one of them.
   std::string at(std::size_t which) const;
 };
 
-/// What gives commands sample by sample, an inverse or a controller, as C99: damper_init,
+/// An inverse or a controller, which gives commands sample by sample, as C99: damper_init,
 /// damper_reset and damper_step on a damper_model, without heap, files or globals that change.
 struct CBlock {
-  /// What is known at a sample, port by port; the commands that the library gives in double
-  /// precision.
+  /// The inputs at a sample, port by port, and the commands that the library gives for them in
+  /// double precision.
   struct Sample {
     std::vector<double> inputs, commands;
     bool matters = true;  ///< elsewhere no command is better than another, and rounding decides
@@ -33,14 +33,14 @@ struct CBlock {
   std::string title;  ///< what it is, in a line
   std::string about;  ///< what it was made for, in sentences
   CPrecision precision = CPrecision::Double;
-  std::string header,
-      source;        ///< in double precision, names with damper_; @prefix@ and @command@ are open
-  std::string step;  ///< a statement: input to commands[]
+  /// In double precision, with names that begin with damper_; @prefix@ and @command@ are open.
+  std::string header, source;
+  std::string step;  ///< a statement that takes `model` and `input` and writes commands[]
   std::vector<CPort> inputs, commands;
   std::size_t state_size = 0;   ///< numbers in damper_model's `state`, one at least
   double sample_time = 0;       ///< s
-  double range = 0;             ///< of a command
-  double tolerance = 1e-12;     ///< of the range: how well the commands agree
+  double range = 0;             ///< largest less least command
+  double tolerance = 1e-12;     ///< share of the range within which the commands agree
   std::vector<Sample> samples;  ///< a run from rest
   std::string version;
 };

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 
 #include "dashpot/error.h"
 #include "dashpot/export/c/c_model.h"
 #include "dashpot/export/c/c_text.h"
+#include "dashpot/export/c_subset/c_tokens.h"
 
 namespace dashpot {
 namespace {
@@ -23,24 +23,23 @@ constexpr std::array kSignals{
                 &StrutSignals::force},
     StrutSignal{"current", "", "in the coil now", &StrutSignals::current}};
 
-bool contains(const std::string& text, std::string_view part) {
-  return text.find(part) != std::string::npos;
-}
-
-/// Adds a law's text and numbers; returns what asks it for its demand. `number` keeps two of a kind
-/// apart.
+/// Adds a law's text and numbers; returns the call that asks it for its demand. `number` keeps the
+/// tables of two laws of a kind apart.
 std::string add_law(const ControlDescription& law, int number, std::size_t first_memory,
                     CControlLaw& out) {
   const std::string text = "control_" + law.law + ".h", mark = std::to_string(number);
   if (law.law.empty() || !has_c_text(text))
     throw Error("controller",
                 law.law.empty() ? "has no C text" : "'" + law.law + "' has no C text");
+
+  // A law that asks for a force or a damping needs an inverse behind it.
   const std::string own = with_texts("#include \"" + text + "\"\n");
-  out.gives_damping = out.gives_damping || contains(own, "demand_of(kDemandDamping");
-  out.gives_force = out.gives_force || contains(own, "demand_of(kDemandForce");
-  out.gives_current = out.gives_current || contains(own, "demand_of(kDemandCurrent");
+  out.gives_damping = out.gives_damping || has_c(own, "demand_of(kDemandDamping");
+  out.gives_force = out.gives_force || has_c(own, "demand_of(kDemandForce");
+  out.gives_current = out.gives_current || has_c(own, "demand_of(kDemandCurrent");
   out.code += "#include \"" + text + "\"\n";
 
+  // Its arguments: its gain or its parameters, the limits, the strut's signals, its memory.
   std::string arguments;
   if (!law.gain.empty()) {
     out.code += c_table("kGain" + mark, law.gain) + "\n";
@@ -68,6 +67,8 @@ CControlLaw c_control_law(const ControlDescription& controller, std::size_t stru
     out.demand = add_law(controller, 0, first_memory, out);
     return out;
   }
+
+  // A selector asks one of two laws, as the frequency of the motion has it.
   out.code = "#include \"selected_demand.h\"\n";
   const std::string low = add_law(controller.choices[0], 0, first_memory, out);
   const std::string high = add_law(controller.choices[1], 1, first_memory, out);
@@ -80,14 +81,8 @@ std::span<const StrutSignal> strut_signals() { return kSignals; }
 
 std::set<std::string> signals_in(const std::string& code) {
   std::set<std::string> names;
-  for (const StrutSignal& signal : kSignals) {
-    const std::string use = "s->" + std::string(signal.name);
-    for (std::size_t at = 0; (at = code.find(use, at)) != std::string::npos; at += use.size()) {
-      const char next = at + use.size() < code.size() ? code[at + use.size()] : ' ';
-      if (next != '_' && std::isalnum(static_cast<unsigned char>(next)) == 0)
-        names.emplace(signal.name);
-    }
-  }
+  for (const StrutSignal& signal : kSignals)
+    if (has_c(code, "s->" + std::string(signal.name))) names.emplace(signal.name);
   return names;
 }
 

@@ -10,10 +10,10 @@ namespace dashpot {
 struct CControlLaw {
   std::size_t struts = 1;
   std::string code;  ///< texts and tables that `demand` needs
-  std::string
-      demand;  ///< an expression of StrutSignals* s, damper_input* input, int strut, double* state
+  /// An expression of StrutSignals* s, damper_input* input, int strut and double* state.
+  std::string demand;
   std::size_t memory = 0;  ///< numbers of the state that it keeps per strut, from `first_memory` on
-  std::size_t states = 0;  ///< of the plant, which it looks at
+  std::size_t states = 0;  ///< numbers of the plant's state that it looks at
   bool gives_damping = false, gives_force = false, gives_current = false;
 };
 /// Throws Error where a law has no C text.

@@ -6,6 +6,8 @@
 #include "dashpot/error.h"
 #include "dashpot/export/c/c_inverse.h"
 #include "dashpot/export/c/c_model.h"
+#include "dashpot/export/c/c_text.h"
+#include "dashpot/export/c_subset/c_tokens.h"
 #include "dashpot/suspension/control/sensors.h"
 
 namespace dashpot {
@@ -27,7 +29,8 @@ static const ControlLimits kLimits = @limits@;
 )";
 
 constexpr const char* kCommand =
-    R"(static double strut_command(const StrutSignals* s, const DamperDemand* demand, double* state) {
+    R"(static double strut_command(const StrutSignals* s, const DamperDemand* demand,
+                            double* state) {
 @unused@  double command = demand->value;
 @otherwise@  return command;
 }
@@ -75,15 +78,16 @@ std::string number(std::size_t count) { return std::to_string(count); }
 
 bool has(const std::set<std::string>& names, const char* name) { return names.count(name) > 0; }
 
-/// Where a strut's part of the state keeps what.
+/// The parts of a strut's state, one behind the other: the filters that make velocities, the laws'
+/// memory, the force loop, the inverse.
 struct Layout {
-  bool body = false, slope = false;  ///< whether there are these filters
-  std::size_t memory = 0, loop = 0, inverse = 0, end = 0;
+  bool body = false, slope = false;  ///< whether there is a filter for the body, the deflection
+  std::size_t memory = 0, loop = 0, inverse = 0, end = 0;  ///< where they begin
 
   std::size_t slope_at() const { return body ? 2 : 0; }
 };
 
-/// The damper behind all demands.
+/// The damper that all demands are for. Throws Error where there are several with an inverse each.
 const MountedDamper& damper_of(const Vehicle& vehicle) {
   const MountedDamper& first = vehicle.dampers.front();
   for (std::size_t k = 1; k < vehicle.dampers.size(); ++k)
@@ -96,17 +100,18 @@ const MountedDamper& damper_of(const Vehicle& vehicle) {
   return first;
 }
 
-/// From a demand to a command, with where its memories are.
-std::string command_code(const MountedDamper& damper, const CControlLaw& law, const Layout& at,
-                         CPrecision precision) {
+/// The texts and the function from a demand to a command: the demand itself where laws ask for
+/// currents, a straight line over the current where there is no inverse, else the inverse.
+std::string command_code(const MountedDamper& damper, const CControlLaw& law, const Layout& at) {
   const bool only_current = !law.gives_damping && !law.gives_force, loops = damper.loop.is_closed();
   std::string texts, otherwise;
   if (!only_current && !damper.inverse) {
     texts = "#include \"straight_current.h\"\n";
     otherwise = filled(kStraight, {{"velocity", law.gives_force ? "s->deflection_velocity" : "0"}});
   } else if (!only_current) {
-    texts = kInverseTypes + c_inverse(*damper.inverse, precision).code +
-            "#include \"demanded_force.h\"\n";
+    texts = kInverseTypes + c_inverse(*damper.inverse).code + "#include \"demanded_force.h\"\n";
+
+    // The loop corrects the wanted force before the inverse, and learns of the limits behind it.
     const ForceLoop& loop = damper.loop;
     if (loops)
       texts += filled(
@@ -123,11 +128,12 @@ std::string command_code(const MountedDamper& damper, const CControlLaw& law, co
                                ", " + c_number(damper.driver.current_max) + ", &state[" +
                                number(at.loop) + "]);\n"
                          : ""},
-         {"measured", c_inverse(*damper.inverse, precision).needs_force ? "s->force / ratio" : "0"},
+         {"measured", c_inverse(*damper.inverse).needs_force ? "s->force / ratio" : "0"},
          {"inverse", number(at.inverse)}});
   }
-  const bool sees = otherwise.find("s->") != std::string::npos,
-             keeps = otherwise.find("state") != std::string::npos;
+
+  // A parameter that the function does without is named, as compilers ask for it.
+  const bool sees = has_c(otherwise, "s->"), keeps = has_c(otherwise, "state");
   return texts + filled(kCommand, {{"unused", std::string(sees ? "" : "  (void)s;\n") +
                                                   (keeps ? "" : "  (void)state;\n")},
                                    {"otherwise", otherwise}});
@@ -135,9 +141,8 @@ std::string command_code(const MountedDamper& damper, const CControlLaw& law, co
 
 std::string demand_function(const CControlLaw& law) {
   std::string unused;
-  for (const auto& [name, use] :
-       {std::pair{"input", "input->"}, {"strut", "strut *"}, {"state", "&state"}})
-    if (law.demand.find(use) == std::string::npos) unused += "  (void)" + std::string(name) + ";\n";
+  for (const char* name : {"input", "strut", "state"})
+    if (!has_c(law.demand, name)) unused += "  (void)" + std::string(name) + ";\n";
   return "static DamperDemand strut_demand(const StrutSignals* s, const damper_input* input, int "
          "strut,\n"
          "                                 double* state) {\n" +
@@ -162,7 +167,7 @@ std::vector<const StrutSignal*> signals_named(const std::set<std::string>& names
   return signals;
 }
 
-/// From what the sensors of a car measure to what the laws look at.
+/// The function from what the sensors of a car measure to the signals that the laws look at.
 std::string filters_function(const Vehicle& vehicle, const std::set<std::string>& used,
                              const Layout& at) {
   const Sensors filters(vehicle.sensors, 1, vehicle.limits.sample_time);
@@ -178,6 +183,8 @@ std::string filters_function(const Vehicle& vehicle, const std::set<std::string>
              c_number(filters.share()) + ", DAMPER_SAMPLE_TIME, &state[" + number(at.slope_at()) +
              "]);\n";
   }
+
+  // A field for each signal: measured, or made of what is.
   lines += "  StrutSignals s;\n";
   for (const StrutSignal* signal : signals_named(used)) {
     const std::string name(signal->name);
@@ -203,6 +210,7 @@ static StrutSignals strut_signals(const damper_signals* measured, double* state)
 )";
 
 std::string rest_function(const MountedDamper& damper, const Layout& at, bool inverts) {
+  // Filters and inverse begin at the first sample, as after a long rest there.
   std::string lines;
   if (at.body)
     lines +=
@@ -224,15 +232,16 @@ std::string rest_function(const MountedDamper& damper, const Layout& at, bool in
 
 }  // namespace
 
-CControlPath c_control_path(const Vehicle& vehicle, CPrecision precision) {
+CControlPath c_control_path(const Vehicle& vehicle) {
+  // The laws say which signals they look at.
   const MountedDamper& damper = damper_of(vehicle);
   const ControlDescription description = vehicle.controller->description();
   CControlLaw law = c_control_law(description, vehicle.dampers.size(), 0);
   const bool inverts = damper.inverse && (law.gives_damping || law.gives_force);
-  std::set<std::string> used =
-      signals_in(with_texts(law.code + command_code(damper, law, {}, precision)));
+  std::set<std::string> used = signals_in(with_texts(law.code + command_code(damper, law, {})));
   if (used.empty()) used.insert("deflection_velocity");  // C has no empty structs
 
+  // With these the state is laid out; then the laws know where their memory is.
   const bool in_car = vehicle.sensors.in_car;
   Layout at;
   at.body = in_car && (has(used, "body_velocity") || has(used, "wheel_velocity"));
@@ -248,7 +257,7 @@ CControlPath c_control_path(const Vehicle& vehicle, CPrecision precision) {
       filled(kTypes, {{"limits", c_numbers(std::vector{limits.damping_min, limits.damping_max,
                                                        limits.current_min, limits.current_max})}});
   return {types + (in_car ? filters_function(vehicle, used, at) : kMeasured) + law.code +
-              command_code(damper, law, at, precision) + rest_function(damper, at, inverts) +
+              command_code(damper, law, at) + rest_function(damper, at, inverts) +
               demand_function(law),
           signals_named(in_car ? sensors_for(used) : used),
           std::max<std::size_t>(1, at.end),

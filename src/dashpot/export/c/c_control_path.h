@@ -2,7 +2,6 @@
 #include <set>
 
 #include "dashpot/export/c/c_control_law.h"
-#include "dashpot/export/c/c_text.h"
 #include "dashpot/vehicle.h"
 
 namespace dashpot {
@@ -16,7 +15,8 @@ struct CControlPath {
   bool has_integrals = false;  ///< makes velocities by integration
   bool has_slopes = false;     ///< makes velocities by differences
 };
-/// Throws Error where it cannot become C.
-CControlPath c_control_path(const Vehicle& vehicle, CPrecision precision);
+/// The path of a vehicle that has a controller. Throws Error where a law has no C text, or where
+/// struts have different dampers behind an inverse.
+CControlPath c_control_path(const Vehicle& vehicle);
 
 }  // namespace dashpot

@@ -8,6 +8,7 @@
 #include "dashpot/export/c/c_control_path.h"
 #include "dashpot/export/c/c_controller_run.h"
 #include "dashpot/export/c/c_model.h"
+#include "dashpot/export/c/c_text.h"
 
 namespace dashpot {
 namespace {
@@ -27,7 +28,8 @@ constexpr const char* kHeader = R"(/* @title@
  *   damper_init(&model);
  *   for (;;) damper_step(&model, &input, commands);
  *
- * C99 with math.h: no heap, no files, no variables outside a damper_model. Made by Dashpot @version@:
+ * C99 with math.h: no heap, no files, no variables outside a damper_model.
+ * Made by Dashpot @version@:
  *   @command@
  * MISRA C:2012, deviations: @deviations@
  */
@@ -42,8 +44,7 @@ constexpr const char* kHeader = R"(/* @title@
 
 constexpr const char* kPlantState =
     "  double plant_state[DAMPER_PLANT_STATES]; /* heights and angles from where the plant would "
-    "rest on "
-    "this\n"
+    "rest on this\n"
     "                                            * ground, then their rates */\n";
 
 /// Lines in place of the comment that stands for them.
@@ -94,8 +95,9 @@ std::string without_marks(std::string text) {
   return text;
 }
 
-/// Deflections in single precision are 2 nm apart, and so are their differences: that over the
-/// sample time beside a speed of 10 mm/s is what a damping F / d may be off.
+/// The share of their range within which commands must agree with the library's. Deflections in
+/// single precision are 2 nm apart, and so are their differences: a damping F / d' may be off by
+/// that over the sample time, beside a speed of 10 mm/s.
 double tolerance_of(const Vehicle& vehicle, const CControlPath& path, CPrecision precision) {
   if (precision == CPrecision::Double) return 1e-12;
   return path.has_slopes ? std::max(1e-5, 2e-7 / vehicle.limits.sample_time) : 1e-5;
@@ -109,6 +111,7 @@ std::vector<std::pair<std::string, std::string>> facts(const Vehicle& vehicle,
   std::vector<std::string> dampers = vehicle.damper_names;
   dampers.erase(std::unique(dampers.begin(), dampers.end()), dampers.end());
   const bool states = path.plant_states > 0;
+
   return {
       {"title", vehicle.controller_name},
       {"plant", vehicle.set.name},
@@ -129,7 +132,7 @@ std::vector<std::pair<std::string, std::string>> facts(const Vehicle& vehicle,
       {"sample_time", c_number(limits.sample_time)}};
 }
 
-/// One per strut, of this unit.
+/// A part of a port for each strut, with this unit.
 std::vector<CPort::Part> strut_parts(const Vehicle& vehicle, const std::string& unit) {
   std::vector<CPort::Part> parts;
   for (const Strut& strut : vehicle.set.plant.struts) parts.push_back({strut.name, unit});
@@ -137,6 +140,7 @@ std::vector<CPort::Part> strut_parts(const Vehicle& vehicle, const std::string& 
 }
 
 std::vector<CPort> ports_of(const Vehicle& vehicle, const CControlPath& path) {
+  // The signals, each an array over the struts.
   std::vector<CPort> ports;
   for (const StrutSignal* signal : path.measured) {
     const std::string name(signal->name),
@@ -145,6 +149,8 @@ std::vector<CPort> ports_of(const Vehicle& vehicle, const CControlPath& path) {
                      vehicle.dampers.size(), strut_parts(vehicle, unit)});
   }
   if (path.plant_states == 0) return ports;
+
+  // The plant's state: all coordinates, then all their rates.
   std::vector<CPort::Part> parts;
   for (const char* rate : {"", "/s"})
     for (const Coordinate& coordinate : vehicle.set.plant.coordinates)
@@ -157,10 +163,18 @@ std::vector<CPort> ports_of(const Vehicle& vehicle, const CControlPath& path) {
 
 }  // namespace
 
+CBlockMaker controller_block(std::shared_ptr<const Vehicle> vehicle) {
+  return [vehicle = std::move(vehicle)](const ExportOptions& options) {
+    return c_controller_block(*vehicle, options);
+  };
+}
+
 CBlock c_controller_block(const Vehicle& vehicle, const ExportOptions& options) {
   if (!vehicle.controller) throw Error("export", "the vehicle has no controller");
-  const CControlPath path = c_control_path(vehicle, options.c_precision());
+  const CControlPath path = c_control_path(vehicle);
   auto values = facts(vehicle, path, options);
+
+  // The facts that the header states, and its struct of signals.
   const std::vector<std::string> about = split(filled(kAbout, values), '\n');
   values.emplace_back("about", join(about, "\n * "));
   const std::string interface =
@@ -169,6 +183,8 @@ CBlock c_controller_block(const Vehicle& vehicle, const ExportOptions& options) 
   const ControlLimits& limits = vehicle.limits;
   const std::string usual =
       without_marks(split(vehicle.controller_name, ',').front()) + "_controller";
+
+  // The texts, the interface port by port, and the run that checks them.
   return {
       .name = c_name(options.name.empty() ? usual : options.name),
       .title = "the controller " + vehicle.controller_name + " for " + vehicle.set.name,

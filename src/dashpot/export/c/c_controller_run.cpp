@@ -5,18 +5,20 @@
 
 #include "dashpot/export/export_run.h"
 #include "dashpot/suspension/control/sensors.h"
-#include "dashpot/suspension/damper_state.h"
+#include "dashpot/suspension/dampers/damper_state.h"
 
 namespace dashpot {
 namespace {
 
-/// What happens at a strut, sample by sample, from a seed.
+/// The true signals at a strut, sample by sample, from a seed.
 std::vector<StrutSignals> strut_run(const ControlLimits& limits, std::size_t count,
                                     std::uint64_t seed) {
   constexpr double kForce = 1500;  // N
   constexpr double kFastest = 30;  // Hz
   const Domain body{-0.05, 0.05, -0.5, 0.5, -kForce, kForce},
       strut{-0.03, 0.03, -0.8, 0.8, limits.current_min, limits.current_max};
+
+  // Two independent motions: of the body, and of the strut between body and wheel.
   const std::vector<DamperInput> up = export_run(body, limits.sample_time, count + 1,
                                                  {seed, kFastest}),
                                  stretch = export_run(strut, limits.sample_time, count,
@@ -59,6 +61,7 @@ SensorOptions quiet(SensorOptions sensors) {
 
 std::vector<CBlock::Sample> controller_run(const Vehicle& vehicle, const CControlPath& path,
                                            std::size_t count) {
+  // A run per strut, and the library's way from its demands to its commands.
   const std::size_t struts = vehicle.dampers.size();
   const ControlLimits& limits = vehicle.limits;
   std::vector<std::vector<StrutSignals>> runs;
@@ -79,11 +82,14 @@ std::vector<CBlock::Sample> controller_run(const Vehicle& vehicle, const CContro
   std::vector<StrutSignals> seen(struts);
   std::vector<DamperDemand> demands(struts);
   for (std::size_t k = 0; k < count; ++k) {
+    // The inputs at the sample, in the order of the ports.
     auto& [inputs, given, matters] = samples[k];
     for (std::size_t s = 0; s < struts; ++s) seen[s] = runs[s][k];
     for (const StrutSignal* signal : path.measured)
       for (const StrutSignals& strut : seen) inputs.push_back(strut.*signal->value);
     inputs.insert(inputs.end(), states[k].begin(), states[k].end());
+
+    // The library's own way: sensors, demands, commands within their limits.
     sensors.measure(seen);
     vehicle.controller->step(seen, states[k], state, demands);
     for (std::size_t s = 0; s < struts; ++s) {

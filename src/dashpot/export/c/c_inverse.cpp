@@ -16,13 +16,13 @@ constexpr std::size_t kTestSteps = 200;
 
 constexpr const char* kAbout =
     "Displacement m and velocity m/s, extension positive; force N, positive when it resists "
-    "extension; "
-    "current @unit@, @low@ ... @high@.";
+    "extension; current @unit@, @low@ ... @high@.";
 
 constexpr const char* kHeader = R"(/* The current for a wanted force: @title@.
  *
  * @about@
- * C99 with math.h: no heap, no files, no variables outside a damper_model. Made by Dashpot @version@:
+ * C99 with math.h: no heap, no files, no variables outside a damper_model.
+ * Made by Dashpot @version@:
  *   @command@
  * MISRA C:2012, deviations: @deviations@
  */
@@ -50,7 +50,7 @@ struct Wishes {
   std::vector<double> wanted, measured;
 };
 
-/// How large the forces are where no model says it.
+/// The size of the forces, N, where no model gives it.
 double force_scale(const InverseModel& inverse) {
   if (const auto* rule = dynamic_cast<const SwitchingInverse*>(&inverse)) return rule->force_max();
   const auto* model = dynamic_cast<const HistoryNetwork*>(&inverse);
@@ -60,11 +60,13 @@ double force_scale(const InverseModel& inverse) {
   return 1000;
 }
 
-/// With a model what it gives at the run's currents, at times beyond reach.
+/// With a model the forces that it gives at the run's currents, scaled so that they are at times
+/// out of reach; else sines.
 Wishes wishes_along(const InverseModel& inverse, const std::vector<DamperInput>& run) {
   Wishes wishes;
   if (const Observer* observer = observer_of(inverse))
     wishes.wanted = force_along(observer->model(), run, inverse.limits().sample_time);
+
   for (std::size_t k = 0; k < run.size(); ++k) {
     const double place = static_cast<double>(k);
     if (observer_of(inverse)) {
@@ -97,6 +99,7 @@ std::vector<CBlock::Sample> run_of(const ExportedInverse& exported) {
   std::vector<double> state(inverse.state_size());
   std::vector<CBlock::Sample> samples;
   double current = run[0].current;  // in the coil
+
   for (std::size_t k = 0; k < run.size(); ++k) {
     const DamperInput& now = run[k];
     if (k == 0) inverse.rest({now.displacement, 0, current}, state);
@@ -107,6 +110,8 @@ std::vector<CBlock::Sample> run_of(const ExportedInverse& exported) {
         {{input.wanted, input.displacement, input.velocity, input.current, input.measured},
          {command},
          matters(inverse, input, state)});
+
+    // The coil follows: at once, or by a fifth of the way in a sample where it lags.
     current += (inverse.limits().lag_rate > 0 ? 0.2 : 1) * (command - current);
   }
   return samples;
@@ -118,6 +123,8 @@ CBlock c_inverse_block(const ExportedInverse& inverse, const ExportOptions& opti
   const InverseLimits& limits = inverse.model.limits();
   const std::string& unit = to_string(inverse.drive_unit);
   const std::size_t size = std::max<std::size_t>(1, inverse.model.state_size());
+
+  // The facts that the header states.
   const std::string about = filled(kAbout, {{"unit", unit},
                                             {"low", format_number(limits.current_min)},
                                             {"high", format_number(limits.current_max)}});
@@ -129,14 +136,16 @@ CBlock c_inverse_block(const ExportedInverse& inverse, const ExportOptions& opti
       {"deviations", std::string(c_deviations())},
       {"unused", inverse.model.state_size() == 0 ? ": one that is not used" : ""},
       {"sample_time", c_number(limits.sample_time)}};
+
+  // The texts, the interface port by port, and the run that checks them.
   return {
       .name = c_name(options.name.empty() ? inverse.model.name() + "_inverse" : options.name),
       .title = inverse.title,
       .about = about,
       .precision = options.c_precision(),
       .header = filled(kHeader + std::string(c_text("inverse_api.h")) + kCHeaderEnd, values),
-      .source = kBegin + with_texts(c_inverse(inverse.model, options.c_precision()).code) +
-                std::string(c_text("inverse_api.c")),
+      .source =
+          kBegin + with_texts(c_inverse(inverse.model).code) + std::string(c_text("inverse_api.c")),
       .step = "commands[0] = damper_step(&model, &input);",
       .inputs = {{"wanted", "N", "force wanted, positive when it resists extension", "wanted"},
                  {"displacement", "m", "of the damper, extension positive", "displacement"},

@@ -14,12 +14,11 @@ namespace dashpot {
 struct CInverse {
   std::string code;
   std::size_t state_size = 0;
-  bool needs_force = false;  ///< looks at the measured one
+  bool needs_force = false;  ///< it looks at the measured force
 };
-/// Throws Error for one of which no C code is known. The precision that it will get decides where
-/// searches stop.
-CInverse c_inverse(const InverseModel& inverse, CPrecision precision);
-/// What runs a model beside the damper; null where nothing does.
+/// Throws Error for one of which no C code is known.
+CInverse c_inverse(const InverseModel& inverse);
+/// The observer of an inverse, which runs a model beside the damper; null where it has none.
 const Observer* observer_of(const InverseModel& inverse);
 
 /// An inverse with what an export says of it.
@@ -30,9 +29,10 @@ struct ExportedInverse {
   Domain domain;  ///< of the motions along which it is checked
 };
 
+/// The inverse as a block, with a run that checks it. Throws Error where it has no C code.
 CBlock c_inverse_block(const ExportedInverse& inverse, const ExportOptions& options);
-/// The same for an inverse network; the coil's lag is the driver's affair. Throws Error where the
-/// sample time cannot serve its delays.
+/// The same for an inverse network, which leaves the coil's lag to the driver. Throws Error where
+/// its delays are no multiples of the sample time.
 CBlock c_inverse_block(const InverseFile& inverse, const ExportOptions& options);
 
 }  // namespace dashpot

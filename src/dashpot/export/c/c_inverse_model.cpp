@@ -10,6 +10,7 @@
 #include "dashpot/export/c/c_inverse.h"
 #include "dashpot/export/c/c_model.h"
 #include "dashpot/export/c/c_text.h"
+#include "dashpot/export/c_subset/c_tokens.h"
 
 namespace dashpot {
 namespace {
@@ -43,7 +44,8 @@ static void inverse_rest(const DamperInput* input, double* state) {
   (void)state;
 }
 
-static inline double inverse_wanted(const InverseModel* m, const InverseInput* input, double* state) {
+static inline double inverse_wanted(const InverseModel* m, const InverseInput* input,
+                                    double* state) {
   const double share = fmin(fmax(@name@_share(input, @force_max@), 0), 1);
   (void)state;
   return m->least + (share * (m->most - m->least));
@@ -51,8 +53,7 @@ static inline double inverse_wanted(const InverseModel* m, const InverseInput* i
 
 )",
                  {{"name", model.name()}, {"force_max", c_number(model.force_max())}}),
-          0,
-          c_text("inverse_" + model.name() + ".h").find("missing_force") != std::string_view::npos};
+          0, has_c(c_text("inverse_" + model.name() + ".h"), "missing_force")};
 }
 
 /// The model that runs beside the damper, and its observer.
@@ -78,9 +79,10 @@ std::string observer_code(const Observer& observer) {
                  {"horizon", std::to_string(observer.steps())}});
 }
 
-CInverse polynomial_code(const PolynomialInverse& model, bool single) {
-  return {observer_code(model.observer()) + filled(R"(#define ROOT_NARROW @narrow@
-#define ROOT_TOLERANCE @tolerance@
+CInverse polynomial_code(const PolynomialInverse& model) {
+  return {observer_code(model.observer()) +
+              filled(R"(#define ROOT_NARROW 1e-12 /* single precision: 2e-7 */
+#define ROOT_TOLERANCE 1e-15 /* single precision: 2e-7 */
 
 typedef struct PolynomialError {
   double c[4], wanted;
@@ -88,31 +90,34 @@ typedef struct PolynomialError {
 typedef PolynomialError RootError;
 
 #include "polynomial_pieces.h"
-static inline double root_error(const RootError* e, double s) { return polynomial_at(e->c, s) - e->wanted; }
+static inline double root_error(const RootError* e, double s) {
+  return polynomial_at(e->c, s) - e->wanted;
+}
 
 #include "root_search.h"
 #include "inverse_polynomial.h"
 static const PolynomialNumbers kNumbers = {@degree@, @least@, @most@, @negligible@};
 
-static void inverse_rest(const DamperInput* input, double* state) { observer_rest(&kInverse, input, state); }
+static void inverse_rest(const DamperInput* input, double* state) {
+  observer_rest(&kInverse, input, state);
+}
 
-static inline double inverse_wanted(const InverseModel* m, const InverseInput* input, double* state) {
+static inline double inverse_wanted(const InverseModel* m, const InverseInput* input,
+                                    double* state) {
   return polynomial_wanted(m, &kNumbers, input, state);
 }
 
 )",
-                                                   {{"narrow", single ? "2e-7" : "1e-12"},
-                                                    {"tolerance", single ? "2e-7" : "1e-15"},
-                                                    {"degree", std::to_string(model.degree())},
-                                                    {"least", c_number(model.limits().current_min)},
-                                                    {"most", c_number(model.limits().current_max)},
-                                                    {"negligible", c_number(model.negligible())}}),
+                     {{"degree", std::to_string(model.degree())},
+                      {"least", c_number(model.limits().current_min)},
+                      {"most", c_number(model.limits().current_max)},
+                      {"negligible", c_number(model.negligible())}}),
           model.state_size()};
 }
 
-CInverse search_code(const NumericInverse& model, bool single) {
+CInverse search_code(const NumericInverse& model) {
   return {observer_code(model.observer()) +
-              filled(R"(#define ROOT_NARROW @narrow@
+              filled(R"(#define ROOT_NARROW 1e-12 /* single precision: 2e-7 */
 
 typedef struct SearchError {
   const Observer* observer;
@@ -135,13 +140,13 @@ static void inverse_rest(const DamperInput* input, double* state) {
   state[@trend@] = 0;
 }
 
-static inline double inverse_wanted(const InverseModel* m, const InverseInput* input, double* state) {
+static inline double inverse_wanted(const InverseModel* m, const InverseInput* input,
+                                    double* state) {
   return search_wanted(m, &kNumbers, input, state, &state[@own@]);
 }
 
 )",
-                     {{"narrow", single ? "2e-7" : "1e-12"},
-                      {"least", c_number(model.limits().current_min)},
+                     {{"least", c_number(model.limits().current_min)},
                       {"most", c_number(model.limits().current_max)},
                       {"negligible", c_number(model.negligible())},
                       {"own", std::to_string(model.observer().state_size())},
@@ -149,16 +154,15 @@ static inline double inverse_wanted(const InverseModel* m, const InverseInput* i
           model.state_size()};
 }
 
-CInverse code_of(const InverseModel& inverse, CPrecision precision) {
-  const bool single = precision == CPrecision::Single;
+CInverse code_of(const InverseModel& inverse) {
   if (const auto* network = dynamic_cast<const HistoryNetwork*>(&inverse))
     return network_code(*network);
   if (const auto* rule = dynamic_cast<const SwitchingInverse*>(&inverse))
     return switching_code(*rule);
   if (const auto* closed = dynamic_cast<const PolynomialInverse*>(&inverse))
-    return polynomial_code(*closed, single);
+    return polynomial_code(*closed);
   if (const auto* search = dynamic_cast<const NumericInverse*>(&inverse))
-    return search_code(*search, single);
+    return search_code(*search);
   throw Error(inverse.name(), "has no C code");
 }
 
@@ -172,8 +176,8 @@ const Observer* observer_of(const InverseModel& inverse) {
   return nullptr;
 }
 
-CInverse c_inverse(const InverseModel& inverse, CPrecision precision) {
-  CInverse code = code_of(inverse, precision);
+CInverse c_inverse(const InverseModel& inverse) {
+  CInverse code = code_of(inverse);
   code.code = limits_of(inverse) + code.code + "#include \"inverse_command.h\"\n";
   return code;
 }

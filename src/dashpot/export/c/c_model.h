@@ -66,7 +66,7 @@ std::string c_gated_networks(const std::vector<const GatedNetwork*>& networks);
 /// The text of banks and their tables, and an array `kBanks`.
 std::string c_banks(const std::vector<const HysteresisBank*>& banks);
 
-/// How a header ends that began with a guard and extern "C".
+/// The end of a header that begins with a guard and extern "C".
 constexpr const char* kCHeaderEnd = R"(
 #ifdef __cplusplus
 }

@@ -121,7 +121,8 @@ std::string c_members(const std::string& part, const std::string& array, std::si
   }
 }
 
-static void model_advance(const DamperInput* from, const DamperInput* to, double dt, double* state) {
+static void model_advance(const DamperInput* from, const DamperInput* to, double dt,
+                          double* state) {
   int m, at = 0;
   for (m = 0; m < @count@; ++m) {
     @part@_advance(&@array@[m], from, to, dt, &state[at]);
@@ -150,7 +151,8 @@ std::string c_stateless(const std::string& stem) {
   (void)state;
 }
 
-static void @stem@_advance(const DamperInput* from, const DamperInput* to, double dt, double* state) {
+static void @stem@_advance(const DamperInput* from, const DamperInput* to, double dt,
+                           double* state) {
   (void)from;
   (void)to;
   (void)dt;

@@ -7,6 +7,7 @@
 #include "dashpot/damper/registry.h"
 #include "dashpot/export/c/c_model.h"
 #include "dashpot/export/c/c_text.h"
+#include "dashpot/export/c_subset/c_rewrite.h"
 #include "dashpot/export/export_run.h"
 
 namespace dashpot {
@@ -17,15 +18,17 @@ constexpr std::size_t kTestSteps = 200;
 constexpr const char* kHeader = R"(/* @title@.
  *
  * @what@
- * Inputs: displacement m and velocity m/s, extension positive; command @unit@. Output: force N, positive when it
- * resists extension. Known for displacements @x_min@ ... @x_max@ m,
- * velocities @v_min@ ... @v_max@ m/s, commands @i_min@ ... @i_max@ @unit@; beyond, the model extrapolates.
+ * Inputs: displacement m and velocity m/s, extension positive; command @unit@. Output: force N,
+ * positive when it resists extension. Known for displacements @x_min@ ... @x_max@ m,
+ * velocities @v_min@ ... @v_max@ m/s, commands @i_min@ ... @i_max@ @unit@; beyond, the model
+ * extrapolates.
  *
  *   damper_model model;
  *   damper_reset(&model, &input);
  *   for (;;) force = damper_step(&model, &input);
  *
- * C99 with math.h: no heap, no files, no variables outside a damper_model. Made by Dashpot @version@:
+ * C99 with math.h: no heap, no files, no variables outside a damper_model.
+ * Made by Dashpot @version@:
  *   @command@
  * MISRA C:2012, deviations: @deviations@
  */
@@ -38,18 +41,37 @@ constexpr const char* kHeader = R"(/* @title@.
 )";
 
 constexpr const char* kDerivatives = R"(
-/* Time derivatives of the state, for a simulator that integrates it: the input's own slope is not needed. */
+/* Time derivatives of the state, for a simulator that integrates it; the input's own slope is not
+ * needed. */
 void damper_derivatives(const damper_input* input, const double* state, double* derivatives);
 )";
 
 constexpr const char* kDefaults = R"(
-/* Writes the parameters, which stand behind the state, as they were identified: before anything else. */
+/* Writes the parameters, which stand behind the state, as they were identified; call it before
+ * anything else. */
 void damper_defaults(double* state);
 )";
 
+constexpr const char* kSourceBegin = R"(
+#include <math.h>
+
+typedef damper_input DamperInput;
+
+)";
+
+constexpr const char* kDefaultsFunction = R"(
+void damper_defaults(double* state) { model_defaults(state); }
+)";
+
+constexpr const char* kDerivativesFunction = R"(
+void damper_derivatives(const damper_input* input, const double* state, double* derivatives) {
+  model_derivatives(input, state, derivatives);
+}
+)";
+
 constexpr const char* kTest =
-    R"(/* Steps through a run and compares the force with the one that Dashpot @version@ computed in double precision.
- * Returns 0 when they agree within @tolerance@ of the force's span. */
+    R"(/* Steps through a run and compares the force with the one that Dashpot @version@ computed in
+ * double precision. Returns 0 when they agree within @tolerance@ of the force's span. */
 #include "@prefix@.h"
 
 #include <math.h>
@@ -78,7 +100,8 @@ int main(void) {
     low = fmin(low, kRun[k][3]);
     high = fmax(high, kRun[k][3]);
   }
-  printf("largest difference %g N, span of the force %g N\n", (double)largest, (double)(high - low));
+  printf("largest difference %g N, span of the force %g N\n", (double)largest,
+         (double)(high - low));
   return (largest <= @tolerance@ * (high - low)) ? 0 : 1;
 }
 )";
@@ -94,26 +117,19 @@ std::string rows_of(const ExportedModel& model, double sample_time) {
   return rows;
 }
 
-std::vector<std::pair<std::string, std::string>> facts(const ExportedModel& model,
-                                                       const ExportOptions& options,
-                                                       const CSource& source) {
-  const Domain& d = model.domain;
-  return {{"title", title_of(model.model)},
-          {"prefix", source.prefix},
-          {"unit", to_string(model.drive_unit)},
-          {"x_min", format_number(d.displacement_min)},
-          {"x_max", format_number(d.displacement_max)},
-          {"v_min", format_number(d.velocity_min)},
-          {"v_max", format_number(d.velocity_max)},
-          {"i_min", format_number(d.current_min)},
-          {"i_max", format_number(d.current_max)},
-          {"version", options.version},
-          {"deviations", std::string(c_deviations())},
-          {"size", std::to_string(std::max<std::size_t>(1, source.state_size))},
-          {"unused", source.state_size == 0 ? ": one that is not used" : ""},
-          {"sample_time", c_number(source.sample_time)},
-          {"steps", std::to_string(kTestSteps)},
-          {"tolerance", options.c_precision() == CPrecision::Single ? "1e-5" : "1e-12"}};
+/// The places that only the C files have, besides common_facts.
+Facts facts_of(const ExportedModel& model, const ExportOptions& options, const CSource& source) {
+  Facts facts = common_facts(model, options, source);
+  facts.insert(facts.end(),
+               {{"title", title_of(model.model)},
+                {"unit", to_string(model.drive_unit)},
+                {"prefix", source.prefix},
+                {"deviations", std::string(c_deviations())},
+                {"size", std::to_string(std::max<std::size_t>(1, source.state_size))},
+                {"unused", source.state_size == 0 ? ": one that is not used" : ""},
+                {"steps", std::to_string(kTestSteps)},
+                {"tolerance", options.c_precision() == CPrecision::Single ? "1e-5" : "1e-12"}});
+  return facts;
 }
 
 std::vector<CSource::Variable> states_of(const DamperModel& model) {
@@ -137,13 +153,24 @@ std::string title_of(const DamperModel& model) {
   return model.name();
 }
 
+Facts common_facts(const ExportedModel& model, const ExportOptions& options,
+                   const CSource& source) {
+  const Domain& d = model.domain;
+  return {
+      {"x_min", format_number(d.displacement_min)},  {"x_max", format_number(d.displacement_max)},
+      {"v_min", format_number(d.velocity_min)},      {"v_max", format_number(d.velocity_max)},
+      {"i_min", format_number(d.current_min)},       {"i_max", format_number(d.current_max)},
+      {"sample_time", c_number(source.sample_time)}, {"version", options.version}};
+}
+
 CSource c_source(const ExportedModel& model, const ExportOptions& options) {
   const auto* law = options.settable_parameters ? model_as<LawModel>(model.model) : nullptr;
   const CModel code = c_model(model.model, law != nullptr);
-  const bool single = options.c_precision() == CPrecision::Single;
+
+  // The facts that a program around the code must know.
   CSource source{
       .prefix = export_name(model, options),
-      .real = single ? "float" : "double",
+      .real = options.c_precision() == CPrecision::Single ? "float" : "double",
       .state_size = model.model.state_size(),
       .inputs = {{"displacement", "m", "extension positive"},
                  {"velocity", "m/s", "extension positive"},
@@ -157,28 +184,27 @@ CSource c_source(const ExportedModel& model, const ExportOptions& options) {
     source.first_parameter = source.state_size;
     source.state_size += source.parameters.size() + (law->lag_rate() > 0 ? 0 : 1);
   }
-  const std::string own = with_texts(code.code);
-  require_free_names(source.prefix, own);
+
+  // The header: what comes from the user is filled in last, so that nothing rewrites it.
   const auto finished = [&](const std::string& text) {
-    return with_prefix(in_precision(text, single ? CPrecision::Single : CPrecision::Double),
-                       source.prefix);
+    return with_prefix(in_precision(text, options.c_precision()), source.prefix);
   };
-  std::vector<std::pair<std::string, std::string>> values = facts(model, options, source);
+  Facts facts = facts_of(model, options, source);
   source.header = filled(
-      finished(filled(kHeader, values) + std::string(c_text("damper_api.h")) +
+      finished(filled(kHeader, facts) + std::string(c_text("damper_api.h")) +
                (code.has_derivatives ? kDerivatives : "") + (law ? kDefaults : "") + kCHeaderEnd),
       {{"what", in_comment(model.origin)}, {"command", in_comment(options.command)}});
-  source.source = finished(
-      "#include \"" + source.prefix +
-      ".h\"\n\n#include <math.h>\n\ntypedef damper_input DamperInput;\n\n" + own +
-      std::string(c_text("damper_api.c")) +
-      (law ? "\nvoid damper_defaults(double* state) { model_defaults(state); }\n" : "") +
-      (code.has_derivatives
-           ? "\nvoid damper_derivatives(const damper_input* input, const double* state, double* "
-             "derivatives) {\n  model_derivatives(input, state, derivatives);\n}\n"
-           : ""));
-  values.emplace_back("rows", rows_of(model, source.sample_time));
-  source.test = finished(filled(kTest, values));
+
+  // The source: the model's own functions, then those of the interface, which call them.
+  const std::string own = with_texts(code.code);
+  require_free_names(source.prefix, own);
+  source.source = finished("#include \"" + source.prefix + ".h\"\n" + kSourceBegin + own +
+                           std::string(c_text("damper_api.c")) + (law ? kDefaultsFunction : "") +
+                           (code.has_derivatives ? kDerivativesFunction : ""));
+
+  // The test: a run with the forces that the library gives.
+  facts.emplace_back("rows", rows_of(model, source.sample_time));
+  source.test = finished(filled(kTest, facts));
   return source;
 }
 

@@ -3,98 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <functional>
-#include <limits>
 
 #include "dashpot/base/text.h"
 #include "dashpot/error.h"
 
 namespace dashpot {
 namespace {
-
-bool is_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
-
-/// Where the number that begins at `at` ends: 1, 0.5, 1e-9.
-std::size_t end_of_number(std::string_view code, std::size_t at) {
-  const auto goes_on = [&](std::size_t k) {
-    return is_word(code[k]) || code[k] == '.' ||
-           ((code[k] == '-' || code[k] == '+') && std::tolower(code[k - 1]) == 'e');
-  };
-  while (at < code.size() && goes_on(at)) ++at;
-  return at;
-}
-
-std::size_t end_of_word(std::string_view code, std::size_t at) {
-  while (at < code.size() && is_word(code[at])) ++at;
-  return at;
-}
-
-std::size_t end_of_comment(std::string_view code, std::size_t at) {
-  const std::size_t end = code.find("*/", at + 2);
-  return end == std::string_view::npos ? code.size() : end + 2;
-}
-
-/// What becomes of names and numbers; quotes and the rest stay.
-struct Rewriting {
-  std::function<std::string(std::string_view)> word, number;
-  bool comments = false;  ///< also there
-};
-
-std::string rewritten(std::string_view code, const Rewriting& rewriting) {
-  std::string out;
-  for (std::size_t at = 0; at < code.size();) {
-    std::size_t end = at + 1;
-    if (!rewriting.comments && code.substr(at, 2) == "/*") {
-      out += code.substr(at, (end = end_of_comment(code, at)) - at);
-    } else if (code[at] == '"') {
-      end = std::min(code.find('"', at + 1), code.size() - 1) + 1;
-      out += code.substr(at, end - at);
-    } else if (is_digit(code[at])) {
-      out += rewriting.number(code.substr(at, (end = end_of_number(code, at)) - at));
-    } else if (is_word(code[at])) {
-      out += rewriting.word(code.substr(at, (end = end_of_word(code, at)) - at));
-    } else {
-      out += code[at];
-    }
-    at = end;
-  }
-  return out;
-}
-
-std::string single_word(std::string_view word) {
-  static constexpr std::array kFunctions{
-      "acos",     "acosh", "asin",  "asinh", "atan",  "atan2", "atanh", "cbrt",  "ceil",
-      "copysign", "cos",   "cosh",  "exp",   "exp2",  "expm1", "fabs",  "floor", "fmax",
-      "fmin",     "fmod",  "hypot", "log",   "log10", "log1p", "log2",  "pow",   "round",
-      "sin",      "sinh",  "sqrt",  "tan",   "tanh",  "trunc"};
-  if (word == "double") return "float";
-  return std::string(word) + (std::ranges::find(kFunctions, word) != kFunctions.end() ? "f" : "");
-}
-
-/// Where it is too small for a float, the smallest normal one.
-std::string single_number(std::string_view number) {
-  if (number.find_first_of(".e") == std::string_view::npos) return std::string(number);
-  const double value =
-      parse_number(number.ends_with('.') ? number.substr(0, number.size() - 1) : number).value();
-  if (value > std::numeric_limits<float>::max())
-    throw Error("single precision", "cannot hold " + std::string(number),
-                "export in double precision");
-  if (value > 0 && value < std::numeric_limits<float>::min()) return "1.17549435e-38F";
-  return std::string(number) + "F";
-}
-
-/// With what iterations stop at, `<= 1e-8`, as near as floats come: their next step would move by
-/// its square.
-std::string with_single_tolerances(std::string code) {
-  constexpr std::string_view kStop = "<= 1e-";
-  for (std::size_t at = 0; (at = code.find(kStop, at)) != std::string::npos; ++at) {
-    const std::size_t number = at + 3, end = end_of_number(code, number);
-    if (parse_number(std::string_view(code).substr(number, end - number)).value_or(1) < 1e-6)
-      code.replace(number, end - number, "1e-5");
-  }
-  return code;
-}
 
 /// What keeps a header from being read twice.
 bool is_guard(const std::string& line) {
@@ -110,6 +24,9 @@ std::string shipped(std::string_view text) {
     if (!line.starts_with("#include <") && !is_guard(line)) out += line + '\n';
   out = trim(out);
   if (!out.starts_with("/*")) return out + '\n';
+
+  // In the first comment: from ", as C99 text ..." or "Declared before: ..." to its paragraph's
+  // end.
   const std::size_t end = std::min(out.find("*/"), out.find("\n *\n"));
   std::size_t from = std::min(out.find(", as C99"), out.find(" Declared before:"));
   if (from < end) {
@@ -154,40 +71,14 @@ std::string with_texts(std::string_view code) {
   return out;
 }
 
-std::string in_precision(std::string_view code, CPrecision precision) {
-  if (precision == CPrecision::Double) return std::string(code);
-  return rewritten(with_single_tolerances(std::string(code)), {single_word, single_number});
-}
-
-std::string with_prefix(std::string_view code, std::string_view prefix) {
-  std::string upper(prefix);
-  for (char& c : upper) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-  const auto word = [&](std::string_view name) {
-    if (name.starts_with("damper_")) return std::string(prefix) + std::string(name.substr(6));
-    if (name.starts_with("DAMPER_")) return upper + std::string(name.substr(6));
-    return std::string(name);
-  };
-  return rewritten(code, {word, [](std::string_view number) { return std::string(number); }, true});
-}
-
-void require_free_names(const std::string& prefix, const std::string& code) {
-  for (const char* part : {"input", "model", "init", "reset", "step", "advance", "rest", "move",
-                           "force", "derivatives"}) {
-    const std::string word = prefix + '_' + part;
-    for (std::size_t at = 0; (at = code.find(word, at)) != std::string::npos; ++at)
-      if ((at == 0 || !is_word(code[at - 1])) && !is_word(code[at + word.size()]))
-        throw Error("name", "'" + prefix + "' begins names that the code has inside",
-                    "say '" + prefix + "_damper'");
-  }
-}
-
 std::string_view c_deviations() {
-  // What cppcheck's MISRA add-on says; a test holds the list complete.
+  // The findings of cppcheck's MISRA add-on; a test holds the list complete.
   return R"(2.2, 2.5 (a product with a size that is 1; a macro for who calls);
  * 8.7, 8.9 (interface and tables of numbers stand at file scope); 10.3, 10.4,
- * 10.6, 12.1 (equations mix reals with whole numbers, and have no more brackets than in print); 11.8 (a const pointer
- * in a const struct, which the add-on takes for a cast); 12.3 (several variables in one declaration); 15.5, 15.6, 17.8
- * (in laws: early returns, single statements without braces, arguments that change).)";
+ * 10.6, 12.1 (equations mix reals with whole numbers, and have no more brackets than in
+ * print); 11.8 (a const pointer in a const struct, which the add-on takes for a cast); 12.3
+ * (several variables in one declaration); 15.5, 15.6,
+ * 17.8 (in laws: early returns, single statements without braces, arguments that change).)";
 }
 
 std::string in_comment(std::string text) {

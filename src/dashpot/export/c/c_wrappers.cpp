@@ -1,11 +1,13 @@
 #include "dashpot/export/c/c_wrappers.h"
 
 #include <algorithm>
+#include <array>
 
 #include "dashpot/base/text.h"
 #include "dashpot/export/c/c_model.h"
 #include "dashpot/export/c/c_source.h"
 #include "dashpot/export/c/c_text.h"
+#include "dashpot/export/c_subset/c_rewrite.h"
 
 namespace dashpot {
 namespace {
@@ -30,7 +32,8 @@ package @name@ "@title@"
     end destructor;
   end Damper;
 
-  impure function sample_force "Force one sample time after the last call; of the first call, at rest there"
+  impure function sample_force
+    "Force one sample time after the last call; of the first call, at rest there"
     input Damper damper;
     input Real s(unit = "m") "Displacement, extension positive";
     input Real v(unit = "m/s") "Velocity, extension positive";
@@ -73,10 +76,12 @@ package @name@ "@title@"
     version = "1",
     uses(Modelica(version = "4.0.0")),
     Documentation(info = "<html>
-<p>@title@. Inputs: displacement s in m and velocity v in m/s, extension positive; command i in @unit@. Output: force f in N,
-positive when it resists extension. Known for s = @x_min@ ... @x_max@ m, v = @v_min@ ... @v_max@ m/s,
-i = @i_min@ ... @i_max@ @unit@; beyond, the model extrapolates.</p>
-<p>The force comes from C code, every @sample_time@ s. Before the first use, in the package's folder:</p>
+<p>@title@. Inputs: displacement s in m and velocity v in m/s, extension positive; command i in
+@unit@. Output: force f in N, positive when it resists extension. Known for
+s = @x_min@ ... @x_max@ m, v = @v_min@ ... @v_max@ m/s, i = @i_min@ ... @i_max@ @unit@;
+beyond, the model extrapolates.</p>
+<p>The force comes from C code, every @sample_time@ s. Before the first use, in the package's
+folder:</p>
 <pre>mkdir -p Resources/Library/linux64
 cc -std=c99 -O2 -fPIC -c Resources/Include/@name@.c -o @name@.o
 ar rcs Resources/Library/linux64/lib@name@.a @name@.o</pre>
@@ -85,48 +90,39 @@ ar rcs Resources/Library/linux64/lib@name@.a @name@.o</pre>
 end @name@;
 )";
 
+struct Escape {
+  char character;
+  std::string_view markup;
+};
+constexpr std::array<Escape, 5> kEscapes{
+    {{'&', "&amp;"}, {'<', "&lt;"}, {'>', "&gt;"}, {'"', "&quot;"}, {'\\', "&#92;"}}};
+
+/// Text for Modelica's documentation: HTML within a string.
 std::string in_markup(const std::string& text) {
   std::string out;
   for (const char c : text) {
-    if (c == '&')
-      out += "&amp;";
-    else if (c == '<')
-      out += "&lt;";
-    else if (c == '>')
-      out += "&gt;";
-    else if (c == '"')
-      out += "&quot;";
-    else if (c == '\\')
-      out += "&#92;";
-    else
-      out += c;
+    const auto escape = std::ranges::find(kEscapes, c, &Escape::character);
+    out += escape == kEscapes.end() ? std::string(1, c) : std::string(escape->markup);
   }
   return out;
 }
 
-/// Of a comment to the end of the line.
+/// Text for a comment that ends with its line.
 std::string in_line(std::string text) {
   std::ranges::replace(text, '\n', ' ');
   return text;
 }
 
-std::vector<std::pair<std::string, std::string>> facts(const ExportedModel& model,
-                                                       const ExportOptions& options,
-                                                       const CSource& source) {
-  const Domain& d = model.domain;
-  return {{"name", source.prefix},
-          {"title", in_markup(title_of(model.model))},
-          {"unit", model.drive_unit == DriveUnit::None ? "1" : to_string(model.drive_unit)},
-          {"sample_time", c_number(source.sample_time)},
-          {"x_min", format_number(d.displacement_min)},
-          {"x_max", format_number(d.displacement_max)},
-          {"v_min", format_number(d.velocity_min)},
-          {"v_max", format_number(d.velocity_max)},
-          {"i_min", format_number(d.current_min)},
-          {"i_max", format_number(d.current_max)},
-          {"version", options.version},
-          {"origin", in_line(model.origin)},
-          {"command", in_markup(options.command)}};
+Facts package_facts(const ExportedModel& model, const ExportOptions& options,
+                    const CSource& source) {
+  Facts facts = common_facts(model, options, source);
+  facts.insert(facts.end(),
+               {{"name", source.prefix},
+                {"title", in_markup(title_of(model.model))},
+                {"unit", model.drive_unit == DriveUnit::None ? "1" : to_string(model.drive_unit)},
+                {"origin", in_line(model.origin)},
+                {"command", in_markup(options.command)}});
+  return facts;
 }
 
 std::vector<ExportedFile> with_wrapper(const ExportedModel& model, const ExportOptions& options,
@@ -158,7 +154,8 @@ std::vector<ExportedFile> write_modelica(const ExportedModel& model, const Expor
   const CSource source = c_source(model, options);
   std::vector<ExportedFile> files = with_wrapper(model, options, "modelica.h", "_modelica.h");
   for (ExportedFile& file : files) file.name = source.prefix + "/Resources/Include/" + file.name;
-  files.push_back({source.prefix + "/package.mo", filled(kPackage, facts(model, options, source))});
+  files.push_back(
+      {source.prefix + "/package.mo", filled(kPackage, package_facts(model, options, source))});
   return files;
 }
 

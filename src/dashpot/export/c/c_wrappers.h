@@ -3,7 +3,7 @@
 
 namespace dashpot {
 
-// A model's C code with what calls it elsewhere.
+// A model's C code with a file that calls it in another program.
 
 /// A gateway for MATLAB and Octave.
 std::vector<ExportedFile> write_mex(const ExportedModel& model, const ExportOptions& options);

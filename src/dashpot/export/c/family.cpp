@@ -31,13 +31,15 @@ std::string yield_curve(const FamilyMember& member) {
          c_table("kYieldStresses", member.yield.stresses) + "\n";
 }
 
-/// What first principles say of this member; its numbers are folded.
+/// The force by first principles, with the numbers of this member in it.
 std::string baseline_function(const FamilyModel& model) {
   const FamilyMember& m = model.member();
   const FamilyBaseline& baseline = model.family().baseline;
   const std::string head = "static double family_baseline(const DamperInput* input) {\n";
   const std::string viscous = c_number(viscous_force(m, 1));
   const std::string spring = "(" + c_number(m.spring_stiffness) + " * input->displacement)";
+
+  // Nothing, spring and viscous flow, or the plate flow.
   if (baseline.target == FamilyTarget::Total) return head + "  (void)input;\n  return 0.0;\n}\n\n";
   if (baseline.target == FamilyTarget::YieldForce)
     return head + "  return " + spring + " + (" + viscous + " * input->velocity);\n}\n\n";
@@ -59,6 +61,8 @@ std::string network_code(const FamilyModel& model, const FamilyNetwork& network)
   std::string code = c_mlps(network.mlps()) + c_stateless("model") +
                      "static double family_force(const DamperInput* input, const double* state) {\n"
                      "  double raw[MLP_MOST_WIDTH], sum = 0;\n  int k;\n  (void)state;\n";
+
+  // Inputs beside the motion are numbers of this member.
   for (std::size_t k = 0; k < network.inputs().size(); ++k) {
     const std::string& name = network.inputs()[k];
     std::string value = "input->" + name;
@@ -68,6 +72,7 @@ std::string network_code(const FamilyModel& model, const FamilyNetwork& network)
       value = c_number(member_number(model.member(), name));
     code += "  raw[" + number(k) + "] = " + value + ";\n";
   }
+
   const std::string count = number(network.mlps().size());
   return code + "  for (k = 0; k < " + count +
          "; ++k) {\n    sum += mlp_evaluate(&kMlps[k], raw);\n  }\n  return sum / " + count +
@@ -83,6 +88,8 @@ std::vector<double> by_power_of_field(const FamilyGates& gates, const FamilyMemb
     std::array<double, 4> powers{};
     for (std::size_t k = 0; k < FamilyGates::kGates; ++k) {
       const auto& exponents = FamilyGates::exponents()[k];
+
+      // The quantities but the field are numbers here.
       double weight = gates.weights[j * FamilyGates::kGates + k] / gates.term_scale[j];
       for (std::size_t n = 1; n < FamilyGates::kQuantities; ++n)
         weight *= std::pow(q[n], exponents[n]);

@@ -15,6 +15,8 @@ std::string sugeno_code(const Sugeno& sugeno) {
     low.push_back(input.low);
     high.push_back(input.high);
   }
+
+  // The sets, a row each, and the rules: each the number of its sets, then these.
   std::string memberships;
   for (const Membership& m : sugeno.memberships)
     memberships += "    {" + number(static_cast<std::size_t>(m.shape)) + ", " + number(m.input) +
@@ -25,6 +27,7 @@ std::string sugeno_code(const Sugeno& sugeno) {
     rules.push_back(static_cast<int>(rule.size()));
     rules.insert(rules.end(), rule.begin(), rule.end());
   }
+
   return "#define SUGENO_MOST_INPUTS " + number(sugeno.inputs.size()) +
          "\n#define SUGENO_MOST_MEMBERSHIPS " + number(sugeno.memberships.size()) +
          "\n#define SUGENO_MOST_RULES " + number(sugeno.rules.size()) + "\n\n" +
@@ -38,7 +41,7 @@ std::string sugeno_code(const Sugeno& sugeno) {
          c_number(sugeno.output_mean) + ", " + c_number(sugeno.output_scale) + "};\n\n";
 }
 
-/// Where the state has the past velocity and the coil's current, and how fast they follow.
+/// A lagged number of the state, the past velocity or the coil's current, and how fast it follows.
 struct Lag {
   std::string place, input, seconds, start;
 };
@@ -60,6 +63,8 @@ std::string state_functions(const std::vector<Lag>& lags) {
       "static void model_advance(const DamperInput* from, const DamperInput* to, double dt, "
       "double* state) "
       "{\n";
+
+  // A line per lag in both functions.
   bool uses_input = false;
   for (const Lag& lag : lags) {
     rest += "  state[" + lag.place + "] = " + lag.start + ";\n";

@@ -20,6 +20,8 @@ std::string expression(const LawModel& model, std::size_t k, bool settable) {
     return fields ? "m->" + coefficient_name(model.law().params[k].name, form, index)
                   : c_number(c[index]);
   };
+
+  // An exponential as its two ends and rate, a polynomial by Horner's scheme.
   if (form == Form::Exponential)
     return term(1) + " + (" +
            (fields ? "(" + term(0) + " - " + term(1) + ")" : c_number(c[0] - c[1])) + " * exp(" +
@@ -30,7 +32,7 @@ std::string expression(const LawModel& model, std::size_t k, bool settable) {
   return sum;
 }
 
-/// What stays the same while the law works. Where it can be set it stands behind the state.
+/// The numbers that stay the same while the law works; settable ones stand behind the state.
 std::string constants(const LawModel& model, bool settable) {
   std::string fields, values;
   if (settable)
@@ -39,10 +41,14 @@ std::string constants(const LawModel& model, bool settable) {
       fields += "  double " + parameter.name + "; /* " + parameter.unit + " */\n";
       values += c_number(parameter.value) + ", ";
     }
+
+  // The numbers as a struct, and the law's own values of it.
   std::string code = "typedef struct LawModel {\n" + fields +
                      "  double lag_rate; /* 1/s, of the coil; 0: none */\n} LawModel;\n\n"
                      "static const LawModel kLaw = {" +
                      values + c_number(model.lag_rate()) + "};\n\n";
+
+  // Settable numbers stand behind each damper's own state.
   if (settable)
     code +=
         "static inline const LawModel* law_behind(const double* state) {\n"
@@ -66,7 +72,7 @@ std::string parameter_function(const LawModel& model, bool settable) {
          std::string(model.follows_current() ? "" : "  (void)current;\n") + lines + "}\n\n";
 }
 
-/// What the text of the integrator asks for.
+/// The functions that the text of the integrator calls.
 constexpr const char* kSteps = R"(static inline int law_states(const LawModel* m) {
   (void)m;
   return @states@;
@@ -117,6 +123,8 @@ std::string integration(const Law& law) {
       "\n\nstatic inline void law_derivative(const LawParameters* p, double x, double v, const "
       "double* z, double* dz) {\n  " +
       name + "_derivative(p, x, v, z, dz);\n}\n\n" + "#include \"law_runge_kutta.h\"\n";
+
+  // A law with an exact step brings its own.
   if (law.exact_step)
     code +=
         "static inline double law_travel(const LawParameters* p, double z, double s) {\n  return " +
@@ -220,6 +228,8 @@ std::vector<CParameter> c_parameters(const LawModel& model) {
       }
     }
   }
+
+  // The coil's lag can be set where there is one.
   constexpr double kSlowest = 1e-3, kFastest = 1e6;  // 1/s
   if (model.lag_rate() > 0)
     parameters.push_back({std::string(kLagRate), "1/s",
@@ -236,6 +246,8 @@ CModel c_law(const LawModel& model, const std::string& stem, bool settable) {
   std::string code = (settable ? "#include <string.h>\n\n#include \"" : "#include \"") + name +
                      ".h\"\n" + "typedef " + pascal_case(name) + " LawParameters;\n\n" +
                      constants(model, settable) + parameter_function(model, settable);
+
+  // The integrator of the states, where there are any.
   if (model.state_size() > 0)
     code +=
         "static inline double law_lag_rate(const LawModel* m) {\n  return m->lag_rate;\n}\n\n"
@@ -245,6 +257,8 @@ CModel c_law(const LawModel& model, const std::string& stem, bool settable) {
     code += integration(law);
   else if (model.lag_rate() > 0)
     code += "#include \"law_path.h\"\n";
+
+  // The functions of the model, with its numbers filled in.
   const bool has_derivatives = model.state_size() > 0 && stem == "model";
   code = filled(code + rest_function(model) + advance_function(model) + force_function(model) +
                     (has_derivatives ? derivative_function(model) : ""),

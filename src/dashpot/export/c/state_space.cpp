@@ -28,18 +28,20 @@ std::string cell_entry(const StateSpaceCell& cell, const std::string& name) {
 }
 
 std::string cells(const std::vector<StateSpaceNetwork>& members) {
-  std::size_t motions = 1, currents = 1, inputs = 1, features = 1;
+  std::size_t currents = 1, inputs = 1, features = 1;
+
+  // A table and a row per member; the text keeps room for the largest.
   std::string tables, entries;
   for (std::size_t m = 0; m < members.size(); ++m) {
     const StateSpaceCell& cell = members[m].cell;
     const std::string name = "kCell" + std::to_string(m);
-    motions = std::max(motions, cell.motions());
     currents = std::max(currents, cell.currents());
     inputs = std::max(inputs, cell.neuron_stride());
     features = std::max(features, cell.features());
     tables += cell_tables(cell, name);
     entries += cell_entry(cell, name);
   }
+
   return "#define CELL_MOST_CURRENTS " + std::to_string(currents) + "\n#define CELL_MOST_INPUTS " +
          std::to_string(inputs) + "\n#define CELL_MOST_FEATURES " + std::to_string(features) +
          "\n\n" + "#include \"state_space_cell.h\"\n" + tables +

@@ -5,20 +5,56 @@
 
 #include "dashpot/base/text.h"
 #include "dashpot/error.h"
+#include "dashpot/export/c_subset/c_directives.h"
 #include "dashpot/export/c_subset/c_tokens.h"
 
-namespace dashpot::trace {
+namespace dashpot {
 namespace {
 
 using TokenKind = CToken::Kind;
 
-/// From the operators that bind least to those that bind most.
+/// The binary operators, from those that bind least to those that bind most.
 const std::array<std::vector<std::string_view>, 6> kBinary{
     {{"||"}, {"&&"}, {"==", "!="}, {"<", ">", "<=", ">="}, {"+", "-"}, {"*", "/", "%"}}};
 
+/// A keyword of C that the subset does without, and what to write.
+struct Outside {
+  std::string_view word, instead;
+};
+constexpr std::array<Outside, 18> kOutside{{{"do", "while"},
+                                            {"switch", "if ... else if"},
+                                            {"case", "if ... else if"},
+                                            {"goto", "break or return"},
+                                            {"continue", "if"},
+                                            {"union", "struct"},
+                                            {"sizeof", "a constant"},
+                                            {"char", "int or double"},
+                                            {"short", "int"},
+                                            {"long", "int or double"},
+                                            {"signed", "int"},
+                                            {"unsigned", "int"},
+                                            {"_Bool", "int"},
+                                            {"extern", "static, or neither"},
+                                            {"register", "neither"},
+                                            {"auto", "a type"},
+                                            {"volatile", "const, or neither"},
+                                            {"restrict", "neither"}}};
+
+std::vector<CToken> code_tokens(std::string_view code) {
+  std::vector<CToken> tokens = c_preprocessed(c_tokens(code));
+  for (const CToken& token : tokens)
+    if (const auto outside = std::ranges::find(kOutside, token.text, &Outside::word);
+        token.kind == TokenKind::Word && outside != kOutside.end())
+      throw Error("C text:" + std::to_string(token.line),
+                  "has '" + std::string(token.text) + "', which is outside of the subset of C",
+                  std::string(outside->instead));
+  return tokens;
+}
+
+/// Reads by recursive descent: a function for each rule of the grammar in docs/c-subset.md.
 class Parser {
  public:
-  explicit Parser(std::string_view code) : tokens_(c_tokens(code)) {}
+  explicit Parser(std::string_view code) : tokens_(code_tokens(code)) {}
 
   CProgram program() {
     while (here().kind != TokenKind::End) top_level();
@@ -29,9 +65,7 @@ class Parser {
   // Tokens.
 
   const CToken& here() const { return tokens_[at_]; }
-  bool is(std::string_view text) const {
-    return here().kind != TokenKind::End && here().text == text;
-  }
+  bool is(std::string_view text) const { return here().is(text); }
   bool take(std::string_view text) {
     if (!is(text)) return false;
     ++at_;
@@ -42,13 +76,15 @@ class Parser {
   }
   std::string word() {
     if (here().kind != TokenKind::Word) fail("a name");
-    return tokens_[at_++].text;
+    return std::string(tokens_[at_++].text);
   }
   [[noreturn]] void fail(const std::string& wanted) const {
-    std::string around;
-    for (std::size_t k = at_ < 8 ? 0 : at_ - 8; k < std::min(at_ + 4, tokens_.size()); ++k)
-      around += (k == at_ ? " >>" : " ") + tokens_[k].text;
-    throw Error("C text", "cannot be followed at" + around, wanted + " is expected there");
+    const auto quoted = [](const CToken& token) {
+      return token.kind == TokenKind::End ? "its end" : "'" + std::string(token.text) + "'";
+    };
+    throw Error("C text:" + std::to_string(here().line),
+                "has " + quoted(here()) + (at_ > 0 ? " behind " + quoted(tokens_[at_ - 1]) : ""),
+                wanted + " is expected there");
   }
 
   // Types and declarations.
@@ -63,17 +99,20 @@ class Parser {
   CType base_type() {
     CType type;
     bool is_known = false;
-    while (is_type()) {
-      const std::string name = here().text;
+    for (; is_type(); ++at_) {
+      const std::string_view name = here().text;
+      const bool qualifies =
+          name == "const" || name == "static" || name == "inline" || name == "struct";
+      if (qualifies) continue;
+
+      // The type itself, once.
+      if (is_known) fail("a name");
+      is_known = true;
       if (name == "int") type.kind = CType::Kind::Int;
       if (name == "double" || name == "float") type.kind = CType::Kind::Real;
       if (const auto known = types_.find(name); known != types_.end()) type = known->second;
-      const bool qualifies =
-          name == "const" || name == "static" || name == "inline" || name == "struct";
-      if (!qualifies && is_known) fail("a name");
-      is_known = is_known || !qualifies;
-      ++at_;
     }
+    if (!is_known) fail("a type");
     return type;
   }
 
@@ -94,7 +133,7 @@ class Parser {
     return out;
   }
 
-  /// A size of an array.
+  /// The value of an expression that gives the size of an array.
   double constant(const CExpr& expr) const {
     if (expr.kind == CExpr::Kind::Number) return expr.number;
     if (expr.kind != CExpr::Kind::Binary || (expr.text != "+" && expr.text != "*"))
@@ -116,7 +155,7 @@ class Parser {
     return out;
   }
 
-  /// Up to its semicolon.
+  /// All that one statement declares, up to its semicolon.
   std::vector<CDeclaration> declarations(const CType& base) {
     std::vector<CDeclaration> out;
     do {
@@ -130,7 +169,7 @@ class Parser {
     return out;
   }
 
-  /// Its names are constants, counted from 0.
+  /// Its names become constants, counted from 0.
   CType enumeration() {
     const CType type{.kind = CType::Kind::Int};
     word();
@@ -168,6 +207,8 @@ class Parser {
 
   void top_level() {
     if (take("typedef")) return type_definition();
+
+    // Only the bracket behind its name tells a function from a variable: look ahead for it.
     const CType base = base_type();
     const std::size_t begin = at_;
     const CType result = pointers(base);
@@ -177,13 +218,16 @@ class Parser {
       for (CDeclaration& global : declarations(base)) program_.globals.push_back(std::move(global));
       return;
     }
+
+    // A function: its parameters, then its body unless that comes later in the text.
     need("(");
     CFunction function{.result = result};
     while (!take(")")) {
       function.parameters.push_back(declarator(base_type()));
       if (!is(")")) need(",");
     }
-    if (take(";")) return;  // it comes later
+    if (take(";")) return;
+    if (!is("{")) fail("'{'");
     function.body.push_back(statement());
     program_.functions[name] = std::move(function);
   }
@@ -194,33 +238,38 @@ class Parser {
     CStatement out;
     if (take("{")) {
       while (!take("}")) out.parts.push_back(statement());
-    } else if (take(";")) {
-    } else if (take("if")) {
-      out.kind = CStatement::Kind::If;
+      return out;
+    }
+    if (take(";")) return out;
+    if (take("for")) return for_loop();
+
+    // Statements with a condition in brackets, and statements of their own.
+    if (const bool branches = is("if"); branches || is("while")) {
+      ++at_;
+      out.kind = branches ? CStatement::Kind::If : CStatement::Kind::Loop;
       out.exprs.push_back(in_brackets());
       out.parts.push_back(statement());
-      if (take("else")) out.parts.push_back(statement());
-    } else if (take("while")) {
-      out.kind = CStatement::Kind::Loop;
-      out.exprs.push_back(in_brackets());
-      out.parts.push_back(statement());
-    } else if (take("for")) {
-      out = for_loop();
-    } else if (take("break")) {
+      if (branches && take("else")) out.parts.push_back(statement());
+      return out;
+    }
+
+    if (is_type()) {
+      out.kind = CStatement::Kind::Declaration;
+      out.declarations = declarations(base_type());
+      return out;
+    }
+
+    // Statements that end with a semicolon.
+    if (take("break")) {
       out.kind = CStatement::Kind::Break;
-      need(";");
     } else if (take("return")) {
       out.kind = CStatement::Kind::Return;
       if (!is(";")) out.exprs.push_back(expression());
-      need(";");
-    } else if (is_type()) {
-      out.kind = CStatement::Kind::Declaration;
-      out.declarations = declarations(base_type());
     } else {
       out.kind = CStatement::Kind::Expression;
       out.exprs.push_back(expression());
-      need(";");
     }
+    need(";");
     return out;
   }
 
@@ -319,7 +368,8 @@ class Parser {
 
   CExpr primary() {
     if (is("(")) return in_brackets();
-    if (here().kind == TokenKind::Number) return number(tokens_[at_++].text);
+    if (here().kind == TokenKind::Number) return number();
+    if (here().kind != TokenKind::Word) fail("an expression");
     CExpr out{.kind = CExpr::Kind::Name, .text = word()};
     if (!take("(")) return out;
     out.kind = CExpr::Kind::Call;
@@ -330,14 +380,18 @@ class Parser {
     return out;
   }
 
-  CExpr number(std::string text) {
-    CExpr out{.is_integer = text.find_first_of(".e") == std::string::npos};
-    if (text.back() == 'F') text.pop_back();
-    if (text.back() == '.') text.pop_back();
+  /// A whole number in decimal digits, or a real one with a point or an exponent; F behind a real
+  /// number says that it is in single precision.
+  CExpr number() {
+    std::string_view text = here().text;
+    const bool is_integer = text.find_first_of(".e") == std::string_view::npos;
+    if (!is_integer && text.ends_with('F')) text.remove_suffix(1);
+    if (!is_integer && text.ends_with('.')) text.remove_suffix(1);
     const auto value = parse_number(text);
-    if (!value) fail("a number");
-    out.number = *value;
-    return out;
+    const bool is_octal = is_integer && text.size() > 1 && text[0] == '0';
+    if (!value || is_octal) fail("a number such as 10, 0.5, 1e-9 or 0.5F");
+    ++at_;
+    return {.number = *value, .is_integer = is_integer};
   }
 
   std::vector<CToken> tokens_;
@@ -366,4 +420,4 @@ std::size_t CProgram::size_of_struct(std::string_view name) const {
 
 CProgram parse_c(std::string_view code) { return Parser(code).program(); }
 
-}  // namespace dashpot::trace
+}  // namespace dashpot

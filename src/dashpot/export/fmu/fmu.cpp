@@ -34,7 +34,7 @@ double rounded(double value) {
   return std::strtod(fmt::format("{:.0e}", value).c_str(), nullptr);
 }
 
-/// Nominal values that are still open.
+/// Fills in the nominal values that are still open: the largest along the run.
 void size_variables(Fmu& fmu) {
   for (std::size_t k = 0; k < fmu.variables.size(); ++k) {
     double& nominal = fmu.variables[k].nominal;
@@ -64,12 +64,16 @@ std::vector<ExportedFile> write_fmu(Fmu fmu, const ExportOptions& options, int v
   fmu.date = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(fmu.made));
   size_variables(fmu);
   fmu.token = token_of(fmu);
+
+  // The files at the places where FMI asks for them.
   std::vector<ExportedFile> files{
       {"modelDescription.xml", version == 2 ? fmi2_description(fmu) : fmi3_description(fmu)},
       {"documentation/index.html", fmu_page(fmu)}};
   const std::string results = "extra/org.fmi-standard.fmi-ls-ref/";
   files.push_back({results + "fmi-ls-manifest.xml", fmu_reference_manifest(fmu)});
   files.push_back({results + fmu.name + "_out.csv", fmu_reference_run(fmu)});
+
+  // The sources, and what an importer that does not compile needs.
   const std::vector<ExportedFile> sources = fmu_sources(fmu);
   for (const ExportedFile& file : sources) files.push_back({"sources/" + file.name, file.content});
   if (version == 3) files.push_back({"sources/buildDescription.xml", fmu_build_description(fmu)});

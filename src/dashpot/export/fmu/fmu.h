@@ -7,32 +7,32 @@
 namespace dashpot {
 
 /// A variable of an FMU. Its value reference is its place in Fmu::variables, which is the order in
-/// which c/fmu.h numbers them.
+/// which texts/fmu.h numbers them.
 struct FmuVariable {
   enum class Role { Time, Input, Output, State, Derivative, Parameter };
   Role role = Role::Input;
   std::string name, unit, meaning;  ///< `unit`: empty where none is known
-  double start = 0;                 ///< of inputs and parameters
+  double start = 0;                 ///< for inputs and parameters
   double lower = -HUGE_VAL, upper = HUGE_VAL;
   double nominal = 0;             ///< 0: the largest along the run; rounded when the FMU is made
   std::size_t derivative_of = 0;  ///< value reference of the state
 };
 
-/// What an FMU says of itself, whichever version of FMI it speaks.
+/// All that is known of an FMU, whichever version of FMI it speaks.
 struct Fmu {
   int version = 3;   ///< of FMI: 2 or 3
   std::string name;  ///< of the archive and the library
   std::vector<ExportedFile>
       code;  ///< damper.h, damper.c: names begin with "damper", whatever the FMU's name
-  std::string interface;    ///< the text that makes of it what c/fmu.h asks for: its name
+  std::string interface;    ///< name of the text between its code and texts/fmu.h
   std::string definitions;  ///< what that text needs, C
   std::vector<FmuVariable> variables{
       {.role = FmuVariable::Role::Time, .name = "time", .unit = "s", .meaning = "simulation time"}};
   std::size_t first_parameter = 0;  ///< where in the state
   bool sampled = false;             ///< outputs change at samples only
-  bool exchanges = false;  ///< an integrator can bring it on: all continuous states are known
-  double sample_time = 0;  ///< s, of its own steps
-  double grid = 0;         ///< s: it remembers at such steps; 0: at any
+  bool exchanges = false;           ///< model exchange is possible: all continuous states are known
+  double sample_time = 0;           ///< s, of its own steps
+  double grid = 0;                  ///< s: it remembers at such steps; 0: at any
   std::vector<std::vector<double>> run;  ///< inputs and outputs, sample_time apart
   std::string title, origin, command, tool;
   std::string equation;              ///< empty: none
@@ -41,14 +41,14 @@ struct Fmu {
   std::string
       token;  ///< FMI 2's GUID, FMI 3's instantiation token: a hash of all the rest but the date
   std::string date;      ///< xs:dateTime; that of SOURCE_DATE_EPOCH where it is set
-  std::time_t made = 0;  ///< the same
+  std::time_t made = 0;  ///< the same, s since 1970
 
   std::size_t count(FmuVariable::Role role) const;
   double stop_time() const { return sample_time * static_cast<double>(run.size() - 1); }
 };
 
-/// Of a model, of a controller or an inverse in double precision; neither version, token nor date
-/// as yet.
+/// The FMU of a model, or of a controller or an inverse in double precision; version, token and
+/// date are still open.
 Fmu model_fmu(const ExportedModel& model, const ExportOptions& options);
 Fmu block_fmu(const CBlock& block, const ExportOptions& options);
 
@@ -64,7 +64,7 @@ std::string fmu_build_description(const Fmu& fmu);
 std::string fmu_page(const Fmu& fmu);
 /// A run as CSV: time, inputs and the outputs there.
 std::string fmu_reference_run(const Fmu& fmu);
-/// How FMI-LS-REF announces it.
+/// The manifest by which FMI-LS-REF announces that run.
 std::string fmu_reference_manifest(const Fmu& fmu);
 
 /// A shared library of C files, as the bytes of the file. `compiler`: a program and more of its

@@ -47,12 +47,16 @@ std::string zip_archive(const std::vector<ExportedFile>& files, std::time_t time
   zip_error_init(&error);
   Source buffer(zip_source_buffer_create(nullptr, 0, 0, &error));
   if (!buffer) fail(zip_error_strerror(&error));
-  zip_source_keep(buffer.get());  // one for the archive, one for reading it back
+
+  // The archive is written to the buffer when it is closed; the second reference keeps that for
+  // reading it back.
+  zip_source_keep(buffer.get());
   Archive archive(zip_open_from_source(buffer.get(), ZIP_TRUNCATE, &error));
   if (!archive) {
     zip_source_free(buffer.get());
     fail(zip_error_strerror(&error));
   }
+
   for (const ExportedFile& file : files) add(archive.get(), file, time);
   if (zip_close(archive.get()) != 0) fail(zip_strerror(archive.get()));
   (void)archive.release();

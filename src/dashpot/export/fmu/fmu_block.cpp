@@ -7,7 +7,7 @@ namespace {
 
 using Role = FmuVariable::Role;
 
-/// What c/fmu_block.h asks of a block.
+/// The functions that fmu_block.h asks of a block.
 constexpr const char* kDefinitions = R"(
 static void fmu_read(const double* row, damper_input* input) {
 @reads@}
@@ -22,15 +22,12 @@ static damper_model fmu_sample(damper_model model, const double* row, double* co
 
 constexpr const char* kSteps =
     "A sample is taken where initialization ends, with the inputs that are set by then, and every "
-    "@time@ s "
-    "from there on; in between the commands are held. Any communication step is accepted. At a "
-    "communication point that is a sample's instant the sample sees the inputs that are set after "
-    "fmi2DoStep "
-    "or fmi3DoStep and before the commands are read; when none are set, those of the step's start. "
-    "Samples "
-    "within a step see inputs that are linear between its ends. So an importer that sets the "
-    "inputs of an "
-    "instant before it reads the commands of that instant gets exactly those of Dashpot.";
+    "@time@ s from there on; in between the commands are held. Any communication step is accepted. "
+    "At a communication point that is a sample's instant the sample sees the inputs that are set "
+    "after fmi2DoStep or fmi3DoStep and before the commands are read; when none are set, those of "
+    "the step's start. Samples within a step see inputs that are linear between its ends. So an "
+    "importer that sets the inputs of an instant before it reads the commands of that instant gets "
+    "exactly those of Dashpot.";
 
 /// One variable for each of a port: "deflection", or "deflection[1]", "deflection[2]".
 void add_variables(const std::vector<CPort>& ports, Role role, Fmu& fmu) {
@@ -60,6 +57,8 @@ Fmu block_fmu(const CBlock& block, const ExportOptions& options) {
       .title = block.title,
       .origin = block.about,
       .steps = {filled(kSteps, {{"time", format_number(block.sample_time)}})}};
+
+  // Its variables, and the run that a test of the FMU can repeat.
   add_variables(block.inputs, Role::Input, fmu);
   add_variables(block.commands, Role::Output, fmu);
   for (const CBlock::Sample& sample : block.samples) {

@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A folder that goes when the work is done.
+/// A temporary folder, removed with the object.
 struct BuildFolder {
   std::string path = (fs::temp_directory_path() / "dashpot-XXXXXX").string();
   BuildFolder() {
@@ -35,6 +35,8 @@ std::string compile_shared_library(const std::vector<ExportedFile>& files,
   const BuildFolder folder;
   for (const ExportedFile& file : files)
     write_file(fs::path(folder.path) / file.name, file.content);
+
+  // The command: the compiler and its arguments as they were named, ours, then the files.
   std::vector<std::string> words;
   for (const std::string& word : split(compiler, ' '))
     if (!word.empty()) words.push_back(word);
@@ -47,6 +49,7 @@ std::string compile_shared_library(const std::vector<ExportedFile>& files,
   for (const std::string& unit : translation_units) words.push_back(folder.path + '/' + unit);
   for (const std::string& word : {std::string("-o"), library, std::string("-lm")})
     words.push_back(word);
+
   ChildResult result;
   try {
     result = run_child(words);

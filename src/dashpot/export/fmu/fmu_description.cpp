@@ -35,6 +35,8 @@ void add_units(const Fmu& fmu, Node root) {
   std::set<std::string> names;
   for (const FmuVariable& variable : fmu.variables)
     if (!variable.unit.empty()) names.insert(variable.unit);
+
+  // Each in powers of the base units of SI.
   for (const std::string& name : names) {
     const Unit unit = require_unit(name, "unit");
     Node node = units.append_child("Unit");
@@ -61,7 +63,7 @@ void add_log_categories(Node root) {
   set(category, "description", "what was wrong with a call");
 }
 
-/// What both versions say of a variable in the same words.
+/// Causality, variability and start of a variable, for which both versions have the same words.
 void describe_kind(const Fmu& fmu, const FmuVariable& variable, Node node) {
   constexpr const char* kCausalities[] = {"independent", "input", "output",
                                           "local",       "local", "parameter"};
@@ -95,7 +97,7 @@ void for_each_unknown(const Fmu& fmu, Add add) {
 
 std::string about(const Fmu& fmu) { return fmu.title + ". " + fmu.origin; }
 
-/// What both versions can; those names end in different ways.
+/// The capabilities that both versions have; their names end in different ways.
 void add_capabilities(const Fmu& fmu, const char* state, const char* derivatives, Node node) {
   set(node, (std::string("canGetAndSet") + state).c_str(), "true");
   set(node, (std::string("canSerialize") + state).c_str(), "true");
@@ -131,11 +133,12 @@ void add_fmi2_variables(const Fmu& fmu, Node root) {
     set(node, "valueReference", std::to_string(k));
     set(node, "description", variable.meaning);
     describe_kind(fmu, variable, node);
+
+    // The state of which it is the slope, counted from 1.
     Node real = node.append_child("Real");
     describe_values(variable, real);
     if (variable.role == Role::Derivative)
-      set(real, "derivative",
-          std::to_string(variable.derivative_of + 1));  // its place, counted from 1
+      set(real, "derivative", std::to_string(variable.derivative_of + 1));
   }
 }
 
@@ -167,6 +170,8 @@ std::string fmi2_description(const Fmu& fmu) {
   set(root, "generationDateAndTime", fmu.date);
   set(root, "variableNamingConvention", "structured");
   set(root, "numberOfEventIndicators", "0");
+
+  // The order of these elements is that of the standard's schema.
   if (fmu.exchanges) add_fmi2_interface(fmu, "ModelExchange", root);
   add_fmi2_interface(fmu, "CoSimulation", root);
   add_units(fmu, root);
@@ -187,11 +192,15 @@ std::string fmi3_description(const Fmu& fmu) {
   set(root, "generationTool", fmu.tool);
   set(root, "generationDateAndTime", fmu.date);
   set(root, "variableNamingConvention", "structured");
+
+  // The order of these elements is that of the standard's schema.
   if (fmu.exchanges) add_fmi3_interface(fmu, "ModelExchange", root);
   add_fmi3_interface(fmu, "CoSimulation", root);
   add_units(fmu, root);
   add_log_categories(root);
   add_experiment(fmu, root);
+
+  // Variables by their value references.
   Node variables = root.append_child("ModelVariables");
   Node structure = root.append_child("ModelStructure");
   for (std::size_t k = 0; k < fmu.variables.size(); ++k) {
@@ -205,6 +214,8 @@ std::string fmi3_description(const Fmu& fmu) {
     if (variable.role == Role::Derivative)
       set(node, "derivative", std::to_string(variable.derivative_of));
   }
+
+  // The unknowns: outputs and derivatives while it runs, states at the start, too.
   for_each_unknown(fmu, [&](std::size_t k) {
     const Role role = fmu.variables[k].role;
     if (role == Role::State) return;
@@ -224,6 +235,8 @@ std::string fmu_build_description(const Fmu& fmu) {
   Node configuration = root.append_child("BuildConfiguration");
   set(configuration, "modelIdentifier", fmu.name);
   set(configuration, "description", "C99 and its library of mathematics, nothing else");
+
+  // The files to compile, and the library to link.
   Node files = configuration.append_child("SourceFileSet");
   set(files, "language", "C99");
   for (const std::string& unit : fmu_translation_units(fmu))

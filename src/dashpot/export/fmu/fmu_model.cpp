@@ -15,20 +15,16 @@ constexpr std::size_t kReferenceSteps = 500;
 
 constexpr const char* kCoSimulation =
     "Any communication step is accepted. Between communication points the inputs are taken as "
-    "linear, and "
-    "steps longer than the sample time are made of several. A step ends with the inputs that are "
-    "set after "
-    "fmi2DoStep or fmi3DoStep and before the force is read; when none are set, with those of its "
-    "start. So "
-    "an importer that sets the inputs of an instant before it reads the force of that instant gets "
-    "exactly "
-    "the force of Dashpot, and one that reads first gets the force for inputs held over the step.";
+    "linear, and steps longer than the sample time are made of several. A step ends with the "
+    "inputs that are set after fmi2DoStep or fmi3DoStep and before the force is read; when none "
+    "are set, with those of its start. So an importer that sets the inputs of an instant before it "
+    "reads the force of that instant gets exactly the force of Dashpot, and one that reads first "
+    "gets the force for inputs held over the step.";
 
 constexpr const char* kExchange =
     "For model exchange the states and their slopes are exposed; there are no events. The model "
-    "starts as "
-    "after a long rest at the inputs' start values. Some laws are stiff: prefer an implicit "
-    "solver.";
+    "starts as after a long rest at the inputs' start values. Some laws are stiff: prefer an "
+    "implicit solver.";
 
 double extent(double low, double high) { return std::max(std::abs(low), std::abs(high)); }
 
@@ -36,6 +32,8 @@ void add_ports(const ExportedModel& model, Fmu& fmu) {
   const Domain& d = model.domain;
   const bool volts = model.drive_unit == DriveUnit::Volt;
   auto& list = fmu.variables;
+
+  // Nominal values: the largest of the domain; the force's follows from the run.
   list.push_back({.name = "s",
                   .unit = "m",
                   .meaning = "displacement of the damper, extension positive",
@@ -54,7 +52,7 @@ void add_ports(const ExportedModel& model, Fmu& fmu) {
                   .meaning = "force, positive when it resists extension"});
 }
 
-/// A state's unit by time.
+/// The unit of a state's slope by time.
 std::string rate_unit(const std::string& unit) {
   if (unit == "1") return "1/s";
   return unit == "m/s" ? "m/s^2" : unit + "/s";
@@ -62,6 +60,7 @@ std::string rate_unit(const std::string& unit) {
 
 void add_states(const std::vector<CSource::Variable>& states, const std::vector<double>& sizes,
                 Fmu& fmu) {
+  // All states, then all their slopes, in the same order.
   const std::size_t first = fmu.variables.size();
   for (std::size_t k = 0; k < states.size(); ++k)
     fmu.variables.push_back({.role = Role::State,
@@ -135,12 +134,15 @@ void describe(const ExportedModel& model, Fmu& fmu) {
 }  // namespace
 
 Fmu model_fmu(const ExportedModel& model, const ExportOptions& options) {
+  // FMI's numbers are double, and its parameters may be set.
   ExportOptions own = options;
   own.precision = CPrecision::Double;
   own.settable_parameters = true;
   own.name = "damper";
   const CSource source = c_source(model, own);
   const std::size_t size = std::max<std::size_t>(1, source.state_size);
+
+  // A law is known by its derivatives, a model without a state by itself: either can be exchanged.
   Fmu fmu{
       .name = export_name(model, options),
       .code = {{"damper.h", source.header}, {"damper.c", source.source}},
@@ -150,6 +152,8 @@ Fmu model_fmu(const ExportedModel& model, const ExportOptions& options) {
       .exchanges = source.state_size == 0 || !source.states.empty() || !source.parameters.empty(),
       .sample_time = source.sample_time,
       .grid = source.grid};
+
+  // The variables, in the order in which c/fmu.h numbers them.
   const std::vector<double> sizes = run_along(model.model, fmu, model.domain);
   add_ports(model, fmu);
   add_states(source.states, sizes, fmu);

@@ -11,12 +11,12 @@ namespace {
 using Node = pugi::xml_node;
 
 constexpr const char* kStyle =
-    "body { font: 16px/1.5 system-ui, sans-serif; max-width: 52rem; margin: 2rem auto; padding: 0 "
-    "1rem; }\n"
-    "table { border-collapse: collapse; } td, th { text-align: left; padding: 0.2rem 0.8rem 0.2rem "
-    "0; "
-    "border-bottom: 1px solid #ddd; }\npre { background: #f4f5f6; padding: 0.8rem; overflow-x: "
-    "auto; }\n";
+    "body { font: 16px/1.5 system-ui, sans-serif; max-width: 52rem; margin: 2rem auto;"
+    " padding: 0 1rem; }\n"
+    "table { border-collapse: collapse; }"
+    " td, th { text-align: left; padding: 0.2rem 0.8rem 0.2rem 0; border-bottom: 1px solid #ddd; "
+    "}\n"
+    "pre { background: #f4f5f6; padding: 0.8rem; overflow-x: auto; }\n";
 
 Node add(Node parent, const char* element, const std::string& text) {
   Node node = parent.append_child(element);
@@ -55,6 +55,8 @@ std::string fmu_page(const Fmu& fmu) {
   head.append_child("meta").append_attribute("charset") = "utf-8";
   add(head, "title", fmu.name);
   add(head, "style", kStyle);
+
+  // Its title and source, its variables, how it steps, and the command that made it.
   Node body = html.append_child("body");
   add(body, "h1", fmu.name + ": " + fmu.title);
   add(body, "p", fmu.origin);
@@ -67,6 +69,7 @@ std::string fmu_page(const Fmu& fmu) {
   for (const std::string& paragraph : fmu.steps) add(body, "p", paragraph);
   add(body, "h2", "Made by");
   add(body, "pre", fmu.tool + ":\n" + fmu.command);
+
   std::ostringstream out;
   document.save(out, " ", pugi::format_raw | pugi::format_no_declaration, pugi::encoding_utf8);
   return out.str();

@@ -5,8 +5,9 @@
 namespace dashpot {
 namespace {
 
-/// What c/fmu.h asks of whatever is at work.
-constexpr const char* kHeader = R"(/* What is at work in this FMU. Made by @tool@. */
+/// The definitions that fmu.h asks of whatever is at work.
+constexpr const char* kHeader =
+    R"(/* The model, controller or inverse of this FMU. Made by @tool@. */
 #ifndef FMU_MODEL_H
 #define FMU_MODEL_H
 
@@ -27,7 +28,7 @@ static const char* const fmu_names[] = {
 @names@};
 static const double fmu_nominals[] = @nominals@;
 
-/* Of the parameters; the last row is unused. */
+/* The limits of the parameters; the last row is unused. */
 static const double fmu_ranges[][2] = {
 @ranges@    {0.0, 0.0}};
 
@@ -52,6 +53,7 @@ std::string model_header(const Fmu& fmu) {
     if (variable.role == Role::Parameter)
       ranges += "    {" + bound(variable.lower) + ", " + bound(variable.upper) + "},\n";
   }
+
   const auto count = [&](Role role) { return std::to_string(fmu.count(role)); };
   return filled(kHeader, {{"tool", fmu.tool},
                           {"token", fmu.token},

@@ -3,13 +3,13 @@
 #include <algorithm>
 
 #include "dashpot/export/c/c_model.h"
-#include "dashpot/export/c_subset/c_trace.h"
+#include "dashpot/export/onnx/c_trace.h"
 #include "dashpot/export/onnx/live_nodes.h"
 
 namespace dashpot::trace {
 namespace {
 
-/// How one of a block's statements is called.
+/// A function around one of a block's statements, with plain numbers in and out.
 constexpr const char* kCall = R"(
 static void @name@(const double* row, damper_model* state, double* commands) {
   damper_model model = *state;
@@ -85,8 +85,9 @@ Calculation::Outputs Calculation::called(const std::vector<const char*>& functio
   return out;
 }
 
-/// Holds what a run begins with constant for constant. False where a step does not: then that is no
-/// longer.
+/// Traces a step with each number of the state as a constant that is one when a run begins. False
+/// where the step changes such a number: it is no constant any longer, and the step must be traced
+/// again.
 bool Calculation::trace_step() {
   for (std::size_t k = 0; k < state_size_; ++k)
     if (!graph.is_constant(fixed_[k])) fixed_[k] = state_input(k);

@@ -8,8 +8,8 @@
 
 namespace dashpot::trace {
 
-/// What the C code of a block computes, sample by sample. Its state is the whole damper_model,
-/// number by number.
+/// The calculation of a block's C code, sample by sample, as a graph. Its state is the whole
+/// damper_model, number by number. Throws Error where the code cannot become a graph.
 class Calculation {
  public:
   /// `first`: in place of block.step at the sample at which a run begins, behind damper_reset.
@@ -20,12 +20,12 @@ class Calculation {
   };
   const Outputs& step() const { return step_; }
   const Outputs& first() const { return first_; }
-  /// What the commands depend on, now or later: places in the state.
+  /// The places in the state on which the commands depend, now or later.
   const std::vector<std::size_t>& used() const { return used_; }
   std::size_t state_size() const { return state_size_; }
   Node input(std::size_t place) { return graph.input(place); }
   Node state_input(std::size_t place) { return graph.input(input_size_ + place); }
-  /// The state behind damper_reset where all inputs are zero.
+  /// The numbers of the state after damper_reset where all inputs are zero.
   std::vector<double> at_rest();
 
   Graph graph;

@@ -7,8 +7,10 @@
 namespace dashpot::trace {
 namespace {
 
+/// A function of one constant.
 double folded(Op op, double a) {
   switch (op) {
+    // Rounded as the compiler's math library does, in double precision.
     case Op::Exp:
       return std::exp(a);
     case Op::Log:
@@ -30,8 +32,10 @@ double folded(Op op, double a) {
   }
 }
 
+/// An operator on two constants; 1 or 0 for a truth.
 double folded(Op op, double a, double b) {
   switch (op) {
+    // fmin and fmax: where one is no number, the other is taken, as C has it.
     case Op::Mul:
       return a * b;
     case Op::Div:
@@ -85,6 +89,7 @@ Node Graph::input(std::size_t which) {
 }
 
 Node Graph::sum(Node a, double factor_a, Node b, double factor_b) {
+  // Collect the terms of both: sums are taken apart, constants are added up.
   std::vector<std::pair<Node, double>> terms;
   double rest = 0;
   const auto take = [&](Node node, double factor) {
@@ -102,6 +107,8 @@ Node Graph::sum(Node a, double factor_a, Node b, double factor_b) {
   };
   take(a, factor_a);
   take(b, factor_b);
+
+  // Merge terms of the same node; those that cancel are left out.
   std::ranges::sort(terms);
   NodeData out{.op = Op::Affine};
   for (std::size_t k = 0; k < terms.size();) {
@@ -112,6 +119,8 @@ Node Graph::sum(Node a, double factor_a, Node b, double factor_b) {
     out.inputs.push_back(node);
     out.numbers.push_back(factor);
   }
+
+  // A sum of one is no sum.
   if (out.inputs.empty()) return constant(rest);
   if (out.inputs.size() == 1 && out.numbers[0] == 1 && rest == 0) return out.inputs[0];
   out.numbers.push_back(rest);
@@ -149,7 +158,7 @@ Node Graph::apply(Op function, Node a) {
                         : made({.op = function, .inputs = {a}});
 }
 
-/// One of two constants.
+/// Whether a node is one of two constants.
 bool Graph::is_choice(Node node) const {
   return at(node).op == Op::Where && is_constant(at(node).inputs[1]) &&
          is_constant(at(node).inputs[2]);
@@ -159,6 +168,8 @@ Node Graph::compare(Op op, Node a, Node b) {
   a = as_number(a);
   b = as_number(b);
   if (is_constant(a) && is_constant(b)) return truth(folded(op, value(a), value(b)) != 0);
+
+  // A choice of two constants beside a constant is decided by what chooses.
   for (const bool first : {true, false}) {
     const Node choice = first ? a : b, other = first ? b : a;
     if (!is_choice(choice) || !is_constant(other)) continue;
@@ -204,8 +215,12 @@ Node Graph::opposite(Node a) {
 Node Graph::where(Node condition, Node yes, Node no) {
   if (is_constant(condition)) return value(condition) != 0 ? yes : no;
   if (yes == no) return yes;
+
+  // Truths are combined as such.
   if (at(yes).is_truth && at(no).is_truth)
     return either(both(condition, yes), both(opposite(condition), no));
+
+  // Numbers: without a negation, and without a choice that the same condition has made already.
   yes = as_number(yes);
   no = as_number(no);
   if (at(condition).op == Op::Not) {

@@ -7,7 +7,7 @@
 
 namespace dashpot::trace {
 
-/// A number or a truth that a Graph computes: its place there.
+/// A number or a truth that a Graph computes: its place among the nodes.
 using Node = std::uint32_t;
 
 enum class Op {
@@ -55,11 +55,12 @@ struct Loop {
   std::vector<Node> starts, carried, ends;
 };
 
-/// What a calculation does with its inputs, in double precision: constants are folded, sums of
-/// multiples are one node, what is the same is there once.
+/// A calculation as nodes: constants are folded in double precision, sums of multiples are one
+/// node, and what is the same is there once. A node stands behind all that it is made of.
 class Graph {
  public:
-  /// `is_single`: for numbers of 24 bits, whatever constants are folded in.
+  /// `is_single`: the graph will be computed in single precision; constants are folded in double
+  /// precision all the same.
   explicit Graph(bool is_single) : is_single_(is_single) { loops_.emplace_back(); }
 
   Node constant(double value);
@@ -86,11 +87,14 @@ class Graph {
 
   /// 1 or 0 for a truth.
   Node as_number(Node a);
-  /// Whether it is not 0.
+  /// Whether a number is not 0.
   Node as_truth(Node a);
 
+  /// A new loop within the loop `within` (0: none); its number. Its body is made of the nodes
+  /// loop(number).carried, and finished by end_loop.
   std::size_t begin_loop(std::vector<Node> starts, std::size_t within);
   void end_loop(std::size_t loop, std::vector<Node> ends) { loops_[loop].ends = std::move(ends); }
+  /// The carried value `which` behind the loop.
   Node result(std::size_t loop, std::size_t which);
 
   bool is_single() const { return is_single_; }

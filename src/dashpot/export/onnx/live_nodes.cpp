@@ -17,6 +17,8 @@ void LiveNodes::mark(Node first) {
     open.pop_back();
     if (is_live_[node]) continue;
     is_live_[node] = true;
+
+    // Its operands; for a value of a loop also how that begins, goes on and ends.
     const NodeData& data = graph_.at(node);
     open.insert(open.end(), data.inputs.begin(), data.inputs.end());
     if (data.op != Op::Result && data.op != Op::Carried) continue;
@@ -49,6 +51,8 @@ void LiveNodes::collect_needs() {
     if (!has(node)) continue;
     const NodeData& data = graph_.at(node);
     if (is_given(node) && data.op != Op::Carried) continue;
+
+    // Its operands, and for what a loop carries how that begins and ends.
     for (const Node input : data.inputs)
       if (graph_.at(input).op != Op::Constant) need(input, data.region);
     if (data.op != Op::Carried) continue;

@@ -12,10 +12,11 @@ class LiveNodes {
   LiveNodes(const Graph& graph, const std::vector<Node>& outputs);
 
   bool has(Node node) const { return is_live_[node]; }
-  /// What a loop carries and something needs, behind the truth that it goes on.
+  /// The numbers of the values that a loop carries and something needs, without the truth that it
+  /// goes on.
   std::vector<std::size_t> carried(std::size_t loop) const;
-  /// Computed in this loop (0: in none), by how many steps lie before: neither constants nor what
-  /// is given.
+  /// The nodes computed in this loop (0: in none) by how many steps lie before them; without
+  /// constants, inputs and what is carried, which are given.
   std::map<std::size_t, std::vector<Node>> by_level(std::size_t region) const;
 
  private:
@@ -26,7 +27,7 @@ class LiveNodes {
 
   const Graph& graph_;
   std::vector<bool> is_live_;
-  std::vector<std::vector<Node>> needs_;  ///< of each loop, from outside
+  std::vector<std::vector<Node>> needs_;  ///< by loop: what it takes from outside
 };
 
 }  // namespace dashpot::trace

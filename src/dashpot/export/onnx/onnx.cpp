@@ -17,7 +17,7 @@ namespace {
 using namespace trace;
 using Rows = std::vector<std::pair<std::string, std::string>>;
 
-/// What becomes a graph.
+/// A damper, an inverse or a controller that becomes a graph, with what the file says of it.
 struct Subject {
   CBlock block;
   std::string first;                ///< in place of block.step where a run begins
@@ -79,14 +79,16 @@ class Files {
     return face;
   }
 
-  /// Those that something reads, or the first: something must say how many there are beside each
-  /// other.
+  /// The inputs that something reads; the first where none is read, since an input must say how
+  /// large the batch is.
   std::vector<OnnxFace> input_faces() {
     std::vector<Node> needed;
     for (const Calculation::Outputs* outputs : {&calculation_.step(), &calculation_.first()}) {
       needed.insert(needed.end(), outputs->commands.begin(), outputs->commands.end());
       for (const std::size_t place : calculation_.used()) needed.push_back(outputs->state[place]);
     }
+
+    // Divide the ports by whether anything needs one of their numbers.
     const LiveNodes live(calculation_.graph, needed);
     std::vector<OnnxFace> faces, unread;
     std::size_t place = 0;
@@ -123,12 +125,16 @@ class Files {
     for (const auto* ports : {&block_.inputs, &block_.commands})
       for (const CPort& port : *ports)
         if (!port.unit.empty()) units.push_back(port.name + ' ' + port.unit);
+
+    // The state, number by number: its names, and where a run may begin without NAME_rest.onnx.
     if (has_state())
       for (const std::vector<double> at_rest = calculation_.at_rest();
            const std::size_t place : calculation_.used()) {
         names.push_back(state_name(place));
         initial.push_back(format_exact(at_rest[place]));
       }
+
+    // Rows that say nothing are left out.
     Rows rows = subject_.facts;
     rows.insert(rows.end(), {{"sample_time", format_exact(block_.sample_time) + " s"},
                              {"units", join(units, ", ")},
@@ -188,6 +194,8 @@ CBlock damper_block(const ExportedModel& model, const ExportOptions& options) {
   return {.name = export_name(model, options),
           .title = "a damper: " + model.model.name() + ". " + model.origin,
           .precision = precision_of(options),
+
+          // The code of write_c_source, without its comments and guards.
           .header = "#define DAMPER_STATE_SIZE " + std::to_string(size) +
                     "\n#define DAMPER_SAMPLE_TIME " + c_number(sample_time) + "\n" +
                     std::string(c_text("damper_api.h")),

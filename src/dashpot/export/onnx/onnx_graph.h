@@ -4,15 +4,15 @@
 
 namespace dashpot::trace {
 
-/// One tensor [batch, nodes] of a graph's face.
+/// An input or output of the ONNX graph: a tensor [batch, columns].
 struct OnnxFace {
   std::string name, meaning;
   std::vector<Node> columns;
 };
 
-/// The part of a graph that leads from inputs to outputs, as operators of ONNX on tensors [batch,
-/// width]: what is of one kind and can be computed beside each other shares an operator, sums of
-/// products become Gemm.
+/// The part of a graph that leads from inputs to outputs (one input at least), as operators of ONNX
+/// on tensors [batch, width]: nodes of one kind that can be computed beside each other share an
+/// operator, sums of products become Gemm.
 OnnxGraph onnx_graph(const Graph& graph, const std::vector<OnnxFace>& inputs,
                      const std::vector<OnnxFace>& outputs, OnnxType type);
 

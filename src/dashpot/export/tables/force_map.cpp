@@ -22,10 +22,13 @@ double settled_force(const ExportedModel& model, double velocity, double current
   const double half = 0.5 * (d.displacement_max - d.displacement_min);
   const double wanted =
       std::min(kLongest, half > 0 ? half / std::max(std::abs(velocity), 1e-12) : kLongest);
+
+  // A stroke of half the domain, or of two seconds, in steps of the sample time.
   const double steps = std::clamp(std::ceil(wanted / sample_time), 1.0, kMostSteps);
   std::vector<DamperInput> stroke;
   for (double k = 0; k <= steps; ++k)
     stroke.push_back({middle + velocity * (k - steps) * sample_time, velocity, current});
+
   const double force = force_along(model.model, stroke, sample_time).back();
   if (!std::isfinite(force))
     throw Error(model.model.name(), "has no finite force at " + format_number(velocity) +
@@ -40,7 +43,7 @@ std::vector<double> evenly(double low, double high, int count) {
   return values;
 }
 
-/// Where the row of forces over currents first has the force, straight between currents; the
+/// The current at which the row of forces first has the force, straight between currents; the
 /// nearest else.
 double current_for(const ForceMap& map, std::size_t v, double force) {
   std::size_t nearest = 0;

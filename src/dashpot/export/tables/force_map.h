@@ -5,7 +5,7 @@
 
 namespace dashpot {
 
-/// The force over velocity and command, once everything has settled.
+/// The settled force over velocity and command.
 struct ForceMap {
   std::vector<double> velocity;  ///< m/s, ascending, denser about 0
   std::vector<double> current;   ///< A or V, ascending
@@ -14,8 +14,9 @@ struct ForceMap {
   double at(std::size_t v, std::size_t i) const { return force[v * current.size() + i]; }
 };
 
-/// Each from a stroke at constant velocity and command, from rest, that ends at the middle of the
-/// domain: what dampers' makers plot. Throws Error where the model gives no finite force.
+/// Each force at the end of a stroke from rest, at constant velocity and command, that ends in the
+/// middle of the domain, as makers of dampers plot it; `sample_time` in s. Throws Error where the
+/// model gives no finite force.
 ForceMap force_map(const ExportedModel& model, double sample_time);
 
 /// The command over velocity and wanted force: the least one at which the map has the force, or the

@@ -15,7 +15,7 @@
 namespace dashpot {
 namespace {
 
-/// Rows over columns, their values in the first column and line.
+/// A table with the values of its rows in the first column, those of its columns in the first line.
 std::string csv(const std::string& corner, const std::vector<double>& rows,
                 const std::vector<double>& columns, const std::vector<double>& values) {
   std::string text = corner;
@@ -73,12 +73,11 @@ Matrix column(const std::string& name, const std::vector<double>& values) {
 
 std::string dpr(const ForceMap& map, std::size_t i, const std::string& title) {
   std::string text = fmt::format(
-      "$ {}\n$ Extension positive; the force is positive when it resists "
-      "extension.\n[MDI_HEADER]\nFILE_TYPE "
-      "= "
-      "'dpr'\nFILE_VERSION = 4.0\nFILE_FORMAT = 'ASCII'\n[UNITS]\nLENGTH = 'mm'\nANGLE = "
-      "'degrees'\nFORCE = "
-      "'newton'\nMASS = 'kg'\nTIME = 'second'\n[CURVE]\n{{vel force}}\n",
+      "$ {}\n"
+      "$ Extension positive; the force is positive when it resists extension.\n"
+      "[MDI_HEADER]\nFILE_TYPE = 'dpr'\nFILE_VERSION = 4.0\nFILE_FORMAT = 'ASCII'\n"
+      "[UNITS]\nLENGTH = 'mm'\nANGLE = 'degrees'\nFORCE = 'newton'\nMASS = 'kg'\n"
+      "TIME = 'second'\n[CURVE]\n{{vel force}}\n",
       title);
   for (std::size_t v = 0; v < map.velocity.size(); ++v)
     text += format_exact(1000 * map.velocity[v]) + ' ' + format_exact(map.at(v, i)) + '\n';
@@ -91,6 +90,8 @@ std::vector<ExportedFile> write_tables(const ExportedModel& model, const ExportO
   const std::string name = export_name(model, options), unit = to_string(model.drive_unit);
   const ForceMap map = force_map(model, export_sample_time(model, options));
   const CurrentMap inverse = inverse_of(map);
+
+  // The same numbers for spreadsheets and for MATLAB.
   const std::vector<Matrix> matrices{
       column("velocity", map.velocity),
       column("current", map.current),

@@ -12,6 +12,7 @@
 #include "dashpot/damper/kinds/state_space/presets.h"
 #include "dashpot/damper/registry.h"
 #include "dashpot/error.h"
+#include "dashpot/identify/fit/network_design.h"
 
 namespace dashpot {
 namespace {

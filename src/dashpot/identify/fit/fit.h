@@ -4,9 +4,9 @@
 #include <string_view>
 #include <vector>
 
-#include "dashpot/damper/model_kind.h"
 #include "dashpot/drive.h"
 #include "dashpot/identify.h"
+#include "dashpot/model_kind.h"
 
 // The fits behind identify(): one per kind of model, each in the file of its name. All take the
 // records together in free run, throw Error when the records cannot serve, and report a fit that
@@ -42,7 +42,7 @@ FitReport fit_hybrid(const HybridPreset& preset, const std::vector<Record>& trai
 FitReport fit_family(const FamilyPreset& preset, const std::vector<Record>& training,
                      DriveUnit drive_unit, const IdentifyOptions& options);
 
-/// How models of a kind are fitted.
+/// The fit of one kind of model.
 struct KindFit {
   ModelKind kind;
   /// Fits the registered model of that name, which must be of this kind.

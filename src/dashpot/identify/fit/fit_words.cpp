@@ -6,6 +6,8 @@
 #include "dashpot/damper/registry.h"
 #include "dashpot/error.h"
 #include "dashpot/identify/fit/fit.h"
+#include "dashpot/identify/fit/network_design.h"
+#include "dashpot/identify/fit/parameter_choice.h"
 
 namespace dashpot {
 namespace {

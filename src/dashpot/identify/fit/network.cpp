@@ -38,7 +38,7 @@ Mlp standardised(const NetworkPreset& preset, const NetworkDesign& design,
 
 FitReport fit_network(const NetworkPreset& preset, const std::vector<Record>& training,
                       DriveUnit drive_unit, const IdentifyOptions& options) {
-  // A network that also reads past inputs is a NARX model without feedback.
+  // A network that also reads past inputs is a NARX model.
   if (options.network.delays.value_or(0) > 0)
     return fit_narx(narx_preset(preset), training, drive_unit, options);
 

@@ -4,7 +4,7 @@
 
 #include "dashpot/base/parallel.h"
 #include "dashpot/identify/fit/free_run_records.h"
-#include "dashpot/split.h"
+#include "dashpot/record/trial_parts.h"
 
 namespace dashpot {
 

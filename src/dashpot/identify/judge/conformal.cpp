@@ -6,8 +6,8 @@
 namespace dashpot {
 namespace {
 
-constexpr double kSpeedShares[] = {0.05, 0.25,
-                                   0.6};  ///< of the largest |v|: pre-yield, low, middle, high
+/// Of the largest |v|: the ends of pre-yield, low and middle speeds.
+constexpr double kSpeedShares[] = {0.05, 0.25, 0.6};
 constexpr std::size_t kMostLevels = 8;  ///< more constant levels of the drive than this share knots
 constexpr int kKnots = 4;               ///< over the range of a drive that varies
 constexpr double kLeaning = 200;        ///< samples that a class borrows from the wider one
@@ -28,9 +28,13 @@ std::vector<double> drive_knots(const std::vector<RecordResult>& records) {
     if (r.drive_level) knots.push_back(*r.drive_level);
     for (const double drive : r.drive) low = std::min(low, drive), high = std::max(high, drive);
   }
+
+  // A few constant levels are knots themselves.
   std::ranges::sort(knots);
   knots.erase(std::unique(knots.begin(), knots.end()), knots.end());
   if (!varies && knots.size() <= kMostLevels) return knots;
+
+  // Else knots stand at even distances over the range.
   knots = {low};
   for (int k = 1; k < kKnots && high > low; ++k)
     knots.push_back(low + (high - low) * k / (kKnots - 1));
@@ -51,6 +55,7 @@ struct Mean {
 }  // namespace
 
 std::optional<ForceBand> error_shape(const std::vector<RecordResult>& training) {
+  // Classes of speed and drive.
   double fastest = 0, largest_force = 0;
   for (const RecordResult& r : training)
     for_each_scored(r, [&](const DamperInput& input, double, std::size_t) {
@@ -66,6 +71,7 @@ std::optional<ForceBand> error_shape(const std::vector<RecordResult>& training) 
     if (fastest > 0) shape.speeds.push_back(share * fastest);
   shape.drives = drive_knots(training);
 
+  // The mean error of each class, of each speed and of all.
   const std::size_t columns = shape.drives.size();
   Mean all;
   std::vector<Mean> bands(shape.speeds.size() + 1), cells(bands.size() * columns);
@@ -78,6 +84,7 @@ std::optional<ForceBand> error_shape(const std::vector<RecordResult>& training) 
       cells[band * columns + nearest(shape.drives, input.current)].add(error);
     });
   if (all.n == 0) return std::nullopt;
+
   // A model without any error would have a band without a width, which no factor could open.
   const double least = 1e-9 * std::max(largest_force, 1e-9);
   for (std::size_t k = 0; k < cells.size(); ++k)
@@ -102,6 +109,8 @@ std::optional<double> conformal_factor(const std::vector<ErrorGroups>& parts, do
   struct Weighted {
     double error, weight;
   };
+
+  // Parts weigh the same, and so do the records within a part.
   std::vector<Weighted> errors;
   double counted = 0;
   for (const ErrorGroups& groups : parts) {
@@ -110,6 +119,8 @@ std::optional<double> conformal_factor(const std::vector<ErrorGroups>& parts, do
       for (const double error : group)
         errors.push_back({error, 1 / static_cast<double>((group.size() + 1) * groups.size())});
   }
+
+  // The first error, from the least on, at which the weights reach the level.
   std::ranges::sort(errors, {}, &Weighted::error);
   constexpr double kRounding = 1e-9;  // of sums of weights
   double reached = 0;
@@ -119,12 +130,15 @@ std::optional<double> conformal_factor(const std::vector<ErrorGroups>& parts, do
 }
 
 std::optional<double> widening(const std::vector<ErrorGroups>& parts, double level) {
+  // A single part: its records stand for parts.
   if (parts.size() == 1) {
     if (parts.front().size() < 2) return 1;
     std::vector<ErrorGroups> records;
     for (const std::vector<double>& record : parts.front()) records.push_back({record});
     return widening(records, level);
   }
+
+  // Errors of each part relative to a band that was made from the others.
   std::vector<ErrorGroups> beside_others = parts;
   for (std::size_t part = 0; part < parts.size(); ++part) {
     std::vector<ErrorGroups> others = parts;

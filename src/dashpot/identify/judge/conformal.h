@@ -28,8 +28,8 @@ namespace dashpot {
 // factor of up to 2 (log-normal, 0.7), that covers 90 to 92 % of a new part from 3 parts on, where
 // the plain quantile covers 87 to 90 %. A single new record can be far from that; hence the
 // measured coverage in every report, with the worst record. Nothing is promised outside the domain:
-// a part at the edge of what was recorded is harder than those within, which no other part
-// foretells. Factors come from models fitted on a part of the records and serve the one fitted on
+// a part at the edge of what was recorded is harder than those within, and no other part shows by
+// how much. Factors come from models fitted on a part of the records and serve the one fitted on
 // all. The band is about the model's force with the record's offset, where that is a free nuisance.
 //
 // A judged fold gives no error to its own band, but the fits of the other folds have seen its

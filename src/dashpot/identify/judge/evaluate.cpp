@@ -82,6 +82,7 @@ RecordResult evaluate_record(const DamperModel& model, const Record& record, Dri
   if (const Channel* displacement = record.find("displacement"))
     result.displacement = displacement->samples;
 
+  // Run the model free, made for this record's conditions where it is one of a family.
   const std::shared_ptr<const DamperModel> specialised = model.specialised(record.conditions);
   const DamperModel& damper = specialised ? *specialised : model;
   result.extrapolations = damper.extrapolations();
@@ -91,11 +92,14 @@ RecordResult evaluate_record(const DamperModel& model, const Record& record, Dri
   result.diverged_at = run.diverged_at;
   if (result.diverged_at) return result;
 
+  // The record's free offset, unless training has fixed it.
   if (const double* known = known_offset(options, record.name)) {
     result.offset = *known;
   } else if (options.offset == OffsetMode::Record) {
     result.offset = mean_error(result);
   }
+
+  // Score it with and without the offset.
   result.sums = error_sums(result, result.offset);
   result.sums_without_offset = error_sums(result, 0);
   result.one_step = one_step_errors(damper, record, drive_unit, result.offset);
@@ -106,7 +110,7 @@ RecordResult evaluate_record(const DamperModel& model, const Record& record, Dri
   return result;
 }
 
-/// Where |v| is divided, as shares of the largest |v| in the records.
+/// Bands of |v|, as shares of the largest |v| in the records.
 constexpr struct {
   std::string_view name;
   double low, high;
@@ -119,8 +123,10 @@ std::vector<BandResult> velocity_bands(const std::vector<RecordResult>& records)
   double fastest = 0;
   for (const RecordResult& r : records)
     for (const double v : r.velocity) fastest = std::max(fastest, std::abs(v));
+
   std::vector<BandResult> bands;
   for (const auto& band : kBands) {
+    // The fastest sample belongs to the last band.
     const bool last = band.high == 1;
     ErrorSums sums;
     for (const RecordResult& r : records) {
@@ -181,6 +187,8 @@ std::vector<DriveResult> by_drive(const std::vector<RecordResult>& records) {
 Evaluation summarise(std::vector<RecordResult> records) {
   Evaluation evaluation;
   evaluation.records = std::move(records);
+
+  // Add up the records, and find the worst.
   ErrorSums sums, without, one_step;
   for (RecordResult& r : evaluation.records) {
     if (r.diverged_at) {
@@ -199,6 +207,8 @@ Evaluation summarise(std::vector<RecordResult> records) {
       evaluation.worst_record = r.record;
     }
   }
+
+  // Means over the records, then figures over all samples together.
   const auto judged = static_cast<double>(evaluation.records.size() - evaluation.diverged);
   evaluation.mean_esr /= judged;
   evaluation.mean_energy_error /= judged;
@@ -259,10 +269,13 @@ DriveRange drive_range(const std::vector<Record>& records, DriveUnit drive_unit)
       range.varies = true;
   }
   if (samples.empty()) return range;
+
   std::sort(samples.begin(), samples.end());
   std::sort(levels.begin(), levels.end());
   range.levels =
       static_cast<std::size_t>(std::unique(levels.begin(), levels.end()) - levels.begin());
+
+  // Half a per cent at either end is left out where the drive varies.
   const std::size_t margin = range.varies ? samples.size() / 200 : 0;
   range.low = samples[margin];
   range.high = samples[samples.size() - 1 - margin];
@@ -288,12 +301,16 @@ FreeRun free_run(const DamperModel& model, const std::vector<DamperInput>& input
   if (inputs.empty()) return run;
   run.force.resize(inputs.size());
   if (model.is_ensemble()) run.spread.resize(inputs.size());
+
+  // From rest at the first sample to the last force that is usable.
   std::vector<double> state(model.state_size());
   model.rest(inputs.front(), state);
   const std::size_t usable =
       model.run(inputs, {.time = time.data()}, state,
                 {run.force.data(), run.spread.empty() ? nullptr : run.spread.data()});
   if (usable == inputs.size()) return run;
+
+  // Diverged: what follows is no force.
   run.diverged_at = time[usable];
   for (std::vector<double>* values : {&run.force, &run.spread})
     std::fill(values->begin() + static_cast<std::ptrdiff_t>(std::min(usable, values->size())),

@@ -85,11 +85,11 @@ Value to_json(const std::vector<Extrapolation>& extrapolations) {
 }
 
 std::vector<std::string> outside_family(const Evaluation& evaluation) {
-  std::vector<std::string> told;
+  std::vector<std::string> found;
   for (const RecordResult& r : evaluation.records)
     for (const std::string& what : r.extrapolations)
-      if (std::ranges::find(told, what) == told.end()) told.push_back(what);
-  return told;
+      if (std::ranges::find(found, what) == found.end()) found.push_back(what);
+  return found;
 }
 
 void require_same_drive(const ModelFile& file, const Dataset& dataset, const std::string& where) {

@@ -23,10 +23,10 @@ std::vector<Extrapolation> extrapolations(const ModelFile& file, const Dataset& 
 std::string describe(const Extrapolation& extrapolation);
 Value to_json(const std::vector<Extrapolation>& extrapolations);
 
-/// What of the recordings' dampers lies outside the family that the model is of, each once.
+/// The properties in which the recordings' dampers lie outside the model's family, each once.
 std::vector<std::string> outside_family(const Evaluation& evaluation);
 
-/// Throws Error(where, ...) where the model is driven in A and the recordings in V, or the other
+/// Throws Error(where, ...) when the model is driven in A and the recordings in V, or the other
 /// way round.
 void require_same_drive(const ModelFile& file, const Dataset& dataset, const std::string& where);
 

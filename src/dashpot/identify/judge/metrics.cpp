@@ -39,15 +39,20 @@ Metrics metrics(const ErrorSums& sums) {
   const double span = sums.force_max - sums.force_min;
   const double force_variation = sums.force_squared - sums.force * sums.force / n;
   const double error_variation = sums.squared - sums.error * sums.error / n;
+
+  // Errors in N, and as shares of the force.
   m.rmse = std::sqrt(sums.squared / n);
   m.rms_span = 100 * m.rmse / span;
   m.rms_half_span = 2 * m.rms_span;
   m.nrmse_max = 100 * m.rmse / std::max(std::abs(sums.force_min), std::abs(sums.force_max));
+
+  // Ratios of power.
   m.esr = 100 * sums.squared / force_variation;
   m.r2 = 1 - m.esr / 100;
   m.rrse = std::sqrt(m.esr / 100);
   m.fit = 100 * (1 - m.rrse);
   m.vaf = 100 * (1 - error_variation / force_variation);
+
   m.mae = sums.absolute / n;
   m.max_error = sums.largest;
   return m;

@@ -22,12 +22,16 @@ ErrorSums one_step_errors(const DamperModel& model, const Record& record, DriveU
                           double offset) {
   const double step = model.feedback_step();
   if (step == 0) return {};
+
+  // A record that is sampled off the model's grid is resampled onto it, if it is long enough.
   if (!on_grid(record, step)) {
     if (record.time.back() - record.time.front() < 2 * step) return {};
     Record grid = record;
     resample(grid, 1 / step);
     return on_grid(grid, step) ? one_step_errors(model, grid, drive_unit, offset) : ErrorSums{};
   }
+
+  // Step through the record. Score each force before the model is given the measured one.
   const std::vector<DamperInput> inputs = damper_inputs(record, drive_unit);
   const std::vector<double>& force = record.channel("force").samples;
   std::vector<double> state(model.state_size());

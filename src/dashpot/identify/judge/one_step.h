@@ -8,9 +8,9 @@
 
 namespace dashpot {
 
-/// Errors over a record where a model that feeds its force back is given the measured one (less
-/// `offset`, N) at each of its steps instead: one step ahead. A figure that flatters: at high
-/// sample rates the last force foretells the next by itself. Without samples for a model that feeds
+/// Errors of predictions one step ahead: a model that feeds its force back is given the measured
+/// force (less `offset`, N) at each of its steps instead of its own. A figure that flatters: at
+/// high sample rates the last force alone predicts the next. Without samples for a model that feeds
 /// nothing back.
 ErrorSums one_step_errors(const DamperModel& model, const Record& record, DriveUnit drive_unit,
                           double offset);

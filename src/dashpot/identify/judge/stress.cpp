@@ -16,6 +16,8 @@ StressRun stress(const DamperModel& model, const Domain& domain, double force_sp
   const double speed = kStressFactor * std::max(domain.velocity_max, -domain.velocity_min);
   // Without a displacement any frequency serves.
   const double w = stroke > 0 ? speed / stroke : 2 * M_PI;
+
+  // A sine, while the drive jumps between its ends.
   std::vector<DamperInput> inputs;
   std::vector<double> time;
   for (double t = 0; t < kStressSeconds; t = kSampleTime * static_cast<double>(time.size())) {
@@ -24,6 +26,8 @@ StressRun stress(const DamperModel& model, const Domain& domain, double force_sp
                       low ? domain.current_min : domain.current_max});
     time.push_back(t);
   }
+
+  // Run it, and take the largest force.
   const FreeRun run = free_run(model, inputs, time);
   StressRun result{.seconds = kStressSeconds, .finite = !run.diverged_at};
   for (const double force : run.force)

@@ -32,6 +32,8 @@ void add_range(const Observer& observer, const InverseInput& input, const Invers
 void score(TrackReport& report, const InverseLimits& limits) {
   const auto [low, high] = std::minmax_element(report.wanted.begin(), report.wanted.end());
   report.span = *high - *low;
+
+  // Errors over all samples and over those in reach; and how often the command is at a limit.
   const double slack = kAtLimit * (limits.current_max - limits.current_min);
   ErrorSums all, reachable;
   double saturated = 0;
@@ -41,7 +43,9 @@ void score(TrackReport& report, const InverseLimits& limits) {
     saturated += report.command[k] <= limits.current_min + slack ||
                  report.command[k] >= limits.current_max - slack;
   }
-  all.force_min = reachable.force_min = *low;  // both in per cent of the same span
+
+  // Both are given in per cent of the same span.
+  all.force_min = reachable.force_min = *low;
   all.force_max = reachable.force_max = *high;
   report.all = metrics(all);
   if (reachable.n > 0) report.reachable = metrics(reachable);
@@ -70,6 +74,8 @@ TrackReport track(const DamperModel& damper, const InverseModel& inverse, const 
   if (wanted.size() != motion.size() || wanted.size() < 2)
     throw Error("track",
                 "the wanted force and the motion differ in length, or have no two samples");
+
+  // The coil's lag is the driver's: the damper runs without its own.
   const double h = motion.sample_time;
   const BareDamper bare = without_coil_lag(damper);
   const InverseLimits limits = limits_of(driver.options(), h);
@@ -81,11 +87,15 @@ TrackReport track(const DamperModel& damper, const InverseModel& inverse, const 
   TrackReport report;
   report.wanted = wanted;
   report.warm_up = std::min(wanted.size() - 2, static_cast<std::size_t>(kWarmUp / h));
+
+  // Everything starts at rest at the least current.
   DamperInput now{motion.displacement[0], motion.velocity[0], limits.current_min};
   bare.model->rest(now, z);
   inverse.rest(now, memory);
   driver.rest(limits.current_min, coil);
+
   for (std::size_t k = 0; k < motion.size(); ++k) {
+    // The inverse commands, the coil follows, the damper answers.
     const InverseInput input{wanted[k], now.displacement, now.velocity, now.current,
                              bare.model->force(now, z)};
     report.time.push_back(static_cast<double>(k) * h);
@@ -96,6 +106,8 @@ TrackReport track(const DamperModel& damper, const InverseModel& inverse, const 
     report.obtained.push_back(bare.model->force(now, z));
     add_range(observer, input, limits, state, report);
     if (k + 1 == motion.size()) break;
+
+    // On to the next sample.
     driver.advance(h, coil);
     const DamperInput next{motion.displacement[k + 1], motion.velocity[k + 1],
                            driver.current(coil)};

@@ -8,7 +8,7 @@
 
 namespace dashpot {
 
-/// What an inverse made of a wanted force, sample by sample.
+/// The force that an inverse obtained for a wanted one, sample by sample.
 struct TrackReport {
   std::vector<double> time, wanted, obtained;  ///< s, N, N
   std::vector<double> command, current;        ///< A

@@ -44,8 +44,8 @@ std::string fingerprint(const std::vector<Record>& records) {
 }
 
 NamedTexts describe_options(const IdentifyOptions& identify_options) {
-  // All members by name: a new option does not compile here until it is told. Threads and monitor
-  // do not change a fit.
+  // All members by name, so that a new option does not compile until it is dealt with here. Threads
+  // and monitor do not change a fit.
   const auto& [offset, choices, network, starts, search, seed, threads, monitor] = identify_options;
   (void)threads, (void)monitor;
   return {{"force offset", offset == OffsetMode::Record ? "an offset per record" : "no offsets"},

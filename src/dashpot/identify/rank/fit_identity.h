@@ -2,10 +2,10 @@
 #include <string>
 #include <vector>
 
-#include "dashpot/base/result_file.h"
+#include "dashpot/base/store.h"
 #include "dashpot/identify.h"
 
-// What kept results are found again by: all that a fit depends on, as text.
+// Everything that a fit depends on, as text: a kept fit is found again by it.
 namespace dashpot {
 
 /// Changes with every sample, channel, name and warm-up of the records.

@@ -1,9 +1,8 @@
 #include "dashpot/identify/rank/fit_store.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
+#include "dashpot/base/any_number.h"
 #include "dashpot/base/file.h"
 #include "dashpot/base/text.h"
 #include "dashpot/error.h"
@@ -13,65 +12,70 @@
 namespace dashpot {
 namespace {
 
-constexpr std::string_view kFormat = "dashpot fit 1";
-
-/// JSON has no infinity: an interval without a bound becomes null, and not a number when it is
-/// read.
-Value number(double value) { return std::isfinite(value) ? Value(value) : Value(); }
-
-double number(const Value& value) {
-  return value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.as_number();
-}
-
 Value to_json(const FittedParameter& p) {
-  return Value::array({p.name, p.unit, p.meaning, number(p.value), number(p.low), number(p.high),
-                       p.fixed, p.at_bound, p.weak});
+  return Value::array({p.name, p.unit, p.meaning, any_number(p.value), any_number(p.low),
+                       any_number(p.high), p.fixed, p.at_bound, p.weak});
 }
 
 FittedParameter read_parameter(const Value& value) {
   const std::vector<Value>& v = value.items();
   if (v.size() != 9) throw Error(value.where(), "is not a fitted parameter");
-  return {v[0].as_string(), v[1].as_string(), v[2].as_string(), number(v[3]),  number(v[4]),
-          number(v[5]),     v[6].as_bool(),   v[7].as_bool(),   v[8].as_bool()};
+  return {v[0].as_string(),      v[1].as_string(),      v[2].as_string(),
+          read_any_number(v[3]), read_any_number(v[4]), read_any_number(v[5]),
+          v[6].as_bool(),        v[7].as_bool(),        v[8].as_bool()};
 }
 
-Value to_json(const FitStore::Request& request, const FitReport& fit) {
-  Value parameters = Value::array(), offsets = Value::array();
-  for (const FittedParameter& p : fit.parameters) parameters.push_back(to_json(p));
-  for (const auto& [record, offset] : fit.offsets) offsets.push_back(offset);
+/// The model as it stands in a file of its own, which needs the drive's unit and range.
+std::string model_text(const FitStore::Request& request, const FitReport& fit) {
   ModelFile file;
   file.model = fit.model->with_offset(0);
   file.drive_unit = request.drive_unit;
   const DriveRange drive = drive_range(request.training, request.drive_unit);
   file.domain.current_min = drive.low;
   file.domain.current_max = drive.high;
-  return Value::object({{"converged", fit.status == FitReport::Status::Converged},
-                        {"message", fit.message},
-                        {"model", format_model(file)},
-                        {"parameters", std::move(parameters)},
-                        {"offsets", std::move(offsets)},
-                        {"warnings", Value::array(fit.warnings)},
-                        {"iterations", fit.iterations},
-                        {"seconds", fit.seconds},
-                        {"training_rmse", number(fit.training_rmse)}});
+  return format_model(file);
+}
+
+std::string format_fit(const FitStore::Request& request, const FitReport& fit) {
+  Value parameters = Value::array(), offsets = Value::array();
+  for (const FittedParameter& p : fit.parameters) parameters.push_back(to_json(p));
+  for (const auto& [record, offset] : fit.offsets) offsets.push_back(offset);
+
+  return format_json(Value::object({{"converged", fit.status == FitReport::Status::Converged},
+                                    {"message", fit.message},
+                                    {"model", model_text(request, fit)},
+                                    {"parameters", std::move(parameters)},
+                                    {"offsets", std::move(offsets)},
+                                    {"warnings", Value::array(fit.warnings)},
+                                    {"iterations", fit.iterations},
+                                    {"seconds", fit.seconds},
+                                    {"training_rmse", any_number(fit.training_rmse)}}),
+                     false);
 }
 
 /// The offsets stand in the order of the training records, which have their names.
 void read_offsets(const Value& value, const std::vector<Record>& training, FitReport& fit) {
   const std::vector<double> offsets = value.as_numbers();
   if (!offsets.empty() && offsets.size() != training.size())
-    throw Error(value.where(), "has not one offset per record");
+    throw Error(value.where(), "does not hold one offset per record");
   for (std::size_t k = 0; k < offsets.size(); ++k)
     fit.offsets.emplace_back(training[k].name, offsets[k]);
 }
 
-FitReport read_fit(const Value& value, const std::vector<Record>& training) {
+/// Throws Error, naming the key, when the text is not a kept fit on these records.
+FitReport parse_fit(const std::string& text, const std::string& key,
+                    const std::vector<Record>& training) {
+  const Value value = parse_json(text, key);
   ObjectReader reader(value, "a kept fit");
   FitReport fit;
+
+  // How the fit ended, and the model.
   fit.status = reader.required("converged").as_bool() ? FitReport::Status::Converged
                                                       : FitReport::Status::IterationLimit;
   fit.message = reader.string("message");
   fit.model = parse_model(reader.string("model"), value.where()).model;
+
+  // Its figures.
   for (const Value& p : reader.required("parameters").items())
     fit.parameters.push_back(read_parameter(p));
   read_offsets(reader.required("offsets"), training, fit);
@@ -79,48 +83,38 @@ FitReport read_fit(const Value& value, const std::vector<Record>& training) {
     fit.warnings.push_back(warning.as_string());
   fit.iterations = static_cast<int>(std::clamp(reader.number("iterations"), 0.0, 1e9));
   fit.seconds = reader.number("seconds");
-  const Value* rmse = reader.optional("training_rmse");
-  fit.training_rmse = rmse ? number(*rmse) : number(Value());
+  fit.training_rmse = read_any_number(reader.required("training_rmse"));
   reader.finish();
   return fit;
 }
 
 }  // namespace
 
-FitStore::FitStore(std::filesystem::path folder, std::string program)
-    : folder_(std::move(folder)), program_(std::move(program)) {}
+FitStore::FitStore(const std::filesystem::path& path, std::string program)
+    : program_(std::move(program)), store_(path, kFormat) {}
 
 std::string FitStore::key_of(const Request& request) const {
   std::vector<std::string> parts{program_, request.model, fingerprint(request.training),
                                  to_string(request.drive_unit)};
   for (const auto& [name, value] : describe_options(request.options)) parts.push_back(value);
-  return join(parts, "\n");
-}
-
-std::filesystem::path FitStore::file_of(const Request& request, const std::string& key) const {
-  return folder_ / (request.model + "-" + sha256(key).substr(0, 16) + ".json");
+  return request.model + ' ' + sha256(join(parts, "\n"));
 }
 
 std::optional<FitReport> FitStore::load(const Request& request) const {
   const std::string key = key_of(request);
-  const std::filesystem::path path = file_of(request, key);
-  if (!std::filesystem::exists(path)) return std::nullopt;
+  const std::optional<std::string> bytes = store_.load(key);
+  if (!bytes) return std::nullopt;
+
+  // A damaged fit is as good as none: the caller makes it again and saves it in this one's place.
   try {
-    const Value document = parse_json(read_file(path), path.string());
-    ObjectReader reader(document, "a kept fit");
-    if (reader.string("format") != kFormat || reader.string("key") != key) return std::nullopt;
-    return read_fit(reader.required("fit"), request.training);
-  } catch (const Error&) {  // damaged or from elsewhere: the fit is made again
+    return parse_fit(*bytes, key, request.training);
+  } catch (const Error&) {
     return std::nullopt;
   }
 }
 
-void FitStore::save(const Request& request, const FitReport& fit) const {
-  if (!fit.model) return;
-  const std::string key = key_of(request);
-  write_file(file_of(request, key),
-             format_json(Value::object(
-                 {{"format", kFormat}, {"key", key}, {"fit", to_json(request, fit)}})));
+void FitStore::save(const Request& request, const FitReport& fit) {
+  if (fit.model) store_.save(key_of(request), format_fit(request, fit));
 }
 
 }  // namespace dashpot

@@ -3,37 +3,40 @@
 #include <optional>
 #include <string>
 
+#include "dashpot/base/store.h"
 #include "dashpot/drive.h"
 #include "dashpot/identify.h"
 
 namespace dashpot {
 
-/// Finished fits in a folder, one file each, so that an interrupted ranking goes on where it
-/// stopped. A fit is found again only for the same program, model, records and options.
+/// Finished fits in one file, so that an interrupted ranking or study goes on where it stopped. A
+/// fit is found again only for the same program, model, records and options; fits of different data
+/// may share the file. Safe from several threads.
 class FitStore {
  public:
-  /// program: what tells one build of the program from the next.
-  FitStore(std::filesystem::path folder, std::string program);
+  static constexpr StoreFormat kFormat{"fit", 2, "remove this file: its fits are made again"};
 
-  /// What a fit is made from.
+  /// Opens the file or makes it, as Store does. program: differs from one build of the program to
+  /// the next.
+  FitStore(const std::filesystem::path& path, std::string program);
+
+  /// Everything that a fit is made from.
   struct Request {
     const std::string& model;
     const std::vector<Record>& training;
     DriveUnit drive_unit;
     const IdentifyOptions& options;
   };
-  /// Nothing when there is no such fit, or when its file cannot be read as one.
+  /// Nothing when there is no such fit, or when what was kept cannot be read: it is made again.
   std::optional<FitReport> load(const Request& request) const;
-  /// Throws Error when the folder cannot take it. A fit without a model is not kept.
-  void save(const Request& request, const FitReport& fit) const;
+  /// Throws Error when the disk cannot take it. A fit without a model is not kept.
+  void save(const Request& request, const FitReport& fit);
 
  private:
-  /// All that the fit depends on, as text.
   std::string key_of(const Request& request) const;
-  std::filesystem::path file_of(const Request& request, const std::string& key) const;
 
-  std::filesystem::path folder_;
   std::string program_;
+  Store store_;
 };
 
 }  // namespace dashpot

@@ -20,7 +20,8 @@
 namespace dashpot {
 namespace {
 
-/// Whether a part is set aside for good: then the model of the only fold is the final one.
+/// Whether one part of the records is set aside for good. The model of the only fold is then the
+/// final one.
 bool is_one_division(const LeaveOut& leave_out) {
   return leave_out.by == LeaveOut::By::Fraction || leave_out.by == LeaveOut::By::Roles;
 }
@@ -35,7 +36,7 @@ double step_cost(const DamperModel& model, const Record& record, DriveUnit drive
     const auto begin = std::chrono::steady_clock::now();
     model.rest(inputs.front(), state);
     model.DamperModel::run(inputs, {.time = record.time.data()}, state,
-                           {force.data()});  // not a law's own
+                           {force.data()});  // step by step, not a law's own loop
     const auto taken = std::chrono::steady_clock::now() - begin;
     best = std::min(best, std::chrono::duration<double, std::nano>(taken).count() /
                               static_cast<double>(inputs.size()));
@@ -51,8 +52,8 @@ double force_span(const std::vector<Record>& records) {
   return high - low;
 }
 
-/// Curves of the records that a model was fitted on are shown nowhere; dozens of models would fill
-/// the memory.
+/// The curves of training records are shown nowhere, and those of dozens of models would fill the
+/// memory.
 void drop_curves(Evaluation& evaluation) {
   for (RecordResult& r : evaluation.records)
     for (auto curve : {&RecordResult::time, &RecordResult::displacement, &RecordResult::velocity,
@@ -67,6 +68,8 @@ double expected_cost(const std::string& model, const Record& record, DriveUnit d
   constexpr double kNetwork = 3000;  // a training beside the fit of a law without states, measured
   const Law* inside = law_inside(model);
   if (!inside) return kNetwork;
+
+  // Unknowns of the law, times the cost of one force.
   const Law& law = *inside;
   std::vector<double> values;
   double unknowns = 0;
@@ -84,7 +87,7 @@ double expected_cost(const std::string& model, const Record& record, DriveUnit d
 class RankingRun {
  public:
   RankingRun(const std::vector<std::string>& models, const Dataset& dataset,
-             const LeaveOut& leave_out, const IdentifyOptions& options, const FitStore* store)
+             const LeaveOut& leave_out, const IdentifyOptions& options, FitStore* store)
       : dataset_(dataset),
         options_(options),
         store_(store),
@@ -95,6 +98,7 @@ class RankingRun {
         training_(one_division_ ? folds_.front().training : dataset.records),
         domain_(domain_of(training_, dataset.drive_unit)),
         force_span_(force_span(training_)) {
+    // Empty rows for all models, with a place for each fit.
     ranking_.leave_out = leave_out;
     for (const Fold& fold : folds_) ranking_.folds.push_back(fold.name);
     for (const std::string& model : models) {
@@ -109,6 +113,8 @@ class RankingRun {
 
   Ranking run() {
     const auto begin = std::chrono::steady_clock::now();
+
+    // All fits of all models in one farm.
     const std::vector<Task> tasks = tasks_by_cost();
     std::atomic<std::size_t> done = 0;
     parallel_for(tasks.size(), options_.threads, [&](std::size_t k) {
@@ -122,6 +128,8 @@ class RankingRun {
       ++done;
       options_.monitor.report("fitted " + stage, share());
     });
+
+    // Then judge and sort.
     for (RankedModel& ranked : ranking_.models) judge(ranked);
     std::stable_sort(ranking_.models.begin(), ranking_.models.end(), better);
     ranking_.kept_fits = kept_;
@@ -181,6 +189,8 @@ class RankingRun {
     ranked.seconds = ranked.fit.seconds;
     for (const auto* fits : {&ranked.fold_fits, &ranked.held_back_fits})
       for (const FitReport& fit : *fits) ranked.seconds += fit.seconds;
+
+    // The models of the folds, each on its left-out records.
     std::vector<Evaluation> evaluations;
     for (std::size_t f = 0; f < folds_.size(); ++f) {
       const FitReport& fit = fit_of(ranked, f);
@@ -190,6 +200,8 @@ class RankingRun {
     }
     const std::vector<ErrorGroups> errors = add_bands(ranked, evaluations);
     ranked.left_out = pool(evaluations);
+
+    // The final model: errors on its own records, its interval, its behaviour beyond them.
     if (!ranked.fit.model) return fail(ranked, "all records");
     ranked.training = evaluate_fit(ranked.fit, training_);
     ranked.band = conformal_band(error_shape(ranked.training.records), errors);
@@ -199,8 +211,8 @@ class RankingRun {
         step_cost(*ranked.fit.model, training_.front(), dataset_.drive_unit);
   }
 
-  /// A model on a fold: the shape of its errors on the training part, and those on the rest in its
-  /// terms.
+  /// A model on a fold: the shape of its errors on the training part, and its errors on the rest
+  /// relative to that shape.
   struct FoldErrors {
     std::optional<ForceBand> shape;
     ErrorGroups relative;
@@ -218,11 +230,15 @@ class RankingRun {
     std::vector<FoldErrors> folds;
     for (std::size_t f = 0; f < folds_.size(); ++f)
       folds.push_back(fold_errors(fit_of(ranked, f), folds_[f], left_out[f]));
+
+    // Further models, fitted only for the interval.
     std::vector<ErrorGroups> held;
     for (std::size_t f = 0; f < held_back_.size(); ++f)
       if (const FitReport& fit = ranked.held_back_fits[f]; fit.model)
         held.push_back(
             fold_errors(fit, held_back_[f], evaluate_fit(fit, held_back_[f].left_out)).relative);
+
+    // The errors of all parts but one.
     const auto others = [&](std::size_t left) {
       std::vector<ErrorGroups> parts = held;
       for (std::size_t f = 0; f < folds.size() && folds.size() > 1; ++f)
@@ -230,6 +246,8 @@ class RankingRun {
       std::erase_if(parts, [](const ErrorGroups& part) { return part.empty(); });
       return parts;
     };
+
+    // The band of a fold comes from the others; that of the final model from all.
     for (std::size_t f = 0; f < folds.size(); ++f) {
       const std::optional<ForceBand> band = conformal_band(folds[f].shape, others(f));
       for (RecordResult& record : left_out[f].records) record.band = band;
@@ -256,10 +274,9 @@ class RankingRun {
 
   const Dataset& dataset_;
   const IdentifyOptions& options_;
-  const FitStore* store_;
+  FitStore* store_;
   std::vector<Fold> folds_;
-  std::vector<Fold>
-      held_back_;  ///< of the only fold's training; where there are more, they serve each other
+  std::vector<Fold> held_back_;  ///< of the only fold's training; several folds serve each other
   bool one_division_;
   std::vector<Record> training_;
   Domain domain_;
@@ -271,7 +288,7 @@ class RankingRun {
 }  // namespace
 
 Ranking rank(const std::vector<std::string>& models, const Dataset& dataset,
-             const LeaveOut& leave_out, const IdentifyOptions& options, const FitStore* store) {
+             const LeaveOut& leave_out, const IdentifyOptions& options, FitStore* store) {
   return RankingRun(models, dataset, leave_out, options, store).run();
 }
 
@@ -292,6 +309,8 @@ ModelFile to_model_file(const RankedModel& ranked, const Dataset& dataset,
   ModelFile file;
   file.model = ranked.fit.model->with_offset(0);
   file.drive_unit = dataset.drive_unit;
+
+  // Domain and sample time come from the records of the fit.
   std::vector<Record> used;
   std::vector<std::string> names;
   for (const RecordResult& r : ranked.training.records) {
@@ -303,6 +322,8 @@ ModelFile to_model_file(const RankedModel& ranked, const Dataset& dataset,
   file.sample_time = used.front().sample_time;
   for (const Record& record : used)
     if (record.sample_time != file.sample_time) file.sample_time = 0;
+
+  // Its origin, and how good it is.
   file.provenance = provenance_of(dataset, std::move(names), command);
   file.quality = Value::object({{"training", to_json(ranked.training.pooled)},
                                 {"left_out", to_json(ranked.left_out.pooled)}});

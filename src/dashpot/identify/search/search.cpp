@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::size_t kFactor = 3;     // of halving: how many compete for one place
 constexpr std::size_t kLeastLast = 3;  // trials of the last rung, so that there is a choice
-constexpr std::size_t kMostRungs = 4;  // below 1/27 of the effort little can be told
+constexpr std::size_t kMostRungs = 4;  // less than 1/27 of the effort says little
 
 std::vector<NetworkDesign> first_designs(const SearchOptions& options) {
   if (options.method == SearchMethod::Grid) return grid_designs(options.space, options.steps);
@@ -61,7 +61,7 @@ double standard_error(const std::vector<FoldResult>& folds) {
   return std::sqrt(square / (n - 1) / n);
 }
 
-/// What the folds say together, in their order: the same bits however they came.
+/// Pools the folds in their order, so that the bits are the same in whatever order they ended.
 void judge(Trial& trial) {
   ErrorSums sums;
   for (const FoldResult& fold : trial.folds) {
@@ -102,6 +102,7 @@ class SearchRun {
     const auto begin = std::chrono::steady_clock::now();
     std::vector<NetworkDesign> designs = first_designs(report_.options);
     for (std::size_t rung = 0; rung < report_.rungs.size() && !designs.empty(); ++rung) {
+      // Judge as many as the rung has places, best first; the usable ones go on.
       designs.resize(std::min(designs.size(), report_.rungs[rung].trials));
       std::vector<Trial> trials = run_rung(designs, rung);
       sort_trials(trials);
@@ -110,6 +111,7 @@ class SearchRun {
         if (trial.is_usable()) designs.push_back(trial.design);
       take_over(std::move(trials));
     }
+
     sort_trials(report_.trials);
     mark_front(report_);
     report_.wall_seconds =
@@ -123,6 +125,8 @@ class SearchRun {
     training_.clear();
     for (const Fold& fold : folds_)
       training_.push_back(by_samples() ? first_part(fold.training, share_) : fold.training);
+
+    // Each fold of each trial is a task.
     std::vector<Trial> trials;
     for (const NetworkDesign& design : designs)
       trials.push_back(
@@ -138,11 +142,15 @@ class SearchRun {
     const Monitor& monitor = report_.options.fit.monitor;
     const std::string stage = format_design(trial.design) + ", " + folds_[fold].name;
     monitor.report(stage, done_ / work_);
+
+    // The result as it was kept, or made now and kept.
     const TrialStore::Key key{format_design(trial.design), share_, fold};
     std::optional<FoldResult> kept = store_ ? store_->load(key) : std::nullopt;
     const bool is_kept = kept.has_value();
     trial.folds[fold] = is_kept ? *std::move(kept) : result_of(trial.design, fold);
     if (store_ && !is_kept) store_->save(key, trial.folds[fold]);
+
+    // The last fold of a trial to end judges it.
     {
       const std::lock_guard lock(guard_);
       done_ += share_;
@@ -163,6 +171,8 @@ class SearchRun {
       const double epochs = share_ * static_cast<double>(*design.epochs);
       options.network.epochs = static_cast<std::size_t>(std::max(1.0, std::round(epochs)));
     }
+
+    // A fit that fails is a result as well.
     FoldResult result;
     const double begin = cpu_seconds();
     try {
@@ -191,7 +201,7 @@ class SearchRun {
     result.parameters = fit.model->parameter_count();
   }
 
-  /// Trials that reach a further rung are shown with what it says.
+  /// Results of a further rung take the place of those of an earlier one.
   void take_over(std::vector<Trial> trials) {
     std::erase_if(report_.trials, [&](const Trial& old) {
       return std::ranges::any_of(trials,
@@ -235,7 +245,7 @@ std::vector<Rung> search_rungs(const SearchOptions& options) {
   require_space(options.space, options.model);
   const bool halving = options.method == SearchMethod::Halving;
   if (halving && options.effort == SearchEffort::Epochs && !options.space.fixed.epochs)
-    throw Error("--effort", "epochs: how many are all is not said",
+    throw Error("--effort", "epochs: their number, which is the full effort, is missing",
                 "state them with --network epochs=300");
   const std::size_t designs = first_designs(options).size();
   if (designs == 0) throw Error("--trials", "there is none", "give at least one");
@@ -243,7 +253,7 @@ std::vector<Rung> search_rungs(const SearchOptions& options) {
 }
 
 void sort_trials(std::vector<Trial>& trials) {
-  // Settled to the last: equal trials stand in the order of their settings.
+  // The settings decide last, so that equal trials have an order too.
   const auto key = [](const Trial& t) {
     const bool usable = t.is_usable();
     const int group = usable ? 0 : t.failure.empty() ? 1 : 2;

@@ -8,14 +8,15 @@
 #include "dashpot/identify/search/search_space.h"
 #include "dashpot/identify/search/trial_store.h"
 
-// Search of the settings with which a network predicts records best that it has not seen.
+// Search of the settings with which a network best predicts records that it has not seen.
 namespace dashpot {
 
 /// Halving: many designs at little effort; the best third goes on with three times as much, and so
 /// on. Jamieson and Talwalkar 2016 (AISTATS); the factor of three as in Li et al. 2018 (Hyperband,
 /// JMLR 18).
 enum class SearchMethod { Grid, Random, Halving };
-/// What halving gives little of at first: the first part of every training record, or epochs.
+/// The effort that halving saves at first: it trains on the first part of every training record, or
+/// for fewer epochs.
 enum class SearchEffort { Samples, Epochs };
 
 struct SearchOptions {
@@ -46,7 +47,7 @@ struct Trial {
   std::size_t rung = 0;           ///< the last that it took part in
   std::vector<FoldResult> folds;  ///< of that rung
   std::size_t kept = 0;           ///< of them, found in the store
-  // What the folds say together:
+  // Over all folds together:
   Metrics left_out;           ///< all left-out samples
   double standard_error = 0;  ///< %, of the mean over the folds' ESR; not a number with one fold
   double worst_esr = 0;       ///< %, worst left-out record
@@ -79,8 +80,8 @@ struct SearchReport {
   const Trial* smallest() const;
 };
 
-/// All that the results of a search depend on beyond design, share and fold: what its store must
-/// agree in. program: tells one build from the next. The number of trials is none of it: more of
+/// All that the results of a search depend on beyond design, share and fold: the basis of
+/// its store. program: tells one build from the next. The number of trials is none of it: more of
 /// them go on.
 NamedTexts describe_search(const Dataset& dataset, const LeaveOut& leave_out,
                            const SearchOptions& options, const std::string& program);

@@ -10,6 +10,7 @@
 #include "dashpot/base/text.h"
 #include "dashpot/error.h"
 #include "dashpot/identify/fit/fit.h"
+#include "dashpot/identify/fit/network_design.h"
 
 namespace dashpot {
 namespace {
@@ -155,6 +156,8 @@ void require_space(const SearchSpace& space, const std::string& model) {
     throw Error(where, model + " is no network: it has no settings to search", "give a network");
   if (space.axes.empty())
     throw Error(where, "there is nothing to search", "name settings and values, as hidden=5,10,20");
+
+  // A setting must mean something to the model and to one of the trainers.
   const auto require = [&](const std::string& setting, const std::string& option) {
     if (std::ranges::count(known, setting) == 0)
       throw Error(option, model + " does not follow '" + setting + "'",
@@ -163,6 +166,8 @@ void require_space(const SearchSpace& space, const std::string& model) {
       throw Error(option, "no trainer of this search has a use for '" + setting + "'",
                   "search or fix another trainer too, as trainer=adam");
   };
+
+  // All that is fixed, then each axis, once.
   for (const NetworkSetting& setting : network_settings())
     if (!setting.format(space.fixed).empty()) require(std::string(setting.name), "--network");
   std::set<std::string> seen;
@@ -177,6 +182,7 @@ void require_space(const SearchSpace& space, const std::string& model) {
 }
 
 std::vector<NetworkDesign> grid_designs(const SearchSpace& space, std::size_t steps) {
+  // Combine what there is so far with each value of the next axis.
   std::vector<std::vector<Setting>> combinations{{}};
   for (const SearchAxis& axis : space.axes) {
     const std::vector<std::string> values = grid_values(axis, steps);
@@ -191,6 +197,8 @@ std::vector<NetworkDesign> grid_designs(const SearchSpace& space, std::size_t st
       }
     combinations = std::move(longer);
   }
+
+  // Settings without a use fall away: keep one of those that become equal.
   std::vector<NetworkDesign> designs;
   std::set<std::string> seen;
   for (const std::vector<Setting>& combination : combinations) {
@@ -207,6 +215,7 @@ std::vector<NetworkDesign> random_designs(const SearchSpace& space, std::size_t 
   std::vector<NetworkDesign> designs;
   std::set<std::string> seen;
   for (std::size_t in_vain = 0; designs.size() < count && in_vain < kTries; ++in_vain) {
+    // Draw one value per axis; count the draws in vain since the last new design.
     std::vector<Setting> drawn;
     for (const SearchAxis& axis : space.axes)
       drawn.emplace_back(axis.setting, drawn_value(axis, random));

@@ -8,7 +8,7 @@
 
 namespace dashpot {
 
-/// A setting of networks and what a search may make of it: the values of a list, or all of a range.
+/// A setting of networks and the values that a search may give it: a list, or all of a range.
 struct SearchAxis {
   std::string setting;              ///< as network_design.h names it
   std::vector<std::string> values;  ///< as its table reads them; empty: a range
@@ -22,7 +22,7 @@ SearchAxis parse_search_axis(std::string_view text, const std::string& option);
 /// Reads back as the same axis.
 std::string format_axis(const SearchAxis& axis);
 
-/// What is searched, and what is the same for all.
+/// The settings that are searched, and those that are the same for all designs.
 struct SearchSpace {
   std::vector<SearchAxis> axes;
   NetworkDesign fixed;
@@ -41,12 +41,12 @@ void require_space(const SearchSpace& space, const std::string& model);
 std::vector<NetworkDesign> grid_designs(const SearchSpace& space, std::size_t steps);
 
 /// Up to `count` different ones by chance: lists evenly, ranges evenly in the logarithm (whole
-/// numbers from 0: evenly), to three digits. More of them begin with the same; fewer than `count`
-/// when the space has no more.
+/// numbers from 0: evenly), to three digits. A larger count starts with the same designs; fewer
+/// than `count` when the space has no more.
 std::vector<NetworkDesign> random_designs(const SearchSpace& space, std::size_t count,
                                           std::uint64_t seed);
 
-/// A seed that depends on what it is for and on nothing else.
+/// A seed of its own for each purpose.
 std::uint64_t seed_for(std::uint64_t seed, std::string_view purpose);
 
 }  // namespace dashpot

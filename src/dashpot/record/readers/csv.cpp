@@ -113,6 +113,8 @@ std::vector<RawTable> read_csv(const fs::path& path) {
   if (is_utf16(read_head(path, 2)))
     throw Error(path.string(), "is UTF-16 text", "save it as UTF-8");
   LineSource source(path);
+
+  // Understand the dialect from the first lines.
   std::vector<std::string> head;
   while (head.size() < kSniffedLines) {
     const auto line = source.next();
@@ -120,12 +122,15 @@ std::vector<RawTable> read_csv(const fs::path& path) {
     head.emplace_back(*line);
   }
   const CsvDialect dialect = sniff_dialect(head, path.string());
+
+  // Then one line at a time: those already read, and the rest of the file.
   RawTable table = empty_table(dialect, path.string());
   reserve_rows(table, source);
   RowAppender appender(table, dialect);
   for (std::size_t k = dialect.first_data_line; k < head.size(); ++k)
     appender.append(head[k], k + 1);
   while (const auto line = source.next()) appender.append(*line, source.line());
+
   drop_empty_columns(table);
   std::vector<RawTable> tables;
   tables.push_back(std::move(table));
@@ -139,6 +144,8 @@ TextTable read_text_table(const fs::path& path) {
   char separator = ',';
   while (const auto line = source.next()) {
     if (is_comment(*line)) continue;
+
+    // The first line names the columns and decides on the separator.
     if (table.names.empty())
       for (const char candidate : {';', '\t', ','})
         if (line->find(candidate) != std::string_view::npos) separator = candidate;
@@ -147,6 +154,7 @@ TextTable read_text_table(const fs::path& path) {
       table.names.assign(cells.begin(), cells.end());
       continue;
     }
+
     if (cells.size() < table.names.size())
       throw Error(path.string() + ":" + std::to_string(source.line()),
                   "has " + std::to_string(cells.size()) + " cells, the first line names " +

@@ -7,14 +7,17 @@
 
 namespace dashpot {
 
-/// Any text table: separators, decimal sign, names, units and junk lines are found by csv_dialect.
+/// Any text table: separators, decimal sign, names, units and junk lines are found by
+/// csv_dialect.h. Comes last among the readers, since it takes any text with a usual extension.
 bool is_csv(const std::filesystem::path& path, std::string_view extension, std::string_view head);
 
-/// Streams the file: memory is what the columns need. Throws Error when it is no table, or when a
-/// line has another number of cells than the table.
+/// Reads one table. Streams the file: memory is what the columns need. Cells that are no finite
+/// numbers become NaN and are an error only when their column is used. Throws Error when a line has
+/// more cells than the table, and NoTable when no line holds numbers.
 std::vector<RawTable> read_csv(const std::filesystem::path& path);
 
-/// A small table of texts, such as a manifest: the names of the first line, then rows of cells.
+/// A small table of texts, such as a manifest: the names of the first line, then rows of cells,
+/// each row at least as long as `names`. Throws Error(file:line, ...) on a shorter row.
 struct TextTable {
   std::vector<std::string> names;
   std::vector<std::vector<std::string>> rows;

@@ -40,6 +40,7 @@ std::string_view trim_right(std::string_view text) {
   return text;
 }
 
+/// A separator and a decimal sign, and how well they explain the lines.
 struct Guess {
   CsvDialect dialect;
   std::size_t data_lines = 0, columns = 0, numbers = 0, filled = 0;
@@ -52,12 +53,14 @@ struct Guess {
   }
 };
 
-/// How well a separator and a decimal sign explain the lines: data lines with one common cell
-/// count.
+/// Measures how well a separator and a decimal sign explain the lines: as data lines with one
+/// common cell count.
 Guess try_dialect(const std::vector<std::string>& lines, char separator, char decimal) {
   Guess guess;
   guess.dialect.separator = separator;
   guess.dialect.decimal = decimal;
+
+  // Count the cells of each line that holds numbers; the commonest count is the table's width.
   std::vector<std::size_t> counts(lines.size(), 0);
   std::map<std::size_t, std::size_t> tally;
   Cells cells;
@@ -71,8 +74,11 @@ Guess try_dialect(const std::vector<std::string>& lines, char separator, char de
     }
     ++tally[counts[k] = cells.size()];
   }
+
   for (const auto& [count, times] : tally)
     if (times >= guess.data_lines) guess.data_lines = times, guess.columns = count;
+
+  // The table starts with the first line of that width.
   const auto start = std::find(counts.begin(), counts.end(), guess.columns);
   guess.dialect.first_data_line = static_cast<std::size_t>(start - counts.begin());
   return guess;
@@ -114,12 +120,15 @@ std::size_t find_header(const std::vector<std::string>& lines, const CsvDialect&
   return std::string::npos;
 }
 
+/// Fills in names and units from the lines above the data: a line of names, with or without a line
+/// of units below it. Both stay empty where there is none.
 void read_header(const std::vector<std::string>& lines, std::size_t columns, CsvDialect& dialect) {
   dialect.names.assign(columns, "");
   dialect.units.assign(columns, "");
   Cells cells;
   std::size_t at = find_header(lines, dialect, dialect.first_data_line, columns, cells);
   if (at == std::string::npos) return;
+
   if (is_units_row(cells)) {
     Cells above;
     const std::size_t name_line = find_header(lines, dialect, at, columns, above);
@@ -129,6 +138,7 @@ void read_header(const std::vector<std::string>& lines, std::size_t columns, Csv
       cells = above;
     }
   }
+
   for (std::size_t k = 0; k < std::min(columns, cells.size()); ++k)
     dialect.names[k] = std::string(cells[k]);
 }
@@ -146,15 +156,20 @@ void split_cells(std::string_view line, char separator, std::vector<std::string_
   const bool blanks = separator == ' ';
   cells.clear();
   if (blanks) line = trim(line);
+
   for (std::size_t start = 0;; ++start) {
+    // A cell starts behind blanks; a tab is one unless it separates.
     while (start < line.size() &&
            (line[start] == ' ' || (line[start] == '\t' && separator != '\t')))
       ++start;
+
+    // Its end: the next separator, behind the closing quote when it is quoted.
     const bool quoted = start < line.size() && line[start] == '"';
     const std::size_t close = quoted ? line.find('"', start + 1) : std::string_view::npos;
     const std::size_t from = close == std::string_view::npos ? start : close + 1;
     const std::size_t end = std::min(
         blanks ? line.find_first_of(" \t", from) : line.find(separator, from), line.size());
+
     cells.push_back(close == std::string_view::npos
                         ? trim_right(line.substr(start, end - start))
                         : trim(line.substr(start + 1, close - start - 1)));

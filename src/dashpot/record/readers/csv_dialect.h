@@ -5,7 +5,7 @@
 
 namespace dashpot {
 
-/// How a text table is written.
+/// The conventions of one text table.
 struct CsvDialect {
   char separator = ',';  ///< ' ' stands for any run of blanks
   char decimal = '.';
@@ -14,14 +14,17 @@ struct CsvDialect {
   std::vector<std::string> units;   ///< from a row of units; "" where there is none
 };
 
-/// Splits one line into cells, trimmed and without their quotes. Cells point into `line`. A quoted
-/// cell ends at its next quote: no number and no sensible name contains one.
+/// Splits one line into cells, trimmed and without their quotes. Cells point into `line` and are
+/// valid as long as it is; `cells` is cleared first, and reused to save allocations. A quoted cell
+/// ends at its next quote: no number and no sensible name contains one.
 void split_cells(std::string_view line, char separator, std::vector<std::string_view>& cells);
 
 /// A comment or an empty line holds no sample.
 bool is_comment(std::string_view line);
 
-/// Understands a table from its first lines. Throws NoTable when no line holds numbers.
+/// Understands a table from its first lines: tries seven pairs of separator and decimal sign, and
+/// keeps the one under which most lines hold numbers in equally many cells. Throws NoTable(file,
+/// ...) when no line holds numbers.
 CsvDialect sniff_dialect(const std::vector<std::string>& lines, const std::string& file);
 
 }  // namespace dashpot

@@ -21,6 +21,7 @@ struct Header {
   std::vector<std::string> names;  // without the events column
 };
 
+/// Reads the header, which ends with the names of the columns.
 Header read_header(LineSource& source, const std::string& file) {
   Header header;
   double lines = 0;
@@ -28,12 +29,15 @@ Header read_header(LineSource& source, const std::string& file) {
   do {
     const auto line = source.next();
     if (!line) throw Error(file, "ends inside its header", "copy it again from the data logger");
+
+    // The first line without a colon names the columns.
     const std::size_t colon = line->find(':');
     if (colon == std::string_view::npos) {
       split_cells(*line, ',', cells);
       header.names.assign(cells.begin(), cells.end());
       break;
     }
+
     const std::string_view key = trim(line->substr(0, colon));
     const double value = parse_number(line->substr(colon + 1)).value_or(0);
     if (key == "Header Size") lines = value;
@@ -42,6 +46,8 @@ Header read_header(LineSource& source, const std::string& file) {
       header.sample_time = 1 / value;
     if (key == "Sample Count") header.sample_count = value;
   } while (static_cast<double>(source.line()) < lines);
+
+  // Refuse a header that does not end so, or that states no time base.
   const std::string where = file + ":" + std::to_string(source.line());
   if (header.names.size() < 2 || header.names.back() != "Events")
     throw Error(where, "the header does not end with the names of the columns",
@@ -49,6 +55,7 @@ Header read_header(LineSource& source, const std::string& file) {
   if (!(header.sample_time > 0) || !std::isfinite(header.sample_time))
     throw Error(where, "the header states no sampling interval",
                 "a line 'Sampling Interval:  0.005' in s");
+
   header.names.pop_back();
   return header;
 }
@@ -64,10 +71,12 @@ RawTable begin_part(const Header& header, const std::string& file, std::size_t i
   return table;
 }
 
+/// Appends a sample; notes its line where the numbering of rows and lines parts.
 void append_row(RawTable& part, const std::vector<std::string_view>& cells, std::size_t line) {
   const std::size_t row = part.rows();
   if (part.lines.back().second + row - part.lines.back().first != line)
     part.lines.emplace_back(row, line);
+
   for (std::size_t k = 0; k < part.columns.size(); ++k) {
     const std::string_view cell = k < cells.size() ? cells[k] : std::string_view();
     const auto value = parse_number(cell);
@@ -78,6 +87,7 @@ void append_row(RawTable& part, const std::vector<std::string_view>& cells, std:
   }
 }
 
+/// Names parts by number and rows, counted through the whole file from 1.
 void name_parts(std::vector<RawTable>& parts) {
   std::size_t first = 1;
   for (RawTable& part : parts) {
@@ -97,6 +107,8 @@ std::vector<RawTable> read_daq_text(const fs::path& path) {
   const std::string file = path.string();
   LineSource source(path);
   const Header header = read_header(source, file);
+
+  // A part starts with the first sample and wherever the logger resumed.
   std::vector<RawTable> parts;
   std::vector<std::string_view> cells;
   std::size_t rows = 0;
@@ -109,8 +121,10 @@ std::vector<RawTable> read_daq_text(const fs::path& path) {
     append_row(parts.back(), cells, source.line());
     ++rows;
   }
+
   if (parts.empty())
     throw Error(file, "has a header but no samples", "copy it again from the data logger");
+
   name_parts(parts);
   if (header.sample_count > 0 && static_cast<double>(rows) != header.sample_count)
     parts.back().notes.push_back("the header promises " + format_number(header.sample_count, 9) +

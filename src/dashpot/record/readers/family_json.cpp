@@ -28,10 +28,12 @@ fs::path inputs_of(const fs::path& path) {
   return path.parent_path() / ("inp_" + path.filename().string());
 }
 
+/// One field level of one damper. Throws Error when the columns are not equally long.
 RawTable read_record(const Value& value, const std::string& file) {
   RawTable table;
   table.file = file;
   ObjectReader reader(value, "a record of the family data");
+
   for (const Field& field : kColumns) {
     RawColumn column{std::string(field.key),
                      std::string(field.unit),
@@ -39,6 +41,7 @@ RawTable read_record(const Value& value, const std::string& file) {
                      {}};
     for (std::size_t k = 0; k < column.values.size() && !column.bad; ++k)
       if (!std::isfinite(column.values[k])) column.bad = BadCell{k, "not a finite number"};
+
     if (!table.columns.empty() && column.values.size() != table.rows())
       throw Error(value.where(), "'" + std::string(field.key) + "' has " +
                                      std::to_string(column.values.size()) + " values, 'time' has " +
@@ -79,8 +82,10 @@ std::vector<RawTable> read_family_json(const fs::path& path) {
   const std::string file = path.string(), inputs_file = inputs_of(path).string();
   const Value records = parse_json(read_file(path), file);
   const Value inputs = parse_json(read_file(inputs_file), inputs_file);
+
   std::vector<RawTable> tables;
   for (const auto& [key, levels_value] : records.members()) {
+    // The recordings of one damper, one per field level.
     std::vector<RawTable> levels;
     for (const Value& value : levels_value.items()) {
       RawTable table = read_record(value, file);
@@ -89,6 +94,8 @@ std::vector<RawTable> read_family_json(const fs::path& path) {
       table.part = key + ", field level " + std::to_string(levels.size());
       levels.push_back(std::move(table));
     }
+
+    // Its description, from the file beside.
     const Value* damper = inputs.find(key);
     if (!damper)
       throw Error(inputs_file, "has no damper '" + key + "'", "one entry per damper of " + file);

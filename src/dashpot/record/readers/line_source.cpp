@@ -55,11 +55,15 @@ std::optional<std::string_view> LineSource::next() {
   for (;;) {
     const char* from = buffer_.data() + begin_;
     const auto* end_of_line = static_cast<const char*>(std::memchr(from, line_end_, end_ - begin_));
+
+    // No end of line in the buffer: read on; at the end of the file the last line needs none.
     if (!end_of_line && fill()) continue;
     if (!end_of_line && begin_ == end_) return std::nullopt;
+
     std::string_view text(
         buffer_.data() + begin_,
         end_of_line ? static_cast<std::size_t>(end_of_line - from) : end_ - begin_);
+
     begin_ += text.size() + (end_of_line ? 1 : 0);
     consumed_ += text.size() + 1;
     if (!text.empty() && text.back() == '\r') text.remove_suffix(1);
@@ -72,7 +76,7 @@ double LineSource::bytes_per_line() const {
   return line_ == 0 ? 0 : static_cast<double>(consumed_) / static_cast<double>(line_);
 }
 
-/// Moves the begun line to the front and reads on; false at the end of the file.
+/// Moves the unfinished line to the front and reads on; false at the end of the file.
 bool LineSource::fill() {
   if (at_end_) return false;
   std::memmove(buffer_.data(), buffer_.data() + begin_, end_ - begin_);

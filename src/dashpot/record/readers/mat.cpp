@@ -41,8 +41,11 @@ std::vector<double> to_doubles(const void* data, std::size_t count) {
   return {numbers, numbers + count};
 }
 
+/// The variable's numbers as double, whatever type they are stored in; integers of 64 bits are
+/// rounded.
 std::vector<double> numbers_of(const matvar_t& variable, std::size_t count) {
   const void* data = variable.data;
+
   switch (variable.class_type) {
     case MAT_C_DOUBLE:
       return to_doubles<double>(data, count);
@@ -81,11 +84,15 @@ class Collector {
 
   void collect(matvar_t& variable, const std::string& name, int depth) {
     if (variable.rank != 2 || depth > kDeepest) return pass_over(name, "not two-dimensional");
+
+    // Go into structures of one element; pass over what is no matrix of real numbers.
     const std::size_t rows = variable.dims[0], columns = variable.dims[1];
     if (variable.class_type == MAT_C_STRUCT && rows == 1 && columns == 1)
       return collect_fields(variable, name, depth);
     if (!is_numeric(variable)) return pass_over(name, "not a real number array");
     if (rows == 0 || columns == 0) return pass_over(name, "empty");
+
+    // Read what is left, after a look at the size that it states.
     if (columns > kLargestMat / 8 / rows)
       throw Error(path_, "variable '" + name + "' states more than 512 MiB");
     if (!variable.data && Mat_VarReadDataAll(file_, &variable) != 0) fail(name);
@@ -128,12 +135,15 @@ std::size_t common_length(const std::vector<Array>& arrays) {
   return best;
 }
 
+/// Adds the columns of a matrix, or its rows where it lies on its side. Numbers that are not finite
+/// become NaN, the first of them noted.
 void add_columns(RawTable& table, const Array& array) {
   const bool by_rows = array.rows < array.columns;
   for (std::size_t c = 0; c < array.width(); ++c) {
     RawColumn column;
     column.name = array.width() == 1 ? array.name : array.name + "(" + std::to_string(c + 1) + ")";
     column.values.reserve(array.length());
+
     for (std::size_t k = 0; k < array.length(); ++k) {
       double value = array.values[by_rows ? k * array.rows + c : c * array.rows + k];
       if (!std::isfinite(value)) {
@@ -146,11 +156,14 @@ void add_columns(RawTable& table, const Array& array) {
   }
 }
 
+/// One table of the arrays that share the commonest length; single numbers beside it, the rest as
+/// notes.
 RawTable to_table(Collector collector, const std::string& file) {
   RawTable table;
   table.file = file;
   table.notes = std::move(collector.notes);
   const std::size_t length = common_length(collector.arrays);
+
   for (const Array& array : collector.arrays) {
     if (array.length() == 1) {
       table.scalars.emplace_back(array.name, array.values.front());
@@ -162,6 +175,7 @@ RawTable to_table(Collector collector, const std::string& file) {
           std::to_string(array.columns) + " values, the recording has " + std::to_string(length));
     }
   }
+
   if (table.columns.empty())
     throw NoTable(file, "holds no arrays of numbers", "a recording has one vector per channel");
   return table;
@@ -177,15 +191,19 @@ std::vector<RawTable> read_mat(const fs::path& path) {
   const std::string file = path.string();
   if (path.extension() == ".gz")
     throw Error(file, "is a packed MAT file", "unpack it with gunzip first");
+
+  // Check sizes before the MAT library sees the file, since it believes them.
   const std::string head = read_head(path, kMat73Head);
   if (head.starts_with("MATLAB 7.3"))
     check_mat73(head, fs::file_size(path), file);
   else
     check_mat(read_file(path), file);
+
   static std::once_flag quiet;  // the MAT library prints otherwise
   std::call_once(quiet, [] { Mat_LogInitFunc("dashpot", [](int, char*) {}); });
   const File mat(Mat_Open(file.c_str(), MAT_ACC_RDONLY), Mat_Close);
   if (!mat) throw Error(file, "damaged or cut off MAT file", "copy it again from its source");
+
   Collector collector(mat.get(), file);
   for (;;) {
     const Variable variable(Mat_VarReadNextInfo(mat.get()), Mat_VarFree);

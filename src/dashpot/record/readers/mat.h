@@ -9,7 +9,8 @@ namespace dashpot {
 
 /// MATLAB files of versions 4, 5 (6, 7) and 7.3. Vectors, columns of matrices ("x(2)") and fields
 /// of structures ("test.force") of one common length become columns; single numbers become scalars.
-/// What has another length or is no real number is passed over with a note.
+/// Variables of another length or kind are passed over with a note. read_mat checks the file with
+/// mat_guard.h first; throws Error on a damaged file and NoTable on one without arrays of numbers.
 bool is_mat(const std::filesystem::path& path, std::string_view extension, std::string_view head);
 std::vector<RawTable> read_mat(const std::filesystem::path& path);
 

@@ -115,6 +115,7 @@ void check_numbers(Cursor& cursor, std::size_t count, const char* what) {
 
 void check_matrix(std::string_view bytes, const Cursor& outer, int depth);
 
+/// Checks the cells of a cell array or the fields of a structure.
 void check_children(Cursor& cursor, std::size_t count, int depth) {
   for (std::size_t k = 0; k < count; ++k) {
     const Cursor::Part child = cursor.element("a part of a structure");
@@ -130,6 +131,8 @@ std::size_t count_elements(Cursor& cursor) {
   if (dimensions.type != kInt32 || rank < 2 || rank > 16)
     damaged(cursor.file(), "an array has impossible dimensions");
   Cursor sizes(dimensions.data, cursor.swap(), cursor.file());
+
+  // Multiply with care: the product of sizes that a damaged file states may overflow.
   std::size_t count = 1;
   bool empty = false;
   for (std::size_t k = 0; k < rank; ++k) {
@@ -142,15 +145,19 @@ std::size_t count_elements(Cursor& cursor) {
   return empty ? 0 : count;
 }
 
+/// The field names, of one length each, and then count * fields arrays.
 void check_structure(Cursor& cursor, std::size_t count, int depth) {
   const Cursor::Part length_part = cursor.element("the length of field names");
   if (length_part.type != kInt32 || length_part.data.size() < 4)
     damaged(cursor.file(), "a structure without the length of its field names");
   const std::uint32_t length =
       Cursor(length_part.data, cursor.swap(), cursor.file()).u32("a length");
+
   const Cursor::Part names = cursor.element("the field names");
   if (length == 0 || length > 4096 || names.data.size() % length != 0)
     damaged(cursor.file(), "field names of impossible length");
+
+  // Each field takes at least the 8 bytes of its tag.
   const std::size_t fields = names.data.size() / length;
   if (fields != 0 && count > cursor.left() / (8 * fields))
     damaged(cursor.file(), "a structure states more elements than the file holds");
@@ -160,6 +167,8 @@ void check_structure(Cursor& cursor, std::size_t count, int depth) {
 void check_matrix(std::string_view bytes, const Cursor& outer, int depth) {
   if (depth > kDeepest)
     damaged(outer.file(), "structures nested more than " + std::to_string(kDeepest) + " deep");
+
+  // The flags tell the class; classes that are never opened need no check.
   Cursor cursor(bytes, outer.swap(), outer.file());
   const Cursor::Part flags = cursor.element("the flags of an array");
   if (flags.type != kUint32 || flags.data.size() != 8)
@@ -169,10 +178,14 @@ void check_matrix(std::string_view bytes, const Cursor& outer, int depth) {
   const bool numeric =
       array_class == kChar || (array_class >= kFirstNumeric && array_class <= kLastNumeric);
   if (!numeric && array_class != kCell && array_class != kStruct) return;  // never opened
+
+  // Dimensions and name, which all classes have.
   const std::size_t count = count_elements(cursor);
   const Cursor::Part name = cursor.element("the name of an array");
   if (name.type != kInt8 || name.data.size() > 4096)
     damaged(cursor.file(), "an array without a proper name");
+
+  // Then what the class holds.
   if (array_class == kStruct) return check_structure(cursor, count, depth);
   if (array_class == kCell) {
     if (count > cursor.left() / 8)
@@ -183,11 +196,13 @@ void check_matrix(std::string_view bytes, const Cursor& outer, int depth) {
   if (word & 0x800) check_numbers(cursor, count, "the imaginary part of an array");
 }
 
+/// Unpacks a compressed variable, up to the limit.
 std::string inflate_bytes(std::string_view packed, const std::string& file) {
   z_stream stream{};
   if (inflateInit(&stream) != Z_OK) damaged(file, "it cannot be unpacked");
   stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(packed.data()));
   stream.avail_in = static_cast<uInt>(packed.size());
+
   std::string out;
   std::vector<char> block(1 << 16);
   int code = Z_OK;
@@ -197,6 +212,7 @@ std::string inflate_bytes(std::string_view packed, const std::string& file) {
     code = inflate(&stream, Z_NO_FLUSH);
     out.append(block.data(), block.size() - stream.avail_out);
   }
+
   inflateEnd(&stream);
   if (code == Z_OK) damaged(file, "a variable unpacks to more than 512 MiB");
   if (code != Z_STREAM_END) damaged(file, "a packed variable cannot be unpacked");
@@ -224,15 +240,19 @@ void check_version4(std::string_view bytes, const std::string& file) {
   if (bytes.size() < 20) damaged(file, "it ends inside its header");
   const bool swap = Cursor(bytes, false, file).u32("the type") > 9999;
   Cursor cursor(bytes, swap, file);
+
+  // Bytes of one number, by the precision's digit in the type.
   constexpr std::size_t kSizes[] = {8, 4, 4, 2, 2, 1};
   while (!cursor.at_end()) {
     const std::uint32_t type = cursor.u32("a header"), rows = cursor.u32("a header"),
                         columns = cursor.u32("a header");
     const std::uint32_t complex = cursor.u32("a header"), name = cursor.u32("a header");
+
     const std::uint32_t precision = type / 10 % 10;
     if (type > 4999 || precision > 5 || type % 10 > 2 || complex > 1 || name == 0 || name > 4096)
       throw Error(file, "is not a MAT file",
                   "it starts neither like version 4 nor like version 5 or 7.3");
+
     cursor.take(name, "a name");
     const std::size_t size = kSizes[precision] * (complex + 1);
     if (columns != 0 && rows > cursor.left() / size / columns)

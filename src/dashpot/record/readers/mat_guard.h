@@ -9,11 +9,11 @@ namespace dashpot {
 inline constexpr std::size_t kLargestMat = std::size_t{1} << 29;
 
 /// Walks the sizes and dimensions that a MAT file of version 4 or 5 states and compares them with
-/// the bytes that are there, since the MAT library believes them. Throws Error(file, ...) on a file
-/// that is cut off, damaged or unpacks to more than kLargestMat.
+/// the bytes that are there, since the MAT library believes them. `bytes`: the whole file. Throws
+/// Error(file, ...) on a file that is cut off, damaged or unpacks to more than kLargestMat.
 void check_mat(std::string_view bytes, const std::string& file);
 
-/// Bytes at the start of a version 7.3 file that tell its length.
+/// Bytes at the start of a version 7.3 file that hold its length.
 inline constexpr std::size_t kMat73Head = 512 + 64;
 
 /// Version 7.3 is HDF5, which checks its own structure, but a file that was cut off reads as an

@@ -10,13 +10,14 @@
 
 namespace dashpot {
 
-/// A readable file that holds no table of numbers: a text, say. In a folder it is passed over.
+/// A readable file that holds no table of numbers: a text, say. In a folder it is passed over; a
+/// file that was named is refused with it.
 class NoTable : public Error {
  public:
   using Error::Error;
 };
 
-/// A cell that is not a finite number.
+/// A cell that holds no finite number, kept for the message.
 struct BadCell {
   std::size_t row = 0;
   std::string text;  ///< "" when the cell is empty
@@ -31,7 +32,8 @@ struct RawColumn {
   std::optional<BadCell> bad;  ///< the first one
 };
 
-/// One test run as a file holds it: named columns of equal length.
+/// One test run as a file holds it: named columns of equal length, in the file's own units and
+/// signs. Between the readers, which make it, and build_record, which consumes it.
 struct RawTable {
   std::string file;
   std::string part;            ///< "" or what of the file this is: "part 2, rows 9301-17600"
@@ -40,10 +42,10 @@ struct RawTable {
   std::vector<RawColumn> columns;
   std::vector<std::pair<std::string, double>> scalars;  ///< single numbers beside the columns: Ts
   std::optional<double> sample_time;                    ///< s, when the format itself states it
-  std::vector<std::pair<std::string, double>>
-      conditions;  ///< SI, when the format itself states them
-  std::vector<std::pair<std::size_t, std::size_t>>
-      lines;  ///< (row, line) where the numbering jumps
+  /// Conditions in SI, when the format itself states them.
+  std::vector<std::pair<std::string, double>> conditions;
+  /// Pairs of row and line where the numbering jumps.
+  std::vector<std::pair<std::size_t, std::size_t>> lines;
   std::vector<std::string> notes;
 
   std::size_t rows() const { return columns.empty() ? 0 : columns.front().values.size(); }

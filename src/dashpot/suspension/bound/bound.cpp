@@ -101,14 +101,19 @@ ClairvoyantBound clairvoyant_bound(const Plant& plant, const GroundMotion& groun
                                    const BoundOptions& options) {
   const SampledPlant car(plant, ground, options.duration, options.step);
   ClairvoyantBound found{.index = index, .squares = {}, .shares = {}};
+
+  // The optimum: demands that the search finds, simulated.
   found.shares = best_course(car, range, index, options.starts).shares;
   found.squares = simulated(plant, ground, range, found.shares, options);
   found.optimum = found.squares.of(index);
+
   // With nothing to choose there is one motion.
   if (!has_width(range)) {
     found.bound = found.optimum;
     return found;
   }
+
+  // The bound: multipliers sought on coarser cells, certified on the fine ones.
   const SampledPlant coarse(plant, ground, options.duration, options.search_step);
   found.bound =
       relax(car, coarse, force_limits(range), index, {.block = 1, .iterations = options.iterations})

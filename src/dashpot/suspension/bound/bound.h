@@ -6,8 +6,8 @@
 #include "dashpot/suspension/bound/range_damper.h"
 #include "dashpot/suspension/bound/sampled_plant.h"
 
-// What the best semi-active suspension that knew the road in advance could do on it
-// (docs/bound.md).
+// A bound on what any semi-active suspension can do on a road, even one that knows the road in
+// advance (docs/bound.md).
 namespace dashpot {
 
 /// Means over a ride.
@@ -19,7 +19,7 @@ struct RideSquares {
     return index.comfort * acceleration + index.holding * tyre_force;
   }
 };
-/// Of a quarter car's trace, by trapezes between its samples.
+/// The means of a quarter car's trace, by trapezes between its samples.
 RideSquares ride_squares(const Trace& trace, const Plant& plant);
 
 /// Comfort and road holding as shares of a reference: `comfort` of one, 1 - `comfort` of the other;
@@ -36,7 +36,7 @@ struct BoundOptions {
   int threads = 0;
 };
 
-/// Of one index on one road.
+/// Bound and optimum of one index on one road.
 struct ClairvoyantBound {
   RideIndex index;
   double bound = 0;            ///< proven: no force within the range makes the index less
@@ -53,8 +53,8 @@ struct ClairvoyantBound {
 ClairvoyantBound clairvoyant_bound(const Plant& plant, const GroundMotion& ground,
                                    const ForceRange& range, const RideIndex& index,
                                    const BoundOptions& options);
-/// Of several indices at once: a front of comfort against road holding. The same bits on any number
-/// of threads.
+/// Bounds of several indices at once: a front of comfort against road holding. The same bits on any
+/// number of threads.
 std::vector<ClairvoyantBound> clairvoyant_front(const Plant& plant, const GroundMotion& ground,
                                                 const ForceRange& range,
                                                 const std::vector<RideIndex>& indices,
@@ -63,8 +63,8 @@ std::vector<ClairvoyantBound> clairvoyant_front(const Plant& plant, const Ground
 /// How much of what is possible a controller reaches: (passive - controller) / (passive - optimum).
 double share_of_possible(double passive, double controller, double optimum);
 
-/// Shares per step of what a damper did in a trace whose output step is `step`: a start for the
-/// optimum.
+/// Shares per step that a damper had in a trace whose output step is BoundOptions::step: a start
+/// for the optimum.
 std::vector<double> shares_of(const Trace& trace, const Plant& plant, const ForceRange& range);
 /// Demands one share after another, as currents of a RangeDamper; the last one stays.
 ControllerPointer play_shares(std::vector<double> shares);

@@ -63,8 +63,8 @@ ForceRange damping_range(double least, double greatest) {
 
 namespace {
 
-/// Least of -(F - a v)(F - b v) over both edges of a range: what is missing to 0 is the limit's
-/// constant. q is concave in F, so the edges decide; on a straight piece it is a parabola in v.
+/// Least of -(F - a v)(F - b v) over both edges of a range: minus this is the constant that the
+/// limit needs. q is concave in F, so the edges decide; on a straight piece it is a parabola in v.
 double shortfall(const ForceRange& range, double a, double b) {
   double least = 0;
   const auto& v = range.velocity;
@@ -72,6 +72,8 @@ double shortfall(const ForceRange& range, double a, double b) {
     for (const double share : {0.0, 1.0}) {
       const auto [slope, offset] = range.piece(0.5 * (v[k] + v[k + 1]), share);
       const double square = -(slope - a) * (slope - b), linear = -offset * (2 * slope - a - b);
+
+      // Its values at the ends of the piece; outside the table pieces go on for ever.
       const bool first = k == 0, last = k + 2 == v.size();
       const auto at = [&](double x) { return square * x * x + linear * x - offset * offset; };
       if (!first) least = std::min(least, at(v[k]));
@@ -80,6 +82,8 @@ double shortfall(const ForceRange& range, double a, double b) {
         const bool falls = square < 0 || (first ? linear > 0 : linear < 0);
         if (falls) return -std::numeric_limits<double>::infinity();
       }
+
+      // And at its lowest point, where that lies on the piece.
       const double bottom = square > 0 ? -0.5 * linear / square : 0;
       const bool inside = (first || bottom > v[k]) && (last || bottom < v[k + 1]);
       if (square > 0 && inside) least = std::min(least, at(bottom));
@@ -95,6 +99,7 @@ std::vector<ForceLimit> force_limits(const ForceRange& range) {
   const std::size_t last = range.velocity.size() - 1;
   std::vector<ForceLimit> limits;
   for (const double above : kAbove) {
+    // The slopes between which all forces lie at these speeds and beyond.
     double least = INFINITY, greatest = -INFINITY;
     const auto include = [&](double slope) {
       least = std::min(least, slope);
@@ -106,6 +111,8 @@ std::vector<ForceLimit> force_limits(const ForceRange& range) {
       for (const double v : range.velocity)
         if (v != 0 && std::abs(v) >= above) include(range.force(v, share) / v);
     }
+
+    // A limit that some constant makes hold all along the range, and that is not known yet.
     const double missing = shortfall(range, least, greatest);
     if (!(least >= 0) || !std::isfinite(missing)) continue;
     const ForceLimit limit{-1, least + greatest, -least * greatest, -missing};
@@ -129,6 +136,8 @@ ForceRange model_range(const DamperModel& model, double current_min, double curr
     throw Error(model.name(), "a range up to " + format_number(velocity_max) + " m/s between " +
                                   format_number(current_min) + " and " +
                                   format_number(current_max) + " A");
+
+  // Least and greatest force over the currents, at velocities of a grid.
   constexpr int kVelocities = 60, kCurrents = 20;  // either way
   ForceRange range;
   for (int k = -kVelocities; k <= kVelocities; ++k) {

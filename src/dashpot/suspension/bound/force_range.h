@@ -5,8 +5,8 @@
 
 namespace dashpot {
 
-/// What a semi-active damper can give at a velocity: any force between its softest and its hardest.
-/// Straight between the velocities of the table, and straight on outside.
+/// The forces that a semi-active damper can give at a velocity: any between its softest and its
+/// hardest. Straight between the velocities of the table, and straight on outside.
 struct ForceRange {
   std::vector<double> velocity;    ///< m/s, ascending
   std::vector<double> soft, hard;  ///< N, positive when they resist extension
@@ -16,7 +16,7 @@ struct ForceRange {
   /// The same where the force itself slows the motion: the force at velocity `free` + by_force
   /// force.
   double force_against(double free, double by_force, double share) const noexcept;
-  /// How hard a force is, 0 ... 1, at a velocity; 0 where soft and hard are one.
+  /// Where a force lies between soft (0) and hard (1) at a velocity; 0 where both are one.
   double share(double velocity, double force) const noexcept;
   struct Piece {
     double slope, offset;  ///< force = slope velocity + offset
@@ -26,9 +26,9 @@ struct ForceRange {
 
 /// Any damping in between, N*s/m. Throws Error where least > greatest.
 ForceRange damping_range(double least, double greatest);
-/// Of a damper without memory: from its least force to its greatest over the currents, A; beyond
-/// velocity_max in proportion to the velocity.
-/// Throws Error where the model has states, and at limits that make no sense.
+/// The range of a damper without memory: from its least force to its greatest over the currents, A;
+/// beyond velocity_max, m/s, in proportion to the velocity. Throws Error where the model has
+/// states, and at limits that make no sense.
 ForceRange model_range(const DamperModel& model, double current_min, double current_max,
                        double velocity_max);
 /// Whether there is anything to choose.

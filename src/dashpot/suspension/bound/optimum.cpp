@@ -11,7 +11,7 @@ constexpr std::size_t kOne = 4, kForce = 5;
 using State = SmallMatrix<5, 1>;  // [q, q', 1]
 using Law = SmallMatrix<1, 5>;
 
-/// What happened in each cell.
+/// A motion cell by cell.
 struct Path {
   double sum = 0;  ///< the index's integral
   std::vector<State> states;
@@ -32,18 +32,23 @@ Path run(const SampledPlant& car, const ForceRange& range, const RideIndex& inde
   State z;
   z(kOne, 0) = 1;
   for (std::size_t cell = 0; cell < car.cells(); ++cell) {
+    // The force that is chosen, clipped to what the damper can give at this speed.
     const AffineCar now = car.over(cell);
     const double free = at(now.speed, z), by_force = now.speed(0, kForce);
     const double soft = range.force_against(free, by_force, 0),
                  hard = range.force_against(free, by_force, 1);
     const double force =
         std::clamp(choose(cell, z, free, by_force), std::min(soft, hard), std::max(soft, hard));
+
+    // The outputs under this force, and what they add to the index.
     const double a = at(now.acceleration, z) + now.acceleration(0, kForce) * force;
     const double w = at(now.tyre_force, z) + now.tyre_force(0, kForce) * force;
     path.sum += car.step() * (index.comfort * a * a + index.holding * w * w);
     path.states.push_back(z);
     path.forces.push_back(force);
     path.shares.push_back(range.share(free + by_force * force, force));
+
+    // One cell further.
     SmallMatrix<6, 1> joint;
     for (std::size_t i = 0; i < 5; ++i) joint(i, 0) = z(i, 0);
     joint(kForce, 0) = force;
@@ -60,13 +65,15 @@ std::vector<Law> sweep_back(const SampledPlant& car, const ForceRange& range,
   for (std::size_t cell = car.cells(); cell-- > 0;) {
     const AffineCar now = car.over(cell);
     const SmallMatrix<6, 6> form =
-        car.step() * price(now, index) + transposed(now.motion) * (value * now.motion);
+        car.step() * cost_form(now, index) + transposed(now.motion) * (value * now.motion);
     Law law;
     for (std::size_t j = 0; j < 5; ++j) law(0, j) = -form(kForce, j) / form(kForce, kForce);
     laws[cell] = law;
 
+    // Where the path's force is at an end of its range, the law keeps it there.
     const State& z = path.states[cell];
     const double free = at(now.speed, z), by_force = now.speed(0, kForce);
+
     const double wanted = (law * z)(0, 0);
     const double soft = range.force_against(free, by_force, 0),
                  hard = range.force_against(free, by_force, 1);
@@ -78,6 +85,8 @@ std::vector<Law> sweep_back(const SampledPlant& car, const ForceRange& range,
       for (std::size_t j = 0; j < 5; ++j)
         law(0, j) = (slope * now.speed(0, j) + (j == kOne ? offset : 0)) / (1 - slope * by_force);
     }
+
+    // The value one cell earlier, under that law.
     SmallMatrix<6, 5> lift;
     for (std::size_t i = 0; i < 5; ++i) {
       lift(i, i) = 1;
@@ -113,6 +122,8 @@ Course improve(const SampledPlant& car, const ForceRange& range, const RideIndex
   Path path = path_of_shares(car, range, index, course.shares);
   for (int k = 0; k < kMost; ++k) {
     const std::vector<Law> laws = sweep_back(car, range, index, path);
+
+    // The whole change of the law, or a part of it, until the index falls.
     Path best;
     best.sum = INFINITY;
     for (double step = 1; step >= kLeastStep && !(best.sum < path.sum); step /= 2)
@@ -120,6 +131,8 @@ Course improve(const SampledPlant& car, const ForceRange& range, const RideIndex
         const double wanted = (laws[cell] * z)(0, 0);
         return wanted - (1 - step) * ((laws[cell] * path.states[cell])(0, 0) - path.forces[cell]);
       });
+
+    // No fall, or none worth another sweep: this is the best.
     if (!(best.sum < path.sum)) break;
     const bool enough = path.sum - best.sum < kLeastFall * path.sum;
     path = std::move(best);

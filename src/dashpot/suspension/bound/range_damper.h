@@ -5,8 +5,8 @@
 
 namespace dashpot {
 
-/// The damper that a range describes. What is its current is the share, 0 softest ... 1 hardest;
-/// without memory.
+/// The damper that a range describes, without memory. Its current is the share, 0 softest ... 1
+/// hardest.
 class RangeDamper final : public DamperModel {
  public:
   explicit RangeDamper(ForceRange range) : range_(std::move(range)) {}

@@ -32,13 +32,14 @@ void add_limit(Form& form, double weight, const ForceLimit& limit, const SmallMa
 /// The integrand of L.
 Form integrand(const AffineCar& car, const std::vector<ForceLimit>& limits, const RideIndex& index,
                const double* multipliers) {
-  Form form = price(car, index);
+  Form form = cost_form(car, index);
   for (std::size_t j = 0; j < limits.size(); ++j)
     add_limit(form, -multipliers[j], limits[j], car.speed);
   return form;
 }
 
-/// min over F of a form, as a form of the rest; what F is there.
+/// The minimum of a form over F: a form over [q, q', 1], and the F at which it lies, a row over the
+/// same.
 struct Minimum {
   Value5 value;
   SmallMatrix<1, 5> law;
@@ -83,8 +84,8 @@ class Certificate {
   }
 
  private:
-  /// A cell in `steps_` steps and in twice as many, until both agree; the next cell begins with
-  /// half.
+  /// A cell in `steps_` steps and in twice as many, until both agree; the next cell starts with
+  /// half as many.
   bool back_over(std::size_t cell, Value5& p) {
     constexpr int kMost = 256;
     constexpr double kAgree = 1e-10;
@@ -159,6 +160,8 @@ class Dual {
     double shaken = 0;
     for (std::size_t cell = car_.cells(); cell-- > 0;) {
       for (std::size_t i = 0; i < kOne; ++i) shaken += noise_[i] * p(i, i);
+
+      // One step back: the value over [q, q', 1], least by the force.
       const AffineCar car = car_.over(cell);
       Form form = car_.step() * integrand(car, limits_, index_, multipliers.in(cell));
       add_value(form, p, car.motion, true);
@@ -179,6 +182,8 @@ class Dual {
     moment(kOne, kOne) = 1;
     for (std::size_t cell = 0; cell < car_.cells(); ++cell) {
       const AffineCar car = car_.over(cell);
+
+      // The mean of each limit under the law, over this cell.
       const Form joint = with_force(moment, law_[cell]);
       for (std::size_t j = 0; j < limits_.size(); ++j) {
         Form limit;
@@ -188,6 +193,8 @@ class Dual {
           mean += limit.values[k] * joint.values[k];
         out[cell / multipliers.block * limits_.size() + j] -= mean;
       }
+
+      // The moments one cell later, with the noise.
       moment = car.motion * joint * transposed(car.motion);
       for (std::size_t i = 0; i < kOne; ++i) moment(i, i) += noise_[i];
     }
@@ -220,6 +227,8 @@ std::array<double, 4> typical_motion(const SampledPlant& car, double damping) {
   z(kOne, 0) = 1;
   for (std::size_t cell = 0; cell < car.cells(); ++cell) {
     const AffineCar now = car.over(cell);
+
+    // The force that F = damping v gives, which itself slows the motion.
     SmallMatrix<6, 1> with_force;
     for (std::size_t i = 0; i < 5; ++i) with_force(i, 0) = z(i, 0);
     const double free = (now.speed * with_force)(0, 0);
@@ -231,7 +240,8 @@ std::array<double, 4> typical_motion(const SampledPlant& car, double damping) {
   return sum;
 }
 
-/// The damping that limits q = -(F - a v)(F - b v) ... are centred on.
+/// The damping in the middle of limits q = -(F - a v)(F - b v), (a + b) / 2, in the mean over them,
+/// N*s/m.
 double middle_damping(const std::vector<ForceLimit>& limits) {
   double sum = 0;
   for (const ForceLimit& limit : limits) sum += limit.ff < 0 ? -0.5 * limit.fv / limit.ff : 0;
@@ -256,6 +266,8 @@ Multipliers climb(Dual& dual, Multipliers multipliers, int iterations) {
   double scale = 0;
   if (!dual.value(multipliers, scale)) return multipliers;
   scale = std::abs(scale);
+
+  // L-BFGS goes down, so the function that it is given is -L over its size at the start.
   Multipliers trial = multipliers;
   const auto set = [&](std::span<const double> logarithms) {
     for (std::size_t k = 0; k < trial.values.size(); ++k) trial.values[k] = std::exp(logarithms[k]);
@@ -270,6 +282,7 @@ Multipliers climb(Dual& dual, Multipliers multipliers, int iterations) {
     for (std::size_t k = 0; k < gradient.size(); ++k) gradient[k] *= -trial.values[k] / scale;
     return true;
   };
+
   std::vector<double> start;
   for (const double value : multipliers.values) start.push_back(std::log(value));
   set(minimise(fall, std::move(start),
@@ -289,15 +302,20 @@ std::optional<double> certified_minimum(const SampledPlant& car,
 Relaxation relax(const SampledPlant& car, const SampledPlant& coarse,
                  const std::vector<ForceLimit>& limits, const RideIndex& index,
                  const RelaxationOptions& options) {
+  // A first guess of their size: the weight that the index itself gives a force.
   const double by_force = coarse.at(0, 0).acceleration(0, kForce);
   const double natural = index.comfort * by_force * by_force + index.holding;
   const std::array<double, 4> motion = typical_motion(coarse, middle_damping(limits));
+
+  // Noise in proportion to how far this car moves on this road.
   const auto shaken = [&](double per_second) {
     std::array<double, 4> noise = motion;
     for (double& value : noise) value *= per_second * coarse.step();
     return Dual(coarse, limits, index, noise);
   };
   Dual much = shaken(1e-2), little = shaken(1e-4);
+
+  // Multipliers that stay, then over shorter and shorter blocks, at last with less noise.
   const Multipliers constant =
       climb(much, {coarse.cells(), limits.size(), std::vector<double>(limits.size(), natural)},
             options.iterations);

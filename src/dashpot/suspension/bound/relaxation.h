@@ -13,12 +13,12 @@ struct Multipliers {
   std::size_t block = 1, limits = 1;
   std::vector<double> values;
 
-  /// One per limit, in a cell.
+  /// The multipliers of a cell, one per limit.
   const double* in(std::size_t cell) const { return values.data() + cell / block * limits; }
 };
 
 /// The index less the limits, each times its multiplier: min over ALL forces of
-///   L(F) = integral of [ price(x, F, t) - sum_j m_j(t) q_j(v, F) ] dt,   x' = A x + B F + w(t),
+///   L(F) = integral of [ cost(x, F, t) - sum_j m_j(t) q_j(v, F) ] dt,   x' = A x + B F + w(t),
 ///   x(0) = 0.
 /// L bounds from below what any F within the limits can reach, because m_j >= 0 and q_j >= 0 there.
 /// Its minimum is V(0, 0) of V(t, z) = z' P(t) z, z = [x, 1], where P solves the Riccati equation

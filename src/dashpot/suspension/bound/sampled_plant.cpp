@@ -44,6 +44,7 @@ SampledPlant::SampledPlant(const Plant& plant, const GroundMotion& ground, doubl
   if (!(step > 0 && duration >= step))
     throw Error("clairvoyant bound", "a duration of " + format_number(duration) +
                                          " s in steps of " + format_number(step) + " s");
+
   set_rates(plant);
   end_ = flow(step);
   middle_ = flow(step / 2);
@@ -51,9 +52,9 @@ SampledPlant::SampledPlant(const Plant& plant, const GroundMotion& ground, doubl
   const Tyre& tyre = plant.tyres[0];
   const auto cells = static_cast<std::size_t>(std::llround(duration / step));
   for (std::size_t k = 0; k < cells; ++k) {
-    const double begin = static_cast<double>(k) * step;
-    const double early = ground.foot(begin + 0.25 * step, tyre.track, tyre.behind).height;
-    const double late = ground.foot(begin + 0.75 * step, tyre.track, tyre.behind).height;
+    const double start = static_cast<double>(k) * step;
+    const double early = ground.foot(start + 0.25 * step, tyre.track, tyre.behind).height;
+    const double late = ground.foot(start + 0.75 * step, tyre.track, tyre.behind).height;
     road_.push_back({1.5 * early - 0.5 * late, (late - early) / (0.5 * step)});
   }
 }
@@ -64,12 +65,16 @@ void SampledPlant::set_rates(const Plant& plant) {
   const Strut& strut = plant.struts[0];
   stiffness_ = tyre.stiffness;
   damping_ = tyre.damping;
+
+  // M q'' = -K q - C q' - row F + tyre P, divided by M.
   using Square = Eigen::Matrix<double, 2, 2, Eigen::RowMajor>;
   const Square inverse = Eigen::Map<const Square>(linear.mass.data()).inverse();
   const Square by_q = -inverse * Eigen::Map<const Square>(linear.stiffness.data());
   const Square by_v = -inverse * Eigen::Map<const Square>(linear.damping.data());
   const Eigen::Vector2d by_force = -inverse * Eigen::Map<const Eigen::Vector2d>(strut.row.data());
   const Eigen::Vector2d by_push = inverse * Eigen::Map<const Eigen::Vector2d>(tyre.row.data());
+
+  // Coordinate by coordinate into the rows: rates of motion, damper speed and tyre force.
   for (std::size_t i = 0; i < 2; ++i) {
     const auto row = static_cast<Eigen::Index>(i);
     rates_.motion(i, i + 2) = 1;
@@ -84,13 +89,16 @@ void SampledPlant::set_rates(const Plant& plant) {
     rates_.tyre_force(0, i + 2) = -tyre.damping * tyre.row[i];
     acceleration_by_push_ += strut.body_row[i] * by_push(row);
   }
+
+  // The body's acceleration is a sum of these rows.
   for (std::size_t i = 0; i < 2; ++i)
     for (std::size_t j = 0; j < 6; ++j)
       rates_.acceleration(0, j) += strut.body_row[i] * rates_.motion(i + 2, j);
 }
 
 SampledPlant::Flow SampledPlant::flow(double time) const {
-  Eigen::Matrix<double, 7, 7> chain = Eigen::Matrix<double, 7, 7>::Zero();  // x, F, push, its rate
+  // The chain of x with F and the push, which stay or rise, [x, F, push, its rate]' = chain [...].
+  Eigen::Matrix<double, 7, 7> chain = Eigen::Matrix<double, 7, 7>::Zero();
   for (int i = 0; i < 4; ++i) {
     const auto row = static_cast<std::size_t>(i);
     for (int j = 0; j < 4; ++j) chain(i, j) = rates_.motion(row, static_cast<std::size_t>(j));
@@ -98,6 +106,8 @@ SampledPlant::Flow SampledPlant::flow(double time) const {
     chain(i, 5) = by_push_(row, 0);
   }
   chain(5, 6) = 1;
+
+  // One exponential moves them all.
   const Eigen::Matrix<double, 7, 7> moved = (chain * time).exp();
   Flow out;
   for (int i = 0; i < 4; ++i) {
@@ -142,7 +152,7 @@ AffineCar SampledPlant::over(std::size_t cell) const noexcept {
   return car;
 }
 
-SmallMatrix<6, 6> price(const AffineCar& car, const RideIndex& index) noexcept {
+SmallMatrix<6, 6> cost_form(const AffineCar& car, const RideIndex& index) noexcept {
   SmallMatrix<6, 6> form;
   add_product(form, index.comfort, car.acceleration, car.acceleration);
   add_product(form, index.holding, car.tyre_force, car.tyre_force);

@@ -7,15 +7,15 @@
 
 namespace dashpot {
 
-/// What is to be small: comfort * mean(body acceleration^2) + holding * mean(tyre force^2), of the
-/// tyre's force the part beyond its static load.
+/// The index that is to be small: comfort * mean(body acceleration^2) + holding * mean(tyre
+/// force^2), of the tyre's force the part beyond its static load.
 struct RideIndex {
   double comfort = 1;  ///< 1/(m/s^2)^2
   double holding = 0;  ///< 1/N^2
 };
 
-/// A quarter car as it moves under a damper's force F. All rows stand over [q, q', 1, F]: what is
-/// affine in state and force is linear in these.
+/// A quarter car as it moves under a damper's force F. All rows stand over [q, q', 1, F]: a
+/// function that is affine in state and force is linear in these.
 struct AffineCar {
   SmallMatrix<5, 6> motion;  ///< of [q, q', 1]: its rate, or its value one step later
   SmallMatrix<1, 6> acceleration, tyre_force,
@@ -38,7 +38,7 @@ class SampledPlant {
 
  private:
   struct Road {
-    double height, slope;  ///< m at the begin of the cell, m/s
+    double height, slope;  ///< m at the start of the cell, m/s
   };
   /// After some time, by [q, q', 1, F] and by the tyre's push: 1 N that stays, and one that rises
   /// by 1 N/s.
@@ -48,7 +48,8 @@ class SampledPlant {
   };
   Flow flow(double time) const;
   void set_rates(const Plant& plant);
-  /// The column of what is neither state nor force.
+  /// Adds the column of the 1 in [q, q', 1, F]: what the road's push changes in the motion over the
+  /// step (or its rate), and in the outputs by the state at which they are taken.
   void drive(AffineCar& car, const SmallMatrix<5, 1>& change, const SmallMatrix<5, 1>& state,
              double push) const noexcept;
 
@@ -61,6 +62,6 @@ class SampledPlant {
 };
 
 /// The index's form over [q, q', 1, F].
-SmallMatrix<6, 6> price(const AffineCar& car, const RideIndex& index) noexcept;
+SmallMatrix<6, 6> cost_form(const AffineCar& car, const RideIndex& index) noexcept;
 
 }  // namespace dashpot

@@ -56,7 +56,7 @@ ControllerPointer make_strut_law(std::span<const double> values, const ControlCo
                                                               context);
 }
 
-/// The same for laws that cannot be told anything.
+/// The same for laws without parameters.
 template <const ControlLaw& kLaw, auto Demand>
 ControllerPointer make_plain(std::span<const double>, const ControlContext& context) {
   return std::make_unique<StrutLaw<kLaw, NoParameters, Demand>>(NoParameters{}, context);

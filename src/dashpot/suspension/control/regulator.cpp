@@ -30,17 +30,17 @@ std::vector<double> values_of(const Matrix& matrix) {
   return {matrix.data(), matrix.data() + matrix.size()};
 }
 
-/// An output y = c x + d u that is priced.
+/// An output y = c x + d u whose square has a weight in the cost.
 struct Output {
   Eigen::RowVectorXd c, d;
-  double price;
+  double weight;
 };
 
 struct Parameters {
   double deflection, tyre_deflection, force, top_acceleration;
 };
 
-/// Demand: its C text, (wanted force, limits, s). Where nothing gives the state, nothing is wanted.
+/// Demand: its C text, (wanted force, limits, s). Without the plant's state the wanted force is 0.
 template <const ControlLaw& kLaw, auto Demand>
 class ClippedRegulator final : public Controller {
  public:
@@ -71,18 +71,19 @@ ControllerPointer make(std::span<const double> values, const ControlContext& con
       context);
 }
 
-const std::vector<ParameterRow> kPrices{
+const std::vector<ParameterRow> kWeights{
     {"deflection", "1/s^4", 1e3, 0, 1e12,
-     "price of a strut's deflection squared, where body acceleration costs 1"},
-    {"tyre_deflection", "1/s^4", 1e4, 0, 1e12, "price of a tyre's deflection squared"},
+     "weight of a strut's deflection squared, where that of body acceleration is 1"},
+    {"tyre_deflection", "1/s^4", 1e4, 0, 1e12, "weight of a tyre's deflection squared"},
     {"force", "1/kg^2", 0, 0, 1e6,
-     "price of a damper's force squared; needed where forces move no body"},
+     "weight of a damper's force squared; needed where forces move no body"},
     {"top_acceleration", "1", 0, 0, 1e12,
-     "price of the last coordinate's acceleration squared: a building's top floor"}};
+     "weight of the last coordinate's acceleration squared: a building's top floor"}};
 
 }  // namespace
 
-std::vector<double> regulator_of(const Plant& plant, const RegulatorPrices& prices) {
+std::vector<double> regulator_of(const Plant& plant, const RegulatorWeights& weights) {
+  // The plant as x' = a x + b u, with x = [q, q'] and u the forces up on the bodies.
   const LinearPlant linear = linear_plant(plant);
   const auto n = static_cast<Eigen::Index>(plant.size()),
              m = static_cast<Eigen::Index>(plant.struts.size());
@@ -94,41 +95,43 @@ std::vector<double> regulator_of(const Plant& plant, const RegulatorPrices& pric
   for (Eigen::Index k = 0; k < m; ++k)
     b.col(k).tail(n) = inverse * row_of(plant.struts[static_cast<std::size_t>(k)].row).transpose();
 
+  // The outputs y = c x + d u whose squares count, each with its weight.
   std::vector<Output> outputs;
-  const auto of_heights = [&](const std::vector<double>& row, double price) {
-    Output output{Eigen::RowVectorXd::Zero(2 * n), Eigen::RowVectorXd::Zero(m), price};
+  const auto of_heights = [&](const std::vector<double>& row, double weight) {
+    Output output{Eigen::RowVectorXd::Zero(2 * n), Eigen::RowVectorXd::Zero(m), weight};
     output.c.head(n) = row_of(row);
     outputs.push_back(output);
   };
   for (const Strut& strut : plant.struts) {
     outputs.push_back(
         {row_of(strut.body_row) * a.bottomRows(n), row_of(strut.body_row) * b.bottomRows(n), 1});
-    of_heights(strut.row, prices.deflection);
+    of_heights(strut.row, weights.deflection);
   }
-  for (const Tyre& tyre : plant.tyres) of_heights(tyre.row, prices.tyre_deflection);
-  outputs.push_back({a.row(2 * n - 1), b.row(2 * n - 1), prices.top_acceleration});
+  for (const Tyre& tyre : plant.tyres) of_heights(tyre.row, weights.tyre_deflection);
+  outputs.push_back({a.row(2 * n - 1), b.row(2 * n - 1), weights.top_acceleration});
 
+  // Their sum as x' q x + 2 x' cross u + u' r u, and the regulator for it.
   Matrix q = Matrix::Zero(2 * n, 2 * n), cross = Matrix::Zero(2 * n, m),
-         r = prices.force * Matrix::Identity(m, m);
+         r = weights.force * Matrix::Identity(m, m);
   for (const Output& y : outputs) {
-    q += y.price * y.c.transpose() * y.c;
-    cross += y.price * y.c.transpose() * y.d;
-    r += y.price * y.d.transpose() * y.d;
+    q += y.weight * y.c.transpose() * y.c;
+    cross += y.weight * y.c.transpose() * y.d;
+    r += y.weight * y.d.transpose() * y.d;
   }
   return regulator_gain({static_cast<std::size_t>(2 * n), plant.struts.size(), values_of(a),
                          values_of(b), values_of(q), values_of(cross), values_of(r)});
 }
 
-const ControlLaw kClippedLqr{
-    .name = "clipped_lqr",
-    .title = "Clipped linear-quadratic regulator",
-    .equation =
-        "F = K [q, q'], within c_min d ... c_max d;  K minimises the integral of z''^2 + prices",
-    .source = "textbook; clipping as in semi-active practice",
-    .remarks = "Needs the whole state of the plant.",
-    .parameters = kPrices,
-    .needs_plant_state = true,
-    .make = make<kClippedLqr, clipped_lqr_demand>};
+const ControlLaw kClippedLqr{.name = "clipped_lqr",
+                             .title = "Clipped linear-quadratic regulator",
+                             .equation =
+                                 "F = K [q, q'], within c_min d ... c_max d;  K minimises the "
+                                 "integral of z''^2 + weighted squares",
+                             .source = "textbook; clipping as in semi-active practice",
+                             .remarks = "Needs the whole state of the plant.",
+                             .parameters = kWeights,
+                             .needs_plant_state = true,
+                             .make = make<kClippedLqr, clipped_lqr_demand>};
 const ControlLaw kClippedOptimal{
     .name = "clipped_optimal",
     .title = "Clipped-optimal control",
@@ -138,7 +141,7 @@ const ControlLaw kClippedOptimal{
         "LQG on "
         "accelerations",
     .remarks = "Needs the measured force and the whole state. At a force of 0 it stays off.",
-    .parameters = kPrices,
+    .parameters = kWeights,
     .needs_plant_state = true,
     .make = make<kClippedOptimal, clipped_optimal_demand>};
 

@@ -39,6 +39,8 @@ Sensors::Sensors(const SensorOptions& o, std::size_t struts, double sample_time)
   if (o.delay > 1000 * sample_time)
     throw Error("sensors", "a delay of " + format_number(o.delay) + " s",
                 "a thousand samples at most");
+
+  // Coefficients of the filters at this sample time, and room for what the delay holds back.
   delay_ = static_cast<std::size_t>(std::lround(o.delay / sample_time));
   constexpr double kTurn = 2 * std::numbers::pi;
   keep_ = std::exp(-kTurn * o.integration_corner * dt_);
@@ -68,11 +70,15 @@ void Sensors::measure(Memory& m, StrutSignals& s) {
   const double deflection =
       quantised(seen.deflection + options_.deflection_noise * random_.normal(),
                 options_.deflection_resolution);
+
+  // Before the first sample the filters remember the same one.
   if (!m.started) {
     m.started = true;
     m.body[1] = acceleration;
     m.deflection[1] = deflection;
   }
+
+  // The signals of a car's controller; force and current it knows as they are.
   s = {.body_velocity = leaky_integral(acceleration, keep_, dt_, m.body),
        .body_acceleration = acceleration,
        .deflection = deflection,

@@ -17,7 +17,8 @@ class Sensors {
   /// One sample: the true signals become what the controller gets, in place.
   void measure(std::span<StrutSignals> signals);
   bool ideal() const { return !options_.in_car; }
-  /// What the body's velocity keeps from sample to sample, and what the deflection's takes over.
+  /// Coefficients of the filters: how much of the body's velocity stays from sample to sample, and
+  /// how much of a new difference the deflection's velocity takes over.
   double keep() const { return keep_; }
   double share() const { return share_; }
 

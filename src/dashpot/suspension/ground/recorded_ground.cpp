@@ -54,6 +54,8 @@ GroundPointer make_recorded_ground(const RecordedGround& kind, std::span<const s
     values.emplace_back(value);
     known.emplace_back(name);
   }
+
+  // Each part replaces the default of the setting that it names.
   for (const std::string& part : parts) {
     const std::size_t equals = part.find('=');
     const std::string name(trim(part.substr(0, equals)));
@@ -63,6 +65,7 @@ GroundPointer make_recorded_ground(const RecordedGround& kind, std::span<const s
                   suggest(name, known));
     values[static_cast<std::size_t>(found - known.begin())] = trim(part.substr(equals + 1));
   }
+
   if (values.front().empty())
     throw Error(where, std::string(kind.name) + " names no file",
                 std::string(kind.name) + ",file=...");

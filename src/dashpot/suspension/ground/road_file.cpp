@@ -78,6 +78,8 @@ RoadProfile load_road(const std::filesystem::path& path, std::string_view distan
   if (table.columns.size() < 2 || table.columns.size() % 2 != 0)
     throw Error(file, "has " + std::to_string(table.columns.size()) + " columns",
                 "distance and height, in pairs: one per track");
+
+  // The first track's distances give the spacing and the count of all.
   RoadProfile road{"measured road " + path.filename().string(), 0, {}};
   std::size_t count = 0;
   for (std::size_t k = 0; k < table.columns.size(); k += 2) {
@@ -100,6 +102,8 @@ GroundPointer load_earthquake(const std::filesystem::path& path, std::string_vie
   if (table.columns.size() < 2)
     throw Error(file, "has " + std::to_string(table.columns.size()) + " columns",
                 "time and acceleration");
+
+  // Time and acceleration, in SI.
   const std::vector<double>& time = numbers_of(table.columns[0], file);
   require_rising(time, file, "the time");
   const Unit unit = require_unit(unit_stated.empty() ? "m/s^2" : unit_stated, file);
@@ -108,10 +112,13 @@ GroundPointer load_earthquake(const std::filesystem::path& path, std::string_vie
                 "m/s^2 or g0");
   std::vector<double> acceleration;
   for (const double a : numbers_of(table.columns[1], file)) acceleration.push_back(unit.factor * a);
+
+  // Equal steps of time, to a tenth of a step.
   const double step = (time.back() - time.front()) / static_cast<double>(time.size() - 1);
   for (std::size_t k = 1; k < time.size(); ++k)
     if (std::abs(time[k] - time[0] - step * static_cast<double>(k)) > 0.1 * step)
       throw Error(file, "its time steps are not equal, at row " + std::to_string(k + 1));
+
   return shaking_ground(path.filename().string() + ", time scale " + format_number(time_scale),
                         step * time_scale, std::move(acceleration));
 }

@@ -22,8 +22,8 @@ struct TrackPoints {
   double last;        ///< place of the last but the mirrored one, from 0
   double per_second;  ///< how many pass
 };
-/// Places first, heights then: a place waits for conversions, and two short loops overlap more than
-/// a long one.
+/// Heights and rates at places begin, begin + step, ... in points. Places are found first and
+/// heights then: a place waits for conversions, and two short loops overlap more than a long one.
 void pass_over(const TrackPoints& track, double begin, double step, std::span<FootMotion> out) {
   constexpr std::size_t kChunk = 64;
   double share[kChunk];
@@ -32,12 +32,16 @@ void pass_over(const TrackPoints& track, double begin, double step, std::span<Fo
     const std::span<FootMotion> some = out.subspan(first, std::min(kChunk, out.size() - first));
     const int count = static_cast<int>(some.size());
     const double from = begin + step * static_cast<double>(first), last = track.last;
+
+    // Places: within which two points, and where between them.
     for (int n = 0; n < count; ++n) {
       const double reached = from + step * n, ahead = reached > 0 ? reached : 0;
       const double place = ahead < last ? ahead : last, left = place < last - 1 ? place : last - 1;
       point[n] = static_cast<int>(left);
       share[n] = place - point[n];
     }
+
+    // Heights: the cubic there, and its slope.
     for (int n = 0; n < count; ++n) {
       const double u = share[n], *z = track.z + point[n];
       const double rise = z[2] - z[1], slope = 0.5 * (z[2] - z[0]);
@@ -87,9 +91,8 @@ class DrivenRoad final : public GroundMotion {
   std::vector<std::vector<double>> points_;  ///< of each track
 };
 
-/// Begins level and at 0, over a twentieth of a second's way at most: a car does not fall onto the
-/// road.
-void begin_level(RoadProfile& road) {
+/// Lets the road rise from level and 0 over its first metres: a car does not fall onto the road.
+void start_level(RoadProfile& road) {
   constexpr double kRamp = 5;  // m
   const auto count = static_cast<std::size_t>(std::min(kRamp, 0.1 * road.length()) / road.spacing);
   for (std::vector<double>& z : road.tracks)
@@ -109,11 +112,15 @@ void add_wave(std::vector<double>& heights, double spacing, const RoadWave& wave
   constexpr std::size_t kPoints = 8;
   const double angle = kTurn * wave.wave_number * spacing;
   const double c = std::cos(kPoints * angle), s = std::sin(kPoints * angle);
+
+  // The first kPoints points of the wave.
   double re[kPoints], im[kPoints];
   for (std::size_t j = 0; j < kPoints; ++j) {
     re[j] = wave.amplitude * std::cos(wave.phase + angle * static_cast<double>(j));
     im[j] = wave.amplitude * std::sin(wave.phase + angle * static_cast<double>(j));
   }
+
+  // All further ones: each point turns by kPoints angles at a time.
   std::size_t k = 0;
   for (double* at = heights.data(); k + kPoints <= heights.size(); k += kPoints, at += kPoints)
     for (std::size_t j = 0; j < kPoints; ++j) {
@@ -204,17 +211,21 @@ RoadProfile cosine_road(const RoadOptions& o) {
     add_wave(road.tracks[1], o.spacing, {shared * amplitude, n, phase});
     add_wave(road.tracks[1], o.spacing, {std::sqrt(1 - shared * shared) * amplitude, n, own_phase});
   }
-  begin_level(road);
+  start_level(road);
   return road;
 }
 
 RoadProfile harmonic_road(const RoadOptions& o) {
   RoadProfile road = empty_road("ISO 8608, sum of harmonics", o);
+
+  // Lines of the spectrum at whole multiples of 1 / L, with L a power of two of points.
   const std::size_t points = std::bit_ceil(road.tracks[0].size());
   const double step = 1 / (o.spacing * static_cast<double>(points));
   std::vector<std::vector<std::complex<double>>> lines(road.tracks.size());
   for (auto& track : lines) track.resize(points / 2);
   Random random(o.seed);
+
+  // Waves of the band, with random phases; a second track shares the coherent part.
   const auto first = static_cast<std::size_t>(std::ceil(o.wave_number_min / step));
   for (std::size_t k = first; k < points / 2 && step * static_cast<double>(k) <= o.wave_number_max;
        ++k) {
@@ -226,11 +237,13 @@ RoadProfile harmonic_road(const RoadOptions& o) {
     lines[1][k] = shared * lines[0][k] +
                   std::polar(std::sqrt(1 - shared * shared) * amplitude, random.uniform(0, kTurn));
   }
+
+  // Heights by one transform per track.
   for (std::size_t t = 0; t < lines.size(); ++t) {
     const std::vector<double> heights = sum_of_harmonics(lines[t], points);
     std::copy_n(heights.begin(), road.tracks[t].size(), road.tracks[t].begin());
   }
-  begin_level(road);
+  start_level(road);
   return road;
 }
 

@@ -18,7 +18,7 @@ struct RoadProfile {
   double length() const { return spacing * static_cast<double>(tracks.front().size() - 1); }
 };
 
-/// A profile driven over at `speed` m/s from its begin: a cubic through its points, level before
+/// A profile driven over at `speed` m/s from its start: a cubic through its points, level before
 /// and after. Tyres on a second track of a profile that has one see the first. Throws Error on less
 /// than two points.
 GroundPointer drive_over(RoadProfile profile, double speed);

@@ -1,7 +1,9 @@
 #include "dashpot/suspension/lanes/batch.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
+#include <type_traits>
 
 #include "dashpot/base/parallel.h"
 #include "dashpot/damper/nets/aligned.h"
@@ -39,19 +41,24 @@ class Rows {
   AlignedVector<double> values_;
 };
 
+/// The numbers one behind the other, as LaneRide::numbers has them in rows.
 std::span<const double> as_numbers(const QuarterCarNumbers<double>& numbers) {
+  static_assert(std::is_trivially_copyable_v<QuarterCarNumbers<double>> &&
+                sizeof numbers % sizeof(double) == 0);
   return {reinterpret_cast<const double*>(&numbers), sizeof numbers / sizeof(double)};
 }
 
-/// Vehicles of one shape, as many as there are lanes; their results.
+/// Vehicles of one shape, at most as many as there are lanes, which ride side by side.
 class LaneBatch {
  public:
   LaneBatch(std::span<const BatchVehicle> vehicles, const BatchOptions& options,
             const LaneShape& shape, std::span<const std::size_t> members, const RideKernel& kernel)
       : options_(options), members_(members), kernel_(kernel), lanes_(kernel.lanes) {
-    for (std::size_t lane = 0; lane < lanes_;
-         ++lane)  // the last ones again where there are too few
+    // One vehicle per lane; where there are too few, the last one again.
+    for (std::size_t lane = 0; lane < lanes_; ++lane)
       vehicles_.push_back(&vehicles[members[std::min(lane, members.size() - 1)]]);
+
+    // The shape that all have in common, and the options.
     ride_.kind = shape.kind;
     ride_.law = shape.law;
     ride_.lags = shape.lags;
@@ -64,7 +71,9 @@ class LaneBatch {
     ride_.discarded = samples_within(options.discard, shape.sample_time);
   }
 
+  /// Writes to the places of these vehicles in `results`.
   void run(std::span<BatchResult> results) {
+    // Each vehicle as numbers, side by side.
     std::vector<LaneVehicle> lanes;
     for (const BatchVehicle* vehicle : vehicles_) lanes.push_back(lane_vehicle(*vehicle));
     Rows numbers(lanes_, as_numbers(lanes[0].numbers).size()),
@@ -76,16 +85,21 @@ class LaneBatch {
       damper.set(lane, lanes[lane].damper);
       start.set(lane, lanes[lane].start);
     }
+
+    // The ride asks the pilot for road and commands, and writes sums and traces.
     const std::vector<Biquad> weighting = weighting_filter(find_weighting("Wk"), ride_.sample_time);
     LanePilot pilot(std::span<const BatchVehicle* const>(vehicles_).first(members_.size()), lanes_);
     pilot.take(ride_);
     ride_.numbers = numbers.data();
     ride_.damper = damper.data();
     ride_.start = start.data();
+    static_assert(sizeof(Biquad) == 5 * sizeof(double), "b0, b1, b2, a1, a2 without gaps");
+    assert(weighting.size() == kWeightingSections);
     ride_.weighting = &weighting[0].b0;
     ride_.results = sums.data();
     ride_.trace = options_.traces ? trace.data() : nullptr;
     kernel_.run(ride_);
+
     for (std::size_t lane = 0; lane < members_.size(); ++lane) {
       results[members_[lane]] = result_of(sums, lane);
       if (options_.traces)
@@ -97,6 +111,8 @@ class LaneBatch {
   BatchResult result_of(const Rows& sums, std::size_t lane) const {
     BatchResult result{.in_lanes = true};
     const auto sum = [&](LaneResult row) { return sums.at(row, lane); };
+
+    // A ride that diverged counts up to there.
     std::size_t end = ride_.samples + 1;
     if (sum(kDivergedAt) > 0) {
       end = static_cast<std::size_t>(sum(kDivergedAt));
@@ -104,6 +120,7 @@ class LaneBatch {
     }
     const double count = static_cast<double>(std::max(end, ride_.discarded + 1) - ride_.discarded);
     const auto root_mean = [&](LaneResult row) { return std::sqrt(sum(row) / count); };
+
     result.measures = {.body_acceleration = root_mean(kAcceleration2),
                        .weighted_acceleration = root_mean(kWeighted2),
                        .vibration_dose = std::pow(sum(kWeighted4) * ride_.sample_time, 0.25),
@@ -133,15 +150,19 @@ class LaneBatch {
                                                               {"suspension_current", "A"},
                                                               {"tyre_road", "m"},
                                                               {"tyre_load", "N"}};
+
     Record record;
     record.name = vehicles_[lane]->setting.plant.name;
     record.condition = vehicles_[lane]->setting.ground.description();
     record.source = "simulation";
+
+    // A ride that diverged ends there.
     std::size_t count = ride_.samples + 1;
     if (result.diverged_at)
       count = static_cast<std::size_t>(std::lround(*result.diverged_at / ride_.sample_time));
     for (std::size_t k = 0; k < count; ++k)
       record.time.push_back(ride_.sample_time * static_cast<double>(k));
+
     for (std::size_t row = 0; row < kLaneTraces; ++row) {
       record.channels.push_back(
           {.name = kChannels[row][0], .unit = kChannels[row][1], .origin = "simulated"});
@@ -167,13 +188,15 @@ double sum_of_products(std::span<const double> a, std::span<const double> b) {
   return sum;
 }
 
-/// The measures of a ride by simulate().
+/// The measures of a ride by simulate(), by the same definitions as in lanes.
 BatchMeasures measures_of(const Trace& trace, const Plant& plant, double dt,
                           std::size_t discarded) {
   const std::size_t first = std::min(discarded, trace.record.time.size() - 1);
   const auto samples = [&](const std::string& name) {
     return std::span(trace.record.channel(name).samples).subspan(first);
   };
+
+  // Comfort, of the body.
   const std::vector<double>& acceleration =
       trace.record.channel(plant.coordinates[0].name + "_acceleration").samples;
   const std::vector<double> weighted = weigh(find_weighting("Wk"), acceleration, dt);
@@ -183,6 +206,8 @@ BatchMeasures measures_of(const Trace& trace, const Plant& plant, double dt,
   double fourth = 0;
   for (const double a : std::span(weighted).subspan(first)) fourth += a * a * a * a;
   m.vibration_dose = std::pow(fourth * dt, 0.25);
+
+  // The worst strut; energy and current of all.
   for (const Strut& strut : plant.struts) {
     const auto travel = samples(strut.name + "_deflection"),
                current = samples(strut.name + "_current");
@@ -194,6 +219,8 @@ BatchMeasures measures_of(const Trace& trace, const Plant& plant, double dt,
     for (const double i : current)
       m.current += i / static_cast<double>(current.size() * plant.struts.size());
   }
+
+  // The worst tyre.
   for (const Tyre& tyre : plant.tyres) {
     const auto load = samples(tyre.name + "_load");
     std::vector<double> more(load.begin(), load.end());
@@ -235,7 +262,7 @@ void require_options(std::span<const BatchVehicle> vehicles, const BatchOptions&
                                       .limits = vehicle.limits});
 }
 
-/// Those that fit into lanes by what they have in common; `others` takes the rest.
+/// Groups of vehicles of one shape; `others` takes those that cannot ride in lanes.
 std::vector<Group> groups_of(std::span<const BatchVehicle> vehicles,
                              std::vector<std::size_t>& others) {
   std::vector<Group> groups;
@@ -244,6 +271,7 @@ std::vector<Group> groups_of(std::span<const BatchVehicle> vehicles,
       others.push_back(k);
       continue;
     }
+
     const LaneShape shape = lane_vehicle(vehicles[k]).shape;
     const auto same = std::find_if(groups.begin(), groups.end(),
                                    [&](const Group& g) { return g.shape == shape; });
@@ -260,6 +288,8 @@ std::vector<Group> groups_of(std::span<const BatchVehicle> vehicles,
 std::vector<BatchResult> simulate_batch(std::span<const BatchVehicle> vehicles,
                                         const BatchOptions& options) {
   require_options(vehicles, options);
+
+  // Groups of vehicles that can ride side by side are cut into batches as wide as the lanes.
   std::vector<std::size_t> others;
   const std::vector<Group> groups = groups_of(vehicles, others);
   std::vector<LaneBatch> batches;
@@ -271,6 +301,8 @@ std::vector<BatchResult> simulate_batch(std::span<const BatchVehicle> vehicles,
           std::span(group.members)
               .subspan(first, std::min(kernel.lanes, group.members.size() - first)),
           kernel);
+
+  // Batches and single vehicles are tasks alike; each writes to places of its own.
   std::vector<BatchResult> results(vehicles.size());
   parallel_for(batches.size() + others.size(), options.threads, [&](std::size_t task) {
     options.monitor.check();

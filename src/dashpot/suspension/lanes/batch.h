@@ -2,50 +2,40 @@
 #include <cstddef>
 #include <optional>
 #include <span>
-#include <string>
-#include <string_view>
 #include <vector>
 
-#include "dashpot/simulate.h"
+#include "dashpot/suspension/lanes/batch_vehicle.h"
 
 namespace dashpot {
 
-/// One of many vehicles: what simulate() takes. All that `setting` refers to must outlive the
-/// batch; vehicles may share it.
-struct BatchVehicle {
-  Setting setting;
-  ControlLimits limits;
-  SensorOptions sensors;
-};
-
 struct BatchOptions {
   double duration = 10;  ///< s
-  double discard = 0;    ///< s at the begin that the measures leave out
+  double discard = 0;    ///< s at the start that the measures leave out
   double relative_tolerance = 1e-6, absolute_tolerance = 1e-9;
   int threads = 1;      ///< 0: all cores. Results are the same bits for any number
-  bool traces = false;  ///< keep what happens, too
+  bool traces = false;  ///< keep each ride's trace as well
   Monitor monitor;
 };
 
-/// What a ride comes to, from its samples at the controller's sample time (or 1 ms). The body is
-/// the plant's first coordinate; of several struts and tyres the worst one counts.
+/// Measures of a ride, from its samples at the controller's sample time (or 1 ms). The body is the
+/// plant's first coordinate; of several struts and tyres the worst one counts.
 struct BatchMeasures {
   double body_acceleration = 0;      ///< m/s^2, root mean square
   double weighted_acceleration = 0;  ///< m/s^2, by Wk of ISO 2631-1: a_w
   double vibration_dose = 0;         ///< m/s^1.75, VDV by Wk
-  double tyre_load = 0;            ///< N, root mean square of what comes on top of the load at rest
-  double tyre_deflection = 0;      ///< m, root mean square
-  double deflection = 0;           ///< m, root mean square of the strut's travel
-  double greatest_deflection = 0;  ///< m, greatest magnitude
-  double contact_lost = 0;         ///< share of the time in which some tyre has no load
-  double energy = 0;               ///< J, that the dampers took
-  double current = 0;              ///< A (or V), mean over time and dampers: the duty
+  double tyre_load = 0;              ///< N, root mean square of the load less that at rest
+  double tyre_deflection = 0;        ///< m, root mean square
+  double deflection = 0;             ///< m, root mean square of the strut's travel
+  double greatest_deflection = 0;    ///< m, greatest magnitude
+  double contact_lost = 0;           ///< share of the time in which some tyre has no load
+  double energy = 0;                 ///< J, that the dampers took
+  double current = 0;                ///< A (or V), mean over time and dampers
 };
 
 struct BatchResult {
   BatchMeasures measures;             ///< up to the divergence where there is one
   std::optional<double> diverged_at;  ///< s
-  bool in_lanes = false;              ///< false: no lanes for such a vehicle, simulate() did it
+  bool in_lanes = false;              ///< false: such a vehicle has no lanes, simulate() did it
   bool missed_tolerance = false;      ///< at some instant
   std::size_t evaluations = 0;        ///< of its forces
   Record trace;  ///< where wanted: channels named as those of simulate(), its main ones
@@ -60,10 +50,5 @@ struct BatchResult {
 /// of some hundred. Throws Error as simulate() does, naming the vehicle.
 std::vector<BatchResult> simulate_batch(std::span<const BatchVehicle> vehicles,
                                         const BatchOptions& options);
-
-/// Laws whose equations run in lanes, too, in alphabetical order.
-std::span<const std::string_view> lane_laws();
-/// Why a vehicle does not fit into lanes; empty where it does.
-std::string reason_against_lanes(const BatchVehicle& vehicle);
 
 }  // namespace dashpot

@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 
-#include "dashpot/suspension/forces.h"
 #include "dashpot/suspension/lanes/lane_vehicle.h"
+#include "dashpot/suspension/plants/plant_forces.h"
 
 namespace dashpot {
 namespace {
@@ -68,6 +68,8 @@ void LanePilot::control(const double* signals, double* commands, const std::int6
 double LanePilot::command(Driver& driver, const double* signals, double before) const {
   const auto signal = [&](LaneSignal row) { return signals[row * lanes_]; };
   const BatchVehicle& vehicle = *driver.vehicle;
+
+  // The true signals of this lane; heights counted from rest on the ground as it is.
   StrutSignals strut{.body_velocity = signal(kBodyVelocity),
                      .body_acceleration = signal(kBodyAcceleration),
                      .wheel_velocity = signal(kWheelVelocity),
@@ -79,11 +81,15 @@ double LanePilot::command(Driver& driver, const double* signals, double before) 
   const std::array<double, 4> x{signal(kBody) - driver.resting[0] * signal(kGround),
                                 signal(kWheel) - driver.resting[1] * signal(kGround),
                                 signal(kBodyVelocity), signal(kWheelVelocity)};
+
+  // As the sensors see them.
   const bool ideal = driver.sensors.ideal();
   if (!ideal) {
     driver.sensors.measure({&strut, 1});
     seen = {strut.deflection, strut.deflection_velocity, strut.current};
   }
+
+  // The controller's demand as a current within the driver's limits. A NaN keeps the command.
   DamperDemand demand;
   vehicle.setting.controller->step({&strut, 1},
                                    ideal ? std::span<const double>(x) : std::span<const double>(),

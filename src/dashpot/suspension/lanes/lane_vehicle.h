@@ -2,32 +2,31 @@
 #include <string>
 #include <vector>
 
-#include "dashpot/suspension/lanes/batch.h"
+#include "dashpot/suspension/lanes/batch_vehicle.h"
 #include "dashpot/suspension/lanes/ride.h"
 
 namespace dashpot {
 
-/// What vehicles must have in common to ride side by side.
+/// The properties that vehicles must have in common to ride side by side.
 struct LaneShape {
   LaneDamperKind kind = LaneDamperKind::Network;
-  LaneNetwork network;
-  std::size_t law = 0;
-  std::size_t lags = 0;
-  bool resists_more = false, controlled = false;
-  double sample_time = 0;
+  LaneNetwork network;        ///< of a network
+  std::size_t law = 0;        ///< of a law: its place in kLaneLaws
+  std::size_t lags = 0;       ///< currents behind a lag: 0, 1 or 2
+  bool resists_more = false;  ///< stops, friction or a tyre that may lift
+  bool controlled = false;
+  double sample_time = 0;  ///< s
   bool operator==(const LaneShape&) const = default;
 };
 
-/// One vehicle as numbers.
+/// One vehicle as numbers, ready to be put into rows.
 struct LaneVehicle {
   LaneShape shape;
   QuarterCarNumbers<double> numbers;
   std::vector<double> damper, start;  ///< as LaneRide's
 };
 
-/// s between the samples of a vehicle.
-double sample_time_of(const BatchVehicle& vehicle);
-/// Only of one that reason_against_lanes() has nothing against.
+/// The vehicle must have no reason_against_lanes().
 LaneVehicle lane_vehicle(const BatchVehicle& vehicle);
 
 }  // namespace dashpot

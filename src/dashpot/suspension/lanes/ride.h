@@ -1,30 +1,34 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <string_view>
 
 #include "dashpot/damper/nets/kernel.h"
+#include "dashpot/suspension/plants/nonlinear_forces.h"
 
-// What passes between simulate_batch and the loops over lanes, which are compiled once per
-// instruction set.
+// The data that pass between simulate_batch() and the loops over lanes, which are compiled once per
+// instruction set. All arrays are rows of numbers, one number per lane, one row behind the other;
+// they belong to the caller. Units are SI.
 namespace dashpot {
 
-/// Everything that one vehicle's equations need, or (Number: a vector) those of a vehicle per lane.
+/// The numbers of a vehicle's equations, Number = double, or of a vehicle per lane, Number = a
+/// vector:
+///   q'' = by_state x + by_force F + by_push P
+/// with x = heights of body and wheel and their speeds, F of the strut, P of the road on the wheel.
+/// Nothing but Numbers, so that rows of lanes can be made of it (as_numbers() in batch.cpp).
 template <class Number>
 struct QuarterCarNumbers {
-  // q'' = by_state x + by_force F + by_push P;  x = body, wheel and their speeds, F of the strut, P
-  // of the road
   Number by_state[2][4], by_force[2], by_push[2];
-  Number tyre_stiffness, tyre_damping, static_load;
-  Number may_lift;  ///< 1 or 0
-  Number friction, friction_slope, extension_stop, compression_stop, stop_stiffness;
+  TyreContact<Number> tyre;
+  StrutResistance<Number> strut;
+  Number friction_slope;         ///< s/m, 1 / v_s: over this speed friction sets in
   Number driver_lag, model_lag;  ///< 1/s; 0: none
 };
 
 enum class LaneDamperKind { Network, Law };
+enum class LaneInput : std::uint8_t { Displacement, Velocity, Current };
 
-/// A static network of one output; plain arrays, since the loops call nothing of the standard
+/// A static network of one output. Plain arrays, since the loops call nothing of the standard
 /// library.
 struct LaneNetwork {
   static constexpr std::size_t kMostLayers = 6;
@@ -33,35 +37,41 @@ struct LaneNetwork {
     Activation activation = Activation::Identity;
     bool operator==(const Layer&) const = default;
   };
-  std::size_t inputs[3] = {};  ///< 0 displacement, 1 velocity, 2 current
-  std::size_t count = 0;
+  LaneInput inputs[3] = {};
+  std::size_t count = 0;  ///< of layers
   Layer layers[kMostLayers];
   bool operator==(const LaneNetwork&) const = default;
 };
 
-/// One vehicle per lane. Rows of numbers, a number per lane; one behind the other.
+/// Coefficients of a law's parameter over current: of its powers 0 to 3.
+constexpr std::size_t kLanePowers = 4;
+
+/// A ride of one vehicle per lane: what they have in common, and rows of what differs.
 struct LaneRide {
   LaneDamperKind kind = LaneDamperKind::Network;
   const LaneNetwork* network = nullptr;
-  std::size_t law = 0;   ///< its place in lane_law_table()
+  std::size_t law = 0;   ///< its place in kLaneLaws
   std::size_t lags = 0;  ///< of driver and model, on the way to the current that drives the damper
   bool resists_more = false;  ///< some strut has stops or friction, some tyre may lift
   double relative_tolerance = 0, absolute_tolerance = 0;
-  double sample_time = 0;
-  std::size_t samples = 0, discarded = 0;
-  const double* numbers = nullptr;
-  const double* damper =
-      nullptr;  ///< weights as Mlp's; or the law's parameters at powers 0 ... 3 of current
-  const double* start =
-      nullptr;  ///< the command, the coil's current, the model's, then the law's states
-  const double* weighting = nullptr;  ///< b0, b1, b2, a1, a2 of each of kWeightingSections
+  double sample_time = 0;           ///< s
+  std::size_t samples = 0;          ///< after the one at rest
+  std::size_t discarded = 0;        ///< samples that the measures leave out
+  const double* numbers = nullptr;  ///< of QuarterCarNumbers
+  /// Weights as Mlp::parameters, then scale and mean of the output; or kLanePowers times the law's
+  /// parameters, coefficients of the same power together.
+  const double* damper = nullptr;
+  /// The command, the current of the coil and that of the model, then the law's states.
+  const double* start = nullptr;
+  const double* weighting =
+      nullptr;  ///< b0, b1, b2, a1, a2 of each of kWeightingSections; no lanes
 
-  void* pilot = nullptr;
+  void* pilot = nullptr;  ///< passed to the two functions below
   /// Height and rate under a lane at kLaneNodes half samples from number `first` on, into rows.
   void (*ground)(void* pilot, std::size_t lane, std::size_t first, double* heights,
                  double* rates) = nullptr;
-  /// LaneSignal rows in, commands out: what the driver's limits leave of them. Only lanes of which
-  /// `which` is not 0. Null: the commands stay.
+  /// LaneSignal rows in, commands within the driver's limits out, for the lanes whose `which` is
+  /// not 0. Null: the commands stay.
   void (*control)(void* pilot, const double* signals, double* commands,
                   const std::int64_t* which) = nullptr;
 
@@ -70,8 +80,11 @@ struct LaneRide {
 };
 
 constexpr std::size_t kWeightingSections = 4;
-constexpr std::size_t kLaneAhead = 64;  ///< samples of road at once: a power of 2
-constexpr std::size_t kLaneNodes = 2 * kLaneAhead + 1;
+constexpr std::size_t kLaneAhead = 64;                  ///< samples of road at once
+constexpr std::size_t kLaneNodes = 2 * kLaneAhead + 1;  ///< start and middle of each, and the end
+static_assert((kLaneAhead & (kLaneAhead - 1)) == 0, "a power of 2: places within are a mask");
+
+/// Signals of a controller and of what it may see of the plant, at a sample.
 enum LaneSignal : std::size_t {
   kBodyVelocity,
   kBodyAcceleration,
@@ -85,22 +98,24 @@ enum LaneSignal : std::size_t {
   kGround,
   kLaneSignals
 };
+/// Sums over the samples that count, but for the last four.
 enum LaneResult : std::size_t {
-  kAcceleration2,
-  kWeighted2,
-  kWeighted4,
-  kLoad2,
-  kTyreDeflection2,
-  kDeflection2,
-  kGreatestDeflection,
-  kContactLost,
-  kPower,
-  kCurrentSum,
-  kDivergedAt,
-  kMissed,
-  kEvaluations,
+  kAcceleration2,       ///< of squares of the body's acceleration, m^2/s^4
+  kWeighted2,           ///< of its weighted squares
+  kWeighted4,           ///< and of their squares
+  kLoad2,               ///< of squares of the tyre's load over that at rest, N^2
+  kTyreDeflection2,     ///< m^2
+  kDeflection2,         ///< m^2, of the strut
+  kContactLost,         ///< of samples without load
+  kPower,               ///< of the damper, W
+  kCurrentSum,          ///< A
+  kGreatestDeflection,  ///< m, of the strut
+  kDivergedAt,          ///< the sample; 0: not
+  kMissed,              ///< 1 where some step missed the tolerance
+  kEvaluations,         ///< steps
   kLaneResults
 };
+/// Rows of a trace, per sample.
 enum LaneTrace : std::size_t {
   kTraceBody,
   kTraceBodyVelocity,
@@ -122,10 +137,12 @@ struct RideKernel {
   std::size_t lanes;
   void (*run)(const LaneRide& ride) noexcept;
 };
-/// For so many vehicles: the widest, but for one or two, which the shortest vectors serve sooner.
+/// For a batch of that many vehicles: the widest; for one or two the shortest vectors, which are
+/// done sooner.
 const RideKernel& ride_kernel(std::size_t vehicles);
 
-/// Names of the laws that have lanes, in the order of LaneRide::law and of the alphabet.
-std::span<const std::string_view> lane_law_table();
+/// Names of the laws that have lanes, in alphabetical order. LaneRide::law is a place in this
+/// table; simd/laws.h holds their code in the same order.
+inline constexpr std::string_view kLaneLaws[] = {"bingham", "bouc_wen", "modified_bouc_wen"};
 
 }  // namespace dashpot

@@ -1,5 +1,3 @@
-#include <array>
-
 #include "dashpot/suspension/lanes/simd/tables.h"
 
 namespace dashpot {
@@ -13,12 +11,6 @@ const RideKernel& ride_kernel(std::size_t vehicles) {
 #endif
   (void)vehicles;
   return baseline_rides();
-}
-
-std::span<const std::string_view> lane_law_table() {
-  static constexpr std::array<std::string_view, 3> kNames{"bingham", "bouc_wen",
-                                                          "modified_bouc_wen"};
-  return kNames;
 }
 
 }  // namespace dashpot

@@ -13,6 +13,8 @@ Plant make(std::span<const double> p) {
     plant.coordinates.push_back({"floor_" + std::to_string(k + 1), "m"});
   plant.mass = diagonal(std::vector<double>(n, p[kMass]));
   plant.damping = plant.stiffness = diagonal(std::vector<double>(n));
+
+  // Each floor on the one below it, the first on the ground.
   for (std::size_t k = 0; k < n; ++k) {
     std::vector<double> row(n);
     row[k] = 1;
@@ -20,6 +22,8 @@ Plant make(std::span<const double> p) {
     add_along(plant.stiffness, row, p[kStiffness]);
     add_along(plant.damping, row, p[kDamping]);
   }
+
+  // A damper under the first floor; the ground moves all floors.
   std::vector<double> first(n);
   first[0] = 1;
   plant.struts = {{.name = "ground_to_floor_1", .row = first, .body_row = first, .wheel_row = {}}};

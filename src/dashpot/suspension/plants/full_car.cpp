@@ -35,12 +35,16 @@ Plant make(std::span<const double> p) {
   const std::array<double, 4> y{p[kFrontTrack] / 2, -p[kFrontTrack] / 2, p[kRearTrack] / 2,
                                 -p[kRearTrack] / 2};
   const std::array names{"front_left", "front_right", "rear_left", "rear_right"};
+
+  // Coordinates: the body's three, then one per wheel.
   Plant plant;
   plant.coordinates = {{"body", "m"}, {"pitch", "rad"}, {"roll", "rad"}};
   for (const char* name : names) plant.coordinates.push_back({std::string(name) + "_wheel", "m"});
   plant.mass = diagonal(
       {p[kMass], p[kPitchInertia], p[kRollInertia], p[kWheel], p[kWheel], p[kWheel], p[kWheel]});
   plant.damping = plant.stiffness = diagonal(std::vector<double>(7));
+
+  // Corner by corner; the static load divides the body's weight by the lever of the other axle.
   for (std::size_t k = 0; k < 4; ++k) {
     const bool front = k < 2;
     const std::vector<double> corner{1, -x[k], y[k], 0, 0, 0, 0};
@@ -58,6 +62,7 @@ Plant make(std::span<const double> p) {
          .behind = front ? 0 : a + b});
     plant.points.push_back({"body_" + std::string(names[k]), corner});
   }
+
   plant.tyres_may_lift = p[kLift] != 0;
   return plant;
 }

@@ -21,10 +21,13 @@ enum Row {
 
 Plant make(std::span<const double> p) {
   const double a = p[kFrontDistance], b = p[kRearDistance];
+
   Plant plant;
   plant.coordinates = {{"body", "m"}, {"pitch", "rad"}, {"front_wheel", "m"}, {"rear_wheel", "m"}};
   plant.mass = diagonal({p[kMass], p[kInertia], p[kFrontWheel], p[kRearWheel]});
   plant.damping = plant.stiffness = diagonal({0, 0, 0, 0});
+
+  // Positive pitch lowers the front: a height there is z - a theta, at the rear z + b theta.
   add_suspension(plant, {.name = "front",
                          .body_row = {1, -a, 0, 0},
                          .wheel_row = {0, 0, 1, 0},
@@ -35,6 +38,8 @@ Plant make(std::span<const double> p) {
                          .wheel_row = {0, 0, 0, 1},
                          .stiffness = p[kRearSpring],
                          .damping = p[kRearDamping]});
+
+  // Each axle carries the body's weight by the lever of the other.
   plant.tyres = {{.name = "front",
                   .row = {0, 0, 1, 0},
                   .stiffness = p[kFrontTyre],
@@ -44,6 +49,7 @@ Plant make(std::span<const double> p) {
                   .stiffness = p[kRearTyre],
                   .static_load = (p[kMass] * a / (a + b) + p[kRearWheel]) * kGravity,
                   .behind = a + b}};
+
   plant.points = {{"body_front", {1, -a, 0, 0}}, {"body_rear", {1, b, 0, 0}}};
   plant.tyres_may_lift = p[kLift] != 0;
   return plant;

@@ -50,9 +50,13 @@ std::vector<Complex> frequency_response(const Plant& plant, const std::vector<do
   const LinearPlant linear = linear_plant(plant, damper);
   const std::size_t n = linear.size;
   const Complex s(0, 2 * std::numbers::pi * frequency);
+
+  // s^2 M + s C + K at s = 2 pi i f.
   const Eigen::MatrixXcd dynamic = s * s * map_of(linear.mass, n).cast<Complex>() +
                                    s * map_of(linear.damping, n).cast<Complex>() +
                                    map_of(linear.stiffness, n).cast<Complex>();
+
+  // Forces of a ground that moves by 1: through tyres, and through dampers that stand on it.
   Eigen::VectorXcd force = Eigen::VectorXcd::Zero(static_cast<Eigen::Index>(n));
   for (const Tyre& tyre : plant.tyres) {
     const Complex delay = speed > 0 ? std::exp(-s * tyre.behind / speed) : Complex(1);
@@ -60,10 +64,13 @@ std::vector<Complex> frequency_response(const Plant& plant, const std::vector<do
   }
   for (std::size_t k = 0; k < damper.size(); ++k)
     if (plant.struts[k].track) add_row(force, plant.struts[k].row, s * damper[k]);
+
+  // Or of a ground that shakes by 1.
   if (plant.tyres.empty() && !plant.ground.empty())
     force = -(map_of(plant.mass, n) *
               Eigen::Map<const Eigen::VectorXd>(plant.ground.data(), static_cast<Eigen::Index>(n)))
                  .cast<Complex>();
+
   const Eigen::VectorXcd q = dynamic.partialPivLu().solve(force);
   return {q.begin(), q.end()};
 }

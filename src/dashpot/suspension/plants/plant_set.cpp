@@ -37,11 +37,14 @@ std::vector<double> read_matrix(ObjectReader& reader, std::string_view key, std:
   if (value.items().size() != size)
     throw Error(value.where(), "has " + std::to_string(value.items().size()) + " rows",
                 std::to_string(size) + ", one per coordinate");
+
   std::vector<double> matrix;
   for (const Value& row : value.items()) {
     const std::vector<double> numbers = read_row(row, size);
     matrix.insert(matrix.end(), numbers.begin(), numbers.end());
   }
+
+  // A mechanical system's matrices are symmetric.
   for (std::size_t i = 0; i < size; ++i)
     for (std::size_t j = 0; j < i; ++j)
       if (matrix[i * size + j] != matrix[j * size + i])
@@ -56,9 +59,12 @@ Plant from_matrices(const Value& value) {
   Plant plant;
   for (const Value& name : reader.required("floors").items())
     plant.coordinates.push_back({name.as_string(), "m"});
+
   plant.mass = read_matrix(reader, "mass", plant.size());
   plant.damping = read_matrix(reader, "damping", plant.size());
   plant.stiffness = read_matrix(reader, "stiffness", plant.size());
+
+  // Places for dampers, each between the ground and a row of floors.
   for (const Value& item : reader.required("dampers").items()) {
     ObjectReader damper(item, "a damper's place");
     Strut strut{.name = damper.string("name")};
@@ -67,6 +73,7 @@ Plant from_matrices(const Value& value) {
     plant.struts.push_back(std::move(strut));
   }
   reader.finish();
+
   plant.ground.assign(plant.size(), 1);
   return plant;
 }
@@ -91,6 +98,8 @@ PlantSet parse_plant_set(std::string_view text, const std::string& source, const
                .verified = reader.required("verified").as_bool(),
                .reason = reader.string("reason"),
                .plant = {}};
+
+  // The plant: matrices of its own, or a kind with parameters.
   const std::string title = reader.string("title");
   if (const Value* matrices = reader.optional("matrices")) {
     if (!values.empty())
@@ -102,6 +111,7 @@ PlantSet parse_plant_set(std::string_view text, const std::string& source, const
     set.plant = from_parameters(find_plant_model(set.kind, kind.where()),
                                 reader.required("parameters"), values);
   }
+
   if (const Value* damping = reader.optional("damping")) set.damping = read_damping(*damping);
   reader.finish();
   set.plant.name = name;
@@ -111,11 +121,14 @@ PlantSet parse_plant_set(std::string_view text, const std::string& source, const
 }
 
 PlantSet load_plant_set(const std::string& name, const NamedValues& values) {
+  // A set of data/plants.
   std::vector<std::string> known = plant_set_names();
   if (std::ranges::find(known, name) != known.end()) {
     const std::filesystem::path path = data_folder("plants") / (name + ".json");
     return parse_plant_set(read_file(path), path.string(), name, values);
   }
+
+  // Or a kind of plant, whose table's numbers are no source's.
   for (const PlantModel* model : plant_models()) {
     if (model->name == name)
       return {name,

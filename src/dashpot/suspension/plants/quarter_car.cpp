@@ -22,6 +22,8 @@ Plant make(std::span<const double> p) {
   plant.coordinates = {{"body", "m"}, {"wheel", "m"}};
   plant.mass = diagonal({p[kSprung], p[kUnsprung]});
   plant.damping = plant.stiffness = diagonal({0, 0});
+
+  // The suspension, with all that is not linear in it.
   add_suspension(plant, {.name = "suspension",
                          .body_row = {1, 0},
                          .wheel_row = {0, 1},
@@ -31,6 +33,8 @@ Plant make(std::span<const double> p) {
                          .extension_stop = p[kExtension],
                          .compression_stop = p[kCompression],
                          .stop_stiffness = p[kStop]});
+
+  // The tyre carries both masses at rest.
   plant.tyres = {{.name = "tyre",
                   .row = {0, 1},
                   .stiffness = p[kTyre],

@@ -10,6 +10,8 @@ Plant make(std::span<const double> p) {
   plant.coordinates = {{"thigh", "m"}, {"lower_torso", "m"}, {"chest", "m"}, {"head", "m"}};
   plant.mass = diagonal({p[kMass], p[kMass + 1], p[kMass + 2], p[kMass + 3]});
   plant.damping = plant.stiffness = diagonal(std::vector<double>(4));
+
+  // Each part on the one below it.
   for (std::size_t k = 1; k < 4; ++k) {
     std::vector<double> row(4);
     row[k] = 1;
@@ -17,12 +19,15 @@ Plant make(std::span<const double> p) {
     add_along(plant.stiffness, row, p[kStiffness + k]);
     add_along(plant.damping, row, p[kDamping + k]);
   }
+
+  // The seat is the foot of the lowest part: what a tyre is to a car.
   const double weight = (p[kMass] + p[kMass + 1] + p[kMass + 2] + p[kMass + 3]) * kGravity;
   plant.tyres = {{.name = "seat",
                   .row = {1, 0, 0, 0},
                   .stiffness = p[kStiffness],
                   .damping = p[kDamping],
                   .static_load = weight}};
+
   plant.points = {{"head", {0, 0, 0, 1}}};
   plant.struts = {
       {.name = "seat", .row = {1, 0, 0, 0}, .body_row = {1, 0, 0, 0}, .wheel_row = {}, .track = 0}};

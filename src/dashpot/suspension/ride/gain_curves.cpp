@@ -45,7 +45,7 @@ SimulateOptions simulate_options(const Vehicle& vehicle, double duration,
   return settings;
 }
 
-/// Over the samples first ... last - 1, against the phase that the road had.
+/// Over the samples first ... last - 1; the fundamental by the phase that the road had at each.
 template <class Phase>
 Gain gain_along(const std::vector<double>& y, const std::vector<double>& u, std::size_t first,
                 std::size_t last, Phase phase) {
@@ -69,6 +69,7 @@ std::vector<double> usual_frequencies() {
 
 GainPoint gain_by_sine(const Vehicle& vehicle, double f, const GainOptions& options) {
   const int periods = std::max(4, static_cast<int>(std::lround(options.counted * f)));
+
   const GroundPointer sine = sine_ground(options.amplitude, f);
   const SimulateOptions settings =
       simulate_options(vehicle, options.settling + periods / f, options);
@@ -84,12 +85,15 @@ GainPoint gain_by_sine(const Vehicle& vehicle, double f, const GainOptions& opti
 std::vector<GainPoint> gains_by_chirp(const Vehicle& vehicle,
                                       const std::vector<double>& frequencies,
                                       const GainOptions& options) {
+  // One run on a chirp that goes a little beyond the frequencies that are read.
   const double f0 = frequencies.front() / kBeyond, f1 = frequencies.back() * kBeyond;
   const double duration = options.chirp;
   const GroundPointer chirp = chirp_ground(options.amplitude, f0, f1, duration, true);
   const SimulateOptions settings = simulate_options(vehicle, duration, options);
   const Trace trace = simulate(vehicle.on(*chirp), settings);
   const auto [signals, road] = responses_of(vehicle.set.plant, trace);
+
+  // Each frequency over kChirpPeriods about the instant at which the chirp has it.
   std::vector<GainPoint> points;
   for (const double f : frequencies) {
     points.push_back(no_gain(f));

@@ -7,8 +7,8 @@
 
 namespace dashpot {
 
-/// What one frequency of the road makes of a vehicle; gains over the height of the road. Of the
-/// first coordinate, the first tyre and the first strut.
+/// A vehicle's answer to one frequency of the road, as gains over the road's height: of the first
+/// coordinate, the first tyre and the first strut.
 struct GainPoint {
   double frequency = 0;                                   ///< Hz
   Gain body_acceleration, body, tyre_deflection, travel;  ///< 1/s^2, 1, 1, 1

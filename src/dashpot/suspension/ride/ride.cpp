@@ -39,6 +39,8 @@ Gain gain_at(std::span<const double> y, std::span<const double> u, double dt, do
         "gain at " + format_number(f) + " Hz",
         "the response has " + format_number(dt * f * static_cast<double>(y.size())) + " periods",
         std::to_string(periods));
+
+  // The last whole periods: sums of squares, and the line of the spectrum at f.
   std::complex<double> fy = 0, fu = 0;
   double yy = 0, uu = 0;
   for (std::size_t k = y.size() - count; k < y.size(); ++k) {

@@ -20,8 +20,8 @@ StepMeasures step_measures(std::span<const double> signal, double dt, double fin
 
 /// Gain at one frequency over whole periods of a steady response.
 struct Gain {
-  double variance = 0;     ///< sqrt(sum y^2 / sum u^2): all that y does
-  double fundamental = 0;  ///< |Y(f)| / |U(f)|: what it does at f
+  double variance = 0;     ///< sqrt(sum y^2 / sum u^2): at all frequencies
+  double fundamental = 0;  ///< |Y(f)| / |U(f)|: at f alone
 };
 /// The last `periods` whole periods of f Hz count. Throws Error where the signals are shorter.
 Gain gain_at(std::span<const double> y, std::span<const double> u, double dt, double f,

@@ -9,9 +9,10 @@ namespace dashpot {
 /// Shares of comfort in the indices that a front is made of.
 inline constexpr double kFrontWeights[] = {1, 0.8, 0.5, 0.2, 0};
 
-/// What this vehicle's damper could do between its least and its greatest current, at the strut, up
-/// to a speed, m/s; beyond in proportion. Throws Error(where, ...) where nothing can be proven of
-/// it: a damper with a memory, a passive one, a plant that is not a linear quarter car.
+/// The forces that this vehicle's damper can give between its least and its greatest current, at
+/// the strut, up to a speed, m/s; beyond in proportion. Throws Error(where, ...) where nothing can
+/// be proven of it: a damper with a memory, a passive one, a plant that is not a linear quarter
+/// car.
 ForceRange possible_forces(const Vehicle& vehicle, double speed, const std::string& where);
 
 /// Bounds and optima from comfort alone to road holding alone, both counted as shares of a

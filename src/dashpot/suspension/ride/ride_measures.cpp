@@ -21,7 +21,7 @@ double greatest(Samples x) {
   return top;
 }
 
-/// The channels of a run, from the instant on from which they count.
+/// Reads measures from the channels of a run, from the instant on from which they count.
 class Reading {
  public:
   Reading(const Vehicle& vehicle, const GroundMotion& ground, const Trace& trace, double discard)
@@ -46,6 +46,8 @@ class Reading {
     const Samples shaking = samples("ground_acceleration");
     std::vector<double> below(shaking.size(), 0), drift(shaking.size()),
         acceleration(shaking.size());
+
+    // Each floor: its drift against the one below it, its acceleration with the ground's.
     for (const Coordinate& floor : plant.coordinates) {
       const Samples x = samples(floor.name), a = samples(floor.name + "_acceleration");
       for (std::size_t k = 0; k < x.size(); ++k) {
@@ -83,6 +85,7 @@ class Reading {
   }
 
   void add_tyres() {
+    // The worst of all tyres.
     double load = 0, peak = 0, deflection = 0;
     for (const Tyre& tyre : vehicle_.set.plant.tyres) {
       std::vector<double> dynamic;
@@ -92,6 +95,7 @@ class Reading {
       peak = std::max(peak, greatest(dynamic) / tyre.static_load);
       deflection = std::max(deflection, greatest(samples(tyre.name + "_deflection")));
     }
+
     add("tyre_load", "dynamic over static tyre load, rms", "%", 100 * load);
     add("tyre_load_peak", "dynamic over static tyre load, greatest", "%", 100 * peak);
     add("tyre_deflection", "tyre deflection, greatest", "mm", 1000 * deflection);
@@ -100,6 +104,7 @@ class Reading {
   }
 
   void add_struts() {
+    // The worst of all struts; their energies together.
     double rms = 0, travel = 0, force = 0, energy = 0;
     for (const Strut& strut : vehicle_.set.plant.struts) {
       const Samples f = samples(strut.name + "_force"), v = samples(strut.name + "_velocity");
@@ -108,6 +113,7 @@ class Reading {
       force = std::max(force, greatest(f));
       for (std::size_t k = 0; k < f.size(); ++k) energy += f[k] * v[k] * dt_;
     }
+
     add("travel", "travel of the struts, rms", "mm", 1000 * rms);
     add("travel_peak", "travel of the struts, greatest", "mm", 1000 * travel);
     add("damper_force", "damper force, greatest", "N", force);
@@ -128,14 +134,16 @@ class Reading {
         count > 0 ? 100 * sum / static_cast<double>(count) : kNone);
   }
 
-  /// Of the first coordinate's acceleration, to 5 % of its peak, and of the first tyre, to 5 % of
-  /// the step.
+  /// After a step at this instant, s: how the first coordinate's acceleration settles to 5 % of its
+  /// peak, and the first tyre to 5 % of the step.
   void add_step(double at) {
-    const auto begin = static_cast<std::size_t>(std::lround(at / dt_));
+    const auto start = static_cast<std::size_t>(std::lround(at / dt_));
     const auto since = [&](const std::string& channel) {
       const Samples all = trace_.record.channel(channel).samples;
-      return all.subspan(std::min(begin, all.size()));
+      return all.subspan(std::min(start, all.size()));
     };
+
+    // The body, by its acceleration.
     const std::string& body = vehicle_.set.plant.coordinates.front().name;
     const Samples a = since(body + "_acceleration");
     if (greatest(a) > 0) {
@@ -146,6 +154,8 @@ class Reading {
       add("deviation", body + " acceleration, greatest", "m/s^2",
           std::abs(step.greatest_deviation));
     }
+
+    // The first tyre, by its deflection.
     const double height = std::abs(ground_.foot(INFINITY, 0, 0).height);
     const Samples tyre = since(vehicle_.set.plant.tyres.front().name + "_deflection");
     if (!(height > 0)) return;

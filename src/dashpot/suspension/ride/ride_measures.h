@@ -15,13 +15,13 @@ struct RideMeasure {
   double value = 0;   ///< NaN where there is none, as the decay ratio without a second peak
 };
 
-/// Seconds at the begin that do not count: 5 where the ground is alike all along and 15 s at least
-/// are run, so that the filters of the weighting have settled; else none.
+/// Seconds at the start of a run that do not count: 5 where the ground is alike all along and the
+/// run lasts 15 s at least, so that the filters of the weighting have settled; else none.
 double usual_discard(const GroundMotion& ground, double duration);
 
 /// On tyres: comfort of the first coordinate's motion (ISO 2631-1, Wk), dynamic load and contact of
 /// the worst tyre, travel of the worst strut, force and energy of the dampers, current; after a
-/// step settling, decay and deviation. Of a building: displacement, drift and acceleration of each
+/// step settling, decay and deviation. For a building: displacement, drift and acceleration of each
 /// floor.
 std::vector<RideMeasure> ride_measures(const Vehicle& vehicle, const GroundMotion& ground,
                                        const Trace& trace, double discard);

@@ -28,6 +28,8 @@ std::vector<SharedVehicle> make_vehicles(const RideStudyOptions& options,
                                          std::vector<std::string>& left_out) {
   std::vector<SharedVehicle> vehicles{shared(passive_words(options.vehicle, options.against))};
   VehicleWords words = options.vehicle;
+
+  // The controllers that are named, or every law but "constant", which is the passive one.
   const bool all = options.controllers == std::vector<std::string>{"all"};
   std::vector<std::string> controllers = options.controllers;
   if (all) {
@@ -35,6 +37,8 @@ std::vector<SharedVehicle> make_vehicles(const RideStudyOptions& options,
     for (const ControlLaw* law : control_laws())
       if (law->name != "constant") controllers.emplace_back(law->name);
   }
+
+  // Of "all", those that do not suit the vehicle are left out, with the reason.
   for (const std::string& controller : controllers) {
     words.controller = controller;
     try {
@@ -44,6 +48,7 @@ std::vector<SharedVehicle> make_vehicles(const RideStudyOptions& options,
       left_out.push_back(controller + " is left out: " + error.what());
     }
   }
+
   if (vehicles.size() == 1) throw Error(words.where, "no controller to study");
   return vehicles;
 }
@@ -73,13 +78,15 @@ std::vector<double> chirp_frequencies(const std::vector<double>& sines) {
   return f;
 }
 
-/// All that is to be run, as tasks that write to places of their own.
+/// The runs of a study as tasks, each of which writes to a place of its own. Vehicles, options,
+/// road and places must stay where they are until run() is over.
 class Tasks {
  public:
   Tasks(const RideStudyOptions& options, const GroundMotion& road)
       : options_(options), road_(road), step_(step_ground(options.step_height, 0)) {}
 
   void add(const SharedVehicle& vehicle, RiddenVehicle& place) {
+    // One task per sine.
     place.sines.resize(options_.frequencies.size());
     for (std::size_t k = 0; k < options_.frequencies.size(); ++k)
       tasks_.push_back([this, vehicle, &place, k] {
@@ -118,7 +125,7 @@ class Tasks {
   }
 
  private:
-  /// Within a task nothing is reported, only stopped.
+  /// Tasks do not report their own progress, but stop when the study is stopped.
   Monitor quiet() const { return {.on_progress = {}, .stop = options_.monitor.stop}; }
   GainOptions gain_options() const {
     GainOptions gains = options_.gains;
@@ -190,13 +197,17 @@ double holding_integral(const RiddenVehicle& ridden) {
 
 RideStudy study_ride(const RideStudyOptions& options) {
   RideStudy study{.options = options};
+
+  // All that can be refused is refused before the long work.
   const std::vector<SharedVehicle> vehicles = make_vehicles(options, study.left_out);
   require_rideable(options, *vehicles.front());
   if (options.bound)
-    possible_forces(*vehicles.back(), 1, kBound);  // refused now rather than in the end
+    possible_forces(*vehicles.back(), 1, kBound);  // throws where nothing can be proven
   const std::vector<SharedVehicle> held = make_held(options, vehicles.back()->limits);
   const GroundPointer road = make_ground(options.road, options.seed, "--road");
   study.ground = road->description();
+
+  // A task per run, each with a place of its own, which must not move any more.
   study.controlled.resize(vehicles.size() - 1);
   study.held.resize(held.size());
   Tasks tasks(options, *road);
@@ -206,6 +217,7 @@ RideStudy study_ride(const RideStudyOptions& options) {
     study.held[k].setting = held[k]->dampers.front().current;
     tasks.add(held[k], study.held[k]);
   }
+
   tasks.run();
   if (options.bound) add_bound(study, *vehicles.back(), *road);
   return study;

@@ -5,13 +5,13 @@
 
 #include "dashpot/suspension/ride/gain_curves.h"
 #include "dashpot/suspension/ride/ride_bound.h"
-#include "dashpot/suspension/simulated_run.h"
+#include "dashpot/suspension/ride/simulated_run.h"
 
 namespace dashpot {
 
 /// Several controllers in one vehicle, in frequency and in time.
 struct RideStudyOptions {
-  VehicleWords vehicle;                                   ///< its own controller does not count
+  VehicleWords vehicle;                                   ///< its own controller is not looked at
   std::vector<std::string> controllers;                   ///< words; "all": every law that suits it
   std::string against;                                    ///< as passive_words() has it
   std::vector<double> frequencies = usual_frequencies();  ///< Hz
@@ -28,7 +28,7 @@ struct RideStudyOptions {
   Monitor monitor;
 };
 
-/// One of them.
+/// The runs of one vehicle of a study.
 struct RiddenVehicle {
   std::vector<GainPoint> sines;  ///< one per frequency
   std::vector<GainPoint> chirp;  ///< over the same range, finely
@@ -49,7 +49,7 @@ struct RideStudy {
   std::vector<RiddenVehicle> controlled;
   std::vector<TradeOff> held;         ///< the same dampers, softest first
   std::vector<std::string> left_out;  ///< of "all", and why
-  /// What is possible on the road, where it was asked for: from comfort alone to road holding
+  /// Bounds on the road, where they were asked for: from comfort alone to road holding
   /// alone.
   std::vector<ClairvoyantBound> front;
 };

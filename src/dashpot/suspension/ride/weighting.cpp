@@ -53,7 +53,7 @@ std::vector<Section> sections_of(const Weighting& w) {
   return sections;
 }
 
-/// Of the standard's formulas Wb alone has a gain.
+/// Wb alone has a gain in the standard's formulas.
 double gain_of(const Weighting& w) { return w.name == "Wb" ? 1.024 : 1; }
 
 Biquad digital(const Section& s, double dt) {
@@ -129,11 +129,15 @@ RideComfort ride_comfort(const Weighting& weighting, std::span<const double> acc
   if (first >= acceleration.size())
     throw Error("ride comfort", "the signal lasts no longer than the " + format_number(discard) +
                                     " s that are discarded");
+
+  // Means over what is kept, filtered from the start on.
   const std::vector<double> weighted = weigh(weighting, acceleration, dt);
   const std::span kept = std::span(weighted).subspan(first);
   RideComfort comfort{.rms = root_mean_square(acceleration.subspan(first)),
                       .weighted_rms = root_mean_square(kept),
                       .mtvv = greatest_running_rms(kept, dt)};
+
+  // The fourth-power dose and the crest factor, which show single shocks.
   double fourth = 0, greatest = 0;
   for (const double a : kept) {
     fourth += a * a * a * a;

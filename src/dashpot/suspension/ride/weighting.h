@@ -30,15 +30,15 @@ std::vector<double> weigh(const Weighting& weighting, std::span<const double> si
 /// That filter as a cascade. Throws Error likewise.
 std::vector<Biquad> weighting_filter(const Weighting& weighting, double dt);
 
-/// What a rider feels of an acceleration.
+/// How an acceleration feels to a rider.
 struct RideComfort {
   double rms = 0;           ///< m/s^2, not weighted
   double weighted_rms = 0;  ///< m/s^2, a_w
   double vdv = 0;           ///< m/s^1.75, fourth-power dose
   double mtvv = 0;          ///< m/s^2, greatest running rms over 1 s
   double crest = 0;         ///< greatest weighted magnitude over a_w
-  std::string_view feeling()
-      const;  ///< "a little uncomfortable": bands that overlap in the standard; recalled
+  /// "a little uncomfortable": bands that overlap in the standard; recalled.
+  std::string_view feeling() const;
 };
 /// The first `discard` seconds are the filter's own start and do not count.
 RideComfort ride_comfort(const Weighting& weighting, std::span<const double> acceleration,

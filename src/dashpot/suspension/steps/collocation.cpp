@@ -2,8 +2,8 @@
 #include <cmath>
 #include <map>
 
-#include "dashpot/suspension/damper_state.h"
-#include "dashpot/suspension/propagator.h"
+#include "dashpot/suspension/dampers/damper_state.h"
+#include "dashpot/suspension/steps/propagator.h"
 #include "dashpot/suspension/steps/step_method.h"
 
 namespace dashpot {
@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kFinest = 16;  // a stretch in 65 536 steps at most
 constexpr int kIterations = 12;
-constexpr double kConverged = 0.02;  // tolerances that the last iteration may move the end
+constexpr double kConverged = 0.02;  // tolerances by which the last iteration may move the end
 /// Halving a step quarters the error of a damper's own steps, the least that a method here gains.
 constexpr double kGain = 3;
 
@@ -20,6 +20,7 @@ bool is_finite(const std::vector<double>& values) {
                      [](double value) { return std::isfinite(value); });
 }
 
+/// An instant of a step.
 struct Node {
   PlantState state;
   std::vector<double> g;  ///< PlantForces::add_up
@@ -52,12 +53,18 @@ class Collocation final : public StepMethod {
   }
 
  private:
+  /// Brings now_ to `end`. A stretch is cut into 2^level steps, so that halved and doubled steps
+  /// meet.
   bool go(double end) {
-    const double begin = now_.state.time, length = end - begin;
+    const double start = now_.state.time, length = end - start;
     if (!(length > 0)) return true;
+
+    // As fine as the step before was, and no coarser than was asked for.
     const int least = options_.longest_step > 0 ? halvings(length, options_.longest_step) : 0;
     level_ =
         options_.controls_error && usual_ > 0 ? std::max(halvings(length, usual_), least) : least;
+
+    // A step at the present level; where its error is too great, the level rises.
     double done = 0;  // share of the stretch
     while (done < 1) {
       const double share = std::exp2(-level_), h = length * share;
@@ -66,12 +73,16 @@ class Collocation final : public StepMethod {
         ++level_;
         continue;
       }
+
+      // The step is taken.
       counts_.missed += options_.controls_error && !(error <= 1);
       std::swap(now_, end_);
       if (!is_finite(now_.state.x)) return false;
       done += share;
       usual_ = h;
-      now_.state.time = done >= 1 ? end : begin + length * done;
+      now_.state.time = done >= 1 ? end : start + length * done;
+
+      // The level falls where the error is small and the place suits a step of twice the length.
       const bool even = std::fmod(done, 2 * share) == 0;
       if (options_.controls_error && error < 1.0 / 64 && level_ > least && even) --level_;
     }
@@ -92,11 +103,15 @@ class Collocation final : public StepMethod {
   /// tolerances.
   double step(const Node& from, double h, Node& middle, Node& to) {
     ++counts_.steps;
+
+    // The first guess: forces stay as they are at the start.
     const Propagator& exact = propagator(h);
     middle.state.time = from.state.time + 0.5 * h;
     to.state.time = from.state.time + h;
     middle.g = to.g = from.g;
     const double* g[3] = {from.g.data(), middle.g.data(), to.g.data()};
+
+    // Motion under the parabola of forces, then forces of that motion, until the end stays.
     double moved = 0;
     for (int k = 0; k < kIterations; ++k) {
       before_ = to.state.x;
@@ -113,6 +128,7 @@ class Collocation final : public StepMethod {
     return moved;
   }
 
+  /// The dampers' own steps over both halves of the step, along the motion at its three instants.
   void move_dampers(const PlantState& from, double h, PlantState& middle, PlantState& to) const {
     for (std::size_t s = 0; s < from.dampers.size(); ++s) {
       const DamperState& start = from.dampers[s];
@@ -127,6 +143,7 @@ class Collocation final : public StepMethod {
     }
   }
 
+  /// Forces of dampers and struts at the state's instant.
   void evaluate(PlantState& state) {
     ++counts_.evaluations;
     for (std::size_t s = 0; s < state.dampers.size(); ++s) {
@@ -137,6 +154,8 @@ class Collocation final : public StepMethod {
     }
   }
 
+  /// How far two motions are apart, in tolerances; displacements and speeds each against their
+  /// greatest.
   double distance(const std::vector<double>& a, const std::vector<double>& b) const {
     const std::size_t n = a.size() / 2;
     double greatest = 0;
@@ -152,6 +171,7 @@ class Collocation final : public StepMethod {
     return greatest;
   }
 
+  /// Kept for each length of step that has occurred, to the picosecond.
   const Propagator& propagator(double h) {
     const long long key = std::llround(h * 1e12);
     const auto found = propagators_.find(key);
@@ -174,7 +194,7 @@ class Collocation final : public StepMethod {
   Node now_, middle_, whole_, half_, end_;
   std::vector<double> before_;
   int level_ = 0;     ///< a stretch is cut into 2^level steps
-  double usual_ = 0;  ///< s, the step before
+  double usual_ = 0;  ///< s, the length of the step before
 };
 
 }  // namespace

@@ -3,26 +3,18 @@
 #include <cmath>
 #include <utility>
 
-#include "dashpot/suspension/plants/plant_equations.h"
+#include "dashpot/suspension/steps/dormand_prince.h"
+#include "dashpot/suspension/steps/plant_equations.h"
 #include "dashpot/suspension/steps/step_control.h"
 
 namespace dashpot {
 namespace {
 
-constexpr std::size_t kStages = 7;
-constexpr double kAt[kStages] = {0, 0.2, 0.3, 0.8, 8.0 / 9, 1, 1};
-/// What each stage takes of the slopes before it; the last row is the end of the step.
-constexpr double kFrom[kStages][kStages - 1] = {
-    {},
-    {0.2},
-    {3.0 / 40, 9.0 / 40},
-    {44.0 / 45, -56.0 / 15, 32.0 / 9},
-    {19372.0 / 6561, -25360.0 / 2187, 64448.0 / 6561, -212.0 / 729},
-    {9017.0 / 3168, -355.0 / 33, 46732.0 / 5247, 49.0 / 176, -5103.0 / 18656},
-    {35.0 / 384, 0, 500.0 / 1113, 125.0 / 192, -2187.0 / 6784, 11.0 / 84}};
-constexpr double kOff[kStages] = {71.0 / 57600,      0,          -71.0 / 16695, 71.0 / 1920,
-                                  -17253.0 / 339200, 22.0 / 525, -1.0 / 40};
+using Method = DormandPrince;
+constexpr std::size_t kStages = Method::kStages;
 
+/// Between refresh() and the end of a stretch the first slope is that of y_: the method's last
+/// stage gives it (DormandPrince).
 class ExplicitSteps final : public StepMethod {
  public:
   ExplicitSteps(const PlantForces& forces, const IntegratorOptions& options,
@@ -44,22 +36,30 @@ class ExplicitSteps final : public StepMethod {
   bool advance(PlantState& state, double end) override {
     const double length = end - state.time;
     if (!(length > 0)) return true;
+
+    // The whole stretch is tried first; later ones start with the length that the last one
+    // proposed.
     if (next_ == 0) next_ = length;
     equations_.read(state, y_.data());
     Allowance least(length);
     for (double done = 0; done < length;) {
+      // One step, to the end of the stretch at most, and the length that its error allows.
       const bool last = done + next_ >= length * (1 - 1e-12);
       const double h = last ? length - done : next_;
       attempt(done, h);
-      const double error = distance(h), wanted = h * step_factor(error, 0.2);
+      const double error = distance(h), wanted = h * step_factor(error, Method::kPower);
       const bool bad = !(error <= 1);
       next_ = std::max(last && !bad ? std::max(next_, wanted) : wanted, least.shortest());
+
+      // Too great an error is accepted from the shortest step alone, and counted.
       if (bad && h > least.shortest()) continue;
       if (!std::isfinite(error)) return false;
       if (bad) {
         ++counts_.missed;
         least.miss();
       }
+
+      // The step is taken: its last slope is the first of the next one.
       ++counts_.steps;
       std::swap(y_, end_);
       std::copy_n(&k_[(kStages - 1) * size_], size_, k_.begin());
@@ -74,6 +74,7 @@ class ExplicitSteps final : public StepMethod {
     ++counts_.evaluations;
     equations_.rates(after, y.data(), &k_[stage * size_]);
   }
+  /// out = y + h (weights . slopes of the stages before).
   template <std::size_t... kBefore>
   void sum(std::vector<double>& out, double h, const double* weights,
            std::index_sequence<kBefore...>) const {
@@ -84,9 +85,10 @@ class ExplicitSteps final : public StepMethod {
   }
   template <std::size_t kStage>
   void stage(double done, double h, std::vector<double>& at) {
-    sum(at, h, kFrom[kStage], std::make_index_sequence<kStage>());
-    slope(kStage, done + kAt[kStage] * h, at);
+    sum(at, h, Method::kFrom[kStage], std::make_index_sequence<kStage>());
+    slope(kStage, done + Method::kAt[kStage] * h, at);
   }
+  /// end_ and the slope there, from y_ at `done` s in the stretch.
   void attempt(double done, double h) {
     stage<1>(done, h, trial_);
     stage<2>(done, h, trial_);
@@ -95,11 +97,13 @@ class ExplicitSteps final : public StepMethod {
     stage<5>(done, h, trial_);
     stage<6>(done, h, end_);
   }
+  /// |y_5 - y_4| / h of component i.
   double off(std::size_t i) const {
     double sum = 0;
-    for (std::size_t s = 0; s < kStages; ++s) sum += kOff[s] * k_[s * size_ + i];
+    for (std::size_t s = 0; s < kStages; ++s) sum += Method::kError[s] * k_[s * size_ + i];
     return std::abs(sum);
   }
+  /// Error of the step, in tolerances.
   double distance(double h) const {
     return error_in_tolerances(
         {equations_.coordinates(), y_, end_}, options_, [&](std::size_t k) { return h * off(k); },
@@ -110,8 +114,8 @@ class ExplicitSteps final : public StepMethod {
   IntegratorOptions options_;
   std::size_t size_;
   std::vector<double> y_, trial_, end_;
-  std::vector<double> k_;  ///< slopes, stage by stage
-  double next_ = 0;        ///< s
+  std::vector<double> k_;  ///< slopes, stage by stage; the first is that of y_
+  double next_ = 0;        ///< s, the length to try next
 };
 
 }  // namespace

@@ -4,13 +4,20 @@
 
 #include <Eigen/Dense>
 
-#include "dashpot/suspension/plants/plant_equations.h"
+#include "dashpot/suspension/steps/plant_equations.h"
 #include "dashpot/suspension/steps/step_control.h"
 
 namespace dashpot {
 namespace {
 
-// RODAS: Hairer, Wanner, Solving Ordinary Differential Equations II (1996), section IV.7.
+// RODAS, a Rosenbrock method of six stages, order 4 with an embedded solution of order 3, stiffly
+// accurate: E. Hairer, G. Wanner, Solving Ordinary Differential Equations II (1996), section IV.7.
+// In the form without products of the Jacobian J, each stage solves
+//
+//   (I / (gamma h) - J) u_i = f(t + c_i h, y + sum a_ij u_j) + sum (c_ij / h) u_j + h d_i df/dt
+//
+// and y + sum a_6j u_j + u_6 is the end of the step, u_6 the difference of the two solutions.
+// Below, c_i is kAt, a_ij kFrom, c_ij kSlopes, d_i kByTime.
 constexpr std::size_t kStages = 6;
 constexpr double kGamma = 0.25;
 constexpr double kAt[kStages] = {0, 0.386, 0.21, 0.63, 1, 1};
@@ -55,13 +62,16 @@ class ImplicitSteps final : public StepMethod {
   bool advance(PlantState& state, double end) override {
     const double length = end - state.time;
     if (!(length > 0)) return true;
+
     next_ = next_ > 0 ? next_ : length;
     equations_.read(state, y_.data());
     rates(0, y_, f_);
     Allowance least(length);
     for (double done = 0; done < length;) {
+      // The Jacobian holds for all tries from the same point.
       differentiate(done, length);
       for (bool taken = false; !taken;) {
+        // One try, to the end of the stretch at most, and the length that its error allows.
         const bool last = done + next_ >= length * (1 - 1e-12);
         const double h = last ? length - done : next_;
         attempt(done, h);
@@ -69,12 +79,16 @@ class ImplicitSteps final : public StepMethod {
         const bool bad = !(error <= 1);
         const double wanted = h * step_factor(error, 0.25);
         next_ = std::max(last && !bad ? std::max(next_, wanted) : wanted, least.shortest());
+
+        // Too great an error is accepted from the shortest step alone, and counted.
         if (bad && h > least.shortest()) continue;
         if (!std::isfinite(error)) return false;
         if (bad) {
           ++counts_.missed;
           least.miss();
         }
+
+        // The step is taken.
         ++counts_.steps;
         taken = true;
         y_ = trial_;
@@ -92,9 +106,12 @@ class ImplicitSteps final : public StepMethod {
     equations_.rates(after, y.data(), dy.data());
   }
 
-  /// f by y and by t where y is, by differences; t forwards within the stretch.
+  /// Derivatives of f by y and by t at the present y, by differences; t goes forwards within the
+  /// stretch.
   void differentiate(double done, double length) {
     constexpr double kLeast = 1e-5;
+
+    // By the state: one component after the other.
     for (Index j = 0; j < size_; ++j) {
       const double kept = y_[j];
       const double change =
@@ -104,6 +121,8 @@ class ImplicitSteps final : public StepMethod {
       y_[j] = kept;
       jacobian_.col(j) = (slope_ - f_) / change;
     }
+
+    // By time.
     const double later = 1e-4 * length, sign = done + later <= length ? 1 : -1;
     rates(done + sign * later, y_, by_time_);
     by_time_ = (by_time_ - f_) * (sign / later);
@@ -112,6 +131,8 @@ class ImplicitSteps final : public StepMethod {
   /// trial_ becomes the end of a step, error_ its error.
   void attempt(double done, double h) {
     solver_.compute(Matrix::Identity(size_, size_) / (kGamma * h) - jacobian_);
+
+    // One linear system per stage, all with the same matrix.
     for (std::size_t s = 0; s < kStages; ++s) {
       trial_ = y_;
       for (std::size_t j = 0; j < s; ++j) trial_ += kFrom[s][j] * u_[j];
@@ -123,6 +144,8 @@ class ImplicitSteps final : public StepMethod {
       for (std::size_t j = 0; j < s; ++j) slope_ += (kSlopes[s][j] / h) * u_[j];
       u_[s] = solver_.solve(slope_);
     }
+
+    // The method is stiffly accurate: the last stage is the end, and its increment the error.
     error_ = u_[kStages - 1];
     trial_ += error_;
   }
@@ -143,7 +166,7 @@ class ImplicitSteps final : public StepMethod {
   Vector u_[kStages];
   Matrix jacobian_;
   Eigen::PartialPivLU<Matrix> solver_;
-  double next_ = 0;  ///< s
+  double next_ = 0;  ///< s, the length to try next
 };
 
 }  // namespace

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dashpot/suspension/damper_state.h"
+#include "dashpot/suspension/dampers/damper_state.h"
 
 namespace dashpot {
 
@@ -27,6 +27,7 @@ Integrator::Integrator(const PlantForces& forces, const IntegratorOptions& optio
 
 bool Integrator::advance(PlantState& state, double end) {
   while (end - state.time > Driver::kInstant) {
+    // To the next corner of some current, or to the end.
     double wait = INFINITY;
     for (const DamperState& damper : state.dampers) wait = std::min(wait, damper.next_corner());
     const bool corner = state.time + wait < end;

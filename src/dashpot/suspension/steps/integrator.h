@@ -5,9 +5,8 @@
 
 namespace dashpot {
 
-/// Brings a plant through smooth stretches of time: with the error controlled by explicit or
-/// implicit steps where every damper's states have rates, else by collocation, which takes fixed
-/// steps, too.
+/// Brings a plant through smooth stretches of time. Where every damper's states have rates and the
+/// error is controlled, by explicit or implicit steps; else, and with fixed steps, by collocation.
 class Integrator {
  public:
   Integrator(const PlantForces& forces, const IntegratorOptions& options, const PlantState& start);

@@ -7,14 +7,14 @@
 
 namespace dashpot {
 
-/// How much longer the next step may be, by the error of one, in tolerances, and its power of the
-/// length.
+/// How much longer the next step may be after one of this error, in tolerances: 0.9 error^-power
+/// within 0.2 ... 5; power: 1 / order of the error in the step's length.
 inline double step_factor(double error, double power) {
   return std::isfinite(error) ? std::clamp(0.9 * std::pow(error, -power), 0.2, 5.0) : 0.2;
 }
 
 /// The shortest step within a stretch. Where it misses the tolerance it doubles, to 1/64 of the
-/// stretch at most: a force that jumps costs an error, which is told, and not hours.
+/// stretch at most: a force that jumps costs an error, which is counted, and not hours.
 class Allowance {
  public:
   explicit Allowance(double stretch) : shortest_(stretch / 4096), longest_(stretch / 64) {}
@@ -25,15 +25,15 @@ class Allowance {
   double shortest_, longest_;
 };
 
-/// y = [q, q', states] at both ends of a step.
+/// y = [q, q', states of the dampers] at both ends of a step.
 struct StepEnds {
   std::size_t coordinates;
   std::span<const double> from, to;
 };
 
-/// The error of a step, in tolerances; error(k) of component k, moved(k) by how much a state moves
-/// in it. Displacements are measured against each other, and so are speeds; a damper's states one
-/// by one.
+/// The error of a step, in tolerances; error(k): of component k; moved(k): how far a state moves in
+/// the step. Displacements are measured against the greatest of them, and so are speeds; a damper's
+/// states each against its own size and how far it moves.
 template <class Error, class Moved>
 double error_in_tolerances(const StepEnds& ends, const IntegratorOptions& options, Error error,
                            Moved moved) {
@@ -41,6 +41,8 @@ double error_in_tolerances(const StepEnds& ends, const IntegratorOptions& option
   const auto of = [&](double off, double size) {
     return off / (options.absolute_tolerance + options.relative_tolerance * size);
   };
+
+  // Displacements, then speeds.
   const std::size_t n = ends.coordinates;
   double greatest = 0;
   for (std::size_t part = 0; part < 2; ++part) {
@@ -51,6 +53,8 @@ double error_in_tolerances(const StepEnds& ends, const IntegratorOptions& option
     }
     greatest = worse(greatest, of(off, size));
   }
+
+  // States of the dampers.
   for (std::size_t k = 2 * n; k < ends.from.size(); ++k)
     greatest = worse(
         greatest, of(error(k), std::max(std::abs(ends.from[k]), std::abs(ends.to[k])) + moved(k)));

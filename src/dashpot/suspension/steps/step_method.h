@@ -3,17 +3,17 @@
 #include <vector>
 
 #include "dashpot/mounted_damper.h"
-#include "dashpot/suspension/damper_state.h"
-#include "dashpot/suspension/forces.h"
+#include "dashpot/suspension/dampers/damper_state.h"
+#include "dashpot/suspension/plants/plant_forces.h"
 
 namespace dashpot {
 
-/// A plant with its dampers at one instant.
+/// A plant with its dampers at one instant, SI.
 struct PlantState {
   double time = 0;
   std::vector<double> x;  ///< [q, q']
   std::vector<DamperState> dampers;
-  // What acts at this instant, kept by the integrator:
+  // Forces at this instant, which the integrator keeps up to date:
   std::vector<double> damper_forces;  ///< N, one per strut
   std::vector<double> strut_forces;   ///< with stop and friction
   std::vector<double> acceleration;   ///< q''
@@ -25,7 +25,7 @@ struct PlantState {
 
 struct IntegratorOptions {
   double relative_tolerance = 1e-6, absolute_tolerance = 1e-9;
-  double longest_step = 0;  ///< s; 0: none
+  double longest_step = 0;  ///< s; 0: no limit
   bool controls_error = true;
 };
 
@@ -34,12 +34,14 @@ struct StepCounts {
   std::size_t missed = 0;  ///< steps whose error stayed above the tolerance, short as they were
 };
 
-/// A way to go through a stretch of time in which no current jumps and no corner of its course
-/// lies.
+/// A method of integration over stretches of time within which no current jumps and no corner of
+/// its course lies.
 class StepMethod {
  public:
   virtual ~StepMethod() = default;
+  /// Brings the forces up to date: after a new current or a jump of the ground.
   virtual void refresh(PlantState& state) = 0;
+  /// Brings the state to `end`, s. False where it is no longer finite.
   virtual bool advance(PlantState& state, double end) = 0;
   const StepCounts& counts() const { return counts_; }
 
@@ -47,29 +49,26 @@ class StepMethod {
   StepCounts counts_;
 };
 
+/// Makes a method for a plant that starts from `start`. The forces must outlive it.
+using MakeStepMethod = std::unique_ptr<StepMethod>(const PlantForces& forces,
+                                                   const IntegratorOptions& options,
+                                                   const PlantState& start);
+
 /// The linear part moves exactly (Propagator) under forces that are parabolas within a step, found
 /// by iteration: order 4 where forces are smooth, and no damper's own stiffness shortens the step.
 /// The error is controlled by taking each step once whole and once in halves. For any damper.
-std::unique_ptr<StepMethod> make_collocation(const PlantForces& forces,
-                                             const IntegratorOptions& options,
-                                             const PlantState& start);
+MakeStepMethod make_collocation;
 
-/// Order 5 with an error of order 4 (Dormand, Prince, J. Comput. Appl. Math. 6 (1980) 19) of
-/// motions and of the dampers' states, for dampers that flow (DamperModel::flows).
-std::unique_ptr<StepMethod> make_explicit_steps(const PlantForces& forces,
-                                                const IntegratorOptions& options,
-                                                const PlantState& start);
+/// Dormand and Prince's method of order 5 (DormandPrince) for motions and the dampers' states, for
+/// dampers that flow (DamperModel::flows).
+MakeStepMethod make_explicit_steps;
 
 /// RODAS (Hairer, Wanner, Solving Ordinary Differential Equations II, 1996), linearly implicit,
 /// order 4 with an error of order 3, for the same dampers: hysteresis that is stiff at high speed
 /// asks for no short steps.
-std::unique_ptr<StepMethod> make_implicit_steps(const PlantForces& forces,
-                                                const IntegratorOptions& options,
-                                                const PlantState& start);
+MakeStepMethod make_implicit_steps;
 
-/// The cheaper one of these two at each time.
-std::unique_ptr<StepMethod> make_switching_steps(const PlantForces& forces,
-                                                 const IntegratorOptions& options,
-                                                 const PlantState& start);
+/// Of the explicit and the implicit steps whichever costs less, stretch by stretch.
+MakeStepMethod make_switching_steps;
 
 }  // namespace dashpot

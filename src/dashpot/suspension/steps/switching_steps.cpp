@@ -4,7 +4,7 @@ namespace dashpot {
 namespace {
 
 /// Stretches go by explicit steps. Where these become many, implicit ones are tried, and whichever
-/// asked for less goes on; the other one is tried again from time to time.
+/// needed fewer evaluations goes on; the other one is tried again from time to time.
 class SwitchingSteps final : public StepMethod {
  public:
   SwitchingSteps(const PlantForces& forces, const IntegratorOptions& options,
@@ -33,9 +33,9 @@ class SwitchingSteps final : public StepMethod {
   }
 
  private:
-  static constexpr std::size_t kStages =
-      8;  // of an implicit step, with the slopes by time and at its end
-  static constexpr int kPatience = 16;  // stretches
+  /// Evaluations of an implicit step's stages, with the slopes by time and at its end.
+  static constexpr std::size_t kStages = 8;
+  static constexpr int kPatience = 16;  ///< stretches between tries of the other method
 
   bool by_explicit(PlantState& state, double end) {
     if (!explicit_knows_) explicit_->refresh(state);
@@ -58,8 +58,8 @@ class SwitchingSteps final : public StepMethod {
   }
 
   std::unique_ptr<StepMethod> explicit_, implicit_;
-  /// Of an implicit step, in evaluations: its Jacobian, its stages, and linear algebra, measured on
-  /// a quarter car.
+  /// Cost of an implicit step in evaluations: Jacobian, stages and linear algebra, measured on a
+  /// quarter car.
   double implicit_cost_;
   double by_explicit_ = 0, by_implicit_ = 0;  ///< of the last stretch that each one took
   bool stiff_ = false, explicit_knows_ = false;

@@ -18,9 +18,10 @@ constexpr const char* kForms =
 
 double normal_share(double z) { return 0.5 * std::erfc(-z / std::sqrt(2.0)); }
 
-/// The standard normal value within low ... high below which the share u of those within lies.
+/// The value of a standard normal variable, cut off at low and high, below which it lies with
+/// probability u.
 double normal_between(double low, double high, double u) {
-  // From the nearer tail, where shares keep their digits.
+  // Computed from the lower tail, where probabilities keep their digits.
   if (low > 0) return -normal_between(-high, -low, 1 - u);
   const double share = normal_share(low) + u * (normal_share(high) - normal_share(low));
   return std::clamp(-std::sqrt(2.0) * boost::math::erfc_inv(2 * share), low, high);
@@ -64,9 +65,11 @@ void read_bell(ObjectReader& reader, const Value& centre, const ParameterRow& ro
   d.spread = read_spread(spread, row, d.centre);
   if (d.kind == Distribution::Kind::LogNormal) {
     if (!(d.centre > 0)) throw Error(centre.where(), "a log-normal median that is not above 0");
-    // The sd of the values themselves near the median, as the coefficient of variation has it.
+    // The stated sd is that of the values near the median: turn it into that of their logarithm.
     d.spread = std::sqrt(std::log1p(d.spread * d.spread / (d.centre * d.centre)));
   }
+
+  // Cut off at the row's bounds, or closer.
   d.from = row.lower;
   d.to = row.upper;
   if (const Value* from = reader.optional("from")) d.from = read_within(*from, row);
@@ -82,7 +85,7 @@ void require_wide(const Distribution& d, const Value& value, const ParameterRow&
                 "from less than to");
   if (d.kind == Distribution::Kind::Normal &&
       (d.from > d.centre + 6 * d.spread || d.to < d.centre - 6 * d.spread))
-    throw Error(value.where(), "is cut off where the distribution has nothing",
+    throw Error(value.where(), "is cut off where the distribution has no values",
                 "from and to within 6 sd of the mean");
   if (row.whole)
     throw Error(value.where(), std::string(row.name) + " is a whole number", "a list of values");
@@ -107,6 +110,7 @@ double Distribution::at(double u) const {
     case Kind::OneOf:
       break;
   }
+
   const auto count = static_cast<double>(values.size());
   return values[static_cast<std::size_t>(std::min(u * count, count - 1))];
 }
@@ -137,7 +141,9 @@ Distribution read_values(const Value& value, const ParameterRow& row) {
 Distribution read_distribution(const Value& value, const ParameterRow& row) {
   if (value.kind() == Value::Kind::Array) return read_values(value, row);
   if (value.kind() != Value::Kind::Object)
-    throw Error(value.where(), "tells not how " + std::string(row.name) + " varies", kForms);
+    throw Error(value.where(), "does not say how " + std::string(row.name) + " varies", kForms);
+
+  // The key names the kind; what is left over is unknown.
   ObjectReader reader(value, "a distribution");
   Distribution distribution;
   if (const Value* ends = reader.optional("uniform")) {
@@ -150,7 +156,7 @@ Distribution read_distribution(const Value& value, const ParameterRow& row) {
     read_bell(reader, *median, row, distribution);
   } else {
     reader.finish();
-    throw Error(value.where(), "tells not how " + std::string(row.name) + " varies", kForms);
+    throw Error(value.where(), "does not say how " + std::string(row.name) + " varies", kForms);
   }
   reader.finish();
   require_wide(distribution, value, row);

@@ -16,19 +16,19 @@ struct Distribution {
   double spread = 0;  ///< standard deviation; of a log-normal one that of the logarithm
   double from = -std::numeric_limits<double>::infinity();  ///< cut off below, and above
   double to = std::numeric_limits<double>::infinity();
-  std::vector<double> values;  ///< one of these, all alike
+  std::vector<double> values;  ///< OneOf: each with the same probability
 
-  /// The value below which the share u of all lies, 0 < u < 1.
+  /// The value below which a draw lies with probability u, 0 < u < 1.
   double at(double u) const;
-  std::string description(
-      const std::string& unit) const;  ///< "normal, 400 +- 40 kg, 300 ... 500 kg"
+  /// "normal, 400 +- 40 kg, within 300 ... 500 kg"
+  std::string description(const std::string& unit) const;
 };
 
-/// A list of values; {uniform: [a, b]}, {normal: mean, sd: s}, {lognormal: median, sd: s}: sd in
-/// the unit or, for these two, in % of the mean or median; from and to cut a distribution off,
-/// which lies within the row's bounds in any case. Throws Error that names file and line.
+/// Reads a list of values, {uniform: [a, b]}, {normal: mean, sd: s} or {lognormal: median, sd: s}.
+/// sd is in the row's unit or in % of the mean or median; from and to cut the distribution off, and
+/// the row's bounds do so in any case. Throws Error that names file and line.
 Distribution read_distribution(const Value& value, const ParameterRow& row);
-/// A list of values within the row's bounds.
+/// Reads a list of values within the row's bounds.
 Distribution read_values(const Value& value, const ParameterRow& row);
 
 }  // namespace dashpot

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "dashpot/suspension/domain_use.h"
+#include "dashpot/suspension/ride/domain_use.h"
 #include "dashpot/suspension/trace.h"
 
 namespace dashpot {
@@ -77,6 +77,8 @@ bool needs_trace(const Vehicle& vehicle) {
 
 RideMeasures measure_ride(const Vehicle& vehicle, const BatchResult& result, double discard) {
   if (result.diverged_at) return {.diverged_at = *result.diverged_at};
+
+  // The batch's own sums serve a vehicle with one tyre and without stops or limits of data.
   const Plant& plant = vehicle.set.plant;
   const BatchMeasures& m = result.measures;
   RideMeasures measures{
@@ -92,6 +94,8 @@ RideMeasures measure_ride(const Vehicle& vehicle, const BatchResult& result, dou
       .current = m.current,
       .outside_data = 0};
   if (!needs_trace(vehicle)) return measures;
+
+  // The rest comes from the trace.
   const Trace trace{.record = result.trace};
   const std::vector<double>& time = trace.record.time;
   const auto first =

@@ -9,8 +9,8 @@
 
 namespace dashpot {
 
-/// What a ride of a sweep comes to. Of several struts and tyres the worst one counts; not a number
-/// where the ride diverged.
+/// The figures of one ride of a sweep. Of several struts and tyres the worst one counts; all but
+/// the last are not a number where the ride diverged.
 struct RideMeasures {
   static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   double body_acceleration = kNone, weighted_acceleration = kNone, vibration_dose = kNone;
@@ -27,13 +27,13 @@ struct SweepMeasure {
 };
 /// In the order of RideMeasures; the last is when a ride diverged.
 std::span<const SweepMeasure> sweep_measures();
-/// Those that a ride is judged by: all but the last.
+/// The measures that a ride is judged by: all but the last.
 std::span<const SweepMeasure> judged_measures();
 
-/// Whether its measures take more than simulate_batch() sums up: stops, limits of data, several
-/// tyres.
+/// Whether the vehicle's measures need more than simulate_batch() sums up: it has stops, limits of
+/// data or several tyres.
 bool needs_trace(const Vehicle& vehicle);
-/// Of what happened from `discard` s on; with the trace where it is needed.
+/// Measures of the ride from `discard` s on. The result holds the trace where it is needed.
 RideMeasures measure_ride(const Vehicle& vehicle, const BatchResult& result, double discard);
 
 }  // namespace dashpot

@@ -1,9 +1,8 @@
 #pragma once
+#include <cstddef>
 #include <cstdint>
-#include <filesystem>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "dashpot/suspension/sweep/distribution.h"
@@ -11,7 +10,10 @@
 
 namespace dashpot {
 
-/// What varies, and what of a vehicle or its road it is.
+/// The name that stands first in the words of a part: "viscous" of "viscous,damping=1500".
+std::string first_word(const std::string& words);
+
+/// A quantity of a vehicle or its road that varies, and how it varies.
 struct SweepInput {
   enum class Target { Plant, Road, RoadClass, RoadSeed, Damper, Controller, Current, LagRate };
   std::string name;  ///< as the request has it: "sprung_mass", "road.speed", "mix1.crossover"
@@ -21,11 +23,12 @@ struct SweepInput {
   std::vector<std::string> dampers;  ///< names of those whose parameter it is
   std::string unit, meaning;
   Distribution distribution;
-  std::vector<std::string> words;  ///< what the values 0, 1 ... stand for: "B", "C"; empty: numbers
+  std::vector<std::string> words;  ///< names of the values 0, 1 ...: "B", "C"; empty: numbers
   bool on_grid = false;  ///< every value with every sample, instead of one drawn per sample
 
   std::string description() const;
-  bool is_told_to(const std::string& damper) const;
+  /// Whether the parameter is one of the damper of these words.
+  bool applies_to(const std::string& damper) const;
   /// The value as people read it.
   std::string text_of(double value) const;
 };
@@ -36,7 +39,7 @@ struct SweepController {
   VehicleWords words;
 };
 
-/// Vehicles on roads: a YAML file of data/sweeps or of the user's.
+/// Vehicles on roads, as a YAML file of data/sweeps or of the user's describes them. SI.
 struct SweepRequest {
   enum class Drawing { Sobol, Plain };
 
@@ -50,22 +53,13 @@ struct SweepRequest {
   std::uint64_t seed = 1;
   Drawing drawing = Drawing::Sobol;
   double duration = 30;  ///< s
-  double discard = 5;    ///< s at the begin, which measures leave out
-  double outside_limit =
-      0.05;  ///< share of the time outside a damper's data from which on a run is flagged
+  double discard = 5;    ///< s, at the start of a ride, which measures leave out
+  /// Share of the time outside a damper's data from which on a ride is flagged.
+  double outside_limit = 0.05;
   double relative_tolerance = 1e-6;
 
   std::size_t grid_size() const;  ///< vehicles per sample
   std::size_t vehicles() const { return samples * grid_size(); }
 };
-
-/// YAML as docs/sweep.md describes; `folder`: where files that it names are looked for. Throws
-/// Error that names file and line.
-SweepRequest parse_sweep(std::string_view text, const std::string& source,
-                         const std::filesystem::path& folder = {});
-SweepRequest load_sweep(const std::filesystem::path& path);
-/// One that comes with Dashpot, of data/sweeps.
-SweepRequest named_sweep(const std::string& name);
-std::vector<std::string> sweep_names();
 
 }  // namespace dashpot

@@ -39,11 +39,12 @@ SweepRider::SweepRider(const SweepRequest& request) : request_(request) {
   require_ground(*make_road(request, first), examples_.front().set.plant, request);
 }
 
-/// Dampers that are those of every vehicle are shared: their models are large, and their limits
-/// take work.
+/// Dampers that all vehicles have in common are shared: their models are large, and finding their
+/// limits takes time.
 Vehicle SweepRider::make(const Task& task, const SweepDraw& draw) const {
   const VehicleWords words = vehicle_words(request_, task.controller, draw);
   if (varies_dampers(request_, task.controller)) return make_vehicle(words);
+
   const Vehicle& example = examples_[task.controller];
   Vehicle vehicle{.set = load_plant(words),
                   .dampers = example.dampers,
@@ -53,6 +54,8 @@ Vehicle SweepRider::make(const Task& task, const SweepDraw& draw) const {
                   .controller_name = words.controller,
                   .limits = example.limits,
                   .sensors = words.sensors};
+
+  // The controller's own parameters may vary.
   if (example.controller)
     vehicle.controller =
         make_controller(words.controller, {vehicle.limits, vehicle.set.plant}, words.where);
@@ -61,7 +64,8 @@ Vehicle SweepRider::make(const Task& task, const SweepDraw& draw) const {
 
 std::vector<SweepStore::Ride> SweepRider::ride(const std::vector<Task>& tasks,
                                                const Monitor& monitor) const {
-  std::map<std::size_t, GroundPointer> grounds;  // a vehicle's controllers meet the same road
+  // Make the vehicles. All controllers of one meet the same road.
+  std::map<std::size_t, GroundPointer> grounds;
   std::vector<Vehicle> vehicles;
   vehicles.reserve(tasks.size());
   std::vector<BatchVehicle> batch;
@@ -72,12 +76,14 @@ std::vector<SweepStore::Ride> SweepRider::ride(const std::vector<Task>& tasks,
     const Vehicle& vehicle = vehicles.emplace_back(make(task, draw));
     batch.push_back({vehicle.on(*ground), vehicle.limits, vehicle.sensors});
   }
+
   BatchOptions options{.duration = request_.duration,
                        .discard = request_.discard,
                        .relative_tolerance = request_.relative_tolerance,
                        .monitor = {.stop = monitor.stop}};
   options.traces = std::ranges::any_of(vehicles, needs_trace);
-  // Traces take memory: some at a time. A result does not depend on its neighbours.
+
+  // Traces take memory, so few vehicles ride at a time where these are needed.
   const std::size_t most = options.traces ? kMostTraces : tasks.size();
   std::vector<SweepStore::Ride> rides;
   for (std::size_t first = 0; first < tasks.size(); first += most) {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "dashpot/suspension/sweep/inputs.h"
+#include "dashpot/suspension/sweep/draw.h"
 #include "dashpot/suspension/sweep/store.h"
 
 namespace dashpot {
@@ -12,15 +12,15 @@ namespace dashpot {
 /// made.
 class SweepRider {
  public:
-  /// Tries every controller with the first vehicle. Throws Error on words that nothing is known by
-  /// and on parts that do not fit together.
+  /// Tries every controller with the first vehicle. Throws Error at unknown words and at parts that
+  /// do not fit together. The request must outlive the rider.
   explicit SweepRider(const SweepRequest& request);
 
-  /// Which vehicle under which controller.
+  /// One ride: places of controller and vehicle in the request.
   struct Task {
     std::size_t controller, vehicle;
   };
-  /// One result per task. What comes of one does not depend on the others.
+  /// One result per task, which does not depend on the other tasks.
   std::vector<SweepStore::Ride> ride(const std::vector<Task>& tasks, const Monitor& monitor) const;
 
   const std::vector<std::string>& notes() const { return notes_; }

@@ -15,6 +15,8 @@ std::vector<double> ranks(const std::vector<double>& values) {
   std::vector<std::size_t> order(values.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::sort(order, [&](std::size_t a, std::size_t b) { return values[a] < values[b]; });
+
+  // Equal values stand side by side now.
   std::vector<double> result(values.size());
   for (std::size_t first = 0; first < order.size();) {
     std::size_t last = first;
@@ -49,8 +51,9 @@ Quantile quantile_of(std::span<const double> sorted, double share) {
   Quantile quantile{.value = sorted[below]};
   if (below + 1 < count)
     quantile.value += (place - static_cast<double>(below)) * (sorted[below + 1] - sorted[below]);
-  // Of `count` values, B lie below the quantile, B binomial: x_(j) is above it with P(B < j), rank
-  // j from 1.
+
+  // Of `count` values, B lie below the quantile, and B is binomial. The value of rank j, from 1,
+  // is above the quantile with the probability that B < j.
   const boost::math::binomial_distribution<> below_it(static_cast<double>(count), share);
   const double tail = 0.5 * (1 - kSweepConfidence);
   auto j = static_cast<std::size_t>(boost::math::quantile(below_it, tail)) + 1;
@@ -74,6 +77,7 @@ std::optional<SweepSpread> spread_of(std::vector<double> values) {
   SweepSpread spread{.count = sorted.size()};
   for (std::size_t q = 0; q < kSweepShares.size(); ++q)
     spread.quantiles[q] = quantile_of(sorted, kSweepShares[q]);
+
   const auto n = static_cast<double>(sorted.size());
   spread.mean = std::accumulate(sorted.begin(), sorted.end(), 0.0) / n;
   double squares = 0;
@@ -90,6 +94,7 @@ std::optional<double> rank_correlation(std::span<const double> x, std::span<cons
       a.push_back(x[k]);
       b.push_back(y[k]);
     }
+
   if (a.size() < kFewest) return std::nullopt;
   return correlation(ranks(a), ranks(b));
 }
@@ -116,7 +121,7 @@ std::vector<double> baseline_ratios(const Sweep& sweep, std::size_t controller,
                                     const SweepMeasure& measure) {
   std::vector<double> ratios = measure_values(sweep, controller, measure);
   const std::vector<double> base = measure_values(sweep, sweep.request.baseline, measure);
-  for (std::size_t k = 0; k < ratios.size(); ++k) ratios[k] /= base[k];  // 0 / 0: neither does
+  for (std::size_t k = 0; k < ratios.size(); ++k) ratios[k] /= base[k];  // 0 / 0 is no number
   return ratios;
 }
 

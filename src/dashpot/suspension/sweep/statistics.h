@@ -12,7 +12,7 @@ namespace dashpot {
 constexpr std::array kSweepShares{0.05, 0.25, 0.5, 0.75, 0.95};
 constexpr double kSweepConfidence = 0.95;
 
-/// The value below which a share of all vehicles lies, told from some of them.
+/// An estimate, from a sample, of the value below which a share of all vehicles lies.
 struct Quantile {
   double value = 0;
   /// Where it lies with kSweepConfidence, whatever the distribution: order statistics at binomial

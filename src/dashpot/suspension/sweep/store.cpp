@@ -1,10 +1,11 @@
 #include "dashpot/suspension/sweep/store.h"
 
 #include <algorithm>
-#include <limits>
-#include <map>
-
-#include <SQLiteCpp/SQLiteCpp.h>
+#include <bit>
+#include <charconv>
+#include <cstring>
+#include <optional>
+#include <string_view>
 
 #include "dashpot/base/file.h"
 #include "dashpot/base/text.h"
@@ -12,7 +13,10 @@
 namespace dashpot {
 namespace {
 
-/// A text, and what is in the files that it names.
+// A key: the vehicle's number in decimal digits, then a hash of its controller.
+constexpr std::size_t kVehicleDigits = 12, kControllerDigits = 16;
+
+/// A text, and the hashes of the files that it names.
 std::string with_files(const std::string& text) {
   std::string result = text;
   for (const std::string& part : split(text, ',')) {
@@ -51,7 +55,7 @@ std::string input_text(const SweepInput& input, const SweepRequest& request) {
   for (const double figure : {d.centre, d.spread, d.from, d.to}) text += ' ' + format_exact(figure);
   for (const double value : d.values) text += ' ' + format_exact(value);
   text += ' ' + join(input.words, " ");
-  // What is told to one controller's law tells that controller's rides from others.
+  // A parameter of one controller changes the rides of that controller only: its key belongs here.
   return input.target == SweepInput::Target::Controller
              ? text + key_of(request.controllers[input.controller].words)
              : text;
@@ -74,64 +78,75 @@ NamedTexts basis_of(const SweepRequest& request, const std::string& program) {
           {"tolerance", format_exact(request.relative_tolerance)}};
 }
 
-ResultKind kind() {
-  std::string tables = "CREATE TABLE ride (controller TEXT NOT NULL, vehicle INTEGER NOT NULL";
+/// With leading zeros, so that keys stand in the order of vehicles.
+std::string vehicle_text(std::size_t vehicle) {
+  std::string digits = std::to_string(vehicle);
+  digits.insert(0, kVehicleDigits - std::min(digits.size(), kVehicleDigits), '0');
+  return digits;
+}
+
+/// Nothing when the key does not open with a vehicle.
+std::optional<std::size_t> vehicle_in(std::string_view key) {
+  if (key.size() != kVehicleDigits + kControllerDigits) return std::nullopt;
+  std::size_t vehicle = 0;
+  const char* end = key.data() + kVehicleDigits;
+  const auto [stop, error] = std::from_chars(key.data(), end, vehicle);
+  return stop == end && error == std::errc() ? std::optional(vehicle) : std::nullopt;
+}
+
+// The bytes of a ride: its measures, in their order. They are read on the machine that wrote them,
+// or on another of its kind.
+static_assert(std::endian::native == std::endian::little);
+
+std::string bytes_of(const RideMeasures& measures) {
+  std::string bytes;
   for (const SweepMeasure& measure : sweep_measures())
-    tables += ", " + std::string(measure.name) + " REAL";
-  return {"sweep", 1, tables + ", PRIMARY KEY (vehicle, controller)) STRICT, WITHOUT ROWID;"};
+    bytes.append(reinterpret_cast<const char*>(&(measures.*measure.field)), sizeof(double));
+  return bytes;
+}
+
+/// Nothing when these bytes are no ride.
+std::optional<RideMeasures> measures_in(std::string_view bytes) {
+  if (bytes.size() != sweep_measures().size() * sizeof(double)) return std::nullopt;
+  RideMeasures measures;
+  for (const SweepMeasure& measure : sweep_measures()) {
+    std::memcpy(&(measures.*measure.field), bytes.data(), sizeof(double));
+    bytes.remove_prefix(sizeof(double));
+  }
+  return measures;
 }
 
 }  // namespace
 
 SweepStore::SweepStore(const std::filesystem::path& path, const SweepRequest& request,
                        const std::string& program)
-    : vehicles_(request.vehicles()), file_(path, kind(), basis_of(request, program)) {
+    : vehicles_(request.vehicles()), store_(path, kFormat, basis_of(request, program)) {
   for (const SweepController& controller : request.controllers)
-    keys_.push_back(key_of(controller.words));
+    keys_.push_back(sha256(key_of(controller.words)).substr(0, kControllerDigits));
 }
-
-void SweepStore::remove(const std::filesystem::path& path) { ResultFile::remove(path, kind()); }
 
 std::vector<SweepStore::Ride> SweepStore::load() const {
   std::vector<Ride> rides;
-  file_.with([&](SQLite::Database& database) {
-    SQLite::Statement select(database, "SELECT * FROM ride WHERE vehicle < ? ORDER BY vehicle");
-    select.bind(1, static_cast<std::int64_t>(vehicles_));
-    while (select.executeStep()) {
-      const std::string key = select.getColumn(0).getString();
-      Ride ride{.vehicle = static_cast<std::size_t>(select.getColumn(1).getInt64())};
-      int column = 2;
-      for (const SweepMeasure& measure : sweep_measures()) {
-        const SQLite::Column value =
-            select.getColumn(column++);  // SQLite keeps not-a-number as null
-        ride.measures.*measure.field =
-            value.isNull() ? std::numeric_limits<double>::quiet_NaN() : value.getDouble();
-      }
-      // Controllers of two names may be alike.
-      for (ride.controller = 0; ride.controller < keys_.size(); ++ride.controller)
-        if (keys_[ride.controller] == key) rides.push_back(ride);
-    }
-  });
+  store_.for_each(
+      [&](std::string_view key, std::string_view bytes) {
+        const std::optional<std::size_t> vehicle = vehicle_in(key);
+        const std::optional<RideMeasures> measures = measures_in(bytes);
+        if (!vehicle || !measures) return;
+
+        // Two controllers of different names may be the same: the ride is that of both.
+        for (std::size_t c = 0; c < keys_.size(); ++c)
+          if (key.ends_with(keys_[c])) rides.push_back({c, *vehicle, *measures});
+      },
+      vehicle_text(vehicles_));
   return rides;
 }
 
 void SweepStore::save(const std::vector<Ride>& rides) {
-  file_.with([&](SQLite::Database& database) {
-    std::string marks = "?, ?";
-    for (std::size_t k = 0; k < sweep_measures().size(); ++k) marks += ", ?";
-    SQLite::Transaction transaction(database);
-    SQLite::Statement insert(database, "INSERT OR IGNORE INTO ride VALUES (" + marks + ")");
-    for (const Ride& ride : rides) {
-      int column = 1;
-      insert.bind(column++, keys_[ride.controller]);
-      insert.bind(column++, static_cast<std::int64_t>(ride.vehicle));
-      for (const SweepMeasure& measure : sweep_measures())
-        insert.bind(column++, ride.measures.*measure.field);
-      insert.exec();
-      insert.reset();
-    }
-    transaction.commit();
-  });
+  std::vector<Store::Result> results;
+  for (const Ride& ride : rides)
+    results.push_back(
+        {vehicle_text(ride.vehicle) + keys_[ride.controller], bytes_of(ride.measures)});
+  store_.save(results);
 }
 
 }  // namespace dashpot

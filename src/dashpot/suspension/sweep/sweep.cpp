@@ -11,12 +11,13 @@
 namespace dashpot {
 namespace {
 
-constexpr std::size_t kBlock =
-    32;  // vehicles, under all controllers: lanes are full, a kill loses little
+// Vehicles that ride and are kept together, under all controllers: enough to fill the lanes, few
+// enough that a kill loses little.
+constexpr std::size_t kBlock = 32;
 
 using Tasks = std::vector<SweepRider::Task>;
 
-/// What is not there yet.
+/// The rides that are not there yet.
 std::vector<Tasks> blocks_of(const std::vector<std::vector<char>>& there) {
   std::vector<Tasks> blocks;
   const std::size_t vehicles = there.front().size();
@@ -55,8 +56,12 @@ Sweep sweep(const SweepRequest& request, SweepStore& store, const SweepOptions& 
   Sweep result{.request = request};
   const std::size_t vehicles = request.vehicles(), controllers = request.controllers.size();
   for (std::size_t k = 0; k < vehicles; ++k) result.vehicles.push_back(draw_vehicle(request, k));
+
+  // Whatever does not fit together is reported before anything rides.
   const SweepRider rider(request);
   result.notes = rider.notes();
+
+  // Take over the rides that are kept.
   result.rides.assign(controllers, std::vector<RideMeasures>(vehicles));
   std::vector<std::vector<char>> there(controllers, std::vector<char>(vehicles));
   for (const SweepStore::Ride& ride : store.load()) {
@@ -64,6 +69,8 @@ Sweep sweep(const SweepRequest& request, SweepStore& store, const SweepOptions& 
     there[ride.controller][ride.vehicle] = 1;
     ++result.kept;
   }
+
+  // Ride the others, block by block.
   const std::vector<Tasks> blocks = blocks_of(there);
   Tally tally(result, options.monitor);
   parallel_for(blocks.size(), options.threads, [&](std::size_t b) {
@@ -74,6 +81,7 @@ Sweep sweep(const SweepRequest& request, SweepStore& store, const SweepOptions& 
       result.rides[ride.controller][ride.vehicle] = ride.measures;
     tally.add(rides.size());
   });
+
   result.wall_seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return result;

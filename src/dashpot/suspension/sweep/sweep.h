@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "dashpot/monitor.h"
-#include "dashpot/suspension/sweep/inputs.h"
+#include "dashpot/suspension/sweep/draw.h"
 #include "dashpot/suspension/sweep/store.h"
 
 namespace dashpot {
@@ -26,9 +26,9 @@ struct Sweep {
   std::size_t ride_count() const { return vehicles.size() * rides.size(); }
 };
 
-/// Rides that are not in the store, in blocks that go into it as they end. The result is the same
-/// bit for bit for any number of threads and interruptions. Throws Error naming the vehicle that
-/// cannot be made, Interrupted where the monitor stops it.
+/// Drives the rides that are not in the store, in blocks that are kept as they end. The result is
+/// the same bit for bit for any number of threads and interruptions. Throws Error naming the
+/// vehicle that cannot be made, and Interrupted when the monitor stops it.
 Sweep sweep(const SweepRequest& request, SweepStore& store, const SweepOptions& options);
 
 }  // namespace dashpot

@@ -6,7 +6,7 @@
 
 namespace dashpot {
 
-/// What a family's learned part stands for.
+/// The share of the force that a family's learned part stands for.
 enum class FamilyTarget {
   Total,       ///< the whole force, as the family paper's authors' code has it
   YieldForce,  ///< F_Ty: what spring and viscous flow leave, as their paper has it
@@ -27,7 +27,8 @@ struct FamilyBaseline {
 
 /// F_eta of equations 13 and 14, as a force: 12 eta L A_p (A_p + A_g / 2) v / (A_g h^2), N.
 double viscous_force(const FamilyMember& member, double velocity) noexcept;
-/// Of a Bingham fluid between parallel plates: pressure times piston area at a speed >= 0, N.
+/// Force of a Bingham fluid between parallel plates: pressure times piston area, N, at a
+/// speed >= 0.
 double plate_flow_force(const FamilyMember& member, double speed, double yield_stress) noexcept;
 
 }  // namespace dashpot

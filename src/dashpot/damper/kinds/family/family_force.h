@@ -28,7 +28,7 @@ class FamilyForce {
   /// The states' derivatives by time.
   virtual void flow(const DamperInput&, std::span<const double>, std::span<double>) const noexcept {
   }
-  /// As DamperModel has them.
+  /// These four do what those of DamperModel do.
   virtual bool is_ensemble() const noexcept { return false; }
   virtual double spread(const FamilyMember&, const DamperInput&) const noexcept { return 0; }
   virtual Value to_json() const = 0;

@@ -123,6 +123,7 @@ std::unique_ptr<FamilyModel> family_model_from_json(const Value& value) {
   family->force = family_force_from_json(reader.required("force"));
   const double offset = reader.number("offset");
   reader.finish();
+
   if (!(family->build_spread >= 0))
     throw Error(value.where(), "build_spread is negative", "0 or more");
   return std::make_unique<FamilyModel>(std::move(family), std::move(member), offset);

@@ -29,10 +29,11 @@ void FamilyModel::advance(const DamperInput& from, const DamperInput& to, double
 }
 
 double FamilyModel::force(const DamperInput& input, std::span<const double> state) const noexcept {
-  return strength_ * told(input, state) + offset_;
+  return strength_ * nominal_force(input, state) + offset_;
 }
 
-double FamilyModel::told(const DamperInput& input, std::span<const double> state) const noexcept {
+double FamilyModel::nominal_force(const DamperInput& input,
+                                  std::span<const double> state) const noexcept {
   return family_->baseline.force(member_, input) + family_->force->force(member_, input, state);
 }
 
@@ -47,7 +48,7 @@ double FamilyModel::flow(const DamperInput& input, std::span<const double> state
 }
 
 double FamilyModel::spread(const DamperInput& input, std::span<const double> state) const noexcept {
-  return std::hypot(family_->build_spread * told(input, state),
+  return std::hypot(family_->build_spread * nominal_force(input, state),
                     strength_ * family_->force->spread(member_, input));
 }
 

@@ -8,15 +8,15 @@
 
 namespace dashpot {
 
-/// What happens where a member lies outside the numbers that its family was fitted on.
+/// Whether a member outside the numbers that its family was fitted on is marked or refused.
 enum class OutsideFamily { Mark, Refuse };
 
-/// What the members of a family share.
+/// The part of a model that all members of a family share.
 struct Family {
   struct Range {
     double FamilyMember::* field;
     double min = 0, max = 0;
-    /// By how much a value lies outside; negative within, 0 at an end but for rounding.
+    /// Distance by which a value lies outside; negative within, 0 at an end but for rounding.
     double excess(double value) const noexcept;
   };
   std::string name;
@@ -49,7 +49,7 @@ class FamilyModel final : public DamperModel {
   bool flows() const noexcept override { return true; }
   double flow(const DamperInput& input, std::span<const double> state,
               std::span<double> rates) const noexcept override;
-  /// By how much a new damper of this design differs from their mean, and networks from theirs.
+  /// The spread is that of new dampers of this design, and of the networks about their mean.
   bool is_ensemble() const noexcept override;
   double spread(const DamperInput& input, std::span<const double> state) const noexcept override;
   std::unique_ptr<DamperModel> with_offset(double newton) const override;
@@ -57,8 +57,8 @@ class FamilyModel final : public DamperModel {
   /// Throws Error where such a member is outside the family, and that is to be refused.
   std::shared_ptr<const DamperModel> specialised(const Conditions& conditions) const override;
   std::vector<std::string> extrapolations() const override;
-  /// How far this damper lies outside of the family, in shares of its ranges; within negative: how
-  /// far the nearest end is, those left out at which it lies.
+  /// The distance by which this damper lies outside of the family, in shares of its ranges; within
+  /// negative: how far the nearest end is, those left out at which it lies.
   double extrapolation() const noexcept;
 
   const Family& family() const { return *family_; }
@@ -70,8 +70,8 @@ class FamilyModel final : public DamperModel {
   std::unique_ptr<FamilyModel> with_outside(OutsideFamily outside) const;
 
  private:
-  /// Of the mean build.
-  double told(const DamperInput& input, std::span<const double> state) const noexcept;
+  /// N, of the mean build, before the offset.
+  double nominal_force(const DamperInput& input, std::span<const double> state) const noexcept;
 
   std::shared_ptr<const Family> family_;
   FamilyMember member_;

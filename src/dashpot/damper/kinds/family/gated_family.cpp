@@ -35,11 +35,15 @@ void require_sound(const FamilyGates& gates, const std::string& where) {
   };
   if (!gates.bank.current_rates.empty())
     throw Error(where, "has current rates", "the field is not lagged");
+
+  // Rates, speeds and scales are divided by.
   if (!all_positive(rates)) throw Error(where, "a rate is not a positive number");
   if (!all_positive(gates.soft_speeds)) throw Error(where, "a soft speed is not a positive number");
   if (!is_positive(gates.half_current)) throw Error(where, "half_current is not a positive number");
   if (!all_positive(gates.scale) || !all_positive(gates.term_scale))
     throw Error(where, "a scale is not a positive number");
+
+  // The lists must be as long as the terms are many.
   if (gates.term_count() > FamilyGates::kMaxTerms)
     throw Error(where, "has " + std::to_string(gates.term_count()) + " terms",
                 "at most " + std::to_string(FamilyGates::kMaxTerms));

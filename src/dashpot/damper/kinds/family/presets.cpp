@@ -8,7 +8,7 @@ namespace {
 constexpr std::string_view kFamilyPaper =
     "Duchanoy et al. 2019, the family paper: h3x15 of rectified linear units, eight inputs";
 
-/// What the paper's networks share: their source, training, inputs and layers.
+/// Adds the source, training, inputs and layers that the paper's networks share.
 FamilyPreset paper_network(FamilyPreset preset) {
   preset.remarks =
       "Static, so that displacement stands for the memory. Inputs standardised and trained by "
@@ -40,11 +40,13 @@ std::array<FamilyPreset, 4> make_presets() {
            "known.",
        .path_states = 5,
        .velocity_lags = 5},
+
       paper_network({.name = "family_h3x15",
                      .title = "The family paper's network, F_Ty",
                      .equation = "F = k x + F_eta(v) + net(A_p, A_g, h, L, eta, T_y, v, x)",
                      .remarks = "the authors' notebook standardises nothing.",
                      .target = FamilyTarget::YieldForce}),
+
       paper_network(
           {.name = "family_h3x15_residual",
            .title = "The family paper's network, beside the plate flow",
@@ -52,6 +54,7 @@ std::array<FamilyPreset, 4> make_presets() {
                        "v, x)",
            .remarks = "the share of the plate flow's force is fitted first.",
            .target = FamilyTarget::Residual}),
+
       paper_network({.name = "family_h3x15_total",
                      .title = "The family paper's network, total force",
                      .equation = "F = net(A_p, A_g, h, L, eta, T_y, v, x)",

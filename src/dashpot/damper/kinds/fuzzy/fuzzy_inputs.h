@@ -7,7 +7,7 @@
 
 namespace dashpot {
 
-/// What a fuzzy model sees: a choice of "displacement", "velocity", "velocity_change" and
+/// The inputs of a fuzzy model: a choice of "displacement", "velocity", "velocity_change" and
 /// "current". velocity_change is v - v_past with velocity_lag v_past' = v - v_past: it stands for
 /// the past velocity of the literature, whatever the sample time. The current lags likewise behind
 /// its command, by coil_lag.

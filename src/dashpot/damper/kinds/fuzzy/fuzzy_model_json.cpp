@@ -89,6 +89,7 @@ Value FuzzyModel::to_json() const {
   for (const Membership& m : sugeno_.memberships) memberships.push_back(dashpot::to_json(m));
   for (const std::vector<std::size_t>& rule : sugeno_.rules)
     rules.push_back(Value::array(std::vector<double>(rule.begin(), rule.end())));
+
   return Value::object({{"name", name_},
                         {"inputs", std::move(inputs)},
                         {"velocity_lag", inputs_.lags().velocity},
@@ -108,9 +109,13 @@ std::unique_ptr<FuzzyModel> fuzzy_model_from_json(const Value& value) {
   std::vector<std::string> names;
   for (const Value& item : reader.required("inputs").items())
     sugeno.inputs.push_back(read_input(item, names));
+
+  // The inputs' lags and the sets over them.
   const FuzzyInputs::Lags lags{reader.number("velocity_lag"), reader.number("coil_lag")};
   for (const Value& item : reader.required("memberships").items())
     sugeno.memberships.push_back(read_membership(item));
+
+  // The rules, and the force of each.
   for (const Value& item : reader.required("rules").items()) {
     sugeno.rules.emplace_back();
     for (const Value& index : item.items()) sugeno.rules.back().push_back(read_index(index));

@@ -26,6 +26,7 @@ std::span<const FuzzyPreset> fuzzy_presets() {
        .shape = Membership::Shape::Bell,
        .inputs = {"velocity", "velocity_change", "current"},
        .sets = {5, 2, 1}},
+
       {.name = "takagi_sugeno",
        .title = "Takagi-Sugeno, static",
        .equation =

@@ -5,7 +5,7 @@
 
 namespace dashpot {
 
-/// How far a value belongs to a fuzzy set on one (standardised) input, 0 ... 1.
+/// The degree to which a value belongs to a fuzzy set on one (standardised) input, 0 ... 1.
 struct Membership {
   enum class Shape {
     Bell,      ///< 1 / (1 + |(x - centre) / width|^(2 slope))

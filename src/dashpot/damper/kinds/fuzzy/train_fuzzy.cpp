@@ -84,6 +84,8 @@ class ReducedProblem {
     const bool grouped = !samples.group.empty();
     std::vector<std::vector<std::size_t>> members(grouped ? samples.groups : 1);
     for (std::size_t i = 0; i < count_; ++i) members[grouped ? samples.group[i] : 0].push_back(i);
+
+    // Lay the samples out group by group, standardised.
     const std::size_t inputs = model.inputs.size();
     for (const std::vector<std::size_t>& group : members) {
       const double size = static_cast<double>(group.size());
@@ -108,6 +110,8 @@ class ReducedProblem {
       fill_regressors(sample, row);
       row[n] = targets_[sample];
     });
+
+    // Solve the regularised normal equations for the consequents.
     const MatrixXd matrix = gram.matrix();
     const MatrixXd normal =
         matrix.topLeftCorner(n, n) * weight() + options_.ridge * MatrixXd::Identity(n, n);
@@ -115,9 +119,13 @@ class ReducedProblem {
     Projection result;
     result.consequents = normal.ldlt().solve(right);
     const VectorXd& q = result.consequents;
+
+    // The cost that is left, and the mean square of the residuals alone.
     const double squares = matrix(n, n) * weight() - 2 * q.dot(right) + q.dot(normal * q);
     result.cost = squares + options_.premise_decay * (unknowns - start_).squaredNorm();
     result.mean_square = squares - options_.ridge * q.squaredNorm();
+
+    // Each group's offset follows from what its residuals have in common.
     for (std::size_t g = 0; g < groups_.size(); ++g) {
       const double offset =
           groups_[g].centring * (gram.group_sums()[g][n] - q.dot(gram.group_sums()[g].head(n)));
@@ -140,6 +148,8 @@ class ReducedProblem {
       fill_derivatives(sample, at.consequents, output, row.segment(n, m));
       row[n + m] = output - targets_[sample];
     });
+
+    // Eliminate the consequents, which follow the premises.
     const MatrixXd all = gram.matrix() * weight();
     const MatrixXd normal = all.topLeftCorner(n, n) + options_.ridge * MatrixXd::Identity(n, n);
     const MatrixXd mixed = all.block(0, n, n, m);
@@ -161,6 +171,8 @@ class ReducedProblem {
     Gram gram(columns);
     MatrixXd block(columns,
                    kBlock);  // a sample per column, so that a sample is filled in one place
+
+    // Sum up block by block, so that one product serves many samples.
     std::size_t sample = 0;
     for (const Group& group : groups_) {
       for (std::size_t left = group.size; left > 0;) {
@@ -174,7 +186,7 @@ class ReducedProblem {
     return gram;
   }
 
-  /// What the consequents are multiplied by; leaves values_ and shares_ of the sample.
+  /// Fills in the factors of the consequents; leaves values_ and shares_ of the sample.
   template <class Row>
   void fill_regressors(std::size_t sample, Row&& row) {
     const std::size_t inputs = model_.inputs.size();
@@ -196,6 +208,8 @@ class ReducedProblem {
       const double rule = std::inner_product(linear, linear + inputs, q, q[inputs]);
       for (const std::size_t m : model_.rules[r]) pull[m] += shares_[r] * (rule - output);
     }
+
+    // Spread each membership's pull over its parameters.
     Index k = 0;
     for (std::size_t m = 0; m < model_.memberships.size(); ++m) {
       const Membership& membership = model_.memberships[m];
@@ -231,6 +245,8 @@ class Search {
     damped.diagonal() *= 1 + damping_;
     const VectorXd step = -damped.ldlt().solve(gradient_), trial = x_ + step;
     const double predicted = -2 * step.dot(gradient_) - step.dot(matrix_ * step);
+
+    // Compare the gain with the one that the linear model promises.
     Projection projection = problem_.project(trial);
     const double gain = (at_.cost - projection.cost) / predicted;
     if (!(gain > 0)) {
@@ -238,6 +254,8 @@ class Search {
       growth_ *= 2;
       return;
     }
+
+    // Accept the step, and trust the model more or less from here on.
     damping_ *= gain > 0.75 ? 0.2 : gain > 0.25 ? 1 : 2;
     growth_ = 2;
     x_ = trial;
@@ -275,6 +293,8 @@ TrainReport train(Sugeno& model, const TrainingSamples& samples, const FuzzyTrai
   Search search(problem);
   TrainReport report;
   report.converged = options.max_iterations == 0;
+
+  // Step until the cost hardly falls any more, or nothing lowers it.
   std::vector<double> costs{search.projection().cost};
   while (!report.converged && report.iterations < options.max_iterations) {
     if (options.on_iteration) options.on_iteration(report.iterations);
@@ -285,6 +305,8 @@ TrainReport train(Sugeno& model, const TrainingSamples& samples, const FuzzyTrai
                                                     options.tolerance * costs.back();
     report.converged = slow || search.stuck();
   }
+
+  // Take over what was found, in the units of the data.
   const Projection& found = search.projection();
   set_unknowns(model, search.unknowns());
   model.consequents.assign(found.consequents.begin(), found.consequents.end());

@@ -6,7 +6,7 @@
 
 namespace dashpot {
 
-/// All prices are per sample, in standardised units: a residual of the size of the data's scale
+/// All penalties are per sample, in standardised units: a residual of the size of the data's scale
 /// costs 1.
 struct FuzzyTrainOptions {
   int max_iterations = 100;  ///< 0: the consequents alone, the memberships stay

@@ -23,7 +23,7 @@ struct HybridSource {
     return force_place() + 1 + bank.size() - bank.current_rates.size();
   }
   std::size_t currents() const noexcept { return 1 + bank.current_rates.size(); }
-  /// Where the law's force stands among the signals.
+  /// Index of the law's force among the signals.
   std::size_t force_place() const noexcept {
     return 1 + law.law().needs_displacement + law.law().states.size();
   }

@@ -82,6 +82,8 @@ void find_ranges(HysteresisNetwork& found, const std::vector<const FreeRunRecord
     s.low = kInfinity;
     s.high = -kInfinity;
   }
+
+  // Take in every sample of every record, in free run.
   for (const FreeRunRecord* record : records)
     run_bank(found.bank, *record, 1, false,
              [&](std::size_t, const std::vector<double>& raw, const std::vector<double>&) {
@@ -98,10 +100,12 @@ FreeRunSearchResult run_search(HysteresisNetwork model,
                                const HysteresisNetworkTrainOptions& options, int max_iterations) {
   FreeRunProblem problem;
   problem.start = unknowns_of(model);
-  problem.prices.assign(problem.start.size(), options.weight_decay);
-  std::fill_n(problem.prices.begin(), model.bank.size(), options.rate_decay);
+  problem.decay.assign(problem.start.size(), options.weight_decay);
+  std::fill_n(problem.decay.begin(), model.bank.size(), options.rate_decay);
   problem.anchors.assign(problem.start.size(), 0.0);  // weights from 0, rates from their start
   std::copy_n(problem.start.begin(), model.bank.size(), problem.anchors.begin());
+
+  // Each evaluation runs all records with the unknowns at hand.
   problem.linearise = [&](const std::vector<double>& x, RowSink& sink) {
     set_unknowns(model, x);
     linearise(model, records, options.stride, sink);

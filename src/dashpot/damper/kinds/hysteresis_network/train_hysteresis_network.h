@@ -34,7 +34,7 @@ FreeRunCost hysteresis_network_cost(const HysteresisNetwork& model,
                                     const std::vector<const FreeRunRecord*>& records,
                                     const HysteresisNetworkTrainOptions& options);
 
-/// What a model leaves of a record's scored samples, N^2, their mean taken out first when `offset`.
+/// Sum of a record's squared errors over its scored samples, N^2, less their mean when `offset`.
 double squares_left(const HysteresisNetwork& model, const FreeRunRecord& record, bool offset);
 
 }  // namespace dashpot

@@ -21,6 +21,8 @@ void require_shape(const Law& law, const Dependence& parameters) {
   if (parameters.forms.size() != count || parameters.coefficients.size() != count)
     throw Error(where, "got " + std::to_string(parameters.coefficients.size()),
                 "the law has " + std::to_string(count));
+
+  // Each form has so many coefficients, and the coil current stands for itself.
   for (std::size_t k = 0; k < count; ++k)
     if (parameters.coefficients[k].size() != coefficient_count(parameters.forms[k]))
       throw Error(where + ", " + std::string(law.params[k].name),
@@ -43,6 +45,8 @@ LawModel::LawModel(const Law& law, Dependence parameters, DriveUnit drive_unit, 
   assert(drive_unit_ != DriveUnit::None);
   if (!(lag_rate_ >= 0 && std::isfinite(lag_rate_)))
     throw Error("lag_rate", "is " + format_number(lag_rate_), "write a rate in 1/s, 0 for none");
+
+  // Sort the parameters by how they are evaluated: polynomials side by side, the others singly.
   for (std::size_t k = 0; k < law.params.size(); ++k) {
     follows_current_ |= parameters_.forms[k] != Form::Constant;
     if (!is_polynomial(parameters_.forms[k])) {
@@ -97,6 +101,8 @@ std::size_t LawModel::run(std::span<const DamperInput> inputs, Steps steps, std:
                           Response to) const noexcept {
   if (!law_->forces || lag_rate_ > 0) return DamperModel::run(inputs, steps, state, to);
   if (to.spread) std::fill_n(to.spread, inputs.size(), 0);
+
+  // Take samples of one current together, as their parameters are the same.
   constexpr std::size_t kBlock = 256;  // of forces that the cache still holds when they are checked
   Params p;
   for (std::size_t first = 0, end = 0; first < inputs.size(); first = end) {
@@ -142,6 +148,8 @@ void require_bounds(const LawModel& model, double current, const std::string& wh
       slack += std::abs(coefficient) * power;
       if (is_polynomial(model.parameters().forms[k])) power *= std::abs(current);
     }
+
+    // Refuse what lies outside even so.
     if (p[k] >= info.lower - slack && p[k] <= info.upper + slack) continue;
     throw Error(
         where,

@@ -25,6 +25,8 @@ void read_parameter(const Value& value, const ParamInfo& info, Dependence& into)
   reader.finish();
   into.forms.push_back(parse_form(form.as_string(), form.where()));
   into.coefficients.push_back(numbers.as_numbers());
+
+  // Convert to SI, and check that the form has so many.
   for (std::size_t k = 0; k < into.coefficients.back().size(); ++k)
     if (is_polynomial(into.forms.back()) ||
         k < 2)  // the third of an exponential is a rate per ampere

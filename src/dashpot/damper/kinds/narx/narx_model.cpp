@@ -41,6 +41,7 @@ NarxModel::NarxModel(std::string name, Regressors regressors, std::vector<Mlp> m
       offset_(offset),
       force_size_(regressors_.feedback_depth() + 1),
       needs_displacement_(regressors_.needs_displacement()) {
+  // Check that the parts fit together.
   const std::string& place = where.empty() ? name_ : where;
   require_usable(regressors_, place);
   if (members_.empty()) throw Error(place, "has no members", "a network at least");
@@ -48,6 +49,8 @@ NarxModel::NarxModel(std::string name, Regressors regressors, std::vector<Mlp> m
     require_shape(member, regressors_.count(), place);
     evaluators_.emplace_back(member);
   }
+
+  // Lay out the state: the past of each input, then that of the forces.
   for (const Regressors::Input& input : regressors_.inputs) {
     inputs_.push_back({input_field(input.name, place), &input.lags, forces_at_, input.depth() + 1});
     forces_at_ += inputs_.back().size;
@@ -84,6 +87,8 @@ void NarxModel::advance(const DamperInput& from, const DamperInput& to, double d
     done = dt - kMostSteps * step;
     pending = 0;
   }
+
+  // Tick at every instant of the grid that the step passes.
   while (pending + (dt - done) >= step * (1 - kSlack)) {
     done += step - pending;
     tick(std::abs(dt - done) <= kSlack * step ? to : between(from, to, done / dt), state);
@@ -155,6 +160,8 @@ bool NarxModel::can_diverge() const {
     };
     if (is_bounded(last)) return false;
     if (last == 1 || !is_bounded(last - 1)) return true;
+
+    // Bounded neurons hold the force as far as the weights behind them reach.
     double most = 0;  // neurons at 1 or -1, each as its weight wants it
     for (auto weight = mlp.parameters.end() - static_cast<std::ptrdiff_t>(neurons + 1);
          weight != mlp.parameters.end(); ++weight)

@@ -28,6 +28,7 @@ std::span<const NarxPreset> narx_presets() {
        .hidden = {10},
        .delays = 2,
        .feedback = 2},
+
       {.name = "narx_two_sensors",
        .title = "Recurrent network (NARX), two sensors",
        .equation = "F(t) = w2 . tanh(W1 [x(t), v(t), i(t), F(t-T)] + b1) + b2",

@@ -6,8 +6,8 @@
 
 namespace dashpot {
 
-/// What a network reads: present and past values of some inputs, and its own past forces. Lags
-/// count steps of `sample_time`.
+/// The signals that a network reads: present and past values of some inputs, and its own past
+/// forces. Lags count steps of `sample_time`.
 struct Regressors {
   static constexpr std::size_t kMostLag = 1000;
 

@@ -63,6 +63,8 @@ class FreeRunCost {
       for (std::size_t row = window.first; row < window.last; ++row) {
         own[row] = run(row, window.first, own);
         if (columns) carry(row, window.first, own[row], count, slopes);
+
+        // Score every stride-th row.
         if (row % stride_ != 0) continue;
         const std::size_t at = row / stride_;
         residuals[at] = scored_[at] ? own[row] - targets_[row] : 0;
@@ -84,6 +86,8 @@ class FreeRunCost {
     for (const Window& window : windows_) {
       for (std::size_t row = window.first; row < window.last; ++row)
         own[row] = run(row, window.first, own);
+
+      // Back through time: a force pulls on those that it was made from.
       for (std::size_t row = window.last; row-- > window.first;) {
         if (row % stride_ == 0) pull[row] += residuals[row / stride_];
         if (pull[row] == 0 || std::abs(own[row]) >= NarxModel::kRange) continue;
@@ -179,8 +183,8 @@ class FreeRunCost {
   std::vector<bool> scored_;
 };
 
-/// The residuals of the whole cost: centred ones, then the weights at their price; their squares'
-/// sum is it.
+/// The residuals of the whole cost: centred ones, then the weights times their decay; their
+/// squares' sum is it.
 class Problem {
  public:
   Problem(const Mlp& mlp, const NarxSamples& samples, const NarxTrainOptions& options)
@@ -227,7 +231,7 @@ class Problem {
   double share_, price_;
 };
 
-/// Of the residuals alone, raw units.
+/// Root mean square of the residuals alone, N.
 double rmse_of(Problem& problem, const Mlp& mlp) {
   std::vector<double> r(problem.residuals(mlp.parameters.size()));
   problem.evaluate(mlp.parameters, r, {});
@@ -250,10 +254,14 @@ TrainReport train_free_run(Mlp& mlp, const NarxSamples& samples, const NarxTrain
           [&](std::span<const double> w, std::span<double> r, std::span<double* const> columns) {
             return problem.evaluate(w, r, columns);
           }};
+
+  // Weights have no bounds; the search stops when the cost hardly falls.
   LeastSquaresOptions how{.max_iterations = options.max_iterations,
                           .function_tolerance = options.tolerance,
                           .threads = 1};
   if (options.on_iteration) how.on_iteration = [&](int, double) { options.on_iteration(); };
+
+  // Keep what was found, unless it is no number.
   const LeastSquaresReport found = solve(squares, mlp.parameters, how);
   if (std::isfinite(found.cost)) mlp.parameters = found.x;
   return {
@@ -269,6 +277,8 @@ TrainReport train_through_time(Mlp& mlp, const NarxSamples& samples,
     how.on_iteration = [&](int, double, std::span<const double>) {
       return options.on_iteration(), true;
     };
+
+  // The gradient comes back through time, once per evaluation.
   const MinimiseReport found =
       minimise([&](std::span<const double> w, double& value,
                    std::span<double> gradient) { return problem.gradient(w, value, gradient); },

@@ -61,6 +61,8 @@ std::unique_ptr<DamperModel> NetworkModel::with_offset(double newton) const {
 /// One network stands in the model itself, several in a list.
 Value NetworkModel::to_json() const {
   Value value = Value::object({{"name", name_}, {"inputs", Value::array(inputs_)}});
+
+  // One network stands in the model itself, several in a list of members.
   if (members_.size() == 1) {
     add_mlp(value, members_.front());
   } else {
@@ -84,6 +86,8 @@ std::unique_ptr<NetworkModel> network_model_from_json(const Value& value) {
     input_field(item.as_string(), item.where());
     inputs.push_back(item.as_string());
   }
+
+  // One network stands in the model itself, several in a list of members.
   std::vector<Mlp> networks;
   if (const Value* members = reader.optional("members")) {
     for (const Value& item : members->items()) {
@@ -97,6 +101,7 @@ std::unique_ptr<NetworkModel> network_model_from_json(const Value& value) {
     networks.push_back(read_mlp(reader));
     require_shape(networks.back(), inputs.size(), value.where());
   }
+
   const double offset = reader.number("offset");
   reader.finish();
   return std::make_unique<NetworkModel>(std::move(name), std::move(inputs), std::move(networks),

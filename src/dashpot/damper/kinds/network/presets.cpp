@@ -18,6 +18,7 @@ std::span<const NetworkPreset> network_presets() {
                   "is not stated in the source; tanh with a linear output is assumed.",
        .inputs = {"velocity", "current"},
        .hidden = {10}},
+
       {.name = "mlp_two_sensors",
        .title = "Static network, two sensors",
        .equation = "F = w2 . tanh(W1 [x, v, i] + b1) + b2",

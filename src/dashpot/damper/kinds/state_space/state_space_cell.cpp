@@ -39,7 +39,7 @@ struct StateSpaceCell::Point {
   std::array<double, kMaxInputs> inputs;        ///< x, y, v, u, 1
   std::array<double, kMaxFeatures> phi;         ///< 1, x, u, neurons
   std::array<double, kMaxMotions> speed, bend;  ///< w; tanh(G phi / bend)
-  /// Of a state's new value by its old one, by w, by ln r.
+  /// Derivatives of a state's new value by its old one, by w, by ln r.
   std::array<double, kMaxMotions> by_state, by_speed, by_rate;
 };
 
@@ -158,6 +158,8 @@ void StateSpaceCell::advance(const DamperInput& from, const DamperInput& to, dou
   const double steps = std::clamp(std::ceil(dt / model_step * (1 - 1e-9)), 1.0, most),
                h = dt / steps;
   const auto between = [&](double a, double b, double share) { return a + (b - a) * share; };
+
+  // Currents and velocity are linear over dt; the cell sees their means over each of its steps.
   const std::span<double> lagged = state.subspan(motions(), currents());
   std::array<double, kMaxCurrents> middle, middle_slopes{};
   Point at;
@@ -174,6 +176,8 @@ void StateSpaceCell::advance(const DamperInput& from, const DamperInput& to, dou
       middle[m] += lagged[m] / 2;
       if (slope) middle_slopes[m] += *slope / 2;
     }
+
+    // Then the states of the motion, at the velocity of the middle.
     const double velocity = between(from.velocity, to.velocity, (s + 0.5) / steps) / velocity_scale;
     look(velocity, middle.data(), state.data(), at);
     step(h, at, state.data());
@@ -203,6 +207,8 @@ void StateSpaceCell::rest(const DamperInput& input, std::span<double> state,
   std::fill_n(state.begin(), motions(), 0.0);
   std::fill_n(state.begin() + static_cast<std::ptrdiff_t>(motions()), currents(),
               (input.current - current_mean) / current_scale);
+
+  // Standing still, let the states settle in ever longer steps.
   const std::array<double, kMaxCurrents> no_slopes{};
   Point at;
   double h = model_step;

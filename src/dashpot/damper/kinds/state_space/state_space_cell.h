@@ -67,7 +67,7 @@ struct StateSpaceCell {
   void flow(const DamperInput& input, std::span<const double> state,
             std::span<double> rates) const noexcept;
 
-  /// What a network reads: v m/s, x, v - y, u (standardised but for v).
+  /// Writes the signals that a network reads: v m/s, x, v - y, u (standardised but for v).
   std::size_t signal_count() const noexcept { return 1 + size(); }
   void read(const DamperInput& input, std::span<const double> state,
             double* signals) const noexcept;

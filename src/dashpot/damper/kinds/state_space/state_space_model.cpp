@@ -23,11 +23,15 @@ void require_sound(const StateSpaceCell& cell, const std::string& where) {
   require_most(cell.currents(), 1, StateSpaceCell::kMaxCurrents, "current rates", where);
   for (const std::vector<double>* rates : {&cell.path_rates, &cell.lag_rates, &cell.current_rates})
     for (const double rate : *rates) require_positive(rate, "a rate", where);
+
+  // Scales are divided by, and ranges have a low and a high end.
   require_positive(cell.velocity_scale, "the scale of the velocity", where);
   require_positive(cell.current_scale, "the scale of the current", where);
   require_positive(cell.model_step, "the model step", where);
   if (!(cell.velocity_low <= cell.velocity_high) || !(cell.current_low <= cell.current_high))
     throw Error(where, "a range does not go upwards");
+
+  // The weights must be as many as states and neurons need.
   require_most(cell.hidden(), 0, StateSpaceCell::kMaxHidden, "neurons", where);
   if (cell.neurons.size() % cell.neuron_stride() != 0)
     throw Error(where,

@@ -39,6 +39,8 @@ StateSpaceCell read_cell(const Value& value) {
   cell.current_mean = reader.number("current_mean");
   cell.current_scale = reader.number("current_scale");
   read_range(reader, "current_range", cell.current_low, cell.current_high);
+
+  // The weights, and the longest step.
   cell.neurons = reader.required("neurons").as_numbers();
   cell.feedback = reader.required("feedback").as_numbers();
   cell.model_step = reader.number("model_step");

@@ -44,6 +44,8 @@ void encode(const StateSpaceCell& cell, const double* weights, const Window& win
     const double sum =
         std::inner_product(window.features.begin(), window.features.end(), weights, 0.0);
     state[k] = is_path ? std::tanh(sum) : sum;
+
+    // The slopes by this state's own weights.
     if (!slopes) continue;
     const double slope = is_path ? 1 - state[k] * state[k] : 1;
     double* row = slopes->motion(k) + cell.parameter_count() + k * count;
@@ -63,6 +65,8 @@ void run_cell(const StateSpaceCell& cell, const double* encoder, const Window& w
     cell.rest(record.inputs.front(), state, slopes);
   else
     encode(cell, encoder, window, state, slopes);
+
+  // Run freely, and hand over the signals of each scored sample.
   for (std::size_t k = window.begin; k < window.end; ++k) {
     if (k > window.begin)
       cell.advance(record.inputs[k - 1], record.inputs[k], record.time[k] - record.time[k - 1],
@@ -101,6 +105,8 @@ class Windows {
     const std::size_t past = (kMoments - 1) * spacing;
     const double mean = std::accumulate(record.force.begin(), record.force.end(), 0.0) /
                         static_cast<double>(samples);
+
+    // Run the cell over the record, which gives the currents behind their lags at any sample.
     std::vector<double> state(cell.size());
     cell.rest(record.inputs.front(), state);
     std::size_t next = std::max(record.first, past);
@@ -109,6 +115,9 @@ class Windows {
         cell.advance(record.inputs[k - 1], record.inputs[k], record.time[k] - record.time[k - 1],
                      state);
       if (k != next) continue;
+
+      // A window starts here: its features are those currents, then velocity and force at past
+      // moments.
       Window window{
           &record, k,   std::min(k + options_.window, samples),
           k,       {1}, {state.begin() + static_cast<std::ptrdiff_t>(cell.motions()), state.end()}};
@@ -118,6 +127,8 @@ class Windows {
         window.features.push_back((record.force[k - j * spacing] - mean) /
                                   model_.network.output_scale);
       }
+
+      // Skip the windows that a lower number of them leaves out.
       all.push_back(std::move(window));
       next += every * options_.window;
     }
@@ -153,6 +164,8 @@ void fill(const StateSpaceNetwork& model, const std::vector<double>& raw,
   for (std::size_t k = 0; k < raw.size(); ++k)
     z[k] = (raw[k] - network.signals[k].mean) / network.signals[k].scale;
   const double output = network.differentiate(z.data(), row + columns, by_signals.data());
+
+  // Derivatives by what moves the states, through the signals that the network reads.
   std::fill_n(row, columns, 0.0);
   for (std::size_t k = 0; k < n; ++k) {
     const double sign = k < cell.path_rates.size() ? 1 : -1;  // a lag is read as v - y
@@ -192,6 +205,8 @@ void find_ranges(StateSpaceNetwork& model, const Records& records) {
     s.low = kInfinity;
     s.high = -kInfinity;
   }
+
+  // Take in every sample of every record, in free run.
   for (const FreeRunRecord* record : records)
     run_cell(model.cell, nullptr, whole(*record), 1, nullptr,
              [&](std::size_t, const std::vector<double>& raw) {
@@ -201,6 +216,8 @@ void find_ranges(StateSpaceNetwork& model, const Records& records) {
                  s.high = std::max(s.high, (raw[k] - s.mean) / s.scale);
                }
              });
+
+  // The cell holds its own inputs within the same ranges.
   StateSpaceCell& cell = model.cell;
   cell.velocity_low = ranges.front().low;
   cell.velocity_high = ranges.front().high;
@@ -218,14 +235,18 @@ FreeRunSearchResult run_search(StateSpaceNetwork model, const Records& records,
   open_ranges(model);
   const std::vector<Window> windows = Windows(model, options).of(records);
   const std::size_t encoder_weights = model.cell.motions() * windows.front().features.size();
+
+  // Weights decay towards 0, logarithms of rates towards their start.
   FreeRunProblem problem;
   problem.anchors = unknowns_of(model, encoder_weights);
   problem.start = unknowns.empty() ? problem.anchors : unknowns;
-  problem.prices.assign(problem.start.size(), options.weight_decay);
-  std::fill_n(problem.prices.begin(), model.cell.size(), options.rate_decay);
+  problem.decay.assign(problem.start.size(), options.weight_decay);
+  std::fill_n(problem.decay.begin(), model.cell.size(), options.rate_decay);
   std::fill(problem.anchors.begin() + static_cast<std::ptrdiff_t>(model.cell.size()),
             problem.anchors.end(),
             0.0);  // weights from 0, rates from their start
+
+  // Each evaluation runs all windows with the unknowns at hand.
   problem.linearise = [&](const std::vector<double>& x, RowSink& sink) {
     set_unknowns(model, x);
     linearise(model, x.data() + model.cell.parameter_count(), encoder_weights, windows,

@@ -7,7 +7,7 @@
 
 namespace dashpot {
 
-/// Prices as in HysteresisNetworkTrainOptions.
+/// Penalties as in HysteresisNetworkTrainOptions.
 struct StateSpaceTrainOptions {
   int max_iterations = 100;
   double tolerance = 1e-4;
@@ -37,7 +37,7 @@ FreeRunCost state_space_cost(const StateSpaceNetwork& model,
                              const StateSpaceTrainOptions& options,
                              const std::vector<double>& unknowns = {});
 
-/// What a model leaves of a record's scored samples, N^2, their mean taken out first when `offset`.
+/// Sum of a record's squared errors over its scored samples, N^2, less their mean when `offset`.
 double squares_left(const StateSpaceNetwork& model, const FreeRunRecord& record, bool offset);
 
 }  // namespace dashpot

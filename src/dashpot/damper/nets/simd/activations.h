@@ -15,15 +15,20 @@ inline Lanes<Real> tanh_lanes(Lanes<Real> x) {
   using A = Arithmetic<Real>;
   using V = Lanes<Real>;
   using I = typename LaneTypes<Real>::Integers;
+  static_assert(sizeof(I) == sizeof(V), "an exponent is made in the integer under its number");
   constexpr Real kTwoLog2E = static_cast<Real>(2.88539008177792681472);
-  constexpr Real kRound =
-      A::kRound + A::kBias;  // adding it rounds, and leaves k + kBias in the last bits
+  // Adding it rounds, and leaves k + kBias in the last bits.
+  constexpr Real kRound = A::kRound + A::kBias;
   const V y = -larger(V{} - A::kTanhOne, -larger(V{} - A::kTanhOne, x));  // a NaN passes
 
+  // Split off k, and make 2^k by moving k + bias into the exponent. z in two steps keeps its
+  // digits.
   const V shifted = y * kTwoLog2E + kRound;
   const V k = shifted - kRound;
   const V p = __builtin_bit_cast(V, __builtin_bit_cast(I, shifted) << A::kMantissa);
   const V z = (y - k * (A::kLn2High / 2)) - k * (A::kLn2Low / 2);
+
+  // N and D: the continued fraction to z^3 / z^2 in float, to z^5 / z^6 in double.
   const V square = z * z;
   V numerator, denominator;
   if constexpr (sizeof(Real) == sizeof(float)) {
@@ -33,6 +38,8 @@ inline Lanes<Real> tanh_lanes(Lanes<Real> x) {
     numerator = z * ((square * 21 + 1260) * square + 10395);
     denominator = ((square + 210) * square + 4725) * square + 10395;
   }
+
+  // tanh(a + z) = (tanh a + tanh z) / (1 + tanh a tanh z), as one fraction.
   const V less = p - 1, more = p + 1;
   return (less * denominator + more * numerator) / (more * denominator + less * numerator);
 }

@@ -8,6 +8,11 @@
 namespace dashpot {
 namespace {
 
+// Operations that the compiler does not make one instruction of by itself. Of AVX-512 the masked
+// forms are taken: the unmasked ones make the compiler warn of an uninitialised register.
+
+/// Square root, correctly rounded; the reciprocal's estimate has 11 to 14 bits, or all of them
+/// where there is no such instruction.
 #if DASHPOT_LANE_BYTES == 64
 inline Lanes<double> root(Lanes<double> x) { return _mm512_maskz_sqrt_pd(0xFF, x); }
 inline Lanes<float> root(Lanes<float> x) { return _mm512_maskz_sqrt_ps(0xFFFF, x); }

@@ -1,5 +1,12 @@
 #pragma once
-// Included by kernel.cpp alone, which is compiled once per instruction set. So everything here has
+// Vectors of the instruction set that this text is compiled for, and what shuffles their lanes.
+//
+//   set      bytes  float  double  registers
+//   AVX-512     64     16       8         32
+//   AVX2        32      8       4         16
+//   others      16      4       2         16
+//
+// Included by sources alone that are compiled once per instruction set. So everything here has
 // internal linkage, and no inline function of the standard library is called: of those the linker
 // keeps one copy for all, and that might be the one which needs AVX-512.
 #include <cstddef>
@@ -22,6 +29,9 @@ constexpr std::size_t kRegisters = 16;
 #endif
 constexpr std::size_t kLaneBytes = DASHPOT_LANE_BYTES;
 
+/// The format of a number and constants of tanh_lanes() for it. kRound: adding it to a small number
+/// rounds that to an integer. kLn2High + kLn2Low = ln 2, the first with so few bits that its
+/// product with an exponent is exact.
 template <class Real>
 struct Arithmetic;
 template <>
@@ -51,6 +61,7 @@ using Lanes = typename LaneTypes<Real>::Values;
 template <class Real>
 constexpr std::size_t kLanes = kLaneBytes / sizeof(Real);
 
+/// kLanes numbers from anywhere: rows of inputs need not be aligned.
 template <class Real>
 inline Lanes<Real> load(const Real* from) {
   Lanes<Real> lanes;
@@ -62,10 +73,13 @@ inline void store(Real* to, Lanes<Real> lanes) {
   __builtin_memcpy(to, &lanes, sizeof lanes);
 }
 
+/// Transposes and sums over lanes, in rounds that each join lanes half as far apart as the last.
 template <class Real>
 struct Shuffle {
   using V = Lanes<Real>;
   static constexpr int kSize = static_cast<int>(kLanes<Real>);
+  static_assert(kSize == 2 || kSize == 4 || kSize == 8 || kSize == 16,
+                "the rounds below are written out for up to 16 lanes");
   static constexpr auto kSequence = std::make_integer_sequence<int, kSize>();
 
   /// Exchanges the lanes of `a` that have bit `Half` with those of `b` that have not.

@@ -2,6 +2,16 @@
 #include "dashpot/damper/nets/kernel.h"
 #include "dashpot/damper/nets/simd/intrinsics.h"
 
+// The one product of matrices that forward and backward passes, and Jacobians, are made of. The
+// left factor is read number by number and spread over the lanes, the right factor and the result
+// by vectors. A tile of rows x vectors of the result stays in registers over the whole depth.
+//
+//   tile, rows x vectors      1 vector   2 vectors   4 vectors
+//   16 registers               10 x 1      6 x 2         -
+//   32 registers               12 x 1     10 x 2       6 x 4    (samples as lanes only)
+//
+// A tile needs rows x vectors sums and as many vectors of the right factor; what is left of the
+// registers holds the spread number of the left factor.
 namespace dashpot {
 namespace {
 
@@ -18,7 +28,7 @@ struct Rows {
   std::size_t step;
 };
 
-/// What a product's sums start from, and what becomes of them while they are still in registers.
+/// The start of a product's sums, and the last step on them while they are still in registers.
 enum class Form {
   Sum,      ///< from 0
   Gated,    ///< from 0; 0 where `bound` is not positive
@@ -67,12 +77,17 @@ void multiply_tiles(std::size_t tiles, std::size_t first, const Product<Real>& p
   const Real* start = product.start.at + first * product.start.step;
   const Real* bound = product.bound.at + first * product.bound.step;
   Real* to = product.to.at + first * product.to.step;
+  static_assert(kRows <= 16 && kColumns <= 4, "as far as the loops below are unrolled");
+  static_assert(kRows * kColumns + kColumns < kRegisters, "a tile stays in registers");
   for (; tiles > 0; --tiles, left += kRows * row_step) {
+    // Start the sums.
     Lanes<Real> sums[kRows][kColumns];
 #pragma GCC unroll 16
     for (std::size_t r = 0; r < kRows; ++r, start += product.start.step)
 #pragma GCC unroll 4
       for (std::size_t c = 0; c < kColumns; ++c) sums[r][c] = first_sum<kForm>(start, c * kSize);
+
+    // Add products down the depth: kColumns vectors of the right factor serve all rows of the tile.
     const Real* factors = left;
     const Real* right = product.right.at;
     for (std::size_t k = depth; k > 0; --k, factors += depth_step, right += right_step) {
@@ -84,6 +99,8 @@ void multiply_tiles(std::size_t tiles, std::size_t first, const Product<Real>& p
 #pragma GCC unroll 4
         for (std::size_t c = 0; c < kColumns; ++c) sums[r][c] += factors[r * row_step] * lanes[c];
     }
+
+    // Bound or gate the sums, and store them.
 #pragma GCC unroll 16
     for (std::size_t r = 0; r < kRows; ++r, to += product.to.step, bound += product.bound.step)
 #pragma GCC unroll 4
@@ -107,16 +124,20 @@ inline void multiply_rows(std::size_t rows, const Product<Real>& product,
                           std::index_sequence<Less...>) {
   using Function = void (*)(std::size_t, std::size_t, const Product<Real>&);
   static constexpr Function kTiles[] = {&multiply_tiles<Real, kForm, Less + 1, kColumns, kStep>...};
-  std::size_t tiles = 1,
-              height =
-                  sizeof...(Less);  // counted up and down, which takes less time than to divide
+
+  // As few tiles as hold all rows, then as low as that many may be, counted, which takes less time
+  // than to divide. `higher` of them have one row more than the others.
+  std::size_t tiles = 1, height = sizeof...(Less);
   while (tiles * height < rows) ++tiles;
   while (tiles * height > rows) --height;
+
   const std::size_t higher = rows - tiles * height;
   if (higher > 0) kTiles[height](higher, 0, product);
   kTiles[height - 1](tiles - higher, higher * (height + 1), product);
 }
 
+/// All rows of kColumns vectors. Steps of the left factor that networks have most are told to the
+/// compiler as constants: 1, where it is read across, and one cache line, that of a narrow layer.
 template <class Real, Form kForm, std::size_t kColumns>
 inline void multiply_columns(std::size_t rows, const Product<Real>& product) {
   constexpr auto kHeights = std::make_index_sequence<kTileRows<kColumns>>();
@@ -137,6 +158,8 @@ inline void multiply(std::size_t rows, std::size_t columns, const Product<Real>&
   if constexpr (kForm != Form::Samples)
     if (columns == 1) return multiply_columns<Real, kForm, 1>(rows, product);
   if (columns == kWide) return multiply_columns<Real, kForm, kWide>(rows, product);
+
+  // Wide tiles from left to right, and a narrow one for an odd vector at the end.
   Product<Real> part = product;
   for (; columns >= kWide; columns -= kWide) {
     multiply_columns<Real, kForm, kWide>(rows, part);

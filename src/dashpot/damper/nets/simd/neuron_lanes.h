@@ -3,9 +3,18 @@
 #include "dashpot/damper/nets/simd/activations.h"
 #include "dashpot/damper/nets/simd/multiply.h"
 
+// Kernels whose lanes are the neurons of a layer: passes over mini-batches, forward and backward.
+// kernel.h shows how a NeuronLayer's arrays lie in memory. Per layer the passes are
+//
+//   forward    out = activation(in W + b)
+//   backward   gradient = in' deltas,   deltas of the layer before = (deltas W') activation'
+//
+// each a product of matrices (multiply.h). ReLU and identity only bound or gate a sum, which the
+// product does while it has the sum in registers; tanh and sigmoid take another pass over the row.
 namespace dashpot {
 namespace {
 
+/// How many vectors fill a padded row.
 template <class Real>
 constexpr std::size_t vectors(std::size_t columns) {
   return columns / kLanes<Real>;
@@ -41,6 +50,7 @@ void output_sums(const NeuronLayer<Real>& layer, std::size_t rows) {
   constexpr std::size_t kSize = kLanes<Real>;
   for (std::size_t n = 0; n < layer.outputs; ++n)
     for (std::size_t s = 0; s < rows; s += kSize) {
+      // One vector of products per sample, and their sums over the lanes as one vector of samples.
       Lanes<Real> products[kSize];
 #pragma GCC unroll 16
       for (std::size_t r = 0; r < kSize; ++r) {
@@ -56,6 +66,7 @@ void output_sums(const NeuronLayer<Real>& layer, std::size_t rows) {
 
 template <class Real>
 void forward(const NeuronLayer<Real>* layers, std::size_t count, std::size_t rows) noexcept {
+  // Hidden layers, whose results are the next layer's inputs.
   for (std::size_t l = 0; l + 1 < count; ++l) {
     const NeuronLayer<Real>& layer = layers[l];
     multiply<Form::Neurons, Real>(rows, vectors<Real>(layer.columns),
@@ -69,6 +80,8 @@ void forward(const NeuronLayer<Real>* layers, std::size_t count, std::size_t row
       with_activation(layer.activation,
                       [&]<Activation kKind>() { activate_rows<Real, kKind>(layer, rows); });
   }
+
+  // The output layer: few neurons, so that samples are its lanes.
   const NeuronLayer<Real>& last = layers[count - 1];
   output_sums(last, rows);
   with_activation(last.activation, [&]<Activation kKind>() {
@@ -80,12 +93,15 @@ void forward(const NeuronLayer<Real>* layers, std::size_t count, std::size_t row
 /// The gradient by a layer's weights; for the last layer from derivatives by its outputs.
 template <class Real>
 void backward_weights(const NeuronLayer<Real>& layer, std::size_t rows, bool last) {
+  // A hidden layer: in' deltas; the row of ones behind the inputs gives the biases.
   if (!last)
     return multiply<Form::Sum, Real>(layer.inputs + 1, vectors<Real>(layer.columns),
                                      {rows,
                                       {layer.in, 1, layer.in_step},
                                       {layer.deltas, layer.columns},
                                       {layer.gradient, layer.columns}});
+
+  // The output layer: through its activation first, then neuron by neuron.
   with_activation(layer.activation, [&]<Activation kKind>() {
     for (std::size_t n = 0; n < layer.outputs; ++n)
       deactivate<kKind>(layer.deltas + n * layer.out_step, layer.out + n * layer.out_step,
@@ -107,6 +123,8 @@ void backward_deltas(const NeuronLayer<Real>& layer, std::size_t rows, bool last
   const Left<Real> deltas = last ? Left<Real>{layer.deltas, 1, layer.out_step}
                                  : Left<Real>{layer.deltas, layer.columns, 1};
   const Rows<const Real> weights{layer.transposed, step};
+
+  // Before it lies a ReLU: the product is gated by the sign of that activation.
   if (before && before->activation == Activation::Relu)
     return multiply<Form::Gated, Real>(rows, vectors<Real>(step),
                                        {layer.outputs,
@@ -115,6 +133,8 @@ void backward_deltas(const NeuronLayer<Real>& layer, std::size_t rows, bool last
                                         {before->deltas, step},
                                         {},
                                         {before->out, before->out_step}});
+
+  // Any other activation, or the inputs themselves.
   multiply<Form::Sum, Real>(
       rows, vectors<Real>(step),
       {layer.outputs, deltas, weights, {before ? before->deltas : input_gradient, step}});

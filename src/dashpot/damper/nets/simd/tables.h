@@ -3,7 +3,8 @@
 
 namespace dashpot {
 
-/// All of the kernel for one instruction set.
+/// All of the kernel for one instruction set. simd/kernel.cpp makes one table per set; tables of
+/// sets that the compiler cannot target do not exist, and only the baseline's exists beside x86-64.
 struct KernelTables {
   Kernel<float> single_precision;
   Kernel<double> double_precision;

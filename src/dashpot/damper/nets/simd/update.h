@@ -5,6 +5,16 @@
 namespace dashpot {
 namespace {
 
+// One training step over flat arrays of weights, gradient and moments, all padded with zeros.
+//
+//   g = gradient + l2 w + l1 sgn w
+//   Momentum   step = m,  m = momentum m + g
+//   RmsProp    step = g / (sqrt s + epsilon),  s = mean_square s + (1 - mean_square) g^2
+//   Adam       step = m / (sqrt s + epsilon),  m = momentum m + (1 - momentum) g
+//   w = w - decay w - rate step
+//
+// AdamW is Adam with `decay`; corrections for the start stand in rate and epsilon already.
+
 /// value / (sqrt(square) + epsilon)
 inline Lanes<double> over_root(Lanes<double> value, Lanes<double> square, double epsilon) {
   return value / (root(square) + epsilon);
@@ -17,7 +27,7 @@ inline Lanes<float> over_root(Lanes<float> value, Lanes<float> square, float eps
   return value * (inverse * (2 - divisor * inverse));
 }
 
-/// kPlain: without a price on the weights.
+/// The step of one optimiser. kPlain: without any penalty or decay of the weights.
 template <Optimiser kKind, bool kPlain, class Real>
 void update_as(const UpdateRule<Real>& rule, std::size_t count, Real* weights, const Real* gradient,
                Real* mean, Real* square) {
@@ -30,12 +40,15 @@ void update_as(const UpdateRule<Real>& rule, std::size_t count, Real* weights, c
     Lanes<Real> step = load(gradient + k);
     if constexpr (!kPlain) step += r.l2 * w + (w > 0 ? none + r.l1 : w < 0 ? none - r.l1 : none);
     const Lanes<Real> g = step;
+
+    // The moments that this optimiser keeps, and the step that they give.
     if constexpr (kHasMean) store(mean + k, step = r.momentum * load(mean + k) + share * g);
     if constexpr (kHasSquare) {
       const Lanes<Real> average = r.mean_square * load(square + k) + (1 - r.mean_square) * g * g;
       store(square + k, average);
       step = over_root(step, average, r.epsilon);
     }
+
     store(weights + k, (kPlain ? w : w - r.decay * w) - r.rate * step);
   }
 }

@@ -13,7 +13,7 @@ typedef struct GatedNetwork {
   double output_scale;
 } GatedNetwork;
 
-/* c; returns how many */
+/* Fills c; returns how many numbers it has. */
 static inline int gated_fill(const GatedNetwork* n, const double* u, double* c) {
   int m, k, count = 1;
   c[0] = 1;
@@ -44,10 +44,15 @@ static inline double gated_evaluate(const GatedNetwork* n, const double* raw, in
   const int motions = n->signals - n->currents;
   double linear[GATED_MOST_SIGNALS], inside[GATED_MOST_SIGNALS], c[GATED_MOST_GATES], sum;
   int k, gates, row = 1;
+
+  /* Standardise, and hold within what was seen in training. */
   for (k = 0; k < n->signals; ++k) {
     linear[k] = (raw[k] - n->mean[k]) / n->scale[k];
     inside[k] = held(linear[k], n->low[k], n->high[k]);
   }
+
+  /* The constant, the motions and the neurons, each times its gate: a polynomial of the currents.
+   */
   gates = gated_fill(n, &inside[motions], c);
   sum = gated_sum(n->gates, c, gates);
   for (k = 0; k < motions; ++k) {

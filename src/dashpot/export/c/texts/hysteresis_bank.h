@@ -27,12 +27,15 @@ static inline double bank_slide(double w, double rate, double way) {
 
 static inline void bank_advance(const HysteresisBank* b, const DamperInput* from,
                                 const DamperInput* to, double dt, double* state) {
+  /* The way of each direction: two where the velocity changes its sign within the step. */
   const double v0 = from->velocity, v1 = to->velocity;
-  const int turns = ((v0 * v1) < 0) ? 1 : 0; /* the velocity changes its sign */
+  const int turns = ((v0 * v1) < 0) ? 1 : 0;
   const double turn = (turns != 0) ? (dt * (v0 / (v0 - v1))) : dt;
   const double first = (turns != 0) ? (0.5 * v0 * turn) : (dt * ((0.5 * v0) + (0.5 * v1)));
   const double second = 0.5 * v1 * (dt - turn);
   int k, at = 0;
+
+  /* Dahl states along the way, lags over time: all exact for inputs that are linear in time. */
   for (k = 0; k < b->paths; ++k, ++at) {
     state[at] = bank_slide(state[at], b->rates[at], first);
     if (turns != 0) {
@@ -47,7 +50,7 @@ static inline void bank_advance(const HysteresisBank* b, const DamperInput* from
   }
 }
 
-/* What a network reads: v, the Dahl states, v less its lags, the lags of the command. */
+/* The inputs of a network: v, the Dahl states, v less its lags, the lags of the command. */
 static inline void bank_read(const HysteresisBank* b, const DamperInput* input, const double* state,
                              double* signals) {
   const int size = bank_size(b);

@@ -15,18 +15,22 @@ static void inverse_rest(const DamperInput* input, double* state) {
   }
 }
 
-/* What the network answers, no further from its last answer than it may change. */
+/* The network's answer, no further from its last one than it may change. */
 static inline double inverse_wanted(const InverseModel* m, const InverseInput* input,
                                     double* state) {
   double raw[MLP_MOST_WIDTH], current;
   int k;
   (void)m;
+
+  /* The past moves by one row, and the present becomes the newest. */
   for (k = INVERSE_STATES - 1; k >= INVERSE_SIGNALS; --k) {
     state[k] = state[k - INVERSE_SIGNALS];
   }
   state[0] = input->displacement;
   state[1] = input->velocity;
   state[2] = input->wanted;
+
+  /* Ask, and hold the answer within the currents that it was taught, and within its change. */
   for (k = 0; k < INVERSE_TAPS; ++k) {
     raw[k] = state[kPlaces[k]];
   }

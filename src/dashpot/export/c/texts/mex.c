@@ -26,6 +26,8 @@ void mexFunction(int outputs, mxArray* output[], int inputs, const mxArray* inpu
   if (outputs > 1) {
     mexErrMsgTxt("it gives one column, the force");
   }
+
+  /* From rest at the first row, then step by step. */
   count = mxGetM(input[0]);
   output[0] = mxCreateDoubleMatrix(count, 1, mxREAL);
   force = mxGetPr(output[0]);

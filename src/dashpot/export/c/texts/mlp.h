@@ -39,6 +39,8 @@ static inline void mlp_layer(const double* weights, int inputs, int outputs, con
 static inline double mlp_evaluate(const Mlp* m, const double* raw) {
   double from[MLP_MOST_WIDTH], to[MLP_MOST_WIDTH];
   int layer, k, at = 0;
+
+  /* Standardise, go from layer to layer, and back to raw units. */
   for (k = 0; k < m->layers[0]; ++k) {
     from[k] = (raw[k] - m->input_mean[k]) / m->input_scale[k];
   }

@@ -39,6 +39,8 @@ static inline double narx_evaluate(const Narx* n, int member, const DamperInput*
                                    double share, const double* state) {
   double raw[MLP_MOST_WIDTH];
   int k, lag, count = 0;
+
+  /* Past inputs; a lag of 0 is the present one, which needs no grid. */
   for (k = 0; k < n->input_count; ++k) {
     const NarxInput* past = &n->inputs[k];
     for (lag = 0; lag < past->lag_count; ++lag) {
@@ -48,6 +50,8 @@ static inline double narx_evaluate(const Narx* n, int member, const DamperInput*
       ++count;
     }
   }
+
+  /* Past forces of its own. */
   for (lag = 0; lag < n->feedback_count; ++lag) {
     const int at = n->forces_at + (member * n->force_size) + n->feedback[lag];
     raw[count] = narx_between(state[at], state[at - 1], share);
@@ -79,7 +83,7 @@ static inline void narx_push(double value, double* history, int size) {
   history[0] = value;
 }
 
-/* The next instant of the grid. */
+/* Comes to the next instant of the grid, at this input; once diverged, nothing changes. */
 static inline void narx_tick(const Narx* n, const DamperInput* input, double* state) {
   int k;
   if (state[1] == 0) {
@@ -88,6 +92,7 @@ static inline void narx_tick(const Narx* n, const DamperInput* input, double* st
       double* forces = &state[n->forces_at + (k * n->force_size)];
       const double force = narx_evaluate(n, k, input, 1, state);
       const double kept = narx_held(n, k, force, forces[0]);
+      /* A force that had to be held shows that the free run has diverged. */
       if ((n->feedback_count > 0) && (kept != force)) {
         diverged = 1;
       }
@@ -108,6 +113,8 @@ static inline void narx_rest(const Narx* n, const DamperInput* input, double* st
   still.velocity = 0;
   state[0] = 0;
   state[1] = 0;
+
+  /* Fill the past with rest, then settle. */
   for (k = 0; k < n->input_count; ++k) {
     for (j = 0; j < n->inputs[k].size; ++j) {
       state[n->inputs[k].first + j] = input_value(&still, n->inputs[k].which);
@@ -127,10 +134,14 @@ static inline void narx_advance(const Narx* n, const DamperInput* from, const Da
                                 double dt, double* state) {
   const double slack = 1e-6, most_steps = 10000, step = n->sample_time;
   double pending = state[0], done = 0;
+
   if (dt > (most_steps * step)) { /* nothing remembers what lay before */
     done = dt - (most_steps * step);
     pending = 0;
   }
+
+  /* From instant to instant of the grid, each with the input that lies there on the straight line
+   * between the two that are given. */
   while ((pending + (dt - done)) >= (step * (1 - slack))) {
     done += step - pending;
     if (fabs(dt - done) <= (slack * step)) {
@@ -144,6 +155,8 @@ static inline void narx_advance(const Narx* n, const DamperInput* from, const Da
     }
     pending = 0;
   }
+
+  /* What is left of the way waits for the next call. */
   pending += dt - done;
   state[0] = (pending > (slack * step)) ? pending : 0;
 }

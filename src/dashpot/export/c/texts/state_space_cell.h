@@ -26,12 +26,14 @@ static inline double cell_product(const double* weights, const double* values, i
   return sum;
 }
 
-/* phi at a standardised velocity and currents; returns how many */
+/* phi at a standardised velocity and currents; returns how many numbers it has */
 static inline int cell_features(const StateSpaceCell* c, double velocity, const double* currents,
                                 const double* state, double* phi) {
   const int motions = c->paths + c->lags, stride = motions + 1 + c->currents + 1;
   double inputs[CELL_MOST_INPUTS];
   int k, count = 1;
+
+  /* The neurons' inputs, held within what they saw in training; 1 for their bias. */
   for (k = 0; k < motions; ++k) {
     inputs[k] = state[k];
   }
@@ -40,6 +42,8 @@ static inline int cell_features(const StateSpaceCell* c, double velocity, const 
     inputs[motions + 1 + k] = held(currents[k], c->current_low, c->current_high);
   }
   inputs[stride - 1] = 1;
+
+  /* 1, the paths, the currents, the neurons. */
   phi[0] = 1;
   for (k = 0; k < c->paths; ++k) {
     phi[count] = state[k];
@@ -69,6 +73,8 @@ static inline void cell_step(const StateSpaceCell* c, double h, double velocity,
     const double bent =
         tanh(cell_product(&c->feedback[(motions + k) * features], phi, features) / bend);
     const double turn = h * c->rates[k] * exp(bend * bent);
+
+    /* A path nears the direction of w over the way, a lag nears w over time. */
     const double reach = (k < c->paths) ? (turn * fabs(w)) : turn;
     double goal = w;
     if (k < c->paths) {
@@ -83,6 +89,8 @@ static inline void cell_rest(const StateSpaceCell* c, const DamperInput* input, 
   const double growth = 1.5;
   double h = c->model_step;
   int k;
+
+  /* Lagged currents rest at the present one; motions settle in steps that grow. */
   for (k = 0; k < motions; ++k) {
     state[k] = 0;
   }
@@ -104,6 +112,8 @@ static inline void cell_advance(const StateSpaceCell* c, const DamperInput* from
   const int motions = c->paths + c->lags, count = (int)steps;
   double middle[CELL_MOST_CURRENTS];
   int s, m;
+
+  /* Equal steps; in each the motions see the mean of the lagged currents before and after it. */
   for (s = 0; s < count; ++s) {
     const double begin = s / steps, end = (s + 1) / steps;
     const double velocity =
@@ -119,8 +129,8 @@ static inline void cell_advance(const StateSpaceCell* c, const DamperInput* from
   }
 }
 
-/* What a network reads: v, the paths, v less its lags, the lags of the command; standardised but
- * for v. */
+/* The inputs of a network: v, the paths, v less its lags, the lags of the command; standardised
+ * but for v. */
 static inline void cell_read(const StateSpaceCell* c, const DamperInput* input, const double* state,
                              double* signals) {
   const int size = cell_size(c);

@@ -37,7 +37,7 @@ static inline double membership_log(const Membership* m, double x) {
   return value;
 }
 
-/* The logarithms of how far the rules hold, in whole; returns the greatest. */
+/* For each rule the logarithm of how far all its memberships hold; returns the greatest. */
 static inline double sugeno_hold(const Sugeno* s, const double* memberships, double* rules) {
   double most = 0;
   int k, r, at = 0;
@@ -57,6 +57,8 @@ static inline double sugeno_evaluate(const Sugeno* s, const double* raw) {
   double linear[SUGENO_MOST_INPUTS], memberships[SUGENO_MOST_MEMBERSHIPS], rules[SUGENO_MOST_RULES];
   double weighted = 0, weights = 0, most;
   int k, r;
+
+  /* Memberships of the inputs, held within what was seen in training; then of the rules. */
   for (k = 0; k < s->inputs; ++k) {
     linear[k] = (raw[k] - s->mean[k]) / s->scale[k];
   }
@@ -65,6 +67,8 @@ static inline double sugeno_evaluate(const Sugeno* s, const double* raw) {
     memberships[k] = membership_log(m, held(linear[m->input], s->low[m->input], s->high[m->input]));
   }
   most = sugeno_hold(s, memberships, rules);
+
+  /* The mean of the rules' outputs, weighted beside the strongest, so that no weight underflows. */
   for (r = 0; r < s->rule_count; ++r) {
     const double* slopes = &s->consequents[r * (s->inputs + 1)];
     const double weight = exp(rules[r] - most);

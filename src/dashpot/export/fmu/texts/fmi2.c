@@ -59,7 +59,7 @@ static void report(const FmuInstance* f, const char* message) {
   }
 }
 
-/* What is not there: an error once the caller has an instance. */
+/* A function that this FMU does not have: an error once the caller has an instance. */
 static fmi2Status unsupported(fmi2Component c, const char* function) {
   return fmu_may(c, function, FMU_ANY) ? (fmi2Status)fmu_fail(c, function, "is not supported")
                                        : fmi2Error;
@@ -98,6 +98,8 @@ FMI2_API fmi2Component fmi2Instantiate(fmi2String instanceName, fmi2Type fmuType
   if (functions == NULL) {
     return NULL;
   }
+
+  /* Errors are reported by an instance that is never handed out. */
   memset(&refused, 0, sizeof refused);
   refused.callbacks = *functions;
   refused.fmu.report = report;
@@ -113,6 +115,8 @@ FMI2_API fmi2Component fmi2Instantiate(fmi2String instanceName, fmi2Type fmuType
     fmu_fail(&refused.fmu, "fmi2Instantiate", "this FMU is not of that type");
     return NULL;
   }
+
+  /* An importer without functions for memory leaves it to the C library. */
   if ((functions->allocateMemory == NULL) || (functions->freeMemory == NULL)) {
     refused.callbacks.allocateMemory = calloc;
     refused.callbacks.freeMemory = free;

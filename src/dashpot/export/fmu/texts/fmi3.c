@@ -17,6 +17,8 @@ static fmi3Instance instantiate(const char* function, const Instance* wanted, fm
     fmu_fail(&wanted->fmu, function, "the instantiation token is not that of this FMU, " FMU_TOKEN);
     return NULL;
   }
+
+  /* All fits: an instance of its own, started. */
   i = calloc(1, sizeof *i);
   if (i == NULL) {
     fmu_fail(&wanted->fmu, function, "there is no memory left");
@@ -59,6 +61,8 @@ FMI3_API fmi3Instance fmi3InstantiateModelExchange(fmi3String instanceName,
   (void)resourcePath;
   (void)visible;
   (void)loggingOn;
+
+  /* Whoever knows not all continuous states cannot leave them to an integrator. */
   if (!FMU_EXCHANGES) {
     fmu_fail(&wanted.fmu, "fmi3InstantiateModelExchange", "this FMU is for co-simulation only");
     return NULL;
@@ -79,6 +83,8 @@ FMI3_API fmi3Instance fmi3InstantiateCoSimulation(
   (void)earlyReturnAllowed;
   (void)requiredIntermediateVariables;
   (void)intermediateUpdate;
+
+  /* An importer that asks for more than there is gets no instance. */
   if (eventModeUsed || (nRequiredIntermediateVariables > 0)) {
     fmu_fail(&wanted.fmu, "fmi3InstantiateCoSimulation",
              "this FMU has no event mode and no intermediate update");
@@ -100,6 +106,7 @@ FMI3_API fmi3Instance fmi3InstantiateScheduledExecution(
   (void)clockUpdate;
   (void)lockPreemption;
   (void)unlockPreemption;
+
   const Instance wanted = instance_of(logMessage, instanceEnvironment);
   fmu_fail(&wanted.fmu, "fmi3InstantiateScheduledExecution", "is not supported");
   return NULL;
@@ -222,6 +229,8 @@ FMI3_API fmi3Status fmi3UpdateDiscreteStates(
       !fmu_takes(instance, "fmi3UpdateDiscreteStates", nextEventTime, 1, 1)) {
     return fmi3Error;
   }
+
+  /* There are no discrete states and no events to come: every answer is no. */
   for (k = 0; k < sizeof answers / sizeof *answers; ++k) {
     if (!fmu_takes(instance, "fmi3UpdateDiscreteStates", answers[k], 1, 1)) {
       return fmi3Error;
@@ -323,6 +332,8 @@ FMI3_API fmi3Status fmi3DoStep(fmi3Instance instance, fmi3Float64 currentCommuni
       !fmu_takes(instance, "fmi3DoStep", lastSuccessfulTime, 1, 1)) {
     return fmi3Error;
   }
+
+  /* A step is made to its end or not at all. */
   *eventHandlingNeeded = false;
   *terminateSimulation = false;
   *earlyReturn = false;

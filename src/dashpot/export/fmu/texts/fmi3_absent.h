@@ -3,7 +3,7 @@
 #define FMI3_ABSENT_H
 #include "fmi3_types.h"
 
-/* What is not there: an error once the caller has an instance. */
+/* A function that this FMU does not have: an error once the caller has an instance. */
 static fmi3Status unsupported(fmi3Instance i, const char* function) {
   return fmu_may(i, function, FMU_ANY) ? (fmi3Status)fmu_fail(i, function, "is not supported")
                                        : fmi3Error;

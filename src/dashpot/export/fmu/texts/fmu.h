@@ -76,6 +76,7 @@ static int fmu_fail(const FmuInstance* f, const char* function, const char* form
 
 static const char* fmu_mode_name(int mode) {
   switch (mode) {
+    /* as they are met in a simulation */
     case FMU_INSTANTIATED:
       return "before initialization mode";
     case FMU_INITIALIZATION:
@@ -116,7 +117,7 @@ static void fmu_update(FmuData* d) {
   }
 }
 
-/* What has been computed stays, whatever is set from now on. */
+/* Keeps what has been computed, whatever is set from now on. */
 static void fmu_settle(FmuData* d) {
   fmu_update(d);
   d->past = d->state;
@@ -134,7 +135,7 @@ static void fmu_start(FmuInstance* f, int exchanges) {
   fmu_defaults(&f->data.state);
 }
 
-/* Where a variable that others follow from is kept; NULL for the others. */
+/* The place of a variable from which others follow; NULL for the others. */
 static double* fmu_place(FmuData* d, unsigned reference) {
   if (reference == FMU_TIME) {
     return &d->time;
@@ -200,6 +201,8 @@ static int fmu_get(FmuInstance* f, const char* function, const unsigned* referen
       !fmu_takes(f, function, values, count, count)) {
     return FMU_ERROR;
   }
+
+  /* A reference that is wrong ends the call; what was read before stays read. */
   for (k = 0; k < count; ++k) {
     if (references[k] >= FMU_VARIABLES) {
       return fmu_fail(f, function, "there is no variable with value reference %u", references[k]);
@@ -220,6 +223,8 @@ static int fmu_check_new_value(const FmuInstance* f, const char* function, unsig
   if ((reference == FMU_TIME) || ((reference >= FMU_OUTPUT) && (reference < FMU_PARAMETER))) {
     return fmu_fail(f, function, "%s is neither an input nor a parameter", fmu_names[reference]);
   }
+
+  /* The value itself; parameters have limits. */
   if (!isfinite(value)) {
     return fmu_fail(f, function, "the value for %s is not a finite number", fmu_names[reference]);
   }
@@ -236,7 +241,7 @@ static int fmu_check_new_value(const FmuInstance* f, const char* function, unsig
   return FMU_OK;
 }
 
-/* All of them or, on an error, none. */
+/* Sets all of them or, on an error, none. */
 static int fmu_set(FmuInstance* f, const char* function, const unsigned* references, size_t count,
                    const double* values) {
   FmuData* d;
@@ -247,6 +252,8 @@ static int fmu_set(FmuInstance* f, const char* function, const unsigned* referen
       !fmu_takes(f, function, values, count, count)) {
     return FMU_ERROR;
   }
+
+  /* Look at all before any is set. */
   d = &f->data;
   for (k = 0; k < count; ++k) {
     if (fmu_check_new_value(f, function, references[k], values[k]) != FMU_OK) {
@@ -257,6 +264,8 @@ static int fmu_set(FmuInstance* f, const char* function, const unsigned* referen
   if (parameters && (d->mode == FMU_STEP)) {
     fmu_settle(d); /* the step that ends here was made with the old ones */
   }
+
+  /* Set them; what follows from them is computed when it is asked for. */
   for (k = 0; k < count; ++k) {
     *fmu_place(d, references[k]) = values[k];
   }

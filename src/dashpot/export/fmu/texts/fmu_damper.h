@@ -42,6 +42,7 @@ static void fmu_move(const double* from, const double* to, double dt, FmuState* 
   int k;
   for (k = 1; k <= count; ++k) {
     damper_input end = fmu_input(to);
+    /* The last piece ends with the inputs that were given, not with a sum of pieces. */
     if (k < count) {
       double inputs[FMU_INPUTS];
       fmu_between(from, to, (double)k / count, inputs);

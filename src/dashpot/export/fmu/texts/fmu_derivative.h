@@ -28,7 +28,7 @@ static FmuData fmu_moved(const FmuData* d, const FmuDirection* way, double lengt
   return moved;
 }
 
-/* By central differences of 1e-5 of the variables' nominal values. */
+/* The directional derivative by central differences of 1e-5 of the variables' nominal values. */
 static int fmu_differentiate(FmuInstance* f, const char* function, const FmuDirection* way,
                              double* slopes) {
   FmuData ahead, behind;
@@ -45,6 +45,8 @@ static int fmu_differentiate(FmuInstance* f, const char* function, const FmuDire
   if (!FMU_DIFFERENTIABLE) {
     return fmu_fail(f, function, "is not supported: the outputs change at samples only");
   }
+
+  /* Look at what is asked for, and how far the seed reaches in nominal values. */
   for (k = 0; k < way->known_count; ++k) {
     if (!fmu_is_known(&f->data, way->knowns[k])) {
       return fmu_fail(f, function, "value reference %u is not a known", way->knowns[k]);
@@ -56,6 +58,8 @@ static int fmu_differentiate(FmuInstance* f, const char* function, const FmuDire
       return fmu_fail(f, function, "value reference %u is not an unknown", way->unknowns[k]);
     }
   }
+
+  /* A copy of the FMU on either side; their difference over the way between them. */
   fmu_update(&f->data);
   ahead = fmu_moved(&f->data, way, (reach > 0) ? 1e-5 / reach : 0);
   behind = fmu_moved(&f->data, way, (reach > 0) ? -1e-5 / reach : 0);

@@ -1,4 +1,4 @@
-/* How an FMU begins, steps and ends, and what an integrator asks of it. */
+/* An FMU's start, steps and end, and the functions that an integrator calls. */
 #ifndef FMU_RUN_H
 #define FMU_RUN_H
 #include "fmu.h"
@@ -48,6 +48,8 @@ static int fmu_do_step(FmuInstance* f, const char* function, double point, doubl
   if (!fmu_may(f, function, FMU_STEP)) {
     return FMU_ERROR;
   }
+
+  /* A step must be possible, begin where the last one ended, and end before the stop time. */
   d = &f->data;
   if (!((step >= 0) && (step <= FMU_LONGEST_STEP)) || !isfinite(step)) {
     return fmu_fail(f, function, "a step of %g s is impossible", step);
@@ -58,6 +60,9 @@ static int fmu_do_step(FmuInstance* f, const char* function, double point, doubl
   if (point + step > d->stop + 1e-9 * (1 + fabs(d->stop))) {
     return fmu_fail(f, function, "goes beyond the stop time, %g s", d->stop);
   }
+
+  /* Finish the step before; this one is made when its end is asked for, with the inputs that are
+   * set by then. */
   fmu_settle(d);
   d->since = step;
   d->time = point + step;

@@ -76,6 +76,8 @@ static int fmu_deserialize(FmuInstance* f, const char* function, const void* byt
       !fmu_takes(f, function, snapshot, 1, 1)) {
     return FMU_ERROR;
   }
+
+  /* Bytes of another FMU, or of none, are refused before anything is written. */
   memcpy(&data, bytes, size);
   if (!fmu_is_snapshot(f, function, &data)) {
     return FMU_ERROR;

@@ -1,26 +1,40 @@
 #pragma once
 #include "dashpot/suspension/lanes/simd/quarter_car.h"
+#include "dashpot/suspension/steps/dormand_prince.h"
 
 namespace dashpot {
 namespace {
 
-/// The method of Dormand and Prince, order 5 with an error of order 4 (J. Comput. Appl. Math. 6
-/// (1980) 19), every lane in steps of its own length.
+/// The method of Dormand and Prince (DormandPrince has its tableau), every lane in steps of its own
+/// length. The unknowns are y = [heights, speeds, the damper's states, currents behind lags]; kLags
+/// says how many of driver and model lag behind the command.
+///
+/// Error of a step, in tolerances: the greatest over the pairs of heights and of speeds, each
+/// against the pair's greatest magnitude, and over the damper's states one by one,
+///
+///     |y_5 - y_4| / (absolute + relative * size)
+///
+/// A step is accepted where that is at most 1, else tried again, shorter. Next length: 0.9 h
+/// error^(-1/5), between a fifth and five times h, between 1/256 of a sample and the whole of it.
+/// The shortest is accepted with any error and counts as missed. Lengths are in s; no step reaches
+/// over a sample's end.
 template <class Damper, std::size_t kLags>
 class AdaptiveSteps {
   using Car = QuarterCarLanes<Damper>;
   using State = typename Car::State;
   static constexpr std::size_t kStates = Damper::kStates, kSize = 4 + kStates + kLags;
+  /// y' and, by the way, the damper's force.
   struct Slope {
-    Lane d[kSize];
-    Lane force;  ///< of the damper
+    Lane d[kSize];  ///< heights (0, 1), speeds (2, 3), damper (from 4), currents (from 4 + kStates)
+    Lane force;     ///< N
   };
+  static_assert(kLags <= 2, "driver and model");
 
  public:
   AdaptiveSteps(const LaneRide& ride, Car& car)
       : ride_(ride), car_(car), next_(all(ride.sample_time)) {}
 
-  /// Forces at the begin of a sample, after the command has changed in some lanes.
+  /// Forces at the start of a sample, after the command has changed in some lanes.
   [[gnu::noinline, gnu::flatten]] void refresh(const State& state, Lane command, LaneMask changed,
                                                Lane road) {
     keep(slope(state, command, road), changed);
@@ -29,8 +43,9 @@ class AdaptiveSteps {
   Lane force() const { return first_.force; }
   Lane acceleration(std::size_t k) const { return first_.d[2 + k]; }
 
-  /// Tries one step in these lanes. Those that have reached the end of their sample.
+  /// Tries one step in these lanes. Returns those that have reached the end of their sample.
   LaneMask step(State& state, Lane command, const RoadPush& road, LaneMask riding) {
+    // As long as was proposed, or as much as is left of the sample.
     const double whole = ride_.sample_time, least = whole / 256;
     const Lane left = whole - done_;
     const LaneMask last = next_ >= left;
@@ -38,15 +53,22 @@ class AdaptiveSteps {
     State end;
     Slope ending;
     const Lane error = attempt(state, h, command, road, done_ / whole, end, ending);
+
+    // Where it is accepted, its end becomes the state. A NaN is accepted: the run finds it.
     const LaneMask accepted = riding & ((error <= 1) | (h <= least) | (error != error));
     missed |= accepted & !(error <= 1);
     take(state, end, accepted);
     keep(ending, accepted);
     steps += accepted ? all(1) : Lane{};
+
+    // The next length. A step that was cut short by the sample's end does not shorten it.
     const Lane factor = fmin(fmax(0.9 * about_fifth_root_below(fmax(error, 1e-5)), 0.2), 5);
     const Lane proposed = fmin(fmax(h * factor, least), whole);
     next_ = riding ? (accepted & last ? fmax(next_, proposed) : proposed) : next_;
     done_ = accepted ? (last ? Lane{} : done_ + h) : done_;
+
+    // With one lag the coil's current is either the driving one or, where the driver has no lag,
+    // the command.
     const LaneMask arrived = accepted & last;
     if constexpr (kLags == 1)
       state.currents.coil =
@@ -54,13 +76,16 @@ class AdaptiveSteps {
     return arrived;
   }
 
-  LaneMask missed{};
-  Lane steps{};
+  LaneMask missed{};  ///< lanes in which some step missed the tolerance
+  Lane steps{};       ///< accepted in each lane
 
  private:
+  /// y' of a state under a command, A, and a push of the road, N.
   [[gnu::always_inline]] Slope slope(const State& s, Lane command, Lane road) {
     Slope out;
     const Lane* x = s.x;
+
+    // Currents: first-order lags on the way from the command to the one that drives the model.
     if constexpr (kLags > 0) car_.damper.set_current(s.currents.inner);
     if constexpr (kLags == 1)
       out.d[4 + kStates] =
@@ -69,8 +94,10 @@ class AdaptiveSteps {
       out.d[4 + kStates] = car_.numbers.model_lag * (s.currents.coil - s.currents.inner);
       out.d[5 + kStates] = car_.numbers.driver_lag * (command - s.currents.coil);
     }
+
+    // Forces, and what they make of the motion.
     out.force = car_.damper_force(x, s.z);
-    const Lane force = out.force + car_.strut_extra(x), pushed = car_.push_on_wheel(x, road);
+    const Lane force = out.force + car_.strut_extra(x), pushed = car_.push_at_wheel(x, road);
     car_.damper.derivative(x[0] - x[1], x[2] - x[3], s.z, out.d + 4);
     out.d[0] = x[2];
     out.d[1] = x[3];
@@ -82,6 +109,7 @@ class AdaptiveSteps {
     for (std::size_t k = 0; k < kSize; ++k) first_.d[k] = which ? fresh.d[k] : first_.d[k];
     first_.force = which ? fresh.force : first_.force;
   }
+  /// to = change(from, its place in Slope::d), number by number.
   template <class Change>
   [[gnu::always_inline]] static void each_of(const State& from, State& to, Change change) {
 #pragma GCC unroll 16
@@ -91,6 +119,7 @@ class AdaptiveSteps {
     if constexpr (kLags > 0) to.currents.inner = change(from.currents.inner, 4 + kStates);
     if constexpr (kLags > 1) to.currents.coil = change(from.currents.coil, 5 + kStates);
   }
+  /// The end of a step becomes the state in the lanes that accepted it.
   static void take(State& state, const State& end, LaneMask accepted) {
     for (std::size_t k = 0; k < 4; ++k) state.x[k] = accepted ? end.x[k] : state.x[k];
     for (std::size_t k = 0; k < kStates; ++k) state.z[k] = accepted ? end.z[k] : state.z[k];
@@ -100,49 +129,67 @@ class AdaptiveSteps {
       state.currents.coil = accepted ? end.currents.coil : state.currents.coil;
   }
 
-  /// A step of length h from `begin` (share of the sample) on; its error in tolerances.
+  /// The sum of weights[i] k_i of component n, without the slopes whose weight is 0.
+  template <class... Later>
+  [[gnu::always_inline]] static Lane weighted(const double* weights, std::size_t n, const Slope& k1,
+                                              const Later&... later) {
+    Lane sum = weights[0] * k1.d[n];
+    [[maybe_unused]] const auto add = [&](double weight, Lane slope) {
+      if (weight != 0) sum += weight * slope;
+    };
+    (add(*++weights, later.d[n]), ...);
+    return sum;
+  }
+  /// to = from + h (a_1 k_1 + a_2 k_2 + ...), a: the stage's row of the tableau.
+  template <std::size_t kStage, class... Slopes>
+  [[gnu::always_inline]] static void move(const State& from, Lane h, State& to,
+                                          const Slopes&... slopes) {
+    static_assert(sizeof...(slopes) == kStage, "a stage takes all slopes before it");
+    each_of(from, to, [&](Lane y, std::size_t n) {
+      return y + h * weighted(DormandPrince::kFrom[kStage], n, slopes...);
+    });
+  }
+
+  /// A step of length h, s, from the share `begin` of the sample on: its end, the slope there (k7)
+  /// and, returned, its error in tolerances. Kept out of line: inlined copies may round
+  /// differently.
   [[gnu::noinline, gnu::flatten]] Lane attempt(const State& from, Lane h, Lane command,
                                                const RoadPush& road, Lane begin, State& end,
                                                Slope& k7) {
     const Lane share = h / ride_.sample_time;
+    const auto road_of = [&](std::size_t stage) {
+      return road.at(begin + DormandPrince::kAt[stage] * share);
+    };
     const Slope& k1 = first_;
-    const auto at = [&](double c) { return road.at(begin + c * share); };
     State trial;
-    each_of(from, trial, [&](Lane y, std::size_t k) { return y + h * (0.2 * k1.d[k]); });
-    const Slope k2 = slope(trial, command, at(0.2));
-    each_of(from, trial, [&](Lane y, std::size_t k) {
-      return y + h * (3.0 / 40 * k1.d[k] + 9.0 / 40 * k2.d[k]);
-    });
-    const Slope k3 = slope(trial, command, at(0.3));
-    each_of(from, trial, [&](Lane y, std::size_t k) {
-      return y + h * (44.0 / 45 * k1.d[k] - 56.0 / 15 * k2.d[k] + 32.0 / 9 * k3.d[k]);
-    });
-    const Slope k4 = slope(trial, command, at(0.8));
-    each_of(from, trial, [&](Lane y, std::size_t k) {
-      return y + h * (19372.0 / 6561 * k1.d[k] - 25360.0 / 2187 * k2.d[k] +
-                      64448.0 / 6561 * k3.d[k] - 212.0 / 729 * k4.d[k]);
-    });
-    const Slope k5 = slope(trial, command, at(8.0 / 9));
-    each_of(from, trial, [&](Lane y, std::size_t k) {
-      return y + h * (9017.0 / 3168 * k1.d[k] - 355.0 / 33 * k2.d[k] + 46732.0 / 5247 * k3.d[k] +
-                      49.0 / 176 * k4.d[k] - 5103.0 / 18656 * k5.d[k]);
-    });
-    const Slope k6 = slope(trial, command, at(1));
-    each_of(from, end, [&](Lane y, std::size_t k) {
-      return y + h * (35.0 / 384 * k1.d[k] + 500.0 / 1113 * k3.d[k] + 125.0 / 192 * k4.d[k] -
-                      2187.0 / 6784 * k5.d[k] + 11.0 / 84 * k6.d[k]);
-    });
-    k7 = slope(end, command, at(1));
+
+    // Stages 2 to 6: each starts where the slopes before it lead to.
+    move<1>(from, h, trial, k1);
+    const Slope k2 = slope(trial, command, road_of(1));
+    move<2>(from, h, trial, k1, k2);
+    const Slope k3 = slope(trial, command, road_of(2));
+    move<3>(from, h, trial, k1, k2, k3);
+    const Slope k4 = slope(trial, command, road_of(3));
+    move<4>(from, h, trial, k1, k2, k3, k4);
+    const Slope k5 = slope(trial, command, road_of(4));
+    move<5>(from, h, trial, k1, k2, k3, k4, k5);
+    const Slope k6 = slope(trial, command, road_of(5));
+
+    // Stage 7 is the end of the step, and its slope the first one of the next step.
+    move<6>(from, h, end, k1, k2, k3, k4, k5, k6);
+    k7 = slope(end, command, road_of(6));
+
+    // The error: what the embedded solution of order 4 differs by.
     State off;
-    each_of(from, off, [&](Lane, std::size_t k) {
-      return h * (71.0 / 57600 * k1.d[k] - 71.0 / 16695 * k3.d[k] + 71.0 / 1920 * k4.d[k] -
-                  17253.0 / 339200 * k5.d[k] + 22.0 / 525 * k6.d[k] - 1.0 / 40 * k7.d[k]);
+    each_of(from, off, [&](Lane, std::size_t n) {
+      return h * weighted(DormandPrince::kError, n, k1, k2, k3, k4, k5, k6, k7);
     });
     return distance(from, end, off, k1, h);
   }
 
-  /// Heights are measured against each other, and so are speeds; damper and currents one by one,
-  /// each against what it is and what it moves by.
+  /// The error in tolerances. A damper's state, which may pass through 0 while it moves fast, is
+  /// measured against its size and how far it moves in the step. Currents are
+  /// not measured.
   Lane distance(const State& from, const State& end, const State& off, const Slope& k1,
                 Lane h) const {
     const double absolute = ride_.absolute_tolerance, relative = ride_.relative_tolerance;
@@ -160,8 +207,9 @@ class AdaptiveSteps {
 
   const LaneRide& ride_;
   Car& car_;
-  Lane next_, done_{};  ///< s, of the sample
-  Slope first_{};
+  Lane next_;      ///< s, the length to try next
+  Lane done_{};    ///< s of the present sample
+  Slope first_{};  ///< at the present state
 };
 
 }  // namespace

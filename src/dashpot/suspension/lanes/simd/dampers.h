@@ -5,17 +5,27 @@
 namespace dashpot {
 namespace {
 
-/// A static network, one set of weights per lane. The current's part of the first layer is added up
-/// once for all motions at that current.
+// Dampers of a ride in lanes. Each has kStates states per vehicle and
+//   set_current(i)            i A, from now on
+//   force(x, v, z)            N, x m and v m/s of the damper, extension positive
+//   derivative(x, v, z, dz)   z' of its states
+
+/// A static network, one set of weights per lane, in the order of Mlp::parameters with scale and
+/// mean of the output behind them. The current's part of the first layer is added up once for all
+/// motions at that current.
 class NetworkLanes {
  public:
   static constexpr std::size_t kStates = 0;
   explicit NetworkLanes(const LaneRide& ride) : shape_(*ride.network), weights_(ride.damper) {
     const std::size_t inputs = shape_.layers[0].inputs;
     for (std::size_t i = 0; i < inputs; ++i) {
-      const std::size_t kind = shape_.inputs[i];
-      (kind == 0 ? by_displacement_ : kind == 1 ? by_velocity_ : by_current_) = i;
+      const LaneInput input = shape_.inputs[i];
+      (input == LaneInput::Displacement ? by_displacement_
+       : input == LaneInput::Velocity   ? by_velocity_
+                                        : by_current_) = i;
     }
+
+    // The ones of tanh s = 1 - 2 / (1 + exp 2s), which respond() leaves to the output layer.
     const std::size_t outputs = shape_.layers[0].outputs;
     const double* out = behind(shape_.layers[0], weights_);
     if (shape_.count == 2)
@@ -32,8 +42,8 @@ class NetworkLanes {
   }
   void derivative(Lane, Lane, const Lane*, Lane*) const {}
 
-  [[gnu::noinline]] Lane force(Lane x, Lane v,
-                               const Lane*) const {  // too long to have six times in a step
+  /// Out of line: too long to stand six times in a step.
+  [[gnu::noinline]] Lane force(Lane x, Lane v, const Lane*) const {
     if (by_displacement_ == kNone)
       return respond([&](std::size_t n) { return biases_[n] + weight(n, by_velocity_) * v; });
     if (by_velocity_ == kNone)
@@ -50,13 +60,16 @@ class NetworkLanes {
     return load(weights_ + (neuron * shape_.layers[0].inputs + input) * kWidth);
   }
 
-  /// first(n): sum of neuron n of the first layer.
+  /// The output in N; first(n): the sum of neuron n of the first layer.
   template <class First>
   Lane respond(First first) const {
+    // One layer of tanh before the output's, the usual case, adds its neurons up as they come.
     const LaneNetwork::Layer& layer = shape_.layers[0];
     if (shape_.count == 2 && layer.activation == Activation::Tanh)
       return ended(shape_.layers[1], sum_of_tanh(layer.outputs, first, behind(layer, weights_)),
                    behind(layer, weights_));
+
+    // Any other: layer by layer.
     Lane room[2][kMaxWidth];
     with_activation(layer.activation, [&]<Activation kKind>() {
       for (std::size_t n = 0; n < layer.outputs; ++n)
@@ -88,8 +101,9 @@ class NetworkLanes {
     for (std::size_t i = 0; i < layer.inputs; ++i) total += load(row + i * kWidth) * in[i];
     return total;
   }
-  /// The bias and the weighted tanh of so many sums: tanh s = 1 - 2 / (1 + exp 2s), the ones summed
-  /// beforehand. Two neurons share a division, which takes longer than all else.
+  /// The bias and the weighted tanh of that many sums: tanh s = 1 - 2 / (1 + exp 2s), the ones
+  /// summed beforehand (all_ones_). Two neurons share a division, which takes longer than all else:
+  /// a / A + b / B = (a B + b A) / (A B).
   template <class First>
   Lane sum_of_tanh(std::size_t count, First first, const double* out) const {
     Lane fractions{};
@@ -113,12 +127,14 @@ class NetworkLanes {
 
   const LaneNetwork& shape_;
   const double* weights_;
-  std::size_t by_displacement_ = kNone, by_velocity_ = kNone, by_current_ = kNone;
-  Lane biases_[kMaxWidth];
-  Lane all_ones_{};  ///< what the last of two layers sums up where all neurons give 1
+  std::size_t by_displacement_ = kNone, by_velocity_ = kNone, by_current_ = kNone;  ///< inputs
+  Lane biases_[kMaxWidth];  ///< of the first layer, with the current's part
+  Lane all_ones_{};         ///< what the last of two layers sums up where all neurons give 1
 };
 
-/// A law whose text is compiled for lanes: a struct of numbers per lane and its functions.
+/// A law whose text is compiled for lanes (laws.h): P, its struct of parameters, a Lane each, and
+/// its functions. A parameter may follow the current as a polynomial; those that do are kept in a
+/// list.
 template <class P, auto Force, auto Derivative, std::size_t kCount>
 class LawLanes {
  public:
@@ -126,8 +142,9 @@ class LawLanes {
   explicit LawLanes(const LaneRide& ride) : by_power_(ride.damper) {
     for (std::size_t k = 0; k < kParameters; ++k) {
       LaneMask varies{};
-      for (std::size_t power = 1; power < 4; ++power)
+      for (std::size_t power = 1; power < kLanePowers; ++power)
         varies |= load(by_power_ + (power * kParameters + k) * kWidth) != 0;
+
       const Lane value = load(by_power_ + k * kWidth);
       __builtin_memcpy(reinterpret_cast<char*>(&law_) + k * sizeof value, &value, sizeof value);
       if (any(varies)) varying_[count_++] = k;
@@ -137,6 +154,7 @@ class LawLanes {
   void set_current(Lane current) {
     for (std::size_t place = 0; place < count_; ++place) {
       const std::size_t k = varying_[place];
+      static_assert(kLanePowers == 4, "a cubic, by Horner's rule");
       const double* at = by_power_ + k * kWidth;
       constexpr std::size_t kStep = kParameters * kWidth;
       const Lane value =
@@ -152,7 +170,8 @@ class LawLanes {
 
  private:
   static constexpr std::size_t kParameters = sizeof(P) / sizeof(Lane);
-  const double* by_power_;
+  static_assert(sizeof(P) % sizeof(Lane) == 0, "a law's struct holds nothing but its parameters");
+  const double* by_power_;                        ///< kLanePowers rows of parameters
   std::size_t varying_[kParameters], count_ = 0;  ///< parameters that follow the current
   P law_{};
 };

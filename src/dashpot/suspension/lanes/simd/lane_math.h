@@ -1,8 +1,8 @@
 #pragma once
 #include "dashpot/damper/nets/simd/activations.h"
 
-// What the text of a damper law calls, for lanes. Where a lane's function is not worth vector code,
-// the library's own is called for each.
+// The functions of math.h that a law's text calls, for lanes. Where a function is not worth vector
+// code, the library's own is called for each lane.
 namespace dashpot {
 namespace {
 
@@ -74,8 +74,8 @@ inline Lane pow(Lane base, Lane power) {
   return base;
 }
 
-/// 2^r, |r| at most 1/2: a polynomial that meets it where Chebyshev's has zeros. Even and odd
-/// powers by themselves: what counts is how long one takes.
+/// 2^r for |r| <= 1/2: the polynomial that meets it at the zeros of Chebyshev's (of degree 8; 6 for
+/// floats). Even and odd powers are summed apart, since what counts is how long one call takes.
 inline Lane power_of_two(Lane r) {
   const Lane square = r * r;
   const Lane even =
@@ -84,6 +84,7 @@ inline Lane power_of_two(Lane r) {
        0.2402265069564034) *
           square +
       1;
+
   const Lane odd = (((1.0205905413765595e-07 * square + 1.5252672924850737e-05) * square +
                      0.0013333558200794592) *
                         square +
@@ -99,7 +100,7 @@ inline Lanes<float> power_of_two(Lanes<float> r) {
   return ((0.001339086336F * square + 0.05550357114F) * square + 0.693147188F) * r + even;
 }
 
-/// exp(2x), |x| at most kTanhOne: within 3e-14 of itself, of floats to their last digit.
+/// exp(2x) for |x| <= kTanhOne, relative error at most 3e-14, of floats their last digit.
 template <class Real>
 [[gnu::always_inline]] inline Lanes<Real> exp_of_twice(Lanes<Real> x) {
   using A = Arithmetic<Real>;
@@ -112,7 +113,8 @@ template <class Real>
   return power_of_two(y * kTwoLog2E - (shifted - kRound)) * __builtin_bit_cast(V, bits);
 }
 
-/// x^(-1/5) within a tenth, from the exponent's bits: for the length of a step.
+/// x^(-1/5) within a tenth, for x > 0: a double's bits, read as an integer, are nearly linear in
+/// log2 x. Good enough for the length of a step.
 inline Lane about_fifth_root_below(Lane x) {
   constexpr double kOne = 1023;
   const Lane log2 = __builtin_convertvector(__builtin_bit_cast(LaneMask, x), Lane) * 0x1p-52 - kOne;

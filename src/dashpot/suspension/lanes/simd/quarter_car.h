@@ -4,26 +4,36 @@
 namespace dashpot {
 namespace {
 
-/// The driver's current in the coil, and the one that drives the model behind one or both of their
-/// lags.
+/// The driver's current in the coil, A, and the one that drives the model behind one or both of
+/// their lags, A.
 struct Currents {
   Lane coil{}, inner{};
 };
 
-/// What moves, and what it feels.
+/// All that changes while a vehicle rides.
 template <std::size_t kStates>
 struct Moving {
-  Lane x[4]{};            ///< body, wheel, their speeds
-  Lane z[kStates + 1]{};  ///< the damper's
+  Lane x[4]{};            ///< heights of body and wheel, m, and their speeds, m/s
+  Lane z[kStates + 1]{};  ///< the damper's states; one more, since there may be none
   Currents currents;
 };
 
-/// The equations of a quarter car in each lane.
+/// The equations of a quarter car in each lane:
+///
+///     [body'', wheel''] = A x + b F + c P
+///
+/// F N of the damper, friction and stops (extension positive), P N of the road on the wheel.
+/// `Damper` gives its force by set_current(), force() and derivative() (dampers.h), or by expand()
+/// (tanh_neurons.h). The numbers of LaneRide are read in place, a Lane for each double.
 template <class Damper>
 class QuarterCarLanes {
  public:
   static constexpr std::size_t kStates = Damper::kStates;
   using State = Moving<kStates>;
+  using Numbers = QuarterCarNumbers<Lane>;
+  static_assert(sizeof(Numbers) == kWidth * sizeof(QuarterCarNumbers<double>),
+                "a row of lanes stands for each number of a vehicle, without gaps");
+
   explicit QuarterCarLanes(const LaneRide& ride)
       : damper(ride), numbers(*reinterpret_cast<const Numbers*>(ride.numbers)), ride_(ride) {}
 
@@ -31,30 +41,22 @@ class QuarterCarLanes {
   Lane damper_force(const Lane* x, const Lane* z) const {
     return damper.force(x[0] - x[1], x[2] - x[3], z);
   }
-  /// What else acts along the strut.
+  /// Friction and stops of the strut, N.
   Lane strut_extra(const Lane* x) const {
     if (!ride_.resists_more) return Lane{};
-    const Lane d = x[0] - x[1];
-    const Lane stopped = d > numbers.extension_stop      ? d - numbers.extension_stop
-                         : d < -numbers.compression_stop ? d + numbers.compression_stop
-                                                         : Lane{};
-    return numbers.friction * tanh(numbers.friction_slope * (x[2] - x[3])) +
-           numbers.stop_stiffness * stopped;
+    const Lane sliding = tanh(numbers.friction_slope * (x[2] - x[3]));
+    return strut_resistance(numbers.strut, x[0] - x[1], sliding);
   }
-  /// Force of a tyre by the road alone, of a given height and rate.
-  Lane push(Lane height, Lane rate) const {
-    return numbers.tyre_stiffness * height + numbers.tyre_damping * rate;
+  /// Load of the tyre on the road under this push, N.
+  Lane load_on_road(const Lane* x, Lane pushed) const {
+    return tyre_load(numbers.tyre, pushed, x[1], x[3]);
   }
-  Lane tyre_load(const Lane* x, Lane pushed) const {
-    return numbers.static_load + pushed - numbers.tyre_stiffness * x[1] -
-           numbers.tyre_damping * x[3];
-  }
-  /// The same where the tyre lets go instead of pulling.
-  Lane push_on_wheel(const Lane* x, Lane pushed) const {
+  /// The part of the road's push that reaches the wheel, N.
+  Lane push_at_wheel(const Lane* x, Lane pushed) const {
     if (!ride_.resists_more) return pushed;
-    return pushed - numbers.may_lift * fmin(tyre_load(x, pushed), 0);
+    return push_on_wheel(numbers.tyre, pushed, load_on_road(x, pushed));
   }
-  /// Of coordinate k, m/s^2.
+  /// Acceleration of coordinate k, m/s^2.
   Lane acceleration(std::size_t k, const Lane* x, Lane strut, Lane pushed) const {
     const Lane(&a)[4] = numbers.by_state[k];
     return (a[0] * x[0] + a[1] * x[1]) + (a[2] * x[2] + a[3] * x[3]) +
@@ -66,23 +68,24 @@ class QuarterCarLanes {
   }
 
   Damper damper;
-  using Numbers = QuarterCarNumbers<Lane>;
   const Numbers& numbers;
 
  private:
   const LaneRide& ride_;
 };
 
-/// The road's push within a sample: a parabola through its begin, middle and end and, so that its
-/// slopes there are the road's, twist u (u - 1/2) (u - 1), u = 0 ... 1.
+/// The road's push within a sample, N, over the share u = 0 ... 1 of it: the parabola through its
+/// start, middle and end and, so that it has the road's slopes at both ends, twist u (u - 1/2) (u -
+/// 1).
 struct RoadPush {
-  Lane node[3]{}, twist{};
+  Lane node[3]{};  ///< at u = 0, 1/2 and 1
+  Lane twist{};
   Lane at(Lane u) const {
     const Lane slope = 4 * node[1] - 3 * node[0] - node[2],
                bend = 2 * (node[0] + node[2]) - 4 * node[1];
     return node[0] + u * (slope + u * bend + (u - 0.5) * (u - 1) * twist);
   }
-  /// Terms of its series around u.
+  /// Terms 0 to 3 of its series around u, in shares of the sample; there are no more.
   void expand(Lane u, Lane* terms) const {
     const Lane slope = 4 * node[1] - 3 * node[0] - node[2] + 0.5 * twist,
                bend = 2 * (node[0] + node[2]) - 4 * node[1] - 1.5 * twist;

@@ -1,4 +1,5 @@
-// Compiled once per instruction set; DASHPOT_RIDES names the function that hands out the result.
+// Compiled once per instruction set; DASHPOT_RIDES names the function that returns this set's
+// kernel.
 #include "dashpot/suspension/lanes/simd/adaptive.h"
 #include "dashpot/suspension/lanes/simd/laws.h"
 #include "dashpot/suspension/lanes/simd/run.h"
@@ -8,6 +9,7 @@
 namespace dashpot {
 namespace {
 
+/// With as many currents behind lags as the ride has.
 template <class Damper>
 void run_with(const LaneRide& ride) {
   switch (ride.lags) {
@@ -20,18 +22,20 @@ void run_with(const LaneRide& ride) {
   }
 }
 
-constexpr double kFinestOfFloats =
-    5e-7;  ///< the tolerance above which a force may be of single precision
+/// The relative tolerance from which on a force may be of single precision, which is true to 1e-7.
+constexpr double kFinestOfFloats = 5e-7;
 
-/// Whether a network's force is a function of velocity alone that TanhNeurons have, and all else is
-/// smooth.
+/// Whether TaylorSteps suit the ride: a network that TanhNeurons can expand, and no stops,
+/// friction, lift or lags.
 bool has_series(const LaneRide& ride) {
+  // The motion enters the network by velocity alone.
   const LaneNetwork& network = *ride.network;
   bool by_velocity = false, by_displacement = false;
   for (std::size_t i = 0; i < network.layers[0].inputs; ++i) {
-    by_velocity = by_velocity || network.inputs[i] == 1;
-    by_displacement = by_displacement || network.inputs[i] == 0;
+    by_velocity = by_velocity || network.inputs[i] == LaneInput::Velocity;
+    by_displacement = by_displacement || network.inputs[i] == LaneInput::Displacement;
   }
+
   return by_velocity && !by_displacement && ride.lags == 0 && !ride.resists_more &&
          network.count == 2 && network.layers[0].activation == Activation::Tanh &&
          network.layers[1].activation == Activation::Identity;

@@ -5,17 +5,23 @@
 namespace dashpot {
 namespace {
 
-/// What is kept of a ride while it goes on.
+/// Sums and greatest values of a ride, from its samples: the rows of LaneResult.
 class Tally {
  public:
+  /// load_at_rest: N, of the tyre.
   Tally(const LaneRide& ride, Lane load_at_rest) : ride_(ride), load_at_rest_(load_at_rest) {}
 
+  /// acceleration of the body m/s^2, load of the tyre N, deflections m, speed m/s and force N of
+  /// the damper, current A.
   struct Sample {
     Lane acceleration, load, tyre_deflection, deflection, speed, force, current;
   };
-  /// Of the lanes that have a sample here, those that count.
+
+  /// Adds a sample in the lanes that `counts` marks among `which`. The weighting filter runs in all
+  /// of `which`, from the start of the ride on.
   void add(const Sample& s, LaneMask which, LaneMask counts) {
     const Lane weighted = weigh(s.acceleration, which);
+
     counts &= which;
     const auto put = [&](LaneResult row, Lane value) { sums_[row] += counts ? value : Lane{}; };
     const Lane more = s.load - load_at_rest_;
@@ -37,6 +43,8 @@ class Tally {
   }
 
  private:
+  /// The weighting's sections one after the other, each in the transposed direct form II:
+  /// out = b0 in + s0,  s0 = b1 in - a1 out + s1,  s1 = b2 in - a2 out.
   Lane weigh(Lane in, LaneMask which) {
     const double* b = ride_.weighting;
     for (Lane(&s)[2] : memory_) {

@@ -5,10 +5,20 @@
 namespace dashpot {
 namespace {
 
-/// A network of one layer of tanh neurons, of velocity and perhaps current, as the function of
-/// velocity that it is near a point: its Taylor polynomial. An exponential and half a division per
-/// neuron give all coefficients, since the derivatives of tanh are polynomials of tanh. Real: what
-/// the neurons calculate in; of float, a vector holds two neurons of all vehicles.
+/// A network of one layer of tanh neurons, of velocity and perhaps current, as the polynomial of
+/// velocity that it is near a velocity v0:
+///
+///     F(v0 + w) = sum f_k w^k,    f_k = sum over neurons of out_n b_n^k t^(k)(s_n) / k!
+///
+/// with k = 0 ... kTerms - 1, s_n = bias + weights . [v0, current], b_n the weight of velocity. All
+/// derivatives of tanh are polynomials of t = tanh s:
+///
+///     t' = 1 - t^2                           t''' / 6   = t' (t^2 - 1/3)
+///     t'' / 2 = -t t'                        t'''' / 24 = -t t' (t^2 - 2/3)
+///                                            t''''' / 120 = t' (t^2 (t^2 - 1) + 2/15)
+///
+/// so that one exponential and half a division per neuron give all terms. Real: what the neurons
+/// calculate in; of float, a vector holds two neurons of all vehicles.
 template <class Real>
 class TanhNeurons {
  public:
@@ -16,10 +26,13 @@ class TanhNeurons {
   using Polynomial = Lane[kTerms];
 
   explicit TanhNeurons(const LaneRide& ride) {
+    // The rows of LaneRide::damper: weights, biases, output weights, its bias; scale and mean.
     const LaneNetwork::Layer& layer = ride.network->layers[0];
     const double *biases = ride.damper + layer.inputs * layer.outputs * kWidth,
                  *out = biases + layer.outputs * kWidth,
                  *scale = out + (layer.outputs + 1) * kWidth;
+
+    // Neuron by neuron, kTogether of them in a vector. Output weights are kept times b_n^k.
     for (std::size_t n = 0; n < layer.outputs; ++n) {
       Neurons& to = neurons_[n / kTogether];
       const std::size_t place = n % kTogether * kWidth;
@@ -27,14 +40,16 @@ class TanhNeurons {
       Lane by_velocity{}, power = load(scale) * load(out + n * kWidth);
       for (std::size_t i = 0; i < layer.inputs; ++i) {
         const Lane weight = load(ride.damper + (n * layer.inputs + i) * kWidth);
-        if (ride.network->inputs[i] == 2)
+        if (ride.network->inputs[i] == LaneInput::Current)
           put(weight, to.by_current, place);
         else
           put(by_velocity = weight, to.by_velocity, place);
       }
       for (std::size_t k = 0; k < kTerms; ++k, power *= by_velocity) put(power, to.out[k], place);
     }
-    const std::size_t pair = 2 * kTogether;  // neurons of no weight fill the last one
+
+    // expand() takes vectors in pairs; neurons of no weight fill the last one.
+    const std::size_t pair = 2 * kTogether;
     end_ = neurons_ + (layer.outputs + pair - 1) / pair * 2;
     mean_ = load(scale) * load(out + layer.outputs * kWidth) + load(scale + kWidth);
   }
@@ -43,10 +58,11 @@ class TanhNeurons {
     const Vector i = spread(current);
     for (Neurons* n = neurons_; n < end_; ++n) n->at_rest = n->bias + n->by_current * i;
   }
-  /// The force around a velocity, N, or its first terms. Two sums share a division, which takes
-  /// longer than all else.
+  /// f_k around a velocity, N (s/m)^k: all kTerms of them, or the force f_0 alone. Two sums share a
+  /// division, which takes longer than all else.
   template <std::size_t kCount>
   void expand(Lane velocity, Lane (&force)[kCount]) const {
+    static_assert(kCount == 1 || kCount == kTerms);
     Vector sum[kCount]{};
     const Vector v = spread(velocity);
     for (const Neurons* n = neurons_; n < end_; n += 2) {
@@ -62,15 +78,19 @@ class TanhNeurons {
 
  private:
   using Vector = Lanes<Real>;
-  static constexpr std::size_t kTogether = kLanes<Real> / kWidth;
+  static constexpr std::size_t kTogether = kLanes<Real> / kWidth;  ///< neurons per vector
+  static_assert(kTogether == 1 || kTogether == 2, "double or float");
+  static_assert(kMaxWidth % (2 * kTogether) == 0, "the last pair of vectors is within neurons_");
   struct Neurons {
-    Vector bias{}, by_current{}, by_velocity{}, at_rest{};
-    Vector out[kTerms]{};  ///< times powers of by_velocity
+    Vector bias{}, by_current{}, by_velocity{};
+    Vector at_rest{};      ///< the sum s at the present current and no velocity
+    Vector out[kTerms]{};  ///< output weight times by_velocity^k
   };
 
   static void put(Lane from, Vector& to, std::size_t place) {
     for (std::size_t k = 0; k < kWidth; ++k) to[place + k] = static_cast<Real>(from[k]);
   }
+  /// The lanes of x once for each neuron of a vector, and back: the sum over a vector's neurons.
   static Vector spread(Lane x) {
     if constexpr (kTogether == 1)
       return x;
@@ -96,9 +116,10 @@ class TanhNeurons {
            __builtin_convertvector(__builtin_shufflevector(sum, sum, (kLane + kCount)...), Lane);
   }
 
-  /// Adds the k-th derivative of tanh over k!, times the neurons' weights; t is their tanh.
+  /// Adds what these neurons give to f_k: out b^k t^(k) / k!; t is their tanh.
   template <std::size_t kCount>
   [[gnu::always_inline]] static void add(const Neurons& neurons, Vector t, Vector (&sum)[kCount]) {
+    static_assert(kTerms == 6, "one line per derivative of tanh");
     constexpr Real kThird = Real(1) / 3;
     const Vector(&out)[kTerms] = neurons.out;
     sum[0] += out[0] * t;
@@ -112,7 +133,7 @@ class TanhNeurons {
     }
   }
 
-  Lane mean_;
+  Lane mean_;  ///< N, the output where all neurons give 0
   Neurons neurons_[kMaxWidth / kTogether];
   const Neurons* end_;
 };

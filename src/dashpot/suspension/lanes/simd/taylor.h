@@ -5,19 +5,39 @@
 namespace dashpot {
 namespace {
 
-/// Taylor's series of the motion in time, for what is smooth all along a sample. A step costs one
-/// expansion of the damper, and its length follows before it is taken from the last term, as in A.
-/// Jorba, M. Zou, Exp. Math. 14 (2005) 99.
+/// Taylor's series of the motion in time, for a ride that is smooth all along a sample: a damper
+/// whose force is a polynomial of the strut's speed near that speed, no stops, friction, lift or
+/// lags.
+///
+/// Time runs as s, the share of a sample of length dt. With x = [body, wheel, their speeds] and
+///
+///     x(s) = sum x_k s^k,   k = 0 ... n,         n = kOrder
+///
+/// the equations of motion give each term from those before it, with a_k of the accelerations:
+///
+///     heights  x_k+1 = dt / (k + 1) speeds_k,    speeds_k+1 = dt / (k + 1) a_k
+///     a_k = A x_k + b F_k + c P_k                (QuarterCarLanes::acceleration)
+///
+/// P_k are the terms of the road's push, a cubic in s (RoadPush). F_k are those of the damper's
+/// force: the damper gives f_j of F = sum f_j w^j, where w = m_1 s + m_2 s^2 + ... is how far the
+/// strut's speed has moved, and composed() collects the powers of s in it (Faa di Bruno's formula).
+///
+/// Error and step: the last term that is kept, x_n s^n, stands for what the series leaves out. A
+/// step ends where it reaches the tolerance, found before the step is taken, so that none is
+/// refused: A. Jorba, M. Zou, Exp. Math. 14 (2005) 99-117. One step is one expansion of the damper.
 template <class Damper>
 class TaylorSteps {
   using Car = QuarterCarLanes<Damper>;
   using State = typename Car::State;
-  static constexpr std::size_t kOrder = Damper::kTerms;  ///< of the speeds; heights have one more
+  static constexpr std::size_t kOrder = Damper::kTerms;  ///< n, of heights and speeds
+
+  static_assert(kOrder == 6,
+                "composed() has terms 0 to 5 of the force; length() raises to power 6");
 
  public:
   TaylorSteps(const LaneRide& ride, Car& car) : ride_(ride), car_(car) {}
 
-  /// Forces at the begin of a sample, after the command has changed in some lanes.
+  /// Forces at the start of a sample, after the command has changed in some lanes.
   void refresh(const State& state, Lane, LaneMask changed, Lane road) {
     expand_damper(state.x);
     keep(state.x, damper_[0], road, changed);
@@ -26,35 +46,44 @@ class TaylorSteps {
   Lane force() const { return force_; }
   Lane acceleration(std::size_t k) const { return acceleration_[k]; }
 
-  /// Over one sample in these lanes, all of which reach its end.
+  /// Over one sample in these lanes, all of which reach its end: in as many steps as the lane needs
+  /// that needs most. The others take steps of length 0 meanwhile.
   LaneMask step(State& state, Lane, const RoadPush& road, LaneMask riding) {
     Lane done{}, left = riding ? all(1) : Lane{};
     do {
+      // Terms of the series around the present state, and how far they carry.
       Lane x[kOrder + 1][4];
       if (!expanded_) expand_damper(state.x);
       expand(state.x, road, done, x);
       const Lane share = length(x, left);
+
+      // The series at the end of the step, by Horner's rule.
       for (std::size_t i = 0; i < 4; ++i) {
         Lane sum = x[kOrder][i];
         for (std::size_t k = kOrder; k-- > 0;) sum = x[k][i] + share * sum;
         state.x[i] = sum;
       }
       expanded_ = false;
+
+      // What is left of the sample, exactly 0 where the step reached its end.
       steps += left > 0 ? all(1) : Lane{};
       left = share < left ? left - share : Lane{};
       done += share;
     } while (any(left > 0));
+
+    // Forces at the end, which the controller and the measures see.
     Lane force[1];
     car_.damper.expand(state.x[2] - state.x[3], force);
     keep(state.x, force[0], road.node[2], riding);
     return riding;
   }
 
-  LaneMask missed{};
-  Lane steps{};
+  LaneMask missed{};  ///< lanes in which some step was too short to meet the tolerance
+  Lane steps{};       ///< taken in each lane
 
  private:
-  /// One copy of the code, so that a lane's bits do not hang on when it is called.
+  /// Kept out of line: inlined copies may round differently, and a lane's bits must not depend on
+  /// the place it is called from.
   [[gnu::noinline]] void expand_damper(const Lane* x) {
     car_.damper.expand(x[2] - x[3], damper_);
     expanded_ = true;
@@ -64,16 +93,19 @@ class TaylorSteps {
     for (std::size_t k = 0; k < 2; ++k)
       acceleration_[k] = which ? car_.acceleration(k, x, force, road) : acceleration_[k];
   }
-  /// Terms of the series in shares of a sample.
+  /// Terms x_k of the series around a state at the share `begin` of the sample.
   void expand(const Lane* from, const RoadPush& road, Lane begin, Lane (&x)[kOrder + 1][4]) const {
     const double dt = ride_.sample_time;
     Lane push[kOrder]{}, moved[kOrder], force[kOrder];
     road.expand(begin, push);
     for (std::size_t i = 0; i < 4; ++i) x[0][i] = from[i];
+
 #pragma GCC unroll 8
     for (std::size_t k = 0; k < kOrder; ++k) {
       moved[k] = x[k][2] - x[k][3];
       force[k] = composed(k, moved);
+
+      // Each term of heights and speeds from the one before it.
       const double share = dt / static_cast<double>(k + 1);
       for (std::size_t i = 0; i < 2; ++i) {
         x[k + 1][i] = share * x[k][2 + i];
@@ -81,7 +113,8 @@ class TaylorSteps {
       }
     }
   }
-  /// Term k of the force where the velocity goes as `m`.
+  /// F_k, N, from the damper's f_j and the terms m of the strut's speed: what multiplies s^k in
+  /// sum f_j (m_1 s + m_2 s^2 + ...)^j.
   [[gnu::always_inline]] Lane composed(std::size_t k, const Lane* m) const {
     const Lane* f = damper_;
     switch (k) {
@@ -93,12 +126,14 @@ class TaylorSteps {
         return f[1] * m[2] + f[2] * (m[1] * m[1]);
       case 3:
         return f[1] * m[3] + m[1] * (2 * f[2] * m[2] + f[3] * (m[1] * m[1]));
+
       case 4: {
         const Lane square = m[1] * m[1];
         return f[1] * m[4] + f[2] * (2 * m[1] * m[3] + m[2] * m[2]) +
                square * (3 * f[3] * m[2] + f[4] * square);
       }
-      default: {
+
+      default: {  // 5
         const Lane square = m[1] * m[1];
         return f[1] * m[5] + 2 * f[2] * (m[1] * m[4] + m[2] * m[3]) +
                3 * f[3] * m[1] * (m[1] * m[3] + m[2] * m[2]) +
@@ -106,9 +141,12 @@ class TaylorSteps {
       }
     }
   }
-  /// Share of the sample after which the last term is within the tolerance.
+  /// Share of the sample after which the last term is within the tolerance; `left` where that is
+  /// more than is left. A tolerance that asks for less than kLeast is missed.
   Lane length(const Lane (&x)[kOrder + 1][4], Lane left) {
     constexpr double kLeast = 1.0 / 256;
+
+    // The last term over a whole sample, in tolerances; heights and speeds each by their greatest.
     const auto greatest = [&](std::size_t k, std::size_t i) {
       return fmax(fabs(x[k][i]), fabs(x[k][i + 1]));
     };
@@ -116,10 +154,15 @@ class TaylorSteps {
       return greatest(kOrder, i) / (ride_.absolute_tolerance +
                                     ride_.relative_tolerance * (greatest(0, i) + greatest(1, i)));
     };
-    const Lane off = fmax(error(0), error(2)), square = left * left,
-               here = off * (square * square) * square;
+    const Lane off = fmax(error(0), error(2));
+
+    // All that is left in one step, where the term is small enough at its end.
+    const Lane square = left * left, here = off * (square * square) * square;
     const LaneMask whole = here <= 1;
     if (!any(~whole)) return left;
+
+    // Else the share at which it would just be: off^(-1/6), for which off^(-1/5), which is shorter,
+    // stands since off > 1.
     const Lane shorter = fmin(fmax(0.9 * about_fifth_root_below(off), kLeast), left);
     missed = missed | (~whole & (shorter <= kLeast) & (left > kLeast));
     return whole ? left : shorter;

@@ -1,0 +1,56 @@
+// Layer: damper
+#pragma once
+#include <array>
+#include <cstddef>
+#include <string_view>
+#include <utility>
+
+#include "dashpot/damper_model.h"
+
+namespace dashpot {
+
+constexpr std::size_t kModelKinds = static_cast<std::size_t>(ModelKind::Other);
+
+/// The name of a kind in model files and in lists.
+struct ModelKindName {
+  ModelKind kind;
+  std::string_view name;
+  std::string_view former = {};  ///< in files of earlier versions, which are still read
+};
+inline constexpr std::array kModelKindNames{
+    ModelKindName{ModelKind::Law, "law"},
+    ModelKindName{ModelKind::Network, "network"},
+    ModelKindName{ModelKind::Narx, "narx"},
+    ModelKindName{ModelKind::HysteresisNetwork, "hysteresis_network", "state_network"},
+    ModelKindName{ModelKind::StateSpace, "state_space"},
+    ModelKindName{ModelKind::Fuzzy, "fuzzy"},
+    ModelKindName{ModelKind::Hybrid, "hybrid"},
+    ModelKindName{ModelKind::Family, "family"},
+};
+
+namespace detail {
+template <const auto& kTable, ModelKind kKind>
+struct RowOfKind {
+  static constexpr auto kPlace = static_cast<std::size_t>(kKind);
+  static constexpr bool kStands = kPlace < kTable.size() && kTable[kPlace].kind == kKind;
+  static_assert(kStands, "the table has no row for this kind of model where ModelKind has it");
+};
+
+template <const auto& kTable, std::size_t... kPlaces>
+constexpr bool has_rows(std::index_sequence<kPlaces...>) {
+  return (RowOfKind<kTable, static_cast<ModelKind>(kPlaces)>::kStands && ...) &&
+         kTable.size() == sizeof...(kPlaces);
+}
+}  // namespace detail
+
+/// The row of a kind, which must not be Other, in a layer's table: an array with one row per kind,
+/// each with a `kind`, in the order of ModelKind. A table that lacks a row does not compile, and
+/// the message names the table and the kind.
+template <const auto& kTable>
+constexpr const auto& row_of(ModelKind kind) {
+  static_assert(detail::has_rows<kTable>(std::make_index_sequence<kModelKinds>{}),
+                "the table has not one row for every kind of model");
+  return kTable[static_cast<std::size_t>(kind)];
+}
+
+}  // namespace dashpot

@@ -1,0 +1,302 @@
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "dashpot/base/file.h"
+#include "dashpot/base/text.h"
+#include "dashpot/dataset.h"
+#include "dashpot/error.h"
+#include "dashpot/record/build_record.h"
+#include "dashpot/record/conditions.h"
+#include "dashpot/record/dataset_file.h"
+#include "dashpot/record/readers/reader.h"
+#include "dashpot/record/source_files.h"
+#include "dashpot/record/sources.h"
+
+namespace fs = std::filesystem;
+
+namespace dashpot {
+namespace {
+
+/// "{cmd_amp_mm} mm" with the words in braces replaced.
+std::string fill_template(const std::string& text, const std::map<std::string, std::string>& words,
+                          const std::string& where) {
+  std::string out;
+  for (std::size_t k = 0; k < text.size();) {
+    const std::size_t open = text.find('{', k), close = text.find('}', open);
+    out += text.substr(k, open - k);
+    if (open == std::string::npos) break;
+
+    const std::string word =
+        text.substr(open + 1, close == std::string::npos ? close : close - open - 1);
+
+    const auto at = words.find(word);
+    std::vector<std::string> known;
+    for (const auto& entry : words) known.push_back(entry.first);
+    if (close == std::string::npos || at == words.end())
+      throw Error(where, "'{" + word + "}' in '" + text + "' is unknown", suggest(word, known));
+
+    out += at->second;
+    k = close + 1;
+  }
+  return out;
+}
+
+/// Loads file after file into one dataset.
+class Loader {
+ public:
+  Loader(Sources sources, const LoadOptions& options)
+      : sources_(std::move(sources)), options_(options), manifest_(find_manifest(sources_)) {
+    if (!sources_.stated.path.empty())
+      stated_in_ = fs::path(sources_.stated.path).filename().string();
+    dataset_.name = sources_.stated.name;
+    dataset_.citation = sources_.stated.citation;
+    dataset_.leave_out = sources_.stated.leave_out;
+    dataset_.notes = sources_.stated.notes;
+  }
+
+  /// In the order of the files; what needs all records at once comes after the last.
+  Dataset load() {
+    for (std::size_t k = 0; k < sources_.files.size(); ++k) {
+      options_.monitor.report("read " + sources_.files[k].relative,
+                              static_cast<double>(k) / static_cast<double>(sources_.files.size()));
+      load_file(sources_.files[k]);
+    }
+
+    if (dataset_.records.empty()) refuse_nothing();
+    infer_conditions(dataset_.records, name_rests_);
+    sort_by_level();
+    make_names_unique();
+    settle_drive();
+    return std::move(dataset_);
+  }
+
+ private:
+  /// Reads one file into records, or passes it over with a reason. A file that the caller named
+  /// itself may not be passed over: pass_over() throws for it.
+  void load_file(const SourcePath& file) {
+    const FileStatement* statement = statement_for(sources_.stated, file);
+    const std::string name = file.path.filename().string();
+
+    // Files beside the recordings that are none.
+    const bool is_manifest = !manifest_.empty() && fs::equivalent(file.path, manifest_.path());
+    if (is_manifest) return dataset_.notes.push_back(file.relative + ": the manifest");
+    if (is_dataset_file(file.path)) return;
+    if (!fs::is_regular_file(file.path))
+      return pass_over(file, "is not a regular file; save what it gives as a file first");
+
+    // Recordings that the dataset file or the manifest leaves out, and files of another format in a
+    // folder.
+    if (!statement) return pass_over(file, "no 'match' in " + stated_in_ + " fits it");
+    const bool stated = !stated_in_.empty();
+    if (!stated && !file.named && !manifest_.empty() && !manifest_.lists(name))
+      return pass_over(file, "not in manifest.csv");
+    if (!stated && !file.named && fs::file_size(file.path) > 0 && !find_reader(file.path))
+      return pass_over(file, "not a recording by its format");
+
+    std::vector<RawTable> tables;
+    try {
+      tables = read_tables(file.path);
+    } catch (const NoTable&) {
+      if (file.named || stated) throw;
+      return pass_over(file, "it holds no table of numbers");
+    }
+
+    const std::size_t parts = tables.size();
+    bool used = false;
+    for (RawTable& table : tables)
+      used = load_table(file, *statement, std::move(table), parts) || used;
+    if (used) dataset_.files.push_back({file.path.string(), sha256_of_file(file.path)});
+  }
+
+  /// Makes a record of one table; false when the table was passed over.
+  bool load_table(const SourcePath& file, const FileStatement& statement, RawTable table,
+                  std::size_t parts) {
+    const NameParts name =
+        split_name(without_gz(fs::path(file.relative)).replace_extension().string());
+
+    // The drive level as the statement, the manifest or the name has it.
+    BuildContext context{&statement,
+                         stated_in_,
+                         {},
+                         known_level(file, statement, table, name),
+                         options_.velocity_cutoff_hz};
+
+    // Name and condition, from templates where the dataset file gives them.
+    const std::string stem = without_gz(fs::path(file.relative)).replace_extension().string();
+    const std::string part = std::to_string(table.part_index + 1), group = table.group;
+    const auto words = template_words(file, stem, part, group, context.level);
+    context.name = !group.empty() ? table.part : parts > 1 ? stem + ", part " + part : stem;
+    if (!statement.name.empty())
+      context.name = fill_template(statement.name, words, statement.where);
+    const std::string condition = fill_template(statement.condition, words, statement.where);
+
+    BuiltRecord built = build_record(std::move(table), context);
+    if (!built.refusal.empty()) {
+      if (file.named || !stated_in_.empty()) throw Error(file.path.string(), built.refusal);
+      pass_over(file, built.refusal);
+      return false;
+    }
+
+    built.record.condition = condition.empty() ? group : condition;
+    dataset_.readings.insert(dataset_.readings.end(), built.readings.begin(), built.readings.end());
+    add_records(std::move(built.record), statement, name.rest);
+    return true;
+  }
+
+  /// One record, or one per role that the statement gives to a part of it.
+  void add_records(Record record, const FileStatement& statement, const std::string& rest) {
+    const auto at_time = [&](const std::optional<double>& t, std::size_t otherwise) {
+      if (!t) return otherwise;
+      return static_cast<std::size_t>(std::lower_bound(record.time.begin(), record.time.end(), *t) -
+                                      record.time.begin());
+    };
+
+    if (statement.roles.empty()) {
+      dataset_.records.push_back(std::move(record));
+      name_rests_.push_back(rest);
+      return;
+    }
+
+    // Each role cuts its own part; what lies before `score_from` is simulated, not scored.
+    for (const RoleStatement& role : statement.roles) {
+      const std::size_t first = at_time(role.from, 0), last = at_time(role.to, record.size());
+      const std::size_t scored = std::max(first, at_time(role.score_from, first));
+      if (last < scored + 2)
+        throw Error(statement.where, "a role leaves nothing of " + record.name,
+                    "the record runs to " + format_number(record.time.back()) + " s");
+
+      Record part = record.slice(first, last);
+      part.warm_up = scored - first;
+      part.role = role.role;
+      if (statement.roles.size() > 1)
+        part.name += role.role == Role::Training ? ", training" : ", left out";
+      if (part.warm_up > 0)
+        part.notes.push_back("scored from " + format_number(part.time[part.warm_up], 6) + " s");
+      dataset_.records.push_back(std::move(part));
+      name_rests_.push_back(rest);
+    }
+  }
+
+  /// The words that templates of names and conditions may use, the manifest's columns among them.
+  std::map<std::string, std::string> template_words(const SourcePath& file, const std::string& stem,
+                                                    const std::string& part,
+                                                    const std::string& group,
+                                                    const std::optional<KnownLevel>& level) const {
+    std::map<std::string, std::string> words{{"stem", stem},
+                                             {"part", part},
+                                             {"group", group},
+                                             {"level", level ? format_number(level->value) : ""}};
+    for (const std::string& column : manifest_.columns())
+      if (const auto cell = manifest_.cell(file.path.filename().string(), column))
+        words[column] = *cell;
+    return words;
+  }
+
+  /// The drive level from beside the table, the surest source first: the statement, the manifest,
+  /// the file's name. A stated drive column makes all of them silent but the first.
+  std::optional<KnownLevel> known_level(const SourcePath& file, const FileStatement& statement,
+                                        const RawTable& table, const NameParts& name) const {
+    const DriveUnit unit = sources_.stated.drive_unit.value_or(DriveUnit::Ampere);
+    const std::string file_name = file.path.filename().string();
+    if (const auto* level = std::get_if<double>(&statement.level))
+      return KnownLevel{*level, unit, stated_in_};
+    if (const auto* column = std::get_if<std::string>(&statement.level))
+      return KnownLevel{manifest_.number(file_name, *column), unit, "manifest, " + *column};
+    if (const auto* levels = std::get_if<std::vector<double>>(&statement.level)) {
+      if (table.part_index < levels->size())
+        return KnownLevel{(*levels)[table.part_index], unit, stated_in_};
+      throw Error(
+          statement.where,
+          "'level' lists " + std::to_string(levels->size()) + " parts, " + table.file + " has more",
+          "one level per part");
+    }
+
+    const bool drive_stated = std::any_of(
+        statement.channels.begin(), statement.channels.end(),
+        [](const ChannelStatement& c) { return c.channel == "current" || c.channel == "voltage"; });
+    if (drive_stated) return std::nullopt;
+    if (const auto column = manifest_.level_column(); column && manifest_.lists(file_name))
+      return KnownLevel{manifest_.number(file_name, column->first), column->second,
+                        "manifest.csv, " + column->first};
+    return name.level;
+  }
+
+  void pass_over(const SourcePath& file, const std::string& why) {
+    if (file.named) throw Error(file.path.string(), why);
+    dataset_.passed_over.push_back({file.relative, why});
+  }
+
+  [[noreturn]] void refuse_nothing() const {
+    const std::string where = sources_.files.empty()
+                                  ? sources_.pointed_at
+                                  : sources_.files.front().path.parent_path().string();
+
+    std::string what =
+        sources_.files.empty()
+            ? "the folder holds no files"
+            : "no recording among " + std::to_string(sources_.files.size()) + " files";
+    for (std::size_t k = 0; k < std::min<std::size_t>(dataset_.notes.size(), 3); ++k)
+      what += "\n  " + dataset_.notes[k];
+
+    throw Error(where, what,
+                "Dashpot looks for " + known_formats() +
+                    (stated_in_.empty() ? ""
+                                        : "; " + stated_in_ +
+                                              " says which files: give the folder that holds them, "
+                                              "or state 'root:' in it"));
+  }
+
+  /// Within a condition by drive level; conditions stay in the order of their files.
+  void sort_by_level() {
+    std::map<std::string, std::size_t> order;
+    for (const Record& record : dataset_.records) order.emplace(record.condition, order.size());
+    std::stable_sort(dataset_.records.begin(), dataset_.records.end(),
+                     [&](const Record& a, const Record& b) {
+                       return std::pair(order[a.condition], a.drive_level) <
+                              std::pair(order[b.condition], b.drive_level);
+                     });
+  }
+
+  void make_names_unique() {
+    std::map<std::string, int> seen;
+    for (Record& record : dataset_.records)
+      if (const int times = ++seen[record.name]; times > 1)
+        record.name += " (" + std::to_string(times) + ")";
+  }
+
+  /// The unit of the drive, which all records of a dataset share: stated, else that of most
+  /// records, current where both are as many.
+  void settle_drive() {
+    std::size_t current = 0, voltage = 0;
+    for (const Record& record : dataset_.records) {
+      current += record.find("current") != nullptr;
+      voltage += record.find("voltage") != nullptr;
+    }
+    const std::size_t count = dataset_.records.size();
+    dataset_.drive_unit = sources_.stated.drive_unit.value_or(current >= voltage ? DriveUnit::Ampere
+                                                                                 : DriveUnit::Volt);
+
+    const std::size_t driven = dataset_.drive_unit == DriveUnit::Ampere ? current : voltage;
+    if (driven < count)
+      dataset_.notes.push_back(
+          std::to_string(count - driven) + " of " + std::to_string(count) +
+          " records have no known current or voltage: give it as a column, in the file "
+          "name (run_0.5A.csv), in manifest.csv or in a dataset file");
+  }
+
+  Sources sources_;
+  const LoadOptions& options_;
+  Manifest manifest_;
+  std::string stated_in_;
+  Dataset dataset_;
+  std::vector<std::string> name_rests_;  ///< of each record: its name without the drive level
+};
+
+}  // namespace
+
+Dataset load_dataset(const std::vector<fs::path>& paths, const LoadOptions& options) {
+  return Loader(find_sources(paths, options), options).load();
+}
+
+}  // namespace dashpot

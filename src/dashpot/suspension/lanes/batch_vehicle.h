@@ -1,0 +1,28 @@
+#pragma once
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "dashpot/simulate.h"
+
+namespace dashpot {
+
+/// One vehicle of a batch: what simulate() takes. All that `setting` refers to must outlive the
+/// batch; vehicles may share it.
+struct BatchVehicle {
+  Setting setting;
+  ControlLimits limits;
+  SensorOptions sensors;
+};
+
+/// s between the samples of a vehicle: its controller's, or 1 ms.
+double sample_time_of(const BatchVehicle& vehicle);
+
+/// Why a vehicle cannot ride in lanes, as a clause: "the plant is no quarter car"; empty where it
+/// can.
+std::string reason_against_lanes(const BatchVehicle& vehicle);
+
+/// Laws whose equations run in lanes, too, in alphabetical order.
+std::span<const std::string_view> lane_laws();
+
+}  // namespace dashpot

@@ -1,0 +1,155 @@
+#include "dashpot/suspension/plants/plant_forces.h"
+
+#include <cmath>
+
+#include <Eigen/Dense>
+
+namespace dashpot {
+namespace {
+
+using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+RowMajor matrix_of(const std::vector<double>& values, std::size_t n) {
+  const auto size = static_cast<Eigen::Index>(n);
+  return Eigen::Map<const RowMajor>(values.data(), size, size);
+}
+Eigen::VectorXd vector_of(const std::vector<double>& values) {
+  return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+}
+
+}  // namespace
+
+PlantForces::PlantForces(const Plant& plant, const GroundMotion& ground)
+    : plant_(plant),
+      ground_(ground),
+      linear_(linear_plant(plant)),
+      resting_(plant.size() * plant.tyres.size()) {
+  for (const Strut& strut : plant.struts) resistances_.push_back(resistance_of(strut));
+  for (const Tyre& tyre : plant.tyres) contacts_.push_back(contact_of(tyre, plant.tyres_may_lift));
+
+  // q'' by state, strut forces and road pushes: M^-1 times the columns of each.
+  const RowMajor mass = matrix_of(plant.mass, plant.size());
+  const auto n = static_cast<Eigen::Index>(plant.size());
+  const Eigen::PartialPivLU<RowMajor> masses(mass);
+  const auto put = [&](const RowMajor& forces, std::vector<double>& rows) {
+    const RowMajor solved = masses.solve(forces);
+    rows.assign(solved.data(), solved.data() + solved.size());
+  };
+  RowMajor by_state(n, 2 * n), by_strut(n, plant.struts.size()), by_tyre(n, plant.tyres.size());
+  by_state << -matrix_of(linear_.stiffness, plant.size()),
+      -matrix_of(linear_.damping, plant.size());
+  for (std::size_t s = 0; s < plant.struts.size(); ++s)
+    by_strut.col(static_cast<Eigen::Index>(s)) = -vector_of(plant.struts[s].row);
+  for (std::size_t w = 0; w < plant.tyres.size(); ++w)
+    by_tyre.col(static_cast<Eigen::Index>(w)) = vector_of(plant.tyres[w].row);
+  put(by_state, by_state_);
+  put(by_strut, by_strut_);
+  put(by_tyre, by_tyre_);
+
+  // M e, the inertia that a shaking ground drives.
+  if (!plant.ground.empty()) {
+    const Eigen::VectorXd shaken = mass * vector_of(plant.ground);
+    shaken_.assign(shaken.begin(), shaken.end());
+  }
+
+  // Where the plant rests for each tyre lifted by 1 m.
+  const Eigen::PartialPivLU<RowMajor> stiffness(matrix_of(linear_.stiffness, plant.size()));
+  for (std::size_t t = 0; t < plant.tyres.size(); ++t) {
+    const Eigen::VectorXd q =
+        stiffness.solve(plant.tyres[t].stiffness * vector_of(plant.tyres[t].row));
+    for (std::size_t k = 0; k < plant.size(); ++k)
+      resting_[k * plant.tyres.size() + t] = q[static_cast<Eigen::Index>(k)];
+  }
+}
+
+DamperInput PlantForces::strut_motion(std::size_t strut, double t, std::span<const double> x,
+                                      double current) const noexcept {
+  const Strut& s = plant_.struts[strut];
+  DamperInput motion{along(s.row, x.data()), along(s.row, x.data() + plant_.size()), current};
+  if (s.track) {
+    const FootMotion ground = ground_.foot(t, *s.track, 0);
+    motion.displacement -= ground.height;
+    motion.velocity -= ground.velocity;
+  }
+  return motion;
+}
+
+double PlantForces::strut_extra(std::size_t strut, const DamperInput& motion) const noexcept {
+  const Strut& s = plant_.struts[strut];
+  const double sliding = s.friction > 0 ? std::tanh(motion.velocity / s.friction_speed) : 0;
+  return strut_resistance(resistances_[strut], motion.displacement, sliding);
+}
+
+FootMotion PlantForces::foot(std::size_t tyre, double t) const noexcept {
+  return ground_.foot(t, plant_.tyres[tyre].track, plant_.tyres[tyre].behind);
+}
+
+double PlantForces::tyre_load(std::size_t tyre, double t,
+                              std::span<const double> x) const noexcept {
+  // By the tyre's deflection, as it is recorded. dashpot::tyre_load() groups the same sum by the
+  // road's push, which rounds differently.
+  const Tyre& w = plant_.tyres[tyre];
+  const FootMotion ground = foot(tyre, t);
+  const double load = w.static_load + w.stiffness * (ground.height - along(w.row, x.data())) +
+                      w.damping * (ground.velocity - along(w.row, x.data() + plant_.size()));
+  return plant_.tyres_may_lift ? std::fmax(load, 0) : load;
+}
+
+void PlantForces::add_up(double t, std::span<const double> x, std::span<const double> strut_forces,
+                         std::span<double> g) const noexcept {
+  for (double& value : g) value = 0;
+  for (std::size_t s = 0; s < plant_.struts.size(); ++s)
+    for (std::size_t k = 0; k < g.size(); ++k) g[k] -= plant_.struts[s].row[k] * strut_forces[s];
+  for (std::size_t w = 0; w < plant_.tyres.size(); ++w) {
+    const double pushed = push(w, t, x);
+    for (std::size_t k = 0; k < g.size(); ++k) g[k] += plant_.tyres[w].row[k] * pushed;
+  }
+  if (shaken_.empty()) return;
+  const double a = ground_.acceleration(t);
+  for (std::size_t k = 0; k < g.size(); ++k) g[k] -= shaken_[k] * a;
+}
+
+double PlantForces::push(std::size_t which, double t, std::span<const double> x) const noexcept {
+  const std::vector<double>& row = plant_.tyres[which].row;
+  const TyreContact<double>& tyre = contacts_[which];
+  const FootMotion ground = foot(which, t);
+  const double push = road_push(tyre, ground.height, ground.velocity);
+  if (!plant_.tyres_may_lift) return push;
+
+  const double height = along(row, x.data()), rate = along(row, x.data() + plant_.size());
+  return push_on_wheel(tyre, push, dashpot::tyre_load(tyre, push, height, rate));
+}
+
+void PlantForces::accelerate(double t, std::span<const double> x,
+                             std::span<const double> strut_forces,
+                             std::span<double> out) const noexcept {
+  const double shake = shaken_.empty() ? 0 : ground_.acceleration(t);
+
+  // Row by row: shaking, state, strut forces.
+  const double* a = by_state_.data();
+  const double* b = by_strut_.data();
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    double sum = shaken_.empty() ? 0 : -plant_.ground[i] * shake;
+    for (const double value : x) sum += *a++ * value;
+    for (const double force : strut_forces) sum += *b++ * force;
+    out[i] = sum;
+  }
+
+  // The tyres, whose push depends on the road and on the motion.
+  const std::size_t tyres = plant_.tyres.size();
+  for (std::size_t w = 0; w < tyres; ++w) {
+    const double pushed = push(w, t, x);
+    for (std::size_t i = 0; i < out.size(); ++i) out[i] += by_tyre_[i * tyres + w] * pushed;
+  }
+}
+
+void PlantForces::resting_place(double t, std::span<double> q) const noexcept {
+  const std::size_t tyres = plant_.tyres.size();
+  for (double& value : q) value = 0;
+  for (std::size_t w = 0; w < tyres; ++w) {
+    const double z = foot(w, t).height;
+    for (std::size_t k = 0; k < q.size(); ++k) q[k] += resting_[k * tyres + w] * z;
+  }
+}
+
+}  // namespace dashpot

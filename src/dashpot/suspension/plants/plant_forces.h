@@ -1,0 +1,54 @@
+#pragma once
+#include <span>
+#include <vector>
+
+#include "dashpot/ground_motion.h"
+#include "dashpot/mounted_damper.h"
+#include "dashpot/plant.h"
+#include "dashpot/suspension/plants/linear.h"
+#include "dashpot/suspension/plants/nonlinear_forces.h"
+
+namespace dashpot {
+
+/// Forces of a plant on its ground at an instant t, s, in SI. x = [q, q']. Plant and ground must
+/// outlive it. Evaluations allocate nothing.
+class PlantForces {
+ public:
+  PlantForces(const Plant& plant, const GroundMotion& ground);
+
+  /// Deflection and velocity of a strut, extension positive, with this current.
+  DamperInput strut_motion(std::size_t strut, double t, std::span<const double> x,
+                           double current) const noexcept;
+  /// Stops and friction of a strut, N.
+  double strut_extra(std::size_t strut, const DamperInput& motion) const noexcept;
+  FootMotion foot(std::size_t tyre, double t) const noexcept;
+  /// N, of the tyre on the road; 0 where contact is lost and tyres may lift.
+  double tyre_load(std::size_t tyre, double t, std::span<const double> x) const noexcept;
+
+  /// g of M q'' + C q' + K q = g, N: all forces that are not linear in x, with these of the struts.
+  void add_up(double t, std::span<const double> x, std::span<const double> strut_forces,
+              std::span<double> g) const noexcept;
+  /// q'' with these forces of struts.
+  void accelerate(double t, std::span<const double> x, std::span<const double> strut_forces,
+                  std::span<double> out) const noexcept;
+  /// Where the plant would rest on the ground as it is, q.
+  void resting_place(double t, std::span<double> q) const noexcept;
+
+  const LinearPlant& linear() const { return linear_; }
+
+ private:
+  const Plant& plant_;
+  const GroundMotion& ground_;
+  LinearPlant linear_;
+  std::vector<StrutResistance<double>> resistances_;  ///< one per strut
+  std::vector<TyreContact<double>> contacts_;         ///< one per tyre
+  /// The push of the road on a wheel, N, without the pull of a tyre that has lifted.
+  double push(std::size_t tyre, double t, std::span<const double> x) const noexcept;
+
+  /// q'' row by row: by x, by strut forces, by the tyres' pushes.
+  std::vector<double> by_state_, by_strut_, by_tyre_;
+  std::vector<double> shaken_;   ///< M e; empty where the ground does not shake
+  std::vector<double> resting_;  ///< size x tyres: K^-1 row k
+};
+
+}  // namespace dashpot

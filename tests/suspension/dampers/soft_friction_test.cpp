@@ -1,0 +1,25 @@
+#include "dashpot/suspension/dampers/soft_friction.h"
+
+#include "dashpot/damper/kinds/law/law_model.h"
+#include "dashpot/damper/registry.h"
+#include "support.h"
+
+using namespace dashpot;
+
+TEST_CASE("friction that jumps is seen, and then sets in along a straight line") {
+  // F = 1000 v + 100 tanh(v / v_s) N.
+  const auto bingham = [](double speed) {
+    return std::make_shared<LawModel>(
+        LawModel::constant(find_law("bingham"), {1000, 100, 0, speed}));
+  };
+  CHECK(jumps_at_rest(*bingham(0), 0, 1));
+  CHECK(!jumps_at_rest(*bingham(1e-3), 0, 1));
+  const auto soft = with_soft_friction(bingham(0));
+  const auto force = [&](const DamperModel& model, double v) { return model.force({0, v, 0}, {}); };
+  CHECK(!jumps_at_rest(*soft, 0, 1));
+  CHECK_CLOSE(force(*soft, 0.5 * kFrictionSpeed), 0.5 * (100 + 1000 * kFrictionSpeed), 1e-12, 0);
+  CHECK_CLOSE(force(*soft, 0), 0, 0, 1e-12);
+  for (const double v : {-0.5, -kFrictionSpeed, kFrictionSpeed, 0.3})
+    CHECK(force(*soft, v) == force(*bingham(0), v));
+  CHECK(force(*soft->with_offset(7), 0.3) == force(*soft, 0.3) + 7);
+}
