@@ -13,7 +13,7 @@
 
 namespace dashpot {
 
-/// What a controller knows of one strut at a sample, as sensors and filters give it. z up,
+/// Signals of one strut at a sample, as sensors and filters give them to a controller. z up,
 /// extension positive.
 struct StrutSignals {
   double body_velocity = 0, body_acceleration = 0;  ///< m/s, m/s^2, of its upper end
@@ -23,14 +23,14 @@ struct StrutSignals {
   double current = 0;                               ///< A, in the coil
 };
 
-/// What a controller asks of one damper.
+/// A controller's demand on one damper.
 struct DamperDemand {
   enum class Kind { Damping, Force, Current };
   Kind kind = Kind::Damping;
   double value = 0;  ///< N*s/m within the limits; N, positive when it resists extension; A
 };
 
-/// What the dampers behind a controller can do.
+/// The limits of the dampers behind a controller.
 struct ControlLimits {
   double damping_min = 300, damping_max = 3900;  ///< N*s/m
   double current_min = 0, current_max = 1;       ///< A (or V)
@@ -60,7 +60,7 @@ class Controller {
 };
 using ControllerPointer = std::unique_ptr<const Controller>;
 
-/// What a law is made from.
+/// Limits and plant that a law is made for.
 struct ControlContext {
   const ControlLimits& limits;
   const Plant& plant;
@@ -88,7 +88,8 @@ ControllerPointer make_controller(const std::string& text, const ControlContext&
 /// Whether it feeds the plant's state back.
 bool needs_plant_state(const std::string& text);
 
-/// What stands between the plant and its controller. Ideal by default: the laws see what is.
+/// The sensors between the plant and its controller. Ideal by default: the laws see the true
+/// signals.
 struct SensorOptions {
   bool in_car = false;  ///< a body accelerometer and a deflection sensor per strut; the rest is
                         ///< made from these

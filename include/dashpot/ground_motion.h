@@ -14,8 +14,8 @@ struct FootMotion {
   double height = 0, velocity = 0;  ///< m, m/s
 };
 
-/// What moves the feet of a plant: the road under each track as it passes, or ground that shakes.
-/// Immutable.
+/// The motion under the feet of a plant: the road under each track as it passes, or ground that
+/// shakes. Immutable.
 class GroundMotion {
  public:
   virtual ~GroundMotion() = default;
@@ -31,12 +31,11 @@ class GroundMotion {
     for (std::size_t k = 0; k < out.size(); ++k)
       out[k] = foot(t + step * static_cast<double>(k), track, behind);
   }
-  virtual double acceleration(double) const noexcept {
-    return 0;
-  }  ///< m/s^2, of the ground, at t s
+  /// m/s^2, of the ground, at t s.
+  virtual double acceleration(double) const noexcept { return 0; }
   /// Whether it is an acceleration, which plants without tyres ask for, and not a height.
   virtual bool shakes() const noexcept { return false; }
-  /// Whether it is alike all along, a road or a sine: its begin may be left out of measures.
+  /// Whether it is alike all along, a road or a sine: its start may be left out of measures.
   virtual bool is_steady() const noexcept { return false; }
   /// m/s along the road; 0: its height is one of time, and all tyres meet it at once.
   virtual double speed() const noexcept { return 0; }

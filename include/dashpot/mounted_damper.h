@@ -27,12 +27,12 @@ struct MountedDamper {
   std::shared_ptr<const InverseModel> inverse;
   ForceLoop loop;
   double current = 0;  ///< A, commanded where there is no controller
-  double motion_ratio =
-      1;  ///< the damper's travel over the strut's; its force counts there by as much
+  /// The damper's travel over the strut's, by which its force counts there as well.
+  double motion_ratio = 1;
   /// This piece's force over its model's, as built: neither inverse nor controller knows of it.
   double force_factor = 1;
 
-  /// What a force of the model comes to at the strut.
+  /// A force of the model as it acts at the strut, N.
   double at_strut(double force) const noexcept { return motion_ratio * (force_factor * force); }
   /// The motion of the strut as the damper has it.
   DamperInput at_damper(const DamperInput& strut) const noexcept {

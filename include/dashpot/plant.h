@@ -42,8 +42,8 @@ struct Tyre {
   double behind = 0;        ///< m behind the first axle: the road reaches it later
 };
 
-/// Where a damper sits, with what else acts along it. Its deflection, extension positive, is row .
-/// q, less the ground's height where its lower end stands on the moving ground.
+/// A place for a damper, with stops and friction along it. Its deflection, extension positive, is
+/// row . q, less the ground's height where its lower end stands on the moving ground.
 struct Strut {
   std::string name;
   std::vector<double> row;           ///< body_row - wheel_row
@@ -64,8 +64,8 @@ struct Strut {
 struct Plant {
   std::string name, title, source;
   std::vector<Coordinate> coordinates;
-  std::vector<double> mass, damping,
-      stiffness;  ///< n x n, row by row, SI; tyres and dampers come on top
+  /// n x n, row by row, SI; tyres and dampers come on top.
+  std::vector<double> mass, damping, stiffness;
   std::vector<Tyre> tyres;
   std::vector<Strut> struts;
   std::vector<PlantPoint> points;

@@ -16,16 +16,16 @@ namespace dashpot {
 struct SimulateOptions {
   double duration = 10;    ///< s
   double output_step = 0;  ///< s, of the trace; 0: the controller's sample time, or 1 ms
-  double discard = 0;      ///< s at the begin, which the shares of the time leave out
+  double discard = 0;      ///< s at the start, which shares of the time leave out
   double relative_tolerance = 1e-6, absolute_tolerance = 1e-9;
-  std::optional<double>
-      step;  ///< s, at most, without control of the error; none: as the tolerances ask
+  /// s: the longest step, taken without control of the error. None: steps as the tolerances ask.
+  std::optional<double> step;
   SensorOptions sensors;
   ControlLimits limits;
   Monitor monitor;
 };
 
-/// What is simulated.
+/// A plant on its ground with dampers and, perhaps, a controller. All of it belongs to the caller.
 struct Setting {
   const Plant& plant;
   const std::vector<MountedDamper>& dampers;  ///< one per strut
@@ -49,11 +49,11 @@ struct Trace {
 /// Throws Error where the parts do not fit together.
 void require_fitting(const Setting& setting, const SimulateOptions& options);
 
-/// From rest on the ground as it is at t = 0. Between samples of the controller, instants of the
-/// output and jumps of the ground, which are met exactly, the linear part moves exactly under
-/// forces that are parabolas within a step (Propagator), found by iteration: of fourth order where
-/// forces are smooth, and no damper's own stiffness shortens the step. Throws Error as
-/// require_fitting().
+/// From rest on the ground as it is at t = 0. Samples of the controller, instants of the output and
+/// jumps of the ground are met exactly. Between them plant and dampers are integrated as one system
+/// with the error controlled, where every model's states have rates (DamperModel::flows); else, and
+/// with fixed steps, the linear part moves exactly under forces that are parabolas within a step.
+/// Throws Error as require_fitting().
 Trace simulate(const Setting& setting, const SimulateOptions& options);
 
 }  // namespace dashpot

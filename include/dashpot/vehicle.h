@@ -14,15 +14,15 @@ namespace dashpot {
 /// A plant with its dampers and what drives them, in the words of the command line and of a sweep's
 /// file.
 struct VehicleWords {
-  std::string plant =
-      "savaresi_spelta";            ///< a set, a kind of plant, or a file of data/plants' form
+  /// A set, a kind of plant, or a file of the form of data/plants.
+  std::string plant = "savaresi_spelta";
   std::vector<std::string> values;  ///< in place of the plant's: "sprung_mass=350 kg"
   /// One per strut, or one for all, as choose_damper() has them. Empty: the plant's own range as an
   /// ideal damper.
   std::vector<std::string> dampers;
   std::string controller;  ///< "mix1,crossover=1.9Hz"; empty: every damper keeps `current`
-  std::string
-      inverse;  ///< scheme or file, from a wanted force to a current; empty: damping is mapped
+  /// Scheme or file, from a wanted force to a current; empty: damping is mapped.
+  std::string inverse;
   std::string force_loop;     ///< about the inverse: "proportional=0.5,integral=20"; empty: none
   double current = 0;         ///< A (or V), where there is no controller
   double current_max = 0;     ///< A (or V); 0: that of the damper's data
@@ -38,8 +38,8 @@ struct Vehicle {
   std::vector<MountedDamper> dampers;          ///< one per strut
   std::vector<std::string> damper_names;       ///< one per strut
   std::vector<std::optional<Domain>> domains;  ///< where each damper's data were
-  DriveUnit drive_unit =
-      DriveUnit::None;           ///< of the dampers; empty: a place between 0 and 1, or none
+  /// Of the dampers; None: a place between 0 and 1, or nothing drives them.
+  DriveUnit drive_unit = DriveUnit::None;
   ControllerPointer controller;  ///< null: none
   std::string controller_name;   ///< as it was named; empty: none
   ControlLimits limits;
