@@ -11,8 +11,8 @@ namespace dashpot::cli {
 void print_document(const Document& document, Console& console);
 
 /// Writes the document into the folder as <name>.html, <name>.json and <name>.md; with `figures`,
-/// its figures for print too, into the folder's figures/; `csv`: the text of <name>.csv, where there
-/// is one. Returns the lines that say where all of it is.
+/// its figures for print too, into the folder's figures/; `csv`: the text of <name>.csv, where
+/// there is one. Returns the lines that say where all of it is.
 std::string write_document(const Document& document, const std::filesystem::path& folder,
                            const std::string& name, bool figures = false,
                            const std::string& csv = "");

@@ -115,8 +115,8 @@ std::vector<std::string> plant_set_names();
 PlantSet parse_plant_set(std::string_view text, const std::string& source, const std::string& name,
                          const NamedValues& values = {});
 
-/// A set, or a kind of plant with the numbers of its table. Throws Error "unknown plant ...; did you
-/// mean ...".
+/// A set, or a kind of plant with the numbers of its table. Throws Error "unknown plant ...; did
+/// you mean ...".
 PlantSet load_plant_set(const std::string& name, const NamedValues& values = {});
 
 }  // namespace dashpot

@@ -10,8 +10,8 @@
 #include "dashpot/damper/kinds/narx/narx_model.h"
 #include "dashpot/damper/kinds/network/network_model.h"
 #include "dashpot/damper/kinds/state_space/state_space_model.h"
-#include "dashpot/model_kind.h"
 #include "dashpot/error.h"
+#include "dashpot/model_kind.h"
 
 namespace dashpot {
 namespace {
