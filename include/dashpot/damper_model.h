@@ -8,28 +8,10 @@
 #include <vector>
 
 #include "dashpot/damper_input.h"
+#include "dashpot/model_kind.h"
 #include "dashpot/value.h"
 
 namespace dashpot {
-
-/// The kinds of models, in the order in which lists show them. A kind has one name everywhere: its
-/// folder in damper/kinds/, its file in identify/fit/ and in export/c/, its word in model files.
-enum class ModelKind {
-  Law,
-  Network,
-  Narx,
-  HysteresisNetwork,
-  StateSpace,
-  Fuzzy,
-  Hybrid,
-  Family,
-  Other  ///< stands last, behind the kinds that model files have: a passive curve, for example
-};
-/// The word of a kind in model files and lists: "law", "state_space".
-std::string_view name_of(ModelKind kind);
-/// The kind of that name, or of the name that earlier versions wrote. Throws Error(where, "unknown
-/// kind ...") which says what is known.
-ModelKind parse_model_kind(std::string_view name, const std::string& where);
 
 /// What was constant in a test, SI: {"gap", 1e-3} ...
 using Conditions = std::vector<std::pair<std::string, double>>;

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "dashpot/damper/model_kind.h"
+#include "dashpot/model_kind.h"
 
 namespace dashpot {
 

@@ -1,4 +1,4 @@
-#include "dashpot/damper/model_kind.h"
+#include "dashpot/model_kind.h"
 
 #include <vector>
 

@@ -11,7 +11,7 @@
 #include "dashpot/damper/kinds/network/network_model.h"
 #include "dashpot/damper/kinds/state_space/state_space_model.h"
 #include "dashpot/error.h"
-#include "dashpot/damper/model_kind.h"
+#include "dashpot/model_kind.h"
 
 namespace dashpot {
 namespace {

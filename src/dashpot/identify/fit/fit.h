@@ -6,7 +6,7 @@
 
 #include "dashpot/drive.h"
 #include "dashpot/identify.h"
-#include "dashpot/damper/model_kind.h"
+#include "dashpot/model_kind.h"
 
 // The fits behind identify(): one per kind of model, each in the file of its name. All take the
 // records together in free run, throw Error when the records cannot serve, and report a fit that

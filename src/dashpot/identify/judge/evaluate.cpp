@@ -8,7 +8,7 @@
 #include "dashpot/base/parallel.h"
 #include "dashpot/base/text.h"
 #include "dashpot/error.h"
-#include "dashpot/identify/judge/one_step.h"
+#include "dashpot/record/time_base.h"
 
 namespace dashpot {
 namespace {
@@ -65,6 +65,44 @@ double energy_error_percent(const RecordResult& r) {
   const double model = dissipated_energy(time.subspan(r.warm_up), velocity.subspan(r.warm_up),
                                          modelled.subspan(r.warm_up));
   return 100 * (model - truth) / std::abs(truth);
+}
+
+/// Whether samples of the record lie on each instant of the model's grid.
+bool on_grid(const Record& record, double step) {
+  if (record.sample_time <= 0) return false;
+  const double samples = step / record.sample_time;
+  return samples > 0.5 && std::abs(samples - std::round(samples)) < 1e-6;
+}
+
+/// Errors of predictions one step ahead: a model that feeds its force back is given the measured
+/// force (less `offset`, N) at each of its steps instead of its own. A figure that flatters: at
+/// high sample rates the last force alone predicts the next. Without samples for a model that feeds
+/// nothing back.
+ErrorSums one_step_errors(const DamperModel& model, const Record& record, DriveUnit drive_unit,
+                          double offset) {
+  const double step = model.feedback_step();
+  if (step == 0) return {};
+
+  // A record that is sampled off the model's grid is resampled onto it, if it is long enough.
+  if (!on_grid(record, step)) {
+    if (record.time.back() - record.time.front() < 2 * step) return {};
+    Record grid = record;
+    resample(grid, 1 / step);
+    return on_grid(grid, step) ? one_step_errors(model, grid, drive_unit, offset) : ErrorSums{};
+  }
+
+  // Step through the record. Score each force before the model is given the measured one.
+  const std::vector<DamperInput> inputs = damper_inputs(record, drive_unit);
+  const std::vector<double>& force = record.channel("force").samples;
+  std::vector<double> state(model.state_size());
+  ErrorSums sums;
+  model.rest(inputs.front(), state);
+  for (std::size_t k = 0; k < inputs.size() && !model.has_diverged(state); ++k) {
+    if (k > 0) model.advance(inputs[k - 1], inputs[k], record.time[k] - record.time[k - 1], state);
+    if (k >= record.warm_up) sums.add(force[k], model.force(inputs[k], state) + offset);
+    model.observe(force[k] - offset, state);
+  }
+  return sums;
 }
 
 RecordResult evaluate_record(const DamperModel& model, const Record& record, DriveUnit drive_unit,

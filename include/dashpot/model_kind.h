@@ -1,16 +1,29 @@
+// Layer: damper
 #pragma once
 #include <array>
 #include <cstddef>
+#include <string>
 #include <string_view>
 #include <utility>
 
-#include "dashpot/damper_model.h"
-
 namespace dashpot {
 
+/// The kinds of models, in the order in which lists show them. A kind has one name everywhere: its
+/// folder in damper/kinds/, its file in identify/fit/ and in export/c/, its word in model files.
+enum class ModelKind {
+  Law,
+  Network,
+  Narx,
+  HysteresisNetwork,
+  StateSpace,
+  Fuzzy,
+  Hybrid,
+  Family,
+  Other  ///< stands last, behind the kinds that model files have: a passive curve, for example
+};
 constexpr std::size_t kModelKinds = static_cast<std::size_t>(ModelKind::Other);
 
-/// What a kind is called in model files and in lists.
+/// The name of a kind in model files and in lists.
 struct ModelKindName {
   ModelKind kind;
   std::string_view name;
@@ -29,17 +42,16 @@ inline constexpr std::array kModelKindNames{
 
 namespace detail {
 template <const auto& kTable, ModelKind kKind>
-constexpr bool has_row() {
-  constexpr auto kPlace = static_cast<std::size_t>(kKind);
-  static_assert(kPlace < kTable.size(), "this table has no row for this kind of model");
-  static_assert(kTable[kPlace].kind == kKind, "the rows do not stand in the order of ModelKind");
-  return true;
-}
+struct RowOfKind {
+  static constexpr auto kPlace = static_cast<std::size_t>(kKind);
+  static constexpr bool kStands = kPlace < kTable.size() && kTable[kPlace].kind == kKind;
+  static_assert(kStands, "the table has no row for this kind of model where ModelKind has it");
+};
 
 template <const auto& kTable, std::size_t... kPlaces>
 constexpr bool has_rows(std::index_sequence<kPlaces...>) {
-  static_assert(kTable.size() <= kModelKinds, "this table has more rows than there are kinds");
-  return (has_row<kTable, static_cast<ModelKind>(kPlaces)>() && ...);
+  return (RowOfKind<kTable, static_cast<ModelKind>(kPlaces)>::kStands && ...) &&
+         kTable.size() == sizeof...(kPlaces);
 }
 }  // namespace detail
 
@@ -48,8 +60,16 @@ constexpr bool has_rows(std::index_sequence<kPlaces...>) {
 /// the message names the table and the kind.
 template <const auto& kTable>
 constexpr const auto& row_of(ModelKind kind) {
-  static_assert(detail::has_rows<kTable>(std::make_index_sequence<kModelKinds>{}));
+  static_assert(detail::has_rows<kTable>(std::make_index_sequence<kModelKinds>{}),
+                "the table has not one row for every kind of model");
   return kTable[static_cast<std::size_t>(kind)];
 }
+
+/// The name of a kind in model files and lists: "law", "state_space".
+std::string_view name_of(ModelKind kind);
+
+/// The kind of that name, or of the name that earlier versions wrote. Throws Error(where, "unknown
+/// kind ...") which says what is known.
+ModelKind parse_model_kind(std::string_view name, const std::string& where);
 
 }  // namespace dashpot
