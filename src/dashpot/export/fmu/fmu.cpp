@@ -13,7 +13,7 @@
 namespace dashpot {
 namespace {
 
-using Role = FmuVariable::Role;
+using FmuRole = FmuVariable::Role;
 
 /// SOURCE_DATE_EPOCH, by which builds are made reproducible, or now.
 std::time_t time_of_making() {
@@ -93,7 +93,7 @@ CBlock double_block(const CBlockMaker& block, ExportOptions options) {
 
 }  // namespace
 
-std::size_t Fmu::count(Role role) const {
+std::size_t Fmu::count(FmuVariable::Role role) const {
   return static_cast<std::size_t>(std::ranges::count(variables, role, &FmuVariable::role));
 }
 

@@ -5,7 +5,7 @@
 namespace dashpot {
 namespace {
 
-using Role = FmuVariable::Role;
+using FmuRole = FmuVariable::Role;
 
 /// The functions that fmu_block.h asks of a block.
 constexpr const char* kDefinitions = R"(
@@ -30,7 +30,7 @@ constexpr const char* kSteps =
     "exactly those of Dashpot.";
 
 /// One variable for each of a port: "deflection", or "deflection[1]", "deflection[2]".
-void add_variables(const std::vector<CPort>& ports, Role role, Fmu& fmu) {
+void add_variables(const std::vector<CPort>& ports, FmuRole role, Fmu& fmu) {
   for (const CPort& port : ports)
     if (port.count == 1)
       fmu.variables.push_back(
@@ -59,8 +59,8 @@ Fmu block_fmu(const CBlock& block, const ExportOptions& options) {
       .steps = {filled(kSteps, {{"time", format_number(block.sample_time)}})}};
 
   // Its variables, and the run that a test of the FMU can repeat.
-  add_variables(block.inputs, Role::Input, fmu);
-  add_variables(block.commands, Role::Output, fmu);
+  add_variables(block.inputs, FmuRole::Input, fmu);
+  add_variables(block.commands, FmuRole::Output, fmu);
   for (const CBlock::Sample& sample : block.samples) {
     fmu.run.push_back(sample.inputs);
     fmu.run.back().insert(fmu.run.back().end(), sample.commands.begin(), sample.commands.end());

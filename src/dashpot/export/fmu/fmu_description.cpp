@@ -10,7 +10,7 @@
 namespace dashpot {
 namespace {
 
-using Role = FmuVariable::Role;
+using FmuRole = FmuVariable::Role;
 using Node = pugi::xml_node;
 
 void set(Node node, const char* name, const std::string& value) {
@@ -68,12 +68,12 @@ void describe_kind(const Fmu& fmu, const FmuVariable& variable, Node node) {
   constexpr const char* kCausalities[] = {"independent", "input", "output",
                                           "local",       "local", "parameter"};
   set(node, "causality", kCausalities[static_cast<std::size_t>(variable.role)]);
-  const bool parameter = variable.role == Role::Parameter,
-             discrete = variable.role == Role::Output && fmu.sampled;
+  const bool parameter = variable.role == FmuRole::Parameter,
+             discrete = variable.role == FmuRole::Output && fmu.sampled;
   set(node, "variability", parameter ? "tunable" : discrete ? "discrete" : "continuous");
   if (parameter)
     set(node, "initial", "exact");
-  else if (variable.role != Role::Time && variable.role != Role::Input)
+  else if (variable.role != FmuRole::Time && variable.role != FmuRole::Input)
     set(node, "initial", "calculated");
 }
 
@@ -81,16 +81,16 @@ void describe_values(const FmuVariable& variable, Node node) {
   if (!variable.unit.empty()) set(node, "unit", variable.unit);
   if (std::isfinite(variable.lower)) set(node, "min", format_exact(variable.lower));
   if (std::isfinite(variable.upper)) set(node, "max", format_exact(variable.upper));
-  if (variable.role != Role::Time && variable.nominal != 1)
+  if (variable.role != FmuRole::Time && variable.nominal != 1)
     set(node, "nominal", format_exact(variable.nominal));
-  if (variable.role == Role::Input || variable.role == Role::Parameter)
+  if (variable.role == FmuRole::Input || variable.role == FmuRole::Parameter)
     set(node, "start", format_exact(variable.start));
 }
 
 /// Outputs, then states and derivatives: exactly what is calculated at the start.
 template <class Add>
 void for_each_unknown(const Fmu& fmu, Add add) {
-  for (const Role role : {Role::Output, Role::State, Role::Derivative})
+  for (const FmuRole role : {FmuRole::Output, FmuRole::State, FmuRole::Derivative})
     for (std::size_t k = 0; k < fmu.variables.size(); ++k)
       if (fmu.variables[k].role == role) add(k);
 }
@@ -137,7 +137,7 @@ void add_fmi2_variables(const Fmu& fmu, Node root) {
     // The state of which it is the slope, counted from 1.
     Node real = node.append_child("Real");
     describe_values(variable, real);
-    if (variable.role == Role::Derivative)
+    if (variable.role == FmuRole::Derivative)
       set(real, "derivative", std::to_string(variable.derivative_of + 1));
   }
 }
@@ -148,10 +148,11 @@ void add_fmi2_structure(const Fmu& fmu, Node root) {
     set(list.append_child("Unknown"), "index", std::to_string(k + 1));
   };
   Node outputs = structure.append_child("Outputs");
-  Node derivatives = fmu.count(Role::State) == 0 ? Node() : structure.append_child("Derivatives");
+  Node derivatives =
+      fmu.count(FmuRole::State) == 0 ? Node() : structure.append_child("Derivatives");
   for (std::size_t k = 0; k < fmu.variables.size(); ++k) {
-    if (fmu.variables[k].role == Role::Output) add(outputs, k);
-    if (fmu.variables[k].role == Role::Derivative) add(derivatives, k);
+    if (fmu.variables[k].role == FmuRole::Output) add(outputs, k);
+    if (fmu.variables[k].role == FmuRole::Derivative) add(derivatives, k);
   }
   Node unknowns = structure.append_child("InitialUnknowns");
   for_each_unknown(fmu, [&](std::size_t k) { add(unknowns, k); });
@@ -211,15 +212,15 @@ std::string fmi3_description(const Fmu& fmu) {
     set(node, "description", variable.meaning);
     describe_kind(fmu, variable, node);
     describe_values(variable, node);
-    if (variable.role == Role::Derivative)
+    if (variable.role == FmuRole::Derivative)
       set(node, "derivative", std::to_string(variable.derivative_of));
   }
 
   // The unknowns: outputs and derivatives while it runs, states at the start, too.
   for_each_unknown(fmu, [&](std::size_t k) {
-    const Role role = fmu.variables[k].role;
-    if (role == Role::State) return;
-    set(structure.append_child(role == Role::Output ? "Output" : "ContinuousStateDerivative"),
+    const FmuRole role = fmu.variables[k].role;
+    if (role == FmuRole::State) return;
+    set(structure.append_child(role == FmuRole::Output ? "Output" : "ContinuousStateDerivative"),
         "valueReference", std::to_string(k));
   });
   for_each_unknown(fmu, [&](std::size_t k) {
