@@ -38,12 +38,16 @@ void fit(const Dataset& dataset, FitOptions options, const dashpot_monitor* moni
   if (names.size() != 1)
     throw Error("options, models", "are " + std::to_string(names.size()) + " models",
                 "one; dashpot_identify compares several");
+
+  // The fit runs beside the caller's thread, which may cancel it.
   options.words.options = identify_options(options.words, names, "options, ");
   FitReport fitted;
   run_watched(monitor, [&](const Monitor& watched) {
     options.words.options.monitor = watched;
     fitted = identify(names.front(), dataset.records, dataset.drive_unit, options.words.options);
   });
+
+  // The report is written before a failed fit is refused, since it says why.
   options.words.options.monitor = {};
   if (report) *report = copy_text(json_text(fit_json(fitted)));
   if (!fitted.model) throw NotUsable(names.front(), fitted.message);
@@ -64,11 +68,16 @@ Ranking rank_watched(const Dataset& dataset, FitOptions& options, const dashpot_
 
 std::string report_text(const dashpot_ranking& of, const std::string& format) {
   const ReportInput input{of.dataset, of.ranking, of.command, dashpot_version(), of.date};
+
+  // Forms for programs.
   if (format == "json") return json_text(json_report(input));
   if (format == "csv") return csv_report(input);
+
+  // Forms for people, all of one document.
   if (format == "html") return html_document(ranking_document(input));
   if (format == "markdown") return markdown_document(ranking_document(input));
   if (format == "text") return document_text(ranking_document(input), 100);
+
   throw Error("format", "is '" + format + "'", "json, html, markdown, csv or text");
 }
 
@@ -109,11 +118,15 @@ dashpot_status dashpot_ranking_model(const dashpot_ranking* ranking, size_t plac
     require(model, "model");
     *model = nullptr;
     require(ranking, "ranking");
+
+    // A place beyond the ranking, or one whose fit failed, has no model.
     const std::vector<RankedModel>& models = ranking->ranking.models;
     if (place >= models.size())
       throw Error("place", "is " + std::to_string(place),
                   "there are " + std::to_string(models.size()));
     if (!models[place].fit.model) throw NotUsable(models[place].name, models[place].fit.message);
+
+    // The file dates from the ranking, not from this call.
     ModelFile file = to_model_file(models[place], ranking->dataset, ranking->command);
     file.provenance.created = ranking->date;
     *model = new dashpot_model(std::move(file));
@@ -139,14 +152,21 @@ dashpot_status dashpot_evaluate(const dashpot_model* model, const dashpot_record
     require(report, "report");
     *report = nullptr;
     require(model, "model");
+
+    // A model driven in A must not be judged on recordings in V.
     const Dataset dataset = usable_dataset(recordings);
     require_same_drive(model->file, dataset, model->name);
+
+    // The model runs over every recording with the band that its file keeps.
     EvaluateOptions asked = read_evaluate_options(options);
     asked.band = model->file.interval;
     const Evaluation evaluation =
         evaluate(*model->damper, dataset.records, dataset.drive_unit, asked);
+
+    // The report comes even where the model diverged, as it says on which recordings.
     *report = copy_text(
         json_text(evaluation_json(model->file, evaluation, extrapolations(model->file, dataset))));
+
     if (evaluation.diverged > 0)
       throw NotUsable(model->name, "diverged on " + std::to_string(evaluation.diverged) + " of " +
                                        counted(evaluation.records.size(), "recording"));

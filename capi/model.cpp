@@ -84,6 +84,8 @@ dashpot_status dashpot_model_get_info(const dashpot_model* model, dashpot_model_
   return guarded([&] {
     require(model, "model");
     require(info, "info");
+
+    // The texts belong to the model and live as long as it does.
     const ModelFile& file = model->file;
     *info = {.name = model->name.c_str(),
              .kind = model->kind.c_str(),

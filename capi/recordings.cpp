@@ -57,15 +57,21 @@ FileStatement statement_of(const RawTable& raw, const char* conditions) {
 
 void add(dashpot_recordings& recordings, const dashpot_table& table) {
   std::vector<Record>& records = recordings.dataset.records;
+
+  // Reports and left-out folds know a recording by its name.
   const std::string name =
       table.name ? table.name : "recording " + std::to_string(records.size() + 1);
   if (std::ranges::find(records, name, &Record::name) != records.end())
     throw Error(name, "is there already", "a name of its own for every recording");
+
+  // The arrays are read as a file is, the force's sign stated beforehand.
   RawTable raw = copy_table(table, name);
   const FileStatement statement = statement_of(raw, table.conditions);
   BuiltRecord built = build_record(
       std::move(raw), {.statement = &statement, .stated_in = "the arrays", .name = name});
   if (!built.refusal.empty()) throw Error(name, built.refusal);
+
+  // One model has one drive: all recordings are driven in the same unit.
   const bool is_current = built.record.find("current") != nullptr;
   if (!is_current && !built.record.find("voltage"))
     throw Error(name, "has neither current nor voltage", "a column of one of them drives the coil");
@@ -75,6 +81,8 @@ void add(dashpot_recordings& recordings, const dashpot_table& table) {
     throw Error(
         name, "is driven in " + to_string(drive_unit),
         "the recordings before it are driven in " + to_string(recordings.dataset.drive_unit));
+
+  // Only a recording that was accepted is kept; on an error nothing is added.
   recordings.name_rests.push_back(split_name(name).rest);
   std::ranges::move(built.readings, std::back_inserter(recordings.dataset.readings));
   records.push_back(std::move(built.record));

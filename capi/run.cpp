@@ -27,6 +27,7 @@ class MotionReader {
         step_(motion.sample_time),
         inputs_(std::min(kBlock, motion.samples)),
         times_(time_.data ? inputs_.size() : 0) {
+    // Every model takes velocity and current; only some need displacement or time.
     require(motion.velocity.data, "velocity");
     require(motion.current.data, "current");
     if (model.damper->needs_displacement() && !motion.displacement.data)
@@ -39,6 +40,7 @@ class MotionReader {
   /// Samples that stay until the next call. Throws Error where one holds a number that is not
   /// finite, or time does not increase.
   std::span<const DamperInput> read(std::size_t first, std::size_t count) {
+    // The block is copied and tested in one pass, which is all that good data costs.
     bool usable = true;
     for (std::size_t k = 0; k < count; ++k) {
       const auto at = static_cast<std::ptrdiff_t>(first + k);
@@ -50,8 +52,11 @@ class MotionReader {
       times_[k] = time_.data[static_cast<std::ptrdiff_t>(first + k) * time_.stride];
       usable &= has_time(k);
     }
+
+    // Only a block that failed is searched for the sample to name.
     for (std::size_t k = 0; !usable && k < count; ++k)
       require_usable(k, '[' + std::to_string(first + k) + ']');
+
     return {inputs_.data(), count};
   }
   /// Between the samples of the block.
@@ -103,13 +108,18 @@ class Run {
 
  private:
   void respond(std::size_t first, std::span<const DamperInput> inputs) {
+    // A run without a state of the caller's starts at rest.
     if (first == 0 && !to_.state) model_.damper->rest(inputs.front(), state_);
     const std::size_t usable =
         model_.damper->run(inputs, reader_.steps(), state_,
                            {to_.force + first, spread_.empty() ? nullptr : spread_.data()});
+
+    // The band follows the model's own spread where it is an ensemble.
     for (std::size_t k = 0; k < (to_.half_width ? usable : 0); ++k)
       to_.half_width[first + k] =
           model_.file.interval->half_width_at(inputs[k], spread_.empty() ? 0 : spread_[k]);
+
+    // From where the model diverged, the caller finds NaN, not numbers of an earlier run.
     if (usable == inputs.size()) return;
     for (double* values : {to_.force, to_.half_width})
       if (values)

@@ -33,6 +33,8 @@ Value measures_of(const Trace& trace, const Vehicle& vehicle, const GroundMotion
 std::string report_text(const Trace& trace, const Vehicle& vehicle, const GroundMotion& ground,
                         const SimulateOptions& options) {
   std::vector<std::string> warnings = trace.warnings;
+
+  // The integrator's warnings, and those of a damper that left the range of its data.
   std::ranges::move(domain_warnings(domain_use(vehicle, trace), RunOptions{}.allowed_outside),
                     std::back_inserter(warnings));
   const Value report =
@@ -47,28 +49,37 @@ std::string report_text(const Trace& trace, const Vehicle& vehicle, const Ground
                      {"measures", measures_of(trace, vehicle, ground, options)},
                      {"notes", Value::array(vehicle.notes)},
                      {"warnings", Value::array(warnings)}});
+
   return format_json(presentable(report));
 }
 
 void run(const DriveOptions& asked, const dashpot_monitor* monitor, dashpot_recordings** recordings,
          char** report) {
+  // The vehicle, its ground and how long it is driven.
   const Vehicle vehicle = make_vehicle(asked.vehicle);
   const GroundPointer ground = make_ground(asked.road, asked.seed, "options, road");
   SimulateOptions options = vehicle.options(
       asked.duration > 0 ? asked.duration : std::min(ground->duration(), kUsualDuration));
   options.output_step = asked.output_step;
+
+  // The work runs beside the caller's thread, which may cancel it.
   Trace trace;
   run_watched(monitor, [&](const Monitor& watched) {
     options.monitor = watched;
     trace = simulate(vehicle.on(*ground), options);
   });
+
+  // The report is made before the trace gives up its record.
   const std::optional<double> diverged_at = trace.diverged_at;
   if (report) *report = copy_text(report_text(trace, vehicle, *ground, options));
+
+  // The trace is handed over even when it diverged: it shows how.
   auto made = std::make_unique<dashpot_recordings>();
   made->dataset.name = "simulation";
   made->dataset.drive_unit = vehicle.drive_unit;
   made->dataset.records.push_back(std::move(trace.record));
   *recordings = made.release();
+
   if (diverged_at)
     throw NotUsable(vehicle.set.name, "diverged at t = " + format_number(*diverged_at) + " s");
 }

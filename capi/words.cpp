@@ -43,6 +43,8 @@ FitOptions read_fit_options(const char* text) {
   const Value value = parse_options(text);
   ObjectReader reader(value, "the options");
   FitOptions out;
+
+  // The words are those of the command line, so that both mean the same.
   FitWords& words = out.words;
   if (reader.optional("models")) words.models = texts(reader, "models");
   words.force_offset = reader.string("force_offset", words.force_offset);
@@ -52,13 +54,19 @@ FitOptions read_fit_options(const char* text) {
   words.bounds = texts(reader, "bounds");
   words.priors = texts(reader, "prior");
   words.network = texts(reader, "network");
+
+  // How long and from where the fits search.
   words.options.starts = whole_int(reader, "starts", words.options.starts, 1);
   words.options.search = whole_int(reader, "search", words.options.search);
   words.options.seed = static_cast<std::uint64_t>(whole(reader, "seed", 1));
   words.options.threads = whole_int(reader, "threads", words.options.threads);
+
+  // A single fit leaves nothing out; its file keeps the command that made it.
   if (const Value* leave_out = reader.optional("leave_out"))
     out.leave_out = parse_leave_out(leave_out->as_string());
   out.command = reader.string("command", "");
+
+  // A key that nothing has read is a mistake of the caller's.
   reader.finish();
   if (words.models.empty()) throw Error("options, models", "names no model");
   return out;
@@ -90,6 +98,8 @@ ExportWords read_export_options(const char* text) {
   ObjectReader reader(value, "the options");
   ExportWords out;
   ExportOptions& options = out.options;
+
+  // Every key is read before any is judged, so that an unknown one is told first.
   out.formats = texts(reader, "to");
   out.folder = reader.string("folder", out.folder);
   options.name = reader.string("name", "");
@@ -99,11 +109,15 @@ ExportWords read_export_options(const char* text) {
   options.sources_only = reader.boolean("sources_only", false);
   options.command = reader.string("command", "");
   reader.finish();
+
+  // Options without which nothing can be written, or that have few values.
   if (out.formats.empty()) throw Error("options, to", "names no format", "as [\"c\", \"fmu3\"]");
   if (out.folder.empty()) throw Error("options, folder", "is empty");
   if (precision != "double" && precision != "float")
     throw Error("options, precision", "is '" + precision + "'", "double or float");
   if (precision == "float") options.precision = CPrecision::Single;
+
+  // Defaults that depend on the machine and on this build.
   if (options.compiler.empty()) options.compiler = usual_compiler();
   options.version = dashpot_version();
   return out;
@@ -113,24 +127,33 @@ DriveOptions read_drive_options(const char* text) {
   const Value value = parse_options(text);
   ObjectReader reader(value, "the options");
   DriveOptions out;
+
+  // The plant and its dampers.
   VehicleWords& words = out.vehicle;
   words.where = "options";
   words.plant = reader.string("plant", words.plant);
   words.values = texts(reader, "set");
   words.dampers = texts(reader, "dampers");
+
+  // The controller, the way from its force to a current, and the coil.
   words.controller = reader.string("controller", "");
   words.inverse = reader.string("inverse", "");
   words.current = reader.number("current", words.current);
   words.current_max = reader.number("current_max", words.current_max);
   words.lag_rate = reader.number("lag_rate", words.lag_rate);
   words.sample_time = reader.number("sample_time", words.sample_time);
+
+  // The sensors and the road share one seed, as on the command line.
   words.sensors.in_car = reader.boolean("in_car", words.sensors.in_car);
   words.sensors.delay = reader.number("delay", words.sensors.delay);
   out.road = reader.string("road", out.road);
   out.duration = reader.number("duration", out.duration);
   out.output_step = reader.number("output_step", out.output_step);
   out.seed = words.sensors.seed = static_cast<std::uint64_t>(whole(reader, "seed", 1));
+
   reader.finish();
+
+  // Times are finite and not negative, or the simulation would have no end.
   for (const auto& [name, seconds] :
        {std::pair{"duration", out.duration}, {"output_step", out.output_step}})
     if (!(seconds >= 0) || !std::isfinite(seconds))

@@ -51,6 +51,8 @@ class Watch {
 
 void run_watched(const dashpot_monitor* caller, const std::function<void(const Monitor&)>& work) {
   if (!caller || (!caller->is_cancelled && !caller->on_progress)) return work({});
+
+  // The work runs on a thread of its own; this one keeps asking the caller.
   Watch watch(*caller);
   std::future<void> result = std::async(std::launch::async, [&] { work(watch.monitor()); });
   try {
@@ -60,6 +62,8 @@ void run_watched(const dashpot_monitor* caller, const std::function<void(const M
     watch.stop();  // a callback that throws must not leave the work running
     throw;
   }
+
+  // Progress of the last moment still goes out before the result or its error.
   watch.ask();
   result.get();
 }

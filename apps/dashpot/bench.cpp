@@ -60,22 +60,18 @@ int run(const Settings& settings, Console& console) {
 
 Command bench_command() {
   auto settings = std::make_shared<Settings>();
-  Command command{
-      .name = "bench",
-      .title = "Record a virtual damper on a virtual test bench",
-      .description =
-          "Drives a damper with known parameters through sines and constant currents, or through "
-          "the "
-          "sequences of a system identification (chirps, stepped frequencies, a rough road; random "
-          "currents), measures it with imperfect sensors (noise, resolution, zero drift) and "
-          "writes the "
-          "recordings as CSV files with a "
-          "dataset file beside them: to try Dashpot out, to test a method on a known truth, to "
-          "plan a "
-          "campaign before the real bench is booked.",
-      .options = campaign_options(settings->campaign),
-      .example = std::string(kExample),
-      .run = [settings](Console& console) { return run(*settings, console); }};
+  Command command{.name = "bench",
+                  .title = "Record a virtual damper on a virtual test bench",
+                  .description =
+                      "Drives a damper with known parameters through sines and constant currents, "
+                      "or through the sequences of a system identification (chirps, stepped "
+                      "frequencies, a rough road; random currents), measures it with imperfect "
+                      "sensors (noise, resolution, zero drift) and writes the recordings as CSV "
+                      "files with a dataset file beside them: to try Dashpot out, to test a method "
+                      "on a known truth, to plan a campaign before the real bench is booked.",
+                  .options = campaign_options(settings->campaign),
+                  .example = std::string(kExample),
+                  .run = [settings](Console& console) { return run(*settings, console); }};
   command.options.push_back({.names = "-o,--output",
                              .target = &settings->folder,
                              .help = "folder for the recordings",

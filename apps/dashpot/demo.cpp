@@ -45,10 +45,10 @@ bool print_recovery(const std::vector<RecoveredParameter>& parameters, Console& 
   const auto missed = std::ranges::count_if(
       parameters, [](const RecoveredParameter& p) { return !p.recovered() && !p.weak; });
   if (missed == 0 && !parameters.empty()) {
-    console.print(fmt::format(
-        "All known parameters that these data can tell are recovered, within their joint 95 % "
-        "interval or {} %.\n",
-        format_number(100 * kRecoveryTolerance)));
+    console.print(
+        fmt::format("All known parameters that these data can tell are recovered, within their "
+                    "joint 95 % interval or {} %.\n",
+                    format_number(100 * kRecoveryTolerance)));
     return true;
   }
   console.error(
@@ -96,17 +96,15 @@ int run(const Settings& settings, Console& console) {
 Command demo_command() {
   auto settings = std::make_shared<Settings>();
   settings->fit.options.starts = 2;  // enough for data this clean, in half the time
-  Command command{
-      .name = "demo",
-      .title = "See it all at work: a virtual damper, measured and identified",
-      .description =
-          "Records a virtual damper with known parameters, identifies models from the files as "
-          "from a "
-          "real campaign, checks that the known parameters are found again, and writes the report. "
-          "Needs no data.",
-      .options = fit_options(settings->fit),
-      .example = std::string(kExample),
-      .run = [settings](Console& console) { return run(*settings, console); }};
+  Command command{.name = "demo",
+                  .title = "See it all at work: a virtual damper, measured and identified",
+                  .description =
+                      "Records a virtual damper with known parameters, identifies models from the "
+                      "files as from a real campaign, checks that the known parameters are found "
+                      "again, and writes the report. Needs no data.",
+                  .options = fit_options(settings->fit),
+                  .example = std::string(kExample),
+                  .run = [settings](Console& console) { return run(*settings, console); }};
   append(command.options, result_options(settings->results));
   return command;
 }

@@ -41,8 +41,7 @@ constexpr std::string_view kExample =
     "\n"
     "# A controller for an ECU with the sensors of a car, from accelerometer to current:\n"
     "dashpot export --controller mix1,crossover=1.9Hz --in-car --to c --precision float "
-    "--sample-time 2ms -o "
-    "ecu\n"
+    "--sample-time 2ms -o ecu\n"
     "\n"
     "# The current for a wanted force, and a skyhook that drives its damper by it:\n"
     "dashpot export --parameters spencer1997 --inverse numeric --to c -o ecu\n"
@@ -201,18 +200,16 @@ Command export_command() {
                     .help = "folder for the files",
                     .value = "DIR",
                     .takes = Takes::Folder}});
-  return {
-      .name = "export",
-      .title = "A model or a controller as code or tables for other programs",
-      .description =
-          "Writes a model in a form that needs Dashpot no more. An inverse network that 'dashpot "
-          "invert' "
-          "wrote, an inverse of a damper (--inverse) and a vehicle's controller (--controller) are "
-          "exported, too, where a format takes them." +
-          formats_text(),
-      .options = std::move(options),
-      .example = std::string(kExample),
-      .run = [settings](Console& console) { return run(*settings, console); }};
+  return {.name = "export",
+          .title = "A model or a controller as code or tables for other programs",
+          .description =
+              "Writes a model in a form that needs Dashpot no more. An inverse network that "
+              "'dashpot invert' wrote, an inverse of a damper (--inverse) and a vehicle's "
+              "controller (--controller) are exported, too, where a format takes them." +
+              formats_text(),
+          .options = std::move(options),
+          .example = std::string(kExample),
+          .run = [settings](Console& console) { return run(*settings, console); }};
 }
 
 }  // namespace dashpot::cli

@@ -118,12 +118,11 @@ std::string option_text(const Option& option) {
 
 std::string overview(const std::vector<Command>& commands, const Console& console) {
   const auto width = static_cast<std::size_t>(console.width());
-  std::string text =
-      console.bold("Dashpot") + " " DASHPOT_VERSION "\n" +
-      paragraph(
-          "Turns test-bench recordings of magnetorheological dampers into models that can be "
-          "trusted.",
-          width);
+  std::string text = console.bold("Dashpot") + " " DASHPOT_VERSION "\n" +
+                     paragraph(
+                         "Turns test-bench recordings of magnetorheological dampers into models "
+                         "that can be trusted.",
+                         width);
   text += '\n' + console.bold("Start here") +
           "\n"
           "  dashpot demo                 a virtual damper, measured and identified, in seconds\n"
@@ -153,8 +152,7 @@ std::string help_markdown(const std::vector<Command>& commands, const std::vecto
       "# The command line\n\n"
       "Made by `dashpot --help-markdown`; `dashpot COMMAND --help` says the same on a terminal.\n\n"
       "Exit codes: 0 done; 1 unusable input; 2 the command line cannot be understood; 3 it ran, "
-      "but the "
-      "result is not usable; 130 interrupted.\n";
+      "but the result is not usable; 130 interrupted.\n";
   for (const Command& command : commands) {
     text += markdown_command(command, "## ");
     for (const Command& one : command.subcommands) text += markdown_command(one, "### ");

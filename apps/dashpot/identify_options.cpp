@@ -31,8 +31,7 @@ std::vector<Option> fit_options(FitSettings& settings) {
        .help = "the models to fit, separated by commas; 'usual' stands for " +
                join(usual_models(), ", ") +
                "; 'all' for every model of one damper that 'dashpot models' lists, 'family' for "
-               "those of a "
-               "family of dampers",
+               "those of a family of dampers",
        .value = "NAMES",
        .choices = names_and_groups(),
        .more_choices = more_model_names(),
@@ -47,8 +46,7 @@ std::vector<Option> fit_options(FitSettings& settings) {
       {.names = "--form",
        .target = &settings.forms,
        .help = "how parameters depend on current, as alpha=exponential or bouc_wen.alpha=linear: "
-               "constant, "
-               "linear, quadratic, cubic or exponential",
+               "constant, linear, quadratic, cubic or exponential",
        .value = "LIST",
        .default_text = "as each law's table says"},
       {.names = "--fix",
@@ -69,8 +67,7 @@ std::vector<Option> fit_options(FitSettings& settings) {
       {.names = "--prior",
        .target = &settings.priors,
        .help = "what is known of parameters beforehand at every current, value and standard "
-               "deviation, as "
-               "k1=500+-100",
+               "deviation, as k1=500+-100",
        .value = "LIST",
        .default_text = "nothing"},
       {.names = "--network",

@@ -274,24 +274,19 @@ std::vector<Option> network_options(Settings& s) {
 Command invert_command() {
   auto settings = std::make_shared<Settings>();
   Settings& s = *settings;
-  Command command{.name = "invert",
-                  .title = "Teach a network to give the current for a wanted force",
-                  .description =
-                      "Makes an inverse of a damper: a small network from motion, wanted force and "
-                      "their past to the "
-                      "current, taught on a model that is moved over its range, or on recordings. "
-                      "Judges it by its "
-                      "current on what it had not seen and, where there is a model, by the force "
-                      "that comes of it behind "
-                      "the coil's driver, beside the search on the model. Saves it as a file for "
-                      "'dashpot track'. "
-                      "Recordings at one current cannot teach it; such with a constant current "
-                      "each cannot teach a "
-                      "network "
-                      "that feeds its currents back.",
-                  .options = damper_options(s.damper),
-                  .example = std::string(kExample),
-                  .run = [settings](Console& console) { return run(*settings, console); }};
+  Command command{
+      .name = "invert",
+      .title = "Teach a network to give the current for a wanted force",
+      .description =
+          "Makes an inverse of a damper: a small network from motion, wanted force and their past "
+          "to the current, taught on a model that is moved over its range, or on recordings. "
+          "Judges it by its current on what it had not seen and, where there is a model, by the "
+          "force that comes of it behind the coil's driver, beside the search on the model. Saves "
+          "it as a file for 'dashpot track'. Recordings at one current cannot teach it; such with "
+          "a constant current each cannot teach a network that feeds its currents back.",
+      .options = damper_options(s.damper),
+      .example = std::string(kExample),
+      .run = [settings](Console& console) { return run(*settings, console); }};
   command.options.push_back(
       {.names = "--recordings",
        .target = &s.recordings.paths,

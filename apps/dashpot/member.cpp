@@ -107,40 +107,39 @@ int run(const Settings& settings, Console& console) {
 
 Command member_command() {
   auto settings = std::make_shared<Settings>();
-  return {.name = "member",
-          .title = "One damper of a fitted family, as a model of its own",
-          .description =
-              "Reads a model of a family of dampers and makes it the model of one of them: by its "
-              "numbers, by "
-              "a drawing with coil and fluid, or by how far a build is from the mean of its "
-              "design. Says what "
-              "of it lies outside the dampers that the family was fitted on.",
-          .options = {{.names = "MODEL",
-                       .target = &settings->model,
-                       .help = "a model file of a family that 'dashpot identify' wrote",
-                       .takes = Takes::File,
-                       .required = true},
-                      {.names = "--damper",
-                       .target = &settings->damper,
-                       .help = "a damper description, as of 'dashpot physics'",
-                       .value = "DAMPER",
-                       .takes = Takes::File},
-                      {.names = "--set",
-                       .target = &settings->changes,
-                       .help = "the damper's numbers, as gap=1.25mm,yield_stress=20kPa,build=1",
-                       .value = "LIST"},
-                      {.names = "--outside-family",
-                       .target = &settings->outside_family,
-                       .help = "a damper outside the family: tell of it and go on, or refuse it",
-                       .value = "MODE",
-                       .choices = {"mark", "refuse"}},
-                      {.names = "-o,--output",
-                       .target = &settings->output,
-                       .help = "write the model of this damper",
-                       .value = "FILE",
-                       .takes = Takes::File}},
-          .example = std::string(kExample),
-          .run = [settings](Console& console) { return run(*settings, console); }};
+  return {
+      .name = "member",
+      .title = "One damper of a fitted family, as a model of its own",
+      .description =
+          "Reads a model of a family of dampers and makes it the model of one of them: by its "
+          "numbers, by a drawing with coil and fluid, or by how far a build is from the mean of "
+          "its design. Says what of it lies outside the dampers that the family was fitted on.",
+      .options = {{.names = "MODEL",
+                   .target = &settings->model,
+                   .help = "a model file of a family that 'dashpot identify' wrote",
+                   .takes = Takes::File,
+                   .required = true},
+                  {.names = "--damper",
+                   .target = &settings->damper,
+                   .help = "a damper description, as of 'dashpot physics'",
+                   .value = "DAMPER",
+                   .takes = Takes::File},
+                  {.names = "--set",
+                   .target = &settings->changes,
+                   .help = "the damper's numbers, as gap=1.25mm,yield_stress=20kPa,build=1",
+                   .value = "LIST"},
+                  {.names = "--outside-family",
+                   .target = &settings->outside_family,
+                   .help = "a damper outside the family: tell of it and go on, or refuse it",
+                   .value = "MODE",
+                   .choices = {"mark", "refuse"}},
+                  {.names = "-o,--output",
+                   .target = &settings->output,
+                   .help = "write the model of this damper",
+                   .value = "FILE",
+                   .takes = Takes::File}},
+      .example = std::string(kExample),
+      .run = [settings](Console& console) { return run(*settings, console); }};
 }
 
 }  // namespace dashpot::cli

@@ -34,8 +34,7 @@ std::string overview_table(int width) {
 std::string markdown_page(const std::vector<std::string>& names) {
   std::string text =
       "# Models\n\nMade by `dashpot models --markdown` from the tables that the program itself "
-      "uses. SI "
-      "units; extension positive; a force that resists extension is positive.\n";
+      "uses. SI units; extension positive; a force that resists extension is positive.\n";
   for (const std::string& name : names) text += '\n' + sheet_markdown(model_sheet(name));
   return text;
 }
@@ -65,23 +64,22 @@ int run(const Settings& settings, Console& console) {
 
 Command models_command() {
   auto settings = std::make_shared<Settings>();
-  return {
-      .name = "models",
-      .title = "The damper models: equations, parameters, sources",
-      .description =
-          "Lists the models that can be identified, or shows one: its equation, the table of its "
-          "parameters (units, defaults, bounds), states, source and limits.",
-      .options = {{.names = "NAME",
-                   .target = &settings->name,
-                   .help = "the model to show",
-                   .choices = model_names(),
-                   .more_choices = more_model_names(),
-                   .noun = "model"},
-                  {.names = "--markdown",
-                   .target = &settings->markdown,
-                   .help = "print a page for the documentation"}},
-      .example = std::string(kExample),
-      .run = [settings](Console& console) { return run(*settings, console); }};
+  return {.name = "models",
+          .title = "The damper models: equations, parameters, sources",
+          .description =
+              "Lists the models that can be identified, or shows one: its equation, the table of "
+              "its parameters (units, defaults, bounds), states, source and limits.",
+          .options = {{.names = "NAME",
+                       .target = &settings->name,
+                       .help = "the model to show",
+                       .choices = model_names(),
+                       .more_choices = more_model_names(),
+                       .noun = "model"},
+                      {.names = "--markdown",
+                       .target = &settings->markdown,
+                       .help = "print a page for the documentation"}},
+          .example = std::string(kExample),
+          .run = [settings](Console& console) { return run(*settings, console); }};
 }
 
 }  // namespace dashpot::cli

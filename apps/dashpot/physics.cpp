@@ -56,8 +56,7 @@ std::string fields_table(int width) {
                std::string(field.meaning)});
   return table.text(static_cast<std::size_t>(width)) +
          "\nBeside these: name, note, fluid (122EG, 132DG, 140CG), yield (carlson, paper, "
-         "data_set), circuit "
-         "(filled, paper), flow (plate, moving_wall, paper).\n";
+         "data_set), circuit (filled, paper), flow (plate, moving_wall, paper).\n";
 }
 
 std::string quantities_text(const DamperPhysics& physics) {
@@ -124,15 +123,10 @@ Command physics_command() {
           .title = "From drawing, coil and fluid to force: every step with its unit",
           .description =
               "Reads a damper description (YAML: gap: 1 mm, turns: 150, fluid: 140CG ...) and "
-              "prints spring, "
-              "magnetic "
-              "circuit, coil, fluid, pressures and forces at one current and speed. By itself it "
-              "solves the "
-              "circuit "
-              "with fluid in the gap and steel that saturates, and the exact flow of a Bingham "
-              "fluid between "
-              "plates; "
-              "a description may ask for the equations of the family paper instead.",
+              "prints spring, magnetic circuit, coil, fluid, pressures and forces at one current "
+              "and speed. By itself it solves the circuit with fluid in the gap and steel that "
+              "saturates, and the exact flow of a Bingham fluid between plates; a description may "
+              "ask for the equations of the family paper instead.",
           .options = {{.names = "DAMPER",
                        .target = &settings->damper,
                        .help = "a damper description, or one that comes with Dashpot: " +

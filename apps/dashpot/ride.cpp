@@ -113,8 +113,7 @@ std::vector<Option> study_options(Settings& settings) {
           {.names = "--bound",
            .target = &settings.bound,
            .help = "also what is possible on the road: a bound that no controller beats, and what "
-                   "the best reaches "
-                   "that knew the road (quarter cars, dampers without memory)"},
+                   "the best reaches that knew the road (quarter cars, dampers without memory)"},
           {.names = "--outside",
            .target = &settings.allowed_outside,
            .help = "share of the time that a damper may be outside its data without a warning, %",
@@ -131,11 +130,9 @@ Command ride_command() {
       .title = "Compare controllers in a vehicle, over frequency and on a road",
       .description =
           "Rides one vehicle with several controllers and without: gains from the road to body and "
-          "tyre by "
-          "sines and by a chirp, a rough road, a step. The page has every controller as a ratio "
-          "to passive, "
-          "the gain curves with the one-sensor paper's limits, and comfort against road holding "
-          "beside what the same dampers do when they are held at one drive.",
+          "tyre by sines and by a chirp, a rough road, a step. The page has every controller as a "
+          "ratio to passive, the gain curves with the one-sensor paper's limits, and comfort "
+          "against road holding beside what the same dampers do when they are held at one drive.",
       .options = vehicle_options(settings->vehicle),
       .example = std::string(kExample),
       .run = [settings](Console& console) { return run(*settings, console); }};

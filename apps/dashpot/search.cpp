@@ -198,15 +198,15 @@ std::vector<Option> own_options(Settings& settings) {
        .noun = "network"},
       {.names = "--over",
        .target = &settings.over,
-       .help = "a setting and its values, as hidden=5,10,10-10, or their range, as "
-               "l2=1e-5:1e-2; again for each setting. --network lists the settings",
+       .help = "a setting and its values, as hidden=5,10,10-10, or their range, as l2=1e-5:1e-2; "
+               "again for each setting. --network lists the settings",
        .value = "SETTING=...",
        .required = true},
       {.names = "--method",
        .target = &settings.method,
        .help = "every combination, so many by chance, or halving: many by chance with little "
-               "effort, the best third of them with three times as much, until all effort goes "
-               "to the last three or more. Ranges are spaced and drawn evenly in the logarithm",
+               "effort, the best third of them with three times as much, until all effort goes to "
+               "the last three or more. Ranges are spaced and drawn evenly in the logarithm",
        .value = "HOW",
        .choices = {"grid", "random", "halving"}},
       {.names = "--trials",
@@ -221,8 +221,8 @@ std::vector<Option> own_options(Settings& settings) {
        .minimum = 1},
       {.names = "--effort",
        .target = &settings.effort,
-       .help = "what halving gives little of at first: samples (the first part of every "
-               "training record) or epochs (then --network epochs=N says how many are all)",
+       .help = "what halving gives little of at first: samples (the first part of every training "
+               "record) or epochs (then --network epochs=N says how many are all)",
        .value = "WHAT",
        .choices = {"samples", "epochs"}},
       {.names = "--fresh",

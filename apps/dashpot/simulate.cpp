@@ -91,27 +91,25 @@ int run(const Settings& settings, Console& console) {
 
 Command simulate_command() {
   auto settings = std::make_shared<Settings>();
-  Command command{
-      .name = "simulate",
-      .title = "Drive a vehicle with a damper and a controller over a road",
-      .description =
-          "Puts a damper (a model file, a published one, a passive curve, or an ideal one) into a "
-          "vehicle or a "
-          "building, a controller with its sensors behind it and a road or an earthquake below, "
-          "and says how it rides: comfort by ISO 2631-1, tyre load, travel, force, energy; after "
-          "a step how it settles; against the same plant with a passive damper. What cannot be "
-          "trusted is said: lost contact, stops that were met, a damper asked beyond its data.",
-      .options = controlled_vehicle_options(settings->vehicle),
-      .example = std::string(kExample),
-      .run = [settings](Console& console) { return run(*settings, console); }};
+  Command command{.name = "simulate",
+                  .title = "Drive a vehicle with a damper and a controller over a road",
+                  .description =
+                      "Puts a damper (a model file, a published one, a passive curve, or an ideal "
+                      "one) into a vehicle or a building, a controller with its sensors behind it "
+                      "and a road or an earthquake below, and says how it rides: comfort by ISO "
+                      "2631-1, tyre load, travel, force, energy; after a step how it settles; "
+                      "against the same plant with a passive damper. What cannot be trusted is "
+                      "said: lost contact, stops that were met, a damper asked beyond its data.",
+                  .options = controlled_vehicle_options(settings->vehicle),
+                  .example = std::string(kExample),
+                  .run = [settings](Console& console) { return run(*settings, console); }};
   append(command.options, road_options(settings->road));
   append(
       command.options,
       {{.names = "--against",
         .target = &settings->against,
-        .help =
-            "to compare with, without controller: a damper's words, current=A for the same damper "
-            "at that current, or none",
+        .help = "to compare with, without controller: a damper's words, current=A for the same "
+                "damper at that current, or none",
         .value = "WORDS",
         .default_text = "beside a controller the plant's nominal damping, or half of the current"},
        {.names = "--outside",

@@ -8,8 +8,8 @@ Command study_command() {
       .name = "study",
       .title = "Repeat published experiments, and check Dashpot itself",
       .description =
-          "A study fits and judges many models by one protocol and writes what came out as a "
-          "page: of a paper, beside the paper's own figures; of Dashpot, beside what it claims.",
+          "A study fits and judges many models by one protocol and writes what came out as a page: "
+          "of a paper, beside the paper's own figures; of Dashpot, beside what it claims.",
       .options = {},
       .example =
           "# The tables and figures of the one-sensor paper, on virtual dampers:\n"

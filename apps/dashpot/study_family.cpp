@@ -56,37 +56,30 @@ Command family_study() {
       .title = "The family paper's figures, on its published recordings",
       .description =
           "Repeats the paper that teaches one network the force of a family of dampers from "
-          "geometry, fluid and "
-          "field: architectures for one damper and for all, regularisation, learning rate and "
-          "batch size, the "
-          "error while learning, lengths, gaps, fluids and fields compared, R2; each with the "
-          "paper's figure and "
-          "those of its published networks beside ours. Beyond the paper, each geometry and each "
-          "fluid is left "
-          "out in turn: what the networks, and Dashpot's own models of a family, know of a "
-          "damper that they have "
-          "not seen. Finished "
-          "trainings are kept "
-          "in DIR/trainings.sqlite: the same command goes on where it was interrupted.",
+          "geometry, fluid and field: architectures for one damper and for all, regularisation, "
+          "learning rate and batch size, the error while learning, lengths, gaps, fluids and "
+          "fields compared, R2; each with the paper's figure and those of its published networks "
+          "beside ours. Beyond the paper, each geometry and each fluid is left out in turn: what "
+          "the networks, and Dashpot's own models of a family, know of a damper that they have not "
+          "seen. Finished trainings are kept in DIR/trainings.sqlite: the same command goes on "
+          "where it was interrupted.",
       .options = data_options(settings->data),
       .example = std::string(kExample),
       .run = [settings](Console& console) { return run(*settings, console); }};
   append(command.options, study_result_options(settings->results, "trainings"));
-  append(
-      command.options,
-      {{.names = "--seeds",
-        .target = &settings->seeds,
-        .help =
-            "trainings of each network, from other first weights; half of them where something is "
-            "left out, three at most of large networks and in grids",
-        .value = "N",
-        .minimum = 1},
-       {.names = "--effort",
-        .target = &settings->options.effort,
-        .help = "share of each training's epochs",
-        .value = "SHARE",
-        .minimum = 0},
-       threads_option(settings->options.threads)});
+  append(command.options,
+         {{.names = "--seeds",
+           .target = &settings->seeds,
+           .help = "trainings of each network, from other first weights; half of them where "
+                   "something is left out, three at most of large networks and in grids",
+           .value = "N",
+           .minimum = 1},
+          {.names = "--effort",
+           .target = &settings->options.effort,
+           .help = "share of each training's epochs",
+           .value = "SHARE",
+           .minimum = 0},
+          threads_option(settings->options.threads)});
   return command;
 }
 

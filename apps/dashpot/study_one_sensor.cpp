@@ -69,19 +69,11 @@ Command one_sensor_study() {
       .title = "The one-sensor paper's tables and figures, on virtual dampers or your recordings",
       .description =
           "Repeats the paper that identifies a damper with a small static network and one sensor: "
-          "feed-forward "
-          "against recurrent, one sensor or two, delayed samples, the number of neurons, five "
-          "experiments on "
-          "two "
-          "dampers, and the comparison with laws, each with the paper's figure beside ours, and "
-          "with the "
-          "hysteresis "
-          "network, which needs the same one sensor. Without DATA on two virtual dampers shaped "
-          "after the "
-          "paper's words. Finished fits are kept in DIR/fits.sqlite: the same command goes on "
-          "where it "
-          "was "
-          "interrupted.",
+          "feed-forward against recurrent, one sensor or two, delayed samples, the number of "
+          "neurons, five experiments on two dampers, and the comparison with laws, each with the "
+          "paper's figure beside ours, and with the hysteresis network, which needs the same one "
+          "sensor. Without DATA on two virtual dampers shaped after the paper's words. Finished "
+          "fits are kept in DIR/fits.sqlite: the same command goes on where it was interrupted.",
       .options = data_options(settings->data),
       .example = std::string(kExample),
       .run = [settings](Console& console) { return run(*settings, console); }};

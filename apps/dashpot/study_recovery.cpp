@@ -84,10 +84,9 @@ int run(RecoveryStudyOptions options, Console& console) {
   console.print(
       fmt::format("# Parameter recovery\n\n"
                   "A damper with known parameters, for each law, on the virtual bench; the law is "
-                  "fitted to its records {} "
-                  "times, each with other noise (force noise {} % of the span, {} motion, seed "
-                  "{}). How often do the 95 % intervals hold "
-                  "the truth? Between 90 and 99 % counts as trustworthy. Made by `{}`.\n\n",
+                  "fitted to its records {} times, each with other noise (force noise {} % of the "
+                  "span, {} motion, seed {}). How often do the 95 % intervals hold the truth? "
+                  "Between 90 and 99 % counts as trustworthy. Made by `{}`.\n\n",
                   options.repetitions, format_number(100 * options.force_noise),
                   options.noisy_motion ? "noisy" : "exact", options.seed, console.command_line()) +
       overview(recoveries) +
@@ -123,10 +122,8 @@ Command recovery_study() {
       .description =
           "Records dampers with known parameters on the virtual bench, fits each law to its own "
           "records many times with other noise, and counts how often the 95 % intervals hold the "
-          "truth. "
-          "What a fit itself calls unknown (weak, at a bound, fixed) is listed and not counted. "
-          "The "
-          "table is Markdown.",
+          "truth. What a fit itself calls unknown (weak, at a bound, fixed) is listed and not "
+          "counted. The table is Markdown.",
       .options =
           {{.names = "--laws",
             .target = &options.laws,

@@ -32,21 +32,19 @@ int run(const Settings& settings, Console& console) {
 
 Command suspension_study() {
   auto settings = std::make_shared<Settings>();
-  Command command{.name = "study suspension",
-                  .title = "The one-sensor paper's suspension, and what is possible at best",
-                  .description =
-                      "Drives the one-sensor paper's quarter car with its identified damper, a "
-                      "virtual one, under "
-                      "Mix-1-sensor and other controllers, against a passive damper identified by "
-                      "the same network: over "
-                      "its chirp, its step and a road. Beside each controller stands the "
-                      "clairvoyant bound: what no "
-                      "force of that damper can beat, and what a controller that knew the road "
-                      "would reach. Says which "
-                      "of the paper's claims follow, and which least damping they would need.",
-                  .options = {},
-                  .example = std::string(kExample),
-                  .run = [settings](Console& console) { return run(*settings, console); }};
+  Command command{
+      .name = "study suspension",
+      .title = "The one-sensor paper's suspension, and what is possible at best",
+      .description =
+          "Drives the one-sensor paper's quarter car with its identified damper, a virtual one, "
+          "under Mix-1-sensor and other controllers, against a passive damper identified by the "
+          "same network: over its chirp, its step and a road. Beside each controller stands the "
+          "clairvoyant bound: what no force of that damper can beat, and what a controller that "
+          "knew the road would reach. Says which of the paper's claims follow, and which least "
+          "damping they would need.",
+      .options = {},
+      .example = std::string(kExample),
+      .run = [settings](Console& console) { return run(*settings, console); }};
   for (Option& option : study_result_options(settings->results, "data"))
     if (option.names != "--fresh") command.options.push_back(std::move(option));
   append(command.options, {{.names = "--duration",

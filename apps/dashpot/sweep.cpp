@@ -155,17 +155,12 @@ Command sweep_command() {
       .title = "Thousands of vehicles over roads: how far controllers and dampers can be trusted",
       .description =
           "Draws vehicles from the distributions of a request - masses, stiffnesses, dampers as "
-          "built, "
-          "speeds, "
-          "roads - and drives each of them under every controller over the same road. Prints "
-          "quantiles of "
-          "comfort, road holding, travel and energy, the ratios to a baseline vehicle by vehicle, "
-          "and which "
-          "inputs matter; writes every ride as CSV and HDF5, and a page. Each block of rides is "
-          "kept in "
-          "DIR/sweep.sqlite as it ends: the same command goes on where it was stopped. The result "
-          "does not "
-          "depend on threads or interruptions.",
+          "built, speeds, roads - and drives each of them under every controller over the same "
+          "road. Prints quantiles of comfort, road holding, travel and energy, the ratios to a "
+          "baseline vehicle by vehicle, and which inputs matter; writes every ride as CSV and "
+          "HDF5, and a page. Each block of rides is kept in DIR/sweep.sqlite as it ends: the same "
+          "command goes on where it was stopped. The result does not depend on threads or "
+          "interruptions.",
       .options = options_of(*settings),
       .example = std::string(kExample),
       .run = [settings](Console& console) { return run(*settings, console); }};

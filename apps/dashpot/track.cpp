@@ -274,12 +274,9 @@ Command track_command() {
       .title = "Follow a wanted force: inverse models side by side",
       .description =
           "Puts an inverse (wanted force to current), the coil's driver and a damper in series, "
-          "moves them, and "
-          "compares the wanted with the obtained force. Says how often the wanted force was out "
-          "of reach of any "
-          "current at that instant, and how often the command was at a limit. The first 0.1 s, "
-          "in which the coil "
-          "starts, are not scored.",
+          "moves them, and compares the wanted with the obtained force. Says how often the wanted "
+          "force was out of reach of any current at that instant, and how often the command was at "
+          "a limit. The first 0.1 s, in which the coil starts, are not scored.",
       .options = {},
       .example = std::string(kExample),
       .run = [settings](Console& console) { return run(*settings, console); }};

@@ -28,25 +28,22 @@ std::vector<Option> vehicle_options(VehicleChoice& choice) {
        .default_text = "none"},
       {.names = "--damper",
        .target = &choice.damper,
-       .help =
-           "model file, parameter set, curve or kind (--list dampers); one for all struts, or one "
-           "each, with ';' between",
+       .help = "model file, parameter set, curve or kind (--list dampers); one for all struts, or "
+               "one each, with ';' between",
        .value = "WORDS",
        .takes = Takes::File,
        .default_text = "the plant's own range, ideal"},
       {.names = "--inverse",
        .target = &choice.inverse,
-       .help =
-           "from a wanted force to a current: a scheme of 'dashpot track' or a file of 'dashpot "
-           "invert'",
+       .help = "from a wanted force to a current: a scheme of 'dashpot track' or a file of "
+               "'dashpot invert'",
        .value = "NAME",
        .takes = Takes::File,
        .default_text = "damping in a straight line over the current"},
       {.names = "--force-loop",
        .target = &choice.force_loop,
        .help = "corrects the force wanted of the inverse by the one that is missed, as a PID "
-               "controller: "
-               "proportional=0.5,integral=20,derivative=0",
+               "controller: proportional=0.5,integral=20,derivative=0",
        .value = "WORDS",
        .default_text = "none"},
       {.names = "--current",

@@ -76,11 +76,8 @@ void list_roads(Listing& list) {
 void list_dampers(Listing& list) {
   list.text +=
       "A model file that 'dashpot identify' wrote, a file with the columns velocity and force, or "
-      "one of "
-      "these; motion_ratio=0.7 after any of them mounts it on a lever, force_factor=0.9 builds it "
-      "weaker "
-      "than its "
-      "model, which no controller knows.\n";
+      "one of these; motion_ratio=0.7 after any of them mounts it on a lever, force_factor=0.9 "
+      "builds it weaker than its model, which no controller knows.\n";
   for (const SimpleDamper& kind : simple_dampers())
     list.add({kind.name, kind.title, "", "common practice", "", kind.parameters});
   Table curves({"passive curve"});
