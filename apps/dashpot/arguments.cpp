@@ -112,6 +112,8 @@ bool parse_arguments(const std::string& command, const std::vector<Option>& opti
   CLI::App app;
   app.allow_extras();
   for (const Option& option : options) add(app, option);
+
+  // The parser's own errors become ours, so that every message names option and remedy.
   try {
     app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
   } catch (const CLI::CallForHelp&) {
@@ -122,6 +124,8 @@ bool parse_arguments(const std::string& command, const std::vector<Option>& opti
   } catch (const CLI::ParseError& error) {
     throw UsageError(command, error.what());
   }
+
+  // A misspelled option is a leftover of the parser; it is told before one that is missing.
   refuse_leftovers(command, options, app.remaining());
   for (const Option& option : options)
     if (option.required && app.count(option.names) == 0)

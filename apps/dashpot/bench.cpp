@@ -38,16 +38,21 @@ int list_sequences(Console& console) {
 
 int run(const Settings& settings, Console& console) {
   if (settings.list_sequences) return list_sequences(console);
+
+  // The whole campaign is recorded before the first file is written.
   const ParameterSet damper = load_parameter_set(settings.campaign.damper);
   const Dataset campaign = run_campaign(settings.campaign, damper);
   console.check_stop();
   const std::filesystem::path statement =
       write_campaign(campaign, damper, settings.folder, console.command_line());
+
+  // The user reads which damper this was, and with which command to go on.
   console.talk(damper.damper + "; " + damper.source + '\n');
   if (!damper.verified) console.note("these parameters are an example: " + damper.reason);
   console.print(summary(campaign) + "\n\nRecordings  " + settings.folder + "/*.csv\nConditions  " +
                 statement.string() + "\nNext        dashpot identify " +
                 shell_quoted(settings.folder) + '\n');
+
   if (console.json)
     console.print_json(Value::object({{"folder", settings.folder},
                                       {"dataset", statement.string()},
@@ -72,6 +77,8 @@ Command bench_command() {
                   .options = campaign_options(settings->campaign),
                   .example = std::string(kExample),
                   .run = [settings](Console& console) { return run(*settings, console); }};
+
+  // A list of sequences needs no campaign, but shares its command.
   command.options.push_back({.names = "-o,--output",
                              .target = &settings->folder,
                              .help = "folder for the recordings",

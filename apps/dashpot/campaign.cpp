@@ -58,15 +58,20 @@ struct Column {
 std::string csv_of(const Record& record, const Dataset& campaign) {
   constexpr int kTimeDigits = 12;  // so that equal steps read back as equal
   const std::string drive = drive_channel(campaign.drive_unit);
+
+  // A bench has time, motion, force and drive; velocity only where it was measured.
   std::vector<Column> columns{{"t_s", record.time, 1, kTimeDigits},
                               {"x_mm", record.channel("displacement").samples, 1000},
                               {"F_N", record.channel("force").samples},
                               {drive_column(campaign), record.channel(drive).samples}};
   const Channel& velocity = record.channel("velocity");
   if (!velocity.origin.starts_with("derived")) columns.push_back({"v_m/s", velocity.samples});
+
+  // The header names channel and unit as the reader of recordings expects them.
   std::string text;
   for (const Column& column : columns) text += (text.empty() ? "" : ",") + column.title;
   text += '\n';
+
   for (std::size_t k = 0; k < record.size(); ++k)
     for (const Column& column : columns)
       text += format_number(column.factor * column.samples[k], column.digits) +
@@ -133,6 +138,8 @@ std::vector<BenchTest> campaign_tests(const CampaignSettings& settings, const Pa
                                       BenchOptions options) {
   if (!settings.experiment.empty())
     return experiment_tests(settings.experiment, damper, options.seed);
+
+  // The motions: sines, or one sequence in place of them.
   options.motions.clear();
   for (const std::string& motion : settings.motions)
     options.motions.push_back(parse_motion(motion));
@@ -140,6 +147,8 @@ std::vector<BenchTest> campaign_tests(const CampaignSettings& settings, const Pa
       settings.motion.empty()
           ? bench_sines(options)
           : std::vector{sequence_test(settings.motion, options.seed, "--motion")};
+
+  // Each motion runs under each drive: one sequence, or every level.
   const DriveFrame frame{.low = damper.drive_min, .high = damper.drive_max, .seed = options.seed};
   std::vector<BenchTest> tests;
   for (const BenchTest& motion : motions) {
@@ -164,6 +173,7 @@ CampaignSettings::CampaignSettings() {
 std::vector<Option> campaign_options(CampaignSettings& settings) {
   BenchOptions& bench = settings.bench;
   return {
+      // The damper, and the usual campaign of sines at constant currents.
       {.names = "--damper",
        .target = &settings.damper,
        .help = "the damper under test, by the publication of its parameters",
@@ -179,6 +189,8 @@ std::vector<Option> campaign_options(CampaignSettings& settings) {
        .help = "currents in A (or voltages in V, as the damper is driven)",
        .value = "LIST",
        .default_text = "the damper's own, or five over its range"},
+
+      // Sequences and experiments in place of the usual campaign.
       {.names = "--motion",
        .target = &settings.motion,
        .help = "a sequence in place of the sines, with values for its parameters if wanted, as "
@@ -194,6 +206,8 @@ std::vector<Option> campaign_options(CampaignSettings& settings) {
        .value = "NAME",
        .choices = experiment_names(),
        .noun = "experiment"},
+
+      // How long and how finely is recorded.
       {.names = "--cycles",
        .target = &bench.cycles,
        .help = "cycles per record",
@@ -206,6 +220,8 @@ std::vector<Option> campaign_options(CampaignSettings& settings) {
        .minimum = 1,
        .default_text = format_number(bench.sample_rate) + "; of an experiment " +
                        format_number(one_sensor_bench(bench).sample_rate)},
+
+      // The sensors and their flaws.
       {.names = "--velocity-sensor",
        .target = &bench.velocity_sensor,
        .help = "record the velocity too, with the noise of a tachometer; an experiment does"},

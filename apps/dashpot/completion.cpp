@@ -13,6 +13,7 @@ Command completion_command() {
       .title = "Print the completion script of a shell",
       .description =
           "Prints a script that lets the shell complete commands, options, model names and files.",
+
       .options = {{.names = "SHELL",
                    .target = shell.get(),
                    .help = "bash, zsh or fish",
@@ -26,6 +27,7 @@ Command completion_command() {
           "# zsh, fish:\n"
           "dashpot completion zsh > ~/.zfunc/_dashpot    # ~/.zfunc being in fpath\n"
           "dashpot completion fish > ~/.config/fish/completions/dashpot.fish",
+
       .run = [shell](Console& console) {
         console.print(completion_script(*shell, all_commands(), common_options(console)));
         return static_cast<int>(kDone);

@@ -34,6 +34,7 @@ std::string bash_values(const Option& option) {
 /// One branch of a case: a command's values by the word before, its options, its arguments; of a
 /// group, the case of its subcommands.
 std::string bash_command(const Command& command, const std::vector<Option>& common) {
+  // A group offers its subcommands, each of which completes as a command does.
   if (!command.subcommands.empty()) {
     std::string cases;
     for (const Command& one : command.subcommands) cases += bash_command(one, common);
@@ -42,6 +43,8 @@ std::string bash_command(const Command& command, const std::vector<Option>& comm
         "    case ${{COMP_WORDS[2]}} in\n{}    esac;;\n",
         command.last_word(), command_names(command.subcommands), cases);
   }
+
+  // The values of an option follow its name; all other words are names or arguments.
   std::string values, arguments = ":", names = "--help";
   for (const Option& option : options_of(command, common)) {
     if (option.is_positional()) {
@@ -53,6 +56,7 @@ std::string bash_command(const Command& command, const std::vector<Option>& comm
       values += fmt::format("        {}) {}; return;;\n", join(split(option.names, ','), "|"),
                             bash_values(option));
   }
+
   return fmt::format(
       "    {})\n      case $previous in\n{}      esac\n"
       "      case $word in\n        -*) _dashpot_words '{}';;\n        *) {};;\n      esac;;\n",
@@ -62,6 +66,8 @@ std::string bash_command(const Command& command, const std::vector<Option>& comm
 std::string bash_script(const std::vector<Command>& commands, const std::vector<Option>& common) {
   std::string cases;
   for (const Command& command : commands) cases += bash_command(command, common);
+
+  // The helper function keeps the part of a comma-separated list that is already typed.
   return "# bash completion of dashpot: source <(dashpot completion bash)\n"
          "_dashpot_words() {  # completes the last word of a list that commas separate\n"
          "  local before=\n"
@@ -115,12 +121,16 @@ std::string zsh_specification(const Option& option) {
 /// One branch of a case; `$words` and CURRENT count from the command's own name.
 std::string zsh_command(const Command& command, const std::vector<Option>& common) {
   std::string text = "    " + command.last_word() + ")\n";
+
+  // A command completes its options and arguments.
   if (command.subcommands.empty()) {
     text += "      _arguments '--help[explain the command]'";
     for (const Option& option : options_of(command, common))
       text += " \\\n        " + zsh_specification(option);
     return text + ";;\n";
   }
+
+  // A group offers its subcommands first; the words after one belong to it.
   std::string cases;
   for (const Command& one : command.subcommands) cases += zsh_command(one, common);
   return text + "      if (( CURRENT == 2 )); then\n        compadd " +
@@ -133,10 +143,13 @@ std::string zsh_command(const Command& command, const std::vector<Option>& commo
 
 std::string zsh_script(const std::vector<Command>& commands, const std::vector<Option>& common) {
   std::string names, cases;
+
+  // The names with their titles for the first word, and a case for what follows each.
   for (const Command& command : commands) {
     names += "    " + shell_quoted(command.name + ":" + zsh_text(command.title)) + "\n";
     cases += zsh_command(command, common);
   }
+
   return "#compdef dashpot\n"
          "_dashpot() {\n"
          "  local -a commands\n  commands=(\n" +
@@ -175,6 +188,8 @@ std::string fish_command(const Command& command, const std::string& condition,
                          const std::vector<Option>& common) {
   std::string text =
       "complete -c dashpot -n " + shell_quoted(condition) + " -l help -d 'explain the command'\n";
+
+  // A subcommand is offered until one is there, and its own options from then on.
   for (const Command& one : command.subcommands) {
     const std::string names = command_names(command.subcommands);
     text += "complete -c dashpot -n " +
@@ -183,6 +198,7 @@ std::string fish_command(const Command& command, const std::string& condition,
             fish_command(one, condition + "; and __fish_seen_subcommand_from " + one.last_word(),
                          common);
   }
+
   if (command.subcommands.empty())
     for (const Option& option : options_of(command, common)) text += fish_option(condition, option);
   return text;

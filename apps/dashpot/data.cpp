@@ -20,6 +20,8 @@ std::vector<Option> data_options(DataSettings& settings) {
                    "dataset file (.yaml)",
            .takes = Takes::File,
            .required = true},
+
+          // Statements that override what is read from the files themselves.
           {.names = "--dataset",
            .target = &settings.load.dataset_file,
            .help = "a dataset file that states channels, units and conditions",
@@ -29,6 +31,8 @@ std::vector<Option> data_options(DataSettings& settings) {
           {.names = "--no-recognise",
            .target = &settings.load.recognise,
            .help = "do not look for these recordings among the known published ones"},
+
+          // How the recordings are processed and reported.
           {.names = "--velocity-cutoff",
            .target = &settings.load.velocity_cutoff_hz,
            .help = "cut-off of the zero-phase filter that velocity is derived with",

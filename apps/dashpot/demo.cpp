@@ -42,6 +42,8 @@ constexpr std::string_view kExample =
 bool print_recovery(const std::vector<RecoveredParameter>& parameters, Console& console) {
   console.print('\n' + console.bold("Known parameters against those found") + '\n' +
                 recovery_table(parameters, console.width()));
+
+  // A parameter that the data cannot determine is not held against the fit.
   const auto missed = std::ranges::count_if(
       parameters, [](const RecoveredParameter& p) { return !p.recovered() && !p.weak; });
   if (missed == 0 && !parameters.empty()) {
@@ -51,6 +53,7 @@ bool print_recovery(const std::vector<RecoveredParameter>& parameters, Console& 
                     format_number(100 * kRecoveryTolerance)));
     return true;
   }
+
   console.error(
       fmt::format("{} of {} known parameters were not recovered", missed, parameters.size()));
   return false;

@@ -158,13 +158,19 @@ int run(Settings settings, Console& console) {
     console.print(quantities_text(console.width()));
     return kDone;
   }
+
+  // The words of the command line become options of the search.
   const DesignRequest request = requested(settings);
   settings.options.points = static_cast<std::size_t>(settings.points);
   settings.options.method = settings.method == "moead" ? FrontMethod::Moead : FrontMethod::Nsga2;
   settings.options.refuse_outside = settings.outside_family == "refuse";
   settings.options.monitor = console.monitor();
+
+  // A folder that cannot be written is found out before the search, not after it.
   prepare_results({settings.folder, settings.report});
   const DesignReport report = design(request, settings.options);
+
+  // The designs go to the terminal, into files and, if asked for, out as JSON.
   const DesignInput input{report, console.command_line(), DASHPOT_VERSION, date_now()};
   const Document document = design_document(input);
   print_document(document, console);
@@ -173,6 +179,8 @@ int run(Settings settings, Console& console) {
   for (const std::string& note : report.notes) console.warn(note);
   write_results(document, input, settings, console);
   if (console.json) console.print_json(document_json(document));
+
+  // An interrupted search writes its designs first and then ends as interrupted.
   if (report.stopped) console.check_stop();
   if (!report.designs.empty()) return kDone;
   console.error(report.conflict ? "the constraints conflict; the lines above say which"
@@ -182,6 +190,7 @@ int run(Settings settings, Console& console) {
 
 std::vector<Option> options_of(Settings& settings) {
   return {
+      // The request, and where its designs go.
       {.names = "REQUEST",
        .target = &settings.request,
        .help = "what may vary, what must hold and what to favour: a YAML file, or one that comes "
@@ -193,6 +202,8 @@ std::vector<Option> options_of(Settings& settings) {
        .help = "folder of the results",
        .value = "DIR",
        .takes = Takes::Folder},
+
+      // The search for the front.
       {.names = "--points",
        .target = &settings.points,
        .help = "designs on the front, where there are several goals",
@@ -209,6 +220,8 @@ std::vector<Option> options_of(Settings& settings) {
        .value = "NAME",
        .choices = {"nsga2", "moead"},
        .noun = "method"},
+
+      // The models that assess a design.
       {.names = "--model",
        .target = &settings.options.model,
        .help =
@@ -232,6 +245,8 @@ std::vector<Option> options_of(Settings& settings) {
                "refuse them",
        .value = "MODE",
        .choices = {"mark", "refuse"}},
+
+      // The run itself, and what it prints or leaves out.
       seed_option(settings.options.seed),
       threads_option(settings.options.threads),
       {.names = "--quantities",

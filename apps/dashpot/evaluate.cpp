@@ -56,6 +56,8 @@ int run(const Settings& settings, Console& console) {
   if (const auto* family = model_as<FamilyModel>(*file.model);
       family && settings.outside_family == "refuse")
     file.model = family->with_outside(OutsideFamily::Refuse);
+
+  // The recordings must be driven in the unit that the model takes.
   const Dataset dataset = load_recordings(settings.data, console);
   require_same_drive(file, dataset, settings.model);
   const EvaluateOptions options{.offset = offset_mode(settings.force_offset, "--force-offset"),
@@ -102,7 +104,10 @@ Command evaluate_command() {
                                .required = true}},
                   .example = std::string(kExample),
                   .run = [settings](Console& console) { return run(*settings, console); }};
+
   append(command.options, data_options(settings->data));
+
+  // Where the model stops being valid, and how the force zero is treated.
   append(
       command.options,
       {{.names = "--outside-family",
@@ -117,6 +122,7 @@ Command evaluate_command() {
             "the force zero (gas, load cell): a free offset per record, or the model's own alone",
         .value = "MODE",
         .choices = {"record", "none"}},
+
        {.names = "--report",
         .target = &settings->report,
         .help = "also write a report page",

@@ -105,20 +105,27 @@ void require_blocks(const Settings& settings, const std::string& where, const st
 /// Null: what is named is a damper.
 CBlockMaker chosen_block(const Settings& settings, const ExportOptions& options, Console& console) {
   const VehicleChoice& vehicle = settings.vehicle;
+
+  // A controller takes its damper and sensors with it.
   if (!vehicle.controller.empty()) {
     require_blocks(settings, vehicle.controller, "a controller");
     return controller_block(vehicle, settings.damper, options, console);
   }
+
+  // Without one, options of its vehicle would have no effect.
   for (const auto& [option, said] : {std::pair{"--damper", !vehicle.damper.empty()},
                                      {"--set", !vehicle.values.empty()},
                                      {"--in-car", vehicle.in_car}})
     if (said) throw UsageError(option, "goes with --controller");
+
+  // An inverse network from a file, or the inverse of a damper by a scheme.
   if (is_inverse(settings.damper.model)) {
     require_blocks(settings, settings.damper.model, "an inverse");
     return [file = load_inverse(settings.damper.model)](const ExportOptions& own) {
       return c_inverse_block(file, own);
     };
   }
+
   if (vehicle.inverse.empty()) return nullptr;
   require_blocks(settings, vehicle.inverse, "an inverse");
   return scheme_block(vehicle, settings.damper, options, console);
@@ -138,6 +145,8 @@ int run(const Settings& settings, Console& console) {
   if (settings.formats.empty())
     throw UsageError("--to", "is missing", "one or more of " + join(exporter_names(), ", "));
   if (settings.folder.empty()) throw UsageError("--output", "the name of the folder is empty");
+
+  // The words of the command line as the exporters take them.
   const ExportOptions options{
       .name = settings.name,
       .precision = precision_of(settings),
@@ -148,6 +157,8 @@ int run(const Settings& settings, Console& console) {
       .sources_only = settings.sources_only,
       .command = console.command_line(),
       .version = DASHPOT_VERSION};
+
+  // All files are made before the first is written: an error leaves none behind.
   const std::vector<ExportedFile> files = exported_files(settings, options, console);
   Value list = Value::array();
   for (const ExportedFile& file : files) {
@@ -156,6 +167,7 @@ int run(const Settings& settings, Console& console) {
     list.push_back(path);
     console.print(path + '\n');
   }
+
   if (console.json) console.print_json(Value::object({{"files", std::move(list)}}));
   return kDone;
 }
@@ -166,6 +178,8 @@ Command export_command() {
   auto settings = std::make_shared<Settings>();
   std::vector<Option> options = damper_options(settings->damper);
   append(options, control_options(settings->vehicle));
+
+  // The formats, and the code in them.
   append(options, {{.names = "--to",
                     .target = &settings->formats,
                     .help = "what the model becomes",
@@ -187,6 +201,8 @@ Command export_command() {
                     .help = "between two steps, as 1ms",
                     .value = "S",
                     .default_text = "that of the model's data, or 1 ms"},
+
+                   // The binary of an FMU.
                    {.names = "--compiler",
                     .target = &settings->compiler,
                     .help = "C compiler for the binary in an FMU, and more arguments for it",
@@ -195,11 +211,13 @@ Command export_command() {
                    {.names = "--sources-only",
                     .target = &settings->sources_only,
                     .help = "an FMU without a binary, for an importer that compiles"},
+
                    {.names = "-o,--output",
                     .target = &settings->folder,
                     .help = "folder for the files",
                     .value = "DIR",
                     .takes = Takes::Folder}});
+
   return {.name = "export",
           .title = "A model or a controller as code or tables for other programs",
           .description =

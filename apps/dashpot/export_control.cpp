@@ -44,6 +44,8 @@ CBlockMaker controller_block(VehicleChoice choice, const DamperChoice& damper,
     choice.damper = damper.model.empty() ? damper.parameters : damper.model;
   else if (damper.is_made())
     throw UsageError("--damper", "there is another damper before it", "name one");
+
+  // A note on the vehicle holds for its controller too.
   choice.sample_time = 1000 * sample_time(options);
   auto vehicle = std::make_shared<const Vehicle>(make_vehicle(words_of(choice)));
   for (const std::string& note : vehicle->notes) console.note(note);
@@ -52,12 +54,16 @@ CBlockMaker controller_block(VehicleChoice choice, const DamperChoice& damper,
 
 CBlockMaker scheme_block(const VehicleChoice& choice, DamperChoice damper,
                          const ExportOptions& options, Console& console) {
+  // The coil's limits were read as the vehicle's; here they belong to the damper.
   damper.current_max = choice.current_max;
   damper.lag_rate = choice.lag_rate;
   const auto loaded = std::make_shared<const Damper>(load_damper(damper, "export", console));
   const InverseLimits limits = limits_of(driver_of(*loaded, damper), sample_time(options));
+
+  // The inverse refers to the damper, so the maker keeps both alive.
   const std::shared_ptr<const InverseModel> inverse =
       find_inverse(choice.inverse, "--inverse").make(*loaded->model, limits);
+
   return [loaded, inverse, limits](const ExportOptions& own) {
     return c_inverse_block(
         {.model = *inverse,

@@ -123,6 +123,8 @@ std::string overview(const std::vector<Command>& commands, const Console& consol
                          "Turns test-bench recordings of magnetorheological dampers into models "
                          "that can be trusted.",
                          width);
+
+  // Three commands for someone who has never used the program.
   text += '\n' + console.bold("Start here") +
           "\n"
           "  dashpot demo                 a virtual damper, measured and identified, in seconds\n"
@@ -130,8 +132,10 @@ std::string overview(const std::vector<Command>& commands, const Console& consol
           "  dashpot identify recordings/ models, ranked, and a report to read\n"
           "\n" +
           console.bold("Commands") + '\n';
+
   for (const Command& command : commands)
     text += fmt::format("  {:<12}{}\n", command.name, command.title);
+
   return text + '\n' +
          paragraph("Each one explains itself, with an example: 'dashpot COMMAND --help'.", width);
 }

@@ -26,6 +26,7 @@ std::string network_help() {
 
 std::vector<Option> fit_options(FitSettings& settings) {
   return {
+      // The models, and the force zero that they are fitted beside.
       {.names = "--models",
        .target = &settings.models,
        .help = "the models to fit, separated by commas; 'usual' stands for " +
@@ -43,6 +44,8 @@ std::vector<Option> fit_options(FitSettings& settings) {
                "model's own",
        .value = "MODE",
        .choices = {"record", "none"}},
+
+      // The parameters of laws: shape over current, fixed or free, bounds, prior knowledge.
       {.names = "--form",
        .target = &settings.forms,
        .help = "how parameters depend on current, as alpha=exponential or bouc_wen.alpha=linear: "
@@ -70,11 +73,15 @@ std::vector<Option> fit_options(FitSettings& settings) {
                "deviation, as k1=500+-100",
        .value = "LIST",
        .default_text = "nothing"},
+
+      // The design and training of networks.
       {.names = "--network",
        .target = &settings.network,
        .help = network_help(),
        .value = "LIST",
        .default_text = "as each network's preset says"},
+
+      // The effort of the fit, and the random numbers in it.
       {.names = "--starts",
        .target = &settings.options.starts,
        .help = "starting points of each fit",

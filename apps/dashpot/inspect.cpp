@@ -31,15 +31,21 @@ int run(const Settings& settings, Console& console) {
   options.monitor = console.monitor();
   const Dataset dataset =
       load_dataset({settings.data.paths.begin(), settings.data.paths.end()}, options);
+
+  // A measured velocity is compared with the derived one: a wrong sign or unit shows there.
   const std::vector<VelocityCheck> checks = check_velocities(dataset, options.velocity_cutoff_hz);
   const Document document =
       inspection_document({dataset, checks, console.command_line(), DASHPOT_VERSION, date_now()});
+
   print_document(document, console);
+
+  // Plots need a page; the terminal has tables alone.
   if (!settings.folder.empty()) {
     const std::string page = settings.folder + "/inspect.html";
     write_file(page, html_document(document));
     console.print("\nPlots  " + page + '\n');
   }
+
   if (console.json) console.print_json(document_json(document));
   return kDone;
 }
@@ -58,8 +64,11 @@ Command inspect_command() {
       .options = data_options(settings->data),
       .example = std::string(kExample),
       .run = [settings](Console& console) { return run(*settings, console); }};
+
+  // Everything is printed here, so --verbose would do nothing.
   std::erase_if(command.options,
                 [](const Option& option) { return option.names == "-v,--verbose"; });
+
   command.options.push_back({.names = "-o,--output",
                              .target = &settings->folder,
                              .help = "also write DIR/inspect.html with plots of every record",

@@ -68,15 +68,20 @@ Bench make_bench(const Settings& settings, Console& console) {
     bench.drive_unit = bench.recordings->drive_unit;
     if (!settings.damper.is_made()) return bench;
   }
+
+  // A damper judges what recordings have taught, so both must be driven in one unit.
   bench.damper = load_damper(settings.damper, "invert", console);
   if (recorded && bench.damper.drive_unit != bench.drive_unit)
     throw Error(bench.damper.name, "is driven by " + to_string(bench.damper.drive_unit) +
                                        ", the recordings by " + to_string(bench.drive_unit));
   bench.drive_unit = bench.damper.drive_unit;
+
+  // The motions cover the range of the model's data, unless the user states another.
   bench.driver = driver_of(bench.damper, settings.damper);
   if (bench.damper.domain) bench.range = motion_range(*bench.damper.domain);
   if (settings.amplitude > 0) bench.range.amplitude = settings.amplitude / 1000;
   if (settings.frequency > 0) bench.range.frequency = settings.frequency;
+
   bench.trials =
       inverse_trials(*bench.damper.model, bench.range, limits_of(bench.driver, kSampleTime));
   return bench;
@@ -106,6 +111,8 @@ Candidate teach(const Settings& settings, const Bench& bench, const std::string&
   options.training.seed = settings.seed;
   options.training.threads = settings.threads;
   options.training.monitor = console.monitor();
+
+  // Recordings teach where there are any; else the model itself does.
   const DamperModel* forward = bench.damper.model.get();
   const InverseLimits limits = limits_of(bench.driver, kSampleTime);
   Candidate candidate{
@@ -114,6 +121,8 @@ Candidate teach(const Settings& settings, const Bench& bench, const std::string&
           ? fit_inverse(*bench.recordings, default_leave_out(*bench.recordings), forward, options)
           : fit_inverse(*forward, bench.range, limits, options),
       {}};
+
+  // Only with a damper can the force be followed.
   if (forward) candidate.reports = follow(bench, HistoryNetwork(candidate.fit.network, limits));
   return candidate;
 }
@@ -136,6 +145,8 @@ std::vector<Candidate> teach_all(const Settings& settings, const Bench& bench, C
       console.note(network + " is left out: " + error.what());
     }
   }
+
+  // The error of the force counts; the current's only where no damper gives a force.
   if (candidates.empty()) throw Error("invert", "no network can be taught with these data");
   std::ranges::stable_sort(candidates, {}, [](const Candidate& c) {
     return c.reports.empty() ? c.fit.left_out_rmse : error_in_reach(c.reports);
@@ -212,18 +223,24 @@ void write_figure(const std::vector<Candidate>& candidates, const std::vector<Tr
 int run(const Settings& settings, Console& console) {
   const Bench bench = make_bench(settings, console);
   const std::vector<Candidate> candidates = teach_all(settings, bench, console);
+
+  // The search on the model itself shows what any inverse could reach.
   std::vector<TrackReport> numeric;
   if (bench.damper.model)
     numeric =
         follow(bench, NumericInverse(*bench.damper.model, limits_of(bench.driver, kSampleTime)));
+
   const Candidate& best = candidates.front();
   console.print(heading(best, bench) + table_of(candidates, numeric, bench, console.width()));
   for (const std::string& warning : best.fit.warnings) console.warn(warning);
   if (numeric.empty())
     console.note(
         "no damper was given, so that how the force follows was not measured: give a model, too");
+
+  // Only the best network is kept.
   save(best, bench, settings, console);
   if (!settings.figure.empty()) write_figure(candidates, numeric, bench, settings.figure, console);
+
   if (console.json) {
     Value all = Value::object();
     for (const Candidate& c : candidates) all.add(c.name, json_of(c, bench));
@@ -236,6 +253,7 @@ int run(const Settings& settings, Console& console) {
 std::vector<Option> network_options(Settings& s) {
   std::vector<std::string> names = inverse_network_names();
   names.emplace_back("all");
+
   return {{.names = "--network",
            .target = &s.networks,
            .help = "the networks to teach, of which the best is saved",
@@ -253,6 +271,8 @@ std::vector<Option> network_options(Settings& s) {
            .help = "of its answer, A/s; 0: none",
            .value = "A/S",
            .minimum = 0},
+
+          // The motions on a model, which both teach and judge.
           {.names = "--amplitude",
            .target = &s.amplitude,
            .help = "of the motions that teach and judge, mm",
@@ -265,6 +285,7 @@ std::vector<Option> network_options(Settings& s) {
            .value = "HZ",
            .minimum = 0,
            .default_text = "so that its speed is that of the model's data, else 3"},
+
           seed_option(s.seed),
           threads_option(s.threads)};
 }
@@ -287,6 +308,8 @@ Command invert_command() {
       .options = damper_options(s.damper),
       .example = std::string(kExample),
       .run = [settings](Console& console) { return run(*settings, console); }};
+
+  // The recordings, where they teach in place of the model.
   command.options.push_back(
       {.names = "--recordings",
        .target = &s.recordings.paths,
@@ -299,8 +322,12 @@ Command invert_command() {
                              .value = "FILE",
                              .takes = Takes::File,
                              .default_text = "dataset.yaml beside the recordings, if there"});
+
+  // The networks and the coil in front of the damper.
   append(command.options, network_options(s));
   append(command.options, coil_options(s.damper));
+
+  // Where the results go.
   command.options.push_back({.names = "-o,--output",
                              .target = &s.file,
                              .help = "the file of the inverse",

@@ -91,16 +91,20 @@ int run(const std::vector<std::string>& words, Console& console) {
     console.print(overview(all_commands(), console));
     return kDone;
   }
+
+  // 'dashpot help rank' is 'dashpot rank --help'.
   if (words.front() == "help") {
     std::vector<std::string> named(words.begin() + 1, words.end());
     if (named.empty()) return run({}, console);
     named.emplace_back("--help");
     return run_command(named, console);
   }
+
   if (words.front() == "--help-markdown") {
     console.print(help_markdown(all_commands(), common_options(console)));
     return kDone;
   }
+
   if (words.front() == "--version") return run_command({"version"}, console);
   return run_command(words, console);
 }
@@ -117,15 +121,21 @@ int run_and_explain(const std::vector<std::string>& words, Console& console) {
     const int code = run(words, console);
     console.finish();
     return code;
+
+    // These are no errors of the work: the reader has left, or the user stopped it.
   } catch (const ReaderGone&) {
     return 128 + SIGPIPE;
   } catch (const Interrupted&) {
     console.error("interrupted; files that were being written stand as they were before");
     return 128 + stop_signal;
+
+    // A wrong command line is pointed to its help.
   } catch (const UsageError& error) {
     console.error(error.what());
     console.talk("'" + help_for(words) + "' explains.\n");
     return kUsage;
+
+    // The input cannot be used, or the machine cannot do it.
   } catch (const Error& error) {
     console.error(error.what());
   } catch (const std::bad_alloc&) {

@@ -43,12 +43,15 @@ Conditions changes_of(const Settings& settings) {
     if (equals == std::string::npos)
       throw UsageError("--set", "'" + change + "' has no value; write gap=1.2mm");
     const std::string name(trim(change.substr(0, equals)));
+
+    // The number's unit is the field's, in which a bare number is taken.
     std::string unit = name == kYieldStress ? "Pa" : "";
     std::vector<std::string> known{std::string(kYieldStress)};
     for (const MemberField& field : member_fields()) {
       known.emplace_back(field.name);
       if (field.name == name) unit = field.unit;
     }
+
     if (unit.empty())
       throw UsageError("--set", "unknown number '" + name + "'; " + suggest(name, known));
     conditions.emplace_back(name, parse_quantity(trim(std::string_view(change).substr(equals + 1)),
@@ -66,11 +69,14 @@ std::string table_of(const FamilyModel& model, int width) {
     table.row({std::string(field.name), std::string(field.unit),
                format_number(model.member().*field.field), range});
   }
+
+  // The yield stress follows the current: its range stands in place of a number.
   const std::vector<double>& stresses = model.member().yield.stresses;
   table.row({std::string(kYieldStress), "Pa",
              format_number(stresses.front()) +
                  (stresses.size() > 1 ? " ... " + format_number(stresses.back()) : ""),
              ""});
+
   return table.text(static_cast<std::size_t>(width));
 }
 
@@ -80,6 +86,8 @@ int run(const Settings& settings, Console& console) {
   if (!family)
     throw Error(settings.model, "is a model of one damper, not of a family",
                 "a file that 'dashpot identify --models family' wrote");
+
+  // The member is drawn before its numbers are changed, so that --set has the last word.
   const bool refuse = settings.outside_family == "refuse";
   const auto asked = family->with_outside(refuse ? OutsideFamily::Refuse : OutsideFamily::Mark);
   const double largest =
@@ -89,6 +97,7 @@ int run(const Settings& settings, Console& console) {
                                  : member_of(description_of(settings.damper), largest);
   const auto member =
       asked->with_member(with_conditions(drawn, changes_of(settings), settings.model));
+
   const std::vector<std::string> outside = member->extrapolations();
   console.print(table_of(*member, console.width()));
   for (const std::string& what : outside) console.warn(what + ": it extrapolates there");
@@ -96,6 +105,8 @@ int run(const Settings& settings, Console& console) {
     console.print_json(Value::object({{"member", to_json(member->member())},
                                       {"outside_family", Value::array(outside)},
                                       {"output", settings.output}}));
+
+  // The file keeps the family's provenance; only its model becomes the member's.
   if (settings.output.empty()) return kDone;
   file.model = member->with_offset(0);
   save_model(file, settings.output);
@@ -114,11 +125,14 @@ Command member_command() {
           "Reads a model of a family of dampers and makes it the model of one of them: by its "
           "numbers, by a drawing with coil and fluid, or by how far a build is from the mean of "
           "its design. Says what of it lies outside the dampers that the family was fitted on.",
+
       .options = {{.names = "MODEL",
                    .target = &settings->model,
                    .help = "a model file of a family that 'dashpot identify' wrote",
                    .takes = Takes::File,
                    .required = true},
+
+                  // The member: by its drawing, its numbers or both.
                   {.names = "--damper",
                    .target = &settings->damper,
                    .help = "a damper description, as of 'dashpot physics'",
@@ -128,6 +142,8 @@ Command member_command() {
                    .target = &settings->changes,
                    .help = "the damper's numbers, as gap=1.25mm,yield_stress=20kPa,build=1",
                    .value = "LIST"},
+
+                  // The limits of the family, and where the model goes.
                   {.names = "--outside-family",
                    .target = &settings->outside_family,
                    .help = "a damper outside the family: tell of it and go on, or refuse it",
@@ -138,6 +154,7 @@ Command member_command() {
                    .help = "write the model of this damper",
                    .value = "FILE",
                    .takes = Takes::File}},
+
       .example = std::string(kExample),
       .run = [settings](Console& console) { return run(*settings, console); }};
 }

@@ -69,6 +69,7 @@ Command models_command() {
           .description =
               "Lists the models that can be identified, or shows one: its equation, the table of "
               "its parameters (units, defaults, bounds), states, source and limits.",
+
           .options = {{.names = "NAME",
                        .target = &settings->name,
                        .help = "the model to show",
@@ -78,6 +79,7 @@ Command models_command() {
                       {.names = "--markdown",
                        .target = &settings->markdown,
                        .help = "print a page for the documentation"}},
+
           .example = std::string(kExample),
           .run = [settings](Console& console) { return run(*settings, console); }};
 }

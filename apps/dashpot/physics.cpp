@@ -35,6 +35,8 @@ DamperDescription described(const Settings& settings) {
   DamperDescription description = std::ranges::find(known, settings.damper) != known.end()
                                       ? named_description(settings.damper)
                                       : load_description(settings.damper);
+
+  // Each change is read in the unit of its field.
   for (const std::string& change : settings.changes) {
     const std::size_t equals = change.find('=');
     if (equals == std::string::npos)
@@ -43,6 +45,8 @@ DamperDescription described(const Settings& settings) {
     description.*field.field = parse_quantity(trim(std::string_view(change).substr(equals + 1)),
                                               field.unit, "--set " + std::string(field.name));
   }
+
+  // A geometry that cannot be built is refused by the words that asked for it.
   require_possible(description,
                    settings.changes.empty() ? settings.damper : settings.damper + " with --set");
   return description;
@@ -89,14 +93,19 @@ int run(const Settings& settings, Console& console) {
     console.print(fields_table(console.width()));
     return kDone;
   }
+
   if (settings.damper.empty())
     throw UsageError("DAMPER", "is missing: a file, or one of " + join(description_names(), ", "));
+
+  // One operating point is evaluated, all steps of it.
   const DamperDescription description = described(settings);
   const DamperOperation operation{parse_quantity(settings.current, "A", "--current"),
                                   parse_quantity(settings.velocity, "m/s", "--velocity"),
                                   parse_quantity(settings.displacement, "m", "--displacement")};
   const DamperPhysics physics = evaluate_physics(description, operation);
   const std::vector<std::string> warnings = physics_warnings(description, physics);
+
+  // Warnings are part of the JSON; on a terminal they follow the table.
   if (console.json) {
     console.print_json(Value::object({{"damper", description.name},
                                       {"current", operation.current},
@@ -106,6 +115,7 @@ int run(const Settings& settings, Console& console) {
                                       {"warnings", Value::array(warnings)}}));
     return kDone;
   }
+
   console.print(fmt::format("{} with {}, at {} A, {} m/s, {} m\n", description.name,
                             description.fluid->name, format_number(operation.current),
                             format_number(operation.velocity),
@@ -127,11 +137,14 @@ Command physics_command() {
               "and speed. By itself it solves the circuit with fluid in the gap and steel that "
               "saturates, and the exact flow of a Bingham fluid between plates; a description may "
               "ask for the equations of the family paper instead.",
+
           .options = {{.names = "DAMPER",
                        .target = &settings->damper,
                        .help = "a damper description, or one that comes with Dashpot: " +
                                join(description_names(), ", "),
                        .takes = Takes::File},
+
+                      // The operating point.
                       {.names = "--current",
                        .target = &settings->current,
                        .help = "in the coil",
@@ -144,6 +157,8 @@ Command physics_command() {
                        .target = &settings->displacement,
                        .help = "from where the spring is free",
                        .value = "M"},
+
+                      // The description's fields.
                       {.names = "--set",
                        .target = &settings->changes,
                        .help = "fields in place of the description's, as gap=0.8mm,turns=200",
@@ -151,6 +166,7 @@ Command physics_command() {
                       {.names = "--fields",
                        .target = &settings->fields,
                        .help = "list what a description may state"}},
+
           .example = std::string(kExample),
           .run = [settings](Console& console) { return run(*settings, console); }};
 }

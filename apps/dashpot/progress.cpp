@@ -27,8 +27,11 @@ void ProgressLine::show(const Progress& progress) {
     start_ = now;
     last_ = width_ > 0 ? now - kRedraw : now;
   }
+
+  // A terminal is redrawn often, a log gets a line now and then.
   if (now - last_ < (width_ > 0 ? Clock::duration(kRedraw) : Clock::duration(kLogLine))) return;
   last_ = now;
+
   if (width_ > 0) {
     fmt::print(stderr, "\r\x1b[K{}", bar(progress));
     drawn_ = true;
@@ -36,6 +39,7 @@ void ProgressLine::show(const Progress& progress) {
     fmt::print(stderr, "{:3.0f} %  {}\n", 100 * std::clamp(progress.fraction, 0.0, 1.0),
                progress.stage);
   }
+
   std::fflush(stderr);
 }
 

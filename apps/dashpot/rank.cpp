@@ -47,6 +47,8 @@ int run(const Settings& settings, Console& console) {
   const RankingSettings& asked = settings.ranking;
   const RankingData data = ranking_data(asked, console);
   const fs::path folder = asked.results.folder;
+
+  // Finished fits are kept beside the results, so that an interrupted run goes on.
   std::optional<FitStore> store;
   if (!settings.fresh) store.emplace(kept_file(folder, "fits", console), program_id());
   const std::vector<std::string> models = chosen_models(asked.fit, data.dataset, console);
@@ -88,6 +90,7 @@ Command rank_command() {
                   .options = ranking_options(settings->ranking),
                   .example = std::string(kExample),
                   .run = [settings](Console& console) { return run(*settings, console); }};
+
   append(command.options,
          {{.names = "--markdown",
            .target = &settings->markdown,

@@ -35,6 +35,8 @@ std::vector<RecoveredParameter> compare(const LawModel& truth, const FitReport& 
   const auto* found = fit.model ? model_as<LawModel>(*fit.model) : nullptr;
   std::vector<RecoveredParameter> rows;
   if (!found) return rows;
+
+  // Both hold the same law, so its parameters are compared one by one, by coefficient.
   for (std::size_t p = 0; p < truth.law().params.size(); ++p) {
     const ParamInfo& param = truth.law().params[p];
     const Form form = found->parameters().forms[p];
@@ -46,6 +48,7 @@ std::vector<RecoveredParameter> compare(const LawModel& truth, const FitReport& 
                       kJoint * (fitted->high - fitted->low) / 2, fitted->weak});
     }
   }
+
   return rows;
 }
 

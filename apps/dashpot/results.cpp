@@ -81,6 +81,8 @@ void write_results(const ReportInput& input, const Document& report, const Resul
                    Console& console, Say say) {
   const fs::path folder = settings.folder;
   write_models(input, folder / "models", console);
+
+  // The page and the figures can be left out or added; the models always come.
   std::string where = "\n";
   if (settings.report) {
     console.check_stop();
@@ -91,6 +93,7 @@ void write_results(const ReportInput& input, const Document& report, const Resul
     write_figures(input, folder / "figures");
     where += "Figures  " + (folder / "figures").string() + "/\n";
   }
+
   say == Say::Result ? console.print(where) : console.talk(where);
 }
 
