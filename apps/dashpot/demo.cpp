@@ -74,18 +74,24 @@ int run(const Settings& settings, Console& console) {
                      settings.results.folder + "/recordings", console.command_line());
   // From here on as with real recordings: the files are all there is.
   const Dataset dataset = load_recordings({.paths = {statement.string()}, .load = {}}, console);
+
+  // The damper's own law is fitted too, so that its parameters can be compared.
   FitSettings fit = settings.fit;
   const std::string truth = damper.model.name();
   fit.models.push_back(truth);
   const std::vector<std::string> models = chosen_models(fit, dataset, console);
   const Ranking ranking =
       rank(models, dataset, default_leave_out(dataset), identify_options(fit, models, console));
+
   const ReportInput input = report_input(dataset, ranking, console);
   const Document report = ranking_document(input);
   print_results(report, ranking, console);
+
+  // The demo succeeds where the known parameters are found again.
   const std::vector<RecoveredParameter> parameters =
       compare(damper.model, find_model(ranking, truth).fit);
   const bool recovered = print_recovery(parameters, console);
+
   write_results(input, report, settings.results, console);
   if (console.json)
     console.print_json(Value::object({{"recovered", recovered},

@@ -65,6 +65,8 @@ int run(const Settings& settings, Console& console) {
     print_list(settings.list, console);
     return kDone;
   }
+
+  // A folder that cannot be written is found out before the ride, not after it.
   prepare_study(settings.results);
   const RideStudy study = study_ride(options_of(settings, console));
   write_study(ride_document(study), ride_json(study), settings.results, console);
@@ -82,6 +84,8 @@ std::vector<Option> study_options(Settings& settings) {
                    "that current",
            .value = "WORDS",
            .default_text = "the plant's nominal damping, or half of the current"},
+
+          // The sines and the chirp that give the gain curves.
           {.names = "--frequencies",
            .target = &settings.frequencies,
            .help = "of the sines, Hz, rising",
@@ -101,6 +105,8 @@ std::vector<Option> study_options(Settings& settings) {
            .help = "how long the chirp lasts, s",
            .value = "S",
            .minimum = 1},
+
+          // The step, and the trade-off beside which the controllers stand.
           {.names = "--step",
            .target = &settings.step,
            .help = "height of the step, mm",
@@ -110,6 +116,8 @@ std::vector<Option> study_options(Settings& settings) {
            .help = "currents at which the same dampers are held, for the trade-off's line",
            .value = "N",
            .minimum = 2},
+
+          // The optimum for comparison, and when a damper counts as asked beyond its data.
           {.names = "--bound",
            .target = &settings.bound,
            .help = "also what is possible on the road: a bound that no controller beats, and what "
@@ -136,6 +144,8 @@ Command ride_command() {
       .options = vehicle_options(settings->vehicle),
       .example = std::string(kExample),
       .run = [settings](Console& console) { return run(*settings, console); }};
+
+  // The controllers and excitations, then the road and the results.
   append(command.options, study_options(*settings));
   append(command.options, road_options(settings->road));
   append(command.options, {threads_option(settings->threads),

@@ -71,15 +71,21 @@ std::vector<SearchAxis> axes_of(const std::vector<std::string>& words) {
 SearchOptions search_options(const Settings& settings, Console& console) {
   SearchOptions options;
   options.model = settings.model;
+
+  // The fit of each trial is that of the ranking, but for the network's design.
   FitSettings fit = settings.ranking.fit;
   fit.network.clear();  // no whole design: what is searched makes it one
   options.fit = identify_options(fit, {settings.model}, console);
+
+  // How many designs are tried, and with what effort.
   options.method = settings.method == "grid"     ? SearchMethod::Grid
                    : settings.method == "random" ? SearchMethod::Random
                                                  : SearchMethod::Halving;
   options.effort = settings.effort == "epochs" ? SearchEffort::Epochs : SearchEffort::Samples;
   options.trials = settings.trials;
   options.steps = settings.steps;
+
+  // The settings searched and those held fixed; together they must leave something to try.
   try {
     for (const std::string& text : settings.ranking.fit.network)
       parse_network_setting(text, "--network", options.space.fixed);
@@ -88,6 +94,7 @@ SearchOptions search_options(const Settings& settings, Console& console) {
   } catch (const Error& error) {
     throw UsageError({}, error.what());
   }
+
   return options;
 }
 
@@ -97,6 +104,8 @@ SearchReport run_search(const RankingData& data, const SearchOptions& options, c
   TrialStore store(file, describe_search(data.dataset, data.leave_out, options, program_id()));
   if (store.size() > 0)
     console.talk(counted(store.size(), "fit") + " kept from before in " + file.string() + '\n');
+
+  // A terminal shows the best trials so far, redrawn whenever progress is.
   LiveTable live(console);
   SearchOptions watched = options;  // draws the table wherever progress is drawn
   watched.fit.monitor.on_progress =
@@ -104,6 +113,7 @@ SearchReport run_search(const RankingData& data, const SearchOptions& options, c
         live.draw();
         if (show) show(progress);
       };
+
   SearchReport report =
       search(data.dataset, data.leave_out, watched, &store,
              [&](const Trial& trial, const SearchReport& so_far) { live.add(trial, so_far); });
@@ -117,9 +127,13 @@ SearchReport run_search(const RankingData& data, const SearchOptions& options, c
 void write_choices(const RankingData& data, const SearchReport& report, const fs::path& folder,
                    Console& console) {
   FitStore fits(kept_file(folder, "fits", console), program_id());
+
+  // The smallest is often the best itself; its file from an earlier search would mislead then.
   std::vector<std::pair<std::string, const Trial*>> choices{{"best", report.best()}};
   if (report.smallest() != report.best()) choices.emplace_back("smallest", report.smallest());
   fs::remove(folder / "models" / "smallest.json");  // of a search that went less far
+
+  // Each is fitted once more, on all training records and with the full effort.
   for (const auto& [name, trial] : choices) {
     console.talk(fmt::format("fitting the {}, {}, on all training records\n", name,
                              searched_settings(*trial, report)));
@@ -159,17 +173,23 @@ int run_in(const fs::path& folder, const RankingData& data, const SearchOptions&
   const fs::path file = folder / "search.sqlite";
   if (settings.fresh) Store::remove(file);
   console.talk("search: " + search_plan(search_rungs(options), options.effort) + '\n');
+
+  // Trials kept from an interrupted search are not fitted again.
   const SearchReport report = run_search(data, options, file, console);
   const SearchInput input{data.dataset, report, console.command_line(), DASHPOT_VERSION,
                           date_now()};
+
+  // Without a usable trial there is nothing to save, but still a table that says why.
   if (report.best()) write_choices(data, report, folder, console);
   const Document document = search_document(input);
   print_document(document, console);
   console.print(time_line(report));
+
   ResultSettings results = settings.ranking.results;
   results.figures = results.figures && report.best();
   write_report(document, input, results, console);
   if (console.json) console.print_json(document_json(document));
+
   if (report.best()) return kDone;
   console.error("no trial gave a usable force on the records left out; the table says why");
   return kNotUsable;
@@ -202,6 +222,8 @@ std::vector<Option> own_options(Settings& settings) {
                "again for each setting. --network lists the settings",
        .value = "SETTING=...",
        .required = true},
+
+      // How designs are chosen, and how many.
       {.names = "--method",
        .target = &settings.method,
        .help = "every combination, so many by chance, or halving: many by chance with little "
@@ -219,6 +241,8 @@ std::vector<Option> own_options(Settings& settings) {
        .help = "values of a range on a grid",
        .value = "N",
        .minimum = 1},
+
+      // The effort of halving, and whether earlier trials count.
       {.names = "--effort",
        .target = &settings.effort,
        .help = "what halving gives little of at first: samples (the first part of every training "

@@ -30,6 +30,7 @@ Value sheet_json(const SequenceInfo& info) {
                                     {"lower", param.lower},
                                     {"upper", param.upper},
                                     {"meaning", param.meaning}}));
+
   return Value::object({{"name", info.name},
                         {"title", info.title},
                         {"equation", info.equation},

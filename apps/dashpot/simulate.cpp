@@ -41,16 +41,21 @@ Simulation simulate_choice(const Settings& settings, Console& console) {
   const VehicleWords words = words_of(settings.vehicle);
   const auto vehicle = std::make_shared<const Vehicle>(make_vehicle(words));
   const GroundPointer ground = ground_of(settings.road, settings.vehicle.seed, vehicle->set.plant);
+
+  // Both runs have the same options, so that only the damper's control differs.
   const RunOptions options{
       .duration = duration_of(settings.road, *ground),
       .allowed_outside = settings.allowed_outside / 100,
       .relative_tolerance = settings.tolerance,
       .step = settings.step > 0 ? std::optional(settings.step / 1000) : std::nullopt,
       .monitor = console.monitor()};
+
   Simulation simulation{.run = run_vehicle(vehicle, *ground, options),
                         .ground = ground->description(),
                         .duration = options.duration,
                         .discard = usual_discard(*ground, options.duration)};
+
+  // A controlled vehicle is compared with a passive one unless the user forbids it.
   if (settings.against == "none" || (settings.against.empty() && !vehicle->controller))
     return simulation;
   const auto passive =
@@ -72,10 +77,14 @@ int run(const Settings& settings, Console& console) {
     print_list(settings.list, console);
     return kDone;
   }
+
+  // A folder that cannot be written is found out before the run, not after it.
   if (!settings.results.folder.empty()) prepare_study(settings.results);
   const Simulation simulation = simulate_choice(settings, console);
   const Document document = simulation_document(simulation);
   const Value data = simulation_json(simulation);
+
+  // Without a folder the terminal has the table alone.
   if (settings.results.folder.empty()) {
     print_document(document, console);
     if (console.json) console.print_json(presentable(data));
@@ -84,6 +93,7 @@ int run(const Settings& settings, Console& console) {
     write_trace(settings, simulation.run, "trace", console);
     if (simulation.against) write_trace(settings, *simulation.against, "against", console);
   }
+
   return simulation.run.trace.diverged_at ? kNotUsable : kDone;
 }
 
@@ -103,7 +113,10 @@ Command simulate_command() {
                   .options = controlled_vehicle_options(settings->vehicle),
                   .example = std::string(kExample),
                   .run = [settings](Console& console) { return run(*settings, console); }};
+
+  // The road below, and the passive vehicle for comparison.
   append(command.options, road_options(settings->road));
+
   append(
       command.options,
       {{.names = "--against",
@@ -112,6 +125,8 @@ Command simulate_command() {
                 "damper at that current, or none",
         .value = "WORDS",
         .default_text = "beside a controller the plant's nominal damping, or half of the current"},
+
+       // How far the result can be trusted.
        {.names = "--outside",
         .target = &settings->allowed_outside,
         .help = "share of the time that a damper may be outside its data without a warning, %",
@@ -128,6 +143,8 @@ Command simulate_command() {
         .value = "MS",
         .minimum = 0,
         .default_text = "as the tolerance asks"},
+
+       // Where page and traces go.
        {.names = "-o,--output",
         .target = &settings->results.folder,
         .help = "folder for the page and the traces",

@@ -24,6 +24,8 @@ Command study_command() {
           "# Do intervals hold the truth?\n"
           "dashpot study recovery --laws tanh_kwok --repetitions 20",
       .run = {}};
+
+  // Each study is a command of its own, with its own options.
   command.subcommands = {family_study(), one_sensor_study(), recovery_study(), suspension_study()};
   return command;
 }

@@ -32,14 +32,19 @@ constexpr std::string_view kExample =
 int run(const Settings& settings, Console& console) {
   prepare_study(settings.results);
   FamilySamples family = family_samples(load_recordings(settings.data, console));
+
+  // Finished trainings are kept, so that an interrupted study goes on.
   std::optional<TrainingStore> store;
   if (!settings.results.fresh)
     store.emplace(kept_file(settings.results.folder, "trainings", console), program_id(),
                   family.cycles);
+
+  // Beside the paper's networks stand Dashpot's own models of a family.
   FamilyStudyOptions options = settings.options;
   options.monitor = console.monitor();
   for (const FamilyPreset& preset : family_presets()) options.models.emplace_back(preset.name);
   if (store) options.store = &*store;
+
   const FamilyStudy study = study_family(
       std::move(family), family_experiments(static_cast<std::size_t>(settings.seeds)), options);
   write_study(family_document(study), family_json(study), settings.results, console);
@@ -66,7 +71,10 @@ Command family_study() {
       .options = data_options(settings->data),
       .example = std::string(kExample),
       .run = [settings](Console& console) { return run(*settings, console); }};
+
   append(command.options, study_result_options(settings->results, "trainings"));
+
+  // The full study takes long; both options make it smaller.
   append(command.options,
          {{.names = "--seeds",
            .target = &settings->seeds,

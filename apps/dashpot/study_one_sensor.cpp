@@ -46,14 +46,18 @@ std::vector<std::string> row_names() {
 
 int run(const Settings& settings, Console& console) {
   prepare_study(settings.results);
+
   OneSensorOptions options = settings.options;
   options.most_neurons = static_cast<std::size_t>(settings.most_neurons);
   options.monitor = console.monitor();
+
+  // Finished fits are kept, so that an interrupted study goes on.
   std::optional<FitStore> store;
   if (!settings.results.fresh) {
     store.emplace(kept_file(settings.results.folder, "fits", console), program_id());
     options.store = &*store;
   }
+
   const OneSensorStudy study = study_one_sensor(studied_dampers(settings, console), options);
   write_study(one_sensor_document(study), one_sensor_json(study), settings.results, console);
   if (study.kept_fits > 0) console.note(counted(study.kept_fits, "fit") + " kept from before");
@@ -77,8 +81,11 @@ Command one_sensor_study() {
       .options = data_options(settings->data),
       .example = std::string(kExample),
       .run = [settings](Console& console) { return run(*settings, console); }};
+
+  // Recordings are optional: the study has dampers of its own.
   command.options.front().required = false;
   command.options.front().default_text = "two virtual dampers";
+
   append(command.options, study_result_options(settings->results, "fits"));
   append(command.options, {leave_out_option(settings->leave_out),
                            {.names = "--models",

@@ -69,6 +69,7 @@ Value to_json(const LawRecovery& recovery) {
                                         {"fixed", p.fixed},
                                         {"bias", p.bias},
                                         {"spread", p.spread}}));
+
   return Value::object({{"law", recovery.law},
                         {"counted", recovery.counted()},
                         {"inside", recovery.inside()},
@@ -81,6 +82,8 @@ Value to_json(const LawRecovery& recovery) {
 int run(RecoveryStudyOptions options, Console& console) {
   options.monitor = console.monitor();
   const std::vector<LawRecovery> recoveries = study_recovery(options);
+
+  // The page states its protocol, so that the table can be read without this program.
   console.print(
       fmt::format("# Parameter recovery\n\n"
                   "A damper with known parameters, for each law, on the virtual bench; the law is "
@@ -93,9 +96,12 @@ int run(RecoveryStudyOptions options, Console& console) {
       "\nBias and spread of what was found are counted in standard errors as the fits state them: "
       "0 and 1 are right.\n\n" +
       details(recoveries));
+
   Value list = Value::array();
   for (const LawRecovery& recovery : recoveries) list.push_back(to_json(recovery));
   if (console.json) console.print_json(Value::object({{"laws", std::move(list)}}));
+
+  // A law whose intervals are too narrow or too wide fails the study.
   std::vector<std::string> missed;
   for (const LawRecovery& recovery : recoveries)
     if (!recovery.trustworthy()) missed.push_back(recovery.law);
@@ -124,6 +130,7 @@ Command recovery_study() {
           "records many times with other noise, and counts how often the 95 % intervals hold the "
           "truth. What a fit itself calls unknown (weak, at a bound, fixed) is listed and not "
           "counted. The table is Markdown.",
+
       .options =
           {{.names = "--laws",
             .target = &options.laws,
@@ -137,6 +144,8 @@ Command recovery_study() {
             .help = "records and fits of each law",
             .value = "N",
             .minimum = 1},
+
+           // The flaws of the virtual sensors.
            {.names = "--noise",
             .target = &options.force_noise,
             .help = "standard deviation of the force noise, as a share of each record's force span",
@@ -146,6 +155,7 @@ Command recovery_study() {
             .target = &options.noisy_motion,
             .help = "derive the velocity from a noisy displacement, as on a real bench: the "
                     "intervals know of noise in the force alone"},
+
            seed_option(options.seed),
            threads_option(options.threads)},
       .example = std::string(kExample),

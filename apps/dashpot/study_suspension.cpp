@@ -45,8 +45,11 @@ Command suspension_study() {
       .options = {},
       .example = std::string(kExample),
       .run = [settings](Console& console) { return run(*settings, console); }};
+
+  // This study keeps nothing between runs that --fresh could ignore.
   for (Option& option : study_result_options(settings->results, "data"))
     if (option.names != "--fresh") command.options.push_back(std::move(option));
+
   append(command.options, {{.names = "--duration",
                             .target = &settings->options.road_duration,
                             .help = "of the road, s",

@@ -90,8 +90,11 @@ int run(const Settings& settings, Console& console) {
     console.print(measures_text(console.width()));
     return kDone;
   }
+
+  // A folder that cannot be written is found out before the sweep, not after it.
   const SweepRequest request = requested(settings);
   prepare_study(settings.results);
+
   try {
     const Sweep result = run_sweep(request, settings, console);
     write_study(sweep_document(result), sweep_json(result), settings.results, console);
@@ -99,6 +102,8 @@ int run(const Settings& settings, Console& console) {
     console.note(fmt::format("{} in {} s{}", counted(result.ride_count(), "ride"),
                              number_text(result.wall_seconds),
                              result.kept ? fmt::format("; {} kept from before", result.kept) : ""));
+
+    // One ride that stayed finite makes the sweep usable.
     for (const auto& rides : result.rides)
       for (const RideMeasures& ride : rides)
         if (!ride.has_diverged()) return kDone;
@@ -113,6 +118,7 @@ int run(const Settings& settings, Console& console) {
 
 std::vector<Option> options_of(Settings& settings) {
   std::vector<Option> options{
+      // The request, and what may stand in place of its numbers.
       {.names = "REQUEST",
        .target = &settings.request,
        .help = "what vehicle, what controllers, what varies: a YAML file, or one that comes with "
@@ -137,8 +143,11 @@ std::vector<Option> options_of(Settings& settings) {
        .value = "N",
        .minimum = 1,
        .default_text = "the request's"}};
+
+  // A store of rides is thrown away by --fresh, not merely left aside.
   append(options, study_result_options(settings.results, "rides"));
   options.back().help = "begin anew: what an earlier sweep left in DIR/sweep.sqlite is thrown away";
+
   append(options, {threads_option(settings.threads),
                    {.names = "--measures",
                     .target = &settings.measures,
@@ -161,6 +170,7 @@ Command sweep_command() {
           "HDF5, and a page. Each block of rides is kept in DIR/sweep.sqlite as it ends: the same "
           "command goes on where it was stopped. The result does not depend on threads or "
           "interruptions.",
+
       .options = options_of(*settings),
       .example = std::string(kExample),
       .run = [settings](Console& console) { return run(*settings, console); }};

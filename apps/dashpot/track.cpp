@@ -66,10 +66,14 @@ Task recorded_task(const std::string& path) {
 
 Task make_task(const Settings& settings, const DamperModel& damper, DriverOptions driver) {
   if (!settings.recording.empty()) return recorded_task(settings.recording);
+
+  // The motion comes first: what force is possible depends on it.
   const MotionOptions options{settings.amplitude / 1000, settings.frequency, settings.duration,
                               1 / settings.sample_rate, settings.seed};
   Task task;
   task.motion = settings.motion == "sine" ? sine_motion(options) : random_motion(options);
+
+  // A random force stays within reach; a sine may leave it, which tests the limits.
   const InverseLimits limits = limits_of(driver, task.motion.sample_time);
   if (settings.wanted == "random") {
     task.wanted = admissible_force(damper, task.motion, limits, settings.band, settings.seed + 1);
@@ -82,6 +86,7 @@ Task make_task(const Settings& settings, const DamperModel& damper, DriverOption
     task.description =
         "sine of " + format_number(force) + " N at " + format_number(settings.band) + " Hz";
   }
+
   task.description += "; " + task.motion.description;
   return task;
 }
@@ -115,6 +120,8 @@ std::vector<TrackedScheme> track_all(const Settings& settings, const Damper& dam
   const InverseLimits limits = limits_of(driver.options(), task.motion.sample_time);
   const bool asked = !settings.inverses.empty();
   std::vector<TrackedScheme> tracked;
+
+  // A scheme that does not suit the damper is an error only where the user named it.
   for (const std::string& word : asked ? settings.inverses : inverse_names()) {
     console.check_stop();
     try {
@@ -126,6 +133,7 @@ std::vector<TrackedScheme> track_all(const Settings& settings, const Damper& dam
       console.note(word + " is left out: " + error.what());
     }
   }
+
   std::ranges::stable_sort(tracked, {}, error_in_reach);
   return tracked;
 }
@@ -184,12 +192,17 @@ int run(const Settings& settings, Console& console) {
   const DriverOptions options = make_driver(settings, damper);
   const Driver driver(options);
   const Task task = make_task(settings, *damper.model, options);
+
   const std::vector<TrackedScheme> tracked = track_all(settings, damper, driver, task, console);
+
+  // A diverged run has no error that could be compared.
   for (const auto& [name, report] : tracked)
     if (!std::isfinite(report.all.rmse)) {
       console.error("the damper diverged behind the inverse " + name);
       return kNotUsable;
     }
+
+  // The limits of the coil are part of the result, so they stand above the table.
   console.print('\n' + console.bold(damper.name) + ", " + format_number(options.current_min) +
                 " ... " + format_number(options.current_max) + ' ' + to_string(damper.drive_unit) +
                 ", coil lag " +
@@ -197,6 +210,7 @@ int run(const Settings& settings, Console& console) {
                 "\nWanted force: " + task.description + ", span " +
                 format_number(tracked.front().report.span) + " N\n\n");
   console.print(table_of(tracked, console.width()));
+
   if (!settings.folder.empty())
     write_curves(tracked, task, damper.drive_unit, settings.folder, console);
   if (console.json) console.print_json(json_of(tracked, damper, task));
@@ -206,6 +220,7 @@ int run(const Settings& settings, Console& console) {
 /// The motion, and the force that is wanted along it.
 std::vector<Option> task_options(Settings& s) {
   return {
+      // The wanted force.
       {.names = "--wanted",
        .target = &s.wanted,
        .help = "wanted force: random within what the damper can give, or a sine",
@@ -222,6 +237,8 @@ std::vector<Option> task_options(Settings& s) {
        .help = "frequency of the sine, highest of the random force",
        .value = "HZ",
        .minimum = 0},
+
+      // The motion of the piston.
       {.names = "--motion",
        .target = &s.motion,
        .help = "motion of the piston",
@@ -238,6 +255,8 @@ std::vector<Option> task_options(Settings& s) {
        .value = "HZ",
        .minimum = 0},
       {.names = "--duration", .target = &s.duration, .help = "seconds", .value = "S", .minimum = 0},
+
+      // A recording in place of both, and the rate of the commands.
       {.names = "--recording",
        .target = &s.recording,
        .help = "take motion and wanted force from the first record of this file or folder",
@@ -280,6 +299,8 @@ Command track_command() {
       .options = {},
       .example = std::string(kExample),
       .run = [settings](Console& console) { return run(*settings, console); }};
+
+  // The options refer to the settings, which live as long as the command.
   Settings& s = *settings;
   command.options = damper_options(s.damper);
   command.options.push_back(
@@ -291,9 +312,12 @@ Command track_command() {
        .noun = "inverse",
        .takes = Takes::File,
        .default_text = "all that apply"});
+
+  // The task, then the coil and its driver, then the files.
   append(command.options, task_options(s));
   append(command.options, coil_options(s.damper));
   append(command.options, driver_options(s));
+
   command.options.push_back(
       {.names = "-o,--output",
        .target = &s.folder,

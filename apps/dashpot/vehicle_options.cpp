@@ -16,6 +16,7 @@ constexpr double kAfter = 5;    // s, to come to rest
 
 std::vector<Option> vehicle_options(VehicleChoice& choice) {
   return {
+      // The plant and its dampers.
       {.names = "--plant",
        .target = &choice.plant,
        .help = "vehicle or building: a set, a kind of plant, or a file (--list plants)",
@@ -33,6 +34,8 @@ std::vector<Option> vehicle_options(VehicleChoice& choice) {
        .value = "WORDS",
        .takes = Takes::File,
        .default_text = "the plant's own range, ideal"},
+
+      // The way from a wanted force to a current.
       {.names = "--inverse",
        .target = &choice.inverse,
        .help = "from a wanted force to a current: a scheme of 'dashpot track' or a file of "
@@ -46,6 +49,8 @@ std::vector<Option> vehicle_options(VehicleChoice& choice) {
                "controller: proportional=0.5,integral=20,derivative=0",
        .value = "WORDS",
        .default_text = "none"},
+
+      // The current: its value without control, its greatest, and the lag of the coil.
       {.names = "--current",
        .target = &choice.current,
        .help = "A (or V, or place from 0 to 1) where nothing controls it",
@@ -63,6 +68,8 @@ std::vector<Option> vehicle_options(VehicleChoice& choice) {
        .value = "1/S",
        .minimum = 0,
        .default_text = "the damper's own"},
+
+      // The controller's clock and its sensors.
       {.names = "--sample-time",
        .target = &choice.sample_time,
        .help = "of the controller, ms",
@@ -123,7 +130,10 @@ VehicleWords words_of(const VehicleChoice& choice) {
                      .current_max = choice.current_max,
                      .lag_rate = choice.lag_rate,
                      .sample_time = choice.sample_time / 1000};
+
   words.dampers = words_between(choice.damper);
+
+  // The sensors; the command line has their delay in ms.
   words.sensors.in_car = choice.in_car;
   words.sensors.delay = choice.delay / 1000;
   words.sensors.seed = choice.seed;

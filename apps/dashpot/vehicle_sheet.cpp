@@ -46,6 +46,8 @@ void list_plants(Listing& list) {
                                        {"kind", set.kind},
                                        {"verified", set.verified}}));
   }
+
+  // The kinds follow the sets, since a set may have its numbers changed by them.
   list.text += "Sets of numbers\n\n" + sets.text(list.width) +
                "\nKinds of plant, with what --set can change\n";
   for (const PlantModel* model : plant_models()) list.add(info_of(*model));
@@ -78,13 +80,17 @@ void list_dampers(Listing& list) {
       "A model file that 'dashpot identify' wrote, a file with the columns velocity and force, or "
       "one of these; motion_ratio=0.7 after any of them mounts it on a lever, force_factor=0.9 "
       "builds it weaker than its model, which no controller knows.\n";
+
+  // Each source of dampers has a table of its own: kinds, curves, published parameters.
   for (const SimpleDamper& kind : simple_dampers())
     list.add({kind.name, kind.title, "", "common practice", "", kind.parameters});
+
   Table curves({"passive curve"});
   for (const std::string& name : passive_curve_names()) {
     curves.row({name});
     list.json.push_back(Value::object({{"name", name}, {"kind", "curve"}}));
   }
+
   Table sets({"parameter set", "damper", ">drive to", "unit"});
   for (const std::string& name : parameter_set_names()) {
     const ParameterSet set = load_parameter_set(name);
@@ -95,6 +101,7 @@ void list_dampers(Listing& list) {
                                        {"drive_max", set.drive_max},
                                        {"drive_unit", to_string(set.model.drive_unit())}}));
   }
+
   list.text += '\n' + curves.text(list.width) + '\n' + sets.text(list.width);
 }
 
