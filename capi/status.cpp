@@ -26,17 +26,15 @@ dashpot_status keep(dashpot_status status, const char* message) noexcept {
 dashpot_status keep_error() noexcept {
   try {
     throw;
-
-    // NotUsable is an Error, so it has to be caught before it.
   } catch (const NotUsable& error) {
+    // NotUsable is an Error, so it has to be caught before it.
     return keep(DASHPOT_NOT_USABLE, error.what());
   } catch (const Error& error) {
     return keep(DASHPOT_BAD_INPUT, error.what());
   } catch (const Interrupted& stopped) {
     return keep(DASHPOT_CANCELLED, stopped.what());
-
-    // The rest is no fault of the input.
   } catch (const std::bad_alloc&) {
+    // From here on it is no fault of the input.
     return keep(DASHPOT_FAILED, "there is not enough memory");
   } catch (const std::exception& fault) {
     return keep(DASHPOT_FAILED, fault.what());

@@ -99,7 +99,7 @@ ExportWords read_export_options(const char* text) {
   ExportWords out;
   ExportOptions& options = out.options;
 
-  // Every key is read before any is judged, so that an unknown one is told first.
+  // Every key is read before any is judged, so that an unknown one is reported first.
   out.formats = texts(reader, "to");
   out.folder = reader.string("folder", out.folder);
   options.name = reader.string("name", "");

@@ -125,7 +125,7 @@ bool parse_arguments(const std::string& command, const std::vector<Option>& opti
     throw UsageError(command, error.what());
   }
 
-  // A misspelled option is a leftover of the parser; it is told before one that is missing.
+  // A misspelled option is a leftover of the parser; it is reported before one that is missing.
   refuse_leftovers(command, options, app.remaining());
   for (const Option& option : options)
     if (option.required && app.count(option.names) == 0)

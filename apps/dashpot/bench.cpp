@@ -78,7 +78,6 @@ Command bench_command() {
                   .example = std::string(kExample),
                   .run = [settings](Console& console) { return run(*settings, console); }};
 
-  // A list of sequences needs no campaign, but shares its command.
   command.options.push_back({.names = "-o,--output",
                              .target = &settings->folder,
                              .help = "folder for the recordings",

@@ -121,22 +121,19 @@ int run_and_explain(const std::vector<std::string>& words, Console& console) {
     const int code = run(words, console);
     console.finish();
     return code;
-
-    // These are no errors of the work: the reader has left, or the user stopped it.
   } catch (const ReaderGone&) {
+    // Nothing went wrong with the work: its reader has left, or below, the user stopped it.
     return 128 + SIGPIPE;
   } catch (const Interrupted&) {
     console.error("interrupted; files that were being written stand as they were before");
     return 128 + stop_signal;
-
-    // A wrong command line is pointed to its help.
   } catch (const UsageError& error) {
+    // A UsageError is an Error too, but one that the help can answer.
     console.error(error.what());
     console.talk("'" + help_for(words) + "' explains.\n");
     return kUsage;
-
-    // The input cannot be used, or the machine cannot do it.
   } catch (const Error& error) {
+    // From here on the input cannot be used, or the machine cannot do it.
     console.error(error.what());
   } catch (const std::bad_alloc&) {
     console.error("out of memory; fewer records at once need less");

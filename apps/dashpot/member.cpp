@@ -44,7 +44,7 @@ Conditions changes_of(const Settings& settings) {
       throw UsageError("--set", "'" + change + "' has no value; write gap=1.2mm");
     const std::string name(trim(change.substr(0, equals)));
 
-    // The number's unit is the field's, in which a bare number is taken.
+    // A number without a unit is taken in the unit of its field.
     std::string unit = name == kYieldStress ? "Pa" : "";
     std::vector<std::string> known{std::string(kYieldStress)};
     for (const MemberField& field : member_fields()) {

@@ -42,7 +42,7 @@ Simulation simulate_choice(const Settings& settings, Console& console) {
   const auto vehicle = std::make_shared<const Vehicle>(make_vehicle(words));
   const GroundPointer ground = ground_of(settings.road, settings.vehicle.seed, vehicle->set.plant);
 
-  // Both runs have the same options, so that only the damper's control differs.
+  // Both runs have the same options, so that they can be compared.
   const RunOptions options{
       .duration = duration_of(settings.road, *ground),
       .allowed_outside = settings.allowed_outside / 100,

@@ -47,7 +47,7 @@ void list_plants(Listing& list) {
                                        {"verified", set.verified}}));
   }
 
-  // The kinds follow the sets, since a set may have its numbers changed by them.
+  // --set changes the numbers of a set by the names that its kind has for them.
   list.text += "Sets of numbers\n\n" + sets.text(list.width) +
                "\nKinds of plant, with what --set can change\n";
   for (const PlantModel* model : plant_models()) list.add(info_of(*model));
