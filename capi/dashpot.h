@@ -37,10 +37,10 @@ typedef enum dashpot_status {
 
 /// "0.1.0"; never to be freed.
 DASHPOT_API const char* dashpot_version(void);
-/// Why the last call of this thread that did not give DASHPOT_OK did not: "where: what; what would
+/// The reason why the last failing call of this thread failed: "where: what; what would
 /// be right". Empty before; valid until the thread's next failing call; never null.
 DASHPOT_API const char* dashpot_last_error(void);
-/// For every char** that a function filled.
+/// Frees a text that a function wrote through a char**, and sets the pointer to null.
 DASHPOT_API void dashpot_text_free(char** text);
 
 // ---- Arrays
@@ -53,14 +53,14 @@ typedef struct dashpot_column {
   ptrdiff_t stride;
 } dashpot_column;
 
-/// What a damper sees at one instant.
+/// The inputs of a damper at one instant.
 typedef struct dashpot_input {
   double displacement;  ///< m, extension positive
   double velocity;      ///< m/s, extension positive
   double current;       ///< A commanded to the coil; V where the model's drive unit is "V"
 } dashpot_input;
 
-/// What a damper sees over time.
+/// The inputs of a damper over time.
 typedef struct dashpot_motion {
   size_t samples;
   double sample_time;           ///< s between samples; asked only where there is no column of time
@@ -84,7 +84,7 @@ typedef struct dashpot_model_info {
   size_t parameter_count;
   int needs_displacement;
   double sample_time;  ///< s, of the data that it was fitted on; 0: mixed or unknown
-  /// Where those data lay: outside, the model extrapolates. All 0: unknown.
+  /// The range of those data: outside, the model extrapolates. All 0: unknown.
   double displacement_min, displacement_max;  ///< m
   double velocity_min, velocity_max;          ///< m/s
   double current_min, current_max;            ///< A or V
@@ -120,7 +120,7 @@ DASHPOT_API dashpot_status dashpot_advance(const dashpot_model* model, const das
 DASHPOT_API dashpot_status dashpot_force(const dashpot_model* model, const dashpot_input* input,
                                          const double* state, size_t state_size, double* force);
 
-/// Where dashpot_run writes: not into the motion's columns.
+/// The caller's arrays that dashpot_run fills; they must not overlap the motion's columns.
 typedef struct dashpot_response {
   double* force;       ///< N, one per sample
   double* half_width;  ///< N: force +- half_width is the model's band; null: not wanted
@@ -128,8 +128,8 @@ typedef struct dashpot_response {
   size_t state_size;
 } dashpot_response;
 
-/// The force over a whole motion in free run. To go on with another motion in the same state, let
-/// it begin with the last sample of this one. DASHPOT_NOT_USABLE where the model diverges: force
+/// The force over a whole motion in free run. To go on with another motion in the same state, have
+/// it start with the last sample of this one. DASHPOT_NOT_USABLE where the model diverges: force
 /// from there on is NaN.
 DASHPOT_API dashpot_status dashpot_run(const dashpot_model* model, const dashpot_motion* motion,
                                        const dashpot_response* response);
@@ -170,7 +170,7 @@ DASHPOT_API dashpot_status dashpot_recordings_new(dashpot_recordings** recording
 DASHPOT_API dashpot_status dashpot_recordings_add(dashpot_recordings* recordings,
                                                   const dashpot_table* table);
 DASHPOT_API size_t dashpot_recordings_count(const dashpot_recordings* recordings);
-/// What was understood of every column, for people.
+/// A text for people that says how every column was understood.
 DASHPOT_API dashpot_status dashpot_recordings_describe(const dashpot_recordings* recordings,
                                                        char** text);
 
@@ -197,8 +197,8 @@ DASHPOT_API dashpot_status dashpot_recordings_channel(const dashpot_recordings* 
                                                       dashpot_channel* view);
 DASHPOT_API void dashpot_recordings_free(dashpot_recordings** recordings);
 
-/// What a column is by its name: `channel` becomes "velocity", "time" ... or "" when the name is
-/// not known; SI = factor * value + shift.
+/// The meaning of a column by its name: `channel` becomes "velocity", "time" ... or "" when the
+/// name is not known; SI = factor * value + shift.
 typedef struct dashpot_column_meaning {
   char channel[32];
   double factor, shift;
@@ -209,8 +209,8 @@ DASHPOT_API dashpot_status dashpot_understand_column(const char* name,
 // ---- Identification
 // -----------------------------------------------------------------------------------
 
-/// What long work talks to. Both functions are called, some twenty times a second, on the thread
-/// that called Dashpot; either may be null. They must return normally.
+/// The caller's side of long work. Both functions are called, some twenty times a second, on the
+/// thread that called Dashpot; either may be null. They must return normally.
 typedef struct dashpot_monitor {
   int (*is_cancelled)(void* context);  ///< not 0: stop soon, with DASHPOT_CANCELLED
   void (*on_progress)(const char* stage, double fraction, void* context);  ///< fraction: 0 ... 1
@@ -231,8 +231,8 @@ DASHPOT_API dashpot_status dashpot_fit(const dashpot_recordings* recordings, con
 
 typedef struct dashpot_ranking dashpot_ranking;
 
-/// What `dashpot identify` does: fits every model, judges each on recordings that it has not seen,
-/// ranks them. Options as for dashpot_fit, and "leave_out": "condition", "current=0.5",
+/// Identifies as `dashpot identify` does: fits every model, judges each on recordings that it has
+/// not seen, ranks them. Options as for dashpot_fit, and "leave_out": "condition", "current=0.5",
 /// "fraction=0.3" ...; "models" may hold the groups "usual" (when absent), "all" and "family".
 DASHPOT_API dashpot_status dashpot_identify(const dashpot_recordings* recordings,
                                             const char* options, const dashpot_monitor* monitor,

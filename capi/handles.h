@@ -8,7 +8,7 @@
 #include "dashpot/rank.h"
 #include "status.h"
 
-// What stands behind the pointers of dashpot.h.
+// The objects behind the pointers of dashpot.h.
 
 struct dashpot_model {
   explicit dashpot_model(dashpot::ModelFile model_file);

@@ -13,7 +13,7 @@ class NotUsable : public Error {
   using Error::Error;
 };
 
-/// Keeps the message of the exception at hand and tells its status. To be called in a handler.
+/// Keeps the message of the exception at hand and returns its status. To be called in a handler.
 dashpot_status keep_error() noexcept;
 
 /// Runs `code` so that no exception leaves it.

@@ -82,7 +82,7 @@ std::string csv_of(const Record& record, const Dataset& campaign) {
 /// JSON text is YAML too, and quotes what has to be quoted.
 std::string quoted(const std::string& text) { return format_json(Value(text), false); }
 
-/// What a real bench would know of its tests, as YAML; the true offsets stay in comments.
+/// The notes that a real bench would have of its tests, as YAML; the true offsets stay in comments.
 std::string public_notes(const Dataset& campaign) {
   std::vector<std::string> notes{"simulated, not measured"};
   for (const Record& record : campaign.records)
@@ -124,7 +124,7 @@ void require_consistent(const CampaignSettings& settings) {
     throw UsageError("--levels", "are not run beside another drive", "leave one of them out");
 }
 
-/// Of the damper's own, where it has some.
+/// The levels asked for; else the damper's own, where it has some, or five over its range.
 std::vector<double> drive_levels(const CampaignSettings& settings, const ParameterSet& damper) {
   std::vector<double> levels;
   for (const std::string& level : settings.levels) levels.push_back(parse_level(level));

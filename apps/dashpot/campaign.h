@@ -9,7 +9,7 @@
 
 namespace dashpot::cli {
 
-/// What a virtual test campaign is made of.
+/// The damper, motions, drives and sensors of a virtual test campaign.
 struct CampaignSettings {
   CampaignSettings();
 
@@ -28,8 +28,8 @@ std::vector<Option> campaign_options(CampaignSettings& settings);
 /// Error on a sequence.
 Dataset run_campaign(const CampaignSettings& settings, const ParameterSet& damper);
 
-/// One CSV file per record, as a real bench would leave them, and dataset.yaml, whose comments tell
-/// the truth that a real bench does not know. Returns the path of dataset.yaml.
+/// One CSV file per record, as a real bench would leave them, and dataset.yaml, whose comments
+/// state the truth that a real bench does not know. Returns the path of dataset.yaml.
 std::filesystem::path write_campaign(const Dataset& campaign, const ParameterSet& damper,
                                      const std::filesystem::path& folder,
                                      const std::string& command);

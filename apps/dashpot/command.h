@@ -21,12 +21,12 @@ class UsageError : public Error {
   using Error::Error;
 };
 
-/// Where an option's value goes. What stands there before parsing is the default, which help
+/// The variable that an option's value goes to. Its value before parsing is the default, which help
 /// prints. A bool is a switch: naming it turns the variable over.
 using Target =
     std::variant<bool*, int*, std::uint64_t*, double*, std::string*, std::vector<std::string>*>;
 
-/// What a value names, so that a shell can complete it.
+/// The kind of thing that a value names, so that a shell can complete it.
 enum class Takes { Word, File, Folder };
 
 /// One row of a command's table of options.
@@ -50,7 +50,8 @@ struct Option {
   std::string long_name() const;  ///< "--quiet", or the name of an argument by position
 };
 
-/// Whether a word that may name a choice or a file names a file: names have neither dot nor slash.
+/// True where a word that may name a choice or a file names a file: choices have neither dot nor
+/// slash.
 inline bool is_path(const std::string& word) {
   return word.find_first_of("./") != std::string::npos;
 }

@@ -23,7 +23,7 @@ std::string command_names(const std::vector<Command>& commands) {
 // ---- bash
 // -------------------------------------------------------------------------------------------
 
-/// What bash offers for one value.
+/// The shell command by which bash completes one value.
 std::string bash_values(const Option& option) {
   if (!option.choices.empty()) return "_dashpot_words '" + join(option.choices, " ") + "'";
   if (option.takes == Takes::Folder) return "COMPREPLY=($(compgen -d -- \"$word\"))";
@@ -183,7 +183,7 @@ std::string fish_option(const std::string& condition, const Option& option) {
   return line + " -d " + shell_quoted(option.help) + '\n';
 }
 
-/// What a command offers where `condition` holds.
+/// The completions of a command while `condition` holds.
 std::string fish_command(const Command& command, const std::string& condition,
                          const std::vector<Option>& common) {
   std::string text =

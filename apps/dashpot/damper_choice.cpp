@@ -30,7 +30,7 @@ std::vector<Option> coil_options(DamperChoice& choice) {
            .default_text = "that of the damper's data"},
           {.names = "--lag-rate",
            .target = &choice.lag_rate,
-           .help = "of the coil, 1/s; 0: none",
+           .help = "rate of the coil's lag, 1/s; 0: no lag",
            .value = "1/S",
            .minimum = 0,
            .default_text = "the model's own"}};

@@ -35,13 +35,13 @@ std::vector<Option> data_options(DataSettings& settings) {
           // How the recordings are processed and reported.
           {.names = "--velocity-cutoff",
            .target = &settings.load.velocity_cutoff_hz,
-           .help = "cut-off of the zero-phase filter that velocity is derived with",
+           .help = "cut-off frequency of the zero-phase filter that velocity is derived with",
            .value = "HZ",
            .minimum = 0,
            .default_text = "from the motion, and stated"},
           {.names = "-v,--verbose",
            .target = &settings.verbose,
-           .help = "print all that was understood of the data"}};
+           .help = "print everything that was understood of the data"}};
 }
 
 void print_notes(const Dataset& dataset, Console& console, std::size_t most) {

@@ -7,7 +7,7 @@
 
 namespace dashpot::cli {
 
-/// How a command gets its recordings.
+/// The recordings that a command reads, and the options of reading them.
 struct DataSettings {
   std::vector<std::string> paths;
   LoadOptions load;

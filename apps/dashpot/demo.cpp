@@ -16,7 +16,7 @@
 namespace dashpot::cli {
 namespace {
 
-/// A campaign that takes seconds to identify and still tells every parameter.
+/// A campaign that takes seconds to identify and still determines every parameter.
 CampaignSettings small_campaign() {
   CampaignSettings campaign;
   campaign.motions = {"25x0.5", "10x1", "5x3", "2x5"};
@@ -38,7 +38,8 @@ constexpr std::string_view kExample =
     "# The recordings that it made are ordinary files:\n"
     "dashpot inspect demo/recordings/";
 
-/// Whether each parameter that the data can tell has been found.
+/// Prints the known parameters beside those found; true where each that the data can determine was
+/// found.
 bool print_recovery(const std::vector<RecoveredParameter>& parameters, Console& console) {
   console.print('\n' + console.bold("Known parameters against those found") + '\n' +
                 recovery_table(parameters, console.width()));
@@ -48,8 +49,8 @@ bool print_recovery(const std::vector<RecoveredParameter>& parameters, Console& 
       parameters, [](const RecoveredParameter& p) { return !p.recovered() && !p.weak; });
   if (missed == 0 && !parameters.empty()) {
     console.print(
-        fmt::format("All known parameters that these data can tell are recovered, within their "
-                    "joint 95 % interval or {} %.\n",
+        fmt::format("All known parameters that these data can determine are recovered, within "
+                    "their joint 95 % interval or {} %.\n",
                     format_number(100 * kRecoveryTolerance)));
     return true;
   }

@@ -34,11 +34,11 @@ constexpr std::string_view kExample =
     "# Your own request, with a second model's figures beside:\n"
     "dashpot design my_request.yaml --second physics:moving_wall\n"
     "\n"
-    "# Designs within a fitted family, as that and as the physics tell of them:\n"
+    "# Designs within a fitted family, with the figures of its model and of the physics:\n"
     "dashpot design family_prototype --model results/models/family_gated.json --second physics "
     "--outside-family refuse\n"
     "\n"
-    "# What constraints and goals may speak of:\n"
+    "# The quantities that constraints and goals may name:\n"
     "dashpot design --quantities\n"
     "\n"
     "# A design is a damper's description and a model:\n"
@@ -211,12 +211,12 @@ std::vector<Option> options_of(Settings& settings) {
        .minimum = 4},
       {.names = "--generations",
        .target = &settings.options.generations,
-       .help = "of the search for the front",
+       .help = "generations of the search for the front",
        .value = "N",
        .minimum = 1},
       {.names = "--method",
        .target = &settings.method,
-       .help = "how the front is searched for",
+       .help = "method of the search for the front",
        .value = "NAME",
        .choices = {"nsga2", "moead"},
        .noun = "method"},
@@ -232,8 +232,8 @@ std::vector<Option> options_of(Settings& settings) {
        .takes = Takes::File},
       {.names = "--second",
        .target = &settings.options.second,
-       .help = "a model whose figures stand beside, with the difference; constraints and goals can "
-               "be asked of it too",
+       .help = "a second model whose figures are shown beside the first's, with the difference; "
+               "constraints and goals can use it too",
        .value = "MODEL",
        .choices = design_model_names(),
        .noun = "model",
@@ -241,7 +241,7 @@ std::vector<Option> options_of(Settings& settings) {
        .default_text = "none"},
       {.names = "--outside-family",
        .target = &settings.outside_family,
-       .help = "designs beyond the dampers that a family's model was fitted on: tell of it, or "
+       .help = "designs beyond the dampers that a family's model was fitted on: mark them, or "
                "refuse them",
        .value = "MODE",
        .choices = {"mark", "refuse"}},
@@ -251,7 +251,7 @@ std::vector<Option> options_of(Settings& settings) {
       threads_option(settings.options.threads),
       {.names = "--quantities",
        .target = &settings.quantities,
-       .help = "list what constraints and goals may speak of"},
+       .help = "list the quantities that constraints and goals may name"},
       {.names = "--no-report",
        .target = &settings.report,
        .help = "write descriptions and models only"}};

@@ -112,8 +112,7 @@ Command evaluate_command() {
       command.options,
       {{.names = "--outside-family",
         .target = &settings->outside_family,
-        .help =
-            "a damper outside the family that the model is of: tell of it and go on, or refuse it",
+        .help = "a damper outside the family of the model: warn and go on, or refuse it",
         .value = "MODE",
         .choices = {"mark", "refuse"}},
        {.names = "--force-offset",

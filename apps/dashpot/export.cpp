@@ -182,23 +182,23 @@ Command export_command() {
   // The formats, and the code in them.
   append(options, {{.names = "--to",
                     .target = &settings->formats,
-                    .help = "what the model becomes",
+                    .help = "the formats to write",
                     .value = "FORMAT",
                     .choices = exporter_names(),
                     .noun = "format"},
                    {.names = "--name",
                     .target = &settings->name,
-                    .help = "of the files and of the functions in them",
+                    .help = "name of the files and of the functions in them",
                     .default_text = "the model's"},
                    {.names = "--precision",
                     .target = &settings->precision,
-                    .help = "of the numbers in C or ONNX",
+                    .help = "precision of the numbers in C or ONNX",
                     .value = "TYPE",
                     .choices = {"double", "float"},
                     .default_text = "double in C, float in ONNX"},
                    {.names = "--sample-time",
                     .target = &settings->sample_time,
-                    .help = "between two steps, as 1ms",
+                    .help = "time between two steps, as 1ms",
                     .value = "S",
                     .default_text = "that of the model's data, or 1 ms"},
 
@@ -221,7 +221,7 @@ Command export_command() {
   return {.name = "export",
           .title = "A model or a controller as code or tables for other programs",
           .description =
-              "Writes a model in a form that needs Dashpot no more. An inverse network that "
+              "Writes a model in a form that no longer needs Dashpot. An inverse network that "
               "'dashpot invert' wrote, an inverse of a damper (--inverse) and a vehicle's "
               "controller (--controller) are exported, too, where a format takes them." +
               formats_text(),

@@ -23,7 +23,7 @@ double sample_time(const ExportOptions& options) {
 }  // namespace
 
 std::vector<Option> control_options(VehicleChoice& choice) {
-  // Of a ride, not of a controller; the sample time is the export's.
+  // These options belong to a ride, not to a controller; the sample time is the export's.
   constexpr std::array kOthers{"--current", "--sample-time", "--delay", "--seed"};
   std::vector<Option> options = controlled_vehicle_options(choice);
   std::erase_if(options, [&](const Option& option) {

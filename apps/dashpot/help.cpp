@@ -51,7 +51,7 @@ std::string usage(const Command& command) {
 
 std::string subcommand_list(const Command& command, const Console& console) {
   if (command.subcommands.empty()) return {};
-  std::string text = "\n" + console.bold("Which") + "\n";
+  std::string text = "\n" + console.bold("Subcommands") + "\n";
   for (const Command& one : command.subcommands)
     text += fmt::format("  {:<{}}{}\n", one.last_word(), kLabelColumns - 2, one.title);
   return text;

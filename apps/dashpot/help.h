@@ -6,10 +6,10 @@
 
 namespace dashpot::cli {
 
-/// What `dashpot` alone says.
+/// The overview that `dashpot` without arguments prints.
 std::string overview(const std::vector<Command>& commands, const Console& console);
 
-/// What `dashpot COMMAND --help` says. `common`: the options that every command has.
+/// The text of `dashpot COMMAND --help`. `common`: the options that every command has.
 std::string command_help(const Command& command, const std::vector<Option>& common,
                          const Console& console);
 

@@ -84,7 +84,7 @@ std::vector<Option> fit_options(FitSettings& settings) {
       // The effort of the fit, and the random numbers in it.
       {.names = "--starts",
        .target = &settings.options.starts,
-       .help = "starting points of each fit",
+       .help = "number of starting points of each fit",
        .value = "N",
        .minimum = 1},
       {.names = "--search",

@@ -7,7 +7,7 @@
 
 namespace dashpot::cli {
 
-/// What `identify` and `demo` let the user say about the fits.
+/// The settings of the fits that `identify` and `demo` take from the user.
 using FitSettings = FitWords;
 
 std::vector<Option> fit_options(FitSettings& settings);

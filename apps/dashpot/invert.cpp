@@ -50,7 +50,8 @@ struct Candidate {
   std::vector<TrackReport> reports;
 };
 
-/// What the inverses are made for and judged on. Without a damper there are no trials.
+/// The damper that the inverses are made for, and the trials that judge them. Without a damper
+/// there are no trials.
 struct Bench {
   Damper damper;
   DriverOptions driver;
@@ -170,7 +171,7 @@ std::string table_of(const std::vector<Candidate>& candidates,
   return table.text(static_cast<std::size_t>(width));
 }
 
-/// What the columns of the table mean.
+/// Explains the columns of the table.
 std::string heading(const Candidate& best, const Bench& bench) {
   std::string text = "\nTaught by " + best.fit.teacher +
                      "\n\nCurrent: rms on what was left out, weighted by its effect on the force\n";
@@ -263,25 +264,26 @@ std::vector<Option> network_options(Settings& s) {
            .default_text = join(s.networks, ",")},
           {.names = "--step",
            .target = &s.step,
-           .help = "between two delays, ms: a multiple of the sample time at which it is to work",
+           .help = "time between two delays, ms: a multiple of the sample time at which the "
+                   "inverse is to work",
            .value = "MS",
            .minimum = 0.01},
           {.names = "--rate-limit",
            .target = &s.rate_limit,
-           .help = "of its answer, A/s; 0: none",
+           .help = "largest rate of the inverse's current, A/s; 0: no limit",
            .value = "A/S",
            .minimum = 0},
 
           // The motions on a model, which both teach and judge.
           {.names = "--amplitude",
            .target = &s.amplitude,
-           .help = "of the motions that teach and judge, mm",
+           .help = "amplitude of the motions that teach and judge, mm",
            .value = "MM",
            .minimum = 0,
            .default_text = "that of the model's data, else 20"},
           {.names = "--frequency",
            .target = &s.frequency,
-           .help = "highest of such a random motion",
+           .help = "highest frequency of such a random motion",
            .value = "HZ",
            .minimum = 0,
            .default_text = "so that its speed is that of the model's data, else 3"},
@@ -297,7 +299,7 @@ Command invert_command() {
   Settings& s = *settings;
   Command command{
       .name = "invert",
-      .title = "Teach a network to give the current for a wanted force",
+      .title = "Train a network that gives the current for a wanted force",
       .description =
           "Makes an inverse of a damper: a small network from motion, wanted force and their past "
           "to the current, taught on a model that is moved over its range, or on recordings. "

@@ -81,7 +81,7 @@ int run_command(std::vector<std::string> words, Console& console) {
   if (!command.run) {
     std::vector<std::string> known;
     for (const Command& one : command.subcommands) known.push_back(one.last_word());
-    throw UsageError(command.name, "it is not said which", "known: " + join(known, ", "));
+    throw UsageError(command.name, "the subcommand is missing", "known: " + join(known, ", "));
   }
   return command.run(console);
 }

@@ -146,7 +146,7 @@ Command member_command() {
                   // The limits of the family, and where the model goes.
                   {.names = "--outside-family",
                    .target = &settings->outside_family,
-                   .help = "a damper outside the family: tell of it and go on, or refuse it",
+                   .help = "a damper outside the family: warn and go on, or refuse it",
                    .value = "MODE",
                    .choices = {"mark", "refuse"}},
                   {.names = "-o,--output",

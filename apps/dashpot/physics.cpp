@@ -147,15 +147,15 @@ Command physics_command() {
                       // The operating point.
                       {.names = "--current",
                        .target = &settings->current,
-                       .help = "in the coil",
+                       .help = "current in the coil",
                        .value = "A"},
                       {.names = "--velocity",
                        .target = &settings->velocity,
-                       .help = "of the piston, extension positive",
+                       .help = "velocity of the piston, extension positive",
                        .value = "M/S"},
                       {.names = "--displacement",
                        .target = &settings->displacement,
-                       .help = "from where the spring is free",
+                       .help = "displacement of the piston from where the spring is free",
                        .value = "M"},
 
                       // The description's fields.
@@ -165,7 +165,7 @@ Command physics_command() {
                        .value = "LIST"},
                       {.names = "--fields",
                        .target = &settings->fields,
-                       .help = "list what a description may state"}},
+                       .help = "list the fields of a description"}},
 
           .example = std::string(kExample),
           .run = [settings](Console& console) { return run(*settings, console); }};

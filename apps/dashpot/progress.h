@@ -6,8 +6,8 @@
 
 namespace dashpot::cli {
 
-/// How far work has come, on stderr: one line that redraws itself on a terminal, plain lines every
-/// few seconds in a log.
+/// Shows the progress of work on stderr: one line that redraws itself on a terminal, plain lines
+/// every few seconds in a log.
 class ProgressLine {
  public:
   /// width: columns of the terminal; 0: a log.

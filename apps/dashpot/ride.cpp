@@ -74,59 +74,60 @@ int run(const Settings& settings, Console& console) {
 }
 
 std::vector<Option> study_options(Settings& settings) {
-  return {{.names = "--controllers",
-           .target = &settings.controllers,
-           .help = "control laws with their settings, ';' between; or all (--list controllers)",
-           .value = "LIST"},
-          {.names = "--against",
-           .target = &settings.against,
-           .help = "the passive reference: a damper's words, or current=A for the same damper at "
-                   "that current",
-           .value = "WORDS",
-           .default_text = "the plant's nominal damping, or half of the current"},
+  return {
+      {.names = "--controllers",
+       .target = &settings.controllers,
+       .help = "control laws with their settings, ';' between; or all (--list controllers)",
+       .value = "LIST"},
+      {.names = "--against",
+       .target = &settings.against,
+       .help = "the passive reference: a damper's words, or current=A for the same damper at that "
+               "current",
+       .value = "WORDS",
+       .default_text = "the plant's nominal damping, or half of the current"},
 
-          // The sines and the chirp that give the gain curves.
-          {.names = "--frequencies",
-           .target = &settings.frequencies,
-           .help = "of the sines, Hz, rising",
-           .value = "LIST",
-           .default_text = "18 from 0.5 to 20"},
-          {.names = "--amplitude",
-           .target = &settings.amplitude,
-           .help = "of sines and chirp, mm",
-           .value = "MM"},
-          {.names = "--settling",
-           .target = &settings.settling,
-           .help = "before the periods of a sine that count, s",
-           .value = "S",
-           .minimum = 0},
-          {.names = "--chirp",
-           .target = &settings.chirp,
-           .help = "how long the chirp lasts, s",
-           .value = "S",
-           .minimum = 1},
+      // The sines and the chirp that give the gain curves.
+      {.names = "--frequencies",
+       .target = &settings.frequencies,
+       .help = "frequencies of the sines, Hz, in rising order",
+       .value = "LIST",
+       .default_text = "18 from 0.5 to 20"},
+      {.names = "--amplitude",
+       .target = &settings.amplitude,
+       .help = "amplitude of sines and chirp, mm",
+       .value = "MM"},
+      {.names = "--settling",
+       .target = &settings.settling,
+       .help = "settling time before the periods of a sine that count, s",
+       .value = "S",
+       .minimum = 0},
+      {.names = "--chirp",
+       .target = &settings.chirp,
+       .help = "how long the chirp lasts, s",
+       .value = "S",
+       .minimum = 1},
 
-          // The step, and the trade-off beside which the controllers stand.
-          {.names = "--step",
-           .target = &settings.step,
-           .help = "height of the step, mm",
-           .value = "MM"},
-          {.names = "--held",
-           .target = &settings.held,
-           .help = "currents at which the same dampers are held, for the trade-off's line",
-           .value = "N",
-           .minimum = 2},
+      // The step, and the trade-off beside which the controllers stand.
+      {.names = "--step",
+       .target = &settings.step,
+       .help = "height of the step, mm",
+       .value = "MM"},
+      {.names = "--held",
+       .target = &settings.held,
+       .help = "currents at which the same dampers are held, for the trade-off's line",
+       .value = "N",
+       .minimum = 2},
 
-          // The optimum for comparison, and when a damper counts as asked beyond its data.
-          {.names = "--bound",
-           .target = &settings.bound,
-           .help = "also what is possible on the road: a bound that no controller beats, and what "
-                   "the best reaches that knew the road (quarter cars, dampers without memory)"},
-          {.names = "--outside",
-           .target = &settings.allowed_outside,
-           .help = "share of the time that a damper may be outside its data without a warning, %",
-           .value = "%",
-           .minimum = 0}};
+      // The optimum for comparison, and when a damper counts as asked beyond its data.
+      {.names = "--bound",
+       .target = &settings.bound,
+       .help = "also show the optimum on the road: a bound that no controller beats, and the "
+               "result of the best one that knows the road (quarter cars, dampers without memory)"},
+      {.names = "--outside",
+       .target = &settings.allowed_outside,
+       .help = "share of the time that a damper may be outside its data without a warning, %",
+       .value = "%",
+       .minimum = 0}};
 }
 
 }  // namespace

@@ -34,7 +34,7 @@ struct Settings {
 };
 
 constexpr std::string_view kExample =
-    "# 24 networks drawn by chance, each judged on records that it has not seen:\n"
+    "# 24 networks drawn at random, each judged on records that it has not seen:\n"
     "dashpot search recordings/ --over hidden=3:30 --over activation=tanh,relu --output search\n"
     "\n"
     "# Interrupted, or not enough? The same command goes on where it stopped; more trials are "
@@ -226,14 +226,15 @@ std::vector<Option> own_options(Settings& settings) {
       // How designs are chosen, and how many.
       {.names = "--method",
        .target = &settings.method,
-       .help = "every combination, so many by chance, or halving: many by chance with little "
-               "effort, the best third of them with three times as much, until all effort goes to "
-               "the last three or more. Ranges are spaced and drawn evenly in the logarithm",
+       .help =
+           "every combination, a number of random ones, or halving: many random ones with little "
+           "effort, the best third of them with three times as much, until all effort goes to the "
+           "last three or more. Ranges are spaced and drawn evenly in the logarithm",
        .value = "HOW",
        .choices = {"grid", "random", "halving"}},
       {.names = "--trials",
        .target = &settings.trials,
-       .help = "networks drawn by chance; a grid has its own number",
+       .help = "number of networks drawn at random; a grid has its own number",
        .value = "N",
        .minimum = 1},
       {.names = "--steps",
@@ -245,8 +246,8 @@ std::vector<Option> own_options(Settings& settings) {
       // The effort of halving, and whether earlier trials count.
       {.names = "--effort",
        .target = &settings.effort,
-       .help = "what halving gives little of at first: samples (the first part of every training "
-               "record) or epochs (then --network epochs=N says how many are all)",
+       .help = "the effort that halving limits at first: samples (the first part of every training "
+               "record) or epochs (--network epochs=N then sets the full number)",
        .value = "WHAT",
        .choices = {"samples", "epochs"}},
       {.names = "--fresh",

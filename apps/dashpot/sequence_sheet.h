@@ -6,7 +6,7 @@
 
 namespace dashpot::cli {
 
-/// What a sequence, or anything that says the same of itself, can be told.
+/// Describes a sequence, or anything that has the same description, with its parameters.
 std::string sheet_text(const SequenceInfo& info, std::size_t width);
 Value sheet_json(const SequenceInfo& info);
 

@@ -121,7 +121,7 @@ Command simulate_command() {
       command.options,
       {{.names = "--against",
         .target = &settings->against,
-        .help = "to compare with, without controller: a damper's words, current=A for the same "
+        .help = "the passive vehicle to compare with: a damper's words, current=A for the same "
                 "damper at that current, or none",
         .value = "WORDS",
         .default_text = "beside a controller the plant's nominal damping, or half of the current"},
@@ -134,12 +134,12 @@ Command simulate_command() {
         .minimum = 0},
        {.names = "--tolerance",
         .target = &settings->tolerance,
-        .help = "relative, of the integrator",
+        .help = "relative tolerance of the integrator",
         .value = "NUMBER"},
        {.names = "--max-step",
         .target = &settings->step,
-        .help = "of the integrator, ms, without control of its error: quicker, for dampers without "
-                "hysteresis",
+        .help = "fixed step of the integrator, ms, without error control: quicker, for dampers "
+                "without hysteresis",
         .value = "MS",
         .minimum = 0,
         .default_text = "as the tolerance asks"},

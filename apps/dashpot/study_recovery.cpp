@@ -27,7 +27,7 @@ std::string percent(int part, int whole) {
 std::string remark(const ParameterRecovery& p) {
   if (p.fixed) return "fixed";
   std::vector<std::string> parts;
-  if (p.weak > 0) parts.push_back(fmt::format("not told by the data: {}", p.weak));
+  if (p.weak > 0) parts.push_back(fmt::format("not determined by the data: {}", p.weak));
   if (p.at_bound > 0) parts.push_back(fmt::format("at a bound: {}", p.at_bound));
   return join(parts, ", ");
 }

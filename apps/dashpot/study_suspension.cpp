@@ -52,7 +52,7 @@ Command suspension_study() {
 
   append(command.options, {{.names = "--duration",
                             .target = &settings->options.road_duration,
-                            .help = "of the road, s",
+                            .help = "duration of the road, s",
                             .value = "S",
                             .minimum = 1},
                            seed_option(settings->options.seed),

@@ -121,7 +121,7 @@ std::vector<Option> options_of(Settings& settings) {
       // The request, and what may stand in place of its numbers.
       {.names = "REQUEST",
        .target = &settings.request,
-       .help = "what vehicle, what controllers, what varies: a YAML file, or one that comes with "
+       .help = "the vehicle, the controllers and what varies: a YAML file, or one that comes with "
                "Dashpot: " +
                join(sweep_names(), ", "),
        .takes = Takes::File},
@@ -133,25 +133,26 @@ std::vector<Option> options_of(Settings& settings) {
        .default_text = "the request's"},
       {.names = "--duration",
        .target = &settings.duration,
-       .help = "of each ride, s",
+       .help = "duration of each ride, s",
        .value = "S",
        .minimum = 0.1,
        .default_text = "the request's"},
       {.names = "--seed",
        .target = &settings.seed,
-       .help = "of all that is drawn",
+       .help = "seed of all that is drawn",
        .value = "N",
        .minimum = 1,
        .default_text = "the request's"}};
 
   // A store of rides is thrown away by --fresh, not merely left aside.
   append(options, study_result_options(settings.results, "rides"));
-  options.back().help = "begin anew: what an earlier sweep left in DIR/sweep.sqlite is thrown away";
+  options.back().help =
+      "start anew: the rides of an earlier sweep in DIR/sweep.sqlite are thrown away";
 
   append(options, {threads_option(settings.threads),
                    {.names = "--measures",
                     .target = &settings.measures,
-                    .help = "list what a ride is judged by"}});
+                    .help = "list the measures of a ride"}});
   return options;
 }
 

@@ -97,7 +97,7 @@ DriverOptions make_driver(const Settings& settings, const Damper& damper) {
   return driver_of(damper, settings.damper, driver);
 }
 
-/// Where nothing is in reach, the whole error counts.
+/// The error in reach, % of span; the whole error where nothing is in reach.
 double error_in_reach(const TrackedScheme& tracked) {
   const TrackReport& r = tracked.report;
   return r.reachable.samples > 0 ? r.reachable.rmse : r.all.rmse;
@@ -114,7 +114,7 @@ std::unique_ptr<InverseModel> make_inverse(const std::string& word, const Damper
   return std::make_unique<HistoryNetwork>(std::move(file.network), limits);
 }
 
-/// What was asked for; if nothing, all schemes that apply. The best comes first.
+/// Tracks with the schemes asked for, or with all that apply. The best comes first.
 std::vector<TrackedScheme> track_all(const Settings& settings, const Damper& damper,
                                      const Driver& driver, const Task& task, Console& console) {
   const InverseLimits limits = limits_of(driver.options(), task.motion.sample_time);
@@ -219,69 +219,73 @@ int run(const Settings& settings, Console& console) {
 
 /// The motion, and the force that is wanted along it.
 std::vector<Option> task_options(Settings& s) {
-  return {
-      // The wanted force.
-      {.names = "--wanted",
-       .target = &s.wanted,
-       .help = "wanted force: random within what the damper can give, or a sine",
-       .value = "KIND",
-       .choices = {"random", "sine"}},
-      {.names = "--force",
-       .target = &s.force,
-       .help = "amplitude of the sine, N",
-       .value = "N",
-       .minimum = 0,
-       .default_text = "half of the largest that the damper gives"},
-      {.names = "--band",
-       .target = &s.band,
-       .help = "frequency of the sine, highest of the random force",
-       .value = "HZ",
-       .minimum = 0},
+  return {// The wanted force.
+          {.names = "--wanted",
+           .target = &s.wanted,
+           .help = "wanted force: random within what the damper can give, or a sine",
+           .value = "KIND",
+           .choices = {"random", "sine"}},
+          {.names = "--force",
+           .target = &s.force,
+           .help = "amplitude of the sine, N",
+           .value = "N",
+           .minimum = 0,
+           .default_text = "half of the largest that the damper gives"},
+          {.names = "--band",
+           .target = &s.band,
+           .help = "frequency of the sine, highest of the random force",
+           .value = "HZ",
+           .minimum = 0},
 
-      // The motion of the piston.
-      {.names = "--motion",
-       .target = &s.motion,
-       .help = "motion of the piston",
-       .value = "KIND",
-       .choices = {"random", "sine"}},
-      {.names = "--amplitude",
-       .target = &s.amplitude,
-       .help = "of the motion, mm; of a random one twice its standard deviation",
-       .value = "MM",
-       .minimum = 0},
-      {.names = "--frequency",
-       .target = &s.frequency,
-       .help = "of the motion; of a random one the highest",
-       .value = "HZ",
-       .minimum = 0},
-      {.names = "--duration", .target = &s.duration, .help = "seconds", .value = "S", .minimum = 0},
+          // The motion of the piston.
+          {.names = "--motion",
+           .target = &s.motion,
+           .help = "motion of the piston",
+           .value = "KIND",
+           .choices = {"random", "sine"}},
+          {.names = "--amplitude",
+           .target = &s.amplitude,
+           .help = "amplitude of the motion, mm; for a random one twice its standard deviation",
+           .value = "MM",
+           .minimum = 0},
+          {.names = "--frequency",
+           .target = &s.frequency,
+           .help = "frequency of the motion; for a random one the highest",
+           .value = "HZ",
+           .minimum = 0},
+          {.names = "--duration",
+           .target = &s.duration,
+           .help = "duration of the motion, s",
+           .value = "S",
+           .minimum = 0},
 
-      // A recording in place of both, and the rate of the commands.
-      {.names = "--recording",
-       .target = &s.recording,
-       .help = "take motion and wanted force from the first record of this file or folder",
-       .value = "PATH",
-       .takes = Takes::File},
-      {.names = "--sample-rate",
-       .target = &s.sample_rate,
-       .help = "commands per second; that of the recording where there is one",
-       .value = "HZ",
-       .minimum = 1},
-      seed_option(s.seed)};
+          // A recording in place of both, and the rate of the commands.
+          {.names = "--recording",
+           .target = &s.recording,
+           .help = "take motion and wanted force from the first record of this file or folder",
+           .value = "PATH",
+           .takes = Takes::File},
+          {.names = "--sample-rate",
+           .target = &s.sample_rate,
+           .help = "commands per second; that of the recording where there is one",
+           .value = "HZ",
+           .minimum = 1},
+          seed_option(s.seed)};
 }
 
 std::vector<Option> driver_options(Settings& s) {
-  return {{.names = "--rate-limit",
-           .target = &s.rate_limit,
-           .help = "of the driver, A/s; 0: none",
-           .value = "A/S",
-           .minimum = 0},
-          {.names = "--period",
-           .target = &s.period,
-           .help = "of the driver, s between the instants at which it looks at its command; 0: at "
-                   "every one",
-           .value = "S",
-           .minimum = 0}};
+  return {
+      {.names = "--rate-limit",
+       .target = &s.rate_limit,
+       .help = "rate limit of the driver, A/s; 0: no limit",
+       .value = "A/S",
+       .minimum = 0},
+      {.names = "--period",
+       .target = &s.period,
+       .help =
+           "time between the instants at which the driver reads its command, s; 0: at every sample",
+       .value = "S",
+       .minimum = 0}};
 }
 
 }  // namespace

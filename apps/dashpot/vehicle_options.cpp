@@ -45,15 +45,15 @@ std::vector<Option> vehicle_options(VehicleChoice& choice) {
        .default_text = "damping in a straight line over the current"},
       {.names = "--force-loop",
        .target = &choice.force_loop,
-       .help = "corrects the force wanted of the inverse by the one that is missed, as a PID "
-               "controller: proportional=0.5,integral=20,derivative=0",
+       .help = "a PID controller that adds its correction of the force error to the force wanted "
+               "of the inverse: proportional=0.5,integral=20,derivative=0",
        .value = "WORDS",
        .default_text = "none"},
 
       // The current: its value without control, its greatest, and the lag of the coil.
       {.names = "--current",
        .target = &choice.current,
-       .help = "A (or V, or place from 0 to 1) where nothing controls it",
+       .help = "constant current, A (or V, or a place from 0 to 1), where there is no controller",
        .value = "A",
        .minimum = 0},
       {.names = "--current-max",
@@ -64,7 +64,7 @@ std::vector<Option> vehicle_options(VehicleChoice& choice) {
        .default_text = "that of the damper's data"},
       {.names = "--lag-rate",
        .target = &choice.lag_rate,
-       .help = "of the coil, 1/s; 0: none",
+       .help = "rate of the coil's lag, 1/s; 0: no lag",
        .value = "1/S",
        .minimum = 0,
        .default_text = "the damper's own"},
@@ -72,7 +72,7 @@ std::vector<Option> vehicle_options(VehicleChoice& choice) {
       // The controller's clock and its sensors.
       {.names = "--sample-time",
        .target = &choice.sample_time,
-       .help = "of the controller, ms",
+       .help = "sample time of the controller, ms",
        .value = "MS"},
       {.names = "--in-car",
        .target = &choice.in_car,
@@ -80,7 +80,7 @@ std::vector<Option> vehicle_options(VehicleChoice& choice) {
            "sensors as in a car: one accelerometer and one deflection per strut, noise, filters"},
       {.names = "--delay",
        .target = &choice.delay,
-       .help = "of the sensors, ms, with --in-car",
+       .help = "delay of the sensors, ms, with --in-car",
        .value = "MS",
        .minimum = 0},
       seed_option(choice.seed)};
@@ -105,7 +105,7 @@ std::vector<Option> road_options(RoadChoice& choice) {
        .value = "WORDS"},
       {.names = "--duration",
        .target = &choice.duration,
-       .help = "s",
+       .help = "duration of the run, s",
        .value = "S",
        .minimum = 0,
        .default_text = choice.duration > 0

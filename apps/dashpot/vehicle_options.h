@@ -19,7 +19,7 @@ struct VehicleChoice {
   std::uint64_t seed = 1;             ///< of the road and of the sensors' noise
 };
 
-/// What it drives over, and for how long.
+/// The ground that the vehicle drives over, and for how long.
 struct RoadChoice {
   std::string road = "iso8608,class=C";
   double duration = 0;  ///< s; 0: as the ground has it, 20 s at most
@@ -34,7 +34,7 @@ std::vector<Option> controlled_vehicle_options(VehicleChoice& choice);
 /// --road, --duration.
 std::vector<Option> road_options(RoadChoice& choice);
 
-/// What stands between semicolons: "skyhook;mix1,crossover=2Hz".
+/// The parts between semicolons: "skyhook;mix1,crossover=2Hz".
 std::vector<std::string> words_between(const std::string& text);
 VehicleWords words_of(const VehicleChoice& choice);
 /// Throws Error where it suits no such plant: a road under a building.

@@ -28,7 +28,7 @@ struct Listing {
   }
 };
 
-/// What plants and controllers say of themselves, as sequences say it.
+/// The description of a plant or a controller, in the form that sequences have.
 template <class Thing>
 SequenceInfo info_of(const Thing& thing) {
   return {thing.name, thing.title, thing.equation, thing.source, thing.remarks, thing.parameters};
