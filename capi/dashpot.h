@@ -43,8 +43,7 @@ DASHPOT_API const char* dashpot_last_error(void);
 /// Frees a text that a function wrote through a char**, and sets the pointer to null.
 DASHPOT_API void dashpot_text_free(char** text);
 
-// ---- Arrays
-// -------------------------------------------------------------------------------------------
+// ---- Arrays -----------------------------------------------------------------
 
 /// Samples where they lie in the caller's memory: sample k is data[k * stride]. Stride 1: one
 /// behind the other. Stride 0: one value that holds for every sample. Null data: there is none.
@@ -70,8 +69,7 @@ typedef struct dashpot_motion {
   dashpot_column current;       ///< A or V
 } dashpot_motion;
 
-// ---- Models
-// -------------------------------------------------------------------------------------------
+// ---- Models -----------------------------------------------------------------
 
 typedef struct dashpot_model dashpot_model;
 
@@ -134,8 +132,7 @@ typedef struct dashpot_response {
 DASHPOT_API dashpot_status dashpot_run(const dashpot_model* model, const dashpot_motion* motion,
                                        const dashpot_response* response);
 
-// ---- Recordings
-// ---------------------------------------------------------------------------------------
+// ---- Recordings -------------------------------------------------------------
 
 typedef struct dashpot_recordings dashpot_recordings;
 
@@ -206,8 +203,7 @@ typedef struct dashpot_column_meaning {
 DASHPOT_API dashpot_status dashpot_understand_column(const char* name,
                                                      dashpot_column_meaning* meaning);
 
-// ---- Identification
-// -----------------------------------------------------------------------------------
+// ---- Identification ---------------------------------------------------------
 
 /// The caller's side of long work. Both functions are called, some twenty times a second, on the
 /// thread that called Dashpot; either may be null. They must return normally.
@@ -252,8 +248,7 @@ DASHPOT_API dashpot_status dashpot_evaluate(const dashpot_model* model,
                                             const dashpot_recordings* recordings,
                                             const char* options, char** report);
 
-// ---- Export
-// -------------------------------------------------------------------------------------------
+// ---- Export -----------------------------------------------------------------
 
 /// Writes a model as files for other programs, as `dashpot export` does: {"to": ["c", "fmu3"],
 /// "folder": "dashpot-export", "name": "front_damper", "precision": "double", "sample_time": s,
@@ -263,8 +258,7 @@ DASHPOT_API dashpot_status dashpot_evaluate(const dashpot_model* model,
 DASHPOT_API dashpot_status dashpot_export(const dashpot_model* model, const char* options,
                                           char** report);
 
-// ---- Vehicles
-// -----------------------------------------------------------------------------------------
+// ---- Vehicles ---------------------------------------------------------------
 
 /// A vehicle or building from rest, in the words of `dashpot simulate`, with SI units: {"plant":
 /// "savaresi_spelta", "set": ["sprung_mass=350kg"], "dampers": ["model.json"], "controller":

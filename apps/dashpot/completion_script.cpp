@@ -20,8 +20,7 @@ std::string command_names(const std::vector<Command>& commands) {
   return join(names, " ");
 }
 
-// ---- bash
-// -------------------------------------------------------------------------------------------
+// ---- bash -------------------------------------------------------------------
 
 /// The shell command by which bash completes one value.
 std::string bash_values(const Option& option) {
@@ -85,8 +84,7 @@ std::string bash_script(const std::vector<Command>& commands, const std::vector<
          cases + "  esac\n}\ncomplete -o filenames -F _dashpot dashpot\n";
 }
 
-// ---- zsh
-// --------------------------------------------------------------------------------------------
+// ---- zsh --------------------------------------------------------------------
 
 /// Text for a zsh specification: brackets and colons mean something there.
 std::string zsh_text(const std::string& text) {
@@ -161,8 +159,7 @@ std::string zsh_script(const std::vector<Command>& commands, const std::vector<O
          cases + "  esac\n}\n_dashpot \"$@\"\n";
 }
 
-// ---- fish
-// -------------------------------------------------------------------------------------------
+// ---- fish -------------------------------------------------------------------
 
 std::string fish_values(const Option& option) {
   if (!option.choices.empty()) return " -x -a " + shell_quoted(join(option.choices, " "));
