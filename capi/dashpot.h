@@ -142,7 +142,7 @@ DASHPOT_API dashpot_status dashpot_recordings_load(const char* const* paths, siz
                                                    const char* options,
                                                    dashpot_recordings** recordings);
 
-/// A column with its name, which tells channel and unit as a CSV file's header does: "velocity"
+/// A column with its name, which states channel and unit as a CSV file's header does: "velocity"
 /// (SI), "x [mm]", "F_N".
 typedef struct dashpot_named_column {
   const char* name;

@@ -55,7 +55,7 @@ FitOptions read_fit_options(const char* text) {
   words.priors = texts(reader, "prior");
   words.network = texts(reader, "network");
 
-  // How long and from where the fits search.
+  // The effort of the fits, and their random numbers.
   words.options.starts = whole_int(reader, "starts", words.options.starts, 1);
   words.options.search = whole_int(reader, "search", words.options.search);
   words.options.seed = static_cast<std::uint64_t>(whole(reader, "seed", 1));

@@ -207,7 +207,7 @@ std::vector<Option> campaign_options(CampaignSettings& settings) {
        .choices = experiment_names(),
        .noun = "experiment"},
 
-      // How long and how finely is recorded.
+      // The length and the rate of each recording.
       {.names = "--cycles",
        .target = &bench.cycles,
        .help = "cycles per record",

@@ -32,7 +32,7 @@ std::vector<Option> data_options(DataSettings& settings) {
            .target = &settings.load.recognise,
            .help = "do not look for these recordings among the known published ones"},
 
-          // How the recordings are processed and reported.
+          // The processing of the recordings, and the report on it.
           {.names = "--velocity-cutoff",
            .target = &settings.load.velocity_cutoff_hz,
            .help = "cut-off frequency of the zero-phase filter that velocity is derived with",

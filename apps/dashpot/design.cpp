@@ -262,13 +262,13 @@ std::vector<Option> options_of(Settings& settings) {
 Command design_command() {
   auto settings = std::make_shared<Settings>();
   return {.name = "design",
-          .title = "Dampers that do what is asked of them",
+          .title = "Design dampers that meet a request",
           .description =
               "Reads what may vary of a damper's description, what must hold and what to favour, "
               "and finds designs: the best for one goal, or a front for several, also where made "
               "dampers differ from their drawing. Each design is written as a description and as a "
-              "model for the other commands, after it was read again and checked. Where none can "
-              "be, it says which constraints conflict.",
+              "model for the other commands, after it was read again and checked. Where no design "
+              "is possible, it says which constraints conflict.",
           .options = options_of(*settings),
           .example = std::string(kExample),
           .run = [settings](Console& console) { return run(*settings, console); }};

@@ -107,7 +107,7 @@ Command evaluate_command() {
 
   append(command.options, data_options(settings->data));
 
-  // Where the model stops being valid, and how the force zero is treated.
+  // The limits of the model's family, and the treatment of the force zero.
   append(
       command.options,
       {{.names = "--outside-family",

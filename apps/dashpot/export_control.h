@@ -8,7 +8,7 @@
 
 namespace dashpot::cli {
 
-/// --controller and what else tells a vehicle of a controller for an ECU.
+/// --controller and the options of the vehicle that it is made for.
 std::vector<Option> control_options(VehicleChoice& choice);
 
 /// The vehicle's controller; `damper` is its damper where the choice names none.

@@ -297,19 +297,19 @@ std::vector<Option> network_options(Settings& s) {
 Command invert_command() {
   auto settings = std::make_shared<Settings>();
   Settings& s = *settings;
-  Command command{
-      .name = "invert",
-      .title = "Train a network that gives the current for a wanted force",
-      .description =
-          "Makes an inverse of a damper: a small network from motion, wanted force and their past "
-          "to the current, taught on a model that is moved over its range, or on recordings. "
-          "Judges it by its current on what it had not seen and, where there is a model, by the "
-          "force that comes of it behind the coil's driver, beside the search on the model. Saves "
-          "it as a file for 'dashpot track'. Recordings at one current cannot teach it; such with "
-          "a constant current each cannot teach a network that feeds its currents back.",
-      .options = damper_options(s.damper),
-      .example = std::string(kExample),
-      .run = [settings](Console& console) { return run(*settings, console); }};
+  Command command{.name = "invert",
+                  .title = "Train a network that gives the current for a wanted force",
+                  .description =
+                      "Makes an inverse of a damper: a small network from motion, wanted force and "
+                      "their past to the current, taught on a model that is moved over its range, "
+                      "or on recordings. Judges it by its current on what it had not seen and, "
+                      "where there is a model, by the force that comes of it behind the coil's "
+                      "driver, beside the search on the model. Saves it as a file for 'dashpot "
+                      "track'. Recordings at a single current cannot teach it; recordings with a "
+                      "constant current each cannot teach a network that feeds its currents back.",
+                  .options = damper_options(s.damper),
+                  .example = std::string(kExample),
+                  .run = [settings](Console& console) { return run(*settings, console); }};
 
   // The recordings, where they teach in place of the model.
   command.options.push_back(
@@ -329,7 +329,7 @@ Command invert_command() {
   append(command.options, network_options(s));
   append(command.options, coil_options(s.damper));
 
-  // Where the results go.
+  // The files of the results.
   command.options.push_back({.names = "-o,--output",
                              .target = &s.file,
                              .help = "the file of the inverse",

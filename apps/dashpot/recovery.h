@@ -12,7 +12,7 @@ struct RecoveredParameter {
   std::string name, unit;
   double truth = 0, found = 0;
   double half_width = 0;  ///< of the interval that holds 95 % for all parameters at once
-  bool weak = false;      ///< the fit itself says that these data do not tell it
+  bool weak = false;      ///< by the fit itself, these data do not determine it
   bool recovered() const;
 };
 

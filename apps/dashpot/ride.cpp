@@ -125,7 +125,7 @@ std::vector<Option> study_options(Settings& settings) {
                "result of the best one that knows the road (quarter cars, dampers without memory)"},
       {.names = "--outside",
        .target = &settings.allowed_outside,
-       .help = "share of the time that a damper may be outside its data without a warning, %",
+       .help = "share of the time, %, that a damper may be outside its data without a warning",
        .value = "%",
        .minimum = 0}};
 }

@@ -77,7 +77,7 @@ SearchOptions search_options(const Settings& settings, Console& console) {
   fit.network.clear();  // no whole design: what is searched makes it one
   options.fit = identify_options(fit, {settings.model}, console);
 
-  // How many designs are tried, and with what effort.
+  // The number of designs tried, and the effort for each.
   options.method = settings.method == "grid"     ? SearchMethod::Grid
                    : settings.method == "random" ? SearchMethod::Random
                                                  : SearchMethod::Halving;
@@ -98,14 +98,14 @@ SearchOptions search_options(const Settings& settings, Console& console) {
   return options;
 }
 
-/// Runs with a table that lives.
+/// Runs the search; on a terminal, with a table of the best trials so far.
 SearchReport run_search(const RankingData& data, const SearchOptions& options, const fs::path& file,
                         Console& console) {
   TrialStore store(file, describe_search(data.dataset, data.leave_out, options, program_id()));
   if (store.size() > 0)
     console.talk(counted(store.size(), "fit") + " kept from before in " + file.string() + '\n');
 
-  // A terminal shows the best trials so far, redrawn whenever progress is.
+  // The table is redrawn whenever progress is.
   LiveTable live(console);
   SearchOptions watched = options;  // draws the table wherever progress is drawn
   watched.fit.monitor.on_progress =
@@ -223,7 +223,7 @@ std::vector<Option> own_options(Settings& settings) {
        .value = "SETTING=...",
        .required = true},
 
-      // How designs are chosen, and how many.
+      // The choice of designs, and their number.
       {.names = "--method",
        .target = &settings.method,
        .help =

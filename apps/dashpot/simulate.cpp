@@ -101,18 +101,19 @@ int run(const Settings& settings, Console& console) {
 
 Command simulate_command() {
   auto settings = std::make_shared<Settings>();
-  Command command{.name = "simulate",
-                  .title = "Drive a vehicle with a damper and a controller over a road",
-                  .description =
-                      "Puts a damper (a model file, a published one, a passive curve, or an ideal "
-                      "one) into a vehicle or a building, a controller with its sensors behind it "
-                      "and a road or an earthquake below, and says how it rides: comfort by ISO "
-                      "2631-1, tyre load, travel, force, energy; after a step how it settles; "
-                      "against the same plant with a passive damper. What cannot be trusted is "
-                      "said: lost contact, stops that were met, a damper asked beyond its data.",
-                  .options = controlled_vehicle_options(settings->vehicle),
-                  .example = std::string(kExample),
-                  .run = [settings](Console& console) { return run(*settings, console); }};
+  Command command{
+      .name = "simulate",
+      .title = "Drive a vehicle with a damper and a controller over a road",
+      .description =
+          "Puts a damper (a model file, a published one, a passive curve, or an ideal one) into a "
+          "vehicle or a building, a controller with its sensors behind it and a road or an "
+          "earthquake below, and reports the ride: comfort by ISO 2631-1, tyre load, travel, "
+          "force, energy; after a step how it settles; against the same plant with a passive "
+          "damper. Warns of what cannot be trusted: lost contact, end stops that were hit, a "
+          "damper used beyond its data.",
+      .options = controlled_vehicle_options(settings->vehicle),
+      .example = std::string(kExample),
+      .run = [settings](Console& console) { return run(*settings, console); }};
 
   // The road below, and the passive vehicle for comparison.
   append(command.options, road_options(settings->road));
@@ -126,10 +127,10 @@ Command simulate_command() {
         .value = "WORDS",
         .default_text = "beside a controller the plant's nominal damping, or half of the current"},
 
-       // How far the result can be trusted.
+       // The limits of trust: the range of the data and the accuracy of the integration.
        {.names = "--outside",
         .target = &settings->allowed_outside,
-        .help = "share of the time that a damper may be outside its data without a warning, %",
+        .help = "share of the time, %, that a damper may be outside its data without a warning",
         .value = "%",
         .minimum = 0},
        {.names = "--tolerance",
@@ -144,7 +145,7 @@ Command simulate_command() {
         .minimum = 0,
         .default_text = "as the tolerance asks"},
 
-       // Where page and traces go.
+       // The files of the results.
        {.names = "-o,--output",
         .target = &settings->results.folder,
         .help = "folder for the page and the traces",
