@@ -74,7 +74,7 @@ void write_tables(const Sweep& result, const fs::path& folder, Console& console)
                 " (also quantiles.csv, ratios.csv, correlations.csv; all in sweep.h5)\n");
 }
 
-/// The request as it ran, beside its results.
+/// Runs the request; each block of rides is kept in the folder of the results as it ends.
 Sweep run_sweep(const SweepRequest& request, const Settings& settings, Console& console) {
   const fs::path file = fs::path(settings.results.folder) / "sweep.sqlite";
   if (settings.results.fresh) Store::remove(file);

@@ -97,7 +97,7 @@ DriverOptions make_driver(const Settings& settings, const Damper& damper) {
   return driver_of(damper, settings.damper, driver);
 }
 
-/// The error in reach, % of span; the whole error where nothing is in reach.
+/// The RMS error in reach, N; that of the whole run where nothing is in reach.
 double error_in_reach(const TrackedScheme& tracked) {
   const TrackReport& r = tracked.report;
   return r.reachable.samples > 0 ? r.reachable.rmse : r.all.rmse;
@@ -219,8 +219,7 @@ int run(const Settings& settings, Console& console) {
 
 /// The motion, and the force that is wanted along it.
 std::vector<Option> task_options(Settings& s) {
-  return {// The wanted force.
-          {.names = "--wanted",
+  return {{.names = "--wanted",
            .target = &s.wanted,
            .help = "wanted force: random within what the damper can give, or a sine",
            .value = "KIND",
