@@ -16,7 +16,7 @@ namespace dashpot {
 namespace {
 
 constexpr std::size_t kSamples = 8000;       // of a fit, every k-th; the states see all
-constexpr std::size_t kTrialSamples = 2500;  // of a trial of a price
+constexpr std::size_t kTrialSamples = 2500;  // of a trial of a weight decay
 constexpr int kIterations = 60, kTrialIterations = 30;
 constexpr double kTolerance = 1e-4;
 constexpr std::array kPrices{1e-1, 1e-2, 1e-3, 1e-4};  // in the mean square of what the law leaves
@@ -36,7 +36,7 @@ HybridData data_of(const LawSolution& law, const HybridPreset& preset,
     data.records.push_back({damper_inputs(record, drive_unit), record.time,
                             record.channel("force").samples, record.warm_up});
   for (const FreeRunRecord& record : data.records) records.push_back(&record);
-  // Where the drive stays, a campaign is a few motions that repeat, and a bank would tell these
+  // With a constant drive a campaign is a few motions that repeat, and a bank would learn these
   // apart.
   if (drive_range(training, drive_unit).varies)
     data.bank = starting_bank({preset.path_states, preset.velocity_lags, preset.current_lags},
@@ -53,8 +53,11 @@ class HybridFit {
         law_(law),
         data_(data_of(law, preset, training, drive_unit, options.offset)),
         all_(all_parts(training)) {
+    // The mixing comes from the signals of the law as its own fit left it.
     const SignalRows rows = residuals(all_, kSamples).signals(law_.solved.x);
     mixing_ = mixing_of(rows);
+
+    // The network at its start: motions mixed to deviation 1, currents over the range of the drive.
     const DriveRange drive = drive_range(training, drive_unit);
     const double half = (drive.high - drive.low) / 2;
     network_.currents = rows.currents;
@@ -62,6 +65,8 @@ class HybridFit {
     network_.signals.resize(rows.width, {.mean = drive.low + half, .scale = half > 0 ? half : 1});
     network_.output_scale = law_.noise.rms;
     network_.initialise(preset.hidden, options_.seed);
+
+    // Few levels leave the current out; the weight decay is then found by trials.
     if (!drive.varies && drive.levels < kFewestLevels) fix_current();
     price_ = best_price(trial_parts(training));
   }
@@ -136,11 +141,12 @@ class HybridFit {
     return mean_square(errors);
   }
 
-  /// The price with which trials foretell best what was held back from them. The law stays where
-  /// its fit on all left it: what the price is about is the network.
+  /// The weight decay with which trials predict best what was held back from them. The law stays
+  /// where its fit on all records left it, for the decay concerns the network alone.
   double best_price(const std::vector<TrialParts>& trials) const {
     std::vector<double> errors(kPrices.size() * trials.size());
     parallel_for(errors.size(), options_.threads, [&](std::size_t k) {
+      // Train the weights with this decay on the trial's training part.
       const TrialParts& trial = trials[k / kPrices.size()];
       const HybridResiduals seen = residuals(trial.training, kTrialSamples);
       const SignalRows rows = seen.signals(law_.solved.x);
@@ -148,11 +154,15 @@ class HybridFit {
           seen.problem(priced(kPrices[k % kPrices.size()], seen), rows);
       const std::vector<double> weights =
           solve(problem, starting_weights(), solver(kTrialIterations)).x;
+
+      // Its error on the part held back, as a share of the untrained network's.
       const HybridResiduals unseen = residuals(trial.held_back, kTrialSamples);
       const SignalRows held_back = unseen.signals(law_.solved.x);
       errors[k] = squared_error(unseen, held_back, weights) /
                   squared_error(unseen, held_back, starting_weights());
     });
+
+    // The decay with the least errors over all trials.
     std::array<double, kPrices.size()> sums{};
     for (std::size_t k = 0; k < errors.size(); ++k) sums[k % kPrices.size()] += errors[k];
     return kPrices[static_cast<std::size_t>(std::min_element(sums.begin(), sums.end()) -
@@ -219,8 +229,8 @@ FitReport fit_hybrid(const HybridPreset& preset, const std::vector<Record>& trai
   report.warnings = law.unknowns.warnings();
   report.warnings.insert(
       report.warnings.begin(),
-      "the parameters of the law share their work with the network: they have no "
-      "intervals, and are not properties of the damper");
+      "the parameters of the law share their work with the network: they have no intervals, and "
+      "are not properties of the damper");
   return report;
 }
 

@@ -34,7 +34,7 @@ SignalPoint standardised(const SignalMixing& mixing, const GatedNetwork& network
 /// Weights: those of the neurons, then of the gates.
 GatedNetwork with_weights(GatedNetwork network, std::span<const double> weights);
 
-/// What stays the same in all fits of a hybrid.
+/// The data and the settings that all fits of a hybrid share.
 struct HybridData {
   LawUnknowns unknowns;
   HysteresisBank bank;

@@ -144,8 +144,7 @@ constexpr std::array kSettings{
     word_setting<&NetworkDesign::schedule, kSchedules>(
         "schedule",
         "of the rate: as it is, to a tenth after each third of the epochs, or down to 0 along a "
-        "cosine, "
-        "which is usual",
+        "cosine, which is usual",
         "constant, step or cosine"),
     count_setting<&NetworkDesign::batch, 1>("batch", "samples of a mini-batch; 20 unless set",
                                             "20"),
@@ -160,8 +159,8 @@ constexpr std::array kSettings{
                                              "3e-4"),
     count_setting<&NetworkDesign::patience, 0>(
         "patience",
-        "epochs without gain on held-back training records after "
-        "which training stops; 0, which is usual: none is held back",
+        "epochs without gain on held-back training records after which training stops; 0, which is "
+        "usual: none is held back",
         "20"),
     count_setting<&NetworkDesign::members, 1, kMaxMembers>("members",
                                                            "networks whose mean is the model", "5"),

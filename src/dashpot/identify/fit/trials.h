@@ -25,7 +25,7 @@ class Trials {
 
   const std::vector<FreeRunTrial>& all() const { return trials_; }
 
-  /// The price with which trials foretell best what was held back: the least sum of
+  /// The weight decay with which trials predict best what was held back: the least sum of
   /// squares_left(trial, price).
   double best_price(
       std::span<const double> prices, int threads,
