@@ -23,12 +23,12 @@ constexpr std::array<double, FamilyGates::kSoftSpeeds> kSoftShares{0.1, 0.3};  /
 // T/A).
 constexpr double kHalfCurrent = 0.65077;
 // The ridge of the other gates, per sample, terms and gates standardised.
-constexpr std::array kPrices{0.003, 0.01, 0.03};
+constexpr std::array kRidges{0.003, 0.01, 0.03};
 // The ridge of gates with geometry in them is greater by one of these factors.
-constexpr std::array kGeometryPrices{3.0, 10.0, 30.0};
+constexpr std::array kGeometryFactors{3.0, 10.0, 30.0};
 constexpr std::size_t kLateStarts = 6;
 constexpr double kLateShare = 1;     // of what runs from rest amid the motion count, beside 1
-constexpr double kBasePrice = 1e-4;  // the ridge of every weight
+constexpr double kBaseRidge = 1e-4;  // the ridge of every weight
 
 /// Sums over one record's samples: F'F, t'F and t't, terms standardised.
 struct RecordSums {
@@ -38,7 +38,7 @@ struct RecordSums {
   std::size_t design = 0, damper = 0;
 };
 
-struct Prices {
+struct Ridge {
   double field = 0, geometry = 0;
 };
 
@@ -143,7 +143,7 @@ class GateSums {
   std::size_t designs() const { return designs_; }
 
   /// The weights W that fit all records but those of this design; with designs() all records.
-  std::vector<double> solve(Prices prices, std::size_t without) const {
+  std::vector<double> solve(Ridge ridge, std::size_t without) const {
     // The normal equations over all other designs.
     const std::size_t n = terms_ * kGates;
     std::vector<double> matrix(n * n), right(n), weights(n);
@@ -160,8 +160,8 @@ class GateSums {
     for (std::size_t u = 0; u < n; ++u) {
       const auto& powers = exponents[u % kGates];
       const bool constant = u % kGates == 0, geometric = powers[2] + powers[3] > 0;
-      const double price = constant ? 0 : prices.field * (geometric ? prices.geometry : 1);
-      matrix[u * n + u] += samples * (kBasePrice + price);
+      const double strength = constant ? 0 : ridge.field * (geometric ? ridge.geometry : 1);
+      matrix[u * n + u] += samples * (kBaseRidge + strength);
     }
 
     if (!solve_positive_definite(matrix, right, weights))
@@ -174,7 +174,7 @@ class GateSums {
     double left = 0;
     for (const RecordSums& r : sums_)
       if (r.design == design) {
-        const auto [across, square] = told(weights, r);
+        const auto [across, square] = predicted(weights, r);
         left += r.energy - 2 * across + square;
       }
     return left;
@@ -186,7 +186,7 @@ class GateSums {
     std::map<std::size_t, std::pair<double, double>> dampers;
     for (const RecordSums& r : sums_)
       if (r.design == design) {
-        const auto [across, square] = told(weights, r);
+        const auto [across, square] = predicted(weights, r);
         dampers[r.damper].first += across;
         dampers[r.damper].second += square;
       }
@@ -255,7 +255,8 @@ class GateSums {
   }
 
   /// The predicted force times the measured one, and times itself, summed over a record.
-  std::pair<double, double> told(const std::vector<double>& weights, const RecordSums& r) const {
+  std::pair<double, double> predicted(const std::vector<double>& weights,
+                                      const RecordSums& r) const {
     std::vector<double> a(terms_);
     for (std::size_t i = 0; i < terms_; ++i)
       for (std::size_t k = 0; k < kGates; ++k) a[i] += weights[i * kGates + k] * r.open[k];
@@ -272,14 +273,14 @@ class GateSums {
 };
 
 /// The ridges with which each design is predicted best from the others.
-Prices best_prices(const GateSums& sums, const Monitor& monitor) {
-  Prices best{kPrices[1], kGeometryPrices[1]};
+Ridge best_ridge(const GateSums& sums, const Monitor& monitor) {
+  Ridge best{kRidges[1], kGeometryFactors[1]};
   if (sums.designs() < 2) return best;
 
   // Try each pair of ridges: each design is predicted from all others.
   double least = INFINITY;
-  for (const double field : kPrices)
-    for (const double geometry : kGeometryPrices) {
+  for (const double field : kRidges)
+    for (const double geometry : kGeometryFactors) {
       monitor.check();
       double left = 0;
       for (std::size_t d = 0; d < sums.designs(); ++d)
@@ -293,11 +294,11 @@ Prices best_prices(const GateSums& sums, const Monitor& monitor) {
 
 /// The root of the mean square of builds' strengths beyond 1, with its interval by Wilson and
 /// Hilferty's approximation of chi squared.
-void add_spread(const GateSums& sums, Prices prices, FamilyGatesFit& fit) {
+void add_spread(const GateSums& sums, Ridge ridge, FamilyGatesFit& fit) {
   // The strengths of the dampers of each design, predicted from all others.
   double square = 0, n = 0;
   for (std::size_t d = 0; sums.designs() > 1 && d < sums.designs(); ++d)
-    for (const double factor : sums.strengths(sums.solve(prices, d), d)) {
+    for (const double factor : sums.strengths(sums.solve(ridge, d), d)) {
       square += (factor - 1) * (factor - 1);
       ++n;
     }
@@ -320,9 +321,9 @@ FamilyGatesFit fit_family_gates(const FamilyPreset& preset,
   FamilyGatesFit fit;
   fit.gates = starting_gates(preset, records);
   const GateSums sums(fit.gates, records);
-  const Prices prices = best_prices(sums, monitor);
-  fit.gates.weights = sums.solve(prices, sums.designs());
-  add_spread(sums, prices, fit);
+  const Ridge ridge = best_ridge(sums, monitor);
+  fit.gates.weights = sums.solve(ridge, sums.designs());
+  add_spread(sums, ridge, fit);
   return fit;
 }
 

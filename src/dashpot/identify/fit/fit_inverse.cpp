@@ -220,7 +220,7 @@ InverseFit fit_inverse(const Dataset& dataset, const LeaveOut& leave_out,
   fit.network.rate_max = options.rate_max;
   fit.training_rmse = taught.training_rmse;
 
-  // What it was trained on, and what that cannot show.
+  // Describe the records of the training, and warn of what they cannot show.
   for (const Record& record : dataset.records) fit.records.push_back(record.name);
   fit.teacher = std::to_string(fit.records.size()) + " records of " + dataset.name;
   fit.domain = dashpot::domain_of(dataset.records, dataset.drive_unit);

@@ -211,13 +211,13 @@ namespace {
 
 /// Weights decay towards their start: decaying towards 0, the neurons would vanish in the first
 /// step, in which the silent gates do not hold them yet, and come back slowly.
-void add_prices(const HybridResiduals::Network& network, std::span<const double> weights,
-                std::span<double> r) {
-  const double price = std::sqrt(network.price);
+void add_decay(const HybridResiduals::Network& network, std::span<const double> weights,
+               std::span<double> r) {
+  const double decay = std::sqrt(network.decay);
   const std::vector<double>&neurons = network.start.neurons, &gates = network.start.gates;
-  for (std::size_t w = 0; w < neurons.size(); ++w) r[w] = price * (weights[w] - neurons[w]);
+  for (std::size_t w = 0; w < neurons.size(); ++w) r[w] = decay * (weights[w] - neurons[w]);
   for (std::size_t w = 0; w < gates.size(); ++w)
-    r[neurons.size() + w] = price * (weights[neurons.size() + w] - gates[w]);
+    r[neurons.size() + w] = decay * (weights[neurons.size() + w] - gates[w]);
 }
 
 /// Adds the weights' bounds to the law's.
@@ -237,7 +237,7 @@ void add_bounds(const HybridResiduals::Network& network, LeastSquaresProblem& pr
 
 LeastSquaresProblem HybridResiduals::problem(const Network& network, const SignalRows& rows) const {
   const std::size_t weights = network.start.parameter_count();
-  const double price = std::sqrt(network.price);
+  const double decay = std::sqrt(network.decay);
 
   // The residuals of the data come first, then one per weight for the weight decay.
   LeastSquaresProblem problem;
@@ -246,7 +246,7 @@ LeastSquaresProblem HybridResiduals::problem(const Network& network, const Signa
 
   // The residuals at given weights; the law's signals stay as they are.
   problem.residual = [=, &rows, this](std::span<const double> x, std::span<double> r) {
-    add_prices(network, x, r.subspan(size_));
+    add_decay(network, x, r.subspan(size_));
     evaluate(network, rows, x, r);
     return true;
   };
@@ -254,11 +254,11 @@ LeastSquaresProblem HybridResiduals::problem(const Network& network, const Signa
   // The same with its columns: the weight decay's part is diagonal, the network's is exact.
   problem.jacobian = [=, &rows, this](std::span<const double> x, std::span<double> r,
                                       std::span<double* const> columns) {
-    add_prices(network, x, r.subspan(size_));
+    add_decay(network, x, r.subspan(size_));
     for (std::size_t w = 0; w < weights; ++w) {
       if (!columns[w]) continue;
       std::fill_n(columns[w] + size_, weights, 0.0);
-      columns[w][size_ + w] = price;
+      columns[w][size_ + w] = decay;
     }
     linearise(network, rows, {}, x, r, columns);
     return true;
@@ -273,7 +273,7 @@ LeastSquaresProblem HybridResiduals::problem(const Network& network,
                     all = own + weights;
   const std::vector<LawUnknowns::PriorTerm> priors =
       noise > 0 ? unknowns_.priors() : std::vector<LawUnknowns::PriorTerm>{};
-  const double price = std::sqrt(network.price);
+  const double decay = std::sqrt(network.decay);
 
   // The residuals of the data come first, then the decay of every unknown, then the priors.
   LeastSquaresProblem problem;
@@ -285,8 +285,8 @@ LeastSquaresProblem HybridResiduals::problem(const Network& network,
   // The residuals that need no simulation: the decay towards the start, and the priors.
   const std::vector<double> start(law_start.begin(), law_start.end());
   const auto add_known = [=, this](std::span<const double> x, std::span<double> r) {
-    for (std::size_t u = 0; u < own; ++u) r[size_ + u] = price * (x[u] - start[u]);
-    add_prices(network, x.subspan(own), r.subspan(size_ + own, weights));
+    for (std::size_t u = 0; u < own; ++u) r[size_ + u] = decay * (x[u] - start[u]);
+    add_decay(network, x.subspan(own), r.subspan(size_ + own, weights));
     for (std::size_t k = 0; k < priors.size(); ++k)
       r[size_ + all + k] = priors[k].residual(x[priors[k].unknown], noise);
   };
@@ -309,7 +309,7 @@ LeastSquaresProblem HybridResiduals::problem(const Network& network,
     for (std::size_t k = 0; k < all; ++k) {
       if (!columns[k]) continue;
       std::fill(columns[k] + size_, columns[k] + r.size(), 0.0);
-      columns[k][size_ + k] = price;
+      columns[k][size_ + k] = decay;
     }
     for (std::size_t k = 0; k < priors.size(); ++k)
       if (double* const column = columns[priors[k].unknown])

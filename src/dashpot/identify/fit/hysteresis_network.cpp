@@ -102,7 +102,7 @@ class HysteresisNetworkFit {
  private:
   /// The weight decay with which trials predict best what was held back from them.
   double best_decay(const Trials& trials) const {
-    return trials.best_price(
+    return trials.best_decay(
         kDecays, options_.threads, [this](const FreeRunTrial& trial, double decay) {
           const Effort effort{decay, std::min(kTrialIterations, iterations_)};
           const HysteresisNetwork found = fit(trial.training, kTrialSamples, effort).network;

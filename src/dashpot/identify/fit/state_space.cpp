@@ -133,7 +133,7 @@ class StateSpaceFit {
 
   double best_decay(const Trials& trials) const {
     const bool lone = trials.all().size() == 1;
-    return trials.best_price(
+    return trials.best_decay(
         kDecays, options_.threads, [this, lone](const FreeRunTrial& trial, double decay) {
           StateSpaceNetwork found =
               from_windows(trial.training, lone ? Effort{decay, kWindowIterations, kWindowSteps}
