@@ -154,9 +154,8 @@ constexpr std::array kSettings{
         "l1", "weight decay by the weights' size, for batch trainers", "1e-5"),
     number_setting<&NetworkDesign::l2, true>(
         "l2",
-        "weight decay by the weights' squares; unless set, batch "
-        "trainers have none and others find it by trials on "
-        "held-back training records",
+        "weight decay by the weights' squares; unless set, batch trainers have none and others find "
+        "it by trials on held-back training records",
         "3e-4"),
     count_setting<&NetworkDesign::patience, 0>(
         "patience",
