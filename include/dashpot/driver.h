@@ -38,7 +38,8 @@ class Driver {
   /// s until the current's course has a corner by itself, at an instant of its own sampling or
   /// where a limited rate ends; infinite where none comes.
   double next_corner(std::span<const double> state) const noexcept;
-  /// Call it at a corner: takes the command that was waiting for a sampling instant.
+  /// Call it at a corner: takes a command that waited for a sampling instant, and ends a rate's
+  /// ramp.
   void meet_corner(std::span<double> state) const noexcept;
   /// Whether the current stays as it is without another command.
   bool is_steady(std::span<const double> state) const noexcept;

@@ -152,11 +152,11 @@ constexpr std::array kSettings{
         "epochs", "epochs (100 unless set), or iterations on all samples, at most", "100"),
     number_setting<&NetworkDesign::l1, true>(
         "l1", "weight decay by the weights' size, for batch trainers", "1e-5"),
-    number_setting<&NetworkDesign::l2, true>(
-        "l2",
-        "weight decay by the weights' squares; unless set, batch trainers have none and others find "
-        "it by trials on held-back training records",
-        "3e-4"),
+    number_setting<&NetworkDesign::l2, true>("l2",
+                                             "weight decay by the weights' squares; unless set, "
+                                             "batch trainers have none and others find "
+                                             "it by trials on held-back training records",
+                                             "3e-4"),
     count_setting<&NetworkDesign::patience, 0>(
         "patience",
         "epochs without gain on held-back training records after which training stops; 0, which is "
