@@ -1,5 +1,11 @@
 // Layer: suspension
 #pragma once
+
+// Control laws of suspensions: from the signals of a plant's struts, once per sample, to a demand
+// on each damper. A program names a law in one text, make_controller() makes it for a plant and its
+// dampers' limits, and simulate() steps it. SI; controllers are immutable, and every state is a
+// flat array of the caller's.
+
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -27,7 +33,8 @@ struct StrutSignals {
 struct DamperDemand {
   enum class Kind { Damping, Force, Current };
   Kind kind = Kind::Damping;
-  double value = 0;  ///< N*s/m within the limits; N, positive when it resists extension; A
+  /// N*s/m within the limits; N, positive when it resists extension; or A (V), as `kind` says.
+  double value = 0;
 };
 
 /// The limits of the dampers behind a controller.
@@ -50,17 +57,20 @@ struct ControlDescription {
 class Controller {
  public:
   virtual ~Controller() = default;
+  /// The length of its state.
   virtual std::size_t state_size() const noexcept { return 0; }
+  /// Writes the state before the first sample.
   virtual void reset(std::span<double>) const noexcept {}
   /// One sample: a demand per strut. plant_state is [q, q'], q counted from where the plant would
   /// rest on the ground as it is; empty where nothing gives it. Allocates nothing.
   virtual void step(std::span<const StrutSignals> struts, std::span<const double> plant_state,
                     std::span<double> state, std::span<DamperDemand> demands) const noexcept = 0;
+  /// The same law as numbers, for its C text; empty where it has none.
   virtual ControlDescription description() const { return {}; }
 };
 using ControllerPointer = std::unique_ptr<const Controller>;
 
-/// Limits and plant that a law is made for.
+/// The limits and the plant that a law is made for, both the caller's.
 struct ControlContext {
   const ControlLimits& limits;
   const Plant& plant;
@@ -75,7 +85,7 @@ struct ControlLaw {
   ControllerPointer (*make)(std::span<const double> values,
                             const ControlContext& context) = nullptr;
 };
-/// In alphabetical order.
+/// All laws in alphabetical order; they live as long as the program.
 std::span<const ControlLaw* const> control_laws();
 /// Throws Error "unknown controller 'skyhok'; did you mean ...".
 const ControlLaw& find_control_law(std::string_view name, const std::string& where = {});
@@ -85,7 +95,7 @@ const ControlLaw& find_control_law(std::string_view name, const std::string& whe
 /// an unknown law or parameter, on a value outside its bounds, on limits that make no sense.
 ControllerPointer make_controller(const std::string& text, const ControlContext& context,
                                   const std::string& where = "controller");
-/// Whether it feeds the plant's state back.
+/// Whether the controller of that text feeds the plant's state back.
 bool needs_plant_state(const std::string& text);
 
 /// The sensors between the plant and its controller. Ideal by default: the laws see the true

@@ -1,5 +1,9 @@
 // Layer: damper
 #pragma once
+
+// The input of every damper model, and the instants of a series of such inputs. SI, extension
+// positive.
+
 #include <cstddef>
 
 namespace dashpot {

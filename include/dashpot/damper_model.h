@@ -1,5 +1,11 @@
 // Layer: damper
 #pragma once
+
+// The damper model that everything else runs: identify() and load_model() make one, and evaluate(),
+// simulate() and the exporters step it. A model is immutable and may be shared by threads; its
+// state is a flat array of state_size() numbers that belongs to the caller. SI, extension positive,
+// a force positive when it resists extension.
+
 #include <memory>
 #include <span>
 #include <string>
@@ -13,17 +19,17 @@
 
 namespace dashpot {
 
-/// What was constant in a test, SI: {"gap", 1e-3} ...
+/// The quantities that were constant in a test, by name, in SI: {"gap", 1e-3} ...
 using Conditions = std::vector<std::pair<std::string, double>>;
 
-/// Where the training data were: outside, the model extrapolates.
+/// The range of the training data; outside it the model extrapolates.
 struct Domain {
   double displacement_min = 0, displacement_max = 0;  ///< m
   double velocity_min = 0, velocity_max = 0;          ///< m/s
   double current_min = 0, current_max = 0;            ///< A or V; spikes at switching left out
 };
 
-/// Where a series of forces is written.
+/// The caller's arrays for a series of forces.
 struct Response {
   double* force;             ///< N, one per sample
   double* spread = nullptr;  ///< N, as DamperModel::spread; null: not asked for
@@ -31,8 +37,7 @@ struct Response {
 
 class LawModel;
 
-/// What a simulation steps. The description is immutable; the state is a flat array of the
-/// caller's.
+/// One damper model of any kind. Every state that its functions take has state_size() numbers.
 class DamperModel {
  public:
   virtual ~DamperModel() = default;
@@ -61,14 +66,13 @@ class DamperModel {
   /// Whether its states follow z' = f(x, v, i, z), as flow() has it, so that an integrator may step
   /// them with the rest of a vehicle.
   virtual bool flows() const noexcept { return state_size() == 0; }
-  /// Of a model that flows: its force at this instant, N, and the rates of its states.
+  /// For a model that flows: the force at this instant, N, and the rates of its states.
   virtual double flow(const DamperInput& input, std::span<const double> state,
                       std::span<double> /*rates*/) const noexcept {
     return force(input, state);
   }
 
-  /// Whether this is the mean of several models, which tell by their spread where they have learnt
-  /// little.
+  /// Whether this is the mean of several models, whose spread shows where they have learnt little.
   virtual bool is_ensemble() const noexcept { return false; }
   /// Standard deviation of their forces at this instant, N; 0 for a single model.
   virtual double spread(const DamperInput& /*input*/,
@@ -81,20 +85,20 @@ class DamperModel {
   /// s between the forces that are fed back; 0: none is.
   virtual double feedback_step() const noexcept { return 0; }
   /// Puts a measured force, N, in the place of the one that the model has just fed back: so the
-  /// next one is told one step ahead, not in free run.
+  /// next one is predicted one step ahead, not in free run.
   virtual void observe(double, std::span<double>) const noexcept {}
 
   /// The force law that this model is or has inside; null where it has none.
   virtual const LawModel* law_inside() const noexcept { return nullptr; }
 
-  /// The same model giving force + offset.
+  /// The same model with this offset, N, added to its force.
   virtual std::unique_ptr<DamperModel> with_offset(double newton) const = 0;
   /// The model of the damper that these conditions describe; null where they say nothing to this
   /// model, as to any model of one damper. Throws Error at conditions that cannot be.
   virtual std::shared_ptr<const DamperModel> specialised(const Conditions&) const {
     return nullptr;
   }
-  /// In what this damper lies outside those that its model was fitted on, in words.
+  /// In words, each quantity in which this damper lies outside those that its model was fitted on.
   virtual std::vector<std::string> extrapolations() const { return {}; }
   /// The kind's own part of a model file.
   virtual Value to_json() const = 0;
@@ -112,20 +116,20 @@ const Model* model_as(const DamperModel& model) {
 struct ForceBand {
   double level = 0.9;       ///< share of samples that it claims to cover
   std::size_t records = 0;  ///< left-out records, or parts of them, that its width comes from
-  std::vector<double>
-      speeds;  ///< m/s, ascending: |v| where one band of speed ends and the next begins
+  /// m/s, ascending: |v| where one band of speed ends and the next begins.
+  std::vector<double> speeds;
   std::vector<double> drives;      ///< A or V, ascending: the knots, at least one
   std::vector<double> half_width;  ///< N, one row per band of speed, one column per knot
 
   double spread = 0;  ///< times the members' spread, N, is added in quadrature
 
-  /// `members_spread`: DamperModel::spread of the model there.
+  /// Half the width at this input, N. `members_spread`: DamperModel::spread of the model there.
   double half_width_at(const DamperInput& input, double members_spread = 0) const noexcept;
   /// The same shape, `factor` times as wide.
   ForceBand scaled(double factor) const;
 };
 
-/// Where a model comes from.
+/// The origin of a model: the command that made it, and its data.
 struct Provenance {
   std::string created;  ///< ISO 8601, UTC
   std::string command;  ///< the command line that makes it again

@@ -1,5 +1,9 @@
 // Layer: record
 #pragma once
+
+// Recordings, read: files and folders become one Dataset in SI and Dashpot's signs, with a
+// statement of how each column was understood. A program begins here with load_dataset().
+
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -28,13 +32,13 @@ struct SourceFile {
   std::string sha256;
 };
 
-/// A file that gave no record, and why.
+/// A file that gave no record, and the reason.
 struct PassedOver {
   std::string file, why;
 };
 
 /// How records are left out to judge a model: always whole stretches of time, never samples picked
-/// at random, since neighbouring samples of a recording know each other.
+/// at random, since neighbouring samples of a recording are nearly the same.
 struct LeaveOut {
   enum class By {
     Condition,  ///< one motion after the other
@@ -69,7 +73,7 @@ struct Dataset {
   std::vector<SourceFile> files;
   std::vector<ColumnReading> readings;
   std::vector<PassedOver> passed_over;
-  std::vector<std::string> notes;     ///< what was inferred or assumed, in words
+  std::vector<std::string> notes;     ///< inferences and assumptions, in words
   std::optional<LeaveOut> leave_out;  ///< stated in the dataset file
 };
 
@@ -92,7 +96,7 @@ struct LoadOptions {
 Dataset load_dataset(const std::vector<std::filesystem::path>& paths,
                      const LoadOptions& options = {});
 
-/// The table of what was understood, for people: one line per column, then per record.
+/// The readings as a table for people: one line per column, then one per record.
 std::string describe(const Dataset& dataset);
 
 }  // namespace dashpot

@@ -1,5 +1,8 @@
 // Layer: base
 #pragma once
+
+// The quantity that drives a damper's coil, as a type: a current or a voltage.
+
 #include <string>
 #include <string_view>
 

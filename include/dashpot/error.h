@@ -1,5 +1,10 @@
 // Layer: base
 #pragma once
+
+// The two exceptions that Dashpot throws: at input that cannot be used, and when the caller stops
+// long work. An expected numerical outcome, such as a fit that does not converge, is a status in a
+// report instead.
+
 #include <stdexcept>
 #include <string>
 

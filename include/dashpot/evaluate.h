@@ -1,5 +1,10 @@
 // Layer: identify
 #pragma once
+
+// Judging a model on records: it runs free, seeing motion and drive only, and its force is compared
+// with the measured one. The same figures, with the same names, stand in every report. Models and
+// records stay the caller's.
+
 #include <cstddef>
 #include <optional>
 #include <span>
@@ -23,7 +28,7 @@ struct ErrorSums {
   void add(const ErrorSums& other);
 };
 
-/// MODELS.md 11; every figure by its name.
+/// The errors of a model, every figure by its name (MODELS.md 11).
 struct Metrics {
   std::size_t samples = 0;
   double rmse = 0;           ///< N
@@ -49,7 +54,7 @@ double dissipated_energy(std::span<const double> time, std::span<const double> v
 /// A record without displacement gives 0 there.
 std::vector<DamperInput> damper_inputs(const Record& record, DriveUnit drive_unit);
 
-/// Where the drive of these records lies, A or V: all of it when it is constant in each, else the
+/// The range of the drive of these records, A or V: all of it when it is constant in each, else the
 /// middle 99 % of its samples, so that spikes at switching do not stretch the range.
 struct DriveRange {
   double low = 0, high = 0;
@@ -58,7 +63,7 @@ struct DriveRange {
 };
 DriveRange drive_range(const std::vector<Record>& records, DriveUnit drive_unit);
 
-/// Where motion and drive of these records lie.
+/// The range of motion and drive of these records.
 Domain domain_of(const std::vector<Record>& records, DriveUnit drive_unit);
 
 /// Force over a record in free run: the model sees motion and current only. From rest at the first
@@ -78,7 +83,7 @@ enum class OffsetMode {
   None     ///< the model's own bias must do
 };
 
-/// What a band covers of the scored samples.
+/// The share of the scored samples that a band covers, and its width.
 struct Coverage {
   std::size_t samples = 0, inside = 0;
   double width = 0;                     ///< N, sum over the samples
@@ -99,10 +104,9 @@ struct RecordResult {
   Metrics metrics;                 ///< with the offset
   Metrics metrics_without_offset;  ///< the model as it stands in its file
   ErrorSums sums, sums_without_offset;
-  std::vector<std::string>
-      extrapolations;  ///< as DamperModel has them, of the model on this record
-  ErrorSums
-      one_step;  ///< with measured forces fed back; without samples: the model feeds none back
+  std::vector<std::string> extrapolations;  ///< DamperModel::extrapolations of the model there
+  /// With measured forces fed back; without samples where the model feeds none back.
+  ErrorSums one_step;
   double energy_error = 0;  ///< %, of the energy dissipated per record
   std::optional<double> diverged_at;
   std::optional<ForceBand> band;  ///< around the modelled force
@@ -112,6 +116,7 @@ struct RecordResult {
   double spread_at(std::size_t sample) const { return spread.empty() ? 0 : spread[sample]; }
 };
 
+/// The samples in one band of speed.
 struct BandResult {
   std::string name;          ///< "|v| < 5 % of max (pre-yield)"
   double low = 0, high = 0;  ///< m/s
@@ -125,12 +130,13 @@ struct DriveResult {
   Metrics metrics;
 };
 
+/// A model on all records of an evaluation.
 struct Evaluation {
   std::vector<RecordResult> records;
   Metrics pooled;  ///< all samples of all scored records
   Metrics pooled_without_offset;
-  std::optional<Metrics>
-      one_step;          ///< of a model that feeds its force back, measured ones fed back: no judge
+  /// Of a model that feeds its force back, with measured forces fed back: no measure of its worth.
+  std::optional<Metrics> one_step;
   double worst_esr = 0;  ///< %, worst record
   std::string worst_record;
   double mean_esr = 0;             ///< %, mean over the records
@@ -138,12 +144,12 @@ struct Evaluation {
   std::vector<BandResult> bands;   ///< by |v|: pre-yield, low, middle, high
   std::vector<DriveResult> drive;  ///< by drive, ascending
   Coverage coverage;               ///< of the records' bands; without samples: none has a band
-  const RecordResult* worst_covered()
-      const;  ///< the record with the least coverage; none without bands
+  /// The record with the least coverage; null without bands. Points into `records`.
+  const RecordResult* worst_covered() const;
   std::size_t diverged = 0;
 };
 
-/// What became of a model that was driven beyond its data.
+/// The outcome of driving a model beyond its data.
 struct StressRun {
   double seconds = 0;        ///< simulated; 0: not run
   bool finite = false;       ///< the force was a number all along
@@ -151,14 +157,16 @@ struct StressRun {
   bool is_bounded() const;   ///< finite, and within kStressSpans spans
 };
 
-/// Free run over each record, scored from its warm-up on. Records whose `offset` is preset (by
-/// name) keep it: an offset learnt on the training part of a record serves its left-out part.
+/// How evaluate() treats offsets and bands. Records whose offset is known, by name, keep it: an
+/// offset learnt on the training part of a record serves its left-out part.
 struct EvaluateOptions {
   OffsetMode offset = OffsetMode::Record;
   std::vector<std::pair<std::string, double>> known_offsets;
   std::optional<ForceBand> band = std::nullopt;  ///< to be judged too
-  int threads = 0;
+  int threads = 0;                               ///< 0: as many as the machine has
 };
+/// Runs the model freely over each record, from rest, and scores it from the record's warm-up on.
+/// Throws Error where a record lacks a channel that the model needs.
 Evaluation evaluate(const DamperModel& model, const std::vector<Record>& records,
                     DriveUnit drive_unit, const EvaluateOptions& options = {});
 

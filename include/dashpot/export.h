@@ -1,5 +1,9 @@
 // Layer: export
 #pragma once
+
+// Models, inverses and controllers as files for other programs: C, FMU, ONNX, tables and more. An
+// exporter gives names and contents of its files and writes none itself; the caller saves them.
+
 #include <functional>
 #include <memory>
 #include <optional>
@@ -17,7 +21,7 @@ namespace dashpot {
 /// The numbers in which exported code computes.
 enum class CPrecision { Double, Single };
 
-/// A model with what an export says of it.
+/// A model, which must outlive this, with the facts that its export states.
 struct ExportedModel {
   const DamperModel& model;
   DriveUnit drive_unit = DriveUnit::Ampere;
@@ -52,7 +56,7 @@ using CBlockMaker = std::function<CBlock(const ExportOptions&)>;
 /// The controller of a vehicle. The block throws Error where there is none, or one without C text.
 CBlockMaker controller_block(std::shared_ptr<const Vehicle> vehicle);
 
-/// One thing that a model can become.
+/// One form that a model can be exported to.
 struct Exporter {
   std::string_view name, title;
   std::string_view takes;  ///< which models, in words
@@ -64,21 +68,22 @@ struct Exporter {
                                            const ExportOptions& options) = nullptr;
 };
 
-/// All of them, in alphabetical order.
+/// All exporters in alphabetical order; they live as long as the program.
 std::span<const Exporter> exporters();
 /// Throws Error "unknown format 'x'; did you mean ...".
 const Exporter& find_exporter(std::string_view name, const std::string& where = {});
 
-/// As make has it: $CC, or cc.
+/// The C compiler as make has it: $CC, or cc.
 std::string usual_compiler();
 
-/// s between two steps: as asked for, the model's own where it has one, that of its data, or 1 ms.
+/// The time between two steps, s: as asked for, else the model's own, else that of its data, else
+/// 1 ms.
 /// Throws Error where it is not a positive number.
 double export_sample_time(const ExportedModel& model, const ExportOptions& options);
-/// The name, or one made of the model's. Throws Error where it is none in C.
+/// The name of the options, or one made from the model's. Throws Error where it is no name in C.
 std::string export_name(const ExportedModel& model, const ExportOptions& options);
 
-/// The same. Throws Error where it is no name in C.
+/// The name unchanged. Throws Error where it is no name in C.
 std::string c_name(const std::string& name);
 
 }  // namespace dashpot

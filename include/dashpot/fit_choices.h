@@ -1,5 +1,10 @@
 // Layer: damper
 #pragma once
+
+// A user's choices about a fit: parameters of a law that are fixed, freed, bounded or known
+// beforehand, and how a network is built and trained. What stays empty is as the law's table or the
+// preset has it. SI.
+
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -14,7 +19,7 @@ namespace dashpot {
 ///   Exponential p_b + (p_a - p_b) exp(-p_c i): from p_a without current to p_b in saturation.
 enum class Form { Constant, Linear, Quadratic, Cubic, Exponential };
 
-/// What is known of a parameter before the fit: a normal distribution, at every current.
+/// Knowledge of a parameter before the fit: a normal distribution, at every current.
 struct Prior {
   double value = 0, deviation = 0;  ///< SI
 };
@@ -23,7 +28,7 @@ struct ParameterBounds {
   double lower = 0, upper = 0;  ///< SI
 };
 
-/// What a user decides about one parameter of a fit.
+/// A user's decision about one parameter of a fit.
 struct ParameterChoice {
   std::string law;  ///< the law or hybrid meant; empty: every one that has the parameter
   std::string parameter;
@@ -43,7 +48,7 @@ enum class RateSchedule { Constant, Step, Cosine };
 /// How a network learns: second-order on all samples, or descent on small batches.
 enum class Trainer { LevenbergMarquardt, Bayesian, Lbfgs, Sgd, Momentum, RmsProp, Adam, AdamW };
 
-/// What a network with fed-back outputs sees of them while it learns: the measured force, or its
+/// The force that a network with fed-back outputs sees while it learns: the measured one, or its
 /// own as in use.
 enum class FeedbackTraining { SeriesParallel, FreeRun };
 
@@ -60,17 +65,17 @@ struct NetworkDesign {
   std::optional<RateSchedule> schedule;
   std::optional<std::size_t> batch;
   std::optional<std::size_t> epochs;  ///< or iterations of a second-order trainer, at most
-  std::optional<double> l1,
-      l2;  ///< prices of weights, standardised, the mean squared error being 1
-  std::optional<std::size_t>
-      patience;  ///< epochs without gain on held-back training records; 0: to the end
+  /// Weight decay by size and by square, standardised, the mean squared error being 1.
+  std::optional<double> l1, l2;
+  /// Epochs without gain on held-back training records after which training stops; 0: to the end.
+  std::optional<std::size_t> patience;
   std::optional<std::size_t> members;   ///< networks whose mean is the model
   std::optional<std::size_t> delays;    ///< past samples of each input
   std::optional<std::size_t> feedback;  ///< past outputs fed back
   std::optional<std::size_t> spacing;   ///< samples from one past value to the next
   std::optional<FeedbackTraining> training;
-  std::optional<std::size_t>
-      window;  ///< steps in free run from a measured force on; 0: whole records
+  /// Steps in free run from a measured force on; 0: whole records.
+  std::optional<std::size_t> window;
   std::optional<OutputRange> output;
 
   bool operator==(const NetworkDesign&) const = default;

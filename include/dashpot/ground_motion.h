@@ -1,5 +1,9 @@
 // Layer: suspension
 #pragma once
+
+// The ground under a plant: a road as the tyres meet it, or ground that shakes. simulate() asks it
+// for heights; make_ground() makes it from a text. SI, z up.
+
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -20,10 +24,10 @@ class GroundMotion {
  public:
   virtual ~GroundMotion() = default;
   virtual std::string description() const = 0;  ///< "iso8608: class C, speed 20 m/s, ..."
-  /// s, from when on it only repeats or stays.
+  /// The time, s, from which on it only repeats or stays.
   virtual double duration() const noexcept { return std::numeric_limits<double>::infinity(); }
-  /// Under a tyre on `track` (0 left or only, 1 right), `behind` metres behind the first axle, at t
-  /// s.
+  /// The motion under a tyre on `track` (0 left or only, 1 right), `behind` metres behind the first
+  /// axle, at t seconds.
   virtual FootMotion foot(double t, std::size_t track, double behind) const noexcept = 0;
   /// The same at t, t + step, ... `out` holds how many.
   virtual void feet(double t, double step, std::size_t track, double behind,
@@ -31,13 +35,13 @@ class GroundMotion {
     for (std::size_t k = 0; k < out.size(); ++k)
       out[k] = foot(t + step * static_cast<double>(k), track, behind);
   }
-  /// m/s^2, of the ground, at t s.
+  /// The acceleration of the ground, m/s^2, at t seconds.
   virtual double acceleration(double) const noexcept { return 0; }
   /// Whether it is an acceleration, which plants without tyres ask for, and not a height.
   virtual bool shakes() const noexcept { return false; }
   /// Whether it is alike all along, a road or a sine: its start may be left out of measures.
   virtual bool is_steady() const noexcept { return false; }
-  /// m/s along the road; 0: its height is one of time, and all tyres meet it at once.
+  /// The speed along the road, m/s; 0: its height is one of time, and all tyres meet it at once.
   virtual double speed() const noexcept { return 0; }
   /// Instants at which a height under a tyre that far behind jumps; foot() gives what is after it.
   virtual std::vector<double> jumps(double) const { return {}; }

@@ -1,5 +1,10 @@
 // Layer: identify
 #pragma once
+
+// Fitting one model to records. identify() takes a model's name and gives a FitReport with the
+// model, its parameters and their intervals; rank() in rank.h does it for several models and judges
+// them on records that they have not seen.
+
 #include <memory>
 #include <string>
 #include <vector>
@@ -12,14 +17,15 @@
 
 namespace dashpot {
 
+/// How identify() fits a model. The same options and data give the same bits for any `threads`.
 struct IdentifyOptions {
   OffsetMode offset = OffsetMode::Record;
   std::vector<ParameterChoice> choices;  ///< laws only
   NetworkDesign network;                 ///< networks only
-  int starts = 4;
+  int starts = 4;                        ///< of which the best is taken
   int search = 0;  ///< evaluations of a global search that gives one more start; 0: none
   std::uint64_t seed = 1;
-  int threads = 0;
+  int threads = 0;  ///< 0: as many as the machine has
   Monitor monitor;
 };
 
@@ -33,14 +39,15 @@ struct FittedParameter {
   bool weak = false;  ///< cannot be told from these data; the message says with what
 };
 
+/// The outcome of a fit. Where it failed there is no model, and `message` says why.
 struct FitReport {
   enum class Status { Converged, IterationLimit, Failed };
   Status status = Status::Failed;
   std::string message;
   std::shared_ptr<const DamperModel> model;  ///< with the mean record offset as its bias
   std::vector<FittedParameter> parameters;
-  std::vector<std::pair<std::string, double>>
-      offsets;                        ///< N, per training record, beyond the model's bias
+  /// N, per training record, beyond the model's bias.
+  std::vector<std::pair<std::string, double>> offsets;
   std::vector<std::string> warnings;  ///< identifiability, bounds, divergence, in words
   int iterations = 0;
   double seconds = 0;        ///< CPU time

@@ -1,5 +1,9 @@
 // Layer: damper
 #pragma once
+
+// Model files: a model in versioned JSON, with its units, the domain of its data and where it comes
+// from. Files of earlier versions are read too.
+
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -19,15 +23,17 @@ struct ModelFile {
   double sample_time = 0;  ///< s, of the training data; 0 when mixed
   Domain domain;
   Provenance provenance;
-  Value
-      quality;  ///< figures on training and left-out data, as the report printed them; may be null
-  std::optional<ForceBand>
-      interval;  ///< around the force, where it could be told from left-out records
+  Value quality;  ///< the report's figures on training and left-out data; may be null
+  /// Around the force, where left-out records allow one.
+  std::optional<ForceBand> interval;
 };
 
-/// Throws Error with file and key on anything unknown, missing or out of bounds.
+/// Reads a model file. Throws Error with file and key on anything unknown, missing or out of
+/// bounds.
 ModelFile load_model(const std::filesystem::path& path);
+/// Writes a model file in place of any that stands there. Throws Error where it cannot.
 void save_model(const ModelFile& file, const std::filesystem::path& path);
+/// The same from and to a text; `source` stands in messages.
 ModelFile parse_model(std::string_view text, const std::string& source);
 std::string format_model(const ModelFile& file);
 

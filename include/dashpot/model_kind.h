@@ -1,5 +1,8 @@
 // Layer: damper
 #pragma once
+
+// The kinds of models, and the rule that holds every layer's table of kinds complete.
+
 #include <array>
 #include <cstddef>
 #include <string>

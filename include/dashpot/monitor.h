@@ -1,5 +1,8 @@
 // Layer: base
 #pragma once
+
+// How the caller of long work follows it and stops it.
+
 #include <atomic>
 #include <functional>
 #include <string>
@@ -12,10 +15,10 @@ struct Progress {
   double fraction = 0;  ///< of the whole job, 0...1
 };
 
-/// What long work talks to: it reports through it and is stopped by it. Safe from several threads.
+/// Long work reports through a monitor and is stopped by it. Safe from several threads.
 struct Monitor {
-  std::function<void(const Progress&)>
-      on_progress;                          ///< may be empty; called from one thread at a time
+  /// May be empty; called from one thread at a time.
+  std::function<void(const Progress&)> on_progress;
   const std::atomic<bool>* stop = nullptr;  ///< set by a signal handler, say
 
   /// Reports, and throws Interrupted when `stop` is set.

@@ -1,5 +1,9 @@
 // Layer: suspension
 #pragma once
+
+// A damper in the strut of a plant, with the coil's driver, the inverse and the force loop that
+// turn a controller's demand into a current. Models and inverses are shared, never changed. SI.
+
 #include <memory>
 
 #include "dashpot/damper_model.h"
@@ -22,8 +26,8 @@ struct ForceLoop {
 struct MountedDamper {
   std::shared_ptr<const DamperModel> model;
   DriverOptions driver;
-  /// Wanted force -> current. Without it damping is mapped in a straight line onto the driver's
-  /// currents, and a force is that damping which gives it at this speed.
+  /// From a wanted force to a current. Without it damping is mapped in a straight line onto the
+  /// driver's currents, and a force is that damping which gives it at this speed.
   std::shared_ptr<const InverseModel> inverse;
   ForceLoop loop;
   double current = 0;  ///< A, commanded where there is no controller

@@ -1,5 +1,9 @@
 // Layer: base
 #pragma once
+
+// Tables of parameters: one row for each number that a plant, a road, a controller or an excitation
+// takes. Defaults, bounds, help and the parsing of texts all come from the row. SI.
+
 #include <cstring>
 #include <span>
 #include <string>
@@ -9,7 +13,7 @@
 
 namespace dashpot {
 
-/// One row of the table of what a sequence, a plant, a controller or a road can be told. SI.
+/// One parameter of a sequence, a plant, a controller or a road.
 struct ParameterRow {
   std::string_view name, unit;
   double value = 0, lower = 0, upper = 0;  ///< default and bounds
@@ -21,17 +25,21 @@ using ParameterTable = std::span<const ParameterRow>;
 /// Values by name, SI.
 using NamedValues = std::vector<std::pair<std::string, double>>;
 
+/// The default of each row, in the order of the table.
 std::vector<double> default_values(ParameterTable table);
 
-/// The row's place. Throws Error(where, "AM has no parameter 'amplitud'", ...), `owner` being AM.
+/// The place of the row of that name. Throws Error(where, "AM has no parameter 'amplitud'", ...),
+/// `owner` being AM.
 std::size_t row_named(ParameterTable table, std::string_view name, std::string_view owner,
                       const std::string& where);
-/// The value. Throws Error(where, "amplitude is 3 m", "between 0 and 1") outside the row's bounds.
+/// The value unchanged. Throws Error(where, "amplitude is 3 m", "between 0 and 1") outside the
+/// row's bounds.
 double checked(const ParameterRow& row, double value, const std::string& where);
 /// "4mm", "4 mm" or "0.004", which is in the row's unit, checked.
 double parse_value(const ParameterRow& row, std::string_view text, const std::string& where);
 
-/// Defaults with these in their places, checked; likewise from texts "amplitude=4mm".
+/// The defaults with these values in their places, checked; likewise from texts "amplitude=4mm".
+/// Throws Error(where, ...) as row_named() and checked() do.
 std::vector<double> with_values(ParameterTable table, const NamedValues& values,
                                 std::string_view owner, const std::string& where);
 std::vector<double> parse_values(ParameterTable table, std::span<const std::string> texts,

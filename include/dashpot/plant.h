@@ -1,5 +1,10 @@
 // Layer: suspension
 #pragma once
+
+// Vehicles and structures as linear mechanics: masses and springs with tyres on the ground and
+// struts for dampers. A plant comes from a kind with its parameters, or from a set that ships with
+// Dashpot. SI, z up; a row has one value per coordinate, a matrix n x n stands row by row.
+
 #include <cstddef>
 #include <optional>
 #include <span>
@@ -18,7 +23,7 @@ struct Coordinate {
   std::string name, unit;  ///< "body", "m"; "pitch", "rad"
 };
 
-/// row . q of a row with one value per coordinate.
+/// The product row . q, row and q with one value per coordinate.
 inline double along(const std::vector<double>& row, const double* q) noexcept {
   double sum = 0;
   for (std::size_t k = 0; k < row.size(); ++k) sum += row[k] * q[k];
@@ -31,7 +36,7 @@ struct PlantPoint {
   std::vector<double> row;  ///< one value per coordinate
 };
 
-/// Between ground and plant: pushes by k (z_r - row . q) + c (its rate).
+/// A tyre between ground and plant; it pushes by k (z_r - row . q) + c (its rate).
 struct Tyre {
   std::string name;
   std::vector<double> row;  ///< of the wheel's height
@@ -82,7 +87,7 @@ struct PlantModel {
   /// values: one per row of the table, within its bounds.
   Plant (*make)(std::span<const double> values) = nullptr;
 };
-/// Every kind, in alphabetical order.
+/// Every kind in alphabetical order; they live as long as the program.
 std::span<const PlantModel* const> plant_models();
 /// Throws Error "unknown plant 'quartercar'; did you mean ...".
 const PlantModel& find_plant_model(std::string_view name, const std::string& where = {});

@@ -1,5 +1,10 @@
 // Layer: identify
 #pragma once
+
+// The whole judgement of models on a dataset: each is fitted on every fold, judged on the records
+// left out of it, fitted once more on all, and put in order. The model of each is ready to be
+// saved.
+
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -29,6 +34,7 @@ struct RankedModel {
   StressRun stress;                 ///< the final model, beyond its domain
 };
 
+/// Models in order of their error on left-out records.
 struct Ranking {
   LeaveOut leave_out;
   std::vector<std::string> folds;   ///< their names
@@ -48,8 +54,8 @@ Ranking rank(const std::vector<std::string>& models, const Dataset& dataset,
 /// The origin of a model that this command made from these records of the dataset.
 Provenance provenance_of(const Dataset& dataset, std::vector<std::string> records,
                          const std::string& command);
-/// The model as a file, with domain and provenance taken from the records. Throws Error when the
-/// fit failed.
+/// The ranked model as a file, with domain and provenance taken from the records. Throws Error when
+/// the fit failed.
 ModelFile to_model_file(const RankedModel& ranked, const Dataset& dataset,
                         const std::string& command);
 

@@ -1,5 +1,9 @@
 // Layer: record
 #pragma once
+
+// One recording of a test run: channels on a common time base, in SI. Records are values: copies
+// and slices own their samples.
+
 #include <optional>
 #include <span>
 #include <string>
@@ -25,6 +29,7 @@ struct Channel {
   std::string origin;  ///< "column x_mm, mm -> m" or "derived from displacement, 30 Hz zero-phase"
 };
 
+/// The part of a record in a division that its dataset file states.
 enum class Role { Unassigned, Training, LeftOut };
 
 /// One test run: channels on one time base, with its conditions and its source. Invariant: `time`
@@ -34,7 +39,8 @@ struct Record {
   std::string source;     ///< file, and the part of it: "ME5mm3Hz.txt.gz, rows 9308-17607"
   std::string condition;  ///< the motion: records at several currents under one motion share it
   std::optional<double> drive_level;  ///< A or V when it is constant over the record
-  /// What else was constant, in SI: gap m, yield_stress Pa, viscosity Pa*s, temperature K ...
+  /// The other constant quantities, in SI: gap m, yield_stress Pa, viscosity Pa*s, temperature K
+  /// ...
   std::vector<std::pair<std::string, double>> conditions;
   std::vector<double> time;  ///< s, increasing, one per sample
   double sample_time = 0;    ///< s when uniformly sampled, else 0
@@ -52,7 +58,7 @@ struct Record {
   /// Samples first ... last-1 of every channel, as a record of its own. Both are cut off at size().
   /// The warm-up is what is left of it behind `first`.
   Record slice(std::size_t first, std::size_t last) const;
-  /// Becomes that slice, in the memory that it has.
+  /// Becomes that slice, without new memory.
   void keep(std::size_t first, std::size_t last);
 };
 

@@ -1,5 +1,9 @@
 // Layer: suspension
 #pragma once
+
+// A plant on its ground, with dampers and perhaps a controller, over time. simulate() gives a
+// Trace, whose record is a Record like any measured one. SI.
+
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,6 +17,7 @@
 
 namespace dashpot {
 
+/// How long and how exactly simulate() runs, and the sensors and limits of the controller.
 struct SimulateOptions {
   double duration = 10;    ///< s
   double output_step = 0;  ///< s, of the trace; 0: the controller's sample time, or 1 ms
@@ -33,7 +38,7 @@ struct Setting {
   const Controller* controller = nullptr;  ///< null: each damper keeps its current
 };
 
-/// Everything that happened, as a record: per coordinate q, q' and q''; per point its height and
+/// The outcome of a simulation, as a record: per coordinate q, q' and q''; per point its height and
 /// acceleration; per strut deflection, velocity, force, current, command; per tyre road height,
 /// deflection, load. "body", "body_velocity", "body_acceleration", "suspension_force", "tyre_load"
 /// ...
@@ -49,11 +54,11 @@ struct Trace {
 /// Throws Error where the parts do not fit together.
 void require_fitting(const Setting& setting, const SimulateOptions& options);
 
-/// From rest on the ground as it is at t = 0. Samples of the controller, instants of the output and
-/// jumps of the ground are met exactly. Between them plant and dampers are integrated as one system
-/// with the error controlled, where every model's states have rates (DamperModel::flows); else, and
-/// with fixed steps, the linear part moves exactly under forces that are parabolas within a step.
-/// Throws Error as require_fitting().
+/// Runs the setting from rest on the ground as it is at t = 0. Samples of the controller, instants
+/// of the output and jumps of the ground are met exactly. Between them plant and dampers are
+/// integrated as one system with the error controlled, where every model's states have rates
+/// (DamperModel::flows); else, and with fixed steps, the linear part moves exactly under forces
+/// that are parabolas within a step. Throws Error as require_fitting().
 Trace simulate(const Setting& setting, const SimulateOptions& options);
 
 }  // namespace dashpot

@@ -1,5 +1,8 @@
 // Layer: record
 #pragma once
+
+// Division of a dataset into folds: records to fit a model on, and records to judge it on.
+
 #include <string>
 #include <vector>
 
@@ -15,8 +18,8 @@ struct Fold {
   std::vector<Record> left_out;  ///< judged from `warm_up` on
 };
 
-/// What the dataset file states; else the strictest way that the records allow: by condition,
-/// current, record, or the end of the only one.
+/// The way that the dataset file states; else the strictest one that the records allow: by
+/// condition, current, record, or the end of the only one.
 LeaveOut default_leave_out(const Dataset& dataset);
 
 /// The folds of a dataset, in the order of its records or of the values asked for. Throws Error

@@ -1,5 +1,9 @@
 // Layer: base
 #pragma once
+
+// A tree of JSON or YAML, and the reading of its objects key by key with errors that name file and
+// key. Values own their contents.
+
 #include <initializer_list>
 #include <optional>
 #include <string>

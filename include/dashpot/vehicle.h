@@ -1,5 +1,9 @@
 // Layer: suspension
 #pragma once
+
+// A plant with its dampers, made from words such as those of the command line. A Vehicle owns all
+// that simulate() refers to, and must outlive the Settings it gives.
+
 #include <optional>
 #include <string>
 #include <vector>
@@ -32,7 +36,7 @@ struct VehicleWords {
   std::string where = "vehicle";  ///< stands in messages
 };
 
-/// The same as things: owns all that simulate() refers to.
+/// The vehicle that these words describe.
 struct Vehicle {
   PlantSet set;
   std::vector<MountedDamper> dampers;          ///< one per strut
@@ -46,18 +50,19 @@ struct Vehicle {
   SensorOptions sensors;
   std::vector<std::string> notes;  ///< "the numbers of ... are an example: ..."
 
+  /// This vehicle on a ground, which must outlive the setting.
   Setting on(const GroundMotion& ground) const {
     return {set.plant, dampers, ground, controller.get()};
   }
-  /// The rest of what simulate() must know to run it for that long.
+  /// Options of simulate() for a run of that many seconds, with this vehicle's sensors and limits.
   SimulateOptions options(double duration) const;
 };
 
-/// Its plant alone, with the values that stand in place of the plant's.
+/// The plant of these words alone, with their values in place of its own.
 PlantSet load_plant(const VehicleWords& words);
 
-/// Throws Error(where, ...) at a word that nothing is known by, at a value outside its bounds, at
-/// parts that do not fit together.
+/// Makes the vehicle. Throws Error(where, ...) at a word that names nothing, at a value outside its
+/// bounds, at parts that do not fit together.
 Vehicle make_vehicle(const VehicleWords& words);
 
 }  // namespace dashpot

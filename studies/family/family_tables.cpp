@@ -235,7 +235,7 @@ DocumentSection left_out_section(const FamilyStudy& study) {
         "memory in place of the displacement and little freedom in geometry; the others are the "
         "paper's "
         "network "
-        "as 'dashpot identify' trains it, with a price of weights.");
+        "as 'dashpot identify' trains it, with weight decay.");
   if (std::string remark = raw_inputs_remark(study); !remark.empty())
     section.remarks.push_back(std::move(remark));
   return section;

@@ -229,7 +229,7 @@ DocumentSection architecture_section(const FamilyStudy& study) {
 
 DocumentSection penalty_section(const FamilyStudy& study) {
   DocumentSection section{"figure-11", "Figure 11: L2 regularisation", {}};
-  DocumentTable table{"h3x15 with a price on squared weights",
+  DocumentTable table{"h3x15 with weight decay",
                       {{"L2", true},
                        {"Learnt from: MAE N", true},
                        {"R2", true},

@@ -27,6 +27,8 @@ void settle_offsets(FitReport& report, const std::vector<Record>& training, Driv
   if (options.offset == OffsetMode::None) return;
   const Evaluation on_training =
       evaluate(*report.model, training, drive_unit, {.threads = options.threads});
+
+  // The mean of the records' offsets becomes the model's bias; each record keeps its difference.
   const double n = static_cast<double>(on_training.records.size());
   double mean = 0, square = 0;
   for (const RecordResult& r : on_training.records) mean += r.offset / n;
@@ -34,6 +36,8 @@ void settle_offsets(FitReport& report, const std::vector<Record>& training, Driv
   report.model = report.model->with_offset(mean);
   for (const RecordResult& r : on_training.records)
     report.offsets.emplace_back(r.record, r.offset - mean);
+
+  // A law has a parameter for the bias: report the mean there, with its 95 % interval.
   if (!is_law(report.model->name())) return;
   const double spread = n > 1 ? 1.96 * std::sqrt(square / (n - 1) / n) : 0;
   for (const ParamInfo& param : find_law(report.model->name()).params) {

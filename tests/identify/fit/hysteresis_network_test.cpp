@@ -21,7 +21,7 @@ TEST_CASE("a hysteresis network learns a damper, with the same bits on any numbe
   CHECK(unseen.pooled.esr < 2);
 }
 
-TEST_CASE("one record serves too: its end is held back to choose the price of weights") {
+TEST_CASE("one record serves too: its end is held back to choose the weight decay") {
   std::vector<Record> one = {small_campaign({{0.01, 1}}).records.back()};
   const FitReport fit = identify("hysteresis_network", one, DriveUnit::Ampere, {});
   REQUIRE(fit.model);

@@ -67,7 +67,7 @@ TEST_CASE("a network's design says what it reads and what comes back") {
 }
 
 TEST_CASE(
-    "the price of weights is found on parts of the training records, the same on any number of "
+    "the weight decay is found on parts of the training records, the same on any number of "
     "threads") {
   const std::vector<Record> training = campaign({{0.01, 1}, {0.005, 3}}).records;
   IdentifyOptions options = with("hidden=3,epochs=5");

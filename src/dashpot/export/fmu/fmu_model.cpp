@@ -9,7 +9,7 @@
 namespace dashpot {
 namespace {
 
-using Role = FmuVariable::Role;
+using FmuRole = FmuVariable::Role;
 
 constexpr std::size_t kReferenceSteps = 500;
 
@@ -46,7 +46,7 @@ void add_ports(const ExportedModel& model, Fmu& fmu) {
                   .unit = to_string(model.drive_unit),
                   .meaning = volts ? "voltage commanded" : "current commanded to the coil",
                   .nominal = extent(d.current_min, d.current_max)});
-  list.push_back({.role = Role::Output,
+  list.push_back({.role = FmuRole::Output,
                   .name = "f",
                   .unit = "N",
                   .meaning = "force, positive when it resists extension"});
@@ -63,13 +63,13 @@ void add_states(const std::vector<CSource::Variable>& states, const std::vector<
   // All states, then all their slopes, in the same order.
   const std::size_t first = fmu.variables.size();
   for (std::size_t k = 0; k < states.size(); ++k)
-    fmu.variables.push_back({.role = Role::State,
+    fmu.variables.push_back({.role = FmuRole::State,
                              .name = "state." + states[k].name,
                              .unit = states[k].unit,
                              .meaning = states[k].meaning,
                              .nominal = sizes[k]});
   for (std::size_t k = 0; k < states.size(); ++k)
-    fmu.variables.push_back({.role = Role::Derivative,
+    fmu.variables.push_back({.role = FmuRole::Derivative,
                              .name = "der(state." + states[k].name + ")",
                              .unit = rate_unit(states[k].unit),
                              .meaning = "its slope by time",
@@ -79,7 +79,7 @@ void add_states(const std::vector<CSource::Variable>& states, const std::vector<
 
 void add_parameters(const std::vector<CParameter>& parameters, Fmu& fmu) {
   for (const CParameter& parameter : parameters)
-    fmu.variables.push_back({.role = Role::Parameter,
+    fmu.variables.push_back({.role = FmuRole::Parameter,
                              .name = "parameter." + parameter.name,
                              .unit = parameter.unit,
                              .meaning = parameter.meaning,

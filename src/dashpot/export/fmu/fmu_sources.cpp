@@ -44,25 +44,25 @@ std::string bound(double value) {
 }
 
 std::string model_header(const Fmu& fmu) {
-  using Role = FmuVariable::Role;
+  using FmuRole = FmuVariable::Role;
   std::string names, ranges;
   std::vector<double> nominals;
   for (const FmuVariable& variable : fmu.variables) {
     names += "    \"" + variable.name + "\",\n";
     nominals.push_back(variable.nominal);
-    if (variable.role == Role::Parameter)
+    if (variable.role == FmuRole::Parameter)
       ranges += "    {" + bound(variable.lower) + ", " + bound(variable.upper) + "},\n";
   }
 
-  const auto count = [&](Role role) { return std::to_string(fmu.count(role)); };
+  const auto count = [&](FmuRole role) { return std::to_string(fmu.count(role)); };
   return filled(kHeader, {{"tool", fmu.tool},
                           {"token", fmu.token},
                           {"exchanges", fmu.exchanges ? "1" : "0"},
                           {"differentiable", fmu.sampled ? "0" : "1"},
-                          {"inputs", count(Role::Input)},
-                          {"outputs", count(Role::Output)},
-                          {"states", count(Role::State)},
-                          {"parameters", count(Role::Parameter)},
+                          {"inputs", count(FmuRole::Input)},
+                          {"outputs", count(FmuRole::Output)},
+                          {"states", count(FmuRole::State)},
+                          {"parameters", count(FmuRole::Parameter)},
                           {"first_parameter", std::to_string(fmu.first_parameter)},
                           {"sample_time", c_number(fmu.sample_time)},
                           {"names", names},

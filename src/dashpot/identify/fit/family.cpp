@@ -13,8 +13,8 @@
 namespace dashpot {
 namespace {
 
-// What the user leaves open of the paper's network and its training. Without a price of weights
-// networks learn the builds of their training by heart, which a new damper does not share.
+// The settings of the paper's network and its training that the user leaves open. Without weight
+// decay networks learn the builds of their training by heart, which a new damper does not share.
 constexpr double kRate = 5e-3, kL2 = 5e-3;
 constexpr std::size_t kBatch = 100, kEpochs = 200;
 
@@ -30,7 +30,7 @@ std::vector<FamilyRecord> family_records(const std::vector<Record>& training,
   return records;
 }
 
-/// What the records of a fluid say of the yield stress at their currents.
+/// The yield stress of a fluid at the currents of its records, ascending, each current once.
 YieldCurve yield_of(const std::vector<FamilyRecord>& records, double viscosity) {
   std::vector<std::pair<double, double>> points;
   for (const FamilyRecord& record : records)
@@ -64,10 +64,14 @@ std::vector<Family::Range> domain_of(const std::vector<FamilyRecord>& records) {
 /// The share of the plate flow that leaves the least of the forces.
 FamilyBaseline fitted_baseline(FamilyTarget target, const std::vector<FamilyRecord>& records) {
   constexpr double kOnset = 0.1;  // of the top speed
+
+  // The onset of the plate flow follows the top speed of all records.
   double top = 0, across = 0, square = 0;
   for (const FamilyRecord& record : records)
     for (const DamperInput& input : record.inputs) top = std::max(top, std::abs(input.velocity));
   FamilyBaseline baseline{target, 1, top > 0 ? kOnset * top : 1};
+
+  // Where the network learns what the flow leaves, the share is the least-squares one.
   if (target != FamilyTarget::Residual) return baseline;
   for (const FamilyRecord& record : records)
     for (std::size_t k = record.first; k < record.force.size(); ++k) {
@@ -96,6 +100,7 @@ TrainingSamples samples_of(const FamilyPreset& preset, const FamilyBaseline& bas
 
 Mlp standardised(const FamilyPreset& preset, const NetworkDesign& design,
                  const TrainingSamples& samples) {
+  // Layers and activations as designed.
   const std::vector<std::size_t>& hidden = design.hidden.empty() ? preset.hidden : design.hidden;
   Mlp mlp;
   mlp.layers.push_back(preset.inputs.size());
@@ -103,6 +108,8 @@ Mlp standardised(const FamilyPreset& preset, const NetworkDesign& design,
   mlp.layers.push_back(1);
   mlp.activations.assign(mlp.layers.size() - 2, design.activation.value_or(Activation::Relu));
   mlp.activations.push_back(Activation::Identity);
+
+  // Inputs and output standardised by the samples.
   for (std::size_t k = 0; k < preset.inputs.size(); ++k) {
     const auto [mean, scale] = mean_and_scale(samples.inputs, k, preset.inputs.size());
     mlp.input_mean.push_back(mean);
@@ -133,7 +140,7 @@ LearnedForce fit_networks(const FamilyPreset& preset, const FamilyBaseline& base
                           const IdentifyOptions& asked, FitReport& report) {
   IdentifyOptions options = asked;
   options.network = completed(asked.network);
-  // Of several starts the one that fits best is not the one that foretells best.
+  // The start that fits best is not the one that predicts best, so there is one only.
   if (options.network.patience.value_or(0) == 0) options.starts = 1;
   const SamplesOf samples_of_records = [&](const std::vector<Record>& records) {
     return samples_of(preset, baseline, family_records(records, drive_unit));
@@ -173,11 +180,15 @@ FitReport fit_family(const FamilyPreset& preset, const std::vector<Record>& trai
                      DriveUnit drive_unit, const IdentifyOptions& options) {
   options.monitor.check();
   const std::vector<FamilyRecord> records = family_records(training, drive_unit);
+
+  // The family without its force: its domain and its baseline.
   FitReport report;
   Family family;
   family.name = preset.name;
   family.domain = domain_of(records);
   family.baseline = fitted_baseline(preset.target, records);
+
+  // Learn the force: gates where the preset has no inputs, else networks.
   const LearnedForce learned =
       preset.inputs.empty()
           ? fit_gates(preset, records, options, report)
@@ -185,6 +196,8 @@ FitReport fit_family(const FamilyPreset& preset, const std::vector<Record>& trai
   if (!learned.force) return report;
   family.force = learned.force;
   family.build_spread = learned.build_spread;
+
+  // The model stands at the first record's damper, with the yield curve of its fluid.
   FamilyMember member = records.front().member;
   member.yield = yield_of(records, member.viscosity);
   const auto model =

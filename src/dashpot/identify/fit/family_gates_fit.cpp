@@ -22,12 +22,13 @@ constexpr std::array<double, FamilyGates::kSoftSpeeds> kSoftShares{0.1, 0.3};  /
 // B_sat / k of the saturating circuit behind the published yield stresses: 1.40056 T / (2.15216
 // T/A).
 constexpr double kHalfCurrent = 0.65077;
-constexpr std::array kPrices{0.003, 0.01, 0.03};  // per sample, terms and gates standardised
-constexpr std::array kGeometryPrices{3.0, 10.0,
-                                     30.0};  // times these for gates with geometry in them
+// The ridge of the other gates, per sample, terms and gates standardised.
+constexpr std::array kRidges{0.003, 0.01, 0.03};
+// The ridge of gates with geometry in them is greater by one of these factors.
+constexpr std::array kGeometryFactors{3.0, 10.0, 30.0};
 constexpr std::size_t kLateStarts = 6;
 constexpr double kLateShare = 1;     // of what runs from rest amid the motion count, beside 1
-constexpr double kBasePrice = 1e-4;  // of every weight
+constexpr double kBaseRidge = 1e-4;  // the ridge of every weight
 
 /// Sums over one record's samples: F'F, t'F and t't, terms standardised.
 struct RecordSums {
@@ -37,11 +38,12 @@ struct RecordSums {
   std::size_t design = 0, damper = 0;
 };
 
-struct Prices {
+struct Ridge {
   double field = 0, geometry = 0;
 };
 
 HysteresisBank bank_of(const FamilyPreset& preset, const std::vector<FamilyRecord>& records) {
+  // The shortest and the longest of the records' strokes, in way and in duration.
   Stroke shortest{INFINITY, INFINITY}, longest;
   for (const FamilyRecord& record : records) {
     const Stroke stroke = mean_stroke(record.inputs, record.time);
@@ -50,6 +52,8 @@ HysteresisBank bank_of(const FamilyPreset& preset, const std::vector<FamilyRecor
     longest = {std::max(longest.way, stroke.way), std::max(longest.duration, stroke.duration)};
   }
   if (!(longest.way > 0)) throw Error(std::string(preset.name), "nothing moves in these records");
+
+  // Dahl rates cover the ways, lag rates the durations.
   HysteresisBank bank;
   bank.path_rates =
       spaced_rates(kSlowestWay / longest.way, kFastestWay / shortest.way, preset.path_states);
@@ -58,11 +62,14 @@ HysteresisBank bank_of(const FamilyPreset& preset, const std::vector<FamilyRecor
   return bank;
 }
 
-/// With the quantities standardised; where one is the same in all records, its gates stay shut.
+/// Gates whose quantities are standardised; a quantity that is the same in all records leaves its
+/// gates shut.
 FamilyGates starting_gates(const FamilyPreset& preset, const std::vector<FamilyRecord>& records) {
   FamilyGates gates;
   gates.bank = bank_of(preset, records);
   gates.half_current = kHalfCurrent;
+
+  // The quantities of every record, and the top speed of all.
   double top = 0;
   std::vector<double> quantities;
   for (const FamilyRecord& record : records) {
@@ -70,6 +77,8 @@ FamilyGates starting_gates(const FamilyPreset& preset, const std::vector<FamilyR
     quantities.insert(quantities.end(), q.begin(), q.end());
     for (const DamperInput& input : record.inputs) top = std::max(top, std::abs(input.velocity));
   }
+
+  // Standardise the quantities; the terms have scale 1 until their sums are known.
   for (std::size_t n = 0; n < kQuantities; ++n)
     std::tie(gates.mean[n], gates.scale[n]) = mean_and_scale(quantities, n, kQuantities);
   for (const double share : kSoftShares) gates.soft_speeds.push_back(share * top);
@@ -82,12 +91,16 @@ void add_run(const FamilyGates& gates, const FamilyRecord& record, std::size_t s
              RecordSums& sums) {
   const std::size_t terms = gates.term_count();
   std::vector<double> state(gates.bank.size()), t(terms);
+
+  // Run the bank through the record; samples before the first scored one only move it.
   gates.bank.rest(record.inputs[start], state);
   for (std::size_t k = start; k < record.inputs.size(); ++k) {
     if (k > start)
       gates.bank.advance(record.inputs[k - 1], record.inputs[k],
                          record.time[k] - record.time[k - 1], state);
     if (k < record.first) continue;
+
+    // Add the sample's products; `square` is symmetric, and its lower triangle is enough.
     gates.read_terms(record.inputs[k], state, t.data());
     for (std::size_t i = 0; i < terms; ++i) {
       sums.across[i] += weight * t[i] * record.force[k];
@@ -129,8 +142,9 @@ class GateSums {
 
   std::size_t designs() const { return designs_; }
 
-  /// W of the records that are not of this design; of all where there is no such design.
-  std::vector<double> solve(Prices prices, std::size_t without) const {
+  /// The weights W that fit all records but those of this design; with designs() all records.
+  std::vector<double> solve(Ridge ridge, std::size_t without) const {
+    // The normal equations over all other designs.
     const std::size_t n = terms_ * kGates;
     std::vector<double> matrix(n * n), right(n), weights(n);
     double samples = 0;
@@ -139,36 +153,40 @@ class GateSums {
       add(r, matrix, right);
       samples += r.samples;
     }
+
+    // The ridge: every weight has a little, those of all gates but the constant one more, those of
+    // gates with geometry in them most.
     const auto exponents = FamilyGates::exponents();
     for (std::size_t u = 0; u < n; ++u) {
       const auto& powers = exponents[u % kGates];
       const bool constant = u % kGates == 0, geometric = powers[2] + powers[3] > 0;
-      const double price = constant ? 0 : prices.field * (geometric ? prices.geometry : 1);
-      matrix[u * n + u] += samples * (kBasePrice + price);
+      const double strength = constant ? 0 : ridge.field * (geometric ? ridge.geometry : 1);
+      matrix[u * n + u] += samples * (kBaseRidge + strength);
     }
+
     if (!solve_positive_definite(matrix, right, weights))
       throw Error("family", "the records do not tell one weight from another");
     return weights;
   }
 
-  /// What weights leave of the records of a design, N^2.
+  /// The squared error, N^2, that these weights leave on the records of a design.
   double squares_left(const std::vector<double>& weights, std::size_t design) const {
     double left = 0;
     for (const RecordSums& r : sums_)
       if (r.design == design) {
-        const auto [across, square] = told(weights, r);
+        const auto [across, square] = predicted(weights, r);
         left += r.energy - 2 * across + square;
       }
     return left;
   }
 
-  /// For each damper of a design: the factor that would bring its told force nearest to the
+  /// For each damper of a design: the factor that would bring its predicted force nearest to the
   /// measured one.
   std::vector<double> strengths(const std::vector<double>& weights, std::size_t design) const {
     std::map<std::size_t, std::pair<double, double>> dampers;
     for (const RecordSums& r : sums_)
       if (r.design == design) {
-        const auto [across, square] = told(weights, r);
+        const auto [across, square] = predicted(weights, r);
         dampers[r.damper].first += across;
         dampers[r.damper].second += square;
       }
@@ -179,6 +197,7 @@ class GateSums {
 
  private:
   void standardise(FamilyGates& gates) {
+    // A term's scale is the root of its mean square over all records.
     double samples = 0;
     std::vector<double> squares(terms_);
     for (const RecordSums& r : sums_) {
@@ -187,6 +206,8 @@ class GateSums {
     }
     for (std::size_t i = 0; i < terms_; ++i)
       if (squares[i] > 0) gates.term_scale[i] = std::sqrt(squares[i] / samples);
+
+    // Bring the sums to these scales, and fill the upper triangle.
     for (RecordSums& r : sums_)
       for (std::size_t i = 0; i < terms_; ++i) {
         r.across[i] /= gates.term_scale[i];
@@ -198,6 +219,7 @@ class GateSums {
   }
 
   void number_designs(const std::vector<FamilyRecord>& records) {
+    // Number geometries and fluids as they come; a damper is a pair of both.
     std::map<std::array<double, 4>, std::size_t> geometries;
     std::map<double, std::size_t> fluids;
     for (std::size_t k = 0; k < records.size(); ++k) {
@@ -210,13 +232,15 @@ class GateSums {
       sums_[k].damper = geometry * records.size() + fluid;
       sums_[k].design = geometry;
     }
+
+    // With one geometry only, each fluid is a design.
     designs_ = geometries.size();
     if (designs_ > 1) return;
     for (RecordSums& r : sums_) r.design = r.damper;
     designs_ = fluids.size();
   }
 
-  /// Lower triangle only.
+  /// Adds a record to the normal equations, the lower triangle of the matrix only.
   void add(const RecordSums& r, std::vector<double>& matrix, std::vector<double>& right) const {
     const std::size_t n = terms_ * kGates;
     for (std::size_t i = 0; i < terms_; ++i)
@@ -230,8 +254,9 @@ class GateSums {
       }
   }
 
-  /// The told force times the measured one, and times itself, summed over a record.
-  std::pair<double, double> told(const std::vector<double>& weights, const RecordSums& r) const {
+  /// The predicted force times the measured one, and times itself, summed over a record.
+  std::pair<double, double> predicted(const std::vector<double>& weights,
+                                      const RecordSums& r) const {
     std::vector<double> a(terms_);
     for (std::size_t i = 0; i < terms_; ++i)
       for (std::size_t k = 0; k < kGates; ++k) a[i] += weights[i * kGates + k] * r.open[k];
@@ -247,13 +272,15 @@ class GateSums {
   std::vector<RecordSums> sums_;
 };
 
-/// Those with which each design is foretold best by the others.
-Prices best_prices(const GateSums& sums, const Monitor& monitor) {
-  Prices best{kPrices[1], kGeometryPrices[1]};
+/// The ridges with which each design is predicted best from the others.
+Ridge best_ridge(const GateSums& sums, const Monitor& monitor) {
+  Ridge best{kRidges[1], kGeometryFactors[1]};
   if (sums.designs() < 2) return best;
+
+  // Try each pair of ridges: each design is predicted from all others.
   double least = INFINITY;
-  for (const double field : kPrices)
-    for (const double geometry : kGeometryPrices) {
+  for (const double field : kRidges)
+    for (const double geometry : kGeometryFactors) {
       monitor.check();
       double left = 0;
       for (std::size_t d = 0; d < sums.designs(); ++d)
@@ -267,14 +294,17 @@ Prices best_prices(const GateSums& sums, const Monitor& monitor) {
 
 /// The root of the mean square of builds' strengths beyond 1, with its interval by Wilson and
 /// Hilferty's approximation of chi squared.
-void add_spread(const GateSums& sums, Prices prices, FamilyGatesFit& fit) {
+void add_spread(const GateSums& sums, Ridge ridge, FamilyGatesFit& fit) {
+  // The strengths of the dampers of each design, predicted from all others.
   double square = 0, n = 0;
   for (std::size_t d = 0; sums.designs() > 1 && d < sums.designs(); ++d)
-    for (const double factor : sums.strengths(sums.solve(prices, d), d)) {
+    for (const double factor : sums.strengths(sums.solve(ridge, d), d)) {
       square += (factor - 1) * (factor - 1);
       ++n;
     }
   if (n == 0) return;
+
+  // Their spread and its 95 % interval; with two dampers or fewer it is open upwards.
   fit.build_spread = std::sqrt(square / n);
   const auto end = [&](double z) {
     const double c = 2 / (9 * n), root = 1 - c + z * std::sqrt(c);
@@ -291,9 +321,9 @@ FamilyGatesFit fit_family_gates(const FamilyPreset& preset,
   FamilyGatesFit fit;
   fit.gates = starting_gates(preset, records);
   const GateSums sums(fit.gates, records);
-  const Prices prices = best_prices(sums, monitor);
-  fit.gates.weights = sums.solve(prices, sums.designs());
-  add_spread(sums, prices, fit);
+  const Ridge ridge = best_ridge(sums, monitor);
+  fit.gates.weights = sums.solve(ridge, sums.designs());
+  add_spread(sums, ridge, fit);
   return fit;
 }
 

@@ -78,7 +78,7 @@ void require_design(const NetworkDesign& design, const std::vector<std::string>&
     return std::ranges::count(network_settings_of(model), setting) > 0;
   };
 
-  // What is set must make a difference to one model at least.
+  // Every setting must make a difference to one model at least.
   for (const NetworkSetting& setting : network_settings()) {
     if (setting.format(design).empty()) continue;
     if (std::ranges::none_of(models, [&](auto& model) { return follows(model, setting.name); }))

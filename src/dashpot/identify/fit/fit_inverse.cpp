@@ -18,7 +18,7 @@ InverseLimits limits_of(const InverseTraining& training, double sample_time) {
   return {training.current_min, training.current_max, sample_time, 0};
 }
 
-/// By speed: near standstill the force says nothing of the current.
+/// Weights by speed: near standstill the force says nothing of the current.
 std::vector<double> weight_by_speed(const std::vector<DamperInput>& inputs) {
   constexpr double kShare = 0.2;  // of the rms speed
   double squares = 0;
@@ -45,6 +45,8 @@ InverseRun run_of(const Record& record, DriveUnit drive_unit, const DamperModel*
                   const InverseTraining& training) {
   if (record.sample_time == 0)
     throw Error(record.name, "is not sampled at equal steps of time", "resample it");
+
+  // The record as a run, its currents within the range of the training.
   std::vector<DamperInput> inputs = damper_inputs(record, drive_unit);
   for (DamperInput& input : inputs)
     input.current = std::clamp(input.current, training.current_min, training.current_max);
@@ -53,6 +55,8 @@ InverseRun run_of(const Record& record, DriveUnit drive_unit, const DamperModel*
                  .inputs = inputs,
                  .force = record.channel("force").samples,
                  .weight = {}};
+
+  // Weights and the force's zero from the model where there is one, else weights by speed alone.
   if (forward) {
     run.weight =
         run_on_model(*forward, record.name, inputs, limits_of(training, record.sample_time)).weight;
@@ -60,6 +64,8 @@ InverseRun run_of(const Record& record, DriveUnit drive_unit, const DamperModel*
   } else {
     run.weight = weight_by_speed(inputs);
   }
+
+  // The warm-up does not count.
   std::fill_n(run.weight.begin(), record.warm_up, 0.0);
   return run;
 }
@@ -67,12 +73,16 @@ InverseRun run_of(const Record& record, DriveUnit drive_unit, const DamperModel*
 void require_serving(const Dataset& dataset, const InverseNetworkPreset& preset) {
   const DriveRange drive = drive_range(dataset.records, dataset.drive_unit);
   const std::string unit = " " + to_string(dataset.drive_unit);
+
+  // One current throughout says nothing of any other.
   if (!(drive.low < drive.high))
     throw Error(dataset.name,
                 "the drive is " + format_number(drive.low) + unit +
-                    " throughout: nothing tells "
-                    "what another would do",
+                    " throughout: nothing tells what another would do",
                 "take records at several, or teach the inverse on a model");
+
+  // A constant drive in each record teaches a network that reads its own currents only to hold
+  // them.
   const auto taps_of = [&](Tap::Signal signal) {
     return std::ranges::any_of(preset.taps, [&](const Tap& tap) { return tap.signal == signal; });
   };
@@ -82,6 +92,8 @@ void require_serving(const Dataset& dataset, const InverseNetworkPreset& preset)
         "the drive is constant within each record: " + std::string(preset.name) +
             " would only learn to hold on to its own past current",
         "take 'history', 'one_sensor' or 'static', or teach it on a model of these records");
+
+  // Every signal that the network reads must have been recorded.
   for (const Record& record : dataset.records)
     if (taps_of(Tap::Signal::Displacement) && !record.find("displacement"))
       throw Error(record.name, "has no displacement, which " + std::string(preset.name) + " needs",
@@ -171,6 +183,8 @@ InverseFit fit_inverse(const DamperModel& forward, const MotionRange& range,
   InverseTraining training = options.training;
   training.current_min = limits.current_min;
   training.current_max = limits.current_max;
+
+  // Drive the model through tests of three different seeds, one set for each use.
   std::vector<InverseRun> runs[3];  // for training, for early stopping, for the figure
   InverseFit fit;
   std::vector<std::string> tests;
@@ -179,12 +193,16 @@ InverseFit fit_inverse(const DamperModel& forward, const MotionRange& range,
       runs[part].push_back(run_on_model(forward, test, limits));
       if (part == 0) tests.push_back(test.name);
     }
+
+  // Train the network, and describe what it was trained on.
   TaughtInverse taught =
       train_inverse(find_inverse_network(options.network), runs[0], runs[1], training);
   fit.network = std::move(taught.network);
   fit.network.rate_max = options.rate_max;
   fit.teacher = forward.name() + " on " + join(tests, "; ");
   fit.domain = domain_of(runs[0], limits);
+
+  // The errors, on the tests of the training and on those that it never saw.
   fit.training_rmse = taught.training_rmse;
   fit.left_out_rmse = weighted_error(runs[2], all_answers(fit.network, runs[2]));
   return fit;
@@ -193,19 +211,23 @@ InverseFit fit_inverse(const DamperModel& forward, const MotionRange& range,
 InverseFit fit_inverse(const Dataset& dataset, const LeaveOut& leave_out,
                        const DamperModel* forward, const InverseFitOptions& options) {
   const RecordTeacher teacher(dataset, leave_out, forward, options);
+
+  // The error on left-out records comes from the folds' networks, the network from all records.
   InverseFit fit;
   fit.left_out_rmse = left_out_error(teacher, split(dataset, leave_out), options.training.threads);
   TaughtInverse taught = teacher.teach(dataset.records);
   fit.network = std::move(taught.network);
   fit.network.rate_max = options.rate_max;
   fit.training_rmse = taught.training_rmse;
+
+  // Describe the records of the training, and warn of what they cannot show.
   for (const Record& record : dataset.records) fit.records.push_back(record.name);
   fit.teacher = std::to_string(fit.records.size()) + " records of " + dataset.name;
   fit.domain = dashpot::domain_of(dataset.records, dataset.drive_unit);
   if (!drive_range(dataset.records, dataset.drive_unit).varies)
     fit.warnings.emplace_back(
-        "the drive is constant within each record: how the damper answers to a change "
-        "is not in these data");
+        "the drive is constant within each record: how the damper answers to a change is not in "
+        "these data");
   return fit;
 }
 
@@ -221,6 +243,8 @@ std::vector<InverseTrial> inverse_trials(const DamperModel& forward, const Motio
                                          const InverseLimits& limits) {
   constexpr double kForceBand = 2;       // Hz
   constexpr std::uint64_t kSeed = 1001;  // no network's training
+
+  // The three motions, within the amplitude and the frequency of the range.
   const MotionOptions noise{.amplitude = range.amplitude,
                             .frequency = range.frequency,
                             .duration = 10,
@@ -232,6 +256,8 @@ std::vector<InverseTrial> inverse_trials(const DamperModel& forward, const Motio
   faster.seed = kSeed + 1;
   sine.amplitude *= 0.8;
   sine.frequency = range.speed() / (2 * std::numbers::pi * range.amplitude);
+
+  // Each with a force that the damper can give along it.
   std::vector<InverseTrial> trials{{"noise", random_motion(noise), {}},
                                    {"fast noise", random_motion(faster), {}},
                                    {"sine", sine_motion(sine), {}}};

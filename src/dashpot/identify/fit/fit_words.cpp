@@ -29,6 +29,7 @@ std::vector<std::string> models_of(const std::string& word) {
 std::vector<ParameterChoice> parameter_choices(const FitWords& words,
                                                const std::vector<std::string>& models,
                                                const std::string& prefix) {
+  // One row per option: its texts, and the function that parses one of them.
   const struct {
     const char* option;
     const std::vector<std::string>& texts;
@@ -38,6 +39,8 @@ std::vector<ParameterChoice> parameter_choices(const FitWords& words,
                  {"free", words.freed, parse_free_choice},
                  {"bounds", words.bounds, parse_bounds_choice},
                  {"prior", words.priors, parse_prior_choice}};
+
+  // Parse them all, then refuse what does not go together.
   std::vector<ParameterChoice> choices;
   for (const auto& source : sources)
     for (const std::string& text : source.texts)

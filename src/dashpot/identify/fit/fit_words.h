@@ -6,7 +6,7 @@
 
 namespace dashpot {
 
-/// What a user says of fits, in the words of the command line, of Python and of a C program.
+/// A user's wishes for fits, in the words of the command line, of Python and of a C program.
 struct FitWords {
   std::vector<std::string> models = {"usual"};  ///< names, "usual", "all", "family"
   std::string force_offset = "record";          ///< or "none"
@@ -15,7 +15,7 @@ struct FitWords {
   IdentifyOptions options;
 };
 
-/// What an engineer tries first: few, quick, and good on measured dampers.
+/// The models that an engineer tries first: few, quick, and good on measured dampers.
 const std::vector<std::string>& usual_models();
 
 /// The models that words stand for, each once.

@@ -12,10 +12,11 @@ namespace dashpot {
 std::vector<FreeRunRecord> free_run_records(const std::vector<Record>& records,
                                             DriveUnit drive_unit);
 
-/// Scored samples of all.
+/// The number of scored samples of all records.
 std::size_t scored_samples(const std::vector<const FreeRunRecord*>& records);
 
-/// Of the scored force, each record's mean taken out; 1 for a force that never changes.
+/// Standard deviation of the scored force, N, each record's mean taken out; 1 for a force that
+/// never changes.
 double force_deviation(const std::vector<const FreeRunRecord*>& records);
 
 /// The least and the greatest of the records' mean ways between two turns, m. A turn is a change of

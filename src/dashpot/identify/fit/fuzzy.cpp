@@ -79,6 +79,7 @@ Sugeno starting_grid(const FuzzyPreset& preset, const TrainingSamples& samples) 
   sugeno.rules.emplace_back();
   const std::size_t inputs = preset.inputs.size();
   for (std::size_t k = 0; k < inputs; ++k) {
+    // The input's scale and its range, standardised.
     Sugeno::Input input;
     std::tie(input.mean, input.scale) = mean_and_scale(samples.inputs, k, inputs);
     input.low = input.high = (samples.inputs[k] - input.mean) / input.scale;
@@ -87,11 +88,14 @@ Sugeno starting_grid(const FuzzyPreset& preset, const TrainingSamples& samples) 
       input.high = std::max(input.high, (samples.inputs[s] - input.mean) / input.scale);
     }
     sugeno.inputs.push_back(input);
+
+    // Its sets, crossed with the rules so far; an input with one set only enters the consequents.
     if (preset.sets[k] < 2) continue;
     const std::size_t first = sugeno.memberships.size();
     add_sets(sugeno, k, preset.sets[k], preset.shape);
     cross(sugeno.rules, first, sugeno.memberships.size());
   }
+
   std::tie(sugeno.output_mean, sugeno.output_scale) = mean_and_scale(samples.targets, 0, 1);
   return sugeno;
 }

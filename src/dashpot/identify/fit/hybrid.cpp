@@ -16,10 +16,10 @@ namespace dashpot {
 namespace {
 
 constexpr std::size_t kSamples = 8000;       // of a fit, every k-th; the states see all
-constexpr std::size_t kTrialSamples = 2500;  // of a trial of a price
+constexpr std::size_t kTrialSamples = 2500;  // of a trial of a weight decay
 constexpr int kIterations = 60, kTrialIterations = 30;
 constexpr double kTolerance = 1e-4;
-constexpr std::array kPrices{1e-1, 1e-2, 1e-3, 1e-4};  // in the mean square of what the law leaves
+constexpr std::array kDecays{1e-1, 1e-2, 1e-3, 1e-4};  // in the mean square of what the law leaves
 
 constexpr std::size_t kFewestLevels = 4;  // that tell more than a line, one of them left out
 
@@ -36,7 +36,7 @@ HybridData data_of(const LawSolution& law, const HybridPreset& preset,
     data.records.push_back({damper_inputs(record, drive_unit), record.time,
                             record.channel("force").samples, record.warm_up});
   for (const FreeRunRecord& record : data.records) records.push_back(&record);
-  // Where the drive stays, a campaign is a few motions that repeat, and a bank would tell these
+  // With a constant drive a campaign is a few motions that repeat, and a bank would learn these
   // apart.
   if (drive_range(training, drive_unit).varies)
     data.bank = starting_bank({preset.path_states, preset.velocity_lags, preset.current_lags},
@@ -53,8 +53,11 @@ class HybridFit {
         law_(law),
         data_(data_of(law, preset, training, drive_unit, options.offset)),
         all_(all_parts(training)) {
+    // The mixing comes from the signals of the law as its own fit left it.
     const SignalRows rows = residuals(all_, kSamples).signals(law_.solved.x);
     mixing_ = mixing_of(rows);
+
+    // The network at its start: motions mixed to deviation 1, currents over the range of the drive.
     const DriveRange drive = drive_range(training, drive_unit);
     const double half = (drive.high - drive.low) / 2;
     network_.currents = rows.currents;
@@ -62,8 +65,10 @@ class HybridFit {
     network_.signals.resize(rows.width, {.mean = drive.low + half, .scale = half > 0 ? half : 1});
     network_.output_scale = law_.noise.rms;
     network_.initialise(preset.hidden, options_.seed);
+
+    // Few levels leave the current out; the weight decay is then found by trials.
     if (!drive.varies && drive.levels < kFewestLevels) fix_current();
-    price_ = best_price(trial_parts(training));
+    decay_ = best_decay(trial_parts(training));
   }
 
   /// The law's unknowns, from where its own fit left them, and the weights, together.
@@ -72,8 +77,8 @@ class HybridFit {
     std::vector<double> start = law_.solved.x;
     const std::vector<double> weights = starting_weights();
     start.insert(start.end(), weights.begin(), weights.end());
-    return solve(residuals.problem(priced(price_, residuals), law_.solved.x, law_.noise.independent,
-                                   options_.threads),
+    return solve(residuals.problem(with_decay(decay_, residuals), law_.solved.x,
+                                   law_.noise.independent, options_.threads),
                  std::move(start), solver(kIterations));
   }
 
@@ -117,9 +122,9 @@ class HybridFit {
     return weights;
   }
 
-  HybridResiduals::Network priced(double price, const HybridResiduals& residuals) const {
+  HybridResiduals::Network with_decay(double decay, const HybridResiduals& residuals) const {
     const double scale = network_.output_scale;
-    return {mixing_, network_, price * static_cast<double>(residuals.size()) * scale * scale,
+    return {mixing_, network_, decay * static_cast<double>(residuals.size()) * scale * scale,
             fixed_};
   }
 
@@ -132,30 +137,35 @@ class HybridFit {
   double squared_error(const HybridResiduals& residuals, const SignalRows& rows,
                        std::span<const double> weights) const {
     std::vector<double> errors(residuals.size());
-    residuals.evaluate(priced(0, residuals), rows, weights, errors);
+    residuals.evaluate(with_decay(0, residuals), rows, weights, errors);
     return mean_square(errors);
   }
 
-  /// The price with which trials foretell best what was held back from them. The law stays where
-  /// its fit on all left it: what the price is about is the network.
-  double best_price(const std::vector<TrialParts>& trials) const {
-    std::vector<double> errors(kPrices.size() * trials.size());
+  /// The weight decay with which trials predict best what was held back from them. The law stays
+  /// where its fit on all records left it, for the decay concerns the network alone.
+  double best_decay(const std::vector<TrialParts>& trials) const {
+    std::vector<double> errors(kDecays.size() * trials.size());
     parallel_for(errors.size(), options_.threads, [&](std::size_t k) {
-      const TrialParts& trial = trials[k / kPrices.size()];
+      // Train the weights with this decay on the trial's training part.
+      const TrialParts& trial = trials[k / kDecays.size()];
       const HybridResiduals seen = residuals(trial.training, kTrialSamples);
       const SignalRows rows = seen.signals(law_.solved.x);
       const LeastSquaresProblem problem =
-          seen.problem(priced(kPrices[k % kPrices.size()], seen), rows);
+          seen.problem(with_decay(kDecays[k % kDecays.size()], seen), rows);
       const std::vector<double> weights =
           solve(problem, starting_weights(), solver(kTrialIterations)).x;
+
+      // Its error on the part held back, as a share of the untrained network's.
       const HybridResiduals unseen = residuals(trial.held_back, kTrialSamples);
       const SignalRows held_back = unseen.signals(law_.solved.x);
       errors[k] = squared_error(unseen, held_back, weights) /
                   squared_error(unseen, held_back, starting_weights());
     });
-    std::array<double, kPrices.size()> sums{};
-    for (std::size_t k = 0; k < errors.size(); ++k) sums[k % kPrices.size()] += errors[k];
-    return kPrices[static_cast<std::size_t>(std::min_element(sums.begin(), sums.end()) -
+
+    // The decay with the least errors over all trials.
+    std::array<double, kDecays.size()> sums{};
+    for (std::size_t k = 0; k < errors.size(); ++k) sums[k % kDecays.size()] += errors[k];
+    return kDecays[static_cast<std::size_t>(std::min_element(sums.begin(), sums.end()) -
                                             sums.begin())];
   }
 
@@ -180,7 +190,7 @@ class HybridFit {
   SignalMixing mixing_;
   GatedNetwork network_;  ///< at its start
   std::vector<bool> fixed_;
-  double price_ = 0;
+  double decay_ = 0;
 };
 
 /// The law's parameters without intervals: the network can make up for any of them.
@@ -219,8 +229,8 @@ FitReport fit_hybrid(const HybridPreset& preset, const std::vector<Record>& trai
   report.warnings = law.unknowns.warnings();
   report.warnings.insert(
       report.warnings.begin(),
-      "the parameters of the law share their work with the network: they have no "
-      "intervals, and are not properties of the damper");
+      "the parameters of the law share their work with the network: they have no intervals, and "
+      "are not properties of the damper");
   return report;
 }
 

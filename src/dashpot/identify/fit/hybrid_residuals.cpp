@@ -14,7 +14,7 @@ std::size_t scored(const ScoredPart& part, std::size_t stride) {
   return (part.last - part.first + stride - 1) / stride;
 }
 
-/// Of the motions; the lower triangle.
+/// The covariance of the motions, n x n; only its lower triangle is filled.
 std::vector<double> covariance_of(const SignalRows& rows, const std::vector<double>& mean) {
   const std::size_t n = mean.size();
   const double share = 1 / static_cast<double>(rows.size());
@@ -46,14 +46,19 @@ GatedNetwork with_weights(GatedNetwork network, std::span<const double> weights)
 
 /// Gram-Schmidt on the signals' covariance: its Cholesky root, inverted row by row.
 SignalMixing mixing_of(const SignalRows& rows) {
-  constexpr double kNothing =
-      1e-3;  // of a signal's own deviation: less left than this tells nothing
+  // Of a signal's own deviation: less left than this counts as nothing.
+  constexpr double kNothing = 1e-3;
   const std::size_t n = rows.motions();
   const double share = 1 / static_cast<double>(rows.size());
+
+  // The signals' means and their covariance.
   SignalMixing mixing{std::vector<double>(n), {}};
   for (std::size_t k = 0; k < rows.size(); ++k)
     for (std::size_t s = 0; s < n; ++s) mixing.mean[s] += share * rows.row(k)[s];
   const std::vector<double> covariance = covariance_of(rows, mixing.mean);
+
+  // The Cholesky root row by row, and beside it the row of its inverse, which standardises the
+  // signal. A signal that those before it explain gets a row of zeros.
   std::vector<double> root(n * n), inverse(n * n);
   for (std::size_t a = 0; a < n; ++a) {
     const auto dot = [&](std::size_t b) {
@@ -61,6 +66,8 @@ SignalMixing mixing_of(const SignalRows& rows) {
     };
     for (std::size_t b = 0; b < a; ++b)
       if (root[b * n + b] > 0) root[a * n + b] = (covariance[a * n + b] - dot(b)) / root[b * n + b];
+
+    // The deviation that is left once the signals before it are taken out.
     const double variance = covariance[a * n + a], left = variance - dot(a);
     if (left > kNothing * kNothing * variance) {
       const double pivot = root[a * n + a] = std::sqrt(left);
@@ -87,10 +94,14 @@ HybridResiduals::HybridResiduals(const HybridData& data, ScoredParts parts, std:
 
 SignalRows HybridResiduals::signals(std::span<const double> law_unknowns) const {
   const HybridSource source{unknowns_.model(law_unknowns), data_.bank};
+
+  // One row of signals per scored sample.
   SignalRows rows{
       source.motions() + source.currents(), source.currents(), source.force_place(), {}};
   rows.values.resize(size_ * rows.width);
   double* row = rows.values.data();
+
+  // Run the law from rest through each record, and read its signals where the part is scored.
   std::vector<double> state(source.state_size());
   for (const ScoredPart& part : parts_) {
     const FreeRunRecord& record = data_.records[part.record];
@@ -137,6 +148,8 @@ SignalRows HybridResiduals::slopes(const SignalRows& here, std::span<const doubl
   constexpr double kStep = 1e-6;
   std::vector<double> moved(law_unknowns.begin(), law_unknowns.end());
   const double length = kStep * std::max(1.0, std::abs(moved[unknown]));
+
+  // Step away from the bound; where a record diverges on that side, try the other one.
   const bool upward = moved[unknown] + length <= unknowns_.upper()[unknown];
   for (const double step : {upward ? length : -length, upward ? -length : length}) {
     moved[unknown] = law_unknowns[unknown] + step;
@@ -149,13 +162,14 @@ SignalRows HybridResiduals::slopes(const SignalRows& here, std::span<const doubl
   return {};
 }
 
-/// The network's part exactly, the law's by differences of its signals, on which the network's
-/// slopes work.
+/// Derivatives by the weights are exact; those by the law's unknowns come from differences of its
+/// signals, through the network's slopes.
 void HybridResiduals::linearise(const Network& start, const SignalRows& rows,
                                 const std::vector<SignalRows>& slopes,
                                 std::span<const double> weights, std::span<double> residuals,
                                 std::span<double* const> columns) const {
   const GatedNetwork network = with_weights(start.start, weights);
+
   const double scale = network.output_scale;
   const std::size_t own = slopes.size(), motions = network.motions(), force = rows.force;
   const auto width = static_cast<std::ptrdiff_t>(rows.width);
@@ -163,11 +177,18 @@ void HybridResiduals::linearise(const Network& start, const SignalRows& rows,
   SignalPoint by_signals, change;
   for (std::size_t k = 0; k < size_; ++k) {
     const SignalPoint point = standardised(start.mixing, network, rows.row(k));
+
+    // The residual, and the network's slopes by its weights and by its signals.
     residuals[k] =
         force_[k] - rows.row(k)[force] -
         scale * network.differentiate(point.data(), by_weights.data(), by_signals.data());
+
+    // The columns of the weights are the network's own slopes.
     for (std::size_t w = 0; w < weights.size(); ++w)
       if (columns[own + w]) columns[own + w][k] = -scale * by_weights[w];
+
+    // A law's unknown moves the law's force and, by the chain rule, the network through its
+    // signals.
     for (std::size_t u = 0; u < own; ++u) {
       if (!columns[u]) continue;
       const double* slope = slopes[u].row(k);
@@ -179,6 +200,8 @@ void HybridResiduals::linearise(const Network& start, const SignalRows& rows,
                                                      by_signals.begin(), 0.0);
     }
   }
+
+  // Offsets are eliminated from the residuals and from every column alike.
   take_means_out(residuals.first(size_));
   for (double* const column : columns)
     if (column) take_means_out({column, size_});
@@ -186,15 +209,15 @@ void HybridResiduals::linearise(const Network& start, const SignalRows& rows,
 
 namespace {
 
-/// Weights are priced by their way from the start: priced by their size, the neurons would go to 0
-/// in the first step, in which the silent gates do not hold them yet, and come back slowly.
-void add_prices(const HybridResiduals::Network& network, std::span<const double> weights,
-                std::span<double> r) {
-  const double price = std::sqrt(network.price);
+/// Weights decay towards their start: decaying towards 0, the neurons would vanish in the first
+/// step, in which the silent gates do not hold them yet, and come back slowly.
+void add_decay(const HybridResiduals::Network& network, std::span<const double> weights,
+               std::span<double> r) {
+  const double decay = std::sqrt(network.decay);
   const std::vector<double>&neurons = network.start.neurons, &gates = network.start.gates;
-  for (std::size_t w = 0; w < neurons.size(); ++w) r[w] = price * (weights[w] - neurons[w]);
+  for (std::size_t w = 0; w < neurons.size(); ++w) r[w] = decay * (weights[w] - neurons[w]);
   for (std::size_t w = 0; w < gates.size(); ++w)
-    r[neurons.size() + w] = price * (weights[neurons.size() + w] - gates[w]);
+    r[neurons.size() + w] = decay * (weights[neurons.size() + w] - gates[w]);
 }
 
 /// Adds the weights' bounds to the law's.
@@ -214,22 +237,28 @@ void add_bounds(const HybridResiduals::Network& network, LeastSquaresProblem& pr
 
 LeastSquaresProblem HybridResiduals::problem(const Network& network, const SignalRows& rows) const {
   const std::size_t weights = network.start.parameter_count();
-  const double price = std::sqrt(network.price);
+  const double decay = std::sqrt(network.decay);
+
+  // The residuals of the data come first, then one per weight for the weight decay.
   LeastSquaresProblem problem;
   problem.residuals = size_ + weights;
   add_bounds(network, problem);
+
+  // The residuals at given weights; the law's signals stay as they are.
   problem.residual = [=, &rows, this](std::span<const double> x, std::span<double> r) {
-    add_prices(network, x, r.subspan(size_));
+    add_decay(network, x, r.subspan(size_));
     evaluate(network, rows, x, r);
     return true;
   };
+
+  // The same with its columns: the weight decay's part is diagonal, the network's is exact.
   problem.jacobian = [=, &rows, this](std::span<const double> x, std::span<double> r,
                                       std::span<double* const> columns) {
-    add_prices(network, x, r.subspan(size_));
+    add_decay(network, x, r.subspan(size_));
     for (std::size_t w = 0; w < weights; ++w) {
       if (!columns[w]) continue;
       std::fill_n(columns[w] + size_, weights, 0.0);
-      columns[w][size_ + w] = price;
+      columns[w][size_ + w] = decay;
     }
     linearise(network, rows, {}, x, r, columns);
     return true;
@@ -244,19 +273,25 @@ LeastSquaresProblem HybridResiduals::problem(const Network& network,
                     all = own + weights;
   const std::vector<LawUnknowns::PriorTerm> priors =
       noise > 0 ? unknowns_.priors() : std::vector<LawUnknowns::PriorTerm>{};
-  const double price = std::sqrt(network.price);
+  const double decay = std::sqrt(network.decay);
+
+  // The residuals of the data come first, then the decay of every unknown, then the priors.
   LeastSquaresProblem problem;
   problem.residuals = size_ + all + priors.size();
   problem.lower = unknowns_.lower();
   problem.upper = unknowns_.upper();
   add_bounds(network, problem);
+
+  // The residuals that need no simulation: the decay towards the start, and the priors.
   const std::vector<double> start(law_start.begin(), law_start.end());
   const auto add_known = [=, this](std::span<const double> x, std::span<double> r) {
-    for (std::size_t u = 0; u < own; ++u) r[size_ + u] = price * (x[u] - start[u]);
-    add_prices(network, x.subspan(own), r.subspan(size_ + own, weights));
+    for (std::size_t u = 0; u < own; ++u) r[size_ + u] = decay * (x[u] - start[u]);
+    add_decay(network, x.subspan(own), r.subspan(size_ + own, weights));
     for (std::size_t k = 0; k < priors.size(); ++k)
       r[size_ + all + k] = priors[k].residual(x[priors[k].unknown], noise);
   };
+
+  // The residuals at given unknowns; false where the law diverges.
   problem.residual = [=, this](std::span<const double> x, std::span<double> r) {
     add_known(x, r);
     const SignalRows rows = signals(x.first(own));
@@ -264,17 +299,23 @@ LeastSquaresProblem HybridResiduals::problem(const Network& network,
     evaluate(network, rows, x.subspan(own), r);
     return true;
   };
+
+  // The same with its columns.
   problem.jacobian = [=, this](std::span<const double> x, std::span<double> r,
                                std::span<double* const> columns) {
     add_known(x, r);
+
+    // The decay's columns are diagonal, and each prior depends on one unknown.
     for (std::size_t k = 0; k < all; ++k) {
       if (!columns[k]) continue;
       std::fill(columns[k] + size_, columns[k] + r.size(), 0.0);
-      columns[k][size_ + k] = price;
+      columns[k][size_ + k] = decay;
     }
     for (std::size_t k = 0; k < priors.size(); ++k)
       if (double* const column = columns[priors[k].unknown])
         column[size_ + all + k] = priors[k].slope(noise);
+
+    // The law's slopes by differences, a thread per unknown, then the data's columns from them.
     const SignalRows rows = signals(x.first(own));
     if (rows.values.empty()) return false;
     std::vector<SignalRows> by_unknowns(own);

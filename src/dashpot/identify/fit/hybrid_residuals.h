@@ -34,7 +34,7 @@ SignalPoint standardised(const SignalMixing& mixing, const GatedNetwork& network
 /// Weights: those of the neurons, then of the gates.
 GatedNetwork with_weights(GatedNetwork network, std::span<const double> weights);
 
-/// What stays the same in all fits of a hybrid.
+/// The data and the settings that all fits of a hybrid share.
 struct HybridData {
   LawUnknowns unknowns;
   HysteresisBank bank;
@@ -51,17 +51,17 @@ class HybridResiduals {
   /// residuals is taken out, which eliminates its offset exactly. `data` must outlive this.
   HybridResiduals(const HybridData& data, ScoredParts parts, std::size_t stride);
 
-  /// Of the data alone.
+  /// The number of residuals of the data, without those of decay and priors.
   std::size_t size() const { return size_; }
-  /// Nothing when a record diverges.
+  /// The law's signals at the scored samples; empty when a record diverges.
   SignalRows signals(std::span<const double> law_unknowns) const;
 
-  /// The network at its start, its scales, and the price of all unknowns' squared ways from their
-  /// start, N^2 per unit of their squares.
+  /// The network at its start with its scales, and the decay of all unknowns towards their start,
+  /// N^2 per squared unit of distance.
   struct Network {
     const SignalMixing& mixing;
     GatedNetwork start;  ///< its ranges of signals do not hold here
-    double price = 0;
+    double decay = 0;
     std::vector<bool> fixed;  ///< per weight: stays at its start; empty: none
   };
   /// From the law's unknowns `law_start`, which lie at the size of 1; noise as in
@@ -71,7 +71,7 @@ class HybridResiduals {
   /// The same over the weights alone, with the law's signals as they are.
   LeastSquaresProblem problem(const Network& network, const SignalRows& rows) const;
 
-  /// Measured minus modelled.
+  /// The residuals of the data at these weights: measured minus modelled force, N.
   void evaluate(const Network& network, const SignalRows& rows, std::span<const double> weights,
                 std::span<double> residuals) const;
 

@@ -26,6 +26,8 @@ using Records = std::vector<const FreeRunRecord*>;
 std::vector<double> mean_squares(const HysteresisBank& bank, const Records& records) {
   std::vector<double> squares(bank.signal_count()), signals(bank.signal_count()),
       state(bank.size());
+
+  // Run the bank from rest through each record and add up the squares.
   double samples = 0;
   for (const FreeRunRecord* record : records) {
     bank.rest(record->inputs.front(), state);
@@ -38,6 +40,7 @@ std::vector<double> mean_squares(const HysteresisBank& bank, const Records& reco
     }
     samples += static_cast<double>(record->inputs.size());
   }
+
   for (double& square : squares) square /= samples;
   return squares;
 }
@@ -97,9 +100,9 @@ class HysteresisNetworkFit {
   }
 
  private:
-  /// The price of weights with which trials foretell best what was held back from them.
+  /// The weight decay with which trials predict best what was held back from them.
   double best_decay(const Trials& trials) const {
-    return trials.best_price(
+    return trials.best_decay(
         kDecays, options_.threads, [this](const FreeRunTrial& trial, double decay) {
           const Effort effort{decay, std::min(kTrialIterations, iterations_)};
           const HysteresisNetwork found = fit(trial.training, kTrialSamples, effort).network;

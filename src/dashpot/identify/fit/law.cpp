@@ -41,11 +41,15 @@ struct Task {
 /// The best point that a global search finds within some times the expected size of each unknown.
 std::vector<double> searched_start(const Task& task, const LeastSquaresProblem& problem) {
   constexpr double kWidest = 5;
+
+  // Search within some times the expected size, on the start's side of 0.
   std::vector<double> start = task.unknowns.start(), lower = problem.lower, upper = problem.upper;
   for (std::size_t k = 0; k < start.size(); ++k) {
     lower[k] = std::max(lower[k], start[k] > 0 ? std::min(0.0, start[k]) : start[k] - kWidest);
     upper[k] = std::min(upper[k], start[k] < 0 ? std::max(0.0, start[k]) : start[k] + kWidest);
   }
+
+  // The cost is the sum of squares; a point where a record diverges costs infinitely much.
   std::vector<double> residuals(problem.residuals);
   const auto cost = [&](std::span<const double> x) {
     task.options.monitor.check();
@@ -60,14 +64,20 @@ std::vector<double> searched_start(const Task& task, const LeastSquaresProblem& 
 std::vector<double> best_start(const Task& task) {
   constexpr double kTolerance = 1e-2, kHopeless = 2;
   constexpr int kIterations = 15, kHopelessAfter = 5;
+
+  // A part of the data is enough to tell good starts from bad ones.
   const LawResiduals residuals =
       task.residuals(trial_thinning(task.law, task.training, task.unknowns.fits_lag()));
   const LeastSquaresProblem problem = residuals.problem(0, task.options.threads);
+
+  // The starts: the expected sizes, what a global search finds, and random ones.
   Random random(task.options.seed);
   std::vector<std::vector<double>> starts = {task.unknowns.start()};
   if (task.options.search > 0) starts.push_back(searched_start(task, problem));
   while (starts.size() < static_cast<std::size_t>(task.options.starts))
     starts.push_back(task.unknowns.start(&random));
+
+  // A short fit from each; once one has succeeded, a hopeless one is given up early.
   std::vector<double> best = starts.front();
   double best_cost = INFINITY;
   const auto attempt = [&](const std::vector<double>& start) {
@@ -98,8 +108,8 @@ Noise noise_at(const Task& task, const LawResiduals& residuals, std::span<const 
           std::sqrt(length * squares / static_cast<double>(residuals.size() - used))};
 }
 
-/// The end of a fit, with those unknowns moved off their bounds that nothing holds there: going
-/// back would hardly change the cost, as far as its slope tells.
+/// The end of a fit, with those unknowns moved off their bounds that nothing holds there: by the
+/// slope of the cost, moving back would hardly change it.
 std::vector<double> off_slack_bounds(const Task& task, const LeastSquaresReport& end) {
   constexpr double kSlack = 1e-3;
   std::vector<double> x = task.unknowns.off_bounds(end.x);
@@ -108,16 +118,22 @@ std::vector<double> off_slack_bounds(const Task& task, const LeastSquaresReport&
   return x;
 }
 
-/// From x on, on all data. An early step too long may have thrown an unknown against a bound where
-/// nothing pulls it back: those get one more chance from inside.
+/// Fits all data from x on. An early step too long may have thrown an unknown against a bound where
+/// nothing pulls it back: such unknowns get one more chance from inside.
 LeastSquaresReport solve_twice(const Task& task, const LeastSquaresProblem& problem,
                                std::vector<double> x) {
   constexpr int kIterations = 100, kSecondIterations = 20, kHopelessAfter = 3;
   constexpr double kTolerance = 1e-6, kHopeless = 1.02;
+
+  // The first fit runs to the end.
   LeastSquaresOptions solver = solver_options(task.options, kIterations, kTolerance);
   LeastSquaresReport first = solve(problem, std::move(x), solver);
+
+  // Move the unknowns that nothing holds at a bound back inside; done where there are none.
   const std::vector<double> freed = off_slack_bounds(task, first);
   if (freed == first.x || !std::isfinite(first.cost)) return first;
+
+  // The second fit from there is short, and is kept only when it is better.
   solver.max_iterations = kSecondIterations;
   solver.hopeless_after = kHopelessAfter;
   solver.hopeless_cost = kHopeless * first.cost;
@@ -128,15 +144,19 @@ LeastSquaresReport solve_twice(const Task& task, const LeastSquaresProblem& prob
              : solve(problem, second.x, solver_options(task.options, kIterations, kTolerance));
 }
 
-/// Priors are weighed against the residuals' noise, which the fit itself tells: so it is done again
-/// until the noise stays.
+/// Priors are weighed against the residuals' noise, which only the fit itself shows: so the fit is
+/// repeated until the noise stays.
 LawSolution solve_all(const Task& task) {
   constexpr int kRounds = 4;
   constexpr double kSameNoise = 0.02;
+
+  // The first noise is that at the best start, and only priors need it.
   const LawResiduals residuals = task.residuals({});
   LawSolution end{task.unknowns, {}, {}};
   std::vector<double> x = best_start(task);
   if (!task.unknowns.priors().empty()) end.noise = noise_at(task, residuals, x);
+
+  // Fit with the noise assumed, measure it again, and stop once the two agree.
   for (int round = 0; round < kRounds; ++round) {
     const double assumed = end.noise.independent;
     end.solved = solve_twice(task, residuals.problem(assumed, task.options.threads), std::move(x));
@@ -154,10 +174,14 @@ std::vector<FittedParameter> fitted_parameters(
     FittedParameter p{.name = c.name, .unit = c.unit, .meaning = c.meaning, .value = c.value};
     p.fixed = c.weights.empty();
     p.at_bound = c.at_bound;
+
+    // The 95 % interval; a fixed coefficient has none.
     const double spread =
         p.fixed ? 0 : kNormal95 * std::sqrt(covariance.variance(c.first, c.weights));
     p.low = c.value - spread;
     p.high = c.value + spread;
+
+    // It is weak when it depends on an unknown without effect or on one that can be traded.
     const auto touches = [&](std::size_t unknown) {
       return unknown >= c.first && unknown < c.first + c.weights.size();
     };
@@ -170,7 +194,7 @@ std::vector<FittedParameter> fitted_parameters(
   return parameters;
 }
 
-/// Names of the coefficients that hang on these unknowns, each once.
+/// Names of the coefficients that depend on these unknowns, each once.
 std::vector<std::string> names_of(const std::vector<std::size_t>& unknowns,
                                   const std::vector<LawUnknowns::Coefficient>& coefficients) {
   std::vector<std::string> names;

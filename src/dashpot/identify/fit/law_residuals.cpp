@@ -27,6 +27,8 @@ LawResiduals::LawResiduals(const LawUnknowns& unknowns, const std::vector<Record
   for (const Record& record : records) {
     Run run{damper_inputs(record, drive_unit), record.time, record.channel("force").samples,
             record.warm_up};
+
+    // Cut the run to the share that is wanted, then thin what is scored of it.
     const auto wanted =
         static_cast<std::size_t>(thinning.share * static_cast<double>(run.time.size()));
     const std::size_t length = std::min(run.time.size(), std::max(wanted, run.warm_up + kFewest));
@@ -36,9 +38,13 @@ LawResiduals::LawResiduals(const LawUnknowns& unknowns, const std::vector<Record
     thin(run.inputs, run.warm_up, thinning.stride);
     thin(run.time, run.warm_up, thinning.stride);
     thin(run.force, run.warm_up, thinning.stride);
+
+    // Constant drives in all runs allow one difference per parameter.
     constant_drive_ &= std::ranges::all_of(run.inputs, [&](const DamperInput& input) {
       return input.current == run.inputs.front().current;
     });
+
+    // Its residuals follow those of the runs before.
     segments_.emplace_back(size_, run.force.size() - run.warm_up);
     size_ += segments_.back().second;
     runs_.push_back(std::move(run));
@@ -87,12 +93,16 @@ bool LawResiduals::differences(std::span<const double> unknowns, const LawUnknow
                                std::span<const double> residuals,
                                std::span<double* const> columns) const {
   std::vector<double> slope(size_);
+
+  // One run with the parameter moved; where it diverges, a step to the other side.
   double step = unknowns_->step(unknowns, group);
   if (!simulate(unknowns_->moved(unknowns, group, step), slope)) {
     step = -step;
     if (!simulate(unknowns_->moved(unknowns, group, step), slope)) return false;
   }
   for (std::size_t k = 0; k < size_; ++k) slope[k] = (slope[k] - residuals[k]) / step;
+
+  // By the chain rule: each unknown moves the parameter by its share at the record's current.
   for (std::size_t u = 0; u < group.count; ++u) {
     double* const column = columns[group.first + u];
     if (!column) continue;
@@ -108,6 +118,8 @@ bool LawResiduals::differences(std::span<const double> unknowns, const LawUnknow
 LeastSquaresProblem LawResiduals::problem(double noise, int threads) const {
   const std::vector<LawUnknowns::PriorTerm> priors =
       noise > 0 ? unknowns_->priors() : std::vector<LawUnknowns::PriorTerm>{};
+
+  // A part of residuals per record, and one for the priors, so that each has its own variance.
   LeastSquaresProblem problem;
   problem.residuals = size_ + priors.size();
   problem.parts.clear();
@@ -115,6 +127,8 @@ LeastSquaresProblem LawResiduals::problem(double noise, int threads) const {
   if (!priors.empty()) problem.parts.push_back(size_);
   problem.lower = unknowns_->lower();
   problem.upper = unknowns_->upper();
+
+  // The residuals at given unknowns, each prior with one of its own.
   const auto add_priors = [this, noise, priors](std::span<const double> x, std::span<double> r) {
     for (std::size_t k = 0; k < priors.size(); ++k)
       r[size_ + k] = priors[k].residual(x[priors[k].unknown], noise);
@@ -123,6 +137,8 @@ LeastSquaresProblem LawResiduals::problem(double noise, int threads) const {
     add_priors(x, r);
     return evaluate(x, r.first(size_));
   };
+
+  // Without constant drives the solver takes its own differences, an unknown at a time.
   if (!constant_drive_) return problem;
   problem.jacobian = [this, add_priors, noise, priors, threads](std::span<const double> x,
                                                                 std::span<double> r,

@@ -23,7 +23,7 @@ class LawResiduals {
   LawResiduals(const LawUnknowns& unknowns, const std::vector<Record>& records,
                DriveUnit drive_unit, OffsetMode offset, const Thinning& thinning = {});
 
-  /// Residuals of the data alone.
+  /// The number of residuals of the data, without those of priors.
   std::size_t size() const { return size_; }
   /// False when a record diverges.
   bool evaluate(std::span<const double> unknowns, std::span<double> residuals) const;

@@ -9,7 +9,7 @@
 
 namespace dashpot {
 
-/// What a fitted model leaves over.
+/// The noise that a fitted model leaves in the residuals.
 struct Noise {
   double rms = 0;                 ///< N
   std::vector<double> variances;  ///< N^2, of one independent residual in each record

@@ -13,8 +13,8 @@ namespace {
 
 constexpr double kSlowest = 0.05, kFastest = 50;  // rates of an exponential, per range of the drive
 
-/// What these currents can tell: with two levels a parabola is a line, with one nothing depends on
-/// current.
+/// The form as far as these currents determine it: two levels allow a line at most, and with one
+/// nothing depends on current.
 Form simplest(Form form, const DriveRange& drive) {
   const std::size_t levels = drive.varies ? 4 : std::clamp<std::size_t>(drive.levels, 1, 4);
   if (coefficient_count(form) <= levels) return form;
@@ -56,6 +56,8 @@ double DataScale::of_unit(std::string_view unit) const {
 
 DataScale data_scale(const std::vector<Record>& records, DriveUnit drive_unit) {
   DataScale scale{.force = 0, .stroke = 0, .speed = 0, .drive = drive_range(records, drive_unit)};
+
+  // The largest span and speed of any record.
   for (const Record& record : records) {
     scale.force = std::max(scale.force, half_span(record.channel("force").samples));
     if (const Channel* displacement = record.find("displacement"))
@@ -63,6 +65,8 @@ DataScale data_scale(const std::vector<Record>& records, DriveUnit drive_unit) {
     for (const double v : record.channel("velocity").samples)
       scale.speed = std::max(scale.speed, std::abs(v));
   }
+
+  // Refuse what cannot tell a law.
   if (scale.force <= 0 || scale.speed <= 0)
     throw Error(
         "training records",
@@ -258,6 +262,7 @@ std::vector<LawUnknowns::Coefficient> LawUnknowns::coefficients(
   std::vector<Coefficient> out;
   const auto add = [&](const Row& row) {
     if (row.param.fit == Fit::Drive) return;
+
     const std::vector<double> fitted = values(row, unknowns);
     for (std::size_t c = 0; c < coefficient_count(row.form); ++c) {
       Coefficient coefficient{.name = coefficient_name(row.param.name, row.form, c),
@@ -265,6 +270,8 @@ std::vector<LawUnknowns::Coefficient> LawUnknowns::coefficients(
                               .meaning = std::string(row.param.meaning),
                               .value = fitted[c],
                               .first = row.first};
+
+      // A fitted one is a weighted sum of its parameter's unknowns.
       if (row.count > 0) {
         coefficient.weights = weights(row, c);
         for (std::size_t k = 0; k < row.count; ++k)
@@ -273,6 +280,8 @@ std::vector<LawUnknowns::Coefficient> LawUnknowns::coefficients(
       out.push_back(std::move(coefficient));
     }
   };
+
+  // The law's parameters in the order of its table, then the lag.
   for (const Row& row : rows_) add(row);
   if (lag_) add(*lag_);
   return out;

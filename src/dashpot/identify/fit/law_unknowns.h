@@ -37,13 +37,13 @@ class LawUnknowns {
   std::size_t size() const { return lower_.size(); }
   const std::vector<double>& lower() const { return lower_; }
   const std::vector<double>& upper() const { return upper_; }
-  /// Where the fit starts; with `random`, each value is moved by a factor of 1/3 to 3.
+  /// The start of the fit; with `random`, each value is moved by a factor of 1/3 to 3.
   std::vector<double> start(Random* random = nullptr) const;
   /// The unknowns, with those that stand at a bound back inside.
   std::vector<double> off_bounds(std::vector<double> unknowns) const;
   LawModel model(std::span<const double> unknowns) const;
   bool fits_lag() const { return lag_.has_value(); }
-  /// What was asked for and these data cannot tell, in words.
+  /// Warnings, in words, of wishes that these data cannot fulfil.
   const std::vector<std::string>& warnings() const { return warnings_; }
 
   /// One coefficient of the model as a linear combination of unknowns.

@@ -20,8 +20,8 @@
 namespace dashpot {
 namespace {
 
-constexpr std::size_t kMostRows =
-    6000;  // of regressors; of finer records some of the grids that lie in them
+// Rows of regressors at most; finer records give some of the grids that lie in them.
+constexpr std::size_t kMostRows = 6000;
 constexpr std::array kDecays{1e-2, 1e-3, 1e-4, 1e-5};
 constexpr std::size_t kMostTrials = 4, kTrialRows = 2000;  // of decays
 constexpr int kFirstIterations = 40;  // series-parallel, where free run follows
@@ -29,7 +29,7 @@ constexpr int kFirstIterations = 40;  // series-parallel, where free run follows
 // steps the fed-back force all but repeats itself, and whole records take so many more of them.
 constexpr double kUsualStep = 1e-3;
 
-/// What preset and design make together.
+/// A preset with what the user's design changes of it.
 struct NarxPlan {
   NarxPlan(const NarxPreset& preset, const NetworkDesign& design)
       : name(preset.name),
@@ -67,7 +67,7 @@ double step_of(const Record& record) {
   return (record.time.back() - record.time.front()) / static_cast<double>(record.size() - 1);
 }
 
-/// A drive that is steady in each record has no past to tell.
+/// A drive that is steady in each record has no past worth reading.
 Regressors regressors_of(const NarxPlan& plan, const std::vector<Record>& training,
                          DriveUnit drive_unit) {
   double step = 0;
@@ -86,15 +86,18 @@ Regressors regressors_of(const NarxPlan& plan, const std::vector<Record>& traini
 /// Records on the network's own grid.
 class NarxData {
  public:
-  /// Of finer records, some of the grids that lie in them: every so many-th sample, from several
-  /// first ones on, and of long ones some parts, so that there are about `most` rows.
+  /// Finer records give some of the grids that lie in them: every so many-th sample, from several
+  /// first ones on. Long records give some of their parts, so that there are about `most` rows.
   NarxData(Regressors of, const std::vector<Record>& records, DriveUnit drive_unit,
            std::size_t most)
       : regressors(std::move(of)) {
+    // So many grids of one record give about the rows wanted.
     double seconds = 0;
     for (const Record& record : records) seconds += record.time.back() - record.time.front();
     const auto most_grids = static_cast<std::size_t>(
         std::max(1.0, static_cast<double>(most) * regressors.sample_time / seconds));
+
+    // From each record the grids that lie in it, their first samples spread evenly.
     samples.feedback = regressors.feedback;
     samples.rows.groups = records.size();
     for (std::size_t r = 0; r < records.size(); ++r) {
@@ -103,6 +106,8 @@ class NarxData {
       const std::size_t taken = std::min(grids, most_grids);
       for (std::size_t k = 0; k < taken; ++k) add(records[r], r, k * grids / taken, drive_unit);
     }
+
+    // Records too short give no row; where still too many are left, parts of each stretch go.
     if (samples.rows.targets.empty())
       throw Error(records.front().name, "no record is longer than the network's past",
                   "fewer delays, or a smaller spacing");
@@ -128,10 +133,13 @@ class NarxData {
   /// measured forces.
   void thin(std::size_t every) {
     constexpr std::size_t kPart = 200;
+
     const NarxSamples all = std::exchange(samples, {});
     const std::size_t width = regressors.count(), count = all.rows.targets.size();
     samples.feedback = all.feedback;
     samples.rows.groups = all.rows.groups;
+
+    // Copy one part of every `every` in each stretch as a stretch of its own.
     for (std::size_t k = 0; k < all.stretches.size(); ++k) {
       const std::size_t end = k + 1 < all.stretches.size() ? all.stretches[k + 1] : count;
       for (std::size_t at = all.stretches[k]; at < end; at += every * kPart) {
@@ -150,19 +158,26 @@ class NarxData {
   }
 
   void add(const Record& record, std::size_t group, std::size_t first, DriveUnit drive_unit) {
+    // A record shorter than the network's past gives nothing.
     const double step = regressors.sample_time;
     if (record.time.back() - record.time[first] <
         step * static_cast<double>(regressors.depth() + 2))
       return;
+
+    // Bring the rest of the record onto the network's grid, and build its rows of regressors.
     Record grid = record.slice(first, record.size());
     const double warm_up = record.time[record.warm_up] - record.time[first];
     if (step != record.sample_time) resample(grid, 1 / step);
     const std::vector<double>& force = grid.channel("force").samples;
     std::vector<double> rows = regressor_rows(regressors, damper_inputs(grid, drive_unit), force);
+
+    // Score from where both the past is known and the warm-up has ended.
     const std::size_t past = regressors.depth(), width = regressors.count();
     const auto scored = static_cast<std::size_t>(std::max(0.0, std::ceil(warm_up / step - 1e-6)));
     const std::size_t from = std::max(past, scored);
     if (from >= force.size()) return;
+
+    // Append rows and targets as a new stretch.
     TrainingSamples& to = samples.rows;
     samples.stretches.push_back(to.targets.size());
     to.inputs.insert(to.inputs.end(),
@@ -176,6 +191,8 @@ class NarxData {
 /// A network that reads so many of the columns, its scales those of the samples.
 Mlp standardised(const NarxPlan& plan, const TrainingSamples& rows, std::size_t fed_back) {
   constexpr double kReach = 0.75;  // of the force span, on either side of its middle
+
+  // Layers and activations as planned.
   const std::size_t width = rows.inputs.size() / rows.targets.size();
   Mlp mlp;
   mlp.layers.push_back(width);
@@ -184,6 +201,8 @@ Mlp standardised(const NarxPlan& plan, const TrainingSamples& rows, std::size_t 
   mlp.activations.assign(plan.hidden.size(), plan.activation);
   mlp.activations.push_back(plan.bounded ? Activation::Tanh : Activation::Identity);
   mlp.parameters.resize(Mlp::parameter_count(mlp.layers));
+
+  // The output's scale: a bounded network covers the force span with room to spare.
   if (plan.bounded) {
     const auto [low, high] = std::minmax_element(rows.targets.begin(), rows.targets.end());
     mlp.output_mean = (*low + *high) / 2;
@@ -191,6 +210,8 @@ Mlp standardised(const NarxPlan& plan, const TrainingSamples& rows, std::size_t 
   } else {
     std::tie(mlp.output_mean, mlp.output_scale) = mean_and_scale(rows.targets, 0, 1);
   }
+
+  // Inputs are scaled by the samples, fed-back forces as the output is.
   for (std::size_t k = 0; k < width; ++k) {
     const auto [mean, scale] = k + fed_back < width ? mean_and_scale(rows.inputs, k, width)
                                                     : std::pair(mlp.output_mean, mlp.output_scale);
@@ -200,16 +221,21 @@ Mlp standardised(const NarxPlan& plan, const TrainingSamples& rows, std::size_t 
   return mlp;
 }
 
-/// What the force zeros of the records differ by, as a network without fed-back forces finds it.
+/// The difference of each record's force zero from the others', as a network without fed-back
+/// forces finds it.
 std::vector<double> record_offsets(const NarxPlan& plan, const NarxData& data,
                                    const IdentifyOptions& options) {
   constexpr int kIterations = 30;
   const std::size_t width = data.regressors.count(), kept = data.regressors.input_count();
+
+  // The samples without the columns that are fed back.
   TrainingSamples rows = data.samples.rows;
   rows.inputs.clear();
   for (std::size_t at = 0; at < data.samples.rows.inputs.size(); at += width)
     rows.inputs.insert(rows.inputs.end(), &data.samples.rows.inputs[at],
                        &data.samples.rows.inputs[at] + kept);
+
+  // A short training of a network on them, with one offset per record beside it.
   Mlp mlp = standardised(plan, rows, 0);
   mlp.activations.back() = Activation::Identity;
   initialise(mlp, options.seed);
@@ -221,13 +247,13 @@ std::vector<double> record_offsets(const NarxPlan& plan, const NarxData& data,
 
 /// How much a training may cost.
 struct Effort {
-  double decay;  ///< price of squared weights
+  double decay;  ///< weight decay: the factor of their squares
   std::size_t starts = 1, members = 1;
   int first_iterations = 15, iterations = 15;
   std::size_t residuals = 1000;
 };
 
-/// What the stages of a training share.
+/// The stages of a training: series-parallel first, then in free run where the plan asks for it.
 class NarxFit {
  public:
   NarxFit(const NarxPlan& plan, const NarxData& data, const IdentifyOptions& options,
@@ -249,7 +275,7 @@ class NarxFit {
     return trained;
   }
 
-  /// What a network leaves of other records in free run, N^2, their offsets taken out.
+  /// The squared error, N^2, of a network on other records in free run, their offsets taken out.
   double squares_left(const Mlp& mlp, const NarxSamples& samples) const {
     const double rmse = free_run_rmse(mlp, samples, free_run_options());
     return rmse * rmse * static_cast<double>(samples.rows.targets.size());
@@ -308,7 +334,7 @@ class NarxFit {
   Effort effort_;
 };
 
-/// Without what the force zeros of its records differ by.
+/// The samples of a training, the differences of their records' force zeros taken out.
 NarxData training_data(const NarxPlan& plan, const Regressors& regressors,
                        const std::vector<Record>& records, DriveUnit drive_unit,
                        const IdentifyOptions& options, std::size_t most) {
@@ -320,7 +346,7 @@ NarxData training_data(const NarxPlan& plan, const Regressors& regressors,
   return data;
 }
 
-/// The price of weights with which short trainings foretell best what was held back from them.
+/// The weight decay with which short trainings predict best what was held back from them.
 double best_decay(const NarxPlan& plan, const Regressors& regressors,
                   const std::vector<Record>& training, DriveUnit drive_unit,
                   const IdentifyOptions& options) {
@@ -331,9 +357,12 @@ double best_decay(const NarxPlan& plan, const Regressors& regressors,
   parallel_for(squares.size(), options.threads, [&](std::size_t k) {
     // Spread over all: conditions come first, levels of the drive last.
     const Fold& fold = folds[(2 * (k / kDecays.size()) + 1) * folds.size() / (2 * trials)];
+
     const NarxData seen =
         training_data(plan, regressors, fold.training, drive_unit, options, kTrialRows);
     const NarxData unseen(regressors, fold.left_out, drive_unit, kTrialRows);
+
+    // Train briefly, no longer than the design allows, and score the best network in free run.
     Effort effort{.decay = kDecays[k % kDecays.size()]};
     if (options.network.epochs)
       effort.first_iterations = effort.iterations =
@@ -341,6 +370,8 @@ double best_decay(const NarxPlan& plan, const Regressors& regressors,
     const NarxFit fit(plan, seen, options, effort);
     squares[k] = fit.squares_left(fit.members().front().mlp, unseen.samples);
   });
+
+  // The decay with the least squares over all trials.
   std::array<double, kDecays.size()> sums{};
   for (std::size_t k = 0; k < squares.size(); ++k) sums[k % kDecays.size()] += squares[k];
   return kDecays[static_cast<std::size_t>(std::min_element(sums.begin(), sums.end()) -
@@ -366,12 +397,17 @@ Effort full_effort(const NarxPlan& plan, const IdentifyOptions& options, double 
 
 FitReport fit_narx(const NarxPreset& preset, const std::vector<Record>& training,
                    DriveUnit drive_unit, const IdentifyOptions& options) {
+  // The design and the samples.
   const NarxPlan plan(preset, options.network);
   const Regressors regressors = regressors_of(plan, training, drive_unit);
   const NarxData data = training_data(plan, regressors, training, drive_unit, options, kMostRows);
+
+  // The weight decay, found by trials unless it is given, and the training.
   const Effort effort =
       full_effort(plan, options, best_decay(plan, regressors, training, drive_unit, options));
   std::vector<TrainedMlp> trained = NarxFit(plan, data, options, effort).members();
+
+  // Report the members, and warn where the model is free to diverge.
   FitReport report = report_of_members(trained);
   std::vector<Mlp> members;
   for (TrainedMlp& member : trained) members.push_back(std::move(member.mlp));
@@ -379,8 +415,7 @@ FitReport fit_narx(const NarxPreset& preset, const std::vector<Record>& training
   if (model->can_diverge())
     report.warnings.push_back(
         "nothing bounds its force in free run: beyond its training data it can diverge, which is "
-        "then "
-        "reported with its time; --network output=bounded rules it out");
+        "then reported with its time; --network output=bounded rules it out");
   report.model = model;
   return report;
 }

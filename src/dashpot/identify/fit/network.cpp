@@ -17,6 +17,7 @@ double input_of(const DamperInput& input, std::string_view name) {
 
 Mlp standardised(const NetworkPreset& preset, const NetworkDesign& design,
                  const TrainingSamples& samples) {
+  // Layers and activations as designed.
   const std::vector<std::size_t>& hidden = design.hidden.empty() ? preset.hidden : design.hidden;
   Mlp mlp;
   mlp.layers.push_back(preset.inputs.size());
@@ -25,6 +26,8 @@ Mlp standardised(const NetworkPreset& preset, const NetworkDesign& design,
   mlp.activations.assign(hidden.size(), design.activation.value_or(Activation::Tanh));
   mlp.activations.push_back(Activation::Identity);
   mlp.parameters.resize(Mlp::parameter_count(mlp.layers));
+
+  // Inputs and output standardised by the samples.
   for (std::size_t k = 0; k < preset.inputs.size(); ++k) {
     const auto [mean, scale] = mean_and_scale(samples.inputs, k, preset.inputs.size());
     mlp.input_mean.push_back(mean);

@@ -144,24 +144,23 @@ constexpr std::array kSettings{
     word_setting<&NetworkDesign::schedule, kSchedules>(
         "schedule",
         "of the rate: as it is, to a tenth after each third of the epochs, or down to 0 along a "
-        "cosine, "
-        "which is usual",
+        "cosine, which is usual",
         "constant, step or cosine"),
     count_setting<&NetworkDesign::batch, 1>("batch", "samples of a mini-batch; 20 unless set",
                                             "20"),
     count_setting<&NetworkDesign::epochs, 1>(
         "epochs", "epochs (100 unless set), or iterations on all samples, at most", "100"),
-    number_setting<&NetworkDesign::l1, true>("l1", "price of a weight's size, for batch trainers",
-                                             "1e-5"),
+    number_setting<&NetworkDesign::l1, true>(
+        "l1", "weight decay by the weights' size, for batch trainers", "1e-5"),
     number_setting<&NetworkDesign::l2, true>("l2",
-                                             "price of a weight's square; unless set, batch "
-                                             "trainers have none and others find it by trials on "
-                                             "held-back training records",
+                                             "weight decay by the weights' squares; unless set, "
+                                             "batch trainers have none and others find "
+                                             "it by trials on held-back training records",
                                              "3e-4"),
     count_setting<&NetworkDesign::patience, 0>(
         "patience",
-        "epochs without gain on held-back training records after "
-        "which training stops; 0, which is usual: none is held back",
+        "epochs without gain on held-back training records after which training stops; 0, which is "
+        "usual: none is held back",
         "20"),
     count_setting<&NetworkDesign::members, 1, kMaxMembers>("members",
                                                            "networks whose mean is the model", "5"),
@@ -234,7 +233,7 @@ void require_trainer(const NetworkDesign& design, Trainer usual) {
   for (const NetworkSetting& setting : kSettings)
     if (!setting.format(design).empty() && !has_use(trainer, setting.name))
       throw Error("--network " + std::string(setting.name), which + " has none",
-                  setting.name == "l2" ? "it finds the price by itself; trainer=lm has l2"
+                  setting.name == "l2" ? "it finds the weight decay by itself; trainer=lm has l2"
                                        : "choose a batch trainer, as trainer=adam");
 }
 

@@ -35,12 +35,12 @@ Optimiser optimiser_of(Trainer trainer) {
   }
 }
 
-/// What a training learns from and is stopped by.
+/// The samples that a training learns from, and those that stop it.
 struct Lesson {
   TrainingSamples samples, held_back;  ///< nothing held back: no early stopping
 };
 
-/// Every so many samples, so that about `most` are left.
+/// Every k-th sample, so that about `most` are left.
 TrainingSamples thinned(const TrainingSamples& all, std::size_t inputs, std::size_t most) {
   const std::size_t count = all.targets.size(), stride = (count + most - 1) / most;
   TrainingSamples some;
@@ -61,6 +61,8 @@ TrainingSamples without_offsets(TrainingSamples samples, const Mlp& start,
                                 const IdentifyOptions& options) {
   if (samples.group.empty()) return samples;
   constexpr std::size_t kNeurons = 10;
+
+  // A network of few neurons, trained beside the offsets on a part of the samples.
   Mlp beside = start;
   beside.layers = {start.layers.front(), kNeurons, 1};
   beside.activations.clear();
@@ -69,6 +71,8 @@ TrainingSamples without_offsets(TrainingSamples samples, const Mlp& start,
   how.on_iteration = [&](int, double) { options.monitor.check(); };
   const TrainReport found =
       train(beside, thinned(samples, start.layers.front(), kTrialSamples), how);
+
+  // Take the offsets that it found out of all samples, which then need no groups.
   for (std::size_t s = 0; s < samples.targets.size(); ++s)
     samples.targets[s] -= found.offsets[samples.group[s]];
   samples.group.clear();
@@ -84,9 +88,13 @@ class Training {
   TrainReport run(Mlp& mlp, const Lesson& lesson, std::uint64_t seed) const {
     const NetworkDesign& design = options_.network;
     const Trainer trainer = design.trainer.value_or(Trainer::LevenbergMarquardt);
+
+    // Early stopping, where something is held back.
     Stopping stopping;
     if (!lesson.held_back.targets.empty())
       stopping = {&lesson.held_back, static_cast<int>(*design.patience)};
+
+    // The trainer that the design names, with its own options.
     if (trains_on_batches(trainer)) return on_batches(mlp, lesson.samples, stopping, seed);
     if (trainer == Trainer::Lbfgs) {
       LbfgsOptions how{.weight_decay = decay_, .threads = options_.threads, .stopping = stopping};
@@ -94,6 +102,7 @@ class Training {
       how.on_iteration = [this](int, double) { options_.monitor.check(); };
       return train_lbfgs(mlp, lesson.samples, how);
     }
+
     TrainOptions how{.weight_decay = decay_,
                      .threads = options_.threads,
                      .bayesian = trainer == Trainer::Bayesian,
@@ -115,7 +124,7 @@ class Training {
     how.rate = design.rate.value_or(how.rate);
     how.batch = design.batch.value_or(how.batch);
     how.l1 = design.l1.value_or(0);
-    // of |w|^2, whose slope is 2 w
+    // The decay is that of |w|^2, whose slope is 2 w.
     (how.optimiser == Optimiser::AdamW ? how.decay : how.l2) = 2 * decay_;
     how.on_epoch = [this](int, double) { options_.monitor.check(); };
     TrainReport report = train_batches(mlp, samples, how);
@@ -127,7 +136,7 @@ class Training {
   double decay_;
 };
 
-/// The price of weights with which trials foretell best what was held back from them.
+/// Finds the weight decay with which trials predict best what was held back from them.
 class DecayTrials {
  public:
   DecayTrials(const Mlp& start, const std::vector<Record>& training, const SamplesOf& samples_of,
@@ -175,7 +184,7 @@ double weight_decay(const Mlp& start, const std::vector<Record>& training,
   return DecayTrials(start, training, samples_of, options).best();
 }
 
-/// One for all members, or one for each way of holding records back.
+/// One lesson for all members, or one for each way of holding records back.
 std::vector<Lesson> lessons_of(const Mlp& start, const std::vector<Record>& training,
                                const SamplesOf& samples_of, const IdentifyOptions& options) {
   const NetworkDesign& design = options.network;

@@ -111,9 +111,12 @@ void require_consistent(const ParamInfo& param, const ParameterChoice& choice) {
   const std::string name(param.name);
   if (param.fit == Fit::Drive)
     throw Error(name, "is the coil current itself", "nothing is to be chosen for it");
+
   if (choice.fixed && (choice.form || choice.free || choice.bounds || choice.prior))
     throw Error(name, "is fixed, and something else is asked of it too",
                 "a fixed parameter has neither form, bounds nor prior");
+
+  // Bounds must hold something, and lie within the table's.
   const ParameterBounds table{param.lower, param.upper};
   const ParameterBounds bounds = choice.bounds.value_or(table);
   if (!(bounds.lower < bounds.upper))
@@ -122,6 +125,8 @@ void require_consistent(const ParamInfo& param, const ParameterChoice& choice) {
   if (bounds.lower < table.lower || bounds.upper > table.upper)
     throw Error(name, "its bounds " + range_text(bounds, param.unit) + " reach beyond the law's",
                 range_text(table, param.unit));
+
+  // A value must lie within them.
   if (choice.fixed) require_within(*choice.fixed, table, param, "the value");
   if (choice.prior) require_within(choice.prior->value, bounds, param, "the prior's value");
 }
@@ -189,6 +194,7 @@ ParameterChoice parse_prior_choice(std::string_view text, const std::string& opt
 
 void require_choices(const std::vector<ParameterChoice>& choices, const ModelNames& models) {
   for (const ParameterChoice& choice : choices) {
+    // In every model that the choice may mean, what is chosen must suit the row of its table.
     bool meant = false;
     for (const std::string& model : models) {
       const Law* law = law_inside(model);
@@ -202,6 +208,8 @@ void require_choices(const std::vector<ParameterChoice>& choices, const ModelNam
       if (choice.parameter == kLagParameter.name)
         require_consistent(kLagParameter, choice_for(choices, model, kLagParameter));
     }
+
+    // A choice that no model has a use for is a mistake.
     if (!meant)
       throw Error(choice.parameter, "none of the models to be fitted has this parameter",
                   "'dashpot models NAME' lists a model's parameters");

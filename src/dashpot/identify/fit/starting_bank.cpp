@@ -6,8 +6,8 @@ namespace dashpot {
 
 HysteresisBank starting_bank(const BankSize& size, const std::vector<const FreeRunRecord*>& records,
                              bool drive_varies) {
-  constexpr double kSlowest = 2,
-                   kFastest = 30;  // Dahl rates times the longest and the shortest way
+  // Dahl rates times the longest and the shortest way.
+  constexpr double kSlowest = 2, kFastest = 30;
   constexpr double kLags[] = {30, 300}, kCurrentLags[] = {20, 200}, kSteady = 100;  // 1/s
   const WayRange way = way_range(records);
   HysteresisBank bank;

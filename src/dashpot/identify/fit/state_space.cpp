@@ -19,8 +19,9 @@ constexpr std::size_t kWindow = 400;      // samples of a window
 constexpr std::size_t kWindowStride = 2;  // of its samples, scored
 constexpr std::size_t kWindowSteps = 12000, kTrialSteps = 5000;
 constexpr int kWindowIterations = 25, kTrialIterations = 12, kFinishIterations = 30;
-constexpr int kTrialFinish =
-    10;  // a short trial prefers small weights, so a lone one is made in full
+// Iterations that end a lone trial: a short one prefers small weights, so a lone one is made in
+// full.
+constexpr int kTrialFinish = 10;
 constexpr double kTolerance = 1e-3;  // stopping early, too, keeps weights small
 constexpr std::array kDecays{1e-3, 1e-4, 1e-5};
 constexpr double kMostStep = 0.005;  // s, of the model
@@ -47,10 +48,12 @@ double longest_sample_time(const Records& records) {
 
 StateSpaceCell starting_cell(const StateSpacePreset& preset, const Records& records,
                              const DriveRange& drive) {
-  constexpr double kSlowest = 2,
-                   kFastest = 30;  // path rates times the longest and the shortest way
+  // Path rates times the longest and the shortest way.
+  constexpr double kSlowest = 2, kFastest = 30;
   constexpr double kLags[] = {30, 300}, kCurrentLags[] = {20, 200}, kSteady = 100;  // 1/s
   StateSpaceCell cell;
+
+  // The rates of its states: by the way travelled, in time, and of the current.
   const double square = mean_square_velocity(records);
   cell.velocity_scale = square > 0 ? std::sqrt(square) : 1;
   const WayRange way = way_range(records);
@@ -60,6 +63,8 @@ StateSpaceCell starting_cell(const StateSpacePreset& preset, const Records& reco
   cell.current_rates = drive.varies
                            ? spaced_rates(kCurrentLags[0], kCurrentLags[1], preset.current_lags)
                            : std::vector{kSteady};
+
+  // The scale of the current, and a step that no record exceeds without need.
   const double half = (drive.high - drive.low) / 2;
   cell.current_mean = drive.low + half;
   cell.current_scale = half > 0 ? half : 1;
@@ -128,7 +133,7 @@ class StateSpaceFit {
 
   double best_decay(const Trials& trials) const {
     const bool lone = trials.all().size() == 1;
-    return trials.best_price(
+    return trials.best_decay(
         kDecays, options_.threads, [this, lone](const FreeRunTrial& trial, double decay) {
           StateSpaceNetwork found =
               from_windows(trial.training, lone ? Effort{decay, kWindowIterations, kWindowSteps}

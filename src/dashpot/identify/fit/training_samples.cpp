@@ -11,6 +11,8 @@ TrainingSamples training_samples(const std::vector<Record>& records, DriveUnit d
     const Record& record = records[r];
     const std::vector<double> inputs = rows(damper_inputs(record, drive_unit), record.time);
     const std::vector<double>& force = record.channel("force").samples;
+
+    // Append inputs and forces from the end of the warm-up on.
     const auto warm_up = static_cast<std::ptrdiff_t>(record.warm_up);
     const auto width = static_cast<std::ptrdiff_t>(inputs.size() / force.size());
     samples.inputs.insert(samples.inputs.end(), inputs.begin() + warm_up * width, inputs.end());

@@ -24,16 +24,16 @@ std::vector<const FreeRunRecord*> Trials::keep(std::vector<FreeRunRecord> record
   return pointers;
 }
 
-double Trials::best_price(
-    std::span<const double> prices, int threads,
+double Trials::best_decay(
+    std::span<const double> decays, int threads,
     const std::function<double(const FreeRunTrial&, double)>& squares_left) const {
-  std::vector<double> squares(prices.size() * trials_.size());
+  std::vector<double> squares(decays.size() * trials_.size());
   parallel_for(squares.size(), threads, [&](std::size_t k) {
-    squares[k] = squares_left(trials_[k / prices.size()], prices[k % prices.size()]);
+    squares[k] = squares_left(trials_[k / decays.size()], decays[k % decays.size()]);
   });
-  std::vector<double> sums(prices.size());
-  for (std::size_t k = 0; k < squares.size(); ++k) sums[k % prices.size()] += squares[k];
-  return prices[static_cast<std::size_t>(std::min_element(sums.begin(), sums.end()) -
+  std::vector<double> sums(decays.size());
+  for (std::size_t k = 0; k < squares.size(); ++k) sums[k % decays.size()] += squares[k];
+  return decays[static_cast<std::size_t>(std::min_element(sums.begin(), sums.end()) -
                                          sums.begin())];
 }
 

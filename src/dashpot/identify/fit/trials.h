@@ -25,11 +25,11 @@ class Trials {
 
   const std::vector<FreeRunTrial>& all() const { return trials_; }
 
-  /// The price with which trials foretell best what was held back: the least sum of
-  /// squares_left(trial, price).
-  double best_price(
-      std::span<const double> prices, int threads,
-      const std::function<double(const FreeRunTrial&, double price)>& squares_left) const;
+  /// The weight decay with which trials predict best what was held back: the least sum of
+  /// squares_left(trial, decay).
+  double best_decay(
+      std::span<const double> decays, int threads,
+      const std::function<double(const FreeRunTrial&, double decay)>& squares_left) const;
 
  private:
   std::vector<const FreeRunRecord*> keep(std::vector<FreeRunRecord> records);

@@ -13,6 +13,8 @@ double correlation_length(std::span<const double> residuals,
   double variance = 0;
   for (const double r : residuals) variance += r * r;
   if (variance == 0) return 1;
+
+  // Sum the autocorrelation over the lags, up to the first that is not positive.
   std::size_t longest = 0;
   for (const auto& [first, length] : segments) longest = std::max(longest, length);
   double sum = 1;
