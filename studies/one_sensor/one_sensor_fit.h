@@ -1,9 +1,12 @@
 #pragma once
+#include <optional>
 #include <vector>
 
 #include "dashpot/drive.h"
+#include "dashpot/evaluate.h"
 #include "dashpot/identify.h"
-#include "studies/one_sensor/one_sensor_study.h"
+#include "dashpot/split.h"
+#include "studies/one_sensor/one_sensor_models.h"
 
 // One fit of the one-sensor study, and how it is judged.
 namespace dashpot {
@@ -15,6 +18,19 @@ struct StudiedFit {
 };
 StudiedFit studied_fit(const StudiedModel& model, const std::vector<Record>& training,
                        IdentifyOptions options);
+
+/// A model on the left-out records of one experiment, in free run, or of several together.
+struct StudiedResult {
+  ErrorSums sums;
+  Metrics metrics;
+  std::optional<ErrorSums>
+      one_step;  ///< of a model with feedback: the same, fed the measured force
+  std::optional<double> diverged_at;  ///< s
+  std::size_t parameters = 0;
+  double seconds = 0;  ///< CPU time of the fit
+  std::vector<std::vector<double>>
+      forces;  ///< N, of each left-out record; of models that figures show
+};
 
 /// The fit's model on the left-out records, at their full rate.
 StudiedResult judge(const FitReport& fit, const Fold& fold, DriveUnit drive_unit);

@@ -1,6 +1,4 @@
-// The models of the one-sensor study: the paper's networks, those that it compares itself with, and
-// the network that answers it.
-#include "studies/one_sensor/one_sensor_study.h"
+#include "studies/one_sensor/one_sensor_models.h"
 
 namespace dashpot {
 namespace {

@@ -6,10 +6,9 @@
 
 #include "dashpot/dataset.h"
 #include "dashpot/drive.h"
-#include "dashpot/evaluate.h"
-#include "dashpot/identify/fit/network_design.h"
 #include "dashpot/monitor.h"
 #include "dashpot/split.h"
+#include "studies/one_sensor/one_sensor_fit.h"
 
 namespace dashpot {
 
@@ -42,28 +41,6 @@ std::vector<StudiedDamper> virtual_dampers(std::uint64_t seed);
 /// together.
 StudiedDamper measured_damper(const Dataset& dataset, const LeaveOut& leave_out);
 
-/// A model of the study. Its key is how tables find it.
-struct StudiedModel {
-  std::string key, title;
-  std::string model;  ///< of the registry
-  NetworkDesign design;
-  bool example_only = false;  ///< only on the damper's example
-};
-std::vector<StudiedModel> one_sensor_models();
-
-/// A model on the left-out records of one experiment, in free run, or of several together.
-struct StudiedResult {
-  ErrorSums sums;
-  Metrics metrics;
-  std::optional<ErrorSums>
-      one_step;  ///< of a model with feedback: the same, fed the measured force
-  std::optional<double> diverged_at;  ///< s
-  std::size_t parameters = 0;
-  double seconds = 0;  ///< CPU time of the fit
-  std::vector<std::vector<double>>
-      forces;  ///< N, of each left-out record; of models that figures show
-};
-
 /// Networks of one size, cross-validated.
 struct StudiedSize {
   std::size_t neurons = 0, parameters = 0;
@@ -92,11 +69,6 @@ struct OneSensorStudy {
   std::optional<StudiedResult> example(std::size_t damper, const std::string& key) const;
   std::optional<StudiedResult> all(std::size_t damper, const std::string& key) const;
 };
-
-/// Keys of the models whose forces the figures show: the paper's network, and the one that
-/// remembers.
-inline constexpr const char* kStatic = "one-sensor";
-inline constexpr const char* kHysteresis = "hysteresis";
 
 struct OneSensorOptions {
   std::uint64_t seed = 1;

@@ -1,10 +1,22 @@
 #pragma once
 #include <cstdint>
+#include <memory>
+#include <string>
 
-#include "studies/suspension/suspension_study.h"
+#include "dashpot/damper_model.h"
+#include "dashpot/evaluate.h"
 
 // The dampers of the suspension study.
 namespace dashpot {
+
+/// A damper that was recorded on the virtual bench and identified by the paper's network: v, i, ten
+/// neurons.
+struct NetworkDamper {
+  std::string name, description;
+  std::shared_ptr<const DamperModel> model;  ///< without force at rest
+  Metrics quality;                           ///< on recordings that the network has not seen
+  double half_span = 0;                      ///< N, of the forces there
+};
 
 /// MR2, a virtual damper, by the paper's network.
 NetworkDamper identified_mr2(std::uint64_t seed);

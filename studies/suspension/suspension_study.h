@@ -1,28 +1,18 @@
 #pragma once
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "dashpot/evaluate.h"
 #include "dashpot/monitor.h"
 #include "dashpot/suspension/ride/gain_curves.h"
 #include "dashpot/suspension/ride/ride_bound.h"
 #include "dashpot/vehicle.h"
+#include "studies/suspension/study_dampers.h"
 
 // The one-sensor paper's last section: its quarter car with the identified damper and Mix-1-sensor
 // control.
 namespace dashpot {
-
-/// A damper that was recorded on the virtual bench and identified by the paper's network: v, i, ten
-/// neurons.
-struct NetworkDamper {
-  std::string name, description;
-  std::shared_ptr<const DamperModel> model;  ///< without force at rest
-  Metrics quality;                           ///< on recordings that the network has not seen
-  double half_span = 0;                      ///< N, of the forces there
-};
 
 /// A suspension of the study: a damper with what drives it, in the paper's car.
 struct SuspensionScheme {
