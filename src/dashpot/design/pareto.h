@@ -25,6 +25,7 @@ struct FrontProblem {
   std::vector<std::vector<double>> starts;  ///< places to begin from, beside random ones
 };
 
+/// How the front is sought.
 struct FrontOptions {
   FrontMethod method = FrontMethod::Nsga2;
   std::size_t points = 200;
@@ -34,6 +35,7 @@ struct FrontOptions {
   const Monitor* monitor = nullptr;
 };
 
+/// The places found, best in one goal or another.
 struct Front {
   std::vector<std::vector<double>> places;  ///< of which none is better than another in all goals
   std::size_t evaluations = 0;
