@@ -190,8 +190,8 @@ DocumentSection comparison_section(const FamilyStudy& study) {
         comparison.name,
         comparison.title,
         comparison.fixed +
-            ". Dots: measured. Lines: h3x15, which learnt from them. Dashes: h3x15 that has "
-            "not seen this " +
+            ". Dots: measured. Lines: h3x15, which learnt from them. Dashes: h3x15 that has not "
+            "seen this " +
             (comparison.unseen == FamilyProtocol::Fluids ? "fluid." : "geometry."),
         {{"Force against displacement", "Displacement (mm)", "Force (N)", {}},
          {"Force against velocity", "Velocity (mm/s)", "Force (N)", {}}},
@@ -208,8 +208,7 @@ DocumentSection comparison_section(const FamilyStudy& study) {
   section.tables.push_back(std::move(table));
   section.paragraphs.push_back(
       "The paper shows its network on records that it learnt from. Dashed beside it here: the same "
-      "network, "
-      "taught without these dampers.");
+      "network, taught without these dampers.");
   return section;
 }
 

@@ -22,12 +22,9 @@ std::string verdict_of(const FamilyStudy& study) {
   const FamilyOutcome* unseen = study.outcome(FamilyProtocol::Geometries, own);
   return fmt::format(
       "On the {} samples that it learns from, the paper's h3x15 leaves a mean absolute error of {} "
-      "N with R2 "
-      "{} (medians of {}); the paper's chart says 0.5115 N, its published weights give 0.714 N and "
-      "0.9919. "
-      "What it is worth for a damper that it has not seen is another figure: with each geometry "
-      "left out in "
-      "turn {} N and R2 {}.",
+      "N with R2 {} (medians of {}); the paper's chart says 0.5115 N, its published weights give "
+      "0.714 N and 0.9919. What it is worth for a damper that it has not seen is another figure: "
+      "with each geometry left out in turn {} N and R2 {}.",
       study.family.size(), median_mae_text(learnt), median_r2_text(learnt),
       counted(learnt->by_seed.size(), "seed"), median_mae_text(unseen), median_r2_text(unseen));
 }

@@ -42,13 +42,10 @@ std::string raw_inputs_remark(const FamilyStudy& study) {
   if (!raw || !own || !(mae_of(raw->by_seed).median < mae_of(own->by_seed).median)) return {};
   return fmt::format(
       "The authors' raw inputs, which fit the samples learnt from so much worse, do better on a "
-      "geometry "
-      "that "
-      "was not seen: {} N against {} N. Metres and square metres (1e-3, 1e-4) hardly move a "
-      "network beside "
-      "millimetres and kilopascals (10), so that it makes less of the geometry, and nine "
-      "geometries are "
-      "few to learn it from: a strong prior by accident, as L2 is one on purpose.",
+      "geometry that was not seen: {} N against {} N. Metres and square metres (1e-3, 1e-4) hardly "
+      "move a network beside millimetres and kilopascals (10), so that it makes less of the "
+      "geometry, and nine geometries are few to learn it from: a strong prior by accident, as L2 "
+      "is one on purpose.",
       median_mae_text(raw), median_mae_text(own));
 }
 
@@ -92,46 +89,28 @@ DocumentSection family_protocol_section(const FamilyStudy& study) {
   DocumentSection section{"protocol", "How it was done", {}};
   section.paragraphs = {
       "The paper (A Deep Neural Network Based Model for a Kind of Magnetorheological Dampers) "
-      "teaches one "
-      "ReLU "
-      "network the force of a family of dampers from eight inputs: piston area, gap area, gap, "
-      "pole length, "
-      "viscosity, yield stress, velocity and displacement. Its published recordings are 18 dampers "
-      "(3 "
-      "lengths, "
-      "3 gaps, 2 fluids) at 6 field levels, 400 samples each.",
+      "teaches one ReLU network the force of a family of dampers from eight inputs: piston area, "
+      "gap area, gap, pole length, viscosity, yield stress, velocity and displacement. Its "
+      "published recordings are 18 dampers (3 lengths, 3 gaps, 2 fluids) at 6 field levels, 400 "
+      "samples each.",
       fmt::format("One cycle per record: the velocity's rises through zero are found on the "
-                  "straight line between "
-                  "samples; the last complete cycle between two of them is taken, from the first "
-                  "sample behind the "
-                  "first rise on, with as many samples as the period holds, rounded. That gives {} "
-                  "samples from {}; "
-                  "the "
-                  "authors' own cutter, which the paper does not describe, gave 13 333{}",
+                  "straight line between samples; the last complete cycle between two of them is "
+                  "taken, from the first sample behind the first rise on, with as many samples as "
+                  "the period holds, rounded. That gives {} samples from {}; the authors' own "
+                  "cutter, which the paper does not describe, gave 13 333{}",
                   count, counted(study.family.cycles.size(), "record"),
                   count == family_paper::kSamples ? ", the same number." : "."),
       "Errors: the paper's bar charts say 'mean error' without a definition; taken here for the "
-      "mean "
-      "absolute "
-      "error (MAE, N). Except where something is said to be left out, networks are judged on the "
-      "samples "
-      "that "
-      "they learnt from, as the paper does: that tells how well an architecture can bend, not what "
-      "it knows "
-      "of another damper.",
+      "mean absolute error (MAE, N). Except where something is said to be left out, networks are "
+      "judged on the samples that they learnt from, as the paper does: that tells how well an "
+      "architecture can bend, not what it knows of another damper.",
       "Three ways to train stand beside each other. As printed: rate 1e-4, batch 20. As in the "
-      "authors' "
-      "code: "
-      "rate 1e-2, batch 100, 500 epochs. Both take the eight inputs raw (m^2 beside mm: 1e-4 "
-      "beside 10) and "
-      "draw first weights from a normal distribution of variance 1. Ours: inputs and force "
-      "standardised, "
-      "rate "
-      "1e-2 falling to 0 along a cosine, batch 100, 500 epochs; for one damper batch 20 and 1000 "
-      "epochs. "
-      "All use Adam on the mean squared error; the total force is the target. Values are medians "
-      "over seeds, "
-      "with the least and the greatest in brackets."};
+      "authors' code: rate 1e-2, batch 100, 500 epochs. Both take the eight inputs raw (m^2 beside "
+      "mm: 1e-4 beside 10) and draw first weights from a normal distribution of variance 1. Ours: "
+      "inputs and force standardised, rate 1e-2 falling to 0 along a cosine, batch 100, 500 "
+      "epochs; for one damper batch 20 and 1000 epochs. All use Adam on the mean squared error; "
+      "the total force is the target. Values are medians over seeds, with the least and the "
+      "greatest in brackets."};
   if (study.effort != 1)
     section.remarks.push_back(
         fmt::format("Trained for {} of these epochs only: a first look, not the study.",
@@ -166,11 +145,10 @@ DocumentSection determination_section(const FamilyStudy& study) {
       "The paper prints R2 = 0.9577 and does not say of which samples; the question marks are "
       "that. " +
       nearest_to_paper(study));
-  section.remarks.push_back(
-      fmt::format("Samples drawn at random judge nothing: each has neighbours 37 ms away that were "
-                  "learnt from. "
-                  "R2 on them differs from R2 on the samples learnt from by {} at most.",
-                  decimals(random_difference(study), 4)));
+  section.remarks.push_back(fmt::format(
+      "Samples drawn at random judge nothing: each has neighbours 37 ms away that were learnt "
+      "from. R2 on them differs from R2 on the samples learnt from by {} at most.",
+      decimals(random_difference(study), 4)));
   return section;
 }
 
@@ -218,24 +196,17 @@ DocumentSection left_out_section(const FamilyStudy& study) {
   }
   section.paragraphs.push_back(
       "A model of a family is for dampers that do not exist yet. Here the networks learn from all "
-      "dampers "
-      "but "
-      "those of one geometry, or one fluid, and are judged on these alone, all divisions "
-      "together.");
+      "dampers but those of one geometry, or one fluid, and are judged on these alone, all "
+      "divisions together.");
   section.remarks = {
       "Two fluids are too few to learn what a fluid does: with one left out, viscosity and yield "
-      "stress of "
-      "the other are beyond all that was seen.",
+      "stress of the other are beyond all that was seen.",
       "Mean of seeds: the force is the mean of those of all seeds' networks."};
   if (!study.models.empty())
     section.remarks.push_back(
         "The last rows are Dashpot's own models of a family (docs/family.md), fitted once each: "
-        "family_gated "
-        "has "
-        "memory in place of the displacement and little freedom in geometry; the others are the "
-        "paper's "
-        "network "
-        "as 'dashpot identify' trains it, with a price of weights.");
+        "family_gated has memory in place of the displacement and little freedom in geometry; the "
+        "others are the paper's network as 'dashpot identify' trains it, with a price of weights.");
   if (std::string remark = raw_inputs_remark(study); !remark.empty())
     section.remarks.push_back(std::move(remark));
   return section;
@@ -245,37 +216,25 @@ DocumentSection limits_section(const FamilyStudy& study) {
   DocumentSection section{"limits", "Table 2, and what cannot be repeated", {}};
   section.paragraphs.push_back(
       "Table 2 of the paper compares kinds of models in words. The same table, with what Dashpot "
-      "measures of "
-      "each kind beside the words, is a part of docs/validation.md ('Table 2 of the family "
-      "paper').");
+      "measures of each kind beside the words, is a part of docs/validation.md ('Table 2 of the "
+      "family paper').");
   section.remarks = {
       fmt::format("The paper speaks of 880 experiments (11 prototypes, 2 fluids, 10 fields, 4 "
-                  "assemblies; 76 "
-                  "800 + 28 800 samples); published are {} records for training. Build-to-build "
-                  "variation, four "
-                  "experiments each, is in none of them.",
+                  "assemblies; 76 800 + 28 800 samples); published are {} records for training. "
+                  "Build-to-build variation, four experiments each, is in none of them.",
                   study.family.cycles.size()),
       "8 prototypes for training and 3 for tests in the paper; in the published data 9 geometries "
-      "for "
-      "training "
-      "and 2 held out. The authors' notebook prints 0.539 N (h3x30) on records that it learnt from "
-      "and 1.708 "
-      "N "
-      "on those held out.",
+      "for training and 2 held out. The authors' notebook prints 0.539 N (h3x30) on records that "
+      "it learnt from and 1.708 N on those held out.",
       "The paper prints rate 1e-4 and batch 20, the authors' code has 1e-2 and 100: both are "
       "above.",
       "The paper's network gives the magnetic force, to which spring and viscous force are added; "
-      "the "
-      "authors' "
-      "code teaches the total force, and so does this study.",
+      "the authors' code teaches the total force, and so does this study.",
       "The authors' inputs of the held-out dampers with the second fluid carry the yield stresses "
-      "of the "
-      "first. "
-      "None of these records is used here.",
+      "of the first. None of these records is used here.",
       "Which damper figure 8 shows is not said; the published file One_fixed_damper.json holds the "
-      "one with "
-      "L = "
-      "6 mm, h = 1 mm. Lengths, gaps and fields of figures 13 to 16 are not said either."};
+      "one with L = 6 mm, h = 1 mm. Lengths, gaps and fields of figures 13 to 16 are not said "
+      "either."};
   return section;
 }
 

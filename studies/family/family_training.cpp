@@ -167,10 +167,10 @@ DocumentSection single_damper_section(const FamilyStudy& study) {
          {seed_dots(authors, "authors' rule", "series-2", -0.12),
           seed_dots(fixed, "ours", "modelled", 0.12), paper_dots(all, family_paper::kSingle)},
          names_of(all)}}});
-  section.paragraphs.push_back(fmt::format(
-      "The paper finds h2x9 best for one damper. Trained by our rule the best is {}, by its "
-      "authors' {}.",
-      best_of(fixed), best_of(authors)));
+  section.paragraphs.push_back(
+      fmt::format("The paper finds h2x9 best for one damper. Trained by our rule the best is {}, "
+                  "by its authors' {}.",
+                  best_of(fixed), best_of(authors)));
   return section;
 }
 
@@ -213,11 +213,8 @@ DocumentSection architecture_section(const FamilyStudy& study) {
                                names_of(all)}}});
   section.paragraphs.push_back(fmt::format(
       "The paper finds h3x15 best and h3x100 worst. On the samples learnt from, {} is best by our "
-      "rule and "
-      "{} "
-      "by its authors'. {}Which size to take is not to be seen here; the table of dampers that "
-      "were not seen "
-      "tells it.",
+      "rule and {} by its authors'. {}Which size to take is not to be seen here; the table of "
+      "dampers that were not seen tells it.",
       best_of(own), best_of(authors),
       median_mae(own.back()) <
               median_mae(study.outcome(FamilyProtocol::AllSamples, own_rule(chosen_architecture())))
@@ -258,11 +255,9 @@ DocumentSection penalty_section(const FamilyStudy& study) {
       static_cast<std::size_t>(std::ranges::min_element(unseen.y) - unseen.y.begin());
   section.paragraphs.push_back(
       fmt::format("The paper finds that L2 makes the network worse and leaves it out; its strength "
-                  "is not printed. {}: "
-                  "on "
-                  "the samples learnt from, the error goes from {} N without to {} N with the "
-                  "strongest. On geometries "
-                  "that were not seen, the least error comes with {} ({} N against {} N without).",
+                  "is not printed. {}: on the samples learnt from, the error goes from {} N "
+                  "without to {} N with the strongest. On geometries that were not seen, the least "
+                  "error comes with {} ({} N against {} N without).",
                   learnt.y.back() > learnt.y.front() ? "Agrees" : "Does not agree",
                   decimals(learnt.y.front(), 3), decimals(learnt.y.back(), 3),
                   best == 0 ? "none" : "L2 = " + places[best], decimals(unseen.y[best], 3),
@@ -285,8 +280,7 @@ DocumentSection grid_section(const FamilyStudy& study) {
       grid_table(study, false, "h3x15, authors' rule: raw inputs, constant rate; MAE N")};
   section.paragraphs.push_back(
       "The paper's grid search chose batch 20 and rate 1e-4; its grid is not printed. Here 500 "
-      "epochs each, "
-      "on the samples learnt from.");
+      "epochs each, on the samples learnt from.");
   return section;
 }
 
@@ -327,9 +321,7 @@ DocumentSection history_section(const FamilyStudy& study) {
   section.figures.push_back(std::move(figure));
   section.paragraphs.push_back(
       "The paper sees h3x30 noisy and stopped early with a larger error, h3x10 calm, h3x15 with "
-      "the least "
-      "error "
-      "of the three.");
+      "the least error of the three.");
   return section;
 }
 

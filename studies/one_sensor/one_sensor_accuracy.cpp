@@ -144,12 +144,11 @@ std::vector<FigureSeries> boxes(const OneSensorView& view, std::size_t damper, c
 }
 
 DocumentFigure figure_6(const OneSensorView& view) {
-  DocumentFigure figure{
-      "figure-6",
-      "Figure 6: variability of the error",
-      "Error of the samples of each left-out recording: 5 to 95 % of them, 25 to 75 % "
-      "thick, the median as a point.",
-      {}};
+  DocumentFigure figure{"figure-6",
+                        "Figure 6: variability of the error",
+                        "Error of the samples of each left-out recording: 5 to 95 % of them, 25 to "
+                        "75 % thick, the median as a point.",
+                        {}};
   for (std::size_t d = 0; d < view.study.dampers.size(); ++d) {
     const StudiedDamper& damper = view.study.dampers[d].damper;
     FigurePanel panel{damper.name + (damper.is_virtual ? ", virtual damper" : ""),
@@ -192,8 +191,7 @@ void compare_experiments(const OneSensorView& view, DocumentSection& section) {
   }
   section.paragraphs.push_back(fmt::format(
       "{}: the static network's error varies more from experiment to experiment on MR1 than on "
-      "MR2: standard "
-      "deviation {} and {} % of half-span here, {} and {} % in the paper.",
+      "MR2: standard deviation {} and {} % of half-span here, {} and {} % in the paper.",
       (spreads[0] > spreads[1]) == (paper_spreads[0] > paper_spreads[1]) ? "Agrees"
                                                                          : "Does not agree",
       number_text(spreads[0], 2), number_text(spreads[1], 2), number_text(paper_spreads[0], 2),
@@ -303,9 +301,8 @@ DocumentSection esr_section(const OneSensorView& view) {
   }
   table.note =
       "Reported: Bingham and 0.9 % by Savaresi et al. 2005, the others by Ruiz-Cabrera et al. "
-      "2010, 4.7 % by "
-      "the paper itself: each on a damper and records of its own. A number that is not finite "
-      "stands as -.";
+      "2010, 4.7 % by the paper itself: each on a damper and records of its own. A number that is "
+      "not finite stands as -.";
   section.tables.push_back(std::move(table));
   section.remarks = {
       holds(view, kStatic, "bingham", "the static one-sensor network leaves less than Bingham"),
@@ -319,21 +316,15 @@ DocumentSection esr_section(const OneSensorView& view) {
             "Bingham leaves less than the semi-phenomenological model")};
   section.paragraphs.push_back(
       "The paper compares its 4.7 % with what other papers report of other dampers. Here all "
-      "models see the "
-      "same records. Laws are fitted to all currents at once, each parameter as the table of its "
-      "law says; a "
-      "law fitted current by current, or better started, would do better, which may be what sets "
-      "the "
-      "published figures apart.");
+      "models see the same records. Laws are fitted to all currents at once, each parameter as the "
+      "table of its law says; a law fitted current by current, or better started, would do better, "
+      "which may be what sets the published figures apart.");
   if (view.is_virtual())
     section.paragraphs.push_back(
         "What cannot be compared: the size of any figure. A virtual damper is as difficult as it "
-        "was made; "
-        "MR1 here is a law of the registry (hyperbolic tangent of velocity and acceleration), so "
-        "that models "
-        "near to that law have an easy task. Nor do the paper's percentages say how its network "
-        "was trained "
-        "and judged.");
+        "was made; MR1 here is a law of the registry (hyperbolic tangent of velocity and "
+        "acceleration), so that models near to that law have an easy task. Nor do the paper's "
+        "percentages say how its network was trained and judged.");
   return section;
 }
 

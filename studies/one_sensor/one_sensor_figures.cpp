@@ -143,13 +143,12 @@ FigurePanel velocity_panel(const OneSensorView& view, std::size_t damper, std::s
 DocumentFigure velocity_figure(const OneSensorView& view, const std::string& name,
                                const std::string& title,
                                const std::vector<std::pair<std::size_t, std::size_t>>& shown) {
-  DocumentFigure figure{
-      name,
-      title,
-      "Left: the paper's static network with one sensor. Right: the hysteresis network "
-      "with the same sensor. Records that were left out.",
-      {},
-      2};
+  DocumentFigure figure{name,
+                        title,
+                        "Left: the paper's static network with one sensor. Right: the hysteresis "
+                        "network with the same sensor. Records that were left out.",
+                        {},
+                        2};
   for (const auto& [damper, experiment] : shown)
     for (const auto& [key, label, colour] : kShown)
       figure.panels.push_back(velocity_panel(view, damper, experiment, key, label, colour));
@@ -244,10 +243,8 @@ DocumentSection curves_section(const OneSensorView& view) {
                         {{0, 1}, {0, 3}})};
     section.paragraphs.push_back(
         "The paper sees in its figure 8 that its network cannot follow the hysteresis of MR1 at "
-        "velocities "
-        "within 0.5 m/s, and proposes an acceleration sensor. The right-hand panels show that "
-        "internal "
-        "states serve as well.");
+        "velocities within 0.5 m/s, and proposes an acceleration sensor. The right-hand panels "
+        "show that internal states serve as well.");
     return section;
   }
   for (std::size_t e = 0; e <= std::min<std::size_t>(last(0), 1); ++e) {
@@ -270,8 +267,7 @@ DocumentSection velocity_section(const OneSensorView& view) {
   if (!displacement || velocity.origin.starts_with("derived") || record.sample_time <= 0) {
     section.paragraphs.push_back(
         "These recordings hold no velocity beside the displacement: the velocity is derived, and "
-        "there is "
-        "nothing to compare it with.");
+        "there is nothing to compare it with.");
     return section;
   }
   constexpr double kSeconds = 1;

@@ -85,10 +85,10 @@ DocumentSection recurrence_section(const OneSensorView& view) {
         number_text(view.half_percent(view.example_damper(), metrics(*result->one_step).rmse)),
         series ? "by " + number_text(*series) + " %" : "diverges"));
   if (bank && recurrent)
-    section.remarks.push_back(fmt::format(
-        "The hysteresis network, with one sensor and no feedback, errs by {} %: it {} the "
-        "recurrent one with two sensors.",
-        number_text(*bank), *bank < *recurrent ? "beats" : "does not beat"));
+    section.remarks.push_back(
+        fmt::format("The hysteresis network, with one sensor and no feedback, errs by {} %: it {} "
+                    "the recurrent one with two sensors.",
+                    number_text(*bank), *bank < *recurrent ? "beats" : "does not beat"));
   return section;
 }
 
@@ -117,8 +117,7 @@ DocumentSection sensors_section(const OneSensorView& view) {
     section.remarks.push_back(
         "Why: this virtual damper has no stiffness, and its hysteresis follows the acceleration. "
         "Displacement stands in for acceleration at any one frequency, but the factor changes with "
-        "the "
-        "frequency, and the experiment has many.");
+        "the frequency, and the experiment has many.");
   if (bank)
     section.remarks.push_back(fmt::format(
         "With the hysteresis network, and no second sensor, it {}.", change_text(*one, *bank)));
@@ -155,10 +154,9 @@ DocumentSection regressors_section(const OneSensorView& view) {
   if (view.is_virtual())
     section.remarks.push_back(
         "Why: what delayed velocities add is the acceleration. Samples 0.6 ms apart differ by less "
-        "than 0.09 "
-        "m/s at 15 Hz, beside a sensor noise of 5 mm/s each; further apart they tell it better. A "
-        "noisier "
-        "tachometer, or training that stops early, hides it: the paper states neither.");
+        "than 0.09 m/s at 15 Hz, beside a sensor noise of 5 mm/s each; further apart they tell it "
+        "better. A noisier tachometer, or training that stops early, hides it: the paper states "
+        "neither.");
   return section;
 }
 
@@ -194,8 +192,7 @@ DocumentSection size_section(const OneSensorView& view) {
        {{"", "Neurons", "RMS error (% of half-span)", {whole, points}}}});
   section.paragraphs.push_back(fmt::format(
       "By minimal dimensions, the smallest network within 2 % of the least error has {}; the "
-      "paper's choice "
-      "is {}. {}",
+      "paper's choice is {}. {}",
       counted(enough, "neuron"), paper::kNeurons,
       sizes.size() < static_cast<std::size_t>(paper::kNeurons) ? "Larger ones were not tried."
       : enough <= static_cast<std::size_t>(paper::kNeurons)
@@ -203,8 +200,7 @@ DocumentSection size_section(const OneSensorView& view) {
           : "Ten do not suffice by this criterion."));
   section.paragraphs.push_back(
       "Figure 5, the architecture: velocity and current, standardised; ten tanh neurons; one "
-      "linear neuron, "
-      "the force. (2,10,1): 41 numbers.");
+      "linear neuron, the force. (2,10,1): 41 numbers.");
   return section;
 }
 

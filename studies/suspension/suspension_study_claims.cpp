@@ -110,17 +110,17 @@ DocumentSection claims_section(const SuspensionStudy& study) {
                           number_text(claim.least, 4), judgement(claim)});
   table.note = fmt::format(
       "Any damper, least: the proven bound for any damping up to {} N*s/m that knew the step. No "
-      "damper can "
-      "do it: even from the worse of the two passive dampers the bound is not so far down.",
+      "damper can do it: even from the worse of the two passive dampers the bound is not so far "
+      "down.",
       number_text(study.greatest_possible, 5));
   section.tables.push_back(std::move(table));
   section.remarks = {
       "The paper's passive damper is known by one figure only, the gain of 3.36 at the wheel's "
-      "resonance; "
-      "against a worse one every improvement is larger. What is said here holds against these two.",
+      "resonance; against a worse one every improvement is larger. What is said here holds against "
+      "these two.",
       "MR2 here is a virtual damper, shaped after the paper's words: orderings can be compared, "
-      "sizes "
-      "cannot. The sweep of the least damping and the bound for any damper do not rest on it.",
+      "sizes cannot. The sweep of the least damping and the bound for any damper do not rest on "
+      "it.",
       "The crossover of Mix-1-sensor is not printed either: here it is 1.75 times the body's "
       "resonance."};
   return section;

@@ -31,13 +31,10 @@ std::string verdict_of(const SuspensionStudy& study) {
   const double needed = least_damping_for(study, paper::kWheelGain);
   return fmt::format(
       "Mix-1-sensor with the identified damper against the linear damper that has the paper's "
-      "passive gain: "
-      "at the wheel's resonance the tyre's gain {} (the paper: by 40.4 %), on the road the tyre's "
-      "force {} "
-      "and "
-      "the body's acceleration {}. Those 40.4 % need a damper whose least damping is {}. The 64.9 "
-      "% of road "
-      "holding after a step {}. MR2 here is a virtual damper, shaped after the paper's words.",
+      "passive gain: at the wheel's resonance the tyre's gain {} (the paper: by 40.4 %), on the "
+      "road the tyre's force {} and the body's acceleration {}. Those 40.4 % need a damper whose "
+      "least damping is {}. The 64.9 % of road holding after a step {}. MR2 here is a virtual "
+      "damper, shaped after the paper's words.",
       change_words(tyre(linear), tyre(mix1)),
       change_words(std::sqrt(linear.on_road.tyre_force), std::sqrt(mix1.on_road.tyre_force)),
       change_words(std::sqrt(linear.on_road.acceleration), std::sqrt(mix1.on_road.acceleration)),
@@ -68,29 +65,22 @@ DocumentSection suspension_protocol(const SuspensionStudy& study) {
   DocumentSection section{"protocol", "How it was done", {}};
   section.paragraphs = {
       "The paper (MR Damper Identification using ANN based on 1-Sensor) closes with a quarter car, "
-      "its "
-      "equations 3 and 4 with table 7, whose damper is the network that it identified, under "
-      "Mix-1-sensor "
-      "control, against a passive damper identified by the same technique. Its figures and table "
-      "stand "
-      "beside ours.",
+      "its equations 3 and 4 with table 7, whose damper is the network that it identified, under "
+      "Mix-1-sensor control, against a passive damper identified by the same technique. Its "
+      "figures and table stand beside ours.",
       fmt::format(
           "The damper is MR2, a virtual one, recorded in the paper's five experiments on a virtual "
           "bench and identified by its network: velocity and current, ten neurons. Its coil lags "
-          "by "
-          "10 ms. Mix-1-sensor and the other two-level laws switch between 0 and 2.5 A at 1 kHz; "
-          "the "
-          "crossover is {} Hz, 1.75 times the body's resonance.",
+          "by 10 ms. Mix-1-sensor and the other two-level laws switch between 0 and 2.5 A at 1 "
+          "kHz; the crossover is {} Hz, 1.75 times the body's resonance.",
           number_text(study.crossover)),
       "The passive damper is not printed. Here it is the " + study.passive.description +
           ", recorded in the first two experiments and identified like MR2. 1804 N*s/m is the "
-          "linear damper "
-          "with the paper's passive gain "
-          "at the wheel's resonance; it stands as a row of its own.",
-      fmt::format(
-          "Inputs: a chirp of 2 cm from 0.5 to 20 Hz and a step of 3 cm, as in the paper, and {}. "
-          "The clairvoyant bound and optimum are explained in docs/bound.md.",
-          study.road)};
+          "linear damper with the paper's passive gain at the wheel's resonance; it stands as a "
+          "row of its own.",
+      fmt::format("Inputs: a chirp of 2 cm from 0.5 to 20 Hz and a step of 3 cm, as in the paper, "
+                  "and {}. The clairvoyant bound and optimum are explained in docs/bound.md.",
+                  study.road)};
   return section;
 }
 
@@ -110,8 +100,7 @@ DocumentSection suspension_dampers(const SuspensionStudy& study) {
                           std::to_string(damper->model->parameter_count())});
   table.note = fmt::format(
       "Along a sine of 20 mm at 0.2 m/s MR2 damps like {} N*s/m at 0 A and {} N*s/m at 2.5 A. The "
-      "force that "
-      "a network shows at rest without current was taken off.",
+      "force that a network shows at rest without current was taken off.",
       number_text(study.limits.damping_min, 4), number_text(study.limits.damping_max, 4));
   section.tables.push_back(std::move(table));
   section.figures.push_back(

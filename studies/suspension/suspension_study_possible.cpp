@@ -48,8 +48,8 @@ DocumentTable bound_table(const SuspensionStudy& study) {
       study.any_damper);
   table.note =
       "Proven: no force within the damper's range does better, whatever made it. Reached: "
-      "simulated, by "
-      "demands that were found knowing the road. The truth about the best lies between.";
+      "simulated, by demands that were found knowing the road. The truth about the best lies "
+      "between.";
   return table;
 }
 
@@ -81,9 +81,8 @@ DocumentTable share_table(const SuspensionStudy& study, const std::string& title
   add("knew the road: best for holding", holding.squares, true);
   table.note =
       "% of possible = (off - controller) / (off - optimum), of root mean squares, off being the "
-      "same damper "
-      "at 0 A; - where the damper is another one. Both: the two mean squares, each over that of "
-      "passive.";
+      "same damper at 0 A; - where the damper is another one. Both: the two mean squares, each "
+      "over that of passive.";
   return table;
 }
 
@@ -143,26 +142,21 @@ DocumentSection possible_section(const SuspensionStudy& study) {
   const auto reached = [&](const RideSquares& squares, const ClairvoyantBound& best) {
     return possible_text(best, off.on_road, squares);
   };
-  section.paragraphs.push_back(
-      fmt::format("On {} the least body acceleration that this damper could give, had it known the "
-                  "road, lies between {} "
-                  "and {} m/s^2 (at 0 A it gives {}, the passive damper {}), the least tyre force "
-                  "between {} and {} N "
-                  "(at "
-                  "0 A {}, passive {}). Of what is possible beyond 0 A Mix-1-sensor reaches {} % "
-                  "for comfort and {} % "
-                  "for "
-                  "road holding, the best controllers {} and {} %.",
-                  study.road, number_text(std::sqrt(comfort.bound) * unit_of(comfort)),
-                  number_text(std::sqrt(comfort.optimum) * unit_of(comfort)),
-                  number_text(std::sqrt(off.on_road.acceleration)),
-                  number_text(std::sqrt(passive.on_road.acceleration)),
-                  whole_text(std::sqrt(holding.bound) * unit_of(holding)),
-                  whole_text(std::sqrt(holding.optimum) * unit_of(holding)),
-                  whole_text(std::sqrt(off.on_road.tyre_force)),
-                  whole_text(std::sqrt(passive.on_road.tyre_force)), reached(mix1.on_road, comfort),
-                  reached(mix1.on_road, holding), reached(best_within(study, comfort), comfort),
-                  reached(best_within(study, holding), holding)));
+  section.paragraphs.push_back(fmt::format(
+      "On {} the least body acceleration that this damper could give, had it known the road, lies "
+      "between {} and {} m/s^2 (at 0 A it gives {}, the passive damper {}), the least tyre force "
+      "between {} and {} N (at 0 A {}, passive {}). Of what is possible beyond 0 A Mix-1-sensor "
+      "reaches {} % for comfort and {} % for road holding, the best controllers {} and {} %.",
+      study.road, number_text(std::sqrt(comfort.bound) * unit_of(comfort)),
+      number_text(std::sqrt(comfort.optimum) * unit_of(comfort)),
+      number_text(std::sqrt(off.on_road.acceleration)),
+      number_text(std::sqrt(passive.on_road.acceleration)),
+      whole_text(std::sqrt(holding.bound) * unit_of(holding)),
+      whole_text(std::sqrt(holding.optimum) * unit_of(holding)),
+      whole_text(std::sqrt(off.on_road.tyre_force)),
+      whole_text(std::sqrt(passive.on_road.tyre_force)), reached(mix1.on_road, comfort),
+      reached(mix1.on_road, holding), reached(best_within(study, comfort), comfort),
+      reached(best_within(study, holding), holding)));
   section.tables.push_back(bound_table(study));
   section.tables.push_back(
       share_table(study, "On the road", study.road_front, &SchemeRide::on_road));
@@ -171,10 +165,8 @@ DocumentSection possible_section(const SuspensionStudy& study) {
   section.figures.push_back(front_figure(study));
   section.remarks.push_back(
       "The range is the network's own, from its least to its greatest force over all currents at "
-      "each "
-      "velocity, in proportion beyond 1.5 m/s. It is lopsided and bent; the quadratic limits of "
-      "the proof "
-      "hold it in with room to spare, which is part of the gap.");
+      "each velocity, in proportion beyond 1.5 m/s. It is lopsided and bent; the quadratic limits "
+      "of the proof hold it in with room to spare, which is part of the gap.");
   return section;
 }
 
@@ -197,18 +189,16 @@ DocumentSection least_damping_section(const SuspensionStudy& study) {
   const auto text = [](double damping) {
     return damping > 0 ? number_text(std::round(damping), 4) + " N*s/m" : "more than the sweep has";
   };
-  section.paragraphs.push_back(fmt::format(
-      "At the wheel's resonance Mix-1-sensor asks for the least damping nearly all the time, so "
-      "the least "
-      "damping alone decides on the tyre's gain there. A linear damper gives the paper's passive "
-      "gain of "
-      "3.36 with {} N*s/m, its limit of 2.5 with {}, its 2.0 with {}. Mix-1-sensor gives 2.5 from "
-      "a least "
-      "damping of {} on, and 2.0 from {} on: twice the passive damper's, with the current off.",
-      number_text(damping_for_wheel_gain(study.plant, 3.3557), 4),
-      number_text(damping_for_wheel_gain(study.plant, paper::kWheelGainLimit), 4),
-      number_text(damping_for_wheel_gain(study.plant, paper::kWheelGain), 4), text(limit),
-      text(needed)));
+  section.paragraphs.push_back(
+      fmt::format("At the wheel's resonance Mix-1-sensor asks for the least damping nearly all the "
+                  "time, so the least damping alone decides on the tyre's gain there. A linear "
+                  "damper gives the paper's passive gain of 3.36 with {} N*s/m, its limit of 2.5 "
+                  "with {}, its 2.0 with {}. Mix-1-sensor gives 2.5 from a least damping of {} on, "
+                  "and 2.0 from {} on: twice the passive damper's, with the current off.",
+                  number_text(damping_for_wheel_gain(study.plant, 3.3557), 4),
+                  number_text(damping_for_wheel_gain(study.plant, paper::kWheelGainLimit), 4),
+                  number_text(damping_for_wheel_gain(study.plant, paper::kWheelGain), 4),
+                  text(limit), text(needed)));
   DocumentTable table{"Mix-1-sensor on ideal dampers",
                       {{"Least damping, N*s/m", true},
                        {"Tyre's greatest gain", true},
@@ -257,13 +247,11 @@ DocumentSection least_damping_section(const SuspensionStudy& study) {
   section.figures.push_back(
       {.name = "least-damping",
        .title = "What Mix-1-sensor gains by the least damping",
-       .caption = "Greatest damping as the identified damper's, or a fifth above the "
-                  "least.",
+       .caption = "Greatest damping as the identified damper's, or a fifth above the least.",
        .panels = {std::move(panel)}});
   section.remarks.push_back(
       "A damper so stiff without current gives up the comfort that it is controlled for: the "
-      "claims of more "
-      "comfort and of 40.4 % at the wheel's resonance do not go together here.");
+      "claims of more comfort and of 40.4 % at the wheel's resonance do not go together here.");
   return section;
 }
 

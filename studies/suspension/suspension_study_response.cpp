@@ -73,8 +73,7 @@ DocumentTable gain_table(const SuspensionStudy& study) {
   }
   table.note =
       "Fundamental gains, read over four periods along an exponential chirp. The paper: tyre 2.0 "
-      "controlled, "
-      "40.4 % less than passive, so 3.36 passive.";
+      "controlled, 40.4 % less than passive, so 3.36 passive.";
   return table;
 }
 
@@ -142,10 +141,8 @@ DocumentTable step_table(const SuspensionStudy& study) {
   }
   table.note = fmt::format(
       "Settled: within 5 % of the acceleration's peak, of the step's height. Decay ratio: second "
-      "positive "
-      "peak over the first. Root mean squares over {} s. The paper prints the accelerations in "
-      "m/s^0.5: they "
-      "are m/s^2.",
+      "positive peak over the first. Root mean squares over {} s. The paper prints the "
+      "accelerations in m/s^0.5: they are m/s^2.",
       number_text(study.options.step_duration));
   return table;
 }
@@ -170,8 +167,7 @@ DocumentSection frequency_section(const SuspensionStudy& study) {
       tyre(mix1.large) <= paper::kWheelGainLimit ? "kept" : "not kept"));
   section.paragraphs.push_back(
       "The paper calls its curves power spectral densities; they are gains, greatest output over "
-      "input at a "
-      "frequency, and so are these.");
+      "input at a frequency, and so are these.");
   section.tables.push_back(gain_table(study));
   DocumentFigure figure{
       .name = "figure-12",
@@ -190,14 +186,13 @@ DocumentSection frequency_section(const SuspensionStudy& study) {
   const double rest = 1000 * wheel.static_load / wheel.stiffness, swing = 20 * tyre(mix1.large);
   section.remarks.push_back(
       fmt::format("With 2 cm the tyre's deflection swings by {} mm at the wheel's resonance, and "
-                  "at rest it is {} mm: "
-                  "the tyre would leave the road. The paper's model, and this one, let it pull. At "
-                  "2 mm it stays on it.",
+                  "at rest it is {} mm: the tyre would leave the road. The paper's model, and this "
+                  "one, let it pull. At 2 mm it stays on it.",
                   number_text(swing), number_text(rest)));
   section.remarks.push_back(
       "The identified damper is not linear, so its gains depend on the amplitude; the bench "
-      "reached 1.5 m/s, "
-      "and where the table says that a damper is faster, its network extrapolates.");
+      "reached 1.5 m/s, and where the table says that a damper is faster, its network "
+      "extrapolates.");
   return section;
 }
 
@@ -205,12 +200,11 @@ DocumentSection step_section(const SuspensionStudy& study) {
   DocumentSection section{"figure-13", "Figure 13 and table 8: a step of 3 cm", {}};
   const RideSquares &passive = study.rides.front().on_step,
                     &mix1 = study.rides[study.place("mix1")].on_step;
-  section.paragraphs.push_back(
-      fmt::format("The body's acceleration under Mix-1-sensor {} in root mean square (the paper: "
-                  "falls by 7.4 %), the "
-                  "tyre's force {} (the paper: 'road holding' improves by 64.9 %).",
-                  change_words(std::sqrt(passive.acceleration), std::sqrt(mix1.acceleration)),
-                  change_words(std::sqrt(passive.tyre_force), std::sqrt(mix1.tyre_force))));
+  section.paragraphs.push_back(fmt::format(
+      "The body's acceleration under Mix-1-sensor {} in root mean square (the paper: falls by 7.4 "
+      "%), the tyre's force {} (the paper: 'road holding' improves by 64.9 %).",
+      change_words(std::sqrt(passive.acceleration), std::sqrt(mix1.acceleration)),
+      change_words(std::sqrt(passive.tyre_force), std::sqrt(mix1.tyre_force))));
   section.tables.push_back(step_table(study));
   section.figures.push_back(
       {.name = "figure-13",
@@ -221,13 +215,12 @@ DocumentSection step_section(const SuspensionStudy& study) {
            step_panel(study, "tyre_deflection", 100, "Road holding", "tyre deflection, cm")}});
   section.remarks.push_back(
       "The tyre's deflection begins at -3.0 cm, the step itself, and nothing in equations 3 and 4 "
-      "takes it "
-      "further: table 8's -3.8 and -4.5 cm need another step, or mean something else by "
+      "takes it further: table 8's -3.8 and -4.5 cm need another step, or mean something else by "
       "deviation.");
   section.remarks.push_back(
       "The figures of table 8 themselves: settling 62.5 and 64.7 % shorter, decay ratio 53.3 % "
-      "less, "
-      "deviation 8.9 % less of the body and 15.6 % of the tyre, where the text says about 10 %.");
+      "less, deviation 8.9 % less of the body and 15.6 % of the tyre, where the text says about 10 "
+      "%.");
   return section;
 }
 
