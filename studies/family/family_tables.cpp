@@ -35,11 +35,14 @@ std::vector<std::pair<std::string, FamilyRule>> judged_rules() {
 
 /// What raw inputs do to a geometry that was not seen.
 std::string raw_inputs_remark(const FamilyStudy& study) {
+  // Worth a remark only where raw inputs do better on geometries left out.
   const FamilyOutcome *raw = study.outcome(FamilyProtocol::Geometries,
                                            authors_rule(chosen_architecture())),
                       *own = study.outcome(FamilyProtocol::Geometries,
                                            own_rule(chosen_architecture()));
   if (!raw || !own || !(mae_of(raw->by_seed).median < mae_of(own->by_seed).median)) return {};
+
+  // The remark with both errors.
   return fmt::format(
       "The authors' raw inputs, which fit the samples learnt from so much worse, do better on a "
       "geometry that was not seen: {} N against {} N. Metres and square metres (1e-3, 1e-4) hardly "
@@ -66,6 +69,7 @@ double random_difference(const FamilyStudy& study) {
 
 /// Which of the figures comes to the paper's R2.
 std::string nearest_to_paper(const FamilyStudy& study) {
+  // R2 of every rule under one way of judging that lies near the paper's.
   std::vector<std::string> near;
   const auto look = [&](FamilyProtocol protocol, const char* judged) {
     for (const NamedRule& named : rules())
@@ -75,6 +79,8 @@ std::string nearest_to_paper(const FamilyStudy& study) {
           near.push_back(fmt::format("{} ({}; trained {})", decimals(r2, 4), judged, named.name));
       }
   };
+
+  // The ways of judging that the paper could mean.
   look(FamilyProtocol::AllSamples, "on the samples learnt from");
   look(FamilyProtocol::RandomSamples, "on random samples");
   look(FamilyProtocol::Geometries, "on geometries left out");
@@ -87,6 +93,8 @@ std::string nearest_to_paper(const FamilyStudy& study) {
 DocumentSection family_protocol_section(const FamilyStudy& study) {
   const std::size_t count = study.family.size();
   DocumentSection section{"protocol", "How it was done", {}};
+
+  // The paper's task, our cycles, the errors, and the three ways to train.
   section.paragraphs = {
       "The paper (A Deep Neural Network Based Model for a Kind of Magnetorheological Dampers) "
       "teaches one ReLU network the force of a family of dampers from eight inputs: piston area, "
@@ -103,7 +111,7 @@ DocumentSection family_protocol_section(const FamilyStudy& study) {
       "Errors: the paper's bar charts say 'mean error' without a definition; taken here for the "
       "mean absolute error (MAE, N). Except where something is said to be left out, networks are "
       "judged on the samples that they learnt from, as the paper does: that tells how well an "
-      "architecture can bend, not what it knows of another damper.",
+      "architecture can fit, not what it knows of another damper.",
       "Three ways to train stand beside each other. As printed: rate 1e-4, batch 20. As in the "
       "authors' code: rate 1e-2, batch 100, 500 epochs. Both take the eight inputs raw (m^2 beside "
       "mm: 1e-4 beside 10) and draw first weights from a normal distribution of variance 1. Ours: "
@@ -111,6 +119,8 @@ DocumentSection family_protocol_section(const FamilyStudy& study) {
       "epochs; for one damper batch 20 and 1000 epochs. All use Adam on the mean squared error; "
       "the total force is the target. Values are medians over seeds, with the least and the "
       "greatest in brackets."};
+
+  // A shortened study says so.
   if (study.effort != 1)
     section.remarks.push_back(
         fmt::format("Trained for {} of these epochs only: a first look, not the study.",
@@ -120,6 +130,8 @@ DocumentSection family_protocol_section(const FamilyStudy& study) {
 
 DocumentSection determination_section(const FamilyStudy& study) {
   DocumentSection section{"r2", "R2, and what it is of", {}};
+
+  // The paper's figures first, as far as they are known.
   DocumentTable table{"h3x15 by three ways to train, judged in four ways",
                       {{"Trained"},
                        {"Learnt from: MAE N", true},
@@ -130,6 +142,8 @@ DocumentSection determination_section(const FamilyStudy& study) {
                       {}};
   table.rows.push_back({"the paper", "0.5115", "0.9577?", "0.9577?", "0.9577?", "0.9577?"});
   table.rows.push_back({"its published weights", "0.714", "0.9919", "-", "-", "-"});
+
+  // Then each way to train, judged in each way.
   for (const NamedRule& named : rules()) {
     const auto of = [&](FamilyProtocol protocol) { return study.outcome(protocol, named.rule); };
     table.rows.push_back({named.name, mae_text(of(FamilyProtocol::AllSamples)),
@@ -138,6 +152,8 @@ DocumentSection determination_section(const FamilyStudy& study) {
                           median_r2_text(of(FamilyProtocol::Geometries)),
                           median_r2_text(of(FamilyProtocol::Fluids))});
   }
+
+  // Which of them comes near the paper's R2, and why random samples judge nothing.
   table.note =
       "Random samples: 27 % of all, the paper's share of test samples (28 800 of 105 600).";
   section.tables.push_back(std::move(table));
@@ -154,6 +170,8 @@ DocumentSection determination_section(const FamilyStudy& study) {
 
 DocumentSection left_out_section(const FamilyStudy& study) {
   DocumentSection section{"left-out", "Dampers that were not seen", {}};
+
+  // A table for each thing that is left out in turn.
   const std::vector<TextColumn> columns{{"Network"},
                                         {"Learnt from: MAE N", true},
                                         {"Left out: MAE N", true},
@@ -165,6 +183,8 @@ DocumentSection left_out_section(const FamilyStudy& study) {
                   "Each geometry (length and gap, both fluids) left out in turn"),
         std::pair(FamilyProtocol::Fluids, "Each fluid left out in turn")}) {
     DocumentTable table{title, columns, {}};
+
+    // The study's networks, and the mean of their seeds.
     for (const auto& [name, rule] : judged_rules()) {
       const FamilyOutcome* outcome = study.outcome(protocol, rule);
       if (!outcome) continue;
@@ -173,6 +193,8 @@ DocumentSection left_out_section(const FamilyStudy& study) {
                             mae_text(outcome), r2_text(outcome), decimals(together.mae, 3),
                             decimals(together.r2, 4)});
     }
+
+    // Models of the registry stand below them.
     for (const FamilyModelOutcome& model : study.models) {
       const Metrics learnt = metrics(model.learnt),
                     left = metrics(protocol == FamilyProtocol::Geometries ? model.geometries
@@ -182,6 +204,8 @@ DocumentSection left_out_section(const FamilyStudy& study) {
     }
     section.tables.push_back(std::move(table));
   }
+
+  // The paper's architecture on each geometry by itself.
   const FamilyRule chosen = own_rule(chosen_architecture());
   if (const FamilyOutcome* outcome = study.outcome(FamilyProtocol::Geometries, chosen)) {
     DocumentTable table{"h3x15 on each geometry that it has not seen",
@@ -194,6 +218,8 @@ DocumentSection left_out_section(const FamilyStudy& study) {
                             decimals(r2_of(outcome->by_division[d]).median, 4)});
     section.tables.push_back(std::move(table));
   }
+
+  // How the tables are read, and what limits them.
   section.paragraphs.push_back(
       "A model of a family is for dampers that do not exist yet. Here the networks learn from all "
       "dampers but those of one geometry, or one fluid, and are judged on these alone, all "
@@ -206,7 +232,7 @@ DocumentSection left_out_section(const FamilyStudy& study) {
     section.remarks.push_back(
         "The last rows are Dashpot's own models of a family (docs/family.md), fitted once each: "
         "family_gated has memory in place of the displacement and little freedom in geometry; the "
-        "others are the paper's network as 'dashpot identify' trains it, with a price of weights.");
+        "others are the paper's network as 'dashpot identify' trains it, with weight decay.");
   if (std::string remark = raw_inputs_remark(study); !remark.empty())
     section.remarks.push_back(std::move(remark));
   return section;
@@ -214,10 +240,14 @@ DocumentSection left_out_section(const FamilyStudy& study) {
 
 DocumentSection limits_section(const FamilyStudy& study) {
   DocumentSection section{"limits", "Table 2, and what cannot be repeated", {}};
+
+  // The comparison in words is elsewhere.
   section.paragraphs.push_back(
       "Table 2 of the paper compares kinds of models in words. The same table, with what Dashpot "
       "measures of each kind beside the words, is a part of docs/validation.md ('Table 2 of the "
       "family paper').");
+
+  // Each remark names a figure of the paper that the published data do not allow to repeat.
   section.remarks = {
       fmt::format("The paper speaks of 880 experiments (11 prototypes, 2 fluids, 10 fields, 4 "
                   "assemblies; 76 800 + 28 800 samples); published are {} records for training. "

@@ -35,11 +35,14 @@ bool answers(const OneSensorView& view) {
 }
 
 std::string verdict_of(const OneSensorView& view) {
+  // The answer, where the hysteresis network leaves less on every damper.
   std::string text = "The paper's question is how well one sensor can do.";
   if (answers(view))
     text =
         "One sensor can do more than the paper found: the hysteresis network carries the past in "
         "internal states where the paper would add a sensor.";
+
+  // Both networks in figures, damper by damper.
   for (std::size_t d = 0; d < view.study.dampers.size(); ++d) text += against_each_other(view, d);
   if (view.is_virtual())
     text +=
@@ -93,11 +96,15 @@ std::string change_text(double from, double to) {
 
 DocumentSection protocol_section(const OneSensorView& view) {
   DocumentSection section{"protocol", "How it was done", {}};
+
+  // The paper's task.
   section.paragraphs.push_back(
       "The paper (MR Damper Identification using ANN based on 1-Sensor) identifies two dampers in "
       "five experiments with a perceptron of ten neurons that sees the velocity and the current, "
       "and shows by experiments why. Each part below repeats one of them; the paper's figure "
       "stands beside ours.");
+
+  // Data, and how models are judged on them; virtual and measured ones differ.
   section.paragraphs.push_back(
       view.is_virtual()
           ? "Virtual dampers: the paper prints no data of its dampers, so two virtual ones stand "
@@ -110,6 +117,8 @@ DocumentSection protocol_section(const OneSensorView& view) {
                 std::to_string(view.study.dampers.front().damper.experiments.size()) +
                 " divisions); what the paper shows for one experiment is shown for all divisions "
                 "together.");
+
+  // Judging.
   section.paragraphs.push_back(
       view.is_virtual()
           ? "Judging: the paper does not state its cross-validation. Here every experiment is "
@@ -121,6 +130,8 @@ DocumentSection protocol_section(const OneSensorView& view) {
           : "Judging: what is left out are whole records, never samples of a record that was "
             "learnt from. The velocity is the one sensor; where it was derived from a "
             "displacement, that is the one sensor, as the paper's figure 10 proposes.");
+
+  // The run and the percentages are the same for both.
   section.paragraphs.push_back(
       "Free run: a model sees motion and current, never the measured force. One-step errors, for "
       "which the measured force is fed back, stand beside it under that name and decide nothing. "

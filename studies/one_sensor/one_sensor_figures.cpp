@@ -97,8 +97,12 @@ FigurePanel trace_panel(const OneSensorView& view, std::size_t damper, std::size
   const StudiedDamper& studied = view.study.dampers[damper].damper;
   const Fold& fold = studied.experiments[experiment];
   const Record& record = fold.left_out.front();
+
+  // A window behind the first tenth of the record.
   const double duration = record.time.back() - record.time.front();
   const Window window = window_of(record, record.time.front() + 0.1 * duration, seconds);
+
+  // The measured force, and both networks over it.
   FigurePanel panel{
       damper_title(studied) + ", " + fold.name,
       "Time (s)",
@@ -119,9 +123,12 @@ FigurePanel velocity_panel(const OneSensorView& view, std::size_t damper, std::s
   const Fold& fold = studied.experiments[experiment];
   FigureSeries measured{"measured", "measured", {}, {}, FigureSeries::Mark::Dots, 1.6},
       modelled{label, colour, {}, {}, FigureSeries::Mark::Dots, 1.1};
+
+  // All records share the number of dots that print can show.
   std::size_t samples = 0;
   for (const Record& record : fold.left_out) samples += record.size();
   for (std::size_t r = 0; r < fold.left_out.size(); ++r) {
+    // Measured and modelled forces over the same velocities.
     const Record& record = fold.left_out[r];
     const Window window{record.warm_up, record.size(), samples / kDots + 1};
     const auto* forces = forces_of(view, damper, experiment, key, r);
@@ -134,6 +141,8 @@ FigurePanel velocity_panel(const OneSensorView& view, std::size_t damper, std::s
       series->y.insert(series->y.end(), y.begin(), y.end());
     }
   }
+
+  // The cloud that was measured, and the model's over it.
   return {damper_title(studied) + ", " + fold.name,
           "Velocity (m/s)",
           "Force (N)",
@@ -181,6 +190,8 @@ const Record& velocity_record(const OneSensorView& view) {
 DocumentSection excitation_section(const OneSensorView& view) {
   DocumentSection section{"excitation", "Table 2, figures 3 and 4: the experiments", {}};
   constexpr double kSeconds = 16;
+
+  // Two figures of sequences and one table of recordings.
   DocumentFigure motion{
       "figure-3", "Figure 3: displacement sequences", "The first seconds of each.", {}, 2},
       drive{"figure-4", "Figure 4: current sequences", "From their beginning.", {}, 2};
@@ -191,21 +202,29 @@ DocumentSection excitation_section(const OneSensorView& view) {
                        {"Judged on", false, 0, true},
                        {"s", true}},
                       {}};
+
+  // Motion and drive, by their own names and units.
   for (const DamperStudy& one : view.study.dampers) {
     const StudiedDamper& damper = one.damper;
     const bool is_voltage = damper.drive_unit == DriveUnit::Volt;
     const Channel moved{"displacement", "Displacement (mm)", {}, {}},
         driven{
             is_voltage ? "voltage" : "current", is_voltage ? "Voltage (V)" : "Current (A)", {}, {}};
+
+    // All dampers move alike: the motion is shown for the first.
     if (&one == &view.study.dampers.front())
       for (std::size_t e = 0; e < std::min(damper.experiments.size(), kMostShown); ++e)
         if (auto panel = sequence_panel(damper, e, moved, kSeconds, 1000))
           motion.panels.push_back(*panel);
+
+    // The drive as far as it can be read.
     for (const std::size_t e : shown_currents(damper)) {
       const double seconds = legible_seconds(damper.experiments[e].training.front(), driven.name);
       if (auto panel = sequence_panel(damper, e, driven, seconds, 1))
         drive.panels.push_back(*panel);
     }
+
+    // What each experiment learns from, what judges it, and for how long.
     for (const Fold& fold : damper.experiments) {
       const auto said = [](const std::vector<Record>& records) {
         return records.size() == 1 ? records.front().name : counted(records.size(), "record");
@@ -217,6 +236,8 @@ DocumentSection excitation_section(const OneSensorView& view) {
                             said(fold.left_out), number_text(seconds)});
     }
   }
+
+  // Records without a displacement have no figure 3.
   section.tables.push_back(std::move(table));
   if (!motion.panels.empty()) section.figures.push_back(std::move(motion));
   section.figures.push_back(std::move(drive));
@@ -226,10 +247,14 @@ DocumentSection excitation_section(const OneSensorView& view) {
 DocumentSection curves_section(const OneSensorView& view) {
   DocumentSection section{"figures", "Figures 7 to 9: force in time and against velocity", {}};
   constexpr double kSeconds = 0.6;
+
+  // The last experiment of a damper is the one in time.
   const auto last = [&](std::size_t d) {
     return view.study.dampers[d].damper.experiments.size() - 1;
   };
   DocumentFigure traces{"figure-7", "Figure 7: force in time", "Parts of left-out recordings.", {}};
+
+  // The paper's own choice of experiments, where these are its dampers.
   if (view.is_virtual()) {
     for (std::size_t d = 0; d < view.study.dampers.size(); ++d)
       traces.panels.push_back(trace_panel(view, d, last(d), kSeconds));
@@ -247,6 +272,8 @@ DocumentSection curves_section(const OneSensorView& view) {
         "show that internal states serve as well.");
     return section;
   }
+
+  // Other data: the first divisions in time, and more of them over the velocity.
   for (std::size_t e = 0; e <= std::min<std::size_t>(last(0), 1); ++e) {
     const Record& record = view.study.dampers[0].damper.experiments[e].left_out.front();
     traces.panels.push_back(
@@ -262,6 +289,8 @@ DocumentSection curves_section(const OneSensorView& view) {
 
 DocumentSection velocity_section(const OneSensorView& view) {
   DocumentSection section{"figure-10", "Figure 10: velocity measured and estimated", {}};
+
+  // Needs a velocity that was measured, and evenly sampled records.
   const Record& record = velocity_record(view);
   const Channel *displacement = record.find("displacement"), &velocity = record.channel("velocity");
   if (!displacement || velocity.origin.starts_with("derived") || record.sample_time <= 0) {
@@ -270,12 +299,16 @@ DocumentSection velocity_section(const OneSensorView& view) {
         "there is nothing to compare it with.");
     return section;
   }
+
+  // The velocity by differences of the displacement, plain and smoothed.
   constexpr double kSeconds = 1;
   const double dt = record.sample_time, cutoff = choose_cutoff_hz(displacement->samples, dt);
   const std::vector<double> plain = central_difference(displacement->samples, dt),
                             smooth = differentiate_zero_phase(displacement->samples, dt, cutoff);
   const std::vector<double>& measured = velocity.samples;
   const double swing = rms_difference(measured, std::vector<double>(measured.size(), 0.0));
+
+  // How far each lies from the measured one.
   DocumentTable table{"Estimated against measured velocity: " + record.name,
                       {{"From the displacement by"},
                        {"RMS difference, mm/s", true},
@@ -289,6 +322,8 @@ DocumentSection velocity_section(const OneSensorView& view) {
     const double rms = rms_difference(*values, measured);
     table.rows.push_back({name, number_text(1000 * rms), number_text(100 * rms / swing, 2)});
   }
+
+  // One second of all three.
   section.tables.push_back(std::move(table));
   const Window window = window_of(record, record.time.front() + 2, kSeconds);
   const std::vector<double> time = taken(record.time, window);
@@ -304,6 +339,8 @@ DocumentSection velocity_section(const OneSensorView& view) {
            1},
           {"zero-phase", "modelled", time, taken(smooth, window), FigureSeries::Mark::Line,
            1.2}}}}});
+
+  // Near enough: within 5 % of the velocity's root mean square.
   section.paragraphs.push_back(
       fmt::format("The paper: a displacement sensor serves as well as a velocity sensor. {}",
                   rms_difference(smooth, measured) < 0.05 * swing

@@ -48,13 +48,18 @@ std::vector<Record> stretches_of(const Record& record) {
 /// trials that hold back one of the two know all its currents from the other, also where the
 /// current rises slowly.
 std::vector<Record> parts_by_turns(const Record& record) {
+  // Samples of the run-in at the record's mean rate.
   const std::size_t run_in = static_cast<std::size_t>(kRunIn * static_cast<double>(record.size()) /
                                                       (record.time.back() - record.time.front()));
+
+  // Each part scores its own share of the record and starts early by its run-in.
   std::vector<Record> parts;
   for (std::size_t k = 0; k < kParts; ++k) {
     const std::size_t scored = record.warm_up + k * (record.size() - record.warm_up) / kParts,
                       end = record.warm_up + (k + 1) * (record.size() - record.warm_up) / kParts,
                       first = scored - std::min(scored, std::max(run_in, record.warm_up));
+
+    // Every second part is of the one condition, the others of the other.
     parts.push_back(record.slice(first, end));
     parts.back().name += ", part " + std::to_string(k + 1);
     parts.back().condition = k % 2 ? "every second part" : "the parts between";
@@ -88,8 +93,12 @@ StudiedFit studied_fit(const StudiedModel& model, const std::vector<Record>& tra
   // One record has one zero, whatever it is cut into.
   if (is_long(training) && (kind == ModelKind::Narx || kind == ModelKind::HysteresisNetwork))
     options.offset = OffsetMode::None;
+
+  // Delayed samples need the record's own rate: stretches, not every k-th sample.
   if (kind == ModelKind::Narx)
     return {is_long(training) ? stretches_of(training.front()) : training, options};
+
+  // Everything else learns from thinned records.
   std::size_t samples = 0;
   for (const Record& record : training) samples += record.size();
   const std::size_t stride = stride_of(training, samples / kEnoughSamples, kind);
@@ -105,9 +114,13 @@ StudiedResult judge(const FitReport& fit, const Fold& fold, DriveUnit drive_unit
   StudiedResult result;
   result.parameters = fit.model->parameter_count();
   result.seconds = fit.seconds;
+
+  // Free run with each record's offset fitted; offsets known from the fit stay.
   Evaluation judged =
       evaluate(*fit.model, fold.left_out, drive_unit,
                {.offset = OffsetMode::Record, .known_offsets = fit.offsets, .threads = 1});
+
+  // Sums over the records, their forces, and the first divergence.
   for (RecordResult& record : judged.records) {
     if (record.one_step.n > 0) {
       if (!result.one_step) result.one_step.emplace();

@@ -32,6 +32,7 @@ NetworkDesign small_ensemble() {
 }  // namespace
 
 std::vector<StudiedModel> one_sensor_models() {
+  // The paper's networks with their rivals, then laws.
   constexpr auto kFree = FeedbackTraining::FreeRun, kSeries = FeedbackTraining::SeriesParallel;
   std::vector<StudiedModel> models{
       {kStatic, "static network, v and i", "mlp_one_sensor", {}},
@@ -47,6 +48,8 @@ std::vector<StudiedModel> one_sensor_models() {
       {"semi-phenomenological", "semi-phenomenological", "semi_phenomenological", {}},
       {"modified-bouc-wen", "phenomenological (modified Bouc-Wen)", "modified_bouc_wen", {}},
   };
+
+  // Table 5: one to three delays, neighbouring samples and ten apart.
   constexpr std::size_t kApart = 10;
   for (std::size_t delays = 1; delays <= 3; ++delays) {
     const std::string key = "regressors-" + std::to_string(delays),

@@ -55,6 +55,7 @@ MountedDamper passive_damper(std::shared_ptr<const DamperModel> model) {
 std::string mix1(double crossover) { return "mix1,crossover=" + format_exact(crossover); }
 
 void add_schemes(SuspensionStudy& study, const PlantSet& set, double lag_rate) {
+  // Passive references: the identified curve and the linear damper.
   const auto add = [&](std::string key, std::string title, Vehicle vehicle, bool within) {
     study.schemes.push_back({std::move(key), std::move(title), std::move(vehicle), within});
   };
@@ -62,6 +63,8 @@ void add_schemes(SuspensionStudy& study, const PlantSet& set, double lag_rate) {
       make_car(set, passive_damper(study.passive.model), {}, ""), false);
   add("linear", "passive: linear, 1804 N*s/m",
       make_car(set, mounted(damping_range(kPassiveDamping, kPassiveDamping)), {}, ""), false);
+
+  // The identified damper with its coil's lag, under each controller.
   MountedDamper damper = passive_damper(study.damper.model);
   damper.driver = {.current_min = 0, .current_max = study.limits.current_max, .lag_rate = lag_rate};
   const auto controlled = [&](std::string key, std::string title, const std::string& law) {
@@ -74,9 +77,13 @@ void add_schemes(SuspensionStudy& study, const PlantSet& set, double lag_rate) {
   controlled("add", "ADD", "add");
   controlled("sh_add", "SH-ADD", "sh_add,crossover=" + format_exact(study.crossover));
   controlled("groundhook", "groundhook", "groundhook");
+
+  // Its two ends, without control.
   controlled("off", "MR2 at 0 A", "");
   controlled("on", "MR2 at 2.5 A", "");
   study.schemes.back().vehicle.dampers[0].current = study.limits.current_max;
+
+  // An ideal damper of a wide range.
   const ControlLimits soft{.damping_min = 900, .damping_max = 4300};
   add("ideal", "Mix-1-sensor, ideal damper 900 to 4300 N*s/m",
       make_car(set, mounted(damping_range(900, 4300)), soft, mix1(study.crossover)), false);
@@ -114,16 +121,21 @@ void read_chirp(SchemeRide& ride, const Vehicle& vehicle, const Monitor& monitor
 
 SchemeRide ride_of(const Vehicle& vehicle, const GroundMotion& road,
                    const SuspensionStudyOptions& options) {
+  // Gains at two amplitudes, since the damper is not linear.
   SchemeRide ride;
   ride.large = gains_by_chirp(vehicle, gain_frequencies(),
                               {.amplitude = kLargeChirp, .monitor = options.monitor});
   ride.small = gains_by_chirp(vehicle, gain_frequencies(),
                               {.amplitude = kSmallChirp, .monitor = options.monitor});
   read_chirp(ride, vehicle, options.monitor);
+
+  // The step, for its measures and its mean squares.
   const GroundPointer step = make_ground("step,height=3cm", 1);
   ride.step = run(vehicle, *step, options.step_duration, options.monitor, 4);
   read_step(ride);
   ride.on_step = ride_squares(ride.step, vehicle.set.plant);
+
+  // The road.
   ride.on_road = ride_squares(run(vehicle, road, options.road_duration, options.monitor, 4),
                               vehicle.set.plant);
   return ride;
@@ -131,11 +143,14 @@ SchemeRide ride_of(const Vehicle& vehicle, const GroundMotion& road,
 
 LeastDamping with_least(double least, const SuspensionStudy& study, const PlantSet& set,
                         const GroundMotion& road) {
+  // Ideal dampers from this least damping to the identified one's greatest, or a fifth more.
   const ControlLimits limits{.damping_min = least,
                              .damping_max = std::max(study.limits.damping_max, 1.2 * least)};
   const Vehicle vehicle =
       make_car(set, mounted(damping_range(limits.damping_min, limits.damping_max)), limits,
                mix1(study.crossover));
+
+  // The small chirp, on which the tyre stays on the road, the step and the road.
   const SuspensionStudyOptions& options = study.options;
   const std::vector<GainPoint> gains = gains_by_chirp(
       vehicle, gain_frequencies(), {.amplitude = kSmallChirp, .monitor = options.monitor});

@@ -31,6 +31,7 @@ double unit_of(const ClairvoyantBound& best) {
 }
 
 DocumentTable bound_table(const SuspensionStudy& study) {
+  // Comfort alone, both alike and road holding alone, of each front.
   DocumentTable table{
       "Bound and optimum, root mean squares",
       {{"Index", false, 0, true}, {"Proven bound", true}, {"Reached", true}, {"Gap, %", true}},
@@ -42,6 +43,8 @@ DocumentTable bound_table(const SuspensionStudy& study) {
     for (const auto& [name, k] : shown)
       table.rows.push_back(front_row(where + ": " + name, front[k], unit_of(front[k])));
   };
+
+  // The identified damper on both inputs, and any damping on the step.
   add("road, this damper", study.road_front);
   add("step, this damper", study.step_front);
   add(fmt::format("step, any damping to {} N*s/m", number_text(study.greatest_possible, 5)),
@@ -64,8 +67,12 @@ DocumentTable share_table(const SuspensionStudy& study, const std::string& title
                        {"Both, over passive", true, 2},
                        {"% of possible", true, 2}},
                       {}};
+
+  // Shares between the same damper at 0 A and the best that knew the road.
   const RideSquares& off = study.rides[study.place("off")].*where;
   const ClairvoyantBound &comfort = front.front(), &both = front[kMiddle], &holding = front.back();
+
+  // Only schemes with that damper have such shares.
   const auto add = [&](const std::string& name, const RideSquares& squares, bool within) {
     const auto share = [&](const ClairvoyantBound& best) {
       return within ? possible_text(best, off, squares) : "-";
@@ -74,6 +81,8 @@ DocumentTable share_table(const SuspensionStudy& study, const std::string& title
                           whole_text(std::sqrt(squares.tyre_force)), share(holding),
                           number_text(root_of(both.index, squares)), share(both)});
   };
+
+  // Every scheme, then the optima themselves.
   for (std::size_t k = 0; k < study.rides.size(); ++k)
     add(study.schemes[k].title, study.rides[k].*where, study.schemes[k].within_range);
   add("knew the road: best for comfort", comfort.squares, true);
@@ -107,6 +116,8 @@ DocumentFigure front_figure(const SuspensionStudy& study) {
                     .x_label = "body acceleration, rms, m/s^2",
                     .y_label = "tyre force, rms, N",
                     .series = {}};
+
+  // The front of the road, bound and optimum, and a point for each scheme.
   panel.series = front_lines(study.road_front, {1, 1});
   for (std::size_t k = 0; k < study.rides.size(); ++k) {
     FigureSeries point = look_of(study.schemes[k]);
@@ -114,6 +125,8 @@ DocumentFigure front_figure(const SuspensionStudy& study) {
     point.y = {std::sqrt(study.rides[k].on_road.tyre_force)};
     panel.series.push_back(std::move(point));
   }
+
+  // The caption says to which damper the bound belongs.
   return {.name = "front",
           .title = "Comfort against road holding",
           .caption =
@@ -136,6 +149,8 @@ RideSquares best_within(const SuspensionStudy& study, const ClairvoyantBound& in
 
 DocumentSection possible_section(const SuspensionStudy& study) {
   DocumentSection section{"possible", "What is possible at best", {}};
+
+  // The ends of the front on the road, and how far controllers come towards them.
   const SchemeRide &passive = study.rides.front(), &mix1 = study.rides[study.place("mix1")],
                    &off = study.rides[study.place("off")];
   const ClairvoyantBound &comfort = study.road_front.front(), &holding = study.road_front.back();
@@ -157,12 +172,16 @@ DocumentSection possible_section(const SuspensionStudy& study) {
       whole_text(std::sqrt(passive.on_road.tyre_force)), reached(mix1.on_road, comfort),
       reached(mix1.on_road, holding), reached(best_within(study, comfort), comfort),
       reached(best_within(study, holding), holding)));
+
+  // Bounds, shares on both inputs, and the front as a figure.
   section.tables.push_back(bound_table(study));
   section.tables.push_back(
       share_table(study, "On the road", study.road_front, &SchemeRide::on_road));
   section.tables.push_back(
       share_table(study, "On the step", study.step_front, &SchemeRide::on_step));
   section.figures.push_back(front_figure(study));
+
+  // Where the gap between bound and optimum comes from.
   section.remarks.push_back(
       "The range is the network's own, from its least to its greatest force over all currents at "
       "each velocity, in proportion beyond 1.5 m/s. It is lopsided and bent; the quadratic limits "
@@ -184,11 +203,15 @@ double least_damping_for(const SuspensionStudy& study, double wheel_gain) {
 
 DocumentSection least_damping_section(const SuspensionStudy& study) {
   DocumentSection section{"least-damping", "Which least damping the paper's claim needs", {}};
+
+  // The least damping for the paper's gain and for its limit, read from the sweep.
   const double needed = least_damping_for(study, paper::kWheelGain),
                limit = least_damping_for(study, paper::kWheelGainLimit);
   const auto text = [](double damping) {
     return damping > 0 ? number_text(std::round(damping), 4) + " N*s/m" : "more than the sweep has";
   };
+
+  // The same gains by linear dampers, for comparison.
   section.paragraphs.push_back(
       fmt::format("At the wheel's resonance Mix-1-sensor asks for the least damping nearly all the "
                   "time, so the least damping alone decides on the tyre's gain there. A linear "
@@ -199,6 +222,8 @@ DocumentSection least_damping_section(const SuspensionStudy& study) {
                   number_text(damping_for_wheel_gain(study.plant, paper::kWheelGainLimit), 4),
                   number_text(damping_for_wheel_gain(study.plant, paper::kWheelGain), 4),
                   text(limit), text(needed)));
+
+  // The sweep as a table and as curves: gains and mean squares against the linear damper.
   DocumentTable table{"Mix-1-sensor on ideal dampers",
                       {{"Least damping, N*s/m", true},
                        {"Tyre's greatest gain", true},
@@ -221,6 +246,8 @@ DocumentSection least_damping_section(const SuspensionStudy& study) {
   const auto less = [](double from, double to) {
     return less_percent(std::sqrt(from), std::sqrt(to));
   };
+
+  // The values that the curves show; the table has two more.
   for (const LeastDamping& one : study.least_damping) {
     const double values[] = {
         less_percent(paper::kWheelGain / (1 - paper::kWheelGainLess / 100), one.wheel_gain),
@@ -236,6 +263,8 @@ DocumentSection least_damping_section(const SuspensionStudy& study) {
       panel.series[k].y.push_back(values[k]);
     }
   }
+
+  // The paper's claim as a line across the figure.
   table.note = "Against the linear damper of 1804 N*s/m; below 0: worse than passive.";
   panel.series.push_back(
       {.label = "the paper's 40.4 %",
@@ -249,6 +278,8 @@ DocumentSection least_damping_section(const SuspensionStudy& study) {
        .title = "What Mix-1-sensor gains by the least damping",
        .caption = "Greatest damping as the identified damper's, or a fifth above the least.",
        .panels = {std::move(panel)}});
+
+  // What such a damper costs.
   section.remarks.push_back(
       "A damper so stiff without current gives up the comfort that it is controlled for: the "
       "claims of more comfort and of 40.4 % at the wheel's resonance do not go together here.");
