@@ -13,7 +13,7 @@
 namespace dashpot {
 namespace {
 
-/// Which damper, at which of its field levels.
+/// A damper of the family (m, m, Pa*s) at one of its field levels, counted from 0.
 struct Choice {
   double length, gap, viscosity;
   std::size_t level;
@@ -91,7 +91,7 @@ class Comparisons {
     for (const double value : viscosities_)
       add(all[2], fmt::format("{:g} Pa*s", value), &Choice::viscosity, value);
 
-    // The fields are the weakest, a middle and the strongest level of that damper.
+    // The middle damper at its first, third and sixth field level.
     for (const std::size_t field : {0, 2, 5}) {
       Choice choice = middle_;
       choice.level = field;

@@ -16,7 +16,7 @@ namespace dashpot {
 namespace {
 
 constexpr double kKilopascal = 1000, kMillimetre = 0.001;
-/// Raw inputs in the authors' units: what one of each is in SI.
+/// The authors' units of raw inputs, in SI.
 constexpr std::array<double, kFamilyInputs.size()> kRawUnits{1, 1,           1, 1,
                                                              1, kKilopascal, 1, kMillimetre};
 
@@ -84,7 +84,7 @@ StudiedNetwork train_family_network(const FamilyRule& rule, const TrainingSample
     network.history.push_back(rmse);
   };
 
-  // The CPU time counts the training alone.
+  // The CPU time includes the drawing of first weights.
   train_batches(network.mlp, samples, options);
   network.seconds = cpu_seconds() - begin;
   return network;

@@ -27,7 +27,7 @@ struct FamilyRule {
 
 /// "h3x15", the paper's name for layers of one width; else "15-10".
 std::string architecture_name(const std::vector<std::size_t>& hidden);
-/// All of it, for people and as a key.
+/// The whole rule as text, for people and as a key of the training store.
 std::string describe(const FamilyRule& rule);
 
 struct StudiedNetwork {

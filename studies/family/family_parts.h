@@ -10,8 +10,8 @@
 // Parts of the family study's page, and the figures of the paper that it stands beside.
 namespace dashpot {
 
-/// What the paper prints, and what the networks published with it leave on the samples that they
-/// learnt from.
+/// The figures that the paper prints, and the errors of the networks published with it on the
+/// samples that they learnt from.
 namespace family_paper {
 inline constexpr std::size_t kSamples = 13333;
 inline constexpr double kR2 = 0.9577;

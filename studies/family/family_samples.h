@@ -28,14 +28,14 @@ struct FamilySamples {
   std::vector<std::size_t> first;  ///< of each cycle in them, and their number
 
   std::size_t size() const { return samples.targets.size(); }
-  /// Of a cycle, by its name in kFamilyInputs.
+  /// A condition of a cycle, SI, by its name in kFamilyInputs.
   double condition(std::size_t cycle, std::string_view name) const;
 };
 
 /// Throws Error when a record lacks one of the conditions, or has no whole cycle.
 FamilySamples family_samples(const Dataset& dataset);
 
-/// What a network learns from and what it is judged on: samples by their index.
+/// The samples that a network learns from and those that judge it, by their index.
 struct FamilyDivision {
   std::string name;
   std::vector<std::size_t> training, judged;

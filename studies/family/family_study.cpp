@@ -26,7 +26,7 @@ struct Task {
   std::uint64_t seed;
   StudiedNetwork* network;
 
-  /// About what it costs.
+  /// Multiplications of the training, about: its cost beside others.
   double work() const {
     double width = static_cast<double>(kFamilyInputs.size()), sum = 100;
     for (const std::size_t next : rule.hidden) {

@@ -11,7 +11,7 @@ namespace dashpot {
 
 class TrainingStore;
 
-/// What networks learn from and what judges them.
+/// How samples are divided among learning and judging.
 enum class FamilyProtocol {
   AllSamples,
   FixedDamper,
@@ -52,7 +52,7 @@ FamilyRule grid_rule(bool is_own, double rate, std::size_t batch);
 /// them where something is left out, three at most of large networks and in grids.
 std::vector<FamilyExperiment> family_experiments(std::size_t seeds);
 
-/// What came of an experiment.
+/// The networks of an experiment and their errors; it points into the study's networks.
 struct FamilyOutcome {
   FamilyExperiment experiment;
   std::vector<std::vector<const StudiedNetwork*>> networks;  ///< by seed, by division

@@ -21,7 +21,7 @@ std::vector<NamedRule> rules() {
           {"ours", own_rule(chosen_architecture())}};
 }
 
-/// Rows of the tables of what was left out.
+/// The networks in the tables of dampers and fluids left out.
 std::vector<std::pair<std::string, FamilyRule>> judged_rules() {
   std::vector<std::pair<std::string, FamilyRule>> all;
   for (const auto& hidden : judged_architectures())
@@ -33,7 +33,7 @@ std::vector<std::pair<std::string, FamilyRule>> judged_rules() {
   return all;
 }
 
-/// What raw inputs do to a geometry that was not seen.
+/// The effect of raw inputs on a geometry that was not seen; empty where it does not show.
 std::string raw_inputs_remark(const FamilyStudy& study) {
   // Worth a remark only where raw inputs do better on geometries left out.
   const FamilyOutcome *raw = study.outcome(FamilyProtocol::Geometries,
@@ -54,7 +54,7 @@ std::string raw_inputs_remark(const FamilyStudy& study) {
 
 constexpr double kSame = 0.01;  // R2 this near to the paper's is called the same
 
-/// How far R2 on random samples lies from R2 on those learnt from, at most.
+/// The largest difference between R2 on random samples and R2 on those learnt from.
 double random_difference(const FamilyStudy& study) {
   double largest = 0;
   for (const NamedRule& named : rules()) {
@@ -67,7 +67,7 @@ double random_difference(const FamilyStudy& study) {
   return largest;
 }
 
-/// Which of the figures comes to the paper's R2.
+/// The figures that come near the paper's R2, in words.
 std::string nearest_to_paper(const FamilyStudy& study) {
   // R2 of every rule under one way of judging that lies near the paper's.
   std::vector<std::string> near;
@@ -153,7 +153,7 @@ DocumentSection determination_section(const FamilyStudy& study) {
                           median_r2_text(of(FamilyProtocol::Fluids))});
   }
 
-  // Which of them comes near the paper's R2, and why random samples judge nothing.
+  // The figures that come near the paper's R2; random samples judge nothing.
   table.note =
       "Random samples: 27 % of all, the paper's share of test samples (28 800 of 105 600).";
   section.tables.push_back(std::move(table));
@@ -219,7 +219,7 @@ DocumentSection left_out_section(const FamilyStudy& study) {
     section.tables.push_back(std::move(table));
   }
 
-  // How the tables are read, and what limits them.
+  // A reading of the tables, and their limits.
   section.paragraphs.push_back(
       "A model of a family is for dampers that do not exist yet. Here the networks learn from all "
       "dampers but those of one geometry, or one fluid, and are judged on these alone, all "

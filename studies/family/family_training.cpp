@@ -174,7 +174,7 @@ DocumentSection single_damper_section(const FamilyStudy& study) {
           seed_dots(fixed, "ours", "modelled", 0.12), paper_dots(all, family_paper::kSingle)},
          names_of(all)}}});
 
-  // Which architecture is best, by either rule.
+  // The best architecture by either rule.
   section.paragraphs.push_back(
       fmt::format("The paper finds h2x9 best for one damper. Trained by our rule the best is {}, "
                   "by its authors' {}.",
@@ -346,7 +346,7 @@ DocumentSection history_section(const FamilyStudy& study) {
     figure.panels.push_back(std::move(panel));
   }
 
-  // What the paper sees in its own figure.
+  // The paper's own reading of its figure.
   section.tables.push_back(std::move(table));
   section.figures.push_back(std::move(figure));
   section.paragraphs.push_back(

@@ -1,4 +1,4 @@
-// What the one-sensor paper says of accuracy: its table 6, its figure 6 and the comparison in its
+// The one-sensor paper's claims on accuracy: its table 6, its figure 6 and the comparison in its
 // conclusions.
 #include <algorithm>
 #include <array>
@@ -284,7 +284,7 @@ DocumentSection accuracy_section(const OneSensorView& view) {
   section.figures.push_back(figure_6(view));
   if (view.is_virtual()) compare_experiments(view, section);
 
-  // How often, and by how much, the hysteresis network beats the static one.
+  // The hysteresis network against the static one: how often it is better, and by how much.
   for (std::size_t d = 0; d < view.study.dampers.size(); ++d) {
     const std::vector<double> plain = percents(view, d, kStatic),
                               bank = percents(view, d, kHysteresis);

@@ -104,7 +104,7 @@ DocumentSection protocol_section(const OneSensorView& view) {
       "and shows by experiments why. Each part below repeats one of them; the paper's figure "
       "stands beside ours.");
 
-  // Data, and how models are judged on them; virtual and measured ones differ.
+  // The data: virtual dampers, or measured ones.
   section.paragraphs.push_back(
       view.is_virtual()
           ? "Virtual dampers: the paper prints no data of its dampers, so two virtual ones stand "
@@ -118,7 +118,7 @@ DocumentSection protocol_section(const OneSensorView& view) {
                 " divisions); what the paper shows for one experiment is shown for all divisions "
                 "together.");
 
-  // Judging.
+  // Judging: virtual dampers are recorded twice, measured data are divided.
   section.paragraphs.push_back(
       view.is_virtual()
           ? "Judging: the paper does not state its cross-validation. Here every experiment is "
@@ -131,7 +131,7 @@ DocumentSection protocol_section(const OneSensorView& view) {
             "learnt from. The velocity is the one sensor; where it was derived from a "
             "displacement, that is the one sensor, as the paper's figure 10 proposes.");
 
-  // The run and the percentages are the same for both.
+  // Free run and percentages mean the same for both kinds of data.
   section.paragraphs.push_back(
       "Free run: a model sees motion and current, never the measured force. One-step errors, for "
       "which the measured force is fed back, stand beside it under that name and decide nothing. "

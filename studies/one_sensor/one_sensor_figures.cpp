@@ -224,7 +224,7 @@ DocumentSection excitation_section(const OneSensorView& view) {
         drive.panels.push_back(*panel);
     }
 
-    // What each experiment learns from, what judges it, and for how long.
+    // The records that each experiment learns from, those that judge it, and their length.
     for (const Fold& fold : damper.experiments) {
       const auto said = [](const std::vector<Record>& records) {
         return records.size() == 1 ? records.front().name : counted(records.size(), "record");
@@ -248,7 +248,7 @@ DocumentSection curves_section(const OneSensorView& view) {
   DocumentSection section{"figures", "Figures 7 to 9: force in time and against velocity", {}};
   constexpr double kSeconds = 0.6;
 
-  // The last experiment of a damper is the one in time.
+  // The figure in time shows the last experiment of a damper.
   const auto last = [&](std::size_t d) {
     return view.study.dampers[d].damper.experiments.size() - 1;
   };
@@ -308,7 +308,7 @@ DocumentSection velocity_section(const OneSensorView& view) {
   const std::vector<double>& measured = velocity.samples;
   const double swing = rms_difference(measured, std::vector<double>(measured.size(), 0.0));
 
-  // How far each lies from the measured one.
+  // The difference of each from the measured one.
   DocumentTable table{"Estimated against measured velocity: " + record.name,
                       {{"From the displacement by"},
                        {"RMS difference, mm/s", true},

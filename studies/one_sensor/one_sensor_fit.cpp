@@ -7,8 +7,7 @@
 namespace dashpot {
 namespace {
 
-constexpr std::size_t kEnoughSamples =
-    12000;  // of a fit; far more samples tell 61 weights nothing new
+constexpr std::size_t kEnoughSamples = 12000;  // of a fit; 61 weights gain nothing from far more
 constexpr double kLeastRate =
     270;  // Hz, for models that integrate: 18 samples in a period at 15 Hz
 constexpr std::size_t kParts = 20;  // of a record with states
@@ -69,8 +68,8 @@ std::vector<Record> parts_by_turns(const Record& record) {
   return parts;
 }
 
-/// Of samples that a fit can do without: of a model without a memory any, of one with states those
-/// beyond a rate that shows the motion.
+/// Keeps every how many samples: a model without a memory can do without any of them, one with
+/// states without those beyond a rate that shows the motion.
 std::size_t stride_of(const std::vector<Record>& records, std::size_t wanted, ModelKind kind) {
   if (wanted < 2 || kind == ModelKind::Network) return std::max<std::size_t>(wanted, 1);
   double rate = 0;

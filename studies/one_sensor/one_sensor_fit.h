@@ -11,7 +11,8 @@
 // One fit of the one-sensor study, and how it is judged.
 namespace dashpot {
 
-/// What identify() gets: long recordings are thinned to what the kind of model needs.
+/// The input of identify(): long recordings are thinned to the samples that the kind of model
+/// needs.
 struct StudiedFit {
   std::vector<Record> training;
   IdentifyOptions options;

@@ -22,7 +22,7 @@ NetworkDesign regressors_design(std::size_t delays, std::size_t spacing) {
   return design;
 }
 
-/// Two members tell what eight tell, in a quarter of the time.
+/// Two members predict as well as eight, in a quarter of the time.
 NetworkDesign small_ensemble() {
   NetworkDesign design;
   design.members = 2;

@@ -17,7 +17,7 @@
 namespace dashpot {
 namespace {
 
-/// What a fit costs beside others, measured on the paper's experiments: the longest go first.
+/// The cost of a fit beside others, measured on the paper's experiments: the longest go first.
 double expected_cost(const StudiedModel& model) {
   const ModelKind kind = model_info(model.model).kind;
   if (kind == ModelKind::HysteresisNetwork) return 40;
@@ -101,8 +101,8 @@ class StudyRun {
     }
   }
 
-  /// Where the example is one division, it serves both ways round: learn from either record, judge
-  /// on the other.
+  /// An example of one division serves both ways round: learn from either record, judge on the
+  /// other.
   void add_sizes(DamperStudy& one) {
     std::vector<Fold>& folds = size_folds_.emplace_back();
     for (const std::size_t e : one.damper.example) folds.push_back(one.damper.experiments[e]);
@@ -136,7 +136,7 @@ class StudyRun {
     }
   }
 
-  /// As it was kept, or made now and kept.
+  /// The fit as it was kept in the store, or made now and kept.
   FitReport fit(const Task& task) {
     // The fit as the study asks for it.
     IdentifyOptions options;

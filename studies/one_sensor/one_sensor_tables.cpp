@@ -61,7 +61,7 @@ std::string not_compared(const std::string& what) {
 DocumentSection recurrence_section(const OneSensorView& view) {
   DocumentSection section{"table-3", "Table 3: feed-forward against recurrent", {}};
 
-  // Table 3 with two further ways to train and the hysteresis network.
+  // Table 3 with two further recurrent networks and the hysteresis network.
   section.tables.push_back(
       comparison(view, "Table 3",
                  {{"feed-forward: x, v, i", "two-sensors", paper::kFeedForward},
@@ -130,7 +130,7 @@ DocumentSection sensors_section(const OneSensorView& view) {
                                                       : "Agrees in direction, not in size",
                   change_text(*one, *two), number_text(stated)));
 
-  // Why a displacement helps here, and what helps as well without it.
+  // The reason that a displacement helps here, and the hysteresis network without one.
   if (view.is_virtual())
     section.remarks.push_back(
         "Why: this virtual damper has no stiffness, and its hysteresis follows the acceleration. "

@@ -42,7 +42,7 @@ FitReport fit_once(const Law& law, const RecoveryStudyOptions& options, int repe
   identification.seed = options.seed;
   identification.threads = 1;
   identification.monitor.stop = options.monitor.stop;
-  // What a fit takes from the size of the data is known here.
+  // A fit sets such scales by the size of the data; here they are known.
   for (const ParamInfo& param : law.params)
     if (param.fit == Fit::Scale)
       identification.choices.push_back(

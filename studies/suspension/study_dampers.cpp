@@ -40,7 +40,7 @@ NetworkDamper identified(std::string name, std::string description, const Fold& 
     high = std::max(high, *greatest);
   }
 
-  // What it shows at rest without current is taken off.
+  // The force that it shows at rest without current is taken off.
   return {.name = std::move(name),
           .description = std::move(description),
           .model = report.model->with_offset(-report.model->force({}, {})),

@@ -143,7 +143,8 @@ SchemeRide ride_of(const Vehicle& vehicle, const GroundMotion& road,
 
 LeastDamping with_least(double least, const SuspensionStudy& study, const PlantSet& set,
                         const GroundMotion& road) {
-  // Ideal dampers from this least damping to the identified one's greatest, or a fifth more.
+  // Ideal dampers from this least damping to the identified one's greatest, or a fifth
+  // above the least.
   const ControlLimits limits{.damping_min = least,
                              .damping_max = std::max(study.limits.damping_max, 1.2 * least)};
   const Vehicle vehicle =

@@ -64,7 +64,7 @@ std::vector<Claim> claims_of(const SuspensionStudy& study) {
           })};
 }
 
-/// What becomes of the claim against one passive damper.
+/// The outcome of a claim against one passive damper.
 enum class Outcome { Opposite, Nothing, Less, Follows };
 Outcome outcome(const Claim& claim, double passive) {
   const double less = less_percent(passive, claim.ours);
@@ -73,7 +73,7 @@ Outcome outcome(const Claim& claim, double passive) {
 }
 
 std::string judgement(const Claim& claim) {
-  // Ruled out even from the worse of the passive dampers.
+  // The bound rules it out even from the worse of the passive dampers.
   if (claim.claimed > less_percent(std::max(claim.curve, claim.linear), claim.least))
     return "no damper can do it";
 
@@ -119,7 +119,7 @@ DocumentSection claims_section(const SuspensionStudy& study) {
                           whole_text(less_percent(claim.linear, claim.ours)),
                           number_text(claim.least, 4), judgement(claim)});
 
-  // How "any damper" is meant.
+  // The note explains what "any damper" means.
   table.note = fmt::format(
       "Any damper, least: the proven bound for any damping up to {} N*s/m that knew the step. No "
       "damper can do it: even from the worse of the two passive dampers the bound is not so far "
@@ -127,7 +127,7 @@ DocumentSection claims_section(const SuspensionStudy& study) {
       number_text(study.greatest_possible, 5));
   section.tables.push_back(std::move(table));
 
-  // What the judgement rests on.
+  // Limits of the judgement.
   section.remarks = {
       "The paper's passive damper is known by one figure only, the gain of 3.36 at the wheel's "
       "resonance; against a worse one every improvement is larger. What is said here holds against "

@@ -106,7 +106,7 @@ DocumentSection suspension_dampers(const SuspensionStudy& study) {
                           number_text(damper->quality.esr),
                           std::to_string(damper->model->parameter_count())});
 
-  // How the identified one damps at the ends of its current.
+  // The identified damper's damping at the ends of its current.
   table.note = fmt::format(
       "Along a sine of 20 mm at 0.2 m/s MR2 damps like {} N*s/m at 0 A and {} N*s/m at 2.5 A. The "
       "force that a network shows at rest without current was taken off.",

@@ -9,7 +9,7 @@
 // The parts of the page of the suspension study.
 namespace dashpot {
 
-/// What the paper prints of its suspension.
+/// The figures that the paper prints of its suspension.
 namespace paper {
 inline constexpr double kWheelGain = 2.0, kWheelGainLess = 40.4;  // 1; %
 inline constexpr double kWheelGainLimit = 2.5;

@@ -1,4 +1,4 @@
-// What is possible at best, and what the least damping would have to be.
+// Bounds on the ride, and the least damping that the paper's claim needs.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -135,7 +135,7 @@ DocumentFigure front_figure(const SuspensionStudy& study) {
           .panels = {std::move(panel)}};
 }
 
-/// Of the damper's schemes on the road the one with the least index.
+/// The least index among the damper's own schemes on the road.
 RideSquares best_within(const SuspensionStudy& study, const ClairvoyantBound& index) {
   RideSquares best = study.rides[study.place("off")].on_road;
   for (std::size_t k = 0; k < study.rides.size(); ++k)
@@ -181,7 +181,7 @@ DocumentSection possible_section(const SuspensionStudy& study) {
       share_table(study, "On the step", study.step_front, &SchemeRide::on_step));
   section.figures.push_back(front_figure(study));
 
-  // Where the gap between bound and optimum comes from.
+  // A reason for the gap between bound and optimum.
   section.remarks.push_back(
       "The range is the network's own, from its least to its greatest force over all currents at "
       "each velocity, in proportion beyond 1.5 m/s. It is lopsided and bent; the quadratic limits "
@@ -247,7 +247,7 @@ DocumentSection least_damping_section(const SuspensionStudy& study) {
     return less_percent(std::sqrt(from), std::sqrt(to));
   };
 
-  // The values that the curves show; the table has two more.
+  // Four values make the curves; the table has further ones.
   for (const LeastDamping& one : study.least_damping) {
     const double values[] = {
         less_percent(paper::kWheelGain / (1 - paper::kWheelGainLess / 100), one.wheel_gain),
@@ -279,7 +279,7 @@ DocumentSection least_damping_section(const SuspensionStudy& study) {
        .caption = "Greatest damping as the identified damper's, or a fifth above the least.",
        .panels = {std::move(panel)}});
 
-  // What such a damper costs.
+  // The comfort that such a damper gives up.
   section.remarks.push_back(
       "A damper so stiff without current gives up the comfort that it is controlled for: the "
       "claims of more comfort and of 40.4 % at the wheel's resonance do not go together here.");
