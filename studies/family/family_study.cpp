@@ -26,7 +26,7 @@ struct Task {
   std::uint64_t seed;
   StudiedNetwork* network;
 
-  /// Multiplications of the training, about: its cost beside others.
+  /// Cost of the training beside others: about parameters times epochs times samples.
   double work() const {
     double width = static_cast<double>(kFamilyInputs.size()), sum = 100;
     for (const std::size_t next : rule.hidden) {

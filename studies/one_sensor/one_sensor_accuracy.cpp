@@ -256,7 +256,7 @@ const std::array<EsrModel, 7> kEsrModels{
      {"recurrent", "recurrent network, 2 sensors", paper::kRecurrentEsr, "x, v"},
      {kHysteresis, "hysteresis network, 1 sensor", "-", "v"}}};
 
-/// Whether an order that the paper states holds here, for every damper.
+/// A sentence on an order that the paper states: it holds here for every damper, or does not.
 std::string holds(const OneSensorView& view, const char* better, const char* worse,
                   const std::string& said) {
   std::vector<std::string> here;

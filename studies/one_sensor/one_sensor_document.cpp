@@ -24,7 +24,7 @@ std::string against_each_other(const OneSensorView& view, std::size_t damper) {
       view.esr_text(*plain));
 }
 
-/// Whether the network that remembers leaves less than the paper's on every damper.
+/// True when the hysteresis network leaves less than the paper's network on every damper.
 bool answers(const OneSensorView& view) {
   for (std::size_t d = 0; d < view.study.dampers.size(); ++d) {
     const auto plain = view.study.all(d, kStatic), bank = view.study.all(d, kHysteresis);

@@ -24,16 +24,16 @@ StudiedFit studied_fit(const StudiedModel& model, const std::vector<Record>& tra
 struct StudiedResult {
   ErrorSums sums;
   Metrics metrics;
-  std::optional<ErrorSums>
-      one_step;  ///< of a model with feedback: the same, fed the measured force
+  /// Of a model with feedback: errors one step ahead, fed the measured force.
+  std::optional<ErrorSums> one_step;
   std::optional<double> diverged_at;  ///< s
   std::size_t parameters = 0;
   double seconds = 0;  ///< CPU time of the fit
-  std::vector<std::vector<double>>
-      forces;  ///< N, of each left-out record; of models that figures show
+  /// N, at every sample of each left-out record; only of models that figures show.
+  std::vector<std::vector<double>> forces;
 };
 
-/// The fit's model on the left-out records, at their full rate.
+/// The fit's model, which must be there, on the left-out records at their full rate.
 StudiedResult judge(const FitReport& fit, const Fold& fold, DriveUnit drive_unit);
 
 }  // namespace dashpot

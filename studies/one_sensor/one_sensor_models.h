@@ -8,8 +8,8 @@
 // the network that answers it.
 namespace dashpot {
 
-/// Keys of the models whose forces the figures show: the paper's network, and the one that
-/// remembers.
+/// Keys of the models whose forces the figures show: the paper's network, and the hysteresis
+/// network.
 inline constexpr const char* kStatic = "one-sensor";
 inline constexpr const char* kHysteresis = "hysteresis";
 

@@ -41,7 +41,8 @@ class OneSensorView {
   std::string half_text(std::size_t damper, const StudiedResult& result) const;
   std::string span_text(std::size_t damper, const StudiedResult& result) const;
   std::string esr_text(const StudiedResult& result) const;
-  /// Of the example, % of half-span; nothing where the model was not fitted there or diverged.
+  /// Error on the example, % of half-span; nothing where the model was not fitted there or
+  /// diverged.
   std::optional<double> example_percent(const std::string& key) const;
 
  private:

@@ -24,12 +24,13 @@ struct StudiedDamper {
   /// The paper's, each recorded twice; of other data the divisions, of which each leaves something
   /// out.
   std::vector<Fold> experiments;
-  std::vector<std::size_t>
-      example;  ///< the paper's examples are of experiment 2 of MR1; none: no example
+  /// Experiments that make the example, by index (the paper's is experiment 2 of MR1); may be none.
+  std::vector<std::size_t> example;
 
   /// Half of the span of all forces that models are judged on, N: what the paper's percentages
   /// refer to.
   double half_span() const;
+  /// True when every record has a displacement.
   bool has_displacement() const;
 };
 
@@ -38,7 +39,7 @@ struct StudiedDamper {
 /// judged on the second.
 std::vector<StudiedDamper> virtual_dampers(std::uint64_t seed);
 /// Any recordings. Tables that the paper makes of one experiment are made of all divisions
-/// together.
+/// together. Throws Error where the data set cannot be divided so.
 StudiedDamper measured_damper(const Dataset& dataset, const LeaveOut& leave_out);
 
 /// Networks of one size, cross-validated.
@@ -48,12 +49,14 @@ struct StudiedSize {
   std::vector<double> by_fold;  ///< N, rms
 };
 
+/// A damper with its results.
 struct DamperStudy {
   StudiedDamper damper;
   std::vector<std::vector<std::optional<StudiedResult>>> results;  ///< by model, by experiment
   std::vector<StudiedSize> sizes;                                  ///< of the example
 };
 
+/// Everything that the tables and figures show.
 struct OneSensorStudy {
   std::vector<StudiedModel> models;
   std::vector<DamperStudy> dampers;
@@ -61,21 +64,23 @@ struct OneSensorStudy {
   double seconds = 0;         ///< CPU time of all fits, those kept from before too
 
   const StudiedModel& model(const std::string& key) const;  ///< the key must be known
-  /// Nothing where the model was not fitted: it needs a displacement, say, or the damper has no
+  /// nullptr where the model was not fitted: it needs a displacement, say, or the damper has no
   /// example.
   const StudiedResult* result(std::size_t damper, const std::string& key,
                               std::size_t experiment) const;
-  /// Over the experiments of the damper's example; over all.
+  /// Results pooled over the experiments of the damper's example, or over all; nothing where one is
+  /// missing.
   std::optional<StudiedResult> example(std::size_t damper, const std::string& key) const;
   std::optional<StudiedResult> all(std::size_t damper, const std::string& key) const;
 };
 
+/// How the study is run.
 struct OneSensorOptions {
   std::uint64_t seed = 1;
   int threads = 0;
   std::size_t most_neurons = 20;  ///< of the size choice
   std::vector<std::string> keys;  ///< of the models to fit; empty: all
-  FitStore* store = nullptr;      ///< where finished fits are found and kept
+  FitStore* store = nullptr;      ///< keeps finished fits, not owned; none: nothing is kept
   Monitor monitor;
 };
 

@@ -1,4 +1,4 @@
-// Which of the one-sensor paper's claims on its suspension follow from its model.
+// The one-sensor paper's claims on its suspension, held against its own model.
 #include <algorithm>
 #include <cmath>
 #include <functional>

@@ -34,7 +34,7 @@ class DesignRun {
   OptimiseOptions search_options(const std::string& stage, double from, double to);
   std::vector<std::vector<double>> best_of_each_goal();
   std::vector<std::vector<double>> front_from(std::vector<std::vector<double>> ends);
-  /// Which constraints conflict; or a design after all.
+  /// Finds the constraints that conflict, or a place that holds all of them after all.
   std::vector<std::vector<double>> explain();
   void note_limits();
   void add_designs(const std::vector<std::vector<double>>& places);

@@ -30,12 +30,12 @@ struct Design {
   std::string name;  ///< "design_001"
   DamperDescription damper;
   Assessment assessment;
-  /// Where there is a second model: all figures as drawn by each, goals and then constraints.
+  /// With a second model: all figures of the drawing by each model, goals and then constraints.
   std::vector<double> first, second;
   double disagreement = 0;  ///< the largest difference of the two, in shares of the first's
   std::string role;         ///< what makes it stand out: "largest force", "knee"; else empty
-  std::vector<std::string>
-      outside;  ///< fields in which it lies beyond the dampers of a family's model
+  /// Fields in which it lies beyond the dampers of a family's model, in words.
+  std::vector<std::string> outside;
   std::optional<Sensitivity> sensitivity;  ///< of those that stand out, where there are tolerances
 };
 

@@ -21,13 +21,13 @@ class DesignModel {
   virtual DamperPhysics evaluate(const DamperDescription& description,
                                  const DamperOperation& operation) const = 0;
 
-  /// Whether it was fitted on dampers, beyond which it extrapolates; first principles were not.
+  /// True of a model that was fitted on dampers, beyond which it extrapolates.
   virtual bool is_fitted() const { return false; }
   /// How far a drawing lies outside of those dampers, in shares of their ranges; 0 or less within.
   virtual double outside(const DamperDescription&) const { return 0; }
   /// The fields in which a drawing does, in words.
   virtual std::vector<std::string> extrapolations(const DamperDescription&) const { return {}; }
-  /// Whether a current or a speed lies beyond those that it was fitted on, in words.
+  /// The current or speed that lies beyond those that it was fitted on, in words; else empty.
   virtual std::vector<std::string> extrapolations(const DamperOperation&) const { return {}; }
   /// The model of this damper for other commands; none where a law has to be fitted to the forces
   /// (law_of_design).
