@@ -221,7 +221,7 @@ DocumentSection comparison_section(const FamilyStudy& study) {
   section.tables.push_back(std::move(table));
   section.paragraphs.push_back(
       "The paper shows its network on records that it learnt from. Dashed beside it here: the same "
-      "network, taught without these dampers.");
+      "network, trained without these dampers.");
   return section;
 }
 

@@ -45,7 +45,8 @@ struct FamilyDivision {
 FamilyDivision all_samples(const FamilySamples& family);
 /// One damper with one fluid in each division, both for learning and for judging.
 std::vector<FamilyDivision> single_dampers(const FamilySamples& family);
-/// Left out in turn: each geometry (pole length and gap, whatever the fluid); each fluid.
+/// Left out in turn: each geometry (pole length and gap, whatever the fluid); each fluid. Throws
+/// Error where the family has only one.
 std::vector<FamilyDivision> without_geometries(const FamilySamples& family);
 std::vector<FamilyDivision> without_fluids(const FamilySamples& family);
 /// A share of the samples drawn at random judges. Neighbours of every one of them are learnt from,

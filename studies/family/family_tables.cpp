@@ -97,10 +97,10 @@ DocumentSection family_protocol_section(const FamilyStudy& study) {
   // The paper's task, our cycles, the errors, and the three ways to train.
   section.paragraphs = {
       "The paper (A Deep Neural Network Based Model for a Kind of Magnetorheological Dampers) "
-      "teaches one ReLU network the force of a family of dampers from eight inputs: piston area, "
-      "gap area, gap, pole length, viscosity, yield stress, velocity and displacement. Its "
-      "published recordings are 18 dampers (3 lengths, 3 gaps, 2 fluids) at 6 field levels, 400 "
-      "samples each.",
+      "trains one ReLU network to predict the force of a family of dampers from eight inputs: "
+      "piston area, gap area, gap, pole length, viscosity, yield stress, velocity and "
+      "displacement. Its published recordings are 18 dampers (3 lengths, 3 gaps, 2 fluids) at 6 "
+      "field levels, 400 samples each.",
       fmt::format("One cycle per record: the velocity's rises through zero are found on the "
                   "straight line between samples; the last complete cycle between two of them is "
                   "taken, from the first sample behind the first rise on, with as many samples as "
@@ -110,7 +110,7 @@ DocumentSection family_protocol_section(const FamilyStudy& study) {
                   count == family_paper::kSamples ? ", the same number." : "."),
       "Errors: the paper's bar charts say 'mean error' without a definition; taken here for the "
       "mean absolute error (MAE, N). Except where something is said to be left out, networks are "
-      "judged on the samples that they learnt from, as the paper does: that tells how well an "
+      "judged on the samples that they learnt from, as the paper does: that shows how well an "
       "architecture can fit, not what it knows of another damper.",
       "Three ways to train stand beside each other. As printed: rate 1e-4, batch 20. As in the "
       "authors' code: rate 1e-2, batch 100, 500 epochs. Both take the eight inputs raw (m^2 beside "
@@ -259,7 +259,7 @@ DocumentSection limits_section(const FamilyStudy& study) {
       "The paper prints rate 1e-4 and batch 20, the authors' code has 1e-2 and 100: both are "
       "above.",
       "The paper's network gives the magnetic force, to which spring and viscous force are added; "
-      "the authors' code teaches the total force, and so does this study.",
+      "the authors' code trains on the total force, and so does this study.",
       "The authors' inputs of the held-out dampers with the second fluid carry the yield stresses "
       "of the first. None of these records is used here.",
       "Which damper figure 8 shows is not said; the published file One_fixed_damper.json holds the "

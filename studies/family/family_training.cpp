@@ -230,7 +230,7 @@ DocumentSection architecture_section(const FamilyStudy& study) {
   section.paragraphs.push_back(fmt::format(
       "The paper finds h3x15 best and h3x100 worst. On the samples learnt from, {} is best by our "
       "rule and {} by its authors'. {}Which size to take is not to be seen here; the table of "
-      "dampers that were not seen tells it.",
+      "dampers that were not seen shows it.",
       best_of(own), best_of(authors),
       median_mae(own.back()) <
               median_mae(study.outcome(FamilyProtocol::AllSamples, own_rule(chosen_architecture())))

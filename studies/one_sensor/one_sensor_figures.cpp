@@ -23,7 +23,7 @@ struct Window {
   std::size_t first, last, step;
 };
 
-/// The samples from `from` on for `seconds`, thinned evenly.
+/// The samples from `from` on for `seconds`, both s, thinned evenly to what print can show.
 Window window_of(const Record& record, double from, double seconds) {
   const auto at = [&](double time) {
     return static_cast<std::size_t>(std::ranges::lower_bound(record.time, time) -
@@ -47,7 +47,7 @@ std::string damper_title(const StudiedDamper& damper) {
   return damper.name + (damper.is_virtual ? ", virtual damper" : "");
 }
 
-/// A channel of what models learn from in one experiment, from its beginning.
+/// A channel of an experiment's training record, from its start.
 std::optional<FigurePanel> sequence_panel(const StudiedDamper& damper, std::size_t experiment,
                                           const Channel& label, double seconds, double factor) {
   const Fold& fold = damper.experiments[experiment];
@@ -62,7 +62,8 @@ std::optional<FigurePanel> sequence_panel(const StudiedDamper& damper, std::size
                        taken(samples->samples, window, factor), FigureSeries::Mark::Line, 1}}};
 }
 
-/// As long as a signal with fewer than a hundred changes, or its beginning: more is a black patch.
+/// Seconds of a signal that a figure can show: all of it with up to a hundred changes, else its
+/// first four; more would be a black patch.
 double legible_seconds(const Record& record, const std::string& channel) {
   constexpr double kBeginning = 4;
   constexpr std::size_t kLegible = 100;

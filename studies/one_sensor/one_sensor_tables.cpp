@@ -180,7 +180,7 @@ DocumentSection regressors_section(const OneSensorView& view) {
   if (view.is_virtual())
     section.remarks.push_back(
         "Why: what delayed velocities add is the acceleration. Samples 0.6 ms apart differ by less "
-        "than 0.09 m/s at 15 Hz, beside a sensor noise of 5 mm/s each; further apart they tell it "
+        "than 0.09 m/s at 15 Hz, beside a sensor noise of 5 mm/s each; further apart they show it "
         "better. A noisier tachometer, or training that stops early, hides it: the paper states "
         "neither.");
   return section;

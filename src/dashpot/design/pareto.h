@@ -22,7 +22,7 @@ struct FrontProblem {
   std::size_t size = 0, goals = 0;
   std::function<Value(std::span<const double> place)> evaluate;  ///< called from several threads
   std::vector<double> scale;                                     ///< the extent of each goal, about
-  std::vector<std::vector<double>> starts;  ///< places to begin from, beside random ones
+  std::vector<std::vector<double>> starts;  ///< places to start from, beside random ones
 };
 
 /// How the front is sought.
