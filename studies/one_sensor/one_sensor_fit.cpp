@@ -8,12 +8,11 @@ namespace dashpot {
 namespace {
 
 constexpr std::size_t kEnoughSamples = 12000;  // of a fit; 61 weights gain nothing from far more
-constexpr double kLeastRate =
-    270;  // Hz, for models that integrate: 18 samples in a period at 15 Hz
+constexpr double kLeastRate = 270;  // Hz, of models that integrate: 18 samples of a 15 Hz period
 constexpr std::size_t kParts = 20;  // of a record with states
 constexpr double kRunIn = 0.3;      // s
-constexpr std::size_t kStretches = 60,
-                      kStretch = 300;  // parts of a record for delayed samples, and their length
+// Delayed samples are learnt from so many stretches of a record, of so many samples each.
+constexpr std::size_t kStretches = 60, kStretch = 300;
 
 Record every_kth(const Record& record, std::size_t k) {
   const auto thinned = [k](const std::vector<double>& samples) {

@@ -75,8 +75,7 @@ NetworkDamper identified_mr2(std::uint64_t seed) {
 NetworkDamper identified_passive(double damping, std::uint64_t seed) {
   // The factor that makes the curve damp as asked.
   const PassiveCurve curve = load_passive_curve("suv_front");
-  constexpr double kAmplitude = 0.02,
-                   kSpeed = 1;  // m, m/s: about the paper's chirp at the resonance
+  constexpr double kAmplitude = 0.02, kSpeed = 1;  // m, m/s: the paper's chirp at resonance, about
   const double factor = damping / equivalent_damping(curve, 0, kAmplitude, kSpeed);
 
   // The scaled curve as a table over the bench's velocities.

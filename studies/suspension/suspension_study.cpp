@@ -16,8 +16,7 @@ namespace dashpot {
 namespace {
 
 constexpr const char* kPlant = "tudon_martinez2012";
-constexpr double kPassiveDamping =
-    1804;  // N*s/m: the paper's passive gain at the wheel's resonance
+constexpr double kPassiveDamping = 1804;  // N*s/m, for the paper's gain at the wheel's resonance
 constexpr double kCrossoverRatio = 1.75;  // of the body's resonance
 constexpr double kStepHeight = 0.03, kLargeChirp = 0.02, kSmallChirp = 0.002;  // m
 constexpr double kBand = 0.05;         // of settling, as a share of the peak
@@ -215,11 +214,15 @@ SuspensionStudy study_suspension(const SuspensionStudyOptions& options) {
   const PlantSet set = load_plant_set(kPlant);
   const ParameterSet mr2 = load_parameter_set("mr2");
   SuspensionStudy study{.options = options, .plant = set.plant, .limits = {}};
+
+  // Both dampers, side by side.
   options.monitor.report("identify the dampers", 0);
   parallel_for(2, options.threads, [&](std::size_t k) {
     (k == 0 ? study.damper : study.passive) =
         k == 0 ? identified_mr2(options.seed) : identified_passive(kPassiveDamping, options.seed);
   });
+
+  // Limits and crossover of the controllers follow from the damper and the car.
   const ReferenceStroke stroke;
   const auto damping = [&](double current) {
     return equivalent_damping(*study.damper.model, current, stroke.amplitude, stroke.speed);
@@ -230,6 +233,7 @@ SuspensionStudy study_suspension(const SuspensionStudyOptions& options) {
   study.greatest_possible = kAnyDamping;
   add_schemes(study, set, mr2.model.lag_rate());
 
+  // Every scheme and every least damping is a drive of its own.
   const GroundPointer road = make_ground(kRoad, options.seed);
   study.road = road->description();
   study.rides.resize(study.schemes.size());
@@ -245,6 +249,8 @@ SuspensionStudy study_suspension(const SuspensionStudyOptions& options) {
     options.monitor.report("drive",
                            0.1 + 0.5 * static_cast<double>(++done) / static_cast<double>(all));
   });
+
+  // The bounds come last: they refer to the ride of the passive damper.
   options.monitor.report("bound what is possible", 0.6);
   add_bounds(study, *road);
   return study;

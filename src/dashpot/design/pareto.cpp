@@ -110,8 +110,8 @@ class Archive {
 
 pagmo::population first_population(const FrontProblem& problem, const FrontOptions& options,
                                    const PagmoProblem& seen) {
-  const std::size_t size =
-      std::max<std::size_t>(24, (options.points + 3) / 4 * 4);  // NSGA-II asks for fours
+  // NSGA-II wants a multiple of four.
+  const std::size_t size = std::max<std::size_t>(24, (options.points + 3) / 4 * 4);
 
   // The starts given, filled up with random places.
   Random random(options.seed);
