@@ -67,8 +67,8 @@ std::vector<Record> parts_by_turns(const Record& record) {
   return parts;
 }
 
-/// Keeps every how many samples: a model without a memory can do without any of them, one with
-/// states without those beyond a rate that shows the motion.
+/// The stride k with which every k-th sample is kept: a model without a memory can do without any
+/// of the others, one with states only without those beyond a rate that shows the motion.
 std::size_t stride_of(const std::vector<Record>& records, std::size_t wanted, ModelKind kind) {
   if (wanted < 2 || kind == ModelKind::Network) return std::max<std::size_t>(wanted, 1);
   double rate = 0;

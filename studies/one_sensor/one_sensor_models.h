@@ -20,7 +20,7 @@ struct StudiedModel {
   NetworkDesign design;
   bool example_only = false;  ///< only on the damper's example
 };
-/// All of them, in the order in which the study fits and shows them; each key once.
+/// All models of the study; each key once.
 std::vector<StudiedModel> one_sensor_models();
 
 }  // namespace dashpot

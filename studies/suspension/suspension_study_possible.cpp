@@ -135,7 +135,7 @@ DocumentFigure front_figure(const SuspensionStudy& study) {
           .panels = {std::move(panel)}};
 }
 
-/// The least index among the damper's own schemes on the road.
+/// The ride with the least index among the damper's own schemes on the road.
 RideSquares best_within(const SuspensionStudy& study, const ClairvoyantBound& index) {
   RideSquares best = study.rides[study.place("off")].on_road;
   for (std::size_t k = 0; k < study.rides.size(); ++k)
