@@ -13,7 +13,7 @@
 namespace dashpot {
 namespace {
 
-/// Which damper, at which of its field levels.
+/// A damper of the family (m, m, Pa*s) at one of its field levels, counted from 0.
 struct Choice {
   double length, gap, viscosity;
   std::size_t level;
@@ -57,6 +57,7 @@ class Comparisons {
         middle_{lengths_[lengths_.size() / 2], gaps_[gaps_.size() / 2], viscosities_.back(), 3} {}
 
   std::vector<Comparison> all() const {
+    // The four comparisons, each titled by what stays fixed.
     const std::string gap = fmt::format("h = {:g} mm", 1000 * middle_.gap),
                       length = fmt::format("L = {:g} mm", 1000 * middle_.length),
                       fluid = fmt::format("{:g} Pa*s", middle_.viscosity),
@@ -81,12 +82,16 @@ class Comparisons {
                                  length + ", " + gap + ", " + fluid,
                                  FamilyProtocol::Geometries,
                                  {}}};
+
+    // Lengths, gaps and fluids vary one at a time from the middle damper.
     for (const double value : lengths_)
       add(all[0], fmt::format("L = {:g} mm", 1000 * value), &Choice::length, value);
     for (const double value : gaps_)
       add(all[1], fmt::format("h = {:g} mm", 1000 * value), &Choice::gap, value);
     for (const double value : viscosities_)
       add(all[2], fmt::format("{:g} Pa*s", value), &Choice::viscosity, value);
+
+    // The middle damper at its first, third and sixth field level.
     for (const std::size_t field : {0, 2, 5}) {
       Choice choice = middle_;
       choice.level = field;
@@ -175,6 +180,8 @@ std::vector<std::string> errors_row(const Comparison& comparison, const FamilySt
 
 DocumentSection comparison_section(const FamilyStudy& study) {
   DocumentSection section{"figures-13-16", "Figures 13 to 16: length, gap, fluid and field", {}};
+
+  // One table gathers the errors of all figures.
   DocumentTable table{
       "h3x15 on what figures 13 to 16 show",
       {{"Figure"},
@@ -185,17 +192,21 @@ DocumentSection comparison_section(const FamilyStudy& study) {
        {"max N", true}},
       {},
       "The paper states one figure: a largest error of 1 N between two fluids (figure 15A)."};
+
+  // A figure each: both curves over displacement and over velocity.
   for (const Comparison& comparison : Comparisons(study.family).all()) {
     DocumentFigure figure{
         comparison.name,
         comparison.title,
         comparison.fixed +
-            ". Dots: measured. Lines: h3x15, which learnt from them. Dashes: h3x15 that has "
-            "not seen this " +
+            ". Dots: measured. Lines: h3x15, which learnt from them. Dashes: h3x15 that has not "
+            "seen this " +
             (comparison.unseen == FamilyProtocol::Fluids ? "fluid." : "geometry."),
         {{"Force against displacement", "Displacement (mm)", "Force (N)", {}},
          {"Force against velocity", "Velocity (mm/s)", "Force (N)", {}}},
         2};
+
+    // Measured, modelled by a network that learnt from the record, and by one that did not.
     for (std::size_t k = 0; k < comparison.shown.size(); ++k) {
       const Shown& shown = comparison.shown[k];
       const Curves curves{judged_forces(study, FamilyProtocol::AllSamples, shown.cycle),
@@ -205,11 +216,12 @@ DocumentSection comparison_section(const FamilyStudy& study) {
     }
     section.figures.push_back(std::move(figure));
   }
+
+  // The paper's own claim, and how ours differs.
   section.tables.push_back(std::move(table));
   section.paragraphs.push_back(
       "The paper shows its network on records that it learnt from. Dashed beside it here: the same "
-      "network, "
-      "taught without these dampers.");
+      "network, trained without these dampers.");
   return section;
 }
 

@@ -22,12 +22,9 @@ std::string verdict_of(const FamilyStudy& study) {
   const FamilyOutcome* unseen = study.outcome(FamilyProtocol::Geometries, own);
   return fmt::format(
       "On the {} samples that it learns from, the paper's h3x15 leaves a mean absolute error of {} "
-      "N with R2 "
-      "{} (medians of {}); the paper's chart says 0.5115 N, its published weights give 0.714 N and "
-      "0.9919. "
-      "What it is worth for a damper that it has not seen is another figure: with each geometry "
-      "left out in "
-      "turn {} N and R2 {}.",
+      "N with R2 {} (medians of {}); the paper's chart says 0.5115 N, its published weights give "
+      "0.714 N and 0.9919. What it is worth for a damper that it has not seen is another figure: "
+      "with each geometry left out in turn {} N and R2 {}.",
       study.family.size(), median_mae_text(learnt), median_r2_text(learnt),
       counted(learnt->by_seed.size(), "seed"), median_mae_text(unseen), median_r2_text(unseen));
 }
@@ -54,6 +51,7 @@ Value spread_json(const Spread& spread) {
 }
 
 Value outcome_json(const FamilyStudy& study, const FamilyOutcome& outcome) {
+  // Each division by itself, over the seeds.
   Value divisions = Value::array();
   const std::vector<FamilyDivision> divided =
       divisions_of(study.family, outcome.experiment.protocol);
@@ -61,6 +59,8 @@ Value outcome_json(const FamilyStudy& study, const FamilyOutcome& outcome) {
     divisions.push_back(Value::object({{"name", divided[d].name},
                                        {"mae_N", spread_json(mae_of(outcome.by_division[d]))},
                                        {"r2", spread_json(r2_of(outcome.by_division[d]))}}));
+
+  // All divisions together, with the rule that was trained.
   return Value::object({{"protocol", name_of(outcome.experiment.protocol)},
                         {"architecture", architecture_name(outcome.experiment.rule.hidden)},
                         {"rule", describe(outcome.experiment.rule)},
@@ -103,12 +103,15 @@ std::string median_r2_text(const FamilyOutcome* outcome) {
 }
 
 Document family_document(const FamilyStudy& study) {
+  // Title and verdict.
   Document document;
   document.title = "The family paper, repeated";
   document.subtitle =
       fmt::format("{}, one cycle of each, {} samples",
                   counted(study.family.cycles.size(), "record"), study.family.size());
   document.verdict = verdict_of(study);
+
+  // Judgement first, then architectures and training, then comparisons and limits.
   document.sections = {family_protocol_section(study),
                        determination_section(study),
                        left_out_section(study),

@@ -11,7 +11,7 @@ using Architecture = std::vector<std::size_t>;
 constexpr std::size_t kFewSeeds = 3;
 constexpr std::size_t kLargeNetwork = 5000;  // parameters; one training of it takes seconds
 
-/// Where several divisions stand for as many trainings of each seed, half the seeds serve.
+/// Several divisions mean as many trainings of each seed: half the seeds serve.
 std::size_t seeds_left_out(std::size_t seeds) { return (seeds + 1) / 2; }
 
 std::size_t seeds_for(const Architecture& hidden, std::size_t seeds) {

@@ -54,12 +54,16 @@ std::vector<FamilyModelOutcome> judge_family_models(const FamilySamples& family,
   if (options.models.empty() ||
       std::ranges::any_of(family.runs, [](const Record& run) { return !run.find("current"); }))
     return {};
+
+  // Every model on every division, side by side.
   const std::vector<Lesson> lessons = lessons_of(family);
   std::vector<ErrorSums> sums(options.models.size() * lessons.size());
   parallel_for(sums.size(), options.threads, [&](std::size_t k) {
     sums[k] = errors_of(options.models[k / lessons.size()], lessons[k % lessons.size()], family,
                         options.monitor);
   });
+
+  // The divisions of one protocol are judged together.
   std::vector<FamilyModelOutcome> outcomes;
   for (std::size_t m = 0; m < options.models.size(); ++m) {
     FamilyModelOutcome& outcome = outcomes.emplace_back();

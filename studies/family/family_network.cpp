@@ -16,7 +16,7 @@ namespace dashpot {
 namespace {
 
 constexpr double kKilopascal = 1000, kMillimetre = 0.001;
-/// Raw inputs in the authors' units: what one of each is in SI.
+/// The authors' units of raw inputs, in SI.
 constexpr std::array<double, kFamilyInputs.size()> kRawUnits{1, 1,           1, 1,
                                                              1, kKilopascal, 1, kMillimetre};
 
@@ -45,11 +45,15 @@ std::string describe(const FamilyRule& rule) {
 StudiedNetwork untrained_network(const FamilyRule& rule, const TrainingSamples& samples) {
   StudiedNetwork network;
   Mlp& mlp = network.mlp;
+
+  // ReLU layers and a linear output.
   mlp.layers = {kFamilyInputs.size()};
   mlp.layers.insert(mlp.layers.end(), rule.hidden.begin(), rule.hidden.end());
   mlp.layers.push_back(1);
   mlp.activations.assign(rule.hidden.size(), Activation::Relu);
   mlp.activations.push_back(Activation::Identity);
+
+  // Raw inputs are only brought to the authors' units; else inputs and force are standardised.
   mlp.input_mean.assign(kFamilyInputs.size(), 0);
   mlp.input_scale.assign(kRawUnits.begin(), kRawUnits.end());
   if (rule.inputs == FamilyRule::Inputs::Raw) return network;
@@ -62,9 +66,12 @@ StudiedNetwork untrained_network(const FamilyRule& rule, const TrainingSamples& 
 
 StudiedNetwork train_family_network(const FamilyRule& rule, const TrainingSamples& samples,
                                     std::uint64_t seed, const Monitor& monitor) {
+  // Raw networks start as the authors' do, from normal weights.
   const double begin = cpu_seconds();
   StudiedNetwork network = untrained_network(rule, samples);
   if (rule.inputs == FamilyRule::Inputs::Raw) draw_normal_weights(network.mlp, seed);
+
+  // The rule in the trainer's terms; the history keeps the error of each epoch.
   BatchTrainOptions options;
   options.rate = rule.rate;
   options.schedule.kind = rule.falls ? RateSchedule::Cosine : RateSchedule::Constant;
@@ -76,6 +83,8 @@ StudiedNetwork train_family_network(const FamilyRule& rule, const TrainingSample
     monitor.check();
     network.history.push_back(rmse);
   };
+
+  // The CPU time includes the drawing of first weights.
   train_batches(network.mlp, samples, options);
   network.seconds = cpu_seconds() - begin;
   return network;

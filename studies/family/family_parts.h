@@ -10,11 +10,12 @@
 // Parts of the family study's page, and the figures of the paper that it stands beside.
 namespace dashpot {
 
-/// What the paper prints, and what the networks published with it leave on the samples that they
-/// learnt from.
+/// The figures that the paper prints, and the errors of the networks published with it on the
+/// samples that they learnt from.
 namespace family_paper {
 inline constexpr std::size_t kSamples = 13333;
 inline constexpr double kR2 = 0.9577;
+/// A bar of the paper's charts.
 struct Bar {
   const char* architecture;
   double error;  ///< N, "mean error"
@@ -30,21 +31,23 @@ inline constexpr std::array<Bar, 9> kFamily{{{"h1x10", 1.9978},
                                              {"h3x20", 0.5579},
                                              {"h3x30", 0.7696},
                                              {"h3x100", 2.047}}};  // figure 9
+/// A network published with the paper, judged on the samples that it learnt from.
 struct Published {
   const char* architecture;
-  double mae, r2;
+  double mae, r2;  ///< N; 1
 };
 inline constexpr std::array<Published, 3> kPublished{
     {{"h3x15", 0.714, 0.9919}, {"h3x20", 0.581, 0.9944}, {"h3x30", 0.729, 0.9913}}};
 }  // namespace family_paper
 
-/// "0.5115", or "-" when the paper has no such bar.
+/// The paper's error for an architecture, N; nothing when the paper has no such bar.
 template <class Bars>
 std::optional<double> paper_error(const Bars& bars, const std::string& architecture) {
   for (const auto& bar : bars)
     if (architecture == bar.architecture) return bar.error;
   return std::nullopt;
 }
+/// nullptr when no such network is published.
 const family_paper::Published* published_network(const std::string& architecture);
 
 /// "0.262 (0.249 ... 0.274)"; "-" without an outcome. R2 has four decimals.
@@ -52,6 +55,7 @@ std::string mae_text(const FamilyOutcome* outcome);
 std::string r2_text(const FamilyOutcome* outcome);
 std::string median_mae_text(const FamilyOutcome* outcome);
 std::string median_r2_text(const FamilyOutcome* outcome);
+/// The value with `count` decimals.
 std::string decimals(double value, int count);
 
 DocumentSection family_protocol_section(const FamilyStudy& study);

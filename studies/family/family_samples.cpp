@@ -36,7 +36,7 @@ void add_cycle(const Record& cycle, TrainingSamples& samples) {
   samples.targets.insert(samples.targets.end(), force.begin(), force.end());
 }
 
-/// The record from its beginning to the end of its cycle, which is what is scored.
+/// The record from its start to the end of its cycle; only the cycle is scored.
 Record run_up_to(const Record& record, const Record& cycle) {
   const auto first = static_cast<std::size_t>(
       std::ranges::lower_bound(record.time, cycle.time.front()) - record.time.begin());

@@ -26,7 +26,7 @@ struct Task {
   std::uint64_t seed;
   StudiedNetwork* network;
 
-  /// About what it costs.
+  /// Cost of the training beside others: about parameters times epochs times samples.
   double work() const {
     double width = static_cast<double>(kFamilyInputs.size()), sum = 100;
     for (const std::size_t next : rule.hidden) {
@@ -68,10 +68,15 @@ class StudyRun {
   void add(const FamilyExperiment& experiment) {
     if (study_.outcome(experiment.protocol, experiment.rule))
       return;  // another table asked for it first
+
+    // The outcome keeps the rule as asked for; what is trained is the rule at the study's
+    // effort.
     FamilyOutcome& outcome = study_.outcomes.emplace_back();
     outcome.experiment = experiment;
     FamilyRule rule = experiment.rule;
     rule.epochs = std::max(1, static_cast<int>(std::lround(options_.effort * rule.epochs)));
+
+    // One training for each seed and division.
     for (std::uint64_t seed = 1; seed <= experiment.seeds; ++seed) {
       auto& networks = outcome.networks.emplace_back();
       for (const FamilyDivision& division : divisions(experiment.protocol))
@@ -116,10 +121,12 @@ class StudyRun {
   }
 
   void judge(FamilyOutcome& outcome) {
+    // The divisions that the networks were trained for, in the same order.
     const TrainingSamples& samples = study_.family.samples;
     const std::vector<FamilyDivision>& divided = divisions_.at(outcome.experiment.protocol);
     outcome.by_seed.resize(outcome.networks.size());
     for (std::size_t d = 0; d < divided.size(); ++d) {
+      // Each seed by itself, and the mean of their forces.
       const std::vector<std::size_t>& judged = divided[d].judged;
       std::vector<double> mean(judged.size());
       outcome.by_division.emplace_back();
@@ -133,6 +140,8 @@ class StudyRun {
         for (std::size_t k = 0; k < mean.size(); ++k)
           mean[k] += forces[k] / static_cast<double>(outcome.networks.size());
       }
+
+      // The mean of the seeds counts as one model over all divisions.
       outcome.together.add(errors_at(samples, judged, mean));
     }
   }

@@ -11,7 +11,7 @@ namespace dashpot {
 
 class TrainingStore;
 
-/// What networks learn from and what judges them.
+/// How samples are divided among learning and judging.
 enum class FamilyProtocol {
   AllSamples,
   FixedDamper,
@@ -20,6 +20,7 @@ enum class FamilyProtocol {
   Geometries,
   Fluids
 };
+/// The divisions of a protocol; for the same samples always the same.
 std::vector<FamilyDivision> divisions_of(const FamilySamples& family, FamilyProtocol protocol);
 
 /// Networks of one rule under one protocol, from several seeds.
@@ -52,7 +53,7 @@ FamilyRule grid_rule(bool is_own, double rate, std::size_t batch);
 /// them where something is left out, three at most of large networks and in grids.
 std::vector<FamilyExperiment> family_experiments(std::size_t seeds);
 
-/// What came of an experiment.
+/// The networks of an experiment and their errors; it points into the study's networks.
 struct FamilyOutcome {
   FamilyExperiment experiment;
   std::vector<std::vector<const StudiedNetwork*>> networks;  ///< by seed, by division
@@ -61,11 +62,11 @@ struct FamilyOutcome {
   ErrorSums together;                                        ///< of the mean of all seeds' forces
   double seconds = 0;                                        ///< CPU time of all trainings
 
-  std::size_t median_seed()
-      const;  ///< by its mean absolute error; of an even number the better middle one
+  /// The seed with the median of the mean absolute errors; of an even number the better middle one.
+  std::size_t median_seed() const;
 };
 
-/// Median, least and greatest.
+/// Median, least and greatest over seeds.
 struct Spread {
   double median = 0, low = 0, high = 0;
 };
@@ -76,8 +77,8 @@ Spread r2_of(const std::vector<ErrorSums>& seeds);
 /// run up to, and is judged on the same.
 struct FamilyModelOutcome {
   std::string name;
-  ErrorSums learnt, geometries,
-      fluids;  ///< on what it learnt from, and on what was left out in turn
+  ErrorSums learnt;              ///< on the samples that it learnt from
+  ErrorSums geometries, fluids;  ///< on those that were left out in turn
 };
 
 /// Its outcomes point into its networks: it can be moved, not copied.
@@ -94,7 +95,7 @@ struct FamilyStudy {
   double seconds = 0;    ///< CPU time of all trainings, those kept from before too
   double effort = 1;     ///< share of each rule's epochs that was trained
 
-  /// Nothing when there was no such experiment.
+  /// nullptr when there was no such experiment.
   const FamilyOutcome* outcome(FamilyProtocol protocol, const FamilyRule& rule) const;
 };
 

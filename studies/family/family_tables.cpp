@@ -21,7 +21,7 @@ std::vector<NamedRule> rules() {
           {"ours", own_rule(chosen_architecture())}};
 }
 
-/// Rows of the tables of what was left out.
+/// The networks in the tables of dampers and fluids left out.
 std::vector<std::pair<std::string, FamilyRule>> judged_rules() {
   std::vector<std::pair<std::string, FamilyRule>> all;
   for (const auto& hidden : judged_architectures())
@@ -33,28 +33,28 @@ std::vector<std::pair<std::string, FamilyRule>> judged_rules() {
   return all;
 }
 
-/// What raw inputs do to a geometry that was not seen.
+/// The effect of raw inputs on a geometry that was not seen; empty where it does not show.
 std::string raw_inputs_remark(const FamilyStudy& study) {
+  // Worth a remark only where raw inputs do better on geometries left out.
   const FamilyOutcome *raw = study.outcome(FamilyProtocol::Geometries,
                                            authors_rule(chosen_architecture())),
                       *own = study.outcome(FamilyProtocol::Geometries,
                                            own_rule(chosen_architecture()));
   if (!raw || !own || !(mae_of(raw->by_seed).median < mae_of(own->by_seed).median)) return {};
+
+  // The remark with both errors.
   return fmt::format(
       "The authors' raw inputs, which fit the samples learnt from so much worse, do better on a "
-      "geometry "
-      "that "
-      "was not seen: {} N against {} N. Metres and square metres (1e-3, 1e-4) hardly move a "
-      "network beside "
-      "millimetres and kilopascals (10), so that it makes less of the geometry, and nine "
-      "geometries are "
-      "few to learn it from: a strong prior by accident, as L2 is one on purpose.",
+      "geometry that was not seen: {} N against {} N. Metres and square metres (1e-3, 1e-4) hardly "
+      "move a network beside millimetres and kilopascals (10), so that it makes less of the "
+      "geometry, and nine geometries are few to learn it from: a strong prior by accident, as L2 "
+      "is one on purpose.",
       median_mae_text(raw), median_mae_text(own));
 }
 
 constexpr double kSame = 0.01;  // R2 this near to the paper's is called the same
 
-/// How far R2 on random samples lies from R2 on those learnt from, at most.
+/// The largest difference between R2 on random samples and R2 on those learnt from.
 double random_difference(const FamilyStudy& study) {
   double largest = 0;
   for (const NamedRule& named : rules()) {
@@ -67,8 +67,9 @@ double random_difference(const FamilyStudy& study) {
   return largest;
 }
 
-/// Which of the figures comes to the paper's R2.
+/// The figures that come near the paper's R2, in words.
 std::string nearest_to_paper(const FamilyStudy& study) {
+  // R2 of every rule under one way of judging that lies near the paper's.
   std::vector<std::string> near;
   const auto look = [&](FamilyProtocol protocol, const char* judged) {
     for (const NamedRule& named : rules())
@@ -78,6 +79,8 @@ std::string nearest_to_paper(const FamilyStudy& study) {
           near.push_back(fmt::format("{} ({}; trained {})", decimals(r2, 4), judged, named.name));
       }
   };
+
+  // The ways of judging that the paper could mean.
   look(FamilyProtocol::AllSamples, "on the samples learnt from");
   look(FamilyProtocol::RandomSamples, "on random samples");
   look(FamilyProtocol::Geometries, "on geometries left out");
@@ -90,48 +93,34 @@ std::string nearest_to_paper(const FamilyStudy& study) {
 DocumentSection family_protocol_section(const FamilyStudy& study) {
   const std::size_t count = study.family.size();
   DocumentSection section{"protocol", "How it was done", {}};
+
+  // The paper's task, our cycles, the errors, and the three ways to train.
   section.paragraphs = {
       "The paper (A Deep Neural Network Based Model for a Kind of Magnetorheological Dampers) "
-      "teaches one "
-      "ReLU "
-      "network the force of a family of dampers from eight inputs: piston area, gap area, gap, "
-      "pole length, "
-      "viscosity, yield stress, velocity and displacement. Its published recordings are 18 dampers "
-      "(3 "
-      "lengths, "
-      "3 gaps, 2 fluids) at 6 field levels, 400 samples each.",
+      "trains one ReLU network to predict the force of a family of dampers from eight inputs: "
+      "piston area, gap area, gap, pole length, viscosity, yield stress, velocity and "
+      "displacement. Its published recordings are 18 dampers (3 lengths, 3 gaps, 2 fluids) at 6 "
+      "field levels, 400 samples each.",
       fmt::format("One cycle per record: the velocity's rises through zero are found on the "
-                  "straight line between "
-                  "samples; the last complete cycle between two of them is taken, from the first "
-                  "sample behind the "
-                  "first rise on, with as many samples as the period holds, rounded. That gives {} "
-                  "samples from {}; "
-                  "the "
-                  "authors' own cutter, which the paper does not describe, gave 13 333{}",
+                  "straight line between samples; the last complete cycle between two of them is "
+                  "taken, from the first sample behind the first rise on, with as many samples as "
+                  "the period holds, rounded. That gives {} samples from {}; the authors' own "
+                  "cutter, which the paper does not describe, gave 13 333{}",
                   count, counted(study.family.cycles.size(), "record"),
                   count == family_paper::kSamples ? ", the same number." : "."),
       "Errors: the paper's bar charts say 'mean error' without a definition; taken here for the "
-      "mean "
-      "absolute "
-      "error (MAE, N). Except where something is said to be left out, networks are judged on the "
-      "samples "
-      "that "
-      "they learnt from, as the paper does: that tells how well an architecture can bend, not what "
-      "it knows "
-      "of another damper.",
+      "mean absolute error (MAE, N). Except where something is said to be left out, networks are "
+      "judged on the samples that they learnt from, as the paper does: that shows how well an "
+      "architecture can fit, not what it knows of another damper.",
       "Three ways to train stand beside each other. As printed: rate 1e-4, batch 20. As in the "
-      "authors' "
-      "code: "
-      "rate 1e-2, batch 100, 500 epochs. Both take the eight inputs raw (m^2 beside mm: 1e-4 "
-      "beside 10) and "
-      "draw first weights from a normal distribution of variance 1. Ours: inputs and force "
-      "standardised, "
-      "rate "
-      "1e-2 falling to 0 along a cosine, batch 100, 500 epochs; for one damper batch 20 and 1000 "
-      "epochs. "
-      "All use Adam on the mean squared error; the total force is the target. Values are medians "
-      "over seeds, "
-      "with the least and the greatest in brackets."};
+      "authors' code: rate 1e-2, batch 100, 500 epochs. Both take the eight inputs raw (m^2 beside "
+      "mm: 1e-4 beside 10) and draw first weights from a normal distribution of variance 1. Ours: "
+      "inputs and force standardised, rate 1e-2 falling to 0 along a cosine, batch 100, 500 "
+      "epochs; for one damper batch 20 and 1000 epochs. All use Adam on the mean squared error; "
+      "the total force is the target. Values are medians over seeds, with the least and the "
+      "greatest in brackets."};
+
+  // A shortened study says so.
   if (study.effort != 1)
     section.remarks.push_back(
         fmt::format("Trained for {} of these epochs only: a first look, not the study.",
@@ -141,6 +130,8 @@ DocumentSection family_protocol_section(const FamilyStudy& study) {
 
 DocumentSection determination_section(const FamilyStudy& study) {
   DocumentSection section{"r2", "R2, and what it is of", {}};
+
+  // The paper's figures first, as far as they are known.
   DocumentTable table{"h3x15 by three ways to train, judged in four ways",
                       {{"Trained"},
                        {"Learnt from: MAE N", true},
@@ -151,6 +142,8 @@ DocumentSection determination_section(const FamilyStudy& study) {
                       {}};
   table.rows.push_back({"the paper", "0.5115", "0.9577?", "0.9577?", "0.9577?", "0.9577?"});
   table.rows.push_back({"its published weights", "0.714", "0.9919", "-", "-", "-"});
+
+  // Then each way to train, judged in each way.
   for (const NamedRule& named : rules()) {
     const auto of = [&](FamilyProtocol protocol) { return study.outcome(protocol, named.rule); };
     table.rows.push_back({named.name, mae_text(of(FamilyProtocol::AllSamples)),
@@ -159,6 +152,8 @@ DocumentSection determination_section(const FamilyStudy& study) {
                           median_r2_text(of(FamilyProtocol::Geometries)),
                           median_r2_text(of(FamilyProtocol::Fluids))});
   }
+
+  // The figures that come near the paper's R2; random samples judge nothing.
   table.note =
       "Random samples: 27 % of all, the paper's share of test samples (28 800 of 105 600).";
   section.tables.push_back(std::move(table));
@@ -166,16 +161,17 @@ DocumentSection determination_section(const FamilyStudy& study) {
       "The paper prints R2 = 0.9577 and does not say of which samples; the question marks are "
       "that. " +
       nearest_to_paper(study));
-  section.remarks.push_back(
-      fmt::format("Samples drawn at random judge nothing: each has neighbours 37 ms away that were "
-                  "learnt from. "
-                  "R2 on them differs from R2 on the samples learnt from by {} at most.",
-                  decimals(random_difference(study), 4)));
+  section.remarks.push_back(fmt::format(
+      "Samples drawn at random judge nothing: each has neighbours 37 ms away that were learnt "
+      "from. R2 on them differs from R2 on the samples learnt from by {} at most.",
+      decimals(random_difference(study), 4)));
   return section;
 }
 
 DocumentSection left_out_section(const FamilyStudy& study) {
   DocumentSection section{"left-out", "Dampers that were not seen", {}};
+
+  // A table for each thing that is left out in turn.
   const std::vector<TextColumn> columns{{"Network"},
                                         {"Learnt from: MAE N", true},
                                         {"Left out: MAE N", true},
@@ -187,6 +183,8 @@ DocumentSection left_out_section(const FamilyStudy& study) {
                   "Each geometry (length and gap, both fluids) left out in turn"),
         std::pair(FamilyProtocol::Fluids, "Each fluid left out in turn")}) {
     DocumentTable table{title, columns, {}};
+
+    // The study's networks, and the mean of their seeds.
     for (const auto& [name, rule] : judged_rules()) {
       const FamilyOutcome* outcome = study.outcome(protocol, rule);
       if (!outcome) continue;
@@ -195,6 +193,8 @@ DocumentSection left_out_section(const FamilyStudy& study) {
                             mae_text(outcome), r2_text(outcome), decimals(together.mae, 3),
                             decimals(together.r2, 4)});
     }
+
+    // Models of the registry stand below them.
     for (const FamilyModelOutcome& model : study.models) {
       const Metrics learnt = metrics(model.learnt),
                     left = metrics(protocol == FamilyProtocol::Geometries ? model.geometries
@@ -204,6 +204,8 @@ DocumentSection left_out_section(const FamilyStudy& study) {
     }
     section.tables.push_back(std::move(table));
   }
+
+  // The paper's architecture on each geometry by itself.
   const FamilyRule chosen = own_rule(chosen_architecture());
   if (const FamilyOutcome* outcome = study.outcome(FamilyProtocol::Geometries, chosen)) {
     DocumentTable table{"h3x15 on each geometry that it has not seen",
@@ -216,26 +218,21 @@ DocumentSection left_out_section(const FamilyStudy& study) {
                             decimals(r2_of(outcome->by_division[d]).median, 4)});
     section.tables.push_back(std::move(table));
   }
+
+  // A reading of the tables, and their limits.
   section.paragraphs.push_back(
       "A model of a family is for dampers that do not exist yet. Here the networks learn from all "
-      "dampers "
-      "but "
-      "those of one geometry, or one fluid, and are judged on these alone, all divisions "
-      "together.");
+      "dampers but those of one geometry, or one fluid, and are judged on these alone, all "
+      "divisions together.");
   section.remarks = {
       "Two fluids are too few to learn what a fluid does: with one left out, viscosity and yield "
-      "stress of "
-      "the other are beyond all that was seen.",
+      "stress of the other are beyond all that was seen.",
       "Mean of seeds: the force is the mean of those of all seeds' networks."};
   if (!study.models.empty())
     section.remarks.push_back(
         "The last rows are Dashpot's own models of a family (docs/family.md), fitted once each: "
-        "family_gated "
-        "has "
-        "memory in place of the displacement and little freedom in geometry; the others are the "
-        "paper's "
-        "network "
-        "as 'dashpot identify' trains it, with weight decay.");
+        "family_gated has memory in place of the displacement and little freedom in geometry; the "
+        "others are the paper's network as 'dashpot identify' trains it, with weight decay.");
   if (std::string remark = raw_inputs_remark(study); !remark.empty())
     section.remarks.push_back(std::move(remark));
   return section;
@@ -243,39 +240,31 @@ DocumentSection left_out_section(const FamilyStudy& study) {
 
 DocumentSection limits_section(const FamilyStudy& study) {
   DocumentSection section{"limits", "Table 2, and what cannot be repeated", {}};
+
+  // The comparison in words is elsewhere.
   section.paragraphs.push_back(
       "Table 2 of the paper compares kinds of models in words. The same table, with what Dashpot "
-      "measures of "
-      "each kind beside the words, is a part of docs/validation.md ('Table 2 of the family "
-      "paper').");
+      "measures of each kind beside the words, is a part of docs/validation.md ('Table 2 of the "
+      "family paper').");
+
+  // Each remark names a figure of the paper that the published data do not allow to repeat.
   section.remarks = {
       fmt::format("The paper speaks of 880 experiments (11 prototypes, 2 fluids, 10 fields, 4 "
-                  "assemblies; 76 "
-                  "800 + 28 800 samples); published are {} records for training. Build-to-build "
-                  "variation, four "
-                  "experiments each, is in none of them.",
+                  "assemblies; 76 800 + 28 800 samples); published are {} records for training. "
+                  "Build-to-build variation, four experiments each, is in none of them.",
                   study.family.cycles.size()),
       "8 prototypes for training and 3 for tests in the paper; in the published data 9 geometries "
-      "for "
-      "training "
-      "and 2 held out. The authors' notebook prints 0.539 N (h3x30) on records that it learnt from "
-      "and 1.708 "
-      "N "
-      "on those held out.",
+      "for training and 2 held out. The authors' notebook prints 0.539 N (h3x30) on records that "
+      "it learnt from and 1.708 N on those held out.",
       "The paper prints rate 1e-4 and batch 20, the authors' code has 1e-2 and 100: both are "
       "above.",
       "The paper's network gives the magnetic force, to which spring and viscous force are added; "
-      "the "
-      "authors' "
-      "code teaches the total force, and so does this study.",
+      "the authors' code trains on the total force, and so does this study.",
       "The authors' inputs of the held-out dampers with the second fluid carry the yield stresses "
-      "of the "
-      "first. "
-      "None of these records is used here.",
+      "of the first. None of these records is used here.",
       "Which damper figure 8 shows is not said; the published file One_fixed_damper.json holds the "
-      "one with "
-      "L = "
-      "6 mm, h = 1 mm. Lengths, gaps and fields of figures 13 to 16 are not said either."};
+      "one with L = 6 mm, h = 1 mm. Lengths, gaps and fields of figures 13 to 16 are not said "
+      "either."};
   return section;
 }
 

@@ -138,10 +138,14 @@ DocumentTable grid_table(const FamilyStudy& study, bool is_own, const std::strin
 
 DocumentSection single_damper_section(const FamilyStudy& study) {
   DocumentSection section{"figure-8", "Figure 8: architectures for one damper", {}};
+
+  // Every architecture on one damper, by both rules, and on each damper by itself.
   const Architectures& all = single_architectures();
   const auto fixed = outcomes_of(study, FamilyProtocol::FixedDamper, all, own_single_rule),
              each = outcomes_of(study, FamilyProtocol::EachDamper, all, own_single_rule),
              authors = outcomes_of(study, FamilyProtocol::FixedDamper, all, authors_rule);
+
+  // The table beside the paper's bars.
   DocumentTable table{"One damper: MAE in N on the samples learnt from",
                       {{"Network"},
                        {"Paper", true},
@@ -157,6 +161,8 @@ DocumentSection single_damper_section(const FamilyStudy& study) {
                           median_mae_text(each[k])});
   }
   section.tables.push_back(std::move(table));
+
+  // The same as a figure, with every seed as a dot.
   section.figures.push_back(
       {"figure-8",
        "Figure 8: mean absolute error, one damper",
@@ -167,18 +173,24 @@ DocumentSection single_damper_section(const FamilyStudy& study) {
          {seed_dots(authors, "authors' rule", "series-2", -0.12),
           seed_dots(fixed, "ours", "modelled", 0.12), paper_dots(all, family_paper::kSingle)},
          names_of(all)}}});
-  section.paragraphs.push_back(fmt::format(
-      "The paper finds h2x9 best for one damper. Trained by our rule the best is {}, by its "
-      "authors' {}.",
-      best_of(fixed), best_of(authors)));
+
+  // The best architecture by either rule.
+  section.paragraphs.push_back(
+      fmt::format("The paper finds h2x9 best for one damper. Trained by our rule the best is {}, "
+                  "by its authors' {}.",
+                  best_of(fixed), best_of(authors)));
   return section;
 }
 
 DocumentSection architecture_section(const FamilyStudy& study) {
   DocumentSection section{"figure-9", "Figure 9: architectures for the family", {}};
+
+  // Every architecture on all dampers, by both rules.
   const Architectures& all = family_architectures();
   const auto own = outcomes_of(study, FamilyProtocol::AllSamples, all, own_rule),
              authors = outcomes_of(study, FamilyProtocol::AllSamples, all, authors_rule);
+
+  // The table beside the paper's bars and its published weights.
   DocumentTable table{"The family: MAE in N on the samples learnt from",
                       {{"Network"},
                        {"Parameters", true},
@@ -201,6 +213,8 @@ DocumentSection architecture_section(const FamilyStudy& study) {
          mine ? number_text(mine->seconds / static_cast<double>(mine->networks.size()), 2) : "-"});
   }
   section.tables.push_back(std::move(table));
+
+  // The same as a figure, with every seed as a dot.
   section.figures.push_back({"figure-9",
                              "Figure 9: mean absolute error, the family",
                              "Small dots: seeds.",
@@ -211,13 +225,12 @@ DocumentSection architecture_section(const FamilyStudy& study) {
                                 seed_dots(own, "ours", "modelled", 0.12),
                                 paper_dots(all, family_paper::kFamily), published_dots(all)},
                                names_of(all)}}});
+
+  // The best by either rule, and why the largest fails in the paper.
   section.paragraphs.push_back(fmt::format(
       "The paper finds h3x15 best and h3x100 worst. On the samples learnt from, {} is best by our "
-      "rule and "
-      "{} "
-      "by its authors'. {}Which size to take is not to be seen here; the table of dampers that "
-      "were not seen "
-      "tells it.",
+      "rule and {} by its authors'. {}Which size to take is not to be seen here; the table of "
+      "dampers that were not seen shows it.",
       best_of(own), best_of(authors),
       median_mae(own.back()) <
               median_mae(study.outcome(FamilyProtocol::AllSamples, own_rule(chosen_architecture())))
@@ -229,7 +242,9 @@ DocumentSection architecture_section(const FamilyStudy& study) {
 
 DocumentSection penalty_section(const FamilyStudy& study) {
   DocumentSection section{"figure-11", "Figure 11: L2 regularisation", {}};
-  DocumentTable table{"h3x15 with weight decay",
+
+  // One row and one point of each curve for every strength that was studied.
+  DocumentTable table{"h3x15 with L2 regularisation",
                       {{"L2", true},
                        {"Learnt from: MAE N", true},
                        {"R2", true},
@@ -241,6 +256,8 @@ DocumentSection penalty_section(const FamilyStudy& study) {
       unseen{"geometry left out", "series-2", {}, {}, FigureSeries::Mark::Line, 1.5},
       weights{"", "modelled", {}, {}, FigureSeries::Mark::Line, 1.5};
   std::vector<std::string> places;
+
+  // A strength counts where both protocols were trained with it.
   for (const double l2 : kStudiedPenalties) {
     const auto *seen = study.outcome(FamilyProtocol::AllSamples, penalised_rule(l2)),
                *left_out = study.outcome(FamilyProtocol::Geometries, penalised_rule(l2));
@@ -253,20 +270,22 @@ DocumentSection penalty_section(const FamilyStudy& study) {
     table.rows.push_back({places.back(), mae_text(seen), median_r2_text(seen), mae_text(left_out),
                           median_r2_text(left_out), number_text(weights.y.back())});
   }
+
+  // The least error on geometries left out against that without regularisation.
   if (places.empty()) return section;
   const std::size_t best =
       static_cast<std::size_t>(std::ranges::min_element(unseen.y) - unseen.y.begin());
   section.paragraphs.push_back(
       fmt::format("The paper finds that L2 makes the network worse and leaves it out; its strength "
-                  "is not printed. {}: "
-                  "on "
-                  "the samples learnt from, the error goes from {} N without to {} N with the "
-                  "strongest. On geometries "
-                  "that were not seen, the least error comes with {} ({} N against {} N without).",
+                  "is not printed. {}: on the samples learnt from, the error goes from {} N "
+                  "without to {} N with the strongest. On geometries that were not seen, the least "
+                  "error comes with {} ({} N against {} N without).",
                   learnt.y.back() > learnt.y.front() ? "Agrees" : "Does not agree",
                   decimals(learnt.y.front(), 3), decimals(learnt.y.back(), 3),
                   best == 0 ? "none" : "L2 = " + places[best], decimals(unseen.y[best], 3),
                   decimals(unseen.y.front(), 3)));
+
+  // Table and curves.
   section.tables.push_back(std::move(table));
   section.figures.push_back(
       {"figure-11",
@@ -285,13 +304,14 @@ DocumentSection grid_section(const FamilyStudy& study) {
       grid_table(study, false, "h3x15, authors' rule: raw inputs, constant rate; MAE N")};
   section.paragraphs.push_back(
       "The paper's grid search chose batch 20 and rate 1e-4; its grid is not printed. Here 500 "
-      "epochs each, "
-      "on the samples learnt from.");
+      "epochs each, on the samples learnt from.");
   return section;
 }
 
 DocumentSection history_section(const FamilyStudy& study) {
   DocumentSection section{"figure-12", "Figure 12: mean squared error against epoch", {}};
+
+  // A panel and a row for each way to train, a curve for each architecture.
   DocumentFigure figure{"figure-12",
                         "Figure 12: mean squared error while learning",
                         "Met in each epoch, the network's median seed; log10 of N^2.",
@@ -306,6 +326,8 @@ DocumentSection history_section(const FamilyStudy& study) {
     table.columns.push_back({architecture_name(hidden), true});
     table.columns.push_back({"unrest %", true});
   }
+
+  // The history of the median seed, and how much its end still moves.
   for (const auto& [title, rule_of] :
        {std::pair("as printed", &printed_rule), std::pair("authors' code", &authors_rule),
         std::pair("ours", &own_rule)}) {
@@ -323,13 +345,13 @@ DocumentSection history_section(const FamilyStudy& study) {
     table.rows.push_back(std::move(row));
     figure.panels.push_back(std::move(panel));
   }
+
+  // The paper's own reading of its figure.
   section.tables.push_back(std::move(table));
   section.figures.push_back(std::move(figure));
   section.paragraphs.push_back(
       "The paper sees h3x30 noisy and stopped early with a larger error, h3x10 calm, h3x15 with "
-      "the least "
-      "error "
-      "of the three.");
+      "the least error of the three.");
   return section;
 }
 

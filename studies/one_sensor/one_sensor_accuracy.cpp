@@ -1,4 +1,4 @@
-// What the one-sensor paper says of accuracy: its table 6, its figure 6 and the comparison in its
+// The one-sensor paper's claims on accuracy: its table 6, its figure 6 and the comparison in its
 // conclusions.
 #include <algorithm>
 #include <array>
@@ -62,6 +62,8 @@ std::vector<std::string> own_row(const OneSensorView& view, std::size_t damper, 
   const StudiedDamper& studied = view.study.dampers[damper].damper;
   std::vector<std::string> row{studied.name + (studied.is_virtual ? ", virtual damper" : ""),
                                title};
+
+  // Each experiment in % of half-span; a divergence leaves no mean.
   double sum = 0, rms = 0;
   for (std::size_t e = 0; e < studied.experiments.size(); ++e) {
     const StudiedResult* result = view.study.result(damper, key, e);
@@ -71,6 +73,8 @@ std::vector<std::string> own_row(const OneSensorView& view, std::size_t damper, 
     sum += view.half_percent(damper, here);
     rms += here;
   }
+
+  // Means over the experiments: of half-span, of span, in N.
   const auto count = static_cast<double>(studied.experiments.size());
   row.push_back(number_text(sum / count));
   row.push_back(number_text(sum / count / 2));
@@ -84,12 +88,16 @@ DocumentTable table_6(const OneSensorView& view, std::size_t damper) {
                           (studied.is_virtual ? ", a virtual damper" : ""),
                       {{"Damper", false}, {"Model", false, 0, true}},
                       {}};
+
+  // A column for each experiment, then the means.
   for (std::size_t e = 0; e < studied.experiments.size(); ++e)
     table.columns.push_back(
         {studied.is_virtual ? "Exp. " + std::to_string(e + 1) : studied.experiments[e].name, true,
          studied.is_virtual ? 0 : 3});
   table.columns.insert(table.columns.end(),
                        {{"Mean", true}, {"Mean, span %", true, 2}, {"Mean RMS N", true, 1}});
+
+  // The paper's row first, where this is one of its dampers.
   if (studied.is_virtual) table.rows.push_back(paper_row(studied.name, damper));
   for (const auto& [key, title] : kNetworks)
     if (std::vector<std::string> row = own_row(view, damper, key, title); !row.empty())
@@ -125,10 +133,14 @@ std::vector<FigureSeries> boxes(const OneSensorView& view, std::size_t damper, c
                                 {"", colour, {}, {}, FigureSeries::Mark::Line, 7},
                                 {"", "", {}, {}, FigureSeries::Mark::Dots, 3}};
   box[2].colour = "series-2";
+
+  // A box for each experiment on which the model stayed finite.
   const StudiedDamper& studied = view.study.dampers[damper].damper;
   for (std::size_t e = 0; e < studied.experiments.size(); ++e) {
     const StudiedResult* result = view.study.result(damper, key, e);
     if (!result || result->diverged_at) continue;
+
+    // Errors of all scored samples of the left-out records.
     std::vector<double> errors;
     const std::vector<Record>& records = studied.experiments[e].left_out;
     for (std::size_t r = 0; r < records.size(); ++r) {
@@ -136,6 +148,8 @@ std::vector<FigureSeries> boxes(const OneSensorView& view, std::size_t damper, c
       for (std::size_t i = records[r].warm_up; i < force.size(); ++i)
         errors.push_back(force[i] - result->forces[r][i]);
     }
+
+    // Their quantiles in % of half-span.
     std::vector<double> found = quantiles(std::move(errors), {0.05, 0.25, 0.5, 0.75, 0.95});
     for (double& value : found) value = view.half_percent(damper, value);
     add_box(box, static_cast<double>(e) + shift, found);
@@ -144,12 +158,13 @@ std::vector<FigureSeries> boxes(const OneSensorView& view, std::size_t damper, c
 }
 
 DocumentFigure figure_6(const OneSensorView& view) {
-  DocumentFigure figure{
-      "figure-6",
-      "Figure 6: variability of the error",
-      "Error of the samples of each left-out recording: 5 to 95 % of them, 25 to 75 % "
-      "thick, the median as a point.",
-      {}};
+  DocumentFigure figure{"figure-6",
+                        "Figure 6: variability of the error",
+                        "Error of the samples of each left-out recording: 5 to 95 % of them, 25 to "
+                        "75 % thick, the median as a point.",
+                        {}};
+
+  // A panel for each damper, its experiments side by side.
   for (std::size_t d = 0; d < view.study.dampers.size(); ++d) {
     const StudiedDamper& damper = view.study.dampers[d].damper;
     FigurePanel panel{damper.name + (damper.is_virtual ? ", virtual damper" : ""),
@@ -158,6 +173,8 @@ DocumentFigure figure_6(const OneSensorView& view) {
                       {}};
     for (std::size_t e = 0; e < damper.experiments.size(); ++e)
       panel.places.push_back(std::to_string(e + 1));
+
+    // Both networks with one sensor, beside each other.
     for (auto& part :
          {boxes(view, d, kStatic, "static, 1 sensor", "series-6", -0.15),
           boxes(view, d, kHysteresis, "hysteresis network, 1 sensor", "modelled", 0.15)})
@@ -179,6 +196,7 @@ std::string order_text(const std::vector<double>& values) {
 }
 
 void compare_experiments(const OneSensorView& view, DocumentSection& section) {
+  // The order of the experiments, and how much the error varies among them.
   std::vector<double> spreads, paper_spreads;
   for (std::size_t d = 0; d < view.study.dampers.size(); ++d) {
     const std::vector<double> ours = percents(view, d, kStatic);
@@ -190,10 +208,11 @@ void compare_experiments(const OneSensorView& view, DocumentSection& section) {
     spreads.push_back(deviation(ours));
     paper_spreads.push_back(deviation(theirs));
   }
+
+  // The paper's claim: it varies more on MR1 than on MR2.
   section.paragraphs.push_back(fmt::format(
       "{}: the static network's error varies more from experiment to experiment on MR1 than on "
-      "MR2: standard "
-      "deviation {} and {} % of half-span here, {} and {} % in the paper.",
+      "MR2: standard deviation {} and {} % of half-span here, {} and {} % in the paper.",
       (spreads[0] > spreads[1]) == (paper_spreads[0] > paper_spreads[1]) ? "Agrees"
                                                                          : "Does not agree",
       number_text(spreads[0], 2), number_text(spreads[1], 2), number_text(paper_spreads[0], 2),
@@ -237,7 +256,7 @@ const std::array<EsrModel, 7> kEsrModels{
      {"recurrent", "recurrent network, 2 sensors", paper::kRecurrentEsr, "x, v"},
      {kHysteresis, "hysteresis network, 1 sensor", "-", "v"}}};
 
-/// Whether an order that the paper states holds here, for every damper.
+/// A sentence on an order that the paper states: it holds here for every damper, or does not.
 std::string holds(const OneSensorView& view, const char* better, const char* worse,
                   const std::string& said) {
   std::vector<std::string> here;
@@ -258,10 +277,14 @@ std::string holds(const OneSensorView& view, const char* better, const char* wor
 DocumentSection accuracy_section(const OneSensorView& view) {
   DocumentSection section{"table-6", "Table 6: five experiments", {}};
   if (!view.is_virtual()) section.title = "Table 6: division by division";
+
+  // Table and figure; the paper's experiments only for virtual dampers.
   for (std::size_t d = 0; d < view.study.dampers.size(); ++d)
     section.tables.push_back(table_6(view, d));
   section.figures.push_back(figure_6(view));
   if (view.is_virtual()) compare_experiments(view, section);
+
+  // The hysteresis network against the static one: how often it is better, and by how much.
   for (std::size_t d = 0; d < view.study.dampers.size(); ++d) {
     const std::vector<double> plain = percents(view, d, kStatic),
                               bank = percents(view, d, kHysteresis);
@@ -280,6 +303,8 @@ DocumentSection accuracy_section(const OneSensorView& view) {
 DocumentSection esr_section(const OneSensorView& view) {
   DocumentSection section{
       "esr", "The conclusions: share of the force's power left unexplained", {}};
+
+  // Mean and worst experiment of every damper, beside what the paper reports.
   DocumentTable table{"ESR %, mean over the experiments and worst",
                       {{"Model", false, 0, true}, {"Sensors"}, {"As the paper reports", true}},
                       {}};
@@ -289,6 +314,8 @@ DocumentSection esr_section(const OneSensorView& view) {
     table.columns.push_back({name + ": worst", true, 2});
   }
   table.columns.push_back({"Numbers", true, 3});
+
+  // A row for each model.
   for (const EsrModel& model : kEsrModels) {
     std::vector<std::string> row{model.title, model.sensors, model.paper};
     std::size_t parameters = 0;
@@ -301,12 +328,15 @@ DocumentSection esr_section(const OneSensorView& view) {
     row.push_back(parameters == 0 ? "-" : std::to_string(parameters));
     table.rows.push_back(std::move(row));
   }
+
+  // The sources of the reported figures.
   table.note =
       "Reported: Bingham and 0.9 % by Savaresi et al. 2005, the others by Ruiz-Cabrera et al. "
-      "2010, 4.7 % by "
-      "the paper itself: each on a damper and records of its own. A number that is not finite "
-      "stands as -.";
+      "2010, 4.7 % by the paper itself: each on a damper and records of its own. A number that is "
+      "not finite stands as -.";
   section.tables.push_back(std::move(table));
+
+  // The orders that the paper states, checked on every damper.
   section.remarks = {
       holds(view, kStatic, "bingham", "the static one-sensor network leaves less than Bingham"),
       holds(view, kStatic, "modified-bouc-wen", "it leaves less than the phenomenological model"),
@@ -317,23 +347,19 @@ DocumentSection esr_section(const OneSensorView& view) {
             "the phenomenological model leaves less than Bingham"),
       holds(view, "bingham", "semi-phenomenological",
             "Bingham leaves less than the semi-phenomenological model")};
+
+  // Limits of the comparison.
   section.paragraphs.push_back(
       "The paper compares its 4.7 % with what other papers report of other dampers. Here all "
-      "models see the "
-      "same records. Laws are fitted to all currents at once, each parameter as the table of its "
-      "law says; a "
-      "law fitted current by current, or better started, would do better, which may be what sets "
-      "the "
-      "published figures apart.");
+      "models see the same records. Laws are fitted to all currents at once, each parameter as the "
+      "table of its law says; a law fitted current by current, or better started, would do better, "
+      "which may be what sets the published figures apart.");
   if (view.is_virtual())
     section.paragraphs.push_back(
         "What cannot be compared: the size of any figure. A virtual damper is as difficult as it "
-        "was made; "
-        "MR1 here is a law of the registry (hyperbolic tangent of velocity and acceleration), so "
-        "that models "
-        "near to that law have an easy task. Nor do the paper's percentages say how its network "
-        "was trained "
-        "and judged.");
+        "was made; MR1 here is a law of the registry (hyperbolic tangent of velocity and "
+        "acceleration), so that models near to that law have an easy task. Nor do the paper's "
+        "percentages say how its network was trained and judged.");
   return section;
 }
 

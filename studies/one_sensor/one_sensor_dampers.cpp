@@ -27,6 +27,8 @@ std::vector<Record> record_experiments(const ParameterSet& damper, std::uint64_t
 
 StudiedDamper virtual_damper(const std::string& name, std::uint64_t seed) {
   const ParameterSet set = load_parameter_set(name);
+
+  // Name, description and drive from its parameter set.
   StudiedDamper damper;
   damper.name = name;
   std::ranges::transform(damper.name, damper.name.begin(),
@@ -34,6 +36,8 @@ StudiedDamper virtual_damper(const std::string& name, std::uint64_t seed) {
   damper.description = set.damper;
   damper.is_virtual = true;
   damper.drive_unit = set.model.drive_unit();
+
+  // Each experiment is a fold: learn from its first recording, judge on its second.
   std::vector<Record> first = record_experiments(set, seed, Recording::First),
                       second = record_experiments(set, seed, Recording::Second);
   for (std::size_t k = 0; k < first.size(); ++k) {

@@ -19,13 +19,12 @@ std::string against_each_other(const OneSensorView& view, std::size_t damper) {
   if (plain->diverged_at || bank->diverged_at) return " On " + name + " one of the two diverged.";
   return fmt::format(
       " On {} it leaves {} % of half the force span, the paper's static network {} %; as a power "
-      "ratio (ESR) "
-      "{} and {} %.",
+      "ratio (ESR) {} and {} %.",
       name, view.half_text(damper, *bank), view.half_text(damper, *plain), view.esr_text(*bank),
       view.esr_text(*plain));
 }
 
-/// Whether the network that remembers leaves less than the paper's on every damper.
+/// True when the hysteresis network leaves less than the paper's network on every damper.
 bool answers(const OneSensorView& view) {
   for (std::size_t d = 0; d < view.study.dampers.size(); ++d) {
     const auto plain = view.study.all(d, kStatic), bank = view.study.all(d, kHysteresis);
@@ -36,19 +35,19 @@ bool answers(const OneSensorView& view) {
 }
 
 std::string verdict_of(const OneSensorView& view) {
+  // The answer, where the hysteresis network leaves less on every damper.
   std::string text = "The paper's question is how well one sensor can do.";
   if (answers(view))
     text =
         "One sensor can do more than the paper found: the hysteresis network carries the past in "
-        "internal "
-        "states where the paper would add a sensor.";
+        "internal states where the paper would add a sensor.";
+
+  // Both networks in figures, damper by damper.
   for (std::size_t d = 0; d < view.study.dampers.size(); ++d) text += against_each_other(view, d);
   if (view.is_virtual())
     text +=
         " MR1 and MR2 are virtual dampers, shaped after the paper's words: orderings can be "
-        "compared with "
-        "the "
-        "paper's, sizes cannot.";
+        "compared with the paper's, sizes cannot.";
   return text;
 }
 
@@ -97,52 +96,51 @@ std::string change_text(double from, double to) {
 
 DocumentSection protocol_section(const OneSensorView& view) {
   DocumentSection section{"protocol", "How it was done", {}};
+
+  // The paper's task.
   section.paragraphs.push_back(
       "The paper (MR Damper Identification using ANN based on 1-Sensor) identifies two dampers in "
-      "five "
-      "experiments with a perceptron of ten neurons that sees the velocity and the current, and "
-      "shows by "
-      "experiments why. Each part below repeats one of them; the paper's figure stands beside "
-      "ours.");
+      "five experiments with a perceptron of ten neurons that sees the velocity and the current, "
+      "and shows by experiments why. Each part below repeats one of them; the paper's figure "
+      "stands beside ours.");
+
+  // The data: virtual dampers, or measured ones.
   section.paragraphs.push_back(
       view.is_virtual()
           ? "Virtual dampers: the paper prints no data of its dampers, so two virtual ones stand "
-            "in for "
-            "them. MR1 takes any current, spans about 4000 N either way and has a marked "
-            "hysteresis at high "
-            "frequencies; MR2 has two levels, "
-            "-6000 ... 11000 N, and little hysteresis. The bench records at 1650 Hz, 0.5-15 Hz, 25 "
-            "mm either "
-            "way, 0-2.5 A, at most 1.5 m/s; its sensors have noise (force 1 % of the span, "
-            "velocity 5 mm/s, "
+            "in for them. MR1 takes any current, spans about 4000 N either way and has a marked "
+            "hysteresis at high frequencies; MR2 has two levels, -6000 ... 11000 N, and little "
+            "hysteresis. The bench records at 1650 Hz, 0.5-15 Hz, 25 mm either way, 0-2.5 A, at "
+            "most 1.5 m/s; its sensors have noise (force 1 % of the span, velocity 5 mm/s, "
             "displacement 20 um) and the load cell a zero of its own in every recording."
           : "Measured: these recordings are real. Each division leaves something out (" +
                 std::to_string(view.study.dampers.front().damper.experiments.size()) +
                 " divisions); what the paper shows for one experiment is shown for all divisions "
                 "together.");
+
+  // Judging: virtual dampers are recorded twice, measured data are divided.
   section.paragraphs.push_back(
       view.is_virtual()
           ? "Judging: the paper does not state its cross-validation. Here every experiment is "
             "recorded twice, and a model learns from the first recording and is judged on the "
-            "whole second one, which it has not seen: other random numbers, frequencies and "
-            "speeds between those of the first, stepped currents "
-            "that fall where they rose. Leaving out the end of a recording would not do: there "
-            "the stepped current stands at levels that its beginning does not have."
+            "whole second one, which it has not seen: other random numbers, frequencies and speeds "
+            "between those of the first, stepped currents that fall where they rose. Leaving out "
+            "the end of a recording would not do: there the stepped current stands at levels that "
+            "its beginning does not have."
           : "Judging: what is left out are whole records, never samples of a record that was "
             "learnt from. The velocity is the one sensor; where it was derived from a "
             "displacement, that is the one sensor, as the paper's figure 10 proposes.");
+
+  // Free run and percentages mean the same for both kinds of data.
   section.paragraphs.push_back(
       "Free run: a model sees motion and current, never the measured force. One-step errors, for "
-      "which the "
-      "measured force is fed back, stand beside it under that name and decide nothing. Each "
-      "record's force "
-      "zero is a free nuisance.");
+      "which the measured force is fed back, stand beside it under that name and decide nothing. "
+      "Each record's force zero is a free nuisance.");
   section.paragraphs.push_back(
       "Percentages: the paper says 'normalised by the span', but 291.4 N and 597.8 N are 7.25 % "
-      "and 7.02 % "
-      "of 4000 N and 8500 N: of half the span. Both stand here; they refer to the span of all "
-      "forces of a "
-      "damper. ESR is the power ratio, sum of squared errors over the force's variance.");
+      "and 7.02 % of 4000 N and 8500 N: of half the span. Both stand here; they refer to the span "
+      "of all forces of a damper. ESR is the power ratio, sum of squared errors over the force's "
+      "variance.");
   return section;
 }
 

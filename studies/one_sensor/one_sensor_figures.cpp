@@ -23,7 +23,7 @@ struct Window {
   std::size_t first, last, step;
 };
 
-/// The samples from `from` on for `seconds`, thinned evenly.
+/// The samples from `from` on for `seconds`, both s, thinned evenly to what print can show.
 Window window_of(const Record& record, double from, double seconds) {
   const auto at = [&](double time) {
     return static_cast<std::size_t>(std::ranges::lower_bound(record.time, time) -
@@ -47,7 +47,7 @@ std::string damper_title(const StudiedDamper& damper) {
   return damper.name + (damper.is_virtual ? ", virtual damper" : "");
 }
 
-/// A channel of what models learn from in one experiment, from its beginning.
+/// A channel of an experiment's training record, from its start.
 std::optional<FigurePanel> sequence_panel(const StudiedDamper& damper, std::size_t experiment,
                                           const Channel& label, double seconds, double factor) {
   const Fold& fold = damper.experiments[experiment];
@@ -62,7 +62,8 @@ std::optional<FigurePanel> sequence_panel(const StudiedDamper& damper, std::size
                        taken(samples->samples, window, factor), FigureSeries::Mark::Line, 1}}};
 }
 
-/// As long as a signal with fewer than a hundred changes, or its beginning: more is a black patch.
+/// Seconds of a signal that a figure can show: all of it with up to a hundred changes, else its
+/// first four; more would be a black patch.
 double legible_seconds(const Record& record, const std::string& channel) {
   constexpr double kBeginning = 4;
   constexpr std::size_t kLegible = 100;
@@ -97,8 +98,12 @@ FigurePanel trace_panel(const OneSensorView& view, std::size_t damper, std::size
   const StudiedDamper& studied = view.study.dampers[damper].damper;
   const Fold& fold = studied.experiments[experiment];
   const Record& record = fold.left_out.front();
+
+  // A window behind the first tenth of the record.
   const double duration = record.time.back() - record.time.front();
   const Window window = window_of(record, record.time.front() + 0.1 * duration, seconds);
+
+  // The measured force, and both networks over it.
   FigurePanel panel{
       damper_title(studied) + ", " + fold.name,
       "Time (s)",
@@ -119,9 +124,12 @@ FigurePanel velocity_panel(const OneSensorView& view, std::size_t damper, std::s
   const Fold& fold = studied.experiments[experiment];
   FigureSeries measured{"measured", "measured", {}, {}, FigureSeries::Mark::Dots, 1.6},
       modelled{label, colour, {}, {}, FigureSeries::Mark::Dots, 1.1};
+
+  // All records share the number of dots that print can show.
   std::size_t samples = 0;
   for (const Record& record : fold.left_out) samples += record.size();
   for (std::size_t r = 0; r < fold.left_out.size(); ++r) {
+    // Measured and modelled forces over the same velocities.
     const Record& record = fold.left_out[r];
     const Window window{record.warm_up, record.size(), samples / kDots + 1};
     const auto* forces = forces_of(view, damper, experiment, key, r);
@@ -134,6 +142,8 @@ FigurePanel velocity_panel(const OneSensorView& view, std::size_t damper, std::s
       series->y.insert(series->y.end(), y.begin(), y.end());
     }
   }
+
+  // The cloud that was measured, and the model's over it.
   return {damper_title(studied) + ", " + fold.name,
           "Velocity (m/s)",
           "Force (N)",
@@ -143,13 +153,12 @@ FigurePanel velocity_panel(const OneSensorView& view, std::size_t damper, std::s
 DocumentFigure velocity_figure(const OneSensorView& view, const std::string& name,
                                const std::string& title,
                                const std::vector<std::pair<std::size_t, std::size_t>>& shown) {
-  DocumentFigure figure{
-      name,
-      title,
-      "Left: the paper's static network with one sensor. Right: the hysteresis network "
-      "with the same sensor. Records that were left out.",
-      {},
-      2};
+  DocumentFigure figure{name,
+                        title,
+                        "Left: the paper's static network with one sensor. Right: the hysteresis "
+                        "network with the same sensor. Records that were left out.",
+                        {},
+                        2};
   for (const auto& [damper, experiment] : shown)
     for (const auto& [key, label, colour] : kShown)
       figure.panels.push_back(velocity_panel(view, damper, experiment, key, label, colour));
@@ -182,6 +191,8 @@ const Record& velocity_record(const OneSensorView& view) {
 DocumentSection excitation_section(const OneSensorView& view) {
   DocumentSection section{"excitation", "Table 2, figures 3 and 4: the experiments", {}};
   constexpr double kSeconds = 16;
+
+  // Two figures of sequences and one table of recordings.
   DocumentFigure motion{
       "figure-3", "Figure 3: displacement sequences", "The first seconds of each.", {}, 2},
       drive{"figure-4", "Figure 4: current sequences", "From their beginning.", {}, 2};
@@ -192,21 +203,29 @@ DocumentSection excitation_section(const OneSensorView& view) {
                        {"Judged on", false, 0, true},
                        {"s", true}},
                       {}};
+
+  // Motion and drive, by their own names and units.
   for (const DamperStudy& one : view.study.dampers) {
     const StudiedDamper& damper = one.damper;
     const bool is_voltage = damper.drive_unit == DriveUnit::Volt;
     const Channel moved{"displacement", "Displacement (mm)", {}, {}},
         driven{
             is_voltage ? "voltage" : "current", is_voltage ? "Voltage (V)" : "Current (A)", {}, {}};
+
+    // All dampers move alike: the motion is shown for the first.
     if (&one == &view.study.dampers.front())
       for (std::size_t e = 0; e < std::min(damper.experiments.size(), kMostShown); ++e)
         if (auto panel = sequence_panel(damper, e, moved, kSeconds, 1000))
           motion.panels.push_back(*panel);
+
+    // The drive as far as it can be read.
     for (const std::size_t e : shown_currents(damper)) {
       const double seconds = legible_seconds(damper.experiments[e].training.front(), driven.name);
       if (auto panel = sequence_panel(damper, e, driven, seconds, 1))
         drive.panels.push_back(*panel);
     }
+
+    // The records that each experiment learns from, those that judge it, and their length.
     for (const Fold& fold : damper.experiments) {
       const auto said = [](const std::vector<Record>& records) {
         return records.size() == 1 ? records.front().name : counted(records.size(), "record");
@@ -218,6 +237,8 @@ DocumentSection excitation_section(const OneSensorView& view) {
                             said(fold.left_out), number_text(seconds)});
     }
   }
+
+  // Records without a displacement have no figure 3.
   section.tables.push_back(std::move(table));
   if (!motion.panels.empty()) section.figures.push_back(std::move(motion));
   section.figures.push_back(std::move(drive));
@@ -227,10 +248,14 @@ DocumentSection excitation_section(const OneSensorView& view) {
 DocumentSection curves_section(const OneSensorView& view) {
   DocumentSection section{"figures", "Figures 7 to 9: force in time and against velocity", {}};
   constexpr double kSeconds = 0.6;
+
+  // The figure in time shows the last experiment of a damper.
   const auto last = [&](std::size_t d) {
     return view.study.dampers[d].damper.experiments.size() - 1;
   };
   DocumentFigure traces{"figure-7", "Figure 7: force in time", "Parts of left-out recordings.", {}};
+
+  // The paper's own choice of experiments, where these are its dampers.
   if (view.is_virtual()) {
     for (std::size_t d = 0; d < view.study.dampers.size(); ++d)
       traces.panels.push_back(trace_panel(view, d, last(d), kSeconds));
@@ -244,12 +269,12 @@ DocumentSection curves_section(const OneSensorView& view) {
                         {{0, 1}, {0, 3}})};
     section.paragraphs.push_back(
         "The paper sees in its figure 8 that its network cannot follow the hysteresis of MR1 at "
-        "velocities "
-        "within 0.5 m/s, and proposes an acceleration sensor. The right-hand panels show that "
-        "internal "
-        "states serve as well.");
+        "velocities within 0.5 m/s, and proposes an acceleration sensor. The right-hand panels "
+        "show that internal states serve as well.");
     return section;
   }
+
+  // Other data: the first divisions in time, and more of them over the velocity.
   for (std::size_t e = 0; e <= std::min<std::size_t>(last(0), 1); ++e) {
     const Record& record = view.study.dampers[0].damper.experiments[e].left_out.front();
     traces.panels.push_back(
@@ -265,21 +290,26 @@ DocumentSection curves_section(const OneSensorView& view) {
 
 DocumentSection velocity_section(const OneSensorView& view) {
   DocumentSection section{"figure-10", "Figure 10: velocity measured and estimated", {}};
+
+  // Needs a velocity that was measured, and evenly sampled records.
   const Record& record = velocity_record(view);
   const Channel *displacement = record.find("displacement"), &velocity = record.channel("velocity");
   if (!displacement || velocity.origin.starts_with("derived") || record.sample_time <= 0) {
     section.paragraphs.push_back(
         "These recordings hold no velocity beside the displacement: the velocity is derived, and "
-        "there is "
-        "nothing to compare it with.");
+        "there is nothing to compare it with.");
     return section;
   }
+
+  // The velocity by differences of the displacement, plain and smoothed.
   constexpr double kSeconds = 1;
   const double dt = record.sample_time, cutoff = choose_cutoff_hz(displacement->samples, dt);
   const std::vector<double> plain = central_difference(displacement->samples, dt),
                             smooth = differentiate_zero_phase(displacement->samples, dt, cutoff);
   const std::vector<double>& measured = velocity.samples;
   const double swing = rms_difference(measured, std::vector<double>(measured.size(), 0.0));
+
+  // The difference of each from the measured one.
   DocumentTable table{"Estimated against measured velocity: " + record.name,
                       {{"From the displacement by"},
                        {"RMS difference, mm/s", true},
@@ -293,6 +323,8 @@ DocumentSection velocity_section(const OneSensorView& view) {
     const double rms = rms_difference(*values, measured);
     table.rows.push_back({name, number_text(1000 * rms), number_text(100 * rms / swing, 2)});
   }
+
+  // One second of all three.
   section.tables.push_back(std::move(table));
   const Window window = window_of(record, record.time.front() + 2, kSeconds);
   const std::vector<double> time = taken(record.time, window);
@@ -308,6 +340,8 @@ DocumentSection velocity_section(const OneSensorView& view) {
            1},
           {"zero-phase", "modelled", time, taken(smooth, window), FigureSeries::Mark::Line,
            1.2}}}}});
+
+  // Near enough: within 5 % of the velocity's root mean square.
   section.paragraphs.push_back(
       fmt::format("The paper: a displacement sensor serves as well as a velocity sensor. {}",
                   rms_difference(smooth, measured) < 0.05 * swing

@@ -6,8 +6,11 @@ namespace {
 
 Value result_json(const OneSensorView& view, std::size_t damper, const StudiedModel& model,
                   std::size_t experiment) {
+  // Nothing where the model was not fitted.
   const StudiedResult* result = view.study.result(damper, model.key, experiment);
   if (!result) return {};
+
+  // Errors in shares of the span of the damper's force, beside the metrics in N.
   Value json =
       Value::object({{"experiment", view.study.dampers[damper].damper.experiments[experiment].name},
                      {"model", model.key},
@@ -23,16 +26,22 @@ Value result_json(const OneSensorView& view, std::size_t damper, const StudiedMo
 
 Value damper_json(const OneSensorView& view, std::size_t d) {
   const DamperStudy& one = view.study.dampers[d];
+
+  // Every model on every experiment, as far as it was fitted.
   Value results = Value::array(), sizes = Value::array();
   for (const StudiedModel& model : view.study.models)
     for (std::size_t e = 0; e < one.damper.experiments.size(); ++e)
       if (Value result = result_json(view, d, model, e); !result.is_null())
         results.push_back(std::move(result));
+
+  // The size choice.
   for (const StudiedSize& size : one.sizes)
     sizes.push_back(Value::object({{"neurons", size.neurons},
                                    {"parameters", size.parameters},
                                    {"rmse_N", size.error},
                                    {"by_fold_N", Value::array(size.by_fold)}}));
+
+  // The damper with both.
   return Value::object({{"name", one.damper.name},
                         {"description", one.damper.description},
                         {"virtual", one.damper.is_virtual},

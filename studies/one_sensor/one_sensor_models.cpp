@@ -1,6 +1,4 @@
-// The models of the one-sensor study: the paper's networks, those that it compares itself with, and
-// the network that answers it.
-#include "studies/one_sensor/one_sensor_study.h"
+#include "studies/one_sensor/one_sensor_models.h"
 
 namespace dashpot {
 namespace {
@@ -24,7 +22,7 @@ NetworkDesign regressors_design(std::size_t delays, std::size_t spacing) {
   return design;
 }
 
-/// Two members tell what eight tell, in a quarter of the time.
+/// Two members predict as well as eight, in a quarter of the time.
 NetworkDesign small_ensemble() {
   NetworkDesign design;
   design.members = 2;
@@ -34,6 +32,7 @@ NetworkDesign small_ensemble() {
 }  // namespace
 
 std::vector<StudiedModel> one_sensor_models() {
+  // The paper's networks with their rivals, then laws.
   constexpr auto kFree = FeedbackTraining::FreeRun, kSeries = FeedbackTraining::SeriesParallel;
   std::vector<StudiedModel> models{
       {kStatic, "static network, v and i", "mlp_one_sensor", {}},
@@ -49,6 +48,8 @@ std::vector<StudiedModel> one_sensor_models() {
       {"semi-phenomenological", "semi-phenomenological", "semi_phenomenological", {}},
       {"modified-bouc-wen", "phenomenological (modified Bouc-Wen)", "modified_bouc_wen", {}},
   };
+
+  // Table 5: one to three delays, neighbouring samples and ten apart.
   constexpr std::size_t kApart = 10;
   for (std::size_t delays = 1; delays <= 3; ++delays) {
     const std::string key = "regressors-" + std::to_string(delays),

@@ -10,7 +10,7 @@
 // Parts of the one-sensor study's page, and the figures of the paper that it stands beside.
 namespace dashpot {
 
-/// What the paper prints, % of half the span of the force where nothing else is said.
+/// The figures that the paper prints, % of half the span of the force where nothing else is said.
 namespace one_sensor_paper {
 inline constexpr double kFeedForward = 4.38, kRecurrent = 3.80;   // table 3
 inline constexpr double kOneSensor = 8.22, kTwoSensors = 4.38;    // table 4
@@ -25,7 +25,7 @@ inline constexpr double kEsr = 4.7, kBinghamEsr = 14.5, kPhenomenologicalEsr = 8
 inline constexpr const char* kRecurrentEsr = "0.9, 2";
 }  // namespace one_sensor_paper
 
-/// The study and how its figures are said.
+/// The study, and its figures as text. It refers to the study, which must outlive it.
 class OneSensorView {
  public:
   explicit OneSensorView(const OneSensorStudy& study);
@@ -41,7 +41,8 @@ class OneSensorView {
   std::string half_text(std::size_t damper, const StudiedResult& result) const;
   std::string span_text(std::size_t damper, const StudiedResult& result) const;
   std::string esr_text(const StudiedResult& result) const;
-  /// Of the example, % of half-span; nothing where the model was not fitted there or diverged.
+  /// Error on the example, % of half-span; nothing where the model was not fitted there or
+  /// diverged.
   std::optional<double> example_percent(const std::string& key) const;
 
  private:

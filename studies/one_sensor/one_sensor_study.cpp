@@ -17,7 +17,7 @@
 namespace dashpot {
 namespace {
 
-/// What a fit costs beside others, measured on the paper's experiments: the longest go first.
+/// The cost of a fit beside others, measured on the paper's experiments: the longest go first.
 double expected_cost(const StudiedModel& model) {
   const ModelKind kind = model_info(model.model).kind;
   if (kind == ModelKind::HysteresisNetwork) return 40;
@@ -52,11 +52,14 @@ class StudyRun {
   }
 
   OneSensorStudy run() {
+    // The most expensive first, so that no thread is left with a long one at the end.
     std::vector<Task*> ordered;
     double total = 0, done = 0;
     for (Task& task : tasks_) ordered.push_back(&task), total += expected_cost(task.model);
     std::ranges::stable_sort(ordered, std::greater{},
                              [](const Task* task) { return expected_cost(task->model); });
+
+    // Fits and judges; forces are kept only where figures show them.
     std::mutex guard;
     parallel_for(ordered.size(), options_.threads, [&](std::size_t k) {
       Task& task = *ordered[k];
@@ -68,11 +71,15 @@ class StudyRun {
         *task.result = judge(report, *task.fold, task.damper->drive_unit);
         if (!task.keeps_forces) (*task.result)->forces.clear();
       }
+
+      // Time and progress are shared by all threads.
       const std::lock_guard lock(guard);
       done += expected_cost(task.model);
       study_.seconds += report.seconds;
       options_.monitor.report(stage, done / total);
     });
+
+    // The fits by size are gathered once all of them are done.
     for (std::size_t d = 0; d < study_.dampers.size(); ++d)
       gather_sizes(study_.dampers[d], size_results_[d]);
     study_.kept_fits = kept_;
@@ -94,8 +101,8 @@ class StudyRun {
     }
   }
 
-  /// Where the example is one division, it serves both ways round: learn from either record, judge
-  /// on the other.
+  /// An example of one division serves both ways round: learn from either record, judge on the
+  /// other.
   void add_sizes(DamperStudy& one) {
     std::vector<Fold>& folds = size_folds_.emplace_back();
     for (const std::size_t e : one.damper.example) folds.push_back(one.damper.experiments[e]);
@@ -129,13 +136,16 @@ class StudyRun {
     }
   }
 
-  /// As it was kept, or made now and kept.
+  /// The fit as it was kept in the store, or made now and kept.
   FitReport fit(const Task& task) {
+    // The fit as the study asks for it.
     IdentifyOptions options;
     options.seed = options_.seed;
     options.threads = 1;
     options.monitor.stop = options_.monitor.stop;
     const StudiedFit work = studied_fit(task.model, task.fold->training, options);
+
+    // Taken from the store where it was made before.
     const FitStore::Request request{task.model.model, work.training, task.damper->drive_unit,
                                     work.options};
     if (options_.store)
@@ -143,6 +153,8 @@ class StudyRun {
         ++kept_;
         return std::move(*kept);
       }
+
+    // Made now, and kept.
     FitReport report =
         identify(task.model.model, work.training, task.damper->drive_unit, work.options);
     if (options_.store) options_.store->save(request, report);
@@ -160,6 +172,7 @@ class StudyRun {
 std::optional<StudiedResult> pooled(const OneSensorStudy& study, std::size_t damper,
                                     const std::string& key,
                                     const std::vector<std::size_t>& experiments) {
+  // Sums over the experiments; one that is missing leaves nothing to pool.
   StudiedResult sum;
   for (const std::size_t e : experiments) {
     const StudiedResult* one = study.result(damper, key, e);
@@ -173,6 +186,8 @@ std::optional<StudiedResult> pooled(const OneSensorStudy& study, std::size_t dam
     sum.parameters = std::max(sum.parameters, one->parameters);
     sum.seconds += one->seconds;
   }
+
+  // Metrics from the sums of all experiments.
   if (experiments.empty()) return std::nullopt;
   sum.metrics = metrics(sum.sums);
   return sum;

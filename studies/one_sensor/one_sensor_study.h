@@ -6,10 +6,9 @@
 
 #include "dashpot/dataset.h"
 #include "dashpot/drive.h"
-#include "dashpot/evaluate.h"
-#include "dashpot/identify/fit/network_design.h"
 #include "dashpot/monitor.h"
 #include "dashpot/split.h"
+#include "studies/one_sensor/one_sensor_fit.h"
 
 namespace dashpot {
 
@@ -25,12 +24,13 @@ struct StudiedDamper {
   /// The paper's, each recorded twice; of other data the divisions, of which each leaves something
   /// out.
   std::vector<Fold> experiments;
-  std::vector<std::size_t>
-      example;  ///< the paper's examples are of experiment 2 of MR1; none: no example
+  /// Experiments that make the example, by index (the paper's is experiment 2 of MR1); may be none.
+  std::vector<std::size_t> example;
 
   /// Half of the span of all forces that models are judged on, N: what the paper's percentages
   /// refer to.
   double half_span() const;
+  /// True when every record has a displacement.
   bool has_displacement() const;
 };
 
@@ -39,30 +39,8 @@ struct StudiedDamper {
 /// judged on the second.
 std::vector<StudiedDamper> virtual_dampers(std::uint64_t seed);
 /// Any recordings. Tables that the paper makes of one experiment are made of all divisions
-/// together.
+/// together. Throws Error where the data set cannot be divided so.
 StudiedDamper measured_damper(const Dataset& dataset, const LeaveOut& leave_out);
-
-/// A model of the study. Its key is how tables find it.
-struct StudiedModel {
-  std::string key, title;
-  std::string model;  ///< of the registry
-  NetworkDesign design;
-  bool example_only = false;  ///< only on the damper's example
-};
-std::vector<StudiedModel> one_sensor_models();
-
-/// A model on the left-out records of one experiment, in free run, or of several together.
-struct StudiedResult {
-  ErrorSums sums;
-  Metrics metrics;
-  std::optional<ErrorSums>
-      one_step;  ///< of a model with feedback: the same, fed the measured force
-  std::optional<double> diverged_at;  ///< s
-  std::size_t parameters = 0;
-  double seconds = 0;  ///< CPU time of the fit
-  std::vector<std::vector<double>>
-      forces;  ///< N, of each left-out record; of models that figures show
-};
 
 /// Networks of one size, cross-validated.
 struct StudiedSize {
@@ -71,12 +49,14 @@ struct StudiedSize {
   std::vector<double> by_fold;  ///< N, rms
 };
 
+/// A damper with its results.
 struct DamperStudy {
   StudiedDamper damper;
   std::vector<std::vector<std::optional<StudiedResult>>> results;  ///< by model, by experiment
   std::vector<StudiedSize> sizes;                                  ///< of the example
 };
 
+/// Everything that the tables and figures show.
 struct OneSensorStudy {
   std::vector<StudiedModel> models;
   std::vector<DamperStudy> dampers;
@@ -84,26 +64,23 @@ struct OneSensorStudy {
   double seconds = 0;         ///< CPU time of all fits, those kept from before too
 
   const StudiedModel& model(const std::string& key) const;  ///< the key must be known
-  /// Nothing where the model was not fitted: it needs a displacement, say, or the damper has no
+  /// nullptr where the model was not fitted: it needs a displacement, say, or the damper has no
   /// example.
   const StudiedResult* result(std::size_t damper, const std::string& key,
                               std::size_t experiment) const;
-  /// Over the experiments of the damper's example; over all.
+  /// Results pooled over the experiments of the damper's example, or over all; nothing where one is
+  /// missing.
   std::optional<StudiedResult> example(std::size_t damper, const std::string& key) const;
   std::optional<StudiedResult> all(std::size_t damper, const std::string& key) const;
 };
 
-/// Keys of the models whose forces the figures show: the paper's network, and the one that
-/// remembers.
-inline constexpr const char* kStatic = "one-sensor";
-inline constexpr const char* kHysteresis = "hysteresis";
-
+/// How the study is run.
 struct OneSensorOptions {
   std::uint64_t seed = 1;
   int threads = 0;
   std::size_t most_neurons = 20;  ///< of the size choice
   std::vector<std::string> keys;  ///< of the models to fit; empty: all
-  FitStore* store = nullptr;      ///< where finished fits are found and kept
+  FitStore* store = nullptr;      ///< keeps finished fits, not owned; none: nothing is kept
   Monitor monitor;
 };
 

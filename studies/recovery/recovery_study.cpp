@@ -18,6 +18,8 @@ constexpr double kNormal95 = 1.959963984540054;  // two-sided 95 % point of the 
 std::vector<double> known_coefficients(const ParamInfo& param) {
   const double rise = 2 * param.value <= param.upper && 2 * param.value >= param.lower ? 1 : -1;
   const double v = param.value;
+
+  // The value without current, then the coefficients of its dependence on current, A.
   switch (param.form) {
     case Form::Constant:
       return {v};
@@ -40,7 +42,7 @@ FitReport fit_once(const Law& law, const RecoveryStudyOptions& options, int repe
   identification.seed = options.seed;
   identification.threads = 1;
   identification.monitor.stop = options.monitor.stop;
-  // What a fit takes from the size of the data is known here.
+  // A fit sets such scales by the size of the data; here they are known.
   for (const ParamInfo& param : law.params)
     if (param.fit == Fit::Scale)
       identification.choices.push_back(
@@ -50,6 +52,7 @@ FitReport fit_once(const Law& law, const RecoveryStudyOptions& options, int repe
 
 /// Adds what the fits say of one coefficient.
 void summarise(ParameterRecovery& row, const std::vector<const FittedParameter*>& found) {
+  // Only fits that gave an interval count: coverage, errors and standard errors.
   double errors = 0, squares = 0, deviations = 0;
   for (const FittedParameter* p : found) {
     row.weak += p->weak;
@@ -62,6 +65,8 @@ void summarise(ParameterRecovery& row, const std::vector<const FittedParameter*>
     squares += (p->value - row.truth) * (p->value - row.truth);
     deviations += (p->high - p->low) / 2 / kNormal95;
   }
+
+  // Bias and spread in units of the mean standard error that the fits state.
   if (row.counted < 2 || deviations <= 0) return;
   const double mean = errors / row.counted, deviation = deviations / row.counted;
   row.bias = mean / deviation;
@@ -69,12 +74,15 @@ void summarise(ParameterRecovery& row, const std::vector<const FittedParameter*>
 }
 
 LawRecovery judge(const Law& law, const std::vector<FitReport>& fits) {
+  // Failures and time over all repetitions.
   const LawModel truth = known_damper(law);
   LawRecovery recovery{.law = std::string(law.name)};
   for (const FitReport& fit : fits) {
     recovery.failed += fit.status == FitReport::Status::Failed;
     recovery.seconds += fit.seconds / static_cast<double>(fits.size());
   }
+
+  // Each coefficient that fits estimate, against the truth.
   for (std::size_t p = 0; p < law.params.size(); ++p) {
     if (law.params[p].fit == Fit::Bias || law.params[p].fit == Fit::Drive) continue;
     const Form form = truth.parameters().forms[p];
@@ -83,6 +91,8 @@ LawRecovery judge(const Law& law, const std::vector<FitReport>& fits) {
           .name = coefficient_name(law.params[p].name, form, c),
           .unit = coefficient_unit(law.params[p].unit, form, c, DriveUnit::Ampere),
           .truth = truth.parameters().coefficients[p][c]};
+
+      // The same coefficient by its name in all fits.
       std::vector<const FittedParameter*> found;
       for (const FitReport& fit : fits)
         for (const FittedParameter& fitted : fit.parameters)
@@ -144,9 +154,12 @@ BenchOptions recovery_bench(const RecoveryStudyOptions& options, int repetition)
 }
 
 std::vector<LawRecovery> study_recovery(const RecoveryStudyOptions& options) {
+  // The laws asked for; all where none is named.
   std::vector<const Law*> studied;
   for (const std::string& name : options.laws) studied.push_back(&find_law(name));
   if (studied.empty()) studied.assign(laws().begin(), laws().end());
+
+  // Every repetition of every law is a task of its own.
   const auto repetitions = static_cast<std::size_t>(options.repetitions);
   const std::size_t tasks = studied.size() * repetitions;
   std::vector<std::vector<FitReport>> fits(studied.size(), std::vector<FitReport>(repetitions));
@@ -157,6 +170,8 @@ std::vector<LawRecovery> study_recovery(const RecoveryStudyOptions& options) {
     options.monitor.report(std::string(studied[law]->name),
                            static_cast<double>(++done) / static_cast<double>(tasks));
   });
+
+  // Judged law by law, over all repetitions.
   std::vector<LawRecovery> recoveries;
   for (std::size_t law = 0; law < studied.size(); ++law)
     recoveries.push_back(judge(*studied[law], fits[law]));

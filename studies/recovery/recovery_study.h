@@ -9,7 +9,7 @@
 
 namespace dashpot {
 
-/// Whether the intervals of fits can be trusted: dampers with known parameters are recorded on the
+/// A test of the intervals that fits state: dampers with known parameters are recorded on the
 /// virtual bench and identified again and again, with other noise each time.
 struct RecoveryStudyOptions {
   std::vector<std::string> laws;  ///< empty: all
@@ -29,13 +29,14 @@ struct ParameterRecovery {
   double truth = 0;
   int counted = 0;   ///< repetitions in which the fit gave it an interval
   int inside = 0;    ///< of these, those whose interval holds the truth
-  int weak = 0;      ///< the fit said that these data do not tell it
+  int weak = 0;      ///< the fit stated that these data do not determine it
   int at_bound = 0;  ///< the fit ended at a bound, where no interval holds
   bool fixed = false;
   double bias = 0;    ///< mean of found - truth over the mean standard error
   double spread = 0;  ///< standard deviation of found over the mean standard error
 };
 
+/// All coefficients of a law that fits estimate.
 struct LawRecovery {
   std::string law;
   std::vector<ParameterRecovery> parameters;
@@ -54,6 +55,8 @@ LawModel known_damper(const Law& law);
 /// The motions, currents and sensors of the study.
 BenchOptions recovery_bench(const RecoveryStudyOptions& options, int repetition);
 
+/// One entry for each law. The same bits on any number of threads, but for the times. Throws Error
+/// on an unknown law, Interrupted when stopped.
 std::vector<LawRecovery> study_recovery(const RecoveryStudyOptions& options);
 
 }  // namespace dashpot

@@ -22,6 +22,7 @@ std::vector<Record> recorded(const DamperModel& damper, const std::vector<BenchT
 /// Fitted on the fold's training, judged on the rest.
 NetworkDamper identified(std::string name, std::string description, const Fold& fold,
                          std::uint64_t seed) {
+  // The paper's network as the one-sensor study fits it.
   const std::vector<StudiedModel> models = one_sensor_models();
   const auto wanted = std::ranges::find(models, kStatic, &StudiedModel::key);
   IdentifyOptions options;
@@ -30,12 +31,16 @@ NetworkDamper identified(std::string name, std::string description, const Fold& 
   const StudiedFit fit = studied_fit(*wanted, fold.training, options);
   const FitReport report = identify(wanted->model, fit.training, DriveUnit::Ampere, fit.options);
   const StudiedResult result = judge(report, fold, DriveUnit::Ampere);
+
+  // The span of the forces that judge it.
   double low = INFINITY, high = -INFINITY;
   for (const Record& record : fold.left_out) {
     const auto [least, greatest] = std::ranges::minmax_element(record.channel("force").samples);
     low = std::min(low, *least);
     high = std::max(high, *greatest);
   }
+
+  // The force that it shows at rest without current is taken off.
   return {.name = std::move(name),
           .description = std::move(description),
           .model = report.model->with_offset(-report.model->force({}, {})),
@@ -68,10 +73,12 @@ NetworkDamper identified_mr2(std::uint64_t seed) {
 }
 
 NetworkDamper identified_passive(double damping, std::uint64_t seed) {
+  // The factor that makes the curve damp as asked.
   const PassiveCurve curve = load_passive_curve("suv_front");
-  constexpr double kAmplitude = 0.02,
-                   kSpeed = 1;  // m, m/s: about the paper's chirp at the resonance
+  constexpr double kAmplitude = 0.02, kSpeed = 1;  // m, m/s: the paper's chirp at resonance, about
   const double factor = damping / equivalent_damping(curve, 0, kAmplitude, kSpeed);
+
+  // The scaled curve as a table over the bench's velocities.
   constexpr double kFastest = 1.6;  // m/s
   constexpr int kPoints = 64;
   std::vector<double> velocity, force;
@@ -80,6 +87,8 @@ NetworkDamper identified_passive(double damping, std::uint64_t seed) {
     force.push_back(factor * curve.force({0, velocity.back(), 0}, {}));
   }
   const PassiveCurve scaled("suv_front, scaled", velocity, force);
+
+  // Recorded twice, like MR2, and identified by the same network.
   const Fold fold{.name = scaled.name(),
                   .training = recorded(scaled, passive_tests(false, seed), 2 * seed),
                   .left_out = recorded(scaled, passive_tests(true, seed + 1000), 2 * seed + 1)};

@@ -1,12 +1,24 @@
 #pragma once
 #include <cstdint>
+#include <memory>
+#include <string>
 
-#include "studies/suspension/suspension_study.h"
+#include "dashpot/damper_model.h"
+#include "dashpot/evaluate.h"
 
-// The dampers of the suspension study.
+// The dampers of the suspension study: recorded on a virtual bench and identified anew.
 namespace dashpot {
 
-/// MR2, a virtual damper, by the paper's network.
+/// A damper that was recorded on the virtual bench and identified by the paper's network: v, i, ten
+/// neurons.
+struct NetworkDamper {
+  std::string name, description;
+  std::shared_ptr<const DamperModel> model;  ///< without force at rest
+  Metrics quality;                           ///< on recordings that the network has not seen
+  double half_span = 0;                      ///< N, of the forces there
+};
+
+/// MR2, a virtual damper, by the paper's network. The seed sets noise, motion and first weights.
 NetworkDamper identified_mr2(std::uint64_t seed);
 /// A production damper's curve, scaled until it damps like `damping`, N*s/m, at the wheel's
 /// resonance: along a sine of 20 mm at 1 m/s; by the same network.

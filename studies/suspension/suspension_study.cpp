@@ -16,8 +16,7 @@ namespace dashpot {
 namespace {
 
 constexpr const char* kPlant = "tudon_martinez2012";
-constexpr double kPassiveDamping =
-    1804;  // N*s/m: the paper's passive gain at the wheel's resonance
+constexpr double kPassiveDamping = 1804;  // N*s/m, for the paper's gain at the wheel's resonance
 constexpr double kCrossoverRatio = 1.75;  // of the body's resonance
 constexpr double kStepHeight = 0.03, kLargeChirp = 0.02, kSmallChirp = 0.002;  // m
 constexpr double kBand = 0.05;         // of settling, as a share of the peak
@@ -55,6 +54,7 @@ MountedDamper passive_damper(std::shared_ptr<const DamperModel> model) {
 std::string mix1(double crossover) { return "mix1,crossover=" + format_exact(crossover); }
 
 void add_schemes(SuspensionStudy& study, const PlantSet& set, double lag_rate) {
+  // Passive references: the identified curve and the linear damper.
   const auto add = [&](std::string key, std::string title, Vehicle vehicle, bool within) {
     study.schemes.push_back({std::move(key), std::move(title), std::move(vehicle), within});
   };
@@ -62,6 +62,8 @@ void add_schemes(SuspensionStudy& study, const PlantSet& set, double lag_rate) {
       make_car(set, passive_damper(study.passive.model), {}, ""), false);
   add("linear", "passive: linear, 1804 N*s/m",
       make_car(set, mounted(damping_range(kPassiveDamping, kPassiveDamping)), {}, ""), false);
+
+  // The identified damper with its coil's lag, under each controller.
   MountedDamper damper = passive_damper(study.damper.model);
   damper.driver = {.current_min = 0, .current_max = study.limits.current_max, .lag_rate = lag_rate};
   const auto controlled = [&](std::string key, std::string title, const std::string& law) {
@@ -74,9 +76,13 @@ void add_schemes(SuspensionStudy& study, const PlantSet& set, double lag_rate) {
   controlled("add", "ADD", "add");
   controlled("sh_add", "SH-ADD", "sh_add,crossover=" + format_exact(study.crossover));
   controlled("groundhook", "groundhook", "groundhook");
+
+  // Its two ends, without control.
   controlled("off", "MR2 at 0 A", "");
   controlled("on", "MR2 at 2.5 A", "");
   study.schemes.back().vehicle.dampers[0].current = study.limits.current_max;
+
+  // An ideal damper of a wide range.
   const ControlLimits soft{.damping_min = 900, .damping_max = 4300};
   add("ideal", "Mix-1-sensor, ideal damper 900 to 4300 N*s/m",
       make_car(set, mounted(damping_range(900, 4300)), soft, mix1(study.crossover)), false);
@@ -114,16 +120,21 @@ void read_chirp(SchemeRide& ride, const Vehicle& vehicle, const Monitor& monitor
 
 SchemeRide ride_of(const Vehicle& vehicle, const GroundMotion& road,
                    const SuspensionStudyOptions& options) {
+  // Gains at two amplitudes, since the damper is not linear.
   SchemeRide ride;
   ride.large = gains_by_chirp(vehicle, gain_frequencies(),
                               {.amplitude = kLargeChirp, .monitor = options.monitor});
   ride.small = gains_by_chirp(vehicle, gain_frequencies(),
                               {.amplitude = kSmallChirp, .monitor = options.monitor});
   read_chirp(ride, vehicle, options.monitor);
+
+  // The step, for its measures and its mean squares.
   const GroundPointer step = make_ground("step,height=3cm", 1);
   ride.step = run(vehicle, *step, options.step_duration, options.monitor, 4);
   read_step(ride);
   ride.on_step = ride_squares(ride.step, vehicle.set.plant);
+
+  // The road.
   ride.on_road = ride_squares(run(vehicle, road, options.road_duration, options.monitor, 4),
                               vehicle.set.plant);
   return ride;
@@ -131,11 +142,15 @@ SchemeRide ride_of(const Vehicle& vehicle, const GroundMotion& road,
 
 LeastDamping with_least(double least, const SuspensionStudy& study, const PlantSet& set,
                         const GroundMotion& road) {
+  // Ideal dampers from this least damping to the identified one's greatest, or a fifth
+  // above the least.
   const ControlLimits limits{.damping_min = least,
                              .damping_max = std::max(study.limits.damping_max, 1.2 * least)};
   const Vehicle vehicle =
       make_car(set, mounted(damping_range(limits.damping_min, limits.damping_max)), limits,
                mix1(study.crossover));
+
+  // The small chirp, on which the tyre stays on the road, the step and the road.
   const SuspensionStudyOptions& options = study.options;
   const std::vector<GainPoint> gains = gains_by_chirp(
       vehicle, gain_frequencies(), {.amplitude = kSmallChirp, .monitor = options.monitor});
@@ -199,11 +214,15 @@ SuspensionStudy study_suspension(const SuspensionStudyOptions& options) {
   const PlantSet set = load_plant_set(kPlant);
   const ParameterSet mr2 = load_parameter_set("mr2");
   SuspensionStudy study{.options = options, .plant = set.plant, .limits = {}};
+
+  // Both dampers, side by side.
   options.monitor.report("identify the dampers", 0);
   parallel_for(2, options.threads, [&](std::size_t k) {
     (k == 0 ? study.damper : study.passive) =
         k == 0 ? identified_mr2(options.seed) : identified_passive(kPassiveDamping, options.seed);
   });
+
+  // Limits and crossover of the controllers follow from the damper and the car.
   const ReferenceStroke stroke;
   const auto damping = [&](double current) {
     return equivalent_damping(*study.damper.model, current, stroke.amplitude, stroke.speed);
@@ -214,6 +233,7 @@ SuspensionStudy study_suspension(const SuspensionStudyOptions& options) {
   study.greatest_possible = kAnyDamping;
   add_schemes(study, set, mr2.model.lag_rate());
 
+  // Every scheme and every least damping is a drive of its own.
   const GroundPointer road = make_ground(kRoad, options.seed);
   study.road = road->description();
   study.rides.resize(study.schemes.size());
@@ -229,6 +249,8 @@ SuspensionStudy study_suspension(const SuspensionStudyOptions& options) {
     options.monitor.report("drive",
                            0.1 + 0.5 * static_cast<double>(++done) / static_cast<double>(all));
   });
+
+  // The bounds come last: they refer to the ride of the passive damper.
   options.monitor.report("bound what is possible", 0.6);
   add_bounds(study, *road);
   return study;

@@ -1,28 +1,18 @@
 #pragma once
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "dashpot/evaluate.h"
 #include "dashpot/monitor.h"
 #include "dashpot/suspension/ride/gain_curves.h"
 #include "dashpot/suspension/ride/ride_bound.h"
 #include "dashpot/vehicle.h"
+#include "studies/suspension/study_dampers.h"
 
 // The one-sensor paper's last section: its quarter car with the identified damper and Mix-1-sensor
 // control.
 namespace dashpot {
-
-/// A damper that was recorded on the virtual bench and identified by the paper's network: v, i, ten
-/// neurons.
-struct NetworkDamper {
-  std::string name, description;
-  std::shared_ptr<const DamperModel> model;  ///< without force at rest
-  Metrics quality;                           ///< on recordings that the network has not seen
-  double half_span = 0;                      ///< N, of the forces there
-};
 
 /// A suspension of the study: a damper with what drives it, in the paper's car.
 struct SuspensionScheme {
@@ -31,18 +21,17 @@ struct SuspensionScheme {
   bool within_range = false;  ///< its damper is the identified one: the bounds below hold for it
 };
 
-/// How a scheme rides.
+/// The ride of a scheme over chirp, step and road.
 struct SchemeRide {
   std::vector<GainPoint> large, small;  ///< on chirps of 2 cm, the paper's, and of 2 mm
-  double contact_lost = 0,
-         too_fast = 0;  ///< shares of the 2 cm chirp: tyre pulls; damper beyond its data
+  double contact_lost = 0;  ///< share of the 2 cm chirp in which the tyre pulls at the road
+  double too_fast = 0;      ///< share of it in which the damper is faster than on the bench
   Trace step;
-  StepMeasures comfort,
-      holding;  ///< of body acceleration, m/s^2, and tyre deflection, m, after the step
+  StepMeasures comfort, holding;  ///< of body acceleration, m/s^2; of tyre deflection, m
   RideSquares on_step, on_road;
 };
 
-/// Mix-1-sensor on ideal dampers whose least damping is this.
+/// The ride of Mix-1-sensor on ideal dampers of one least damping.
 struct LeastDamping {
   double least = 0;       ///< N*s/m
   double wheel_gain = 0;  ///< greatest gain of the tyre's deflection
@@ -50,6 +39,7 @@ struct LeastDamping {
   RideSquares on_step, on_road;
 };
 
+/// How the study is run.
 struct SuspensionStudyOptions {
   std::uint64_t seed = 1;
   int threads = 0;
@@ -58,6 +48,7 @@ struct SuspensionStudyOptions {
   Monitor monitor;
 };
 
+/// Everything that the page shows.
 struct SuspensionStudy {
   SuspensionStudyOptions options;
   std::string road;  ///< its description
@@ -77,13 +68,15 @@ struct SuspensionStudy {
 };
 
 /// Identifies the dampers, drives every scheme over chirp, step and road, sweeps the least damping,
-/// bounds what is possible. The same bits on any number of threads.
+/// bounds what is possible. The same bits on any number of threads. Throws Interrupted when
+/// stopped.
 SuspensionStudy study_suspension(const SuspensionStudyOptions& options);
 
 /// Greatest fundamental gain between two frequencies, Hz.
 double greatest_gain(const std::vector<GainPoint>& gains, Gain GainPoint::* signal, double from,
                      double to);
-/// Damping of a linear damper, N*s/m, whose greatest gain of the tyre's deflection is this.
+/// Damping of a linear damper, N*s/m, whose greatest gain of the tyre's deflection up to 20 Hz is
+/// `gain`; sought from 100 to 6000 N*s/m.
 double damping_for_wheel_gain(const Plant& plant, double gain);
 
 }  // namespace dashpot

@@ -1,4 +1,4 @@
-// Which of the one-sensor paper's claims on its suspension follow from its model.
+// The one-sensor paper's claims on its suspension, held against its own model.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -25,6 +25,7 @@ Reading gain(std::vector<GainPoint> SchemeRide::* chirp, Gain GainPoint::* signa
 }
 
 std::vector<Claim> claims_of(const SuspensionStudy& study) {
+  // A figure of both passive dampers and of Mix-1-sensor.
   const auto claim = [&](std::string words, std::string paper, double claimed, const Reading& read,
                          double least = NAN) {
     return Claim{std::move(words),
@@ -35,6 +36,8 @@ std::vector<Claim> claims_of(const SuspensionStudy& study) {
                  claimed,
                  least};
   };
+
+  // Gains on the chirps, then the step: only its root mean squares have a proven bound.
   const ClairvoyantBound &comfort = study.any_damper.front(), &holding = study.any_damper.back();
   return {claim("tyre's greatest gain, chirp of 2 cm", "40.4 % less", paper::kWheelGainLess,
                 gain(&SchemeRide::large, &GainPoint::tyre_deflection, 20)),
@@ -61,7 +64,7 @@ std::vector<Claim> claims_of(const SuspensionStudy& study) {
           })};
 }
 
-/// What becomes of the claim against one passive damper.
+/// The outcome of a claim against one passive damper.
 enum class Outcome { Opposite, Nothing, Less, Follows };
 Outcome outcome(const Claim& claim, double passive) {
   const double less = less_percent(passive, claim.ours);
@@ -70,8 +73,11 @@ Outcome outcome(const Claim& claim, double passive) {
 }
 
 std::string judgement(const Claim& claim) {
+  // The bound rules it out even from the worse of the passive dampers.
   if (claim.claimed > less_percent(std::max(claim.curve, claim.linear), claim.least))
     return "no damper can do it";
+
+  // Both passive dampers must agree on what becomes of the claim.
   const Outcome curve = outcome(claim, claim.curve), linear = outcome(claim, claim.linear);
   if (curve != linear) return "depends on the passive damper";
   switch (curve) {
@@ -91,6 +97,8 @@ std::string judgement(const Claim& claim) {
 
 DocumentSection claims_section(const SuspensionStudy& study) {
   DocumentSection section{"claims", "Which claims follow", {}};
+
+  // A row for each claim, judged against both passive dampers.
   DocumentTable table{"Mix-1-sensor against passive",
                       {{"Claim", false, 0, true},
                        {"The paper", false},
@@ -102,25 +110,31 @@ DocumentSection claims_section(const SuspensionStudy& study) {
                        {"Any damper, least", true, 2},
                        {"Judgement", false}},
                       {}};
+
+  // The figures, the improvement on each, the bound and the judgement.
   for (const Claim& claim : claims_of(study))
     table.rows.push_back({claim.words, claim.paper, number_text(claim.curve, 4),
                           number_text(claim.linear, 4), number_text(claim.ours, 4),
                           whole_text(less_percent(claim.curve, claim.ours)),
                           whole_text(less_percent(claim.linear, claim.ours)),
                           number_text(claim.least, 4), judgement(claim)});
+
+  // The note explains what "any damper" means.
   table.note = fmt::format(
       "Any damper, least: the proven bound for any damping up to {} N*s/m that knew the step. No "
-      "damper can "
-      "do it: even from the worse of the two passive dampers the bound is not so far down.",
+      "damper can do it: even from the worse of the two passive dampers the bound is not so far "
+      "down.",
       number_text(study.greatest_possible, 5));
   section.tables.push_back(std::move(table));
+
+  // Limits of the judgement.
   section.remarks = {
       "The paper's passive damper is known by one figure only, the gain of 3.36 at the wheel's "
-      "resonance; "
-      "against a worse one every improvement is larger. What is said here holds against these two.",
+      "resonance; against a worse one every improvement is larger. What is said here holds against "
+      "these two.",
       "MR2 here is a virtual damper, shaped after the paper's words: orderings can be compared, "
-      "sizes "
-      "cannot. The sweep of the least damping and the bound for any damper do not rest on it.",
+      "sizes cannot. The sweep of the least damping and the bound for any damper do not rest on "
+      "it.",
       "The crossover of Mix-1-sensor is not printed either: here it is 1.75 times the body's "
       "resonance."};
   return section;

@@ -22,22 +22,22 @@ FigureSeries force_curve(const DamperModel& model, double current, const std::st
 }
 
 std::string verdict_of(const SuspensionStudy& study) {
+  // Mix-1-sensor against the linear damper; the bound is for any damper on the step.
   const SchemeRide &linear = study.rides[study.place("linear")],
                    &mix1 = study.rides[study.place("mix1")];
   const ClairvoyantBound& holding = study.any_damper.back();
   const auto tyre = [](const SchemeRide& ride) {
     return greatest_gain(ride.large, &GainPoint::tyre_deflection, 0.5, 20);
   };
+
+  // The least damping that the claim needs, and whether the other claim can be reached at all.
   const double needed = least_damping_for(study, paper::kWheelGain);
   return fmt::format(
       "Mix-1-sensor with the identified damper against the linear damper that has the paper's "
-      "passive gain: "
-      "at the wheel's resonance the tyre's gain {} (the paper: by 40.4 %), on the road the tyre's "
-      "force {} "
-      "and "
-      "the body's acceleration {}. Those 40.4 % need a damper whose least damping is {}. The 64.9 "
-      "% of road "
-      "holding after a step {}. MR2 here is a virtual damper, shaped after the paper's words.",
+      "passive gain: at the wheel's resonance the tyre's gain {} (the paper: by 40.4 %), on the "
+      "road the tyre's force {} and the body's acceleration {}. Those 40.4 % need a damper whose "
+      "least damping is {}. The 64.9 % of road holding after a step {}. MR2 here is a virtual "
+      "damper, shaped after the paper's words.",
       change_words(tyre(linear), tyre(mix1)),
       change_words(std::sqrt(linear.on_road.tyre_force), std::sqrt(mix1.on_road.tyre_force)),
       change_words(std::sqrt(linear.on_road.acceleration), std::sqrt(mix1.on_road.acceleration)),
@@ -66,36 +66,33 @@ std::string change_words(double from, double to) {
 
 DocumentSection suspension_protocol(const SuspensionStudy& study) {
   DocumentSection section{"protocol", "How it was done", {}};
+
+  // The paper's task, the damper and its control, the passive damper, the inputs.
   section.paragraphs = {
       "The paper (MR Damper Identification using ANN based on 1-Sensor) closes with a quarter car, "
-      "its "
-      "equations 3 and 4 with table 7, whose damper is the network that it identified, under "
-      "Mix-1-sensor "
-      "control, against a passive damper identified by the same technique. Its figures and table "
-      "stand "
-      "beside ours.",
+      "its equations 3 and 4 with table 7, whose damper is the network that it identified, under "
+      "Mix-1-sensor control, against a passive damper identified by the same technique. Its "
+      "figures and table stand beside ours.",
       fmt::format(
           "The damper is MR2, a virtual one, recorded in the paper's five experiments on a virtual "
           "bench and identified by its network: velocity and current, ten neurons. Its coil lags "
-          "by "
-          "10 ms. Mix-1-sensor and the other two-level laws switch between 0 and 2.5 A at 1 kHz; "
-          "the "
-          "crossover is {} Hz, 1.75 times the body's resonance.",
+          "by 10 ms. Mix-1-sensor and the other two-level laws switch between 0 and 2.5 A at 1 "
+          "kHz; the crossover is {} Hz, 1.75 times the body's resonance.",
           number_text(study.crossover)),
       "The passive damper is not printed. Here it is the " + study.passive.description +
           ", recorded in the first two experiments and identified like MR2. 1804 N*s/m is the "
-          "linear damper "
-          "with the paper's passive gain "
-          "at the wheel's resonance; it stands as a row of its own.",
-      fmt::format(
-          "Inputs: a chirp of 2 cm from 0.5 to 20 Hz and a step of 3 cm, as in the paper, and {}. "
-          "The clairvoyant bound and optimum are explained in docs/bound.md.",
-          study.road)};
+          "linear damper with the paper's passive gain at the wheel's resonance; it stands as a "
+          "row of its own.",
+      fmt::format("Inputs: a chirp of 2 cm from 0.5 to 20 Hz and a step of 3 cm, as in the paper, "
+                  "and {}. The clairvoyant bound and optimum are explained in docs/bound.md.",
+                  study.road)};
   return section;
 }
 
 DocumentSection suspension_dampers(const SuspensionStudy& study) {
   DocumentSection section{"dampers", "The dampers", {}};
+
+  // The quality of both networks on recordings left out.
   DocumentTable table{"The networks on recordings that they have not seen",
                       {{"Damper", false, 0, true},
                        {"RMS, N", true},
@@ -108,12 +105,15 @@ DocumentSection suspension_dampers(const SuspensionStudy& study) {
                           number_text(100 * damper->quality.rmse / damper->half_span),
                           number_text(damper->quality.esr),
                           std::to_string(damper->model->parameter_count())});
+
+  // The identified damper's damping at the ends of its current.
   table.note = fmt::format(
       "Along a sine of 20 mm at 0.2 m/s MR2 damps like {} N*s/m at 0 A and {} N*s/m at 2.5 A. The "
-      "force that "
-      "a network shows at rest without current was taken off.",
+      "force that a network shows at rest without current was taken off.",
       number_text(study.limits.damping_min, 4), number_text(study.limits.damping_max, 4));
   section.tables.push_back(std::move(table));
+
+  // The curves that the car is driven with.
   section.figures.push_back(
       {.name = "dampers",
        .title = "Force over velocity",
@@ -141,6 +141,7 @@ Document suspension_study_document(const SuspensionStudy& study) {
 }
 
 Value suspension_study_json(const SuspensionStudy& study) {
+  // Every scheme with its gains, shares of the chirp, step measures and mean squares.
   Value schemes = Value::array();
   for (std::size_t k = 0; k < study.rides.size(); ++k) {
     const SchemeRide& ride = study.rides[k];
@@ -161,6 +162,8 @@ Value suspension_study_json(const SuspensionStudy& study) {
                        {"step", squares_json(ride.on_step)},
                        {"road", squares_json(ride.on_road)}}));
   }
+
+  // The sweep of the least damping.
   Value sweep = Value::array();
   for (const LeastDamping& one : study.least_damping)
     sweep.push_back(Value::object({{"least_damping", one.least},
@@ -168,6 +171,8 @@ Value suspension_study_json(const SuspensionStudy& study) {
                                    {"body_gain", one.body_gain},
                                    {"step", squares_json(one.on_step)},
                                    {"road", squares_json(one.on_road)}}));
+
+  // Settings, both lists and the three fronts.
   return Value::object({{"road", study.road},
                         {"crossover", study.crossover},
                         {"damping_min", study.limits.damping_min},

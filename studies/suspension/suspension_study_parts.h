@@ -9,7 +9,7 @@
 // The parts of the page of the suspension study.
 namespace dashpot {
 
-/// What the paper prints of its suspension.
+/// The figures that the paper prints of its suspension.
 namespace paper {
 inline constexpr double kWheelGain = 2.0, kWheelGainLess = 40.4;  // 1; %
 inline constexpr double kWheelGainLimit = 2.5;
@@ -35,8 +35,8 @@ DocumentSection possible_section(const SuspensionStudy& study);
 DocumentSection least_damping_section(const SuspensionStudy& study);
 DocumentSection claims_section(const SuspensionStudy& study);
 
-/// N*s/m from which on Mix-1-sensor makes the wheel's gain this much less than a gain; 0: none of
-/// the sweep.
+/// Least damping, N*s/m, from which on Mix-1-sensor keeps the wheel's gain at or below
+/// `wheel_gain`; 0: none of the sweep does.
 double least_damping_for(const SuspensionStudy& study, double wheel_gain);
 
 }  // namespace dashpot

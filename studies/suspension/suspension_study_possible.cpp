@@ -1,4 +1,4 @@
-// What is possible at best, and what the least damping would have to be.
+// Bounds on the ride, and the least damping that the paper's claim needs.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -31,6 +31,7 @@ double unit_of(const ClairvoyantBound& best) {
 }
 
 DocumentTable bound_table(const SuspensionStudy& study) {
+  // Comfort alone, both alike and road holding alone, of each front.
   DocumentTable table{
       "Bound and optimum, root mean squares",
       {{"Index", false, 0, true}, {"Proven bound", true}, {"Reached", true}, {"Gap, %", true}},
@@ -42,14 +43,16 @@ DocumentTable bound_table(const SuspensionStudy& study) {
     for (const auto& [name, k] : shown)
       table.rows.push_back(front_row(where + ": " + name, front[k], unit_of(front[k])));
   };
+
+  // The identified damper on both inputs, and any damping on the step.
   add("road, this damper", study.road_front);
   add("step, this damper", study.step_front);
   add(fmt::format("step, any damping to {} N*s/m", number_text(study.greatest_possible, 5)),
       study.any_damper);
   table.note =
       "Proven: no force within the damper's range does better, whatever made it. Reached: "
-      "simulated, by "
-      "demands that were found knowing the road. The truth about the best lies between.";
+      "simulated, by demands that were found knowing the road. The truth about the best lies "
+      "between.";
   return table;
 }
 
@@ -64,8 +67,12 @@ DocumentTable share_table(const SuspensionStudy& study, const std::string& title
                        {"Both, over passive", true, 2},
                        {"% of possible", true, 2}},
                       {}};
+
+  // Shares between the same damper at 0 A and the best that knew the road.
   const RideSquares& off = study.rides[study.place("off")].*where;
   const ClairvoyantBound &comfort = front.front(), &both = front[kMiddle], &holding = front.back();
+
+  // Only schemes with that damper have such shares.
   const auto add = [&](const std::string& name, const RideSquares& squares, bool within) {
     const auto share = [&](const ClairvoyantBound& best) {
       return within ? possible_text(best, off, squares) : "-";
@@ -74,6 +81,8 @@ DocumentTable share_table(const SuspensionStudy& study, const std::string& title
                           whole_text(std::sqrt(squares.tyre_force)), share(holding),
                           number_text(root_of(both.index, squares)), share(both)});
   };
+
+  // Every scheme, then the optima themselves.
   for (std::size_t k = 0; k < study.rides.size(); ++k)
     add(study.schemes[k].title, study.rides[k].*where, study.schemes[k].within_range);
   add("knew the road: best for comfort", comfort.squares, true);
@@ -81,9 +90,8 @@ DocumentTable share_table(const SuspensionStudy& study, const std::string& title
   add("knew the road: best for holding", holding.squares, true);
   table.note =
       "% of possible = (off - controller) / (off - optimum), of root mean squares, off being the "
-      "same damper "
-      "at 0 A; - where the damper is another one. Both: the two mean squares, each over that of "
-      "passive.";
+      "same damper at 0 A; - where the damper is another one. Both: the two mean squares, each "
+      "over that of passive.";
   return table;
 }
 
@@ -108,6 +116,8 @@ DocumentFigure front_figure(const SuspensionStudy& study) {
                     .x_label = "body acceleration, rms, m/s^2",
                     .y_label = "tyre force, rms, N",
                     .series = {}};
+
+  // The front of the road, bound and optimum, and a point for each scheme.
   panel.series = front_lines(study.road_front, {1, 1});
   for (std::size_t k = 0; k < study.rides.size(); ++k) {
     FigureSeries point = look_of(study.schemes[k]);
@@ -115,6 +125,8 @@ DocumentFigure front_figure(const SuspensionStudy& study) {
     point.y = {std::sqrt(study.rides[k].on_road.tyre_force)};
     panel.series.push_back(std::move(point));
   }
+
+  // The caption says to which damper the bound belongs.
   return {.name = "front",
           .title = "Comfort against road holding",
           .caption =
@@ -123,7 +135,7 @@ DocumentFigure front_figure(const SuspensionStudy& study) {
           .panels = {std::move(panel)}};
 }
 
-/// Of the damper's schemes on the road the one with the least index.
+/// The ride with the least index among the damper's own schemes on the road.
 RideSquares best_within(const SuspensionStudy& study, const ClairvoyantBound& index) {
   RideSquares best = study.rides[study.place("off")].on_road;
   for (std::size_t k = 0; k < study.rides.size(); ++k)
@@ -137,44 +149,43 @@ RideSquares best_within(const SuspensionStudy& study, const ClairvoyantBound& in
 
 DocumentSection possible_section(const SuspensionStudy& study) {
   DocumentSection section{"possible", "What is possible at best", {}};
+
+  // The ends of the front on the road, and how far controllers come towards them.
   const SchemeRide &passive = study.rides.front(), &mix1 = study.rides[study.place("mix1")],
                    &off = study.rides[study.place("off")];
   const ClairvoyantBound &comfort = study.road_front.front(), &holding = study.road_front.back();
   const auto reached = [&](const RideSquares& squares, const ClairvoyantBound& best) {
     return possible_text(best, off.on_road, squares);
   };
-  section.paragraphs.push_back(
-      fmt::format("On {} the least body acceleration that this damper could give, had it known the "
-                  "road, lies between {} "
-                  "and {} m/s^2 (at 0 A it gives {}, the passive damper {}), the least tyre force "
-                  "between {} and {} N "
-                  "(at "
-                  "0 A {}, passive {}). Of what is possible beyond 0 A Mix-1-sensor reaches {} % "
-                  "for comfort and {} % "
-                  "for "
-                  "road holding, the best controllers {} and {} %.",
-                  study.road, number_text(std::sqrt(comfort.bound) * unit_of(comfort)),
-                  number_text(std::sqrt(comfort.optimum) * unit_of(comfort)),
-                  number_text(std::sqrt(off.on_road.acceleration)),
-                  number_text(std::sqrt(passive.on_road.acceleration)),
-                  whole_text(std::sqrt(holding.bound) * unit_of(holding)),
-                  whole_text(std::sqrt(holding.optimum) * unit_of(holding)),
-                  whole_text(std::sqrt(off.on_road.tyre_force)),
-                  whole_text(std::sqrt(passive.on_road.tyre_force)), reached(mix1.on_road, comfort),
-                  reached(mix1.on_road, holding), reached(best_within(study, comfort), comfort),
-                  reached(best_within(study, holding), holding)));
+  section.paragraphs.push_back(fmt::format(
+      "On {} the least body acceleration that this damper could give, had it known the road, lies "
+      "between {} and {} m/s^2 (at 0 A it gives {}, the passive damper {}), the least tyre force "
+      "between {} and {} N (at 0 A {}, passive {}). Of what is possible beyond 0 A Mix-1-sensor "
+      "reaches {} % for comfort and {} % for road holding, the best controllers {} and {} %.",
+      study.road, number_text(std::sqrt(comfort.bound) * unit_of(comfort)),
+      number_text(std::sqrt(comfort.optimum) * unit_of(comfort)),
+      number_text(std::sqrt(off.on_road.acceleration)),
+      number_text(std::sqrt(passive.on_road.acceleration)),
+      whole_text(std::sqrt(holding.bound) * unit_of(holding)),
+      whole_text(std::sqrt(holding.optimum) * unit_of(holding)),
+      whole_text(std::sqrt(off.on_road.tyre_force)),
+      whole_text(std::sqrt(passive.on_road.tyre_force)), reached(mix1.on_road, comfort),
+      reached(mix1.on_road, holding), reached(best_within(study, comfort), comfort),
+      reached(best_within(study, holding), holding)));
+
+  // Bounds, shares on both inputs, and the front as a figure.
   section.tables.push_back(bound_table(study));
   section.tables.push_back(
       share_table(study, "On the road", study.road_front, &SchemeRide::on_road));
   section.tables.push_back(
       share_table(study, "On the step", study.step_front, &SchemeRide::on_step));
   section.figures.push_back(front_figure(study));
+
+  // A reason for the gap between bound and optimum.
   section.remarks.push_back(
       "The range is the network's own, from its least to its greatest force over all currents at "
-      "each "
-      "velocity, in proportion beyond 1.5 m/s. It is lopsided and bent; the quadratic limits of "
-      "the proof "
-      "hold it in with room to spare, which is part of the gap.");
+      "each velocity, in proportion beyond 1.5 m/s. It is lopsided and bent; the quadratic limits "
+      "of the proof hold it in with room to spare, which is part of the gap.");
   return section;
 }
 
@@ -192,23 +203,27 @@ double least_damping_for(const SuspensionStudy& study, double wheel_gain) {
 
 DocumentSection least_damping_section(const SuspensionStudy& study) {
   DocumentSection section{"least-damping", "Which least damping the paper's claim needs", {}};
+
+  // The least damping for the paper's gain and for its limit, read from the sweep.
   const double needed = least_damping_for(study, paper::kWheelGain),
                limit = least_damping_for(study, paper::kWheelGainLimit);
   const auto text = [](double damping) {
     return damping > 0 ? number_text(std::round(damping), 4) + " N*s/m" : "more than the sweep has";
   };
-  section.paragraphs.push_back(fmt::format(
-      "At the wheel's resonance Mix-1-sensor asks for the least damping nearly all the time, so "
-      "the least "
-      "damping alone decides on the tyre's gain there. A linear damper gives the paper's passive "
-      "gain of "
-      "3.36 with {} N*s/m, its limit of 2.5 with {}, its 2.0 with {}. Mix-1-sensor gives 2.5 from "
-      "a least "
-      "damping of {} on, and 2.0 from {} on: twice the passive damper's, with the current off.",
-      number_text(damping_for_wheel_gain(study.plant, 3.3557), 4),
-      number_text(damping_for_wheel_gain(study.plant, paper::kWheelGainLimit), 4),
-      number_text(damping_for_wheel_gain(study.plant, paper::kWheelGain), 4), text(limit),
-      text(needed)));
+
+  // The same gains by linear dampers, for comparison.
+  section.paragraphs.push_back(
+      fmt::format("At the wheel's resonance Mix-1-sensor asks for the least damping nearly all the "
+                  "time, so the least damping alone decides on the tyre's gain there. A linear "
+                  "damper gives the paper's passive gain of 3.36 with {} N*s/m, its limit of 2.5 "
+                  "with {}, its 2.0 with {}. Mix-1-sensor gives 2.5 from a least damping of {} on, "
+                  "and 2.0 from {} on: twice the passive damper's, with the current off.",
+                  number_text(damping_for_wheel_gain(study.plant, 3.3557), 4),
+                  number_text(damping_for_wheel_gain(study.plant, paper::kWheelGainLimit), 4),
+                  number_text(damping_for_wheel_gain(study.plant, paper::kWheelGain), 4),
+                  text(limit), text(needed)));
+
+  // The sweep as a table and as curves: gains and mean squares against the linear damper.
   DocumentTable table{"Mix-1-sensor on ideal dampers",
                       {{"Least damping, N*s/m", true},
                        {"Tyre's greatest gain", true},
@@ -231,6 +246,8 @@ DocumentSection least_damping_section(const SuspensionStudy& study) {
   const auto less = [](double from, double to) {
     return less_percent(std::sqrt(from), std::sqrt(to));
   };
+
+  // Four values make the curves; the table has further ones.
   for (const LeastDamping& one : study.least_damping) {
     const double values[] = {
         less_percent(paper::kWheelGain / (1 - paper::kWheelGainLess / 100), one.wheel_gain),
@@ -246,6 +263,8 @@ DocumentSection least_damping_section(const SuspensionStudy& study) {
       panel.series[k].y.push_back(values[k]);
     }
   }
+
+  // The paper's claim as a line across the figure.
   table.note = "Against the linear damper of 1804 N*s/m; below 0: worse than passive.";
   panel.series.push_back(
       {.label = "the paper's 40.4 %",
@@ -257,13 +276,13 @@ DocumentSection least_damping_section(const SuspensionStudy& study) {
   section.figures.push_back(
       {.name = "least-damping",
        .title = "What Mix-1-sensor gains by the least damping",
-       .caption = "Greatest damping as the identified damper's, or a fifth above the "
-                  "least.",
+       .caption = "Greatest damping as the identified damper's, or a fifth above the least.",
        .panels = {std::move(panel)}});
+
+  // The comfort that such a damper gives up.
   section.remarks.push_back(
       "A damper so stiff without current gives up the comfort that it is controlled for: the "
-      "claims of more "
-      "comfort and of 40.4 % at the wheel's resonance do not go together here.");
+      "claims of more comfort and of 40.4 % at the wheel's resonance do not go together here.");
   return section;
 }
 

@@ -52,6 +52,8 @@ DocumentTable gain_table(const SuspensionStudy& study) {
                        {"Tyre pulls, % of the time", true, 3},
                        {"Damper beyond its data, %", true, 4}},
                       {}};
+
+  // The body's gain in the paper's comfort band, the tyre's over all frequencies.
   const auto body = [](const SchemeRide& r) {
     return greatest_gain(r.large, &GainPoint::body_acceleration, kFrom, kComfortBand);
   };
@@ -61,6 +63,8 @@ DocumentTable gain_table(const SuspensionStudy& study) {
   const auto small = [](const SchemeRide& r) {
     return greatest_gain(r.small, &GainPoint::tyre_deflection, kFrom, kTo);
   };
+
+  // Each scheme, and by how much less than passive it is.
   const SchemeRide& passive = study.rides.front();
   for (std::size_t k = 0; k < study.rides.size(); ++k) {
     const SchemeRide& ride = study.rides[k];
@@ -73,8 +77,7 @@ DocumentTable gain_table(const SuspensionStudy& study) {
   }
   table.note =
       "Fundamental gains, read over four periods along an exponential chirp. The paper: tyre 2.0 "
-      "controlled, "
-      "40.4 % less than passive, so 3.36 passive.";
+      "controlled, 40.4 % less than passive, so 3.36 passive.";
   return table;
 }
 
@@ -83,6 +86,7 @@ FigurePanel step_panel(const SuspensionStudy& study, const std::string& channel,
   FigurePanel panel{.title = title, .x_label = "time, s", .y_label = label, .series = {}};
   constexpr std::size_t kPoints = 1500;
   for (std::size_t k = 0; k < kDrawn.size(); ++k) {
+    // Each scheme for two seconds after the step, as many points as print can show.
     const std::size_t place = study.place(kDrawn[k]);
     const Record& record = study.rides[place].step.record;
     const std::vector<double>& samples = record.channel(channel).samples;
@@ -116,6 +120,8 @@ DocumentTable step_table(const SuspensionStudy& study) {
                        {"Tyre force rms, N", true, 3},
                        {"less, %", true, 3}},
                       {}};
+
+  // The paper's two rows; it prints improvements instead of root mean squares.
   const auto printed = [&](const std::string& name, const paper::StepRow& comfort,
                            const paper::StepRow& holding, const std::string& body_less,
                            const std::string& tyre_less) {
@@ -127,6 +133,8 @@ DocumentTable step_table(const SuspensionStudy& study) {
   printed("the paper, semi-active", paper::kComfort, paper::kHolding,
           number_text(paper::kComfortRmsLess), number_text(paper::kHoldingRmsLess));
   printed("the paper, passive", paper::kComfortPassive, paper::kHoldingPassive, "0", "0");
+
+  // Each scheme, its root mean squares against the identified passive damper.
   const RideSquares& passive = study.rides.front().on_step;
   for (std::size_t k = 0; k < study.rides.size(); ++k) {
     const SchemeRide& ride = study.rides[k];
@@ -142,10 +150,8 @@ DocumentTable step_table(const SuspensionStudy& study) {
   }
   table.note = fmt::format(
       "Settled: within 5 % of the acceleration's peak, of the step's height. Decay ratio: second "
-      "positive "
-      "peak over the first. Root mean squares over {} s. The paper prints the accelerations in "
-      "m/s^0.5: they "
-      "are m/s^2.",
+      "positive peak over the first. Root mean squares over {} s. The paper prints the "
+      "accelerations in m/s^0.5: they are m/s^2.",
       number_text(study.options.step_duration));
   return table;
 }
@@ -154,6 +160,8 @@ DocumentTable step_table(const SuspensionStudy& study) {
 
 DocumentSection frequency_section(const SuspensionStudy& study) {
   DocumentSection section{"figure-12", "Figure 12: frequency response", {}};
+
+  // The paper's claims on both gains, on its own chirp of 2 cm.
   const SchemeRide &passive = study.rides.front(), &mix1 = study.rides[study.place("mix1")];
   const auto tyre = [](const std::vector<GainPoint>& gains) {
     return greatest_gain(gains, &GainPoint::tyre_deflection, kFrom, kTo);
@@ -170,8 +178,9 @@ DocumentSection frequency_section(const SuspensionStudy& study) {
       tyre(mix1.large) <= paper::kWheelGainLimit ? "kept" : "not kept"));
   section.paragraphs.push_back(
       "The paper calls its curves power spectral densities; they are gains, greatest output over "
-      "input at a "
-      "frequency, and so are these.");
+      "input at a frequency, and so are these.");
+
+  // The gains of all schemes, then the figure with the paper's limits.
   section.tables.push_back(gain_table(study));
   DocumentFigure figure{
       .name = "figure-12",
@@ -186,31 +195,35 @@ DocumentSection frequency_section(const SuspensionStudy& study) {
   figure.panels[1].series.push_back(limit_line("the paper's limits", {kFrom, kTo},
                                                {paper::kWheelGainLimit, paper::kWheelGainLimit}));
   section.figures.push_back(std::move(figure));
+
+  // Deflection at rest and at the resonance, mm: the tyre would leave the road.
   const Tyre& wheel = study.plant.tyres.front();
   const double rest = 1000 * wheel.static_load / wheel.stiffness, swing = 20 * tyre(mix1.large);
   section.remarks.push_back(
       fmt::format("With 2 cm the tyre's deflection swings by {} mm at the wheel's resonance, and "
-                  "at rest it is {} mm: "
-                  "the tyre would leave the road. The paper's model, and this one, let it pull. At "
-                  "2 mm it stays on it.",
+                  "at rest it is {} mm: the tyre would leave the road. The paper's model, and this "
+                  "one, let it pull. At 2 mm it stays on it.",
                   number_text(swing), number_text(rest)));
   section.remarks.push_back(
       "The identified damper is not linear, so its gains depend on the amplitude; the bench "
-      "reached 1.5 m/s, "
-      "and where the table says that a damper is faster, its network extrapolates.");
+      "reached 1.5 m/s, and where the table says that a damper is faster, its network "
+      "extrapolates.");
   return section;
 }
 
 DocumentSection step_section(const SuspensionStudy& study) {
   DocumentSection section{"figure-13", "Figure 13 and table 8: a step of 3 cm", {}};
+
+  // The change of both root mean squares, beside the paper's.
   const RideSquares &passive = study.rides.front().on_step,
                     &mix1 = study.rides[study.place("mix1")].on_step;
-  section.paragraphs.push_back(
-      fmt::format("The body's acceleration under Mix-1-sensor {} in root mean square (the paper: "
-                  "falls by 7.4 %), the "
-                  "tyre's force {} (the paper: 'road holding' improves by 64.9 %).",
-                  change_words(std::sqrt(passive.acceleration), std::sqrt(mix1.acceleration)),
-                  change_words(std::sqrt(passive.tyre_force), std::sqrt(mix1.tyre_force))));
+  section.paragraphs.push_back(fmt::format(
+      "The body's acceleration under Mix-1-sensor {} in root mean square (the paper: falls by 7.4 "
+      "%), the tyre's force {} (the paper: 'road holding' improves by 64.9 %).",
+      change_words(std::sqrt(passive.acceleration), std::sqrt(mix1.acceleration)),
+      change_words(std::sqrt(passive.tyre_force), std::sqrt(mix1.tyre_force))));
+
+  // Table 8, and the figure behind it.
   section.tables.push_back(step_table(study));
   section.figures.push_back(
       {.name = "figure-13",
@@ -219,15 +232,16 @@ DocumentSection step_section(const SuspensionStudy& study) {
        .panels = {
            step_panel(study, "body_acceleration", 1, "Comfort", "body acceleration, m/s^2"),
            step_panel(study, "tyre_deflection", 100, "Road holding", "tyre deflection, cm")}});
+
+  // Figures of table 8 that do not follow from the paper's model or its text.
   section.remarks.push_back(
       "The tyre's deflection begins at -3.0 cm, the step itself, and nothing in equations 3 and 4 "
-      "takes it "
-      "further: table 8's -3.8 and -4.5 cm need another step, or mean something else by "
+      "takes it further: table 8's -3.8 and -4.5 cm need another step, or mean something else by "
       "deviation.");
   section.remarks.push_back(
       "The figures of table 8 themselves: settling 62.5 and 64.7 % shorter, decay ratio 53.3 % "
-      "less, "
-      "deviation 8.9 % less of the body and 15.6 % of the tyre, where the text says about 10 %.");
+      "less, deviation 8.9 % less of the body and 15.6 % of the tyre, where the text says about 10 "
+      "%.");
   return section;
 }
 

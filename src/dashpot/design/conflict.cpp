@@ -18,7 +18,7 @@ bool can_hold(const DesignProblem& problem, const std::vector<bool>& counted,
   return optimum.violation == 0;
 }
 
-/// What a constraint reaches at best while the other members hold, and where.
+/// The best figure of a constraint while the other members hold, and its place.
 Optimum best_of(const DesignProblem& problem, std::size_t constraint, OptimiseOptions options) {
   DesignRequest asked = problem.request();
   const DesignConstraint& own = asked.constraints[constraint];
@@ -39,8 +39,8 @@ std::vector<bool> first_members(const DesignProblem& problem, const OptimiseOpti
   return can_hold(problem, near, options, conflict) ? std::vector<bool>(near.size(), true) : near;
 }
 
-void tell_reached(const DesignProblem& problem, const std::vector<bool>& counted,
-                  OptimiseOptions options, Conflict& conflict) {
+void add_reached(const DesignProblem& problem, const std::vector<bool>& counted,
+                 OptimiseOptions options, Conflict& conflict) {
   options.counted = counted;
   for (const std::size_t k : conflict.members) {
     const Optimum optimum = best_of(problem, k, options);
@@ -63,13 +63,19 @@ Conflict find_conflict(const DesignProblem& problem, const Optimum& found,
   const std::size_t count = problem.request().constraints.size();
   Conflict conflict;
   conflict.nearest = found;
+
+  // Many searches follow, each for something easier than the whole.
   OptimiseOptions options = asked;  // many searches, each for what is easier than the whole
   options.starts = 4;
   options.evaluations = 250;
+
+  // With no constraint counted, only dampers that cannot be drawn stand in the way.
   if (!can_hold(problem, std::vector<bool>(count, false), options, conflict)) {
     conflict.undrawable = !conflict.stopped;
     return conflict;
   }
+
+  // The deletion filter: a constraint goes for good where the rest conflict without it.
   std::vector<bool> counted = first_members(problem, options, conflict);
   for (std::size_t k = 0; k < count && !conflict.stopped; ++k) {
     if (!counted[k]) continue;
@@ -79,9 +85,11 @@ Conflict find_conflict(const DesignProblem& problem, const Optimum& found,
     counted[k] = false;
     if (can_hold(problem, counted, options, conflict)) counted[k] = true;
   }
+
+  // Each constraint that is left is needed for the conflict. How far could each come?
   for (std::size_t k = 0; k < count; ++k)
     if (counted[k]) conflict.members.push_back(k);
-  tell_reached(problem, counted, options, conflict);
+  add_reached(problem, counted, options, conflict);
   return conflict;
 }
 

@@ -6,15 +6,16 @@
 
 namespace dashpot {
 
-/// Why a request has no design.
+/// Why a request has no design. Figures in SI, in the unit of their constraint's quantity.
 struct Conflict {
   bool undrawable = false;  ///< no damper of the ranges can be drawn, whatever is asked of it
   /// Indices of constraints that cannot hold together, while any one less can.
   std::vector<std::size_t> members;
-  /// What each member reaches at best while the other members hold.
+  /// The best figure of each member while the other members hold; NaN where none was found.
   std::vector<double> reached;
-  std::vector<double> design;  ///< a place that holds all constraints after all, found on the way
-  Optimum nearest;             ///< the place of least violation of all constraints
+  /// Place of the unit cube that holds all constraints after all, found on the way; else empty.
+  std::vector<double> design;
+  Optimum nearest;  ///< the place of least violation of all constraints
   std::size_t evaluations = 0;
   bool stopped = false;  ///< the user asked to stop: members may be more than needed
 };
@@ -26,7 +27,7 @@ struct Conflict {
 Conflict find_conflict(const DesignProblem& problem, const Optimum& found,
                        const OptimiseOptions& options);
 
-/// "force at least 3000 N at ...: 2100 N at most while the others hold", one line each.
+/// One line for each member: "force at least 3000 N at ...: 2100 N at most while the others hold".
 std::string describe(const Conflict& conflict, const DesignRequest& request);
 
 }  // namespace dashpot

@@ -34,7 +34,7 @@ class DesignRun {
   OptimiseOptions search_options(const std::string& stage, double from, double to);
   std::vector<std::vector<double>> best_of_each_goal();
   std::vector<std::vector<double>> front_from(std::vector<std::vector<double>> ends);
-  /// Which constraints conflict; or a design after all.
+  /// Finds the constraints that conflict, or a place that holds all of them after all.
   std::vector<std::vector<double>> explain();
   void note_limits();
   void add_designs(const std::vector<std::vector<double>>& places);
@@ -102,11 +102,16 @@ std::vector<double> to_minimise(const DesignRequest& request, std::vector<double
 
 std::vector<std::vector<double>> DesignRun::front_from(std::vector<std::vector<double>> ends) {
   const DesignRequest& request = report_.request;
+
+  // The front's problem: every goal made small.
   FrontProblem front{.size = problem_.size(), .goals = request.goals.size()};
   front.evaluate = [&](std::span<const double> place) {
     const Assessment assessment = problem_.assess(problem_.damper_at(place));
     return FrontProblem::Value{to_minimise(request, assessment.goals), assessment.violation};
   };
+
+  // The best designs of the single goals span the front: their extent scales it, and it starts
+  // from them.
   front.scale.assign(front.goals, 0.);
   for (std::size_t k = 0; k < front.goals; ++k) {
     std::vector<double> values;
@@ -115,6 +120,8 @@ std::vector<std::vector<double>> DesignRun::front_from(std::vector<std::vector<d
     front.scale[k] = high > low ? high - low : std::max(std::abs(high), 1e-30);
   }
   front.starts = ends;
+
+  // The search for the front; where it finds no place, the ends themselves are the front.
   const OptimiseOptions& search = search_options("front", 0.3, 1);
   const Front found = pareto_front(front, {.method = report_.options.method,
                                            .points = report_.options.points,
@@ -153,6 +160,7 @@ void DesignRun::compare(Design& design) const {
 
 void DesignRun::add_designs(const std::vector<std::vector<double>>& places) {
   for (const auto& place : places) {
+    // The description is written and read again: what is judged is what the user gets.
     Design design;
     design.damper = problem_.damper_at(place);
     design.damper.name = report_.request.name;
@@ -162,6 +170,8 @@ void DesignRun::add_designs(const std::vector<std::vector<double>>& places) {
       ++report_.rejected;
       continue;
     }
+
+    // The fields in which it lies beyond the dampers of either model, each once.
     design.outside = model_->extrapolations(design.damper);
     if (second_) {
       compare(design);
@@ -171,6 +181,8 @@ void DesignRun::add_designs(const std::vector<std::vector<double>>& places) {
     }
     report_.designs.push_back(std::move(design));
   }
+
+  // Names follow the order of the first goal.
   std::ranges::sort(report_.designs, [](const Design& a, const Design& b) {
     return a.assessment.goals < b.assessment.goals;
   });
@@ -186,10 +198,14 @@ void DesignRun::add_designs(const std::vector<std::vector<double>>& places) {
 void DesignRun::name_roles() {
   std::vector<Design>& designs = report_.designs;
   if (designs.empty()) return;
+
+  // The goals of all designs as numbers to be made small.
   const DesignRequest& request = report_.request;
   std::vector<std::vector<double>> values;
   for (const Design& design : designs)
     values.push_back(to_minimise(request, design.assessment.goals));
+
+  // The best design of each goal, and the squared distances from all those bests together.
   std::vector<double> distance(designs.size(), 0.);
   const auto add_role = [&](std::size_t k, const std::string& role) {
     designs[k].role += (designs[k].role.empty() ? "" : "; ") + role;
@@ -202,6 +218,8 @@ void DesignRun::name_roles() {
     for (std::size_t k = 0; k < designs.size(); ++k)
       if (high > low) distance[k] += std::pow((values[k][g] - low) / (high - low), 2);
   }
+
+  // Only several goals have a knee.
   if (request.goals.size() > 1)
     add_role(static_cast<std::size_t>(std::ranges::min_element(distance) - distance.begin()),
              "knee");

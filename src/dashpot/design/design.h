@@ -11,6 +11,7 @@
 
 namespace dashpot {
 
+/// How a request is answered.
 struct DesignOptions {
   std::uint64_t seed = 1;
   int threads = 0;           ///< the result does not depend on it
@@ -19,8 +20,8 @@ struct DesignOptions {
   FrontMethod method = FrontMethod::Nsga2;
   std::string model = "physics";  ///< as make_design_model has them
   std::string second;             ///< a model whose figures stand beside; empty: none
-  bool refuse_outside =
-      false;  ///< designs beyond the dampers of a family's model, else they are marked
+  /// Refuses designs beyond the dampers of a family's model; else they are marked.
+  bool refuse_outside = false;
   Monitor monitor;
 };
 
@@ -29,16 +30,18 @@ struct Design {
   std::string name;  ///< "design_001"
   DamperDescription damper;
   Assessment assessment;
-  /// Where there is a second model: all figures as drawn by each, goals and then constraints.
+  /// With a second model: all figures of the drawing by each model, goals and then constraints.
   std::vector<double> first, second;
   double disagreement = 0;  ///< the largest difference of the two, in shares of the first's
   std::string role;         ///< what makes it stand out: "largest force", "knee"; else empty
-  std::vector<std::string> outside;  ///< in what it lies beyond the dampers of a family's model
+  /// Fields in which it lies beyond the dampers of a family's model, in words.
+  std::vector<std::string> outside;
   std::optional<Sensitivity> sensitivity;  ///< of those that stand out, where there are tolerances
 };
 
+/// The answer to a request, and how it was found.
 struct DesignReport {
-  DesignRequest request;  ///< with what else is asked where designs beyond a family are refused
+  DesignRequest request;  ///< with the constraints that refuse designs beyond a family, if asked
   DesignOptions options;
   std::string first_name, second_name;  ///< of the models
   std::vector<std::string> notes;       ///< what a family's model cannot know, in words
@@ -56,7 +59,8 @@ struct DesignReport {
 /// Error where a current or a speed is beyond a family's model, and that is to be refused.
 DesignReport design(const DesignRequest& request, const DesignOptions& options);
 
-/// The assessment of a description's text, from scratch.
+/// The assessment of a description's text, from scratch. Throws Error where the text is no
+/// description.
 Assessment check_design(const std::string& text, const DesignRequest& request,
                         const DesignModel& model, std::uint64_t seed,
                         const DesignModel* second = nullptr);

@@ -13,7 +13,8 @@ struct DesignLaw {
 
 /// Fits plate_bingham, its damping linear in the current and its yielding force exponential or
 /// cubic, whichever is nearer, to the model's forces at all speeds and currents that the request
-/// names. The coil's time constant at the largest current becomes the law's lag.
+/// names (1 A and 0.5 m/s where it names none). The coil's time constant at the largest current
+/// becomes the law's lag.
 DesignLaw law_of_design(const DamperDescription& damper, const DesignRequest& request,
                         const DesignModel& model);
 

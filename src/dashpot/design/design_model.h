@@ -10,26 +10,27 @@
 
 namespace dashpot {
 
-/// What tells a design's figures from its drawing. Immutable: several threads ask it at a time.
+/// Computes a design's figures (SI) from its drawing. Immutable: several threads ask it at a time.
 class DesignModel {
  public:
   virtual ~DesignModel() = default;
   virtual std::string name() const = 0;
-  /// The description is possible (require_possible). A model that knows only forces takes the other
-  /// figures from evaluate_physics. What it cannot tell is not finite, which counts as a constraint
-  /// that fails.
+  /// The description must be possible (require_possible). A model that knows only forces takes the
+  /// other figures from evaluate_physics. A figure that it cannot know is not finite, which counts
+  /// as a constraint that fails.
   virtual DamperPhysics evaluate(const DamperDescription& description,
                                  const DamperOperation& operation) const = 0;
 
-  /// Whether it was fitted on dampers, beyond which it extrapolates; first principles were not.
+  /// True of a model that was fitted on dampers, beyond which it extrapolates.
   virtual bool is_fitted() const { return false; }
   /// How far a drawing lies outside of those dampers, in shares of their ranges; 0 or less within.
   virtual double outside(const DamperDescription&) const { return 0; }
-  /// In what it does, in words; and a current or a speed.
+  /// The fields in which a drawing does, in words.
   virtual std::vector<std::string> extrapolations(const DamperDescription&) const { return {}; }
+  /// The current or speed that lies beyond those that it was fitted on, in words; else empty.
   virtual std::vector<std::string> extrapolations(const DamperOperation&) const { return {}; }
-  /// The model of this damper for other commands; none where it is to be a law fitted to the
-  /// forces.
+  /// The model of this damper for other commands; none where a law has to be fitted to the forces
+  /// (law_of_design).
   virtual std::optional<ModelFile> model_of(const DamperDescription&) const { return std::nullopt; }
 };
 
@@ -40,7 +41,8 @@ class DesignModel {
 std::unique_ptr<DesignModel> make_design_model(const std::string& name, const std::string& where);
 std::vector<std::string> design_model_names();  ///< those that are no files
 
-/// A fitted family's force in place of that of first principles, which tell the rest.
+/// A fitted family's force in place of that of first principles, from which all other figures
+/// come. Throws Error where the file holds no family, or one that is not driven by a current in A.
 std::unique_ptr<DesignModel> load_family_design_model(const std::filesystem::path& path);
 
 }  // namespace dashpot

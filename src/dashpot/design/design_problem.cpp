@@ -77,6 +77,7 @@ double slack_of(const DesignConstraint& constraint, double figure) {
 DesignProblem::DesignProblem(const DesignRequest& request, const DesignModel& model,
                              std::uint64_t seed, const DesignModel* second)
     : request_(request), model_(model), second_(second) {
+  // The same operation by the same model is evaluated once, whoever asks for it.
   const auto place = [&](const DamperOperation& at, ToldBy by) {
     if (by == ToldBy::Second && !second)
       throw Error("the request", "asks for figures by a second model, and there is none",
@@ -89,6 +90,8 @@ DesignProblem::DesignProblem(const DesignRequest& request, const DesignModel& mo
   for (const DesignGoal& goal : request.goals) place(goal.at, goal.by);
   for (const DesignConstraint& constraint : request.constraints)
     place(constraint.at, constraint.by);
+
+  // A robust request judges each drawing by the same dampers made.
   if (request.share > 0)
     made_with_ =
         draw_made(static_cast<std::size_t>(request.samples), request.tolerances.size(), seed);
@@ -128,6 +131,7 @@ void DesignProblem::follow(DamperDescription& damper) const {
 
 DamperDescription DesignProblem::made(const DamperDescription& drawn,
                                       std::span<const double> shares) const {
+  // Adds the tolerances of either the fields that follow others or those that do not.
   DamperDescription damper = drawn;
   const auto off = [&](bool followers) {
     for (std::size_t t = 0; t < shares.size(); ++t) {
@@ -137,6 +141,8 @@ DamperDescription DesignProblem::made(const DamperDescription& drawn,
       if (follows == followers) damper.*tolerance.field->field += shares[t] * tolerance.width;
     }
   };
+
+  // Followers are computed from what was made; then they have their own errors.
   off(false);
   follow(damper);
   off(true);
@@ -145,13 +151,18 @@ DamperDescription DesignProblem::made(const DamperDescription& drawn,
 
 std::vector<double> DesignProblem::figures(const DamperDescription& damper,
                                            const DesignModel* all_by) const {
+  // The model that answers a question: the one asked for, or one for all.
   const auto asked = [&](const Question& question) -> const DesignModel& {
     if (all_by) return *all_by;
     return question.by == ToldBy::Second ? *second_ : model_;
   };
+
+  // The physics once for each question.
   std::vector<DamperPhysics> physics;
   for (const Question& question : questions_)
     physics.push_back(asked(question).evaluate(damper, question.at));
+
+  // Every goal and constraint reads its figure from the answer to its question.
   std::vector<double> figures;
   for (std::size_t k = 0; k < question_of_.size(); ++k) {
     const std::size_t goals = request_.goals.size();
@@ -164,9 +175,9 @@ std::vector<double> DesignProblem::figures(const DamperDescription& damper,
   return figures;
 }
 
-/// What the share of the dampers reaches or exceeds (at_least), or stays at or below.
+/// The figure that the share of the dampers reaches or exceeds (at_least), or stays at or below.
 double DesignProblem::figure_of_share(std::vector<double>& figures, bool at_least) const {
-  for (double& figure : figures)  // what cannot be told is as bad as can be
+  for (double& figure : figures)  // an unknown figure is as bad as can be
     if (std::isnan(figure)) figure = at_least ? -HUGE_VAL : HUGE_VAL;
   std::ranges::sort(figures);
   const auto needed = static_cast<std::size_t>(
@@ -177,6 +188,8 @@ double DesignProblem::figure_of_share(std::vector<double>& figures, bool at_leas
 Assessment DesignProblem::assess(const DamperDescription& drawn) const {
   Assessment assessment;
   const std::size_t goals = request_.goals.size();
+
+  // A damper that cannot be drawn fails every constraint by more than any other could.
   const auto impossible = [&] {
     assessment.possible = false;
     assessment.violation = kImpossible * static_cast<double>(1 + request_.constraints.size());
@@ -184,6 +197,9 @@ Assessment DesignProblem::assess(const DamperDescription& drawn) const {
     return assessment;
   };
   if (!is_possible(drawn)) return impossible();
+
+  // The drawing's own figures, or, where a share of the dampers made counts, what this share
+  // reaches.
   std::vector<double> all = figures(drawn);
   if (!made_with_.empty()) {
     std::vector<std::vector<double>> by_quantity(all.size());
@@ -198,12 +214,16 @@ Assessment DesignProblem::assess(const DamperDescription& drawn) const {
           figure_of_share(by_quantity[k], k < goals ? request_.goals[k].maximise
                                                     : request_.constraints[k - goals].at_least);
   }
+
+  // Slack of each constraint; the violation sums those that fail.
   assessment.goals.assign(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(goals));
   assessment.constraints.assign(all.begin() + static_cast<std::ptrdiff_t>(goals), all.end());
   for (std::size_t k = 0; k < request_.constraints.size(); ++k) {
     assessment.slack.push_back(slack_of(request_.constraints[k], assessment.constraints[k]));
     assessment.violation += std::max(0., -assessment.slack.back());
   }
+
+  // A goal that is not finite is as bad as a constraint whose figure is not known.
   for (const double goal : assessment.goals)
     if (!std::isfinite(goal)) assessment.violation += kImpossible;
   return assessment;

@@ -7,7 +7,7 @@
 
 namespace dashpot {
 
-/// How a damper does what was asked of it.
+/// How well a damper meets a request. Figures in SI.
 struct Assessment {
   bool possible = true;       ///< false: no such damper can be drawn; there are no figures then
   std::vector<double> goals;  ///< the quantities, as the share of dampers made reaches them
@@ -23,7 +23,7 @@ struct Assessment {
 class DesignProblem {
  public:
   /// Request and models must outlive it. The seed draws the dampers that stand for those made.
-  /// Throws Error when the request asks a second model and there is none.
+  /// Throws Error when the request asks for figures of a second model and there is none.
   DesignProblem(const DesignRequest& request, const DesignModel& model, std::uint64_t seed,
                 const DesignModel* second = nullptr);
 

@@ -29,12 +29,16 @@ DesignVariable read_fluids(const Value& value) {
 
 void read_range(const Value& value, DesignVariable& variable) {
   constexpr double kMostSteps = 1e6;
+
+  // The ends and the step, in the field's unit.
   ObjectReader reader(value, "a range");
   variable.from = read_field(reader.required("from"), *variable.field);
   variable.to = read_field(reader.required("to"), *variable.field);
   if (const Value* step = reader.optional("step"))
     variable.step = positive(read_quantity(*step, variable.field->unit), *step, "the step");
   reader.finish();
+
+  // A range has a width, and a million steps at most.
   const auto shown = [&](double number) {
     return format_number(number) + ' ' + std::string(variable.field->unit);
   };
@@ -84,6 +88,7 @@ std::vector<ToldBy> read_by(ObjectReader& reader, bool both_allowed) {
 }
 
 void read_constraint(const Value& value, const DamperOperation& at, DesignRequest& request) {
+  // The quantity, where it is asked, its bounds, and the models that are asked.
   ObjectReader reader(value, "a constraint");
   const Value& named = reader.required("quantity");
   DesignConstraint constraint{&find_design_quantity(named.as_string(), named.where()), at};
@@ -91,6 +96,8 @@ void read_constraint(const Value& value, const DamperOperation& at, DesignReques
   const Value *least = reader.optional("min"), *most = reader.optional("max");
   const std::vector<ToldBy> asked_of = read_by(reader, true);
   reader.finish();
+
+  // Every bound becomes a constraint, for every model that is asked.
   if (!least && !most)
     throw Error(value.where(), "the constraint has no bound", "min, max or both");
   for (const ToldBy by : asked_of)
@@ -101,12 +108,15 @@ void read_constraint(const Value& value, const DamperOperation& at, DesignReques
       constraint.bound = read_quantity(*bound, constraint.quantity->unit);
       request.constraints.push_back(constraint);
     }
+
+  // The two that were added last are min and max for one model.
   const std::size_t count = request.constraints.size();
   if (least && most && request.constraints[count - 2].bound > request.constraints[count - 1].bound)
     throw Error(value.where(), std::string(constraint.quantity->name) + " has a min above its max");
 }
 
 DesignGoal read_goal(const Value& value, const DamperOperation& at) {
+  // The goal's operating point and model.
   ObjectReader reader(value, "a goal");
   const Value *most = reader.optional("maximise"), *least = reader.optional("minimise");
   DesignGoal goal;
@@ -114,6 +124,8 @@ DesignGoal read_goal(const Value& value, const DamperOperation& at) {
   read_operation(reader, goal.at);
   goal.by = read_by(reader, false).front();
   reader.finish();
+
+  // Exactly one of the two keys names the quantity and its direction.
   if (!most == !least)
     throw Error(value.where(), "a goal is one quantity",
                 "maximise: dynamic_range, or minimise: mass");
@@ -137,10 +149,14 @@ FollowingField read_following(const std::string& name, const Value& value) {
 
 void read_robust(const Value& value, DesignRequest& request) {
   constexpr double kMostSamples = 10000;
+
+  // The share of the dampers made, and how many stand for them.
   ObjectReader reader(value, "robust");
   request.share = reader.number("share");
   const double samples = reader.number("samples", request.samples);
   reader.finish();
+
+  // Both within their limits, and there must be tolerances to be robust against.
   if (!(request.share > 0 && request.share <= 1))
     throw Error(value.where(), "share is " + format_number(request.share),
                 "more than 0, 1 at most");
@@ -221,16 +237,22 @@ DesignRequest parse_request(std::string_view text, const std::string& source,
                             const std::filesystem::path& folder) {
   const Value document = parse_yaml(text, source);
   ObjectReader reader(document, "a design request");
+
+  // Name, note and the damper that the request starts from.
   DesignRequest request;
   request.name = reader.string("name", "");
   request.note = reader.string("note", "");
   request.damper = read_damper(reader.required("damper"), folder);
+
+  // The operation that constraints and goals share unless they state their own.
   DamperOperation at;
   if (const Value* place = reader.optional("at")) {
     ObjectReader operation(*place, "at");
     read_operation(operation, at);
     operation.finish();
   }
+
+  // The fields that vary and those that follow them, and how exactly parts are made.
   each_member(reader, "vary", [&](const std::string& name, const Value& value) {
     request.variables.push_back(read_variable(name, value));
   });
@@ -242,11 +264,15 @@ DesignRequest parse_request(std::string_view text, const std::string& source,
     request.tolerances.push_back(
         {&field, positive(read_quantity(value, field.unit), value, "the tolerance")});
   });
+
+  // The requirements: robustness, constraints and goals.
   if (const Value* robust = reader.optional("robust")) read_robust(*robust, request);
   if (const Value* list = reader.optional("constraints"))
     for (const Value& item : list->items()) read_constraint(item, at, request);
   if (const Value* list = reader.optional("goals"))
     for (const Value& item : list->items()) request.goals.push_back(read_goal(item, at));
+
+  // Unknown keys and contradictions are refused.
   reader.finish();
   require_consistent(request, source);
   return request;

@@ -8,8 +8,8 @@
 
 namespace dashpot {
 
-/// What may vary: a field within a range, in steps where a step is given; one of several values;
-/// the fluid.
+/// One thing that may vary, SI: a field within a range, in steps where a step is given; a field
+/// with several values to choose from; the fluid.
 struct DesignVariable {
   const DescriptionField* field = nullptr;  ///< nullptr: the fluid
   double from = 0, to = 0, step = 0;        ///< step 0: any value
@@ -21,7 +21,7 @@ struct DesignVariable {
   std::size_t levels() const;
 };
 
-/// Which of two models tells a figure.
+/// Which of two models a figure comes from.
 enum class ToldBy { First, Second };
 
 /// One bound of one quantity at one operating point; a request's min and max are two.
@@ -33,6 +33,7 @@ struct DesignConstraint {
   ToldBy by = ToldBy::First;
 };
 
+/// A quantity to be made large or small at one operating point.
 struct DesignGoal {
   const DesignQuantity* quantity = nullptr;
   DamperOperation at;
@@ -53,6 +54,7 @@ struct FollowingField {
   std::vector<std::pair<const DescriptionField*, double>> terms;
 };
 
+/// A damper that is asked for: what may vary in it, what it must hold, what it is to be best in.
 struct DesignRequest {
   std::string name, note;
   DamperDescription damper;  ///< what does not vary
@@ -61,8 +63,9 @@ struct DesignRequest {
   std::vector<DesignConstraint> constraints;
   std::vector<DesignGoal> goals;
   std::vector<DesignTolerance> tolerances;
-  double share = 0;  ///< of the dampers made that must hold the constraints and reach the goals; 0:
-                     ///< the drawn one
+  /// Share of the dampers made that must hold the constraints and reach the goals; 0: the drawn
+  /// damper alone counts.
+  double share = 0;
   int samples = 32;  ///< dampers that stand for those made
 };
 
@@ -76,7 +79,8 @@ std::string describe(const DesignGoal& goal);
 DesignRequest parse_request(std::string_view text, const std::string& source,
                             const std::filesystem::path& folder = {});
 DesignRequest load_request(const std::filesystem::path& path);
-/// One that comes with Dashpot, of data/designs.
+/// One that comes with Dashpot, in data/designs. Throws Error on a name that is not among
+/// request_names().
 DesignRequest named_request(const std::string& name);
 std::vector<std::string> request_names();
 

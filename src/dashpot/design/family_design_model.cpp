@@ -12,9 +12,9 @@
 namespace dashpot {
 namespace {
 
-/// The force as a test bench tells it: where a sine of this half stroke passes the displacement at
-/// the velocity, begun from rest one cycle and more before, so that what remembers has seen a
-/// motion of its kind.
+/// The force as a test bench measures it: where a sine of this half stroke passes the displacement
+/// at the velocity, started from rest one cycle and more before, so that a model with states has
+/// seen a motion of its kind.
 double force_in_sine(const DamperModel& model, const DamperOperation& at, double half_stroke) {
   constexpr double kPi = std::numbers::pi;
   constexpr int kSteps = 100;  // of a cycle
@@ -56,16 +56,23 @@ class FamilyDesignModel final : public DesignModel {
 
   DamperPhysics evaluate(const DamperDescription& description,
                          const DamperOperation& operation) const override {
+    // First principles give all figures but the force, and a member of the family for this
+    // drawing.
     DamperPhysics physics = evaluate_physics(description, operation);
     const std::array<double, 2> currents{0, std::abs(operation.current)};
     FamilyMember member =
         member_of(description, std::span(currents).first(currents[1] > 0 ? 2 : 1));
     member.spring_stiffness = 0;  // which the dynamic range leaves out
+
+    // The family's force with the current and without it, along a sine of the stroke it
+    // knows.
     const auto damper = family_->with_member(member);
     const double half_stroke = half_stroke_ > 0 ? half_stroke_ : 0.5 * description.stroke;
     const double force = force_in_sine(*damper, operation, half_stroke);
     const double off =
         force_in_sine(*damper, {0, operation.velocity, operation.displacement}, half_stroke);
+
+    // A family whose forces exclude the spring has it added from first principles.
     const bool has_spring = family_->family().baseline.target != FamilyTarget::Total;
     const double spring = has_spring ? physics.spring_force : 0;
     physics.force = force + spring;

@@ -7,7 +7,7 @@
 namespace dashpot {
 namespace {
 
-/// Where the request asks for forces.
+/// The operating points at which the request asks for forces.
 std::vector<DamperOperation> places_of_force(const DesignRequest& request) {
   std::vector<DamperOperation> places;
   for (const DesignGoal& goal : request.goals)
@@ -46,8 +46,12 @@ std::vector<std::string> operations_beyond(const DesignRequest& request, const D
 std::vector<std::string> unseen_fields(const DesignProblem& problem, const DesignModel& model) {
   const std::vector<DamperOperation> places = places_of_force(problem.request());
   if (places.empty()) return {};
+
+  // The largest current shows most: the coil's fields do nothing without one.
   const DamperOperation& at = *std::ranges::max_element(
       places, {}, [](const DamperOperation& place) { return std::abs(place.current); });
+
+  // Each variable goes from one end of its range to the other, the rest in the middle.
   const std::unique_ptr<DesignModel> physics = make_design_model("physics", "design");
   std::vector<std::string> unseen;
   for (std::size_t k = 0; k < problem.size(); ++k) {

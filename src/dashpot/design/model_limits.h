@@ -4,7 +4,7 @@
 
 #include "dashpot/design/design_problem.h"
 
-// What a model that was fitted on dampers does not know.
+// The limits of models that were fitted on dampers: beyond these they extrapolate.
 namespace dashpot {
 
 /// The request, which asks moreover that no design lies beyond the dampers of a fitted model.

@@ -46,7 +46,7 @@ class Search {
     if (!relaxed) keep(place, seen);
     return seen;
   }
-  /// What holds the constraints beats what does not.
+  /// A place that holds the constraints beats any that does not.
   static double rank(const Seen& seen) {
     return seen.violation > 0 ? kFails * (1 + seen.violation) : std::min(seen.value, kFails);
   }
@@ -94,6 +94,8 @@ class Polish {
     constexpr double kTolerance = 1e-9;
     const auto count = static_cast<unsigned>(free_.size());
     if (count == 0) return place_;
+
+    // COBYLA in the unit cube of the free variables, with the constraints that count.
     const std::unique_ptr<nlopt_opt_s, void (*)(nlopt_opt)> solver(
         nlopt_create(NLOPT_LN_COBYLA, count), nlopt_destroy);
     solver_ = solver.get();
@@ -103,9 +105,13 @@ class Polish {
     if (!seen_.slack.empty())
       nlopt_add_inequality_mconstraint(solver_, static_cast<unsigned>(seen_.slack.size()),
                                        constraints, this, nullptr);
+
+    // It ends when its steps are small or its looks are used up.
     nlopt_set_initial_step1(solver_, radius);
     nlopt_set_xtol_abs1(solver_, kTolerance);
     nlopt_set_maxeval(solver_, looks * static_cast<int>(count + 1));
+
+    // From the place held to the one reached. What the problem threw on the way is thrown again.
     std::vector<double> x;
     for (const std::size_t k : free_) x.push_back(place_[k]);
     double value = 0;
@@ -117,12 +123,15 @@ class Polish {
 
  private:
   void move(const double* x) {
+    // Goal and constraints ask at the same place: only a new one is looked at.
     bool moved = false;
     for (std::size_t k = 0; k < free_.size(); ++k) {
       moved = moved || place_[free_[k]] != x[k];
       place_[free_[k]] = x[k];
     }
     if (!moved || failure_) return;
+
+    // An exception must not cross NLopt's C code: it is kept, and the solver stopped.
     try {
       const std::size_t constraints = seen_.slack.size();
       seen_ = search_.look(place_, relaxed_);
@@ -208,12 +217,17 @@ bool step_level(const DesignProblem& problem, Search& search, std::size_t k) {
 void run_start(const DesignProblem& problem, Search& search, const OptimiseOptions& options,
                std::uint64_t seed) {
   constexpr int kRounds = 4;
+
+  // Controlled random search over the whole cube, then COBYLA from its best place.
   const std::size_t size = problem.size();
   const SearchBox box{std::vector<double>(size, 0.), std::vector<double>(size, 1.)};
   global_search([&](std::span<const double> place) { return Search::rank(search.look(place)); },
                 box, std::vector<double>(size, 0.5), options.evaluations * static_cast<int>(size),
                 seed);
   polish(problem, search, search.best().place, kLooks);
+
+  // The levels of each variable in turn, until a round over all variables brings nothing; a few
+  // rounds at most.
   for (int round = 0; round < kRounds; ++round) {
     bool better = false;
     for (std::size_t k = 0; k < size; ++k)
@@ -221,11 +235,14 @@ void run_start(const DesignProblem& problem, Search& search, const OptimiseOptio
         better = step_level(problem, search, k) || better;
     if (!better) break;
   }
+
+  // Last, the variables without levels in small steps.
   Polish(search, search.best().place, movable(problem.request(), false), false).run(0.002, kLooks);
 }
 
 Optimum run_starts(const DesignProblem& problem, const std::size_t* goal,
                    const OptimiseOptions& options) {
+  // Each start has its seed and its own search, so that threads change nothing.
   const auto starts = static_cast<std::size_t>(options.starts);
   std::vector<Search> searches(starts, Search(problem, goal, options));
   std::vector<char> stopped(starts, 0);
@@ -238,6 +255,8 @@ Optimum run_starts(const DesignProblem& problem, const std::size_t* goal,
       return;  // what was sought is found
     }
   });
+
+  // The best of all; the first of equals.
   const auto best = std::ranges::min_element(searches, {}, &Search::best_rank);
   Optimum optimum = best->best();
   optimum.evaluations = 0;

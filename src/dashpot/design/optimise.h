@@ -7,7 +7,7 @@
 
 namespace dashpot {
 
-/// What is sought with one number: the least of a goal, or of the constraints' violation.
+/// How the least of one number is sought: of a goal, or of the constraints' violation.
 struct OptimiseOptions {
   std::uint64_t seed = 1;
   int starts = 6;         ///< searches of their own, beside each other
@@ -18,11 +18,11 @@ struct OptimiseOptions {
   std::vector<bool> counted;
 };
 
+/// The best place of all starts.
 struct Optimum {
   std::vector<double> place;  ///< in the unit cube; empty: stopped before anything was seen
   double violation = 0;       ///< of what counts
-  double value =
-      0;  ///< of the goal, to be made small: a figure to be made large has its sign turned
+  double value = 0;           ///< of the goal, SI; a figure to be made large has its sign turned
   std::size_t evaluations = 0;
   bool stopped = false;  ///< the user asked to stop: the best so far
 };

@@ -85,6 +85,8 @@ class Archive {
   void insert(const pagmo::vector_double& place, const pagmo::vector_double& goals) {
     for (const auto& known : goals_)
       if (known == goals || pagmo::pareto_dominance(known, goals)) return;
+
+    // Drops those that the new place dominates, the others keeping their order.
     std::size_t kept = 0;
     for (std::size_t k = 0; k < goals_.size(); ++k) {
       if (pagmo::pareto_dominance(goals, goals_[k])) continue;
@@ -94,6 +96,8 @@ class Archive {
       }
       ++kept;
     }
+
+    // The new place, which none of them dominates, joins them.
     goals_.resize(kept);
     places_.resize(kept);
     goals_.push_back(goals);
@@ -106,8 +110,10 @@ class Archive {
 
 pagmo::population first_population(const FrontProblem& problem, const FrontOptions& options,
                                    const PagmoProblem& seen) {
-  const std::size_t size =
-      std::max<std::size_t>(24, (options.points + 3) / 4 * 4);  // NSGA-II asks for fours
+  // NSGA-II wants a multiple of four.
+  const std::size_t size = std::max<std::size_t>(24, (options.points + 3) / 4 * 4);
+
+  // The starts given, filled up with random places.
   Random random(options.seed);
   Places places = problem.starts;
   places.resize(std::min(places.size(), size));
@@ -115,6 +121,8 @@ pagmo::population first_population(const FrontProblem& problem, const FrontOptio
     places.emplace_back(problem.size);
     for (double& part : places.back()) part = random.uniform();
   }
+
+  // All are evaluated side by side; the population gets them with their goals.
   std::vector<pagmo::vector_double> goals(size);
   parallel_for(size, options.threads, [&](std::size_t k) { goals[k] = seen.fitness(places[k]); });
   pagmo::population population{pagmo::problem(seen), 0u, static_cast<unsigned>(options.seed)};
@@ -138,6 +146,8 @@ Front pareto_front(const FrontProblem& problem, const FrontOptions& options) {
   std::atomic<std::size_t> evaluations = 0;
   Archive archive(options.points);
   Front front;
+
+  // A generation at a time; the archive keeps the best of all of them.
   try {
     pagmo::population population = first_population(problem, options, {&problem, &evaluations});
     const pagmo::algorithm algorithm = algorithm_of(problem, options);
@@ -152,6 +162,8 @@ Front pareto_front(const FrontProblem& problem, const FrontOptions& options) {
   } catch (const Interrupted&) {
     front.stopped = true;
   }
+
+  // A search that was stopped returns the front so far.
   front.places = archive.places();
   front.evaluations = evaluations;
   return front;

@@ -22,9 +22,10 @@ struct FrontProblem {
   std::size_t size = 0, goals = 0;
   std::function<Value(std::span<const double> place)> evaluate;  ///< called from several threads
   std::vector<double> scale;                                     ///< the extent of each goal, about
-  std::vector<std::vector<double>> starts;  ///< places to begin from, beside random ones
+  std::vector<std::vector<double>> starts;  ///< places to start from, beside random ones
 };
 
+/// How the front is sought.
 struct FrontOptions {
   FrontMethod method = FrontMethod::Nsga2;
   std::size_t points = 200;
@@ -34,6 +35,7 @@ struct FrontOptions {
   const Monitor* monitor = nullptr;
 };
 
+/// The places found, best in one goal or another.
 struct Front {
   std::vector<std::vector<double>> places;  ///< of which none is better than another in all goals
   std::size_t evaluations = 0;

@@ -7,7 +7,7 @@
 
 namespace dashpot {
 
-/// A damper at work: what a quantity is told of.
+/// A damper at work, of which quantities are computed; all four must outlive it.
 struct OperatedDamper {
   const DamperDescription& description;
   const DamperOperation& operation;
@@ -25,15 +25,17 @@ struct DesignQuantity {
   bool of_drawing = false;  ///< the same at any current and speed
 
   double of(const OperatedDamper& damper) const;
-  /// Whether it is made of forces, which models tell differently.
+  /// Whether it is made of forces, in which models differ.
   bool is_of_force() const;
 };
 
+/// Every quantity, each name once: figures of the physics, estimates, then fields.
 std::span<const DesignQuantity> design_quantities();
 /// By its name, or by that of physics_quantities() ("time constant"). Throws Error(where, ...).
 const DesignQuantity& find_design_quantity(std::string_view name, const std::string& where);
 
-/// How far a damper lies outside of those that its model was fitted on: what a constraint refuses.
+/// Name of the quantity that says how far a damper lies outside of those that its model was fitted
+/// on; a constraint on it refuses such designs.
 constexpr std::string_view kOutsideFamily = "outside_family";
 
 /// A unit in which people read such figures, and what one of it is in SI: "mm", 0.001.

@@ -49,9 +49,12 @@ struct Samples {
 
 Samples sample(const DesignProblem& problem, const DamperDescription& design,
                const SensitivityOptions& options) {
+  // Two independent draws of all tolerances.
   Random random(options.seed);
   const std::size_t count = problem.request().tolerances.size();
   const Rows a = draw(options.samples, count, random), b = draw(options.samples, count, random);
+
+  // Each damper of A also with one tolerance at a time from B.
   Samples samples{Rows(options.samples), Rows(options.samples),
                   std::vector<Rows>(count, Rows(options.samples))};
   parallel_for(options.samples, options.threads, [&](std::size_t k) {
@@ -67,6 +70,7 @@ Samples sample(const DesignProblem& problem, const DamperDescription& design,
 }
 
 void add_shares(const Samples& samples, std::size_t figure, Sensitivity::Figure& result) {
+  // Mean and variance over both draws.
   const auto count = static_cast<double>(samples.a.size());
   double sum = 0, squares = 0;
   for (const Rows* rows : {&samples.a, &samples.b})
@@ -75,6 +79,8 @@ void add_shares(const Samples& samples, std::size_t figure, Sensitivity::Figure&
   for (const Rows* rows : {&samples.a, &samples.b})
     for (const auto& row : *rows) squares += (row[figure] - mean) * (row[figure] - mean);
   const double variance = squares / (2 * count);
+
+  // First-order shares by Saltelli's estimator, total ones by Jansen's.
   for (const Rows& mixed : samples.mixed) {
     double alone = 0, total = 0;
     for (std::size_t k = 0; k < mixed.size(); ++k) {
@@ -82,6 +88,8 @@ void add_shares(const Samples& samples, std::size_t figure, Sensitivity::Figure&
       alone += (samples.b[k][figure] - mean) * step;
       total += 0.5 * step * step;
     }
+
+    // A figure that only rounding moves has no shares.
     const bool varies = variance > 1e-24 * mean * mean;
     result.alone.push_back(varies ? alone / count / variance : 0);
     result.total.push_back(varies ? total / count / variance : 0);
@@ -119,12 +127,18 @@ Sensitivity sensitivity(const DesignProblem& problem, const DamperDescription& d
   Sensitivity result;
   for (const double figure : problem.figures(design)) result.figures.push_back({.drawn = figure});
   if (problem.request().tolerances.empty()) return result;
+
+  // Derivatives at the drawing.
   add_local(problem, design, result);
+
+  // Spread and shares of variance over the dampers made.
   const Samples samples = sample(problem, design, options);
   for (std::size_t k = 0; k < result.figures.size(); ++k) {
     add_range(samples, k, result.figures[k]);
     add_shares(samples, k, result.figures[k]);
   }
+
+  // The share of them that holds every constraint.
   std::size_t holding = 0;
   for (const Rows* rows : {&samples.a, &samples.b})
     for (const auto& row : *rows) holding += holds_all(problem.request(), row);

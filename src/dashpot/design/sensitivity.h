@@ -7,7 +7,7 @@
 
 namespace dashpot {
 
-/// What the tolerances do to the figures of one design: the goals, then the constraints.
+/// How the tolerances change the figures of one design: the goals, then the constraints. SI.
 struct Sensitivity {
   struct Figure {
     double drawn = 0, low = 0, high = 0;  ///< as drawn; between which 90 % of the dampers made lie
