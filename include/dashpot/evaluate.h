@@ -28,7 +28,7 @@ struct ErrorSums {
   void add(const ErrorSums& other);
 };
 
-/// The errors of a model, every figure by its name (MODELS.md 11).
+/// The errors of a model, every figure by its name (TC-11 in docs/sources.md).
 struct Metrics {
   std::size_t samples = 0;
   double rmse = 0;           ///< N

@@ -13,7 +13,7 @@ TEST_CASE("centimetres are converted: Spencer's set in SI") {
   const auto coefficient = [&](const char* name, std::size_t k) {
     return model.parameters().coefficients[model.law().index_of(name)][k];
   };
-  // the SI column of MODELS.md 4.5; 363 cm^-2 is 3.63e6 m^-2, not 363e-4
+  // the SI column of TC-4.5 in docs/sources.md; 363 cm^-2 is 3.63e6 m^-2, not 363e-4
   CHECK_CLOSE(coefficient("alpha", 0), 14000, 1e-15, 0);
   CHECK_CLOSE(coefficient("alpha", 1), 69500, 1e-15, 0);
   CHECK_CLOSE(coefficient("c0", 1), 350, 1e-15, 0);
@@ -31,7 +31,7 @@ TEST_CASE(
     "verified") {
   const std::vector<std::string> names = parameter_set_names();
   CHECK(std::is_sorted(names.begin(), names.end()));
-  // everything else is marked [M], from memory, in MODELS.md, or does not meet its data
+  // everything else is recalled from memory (TC-4.16 in docs/sources.md), or does not meet its data
   const std::set<std::string> verified{"labcontrol_bouc_wen", "lai_liao2002", "leva_piroddi2002",
                                        "spencer1997"};
   for (const std::string& name : names) {
@@ -45,7 +45,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("one value of each set, converted: MODELS.md 4.4 to 4.14") {
+TEST_CASE("one value of each set, converted: TC-4.16") {
   struct Case {
     const char *set, *param;
     double drive, value;

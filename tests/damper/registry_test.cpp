@@ -32,7 +32,7 @@ TEST_CASE("laws stand in alphabetical order, the other kinds follow in theirs") 
 }
 
 TEST_CASE("the one-sensor paper's networks") {
-  // 41, 51 and, recurrent, 61 parameters: MODELS.md 12
+  // 41, 51 and, recurrent, 61 parameters: TC-12c
   const auto parameters = [](const NarxPreset& p) {
     return p.hidden[0] * (p.inputs.size() * (p.delays + 1) + p.feedback + 1) + p.hidden[0] + 1;
   };

@@ -1,6 +1,5 @@
-// The fits of MODELS.md 4.1 and 4.7 to 4.10 to public recordings of a 1.6 kN damper. Expected
-// forces: the formulas of those sections with those numbers, worked out apart from the laws, at a
-// current of 0.5 A.
+// Our fits to public recordings of a 1.6 kN damper: TC-4.17 in docs/sources.md. Expected forces:
+// the formulas with those numbers, worked out apart from the laws, at a current of 0.5 A.
 
 #include <vector>
 

@@ -50,7 +50,7 @@ DesignReport designed(const std::string& text, DesignOptions options = {}) {
 }  // namespace
 
 TEST_CASE("design: the smallest active volume is that of Jolly and Carlson") {
-  // V = (12 / c^2) (eta / tau^2) lambda W_m: MODELS.md 5.2, recalled. With the pressures 12 eta L Q
+  // V = (12 / c^2) (eta / tau^2) lambda W_m: TC-5.2c, recalled. With the pressures 12 eta L Q
   // / (w h^3) and c tau L / h it is an identity; here c = 2. 132DG: 0.112 Pa s.
   const DesignReport report = designed(kVolume);
   REQUIRE(report.designs.size() == 1);

@@ -62,5 +62,5 @@ TEST_CASE(
   REQUIRE(dataset.records.size() == 108);  // 18 dampers, 6 field levels
   std::size_t samples = 0;
   for (const Record& record : dataset.records) samples += last_cycle(record).size();
-  CHECK(samples == 13333);  // MODELS.md 3.4: what their notebook extracts
+  CHECK(samples == 13333);  // TC-3.4: what their notebook extracts
 }

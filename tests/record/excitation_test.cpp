@@ -157,7 +157,7 @@ TEST_CASE("TPNVS: constant speeds in equal ratios, up and down") {
 }
 
 TEST_CASE("RP: the power is that of the road through the car") {
-  // MODELS.md TC-3.6b: c = 2280, 5 Hz: |sprung acceleration / road| = 334.235181; m_s a = (k + c s)
+  // TC-3.6b: c = 2280, 5 Hz: |sprung acceleration / road| = 334.235181; m_s a = (k + c s)
   // deflection
   const double gain = 387 * 334.235181 / std::hypot(37300, 2280 * 2 * M_PI * 5);
   // over a narrow band, class D at 20 m/s: G_d n0^2 v / f^2
@@ -174,7 +174,7 @@ TEST_CASE("the same seed gives the same road, another one another road") {
   CHECK(once.displacement != make_motion("RP", 8).at(12.3).displacement);
 }
 
-TEST_CASE("PRBS7: TC-9.1 of MODELS.md") {
+TEST_CASE("PRBS7: TC-9.1") {
   const std::vector<bool> bits = maximum_length_bits(7, 0x7f, 127);
   std::string first;
   for (std::size_t k = 0; k < 32; ++k) first += bits[k] ? '1' : '0';

@@ -159,8 +159,7 @@ double controlled_gain(const char* law, double f, double sample_time) {
       .fundamental;
 }
 
-TEST_CASE("controlled quarter car on sines: reference table 7.13 within 3 %" *
-          doctest::test_suite("long")) {
+TEST_CASE("controlled quarter car on sines: TC-7.13 within 3 %" * doctest::test_suite("long")) {
   const double f[] = {1, 1.25, 2, 4, 8, 12, 20};
   const struct {
     const char* law;

@@ -11,7 +11,7 @@ using namespace dashpot;
 
 namespace {
 
-/// MODELS.md 4.8: the values of Lozoya and Tudon.
+/// The values of Lozoya and Tudon: TC-4.8b in docs/sources.md.
 LawModel sp_lozoya() {
   return LawModel(find_law("semi_phenomenological"),
                   {{Form::Linear, Form::Constant, Form::Constant, Form::Constant, Form::Constant,

@@ -7,7 +7,7 @@
 using namespace dashpot;
 
 TEST_CASE("Bouc-Wen: TC-4.4") {
-  // MODELS.md 4.4, SI set (100 cm^-2 = 1e6 m^-2)
+  // The set of docs/sources.md in SI: 100 cm^-2 = 1e6 m^-2.
   const LawModel model =
       LawModel::constant(find_law("bouc_wen"), {88000, 5000, 2500, 0.038, 1e6, 1e6, 120, 2, 0});
   const auto found = at_times(model, {0.015, 2.5}, {0.05, 0.1, 0.2, 0.25, 0.4, 0.5});

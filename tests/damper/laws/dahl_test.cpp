@@ -6,7 +6,7 @@
 using namespace dashpot;
 
 TEST_CASE("Dahl: w = 1 - (1 - w0) exp(-rho dx) on a monotone branch, one step or many") {
-  // MODELS.md 4.13, the analytic check
+  // The closed form of TC-4.13 in docs/sources.md.
   const LawModel model = LawModel::constant(find_law("dahl"), {57.42, 27450, 3});
   for (const int steps : {1, 100}) {
     std::vector<double> state{-0.4};

@@ -7,7 +7,6 @@
 using namespace dashpot;
 
 TEST_CASE("extended Bingham: TC-4.2") {
-  // MODELS.md 4.2
   const LawModel model =
       LawModel::constant(find_law("extended_bingham"), {5000, 500, 20000, 1e5, 2e5, -50});
   const auto found = at_times(model, {0.01, 1}, {0.05, 0.2, 0.5, 1, 2}, 1e-5);

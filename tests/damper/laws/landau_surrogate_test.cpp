@@ -7,7 +7,6 @@
 using namespace dashpot;
 
 TEST_CASE("Landau surrogate: TC-4.15") {
-  // MODELS.md 4.15
   const LawModel model =
       LawModel::constant(find_law("landau_surrogate"), {800, 1000, 0.005, 0.02, -0.2, 0, 1.2, 0});
   const auto found = at_times(model, {0.01, 1}, {0.05, 0.2, 0.3, 0.5, 0.8});

@@ -6,7 +6,7 @@
 using namespace dashpot;
 
 TEST_CASE("large-scale Bouc-Wen: TC-4.6a") {
-  // MODELS.md 4.6a; its acceleration is that of the motion: the filter's state is set to v - a / r
+  // Its acceleration is that of the motion: the filter's state is set to v - a / r
   const double r = 1000;
   const LawModel model =
       LawModel::constant(find_law("large_scale_bouc_wen"),

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kStep = 2.5e-6;  // s: the drive is a straight line within it to 1e-9
 
-/// Forces at the times at which MODELS.md prints them.
+/// Forces at the times of TC-4.5 in docs/sources.md.
 std::vector<Simulated> forces(const LawModel& model, const Sine& sine) {
   return at_times(model, sine, {0.05, 0.1, 0.2, 0.25, 0.4, 0.5}, kStep);
 }

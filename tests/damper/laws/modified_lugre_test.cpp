@@ -6,7 +6,7 @@
 using namespace dashpot;
 
 TEST_CASE("modified LuGre: TC-4.14") {
-  // MODELS.md 4.14 at V = 1: sigma_0 = 1.8e4 + 4e4 V, sigma_2 = 100 + 2300 V
+  // The set of docs/sources.md at V = 1: sigma_0 = 1.8e4 + 4e4 V, sigma_2 = 100 + 2300 V
   const Dependence drive{
       {Form::Linear, Form::Constant, Form::Linear, Form::Constant, Form::Constant},
       {{1.8e4, 4e4}, {200}, {100, 2300}, {190}, {0}}};

@@ -8,7 +8,7 @@
 using namespace dashpot;
 
 TEST_CASE("normalised Bouc-Wen: TC-4.13") {
-  // MODELS.md 4.13, in SI: 0.8 N*s/mm, 50 N, 0.5 mm^-1
+  // The set of docs/sources.md in SI: 0.8 N*s/mm, 50 N, 0.5 mm^-1
   const LawModel model =
       LawModel::constant(find_law("normalised_bouc_wen"), {800, 50, 500, 0.75, 2, 0});
   const auto found = at_times(model, {0.012375, 0.8403}, {0.05, 0.2, 0.5, 1, 2});

@@ -15,7 +15,7 @@ TEST_CASE("plate_bingham_mixed: the Newtonian force with the drag of the land is
 }
 
 TEST_CASE(
-    "plate_bingham_mixed: the value of MODELS 5.1 against the flow, plus the drag; plate_bingham "
+    "plate_bingham_mixed: the value of TC-5.1b against the flow, plus the drag; plate_bingham "
     "when a = "
     "0") {
   // T = 2/3 and |V| = a / 2 = 0.05 at c0 |v| = 1; the drag's closed form is tested with

@@ -4,8 +4,8 @@
 
 namespace {
 
-/// The reference set of MODELS.md 4.11 at current i: a_k of the rising branch; the even ones change
-/// their sign on the falling one.
+/// The set of TC-4.11 in docs/sources.md at current i: a_k of the rising branch; the even ones
+/// change their sign on the falling one.
 double rising(int k, double i) {
   const double b[] = {-61.9, 3432.979, 4062.992, -44504.529, -81937.285, 279061.643, 506645.121};
   const double c[] = {-185.701,    8998.938,   12188.977, -133513.587,

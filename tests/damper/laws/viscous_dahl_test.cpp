@@ -6,7 +6,7 @@
 using namespace dashpot;
 
 TEST_CASE("viscous and Dahl: TC-4.13, 0 V") {
-  // MODELS.md 4.13, in SI: 0.7682 N*s/mm, 57.42 N, 27.45 mm^-1
+  // The set of docs/sources.md in SI: 0.7682 N*s/mm, 57.42 N, 27.45 mm^-1
   const LawModel model = LawModel::constant(find_law("viscous_dahl"), {768.2, 57.42, 27450, 0});
   check_forces(at_times(model, {0.012375, 0.8403}, {0.05, 0.2, 0.5, 1, 2}),
                {105.87312, 82.13446, -101.42628, 84.394005, -78.619315});

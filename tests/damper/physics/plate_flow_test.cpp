@@ -90,7 +90,7 @@ TEST_CASE("Gavin's approximation: TC-5.1's value, and at most 2.21 % off, at T =
 }
 
 TEST_CASE(
-    "a wall that moves against the flow: the value of section 5.1, and the Newtonian force of "
+    "a wall that moves against the flow: the value of TC-5.1b, and the Newtonian force of "
     "TC-3.3") {
   CHECK_CLOSE(plate_moving_wall_pressure(1, 4.0 / 3, 0.1), 2.90979824, 1e-7, 0);
   const double wall = kGap.width * kGap.height / kArea, v = 0.034;

@@ -11,7 +11,7 @@ TEST_CASE("TC-11: every metric of the reference case") {
   ErrorSums sums;
   for (std::size_t k = 0; k < measured.size(); ++k) sums.add(measured[k], modelled[k]);
   const Metrics m = metrics(sums);
-  // MODELS.md, section 11, to its printed digits
+  // To the digits printed in docs/sources.md.
   CHECK_CLOSE(m.rmse, 15.811388, 0, 5e-7);
   CHECK_CLOSE(m.rms_span, 3.1622777, 0, 5e-8);
   CHECK_CLOSE(m.rms_half_span, 6.3245553, 0, 5e-8);

@@ -84,7 +84,7 @@ TEST_CASE(
   CHECK(table.rows[1][1] == "4.38");
   CHECK(table.title.find("a virtual damper") != std::string::npos);
   const DocumentTable& means = section_of(document, "table-6").tables.front();
-  // MODELS.md 3.5: the paper's experiments average 7.25 % for MR1.
+  // TC-3.5: the paper's experiments average 7.25 % for MR1.
   CHECK(means.rows[0][7] == "7.25");
   CHECK(means.rows[0][6] == "14.95");
   CHECK(means.rows[1][7] == "10");

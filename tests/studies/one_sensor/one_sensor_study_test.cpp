@@ -61,7 +61,7 @@ TEST_CASE("every experiment has what its models are asked for, the example more"
   REQUIRE(study.result(0, "regressors-1", 1));
   CHECK(study.result(0, "regressors-1", 1)->parameters ==
         51);  // (2 + 1, 10, 1): a steady current has no past
-  CHECK(study.result(0, kStatic, 1)->parameters == 41);  // MODELS.md 12
+  CHECK(study.result(0, kStatic, 1)->parameters == 41);  // TC-12c
   CHECK_FALSE(study.result(0, "two-sensors", 0));        // was not asked for
   CHECK(study.result(0, kStatic, 0)->forces.front().size() ==
         study.dampers[0].damper.experiments[0].left_out[0].size());

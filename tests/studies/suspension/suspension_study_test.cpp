@@ -58,7 +58,7 @@ bool contains(const std::string& text, const std::string& part) {
 
 }  // namespace
 
-TEST_CASE("dampings of the paper's gains at the wheel's resonance: MODELS 3.6") {
+TEST_CASE("dampings of the paper's gains at the wheel's resonance: TC-3.6c") {
   const Plant plant = load_plant_set("tudon_martinez2012").plant;
   CHECK_CLOSE(damping_for_wheel_gain(plant, 3.3557), 1804, 0, 1);
   CHECK_CLOSE(damping_for_wheel_gain(plant, 2.5), 2618, 0, 1);

@@ -8,7 +8,7 @@ using namespace dashpot;
 TEST_CASE("a passive curve meets its points, is monotone between and goes straight on beyond") {
   const PassiveCurve front = load_passive_curve("suv_front");
   const auto force = [&](double v) { return front.force({.velocity = v}, {}); };
-  // MODELS.md 8.1 [V:S17].
+  // Points of TC-8.1b.
   CHECK_CLOSE(force(-1.056), -971, 1e-12, 0);
   CHECK_CLOSE(force(0.132), 902, 1e-12, 0);
   CHECK_CLOSE(force(1.056), 4054, 1e-12, 0);

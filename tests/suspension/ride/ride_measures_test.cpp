@@ -73,7 +73,7 @@ TEST_CASE(
   if (folder.empty()) return;
   const std::string ground =
       "earthquake,file=" + (folder / "el_centro_g.dat").string() + ",unit=g0,time_scale=0.2";
-  // MODELS.md 8.5: displacement cm, drift cm, acceleration cm/s^2 of each floor; N. The passive
+  // TC-8.5b: displacement cm, drift cm, acceleration cm/s^2 of each floor; N. The passive
   // rows as an independent simulation has them with this record; the last one as published by Dyke
   // et al. (recalled), whose LQG sees accelerations: ours feeds back the state, with weights that
   // come near their peaks.

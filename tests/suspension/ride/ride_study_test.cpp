@@ -52,7 +52,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("the integrals over the usual frequencies are those of MODELS 7.13 for passive dampers") {
+TEST_CASE("the integrals over the usual frequencies are those of TC-7.13 for passive dampers") {
   const std::vector<double> f = usual_frequencies();
   CHECK(f.size() == 18);
   const auto integrals = [&](double damping) {
@@ -70,7 +70,7 @@ TEST_CASE("the integrals over the usual frequencies are those of MODELS 7.13 for
   CHECK_CLOSE(hard.second / nominal.second, 0.735, 0.005, 0);
 }
 
-TEST_CASE("a small study: MODELS 7.13 within 3 %, and the same bits for any number of threads") {
+TEST_CASE("a small study: TC-7.13 within 3 %, and the same bits for any number of threads") {
   RideStudyOptions options = small_study();
   const RideStudy study = study_ride(options);
   CHECK(study.passive.name() == "viscous, 1500 N*s/m");

@@ -10,7 +10,7 @@ using Shape = Membership::Shape;
 
 constexpr Sugeno::Input kPlain{.mean = 0, .scale = 1, .low = -100, .high = 100};
 
-/// MODELS.md, TC-12a.
+/// The bells and rules of TC-12a in docs/sources.md.
 Sugeno two_by_two_bells() {
   return {.inputs = {kPlain, kPlain},
           .memberships = {{Shape::Bell, 0, -1, 1, 2},
