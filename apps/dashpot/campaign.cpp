@@ -80,7 +80,7 @@ std::string csv_of(const Record& record, const Dataset& campaign) {
 }
 
 /// JSON text is YAML too, and quotes what has to be quoted.
-std::string quoted(const std::string& text) { return format_json(Value(text), false); }
+std::string json_text(const std::string& text) { return format_json(Value(text), false); }
 
 /// The notes that a real bench would have of its tests, as YAML; the true offsets stay in comments.
 std::string public_notes(const Dataset& campaign) {
@@ -91,21 +91,21 @@ std::string public_notes(const Dataset& campaign) {
         notes.push_back(note);
   if (notes.size() == 1) return notes.front();
   std::string list;
-  for (const std::string& note : notes) list += "\n  - " + quoted(note);
+  for (const std::string& note : notes) list += "\n  - " + json_text(note);
   return list;
 }
 
 std::string dataset_yaml(const Dataset& campaign, const ParameterSet& damper,
                          const std::string& command) {
   std::string text =
-      "# Written by " + quoted(command) + "\n# True model (" + damper.source + "):\n#   " +
-      format_json(damper.model.to_json(), false) + "\nname: " + quoted(campaign.name) +
-      "\ncitation: " + quoted(campaign.citation) + "\ndrive: " + to_string(campaign.drive_unit) +
+      "# Written by " + json_text(command) + "\n# True model (" + damper.source + "):\n#   " +
+      format_json(damper.model.to_json(), false) + "\nname: " + json_text(campaign.name) +
+      "\ncitation: " + json_text(campaign.citation) + "\ndrive: " + to_string(campaign.drive_unit) +
       "\nnotes: " + public_notes(campaign) + "\nfiles:\n";
   for (const Record& record : campaign.records) {
     text += fmt::format("  - match: {}  # {}\n    name: {}\n    condition: {}\n",
-                        quoted(file_name(record)), record.notes.front(), quoted(record.name),
-                        quoted(record.condition));
+                        json_text(file_name(record)), record.notes.front(), json_text(record.name),
+                        json_text(record.condition));
     if (record.drive_level) text += "    level: " + format_exact(*record.drive_level) + '\n';
   }
   return text;

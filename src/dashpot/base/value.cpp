@@ -33,15 +33,15 @@ void require_kind(const Value& value, Value::Kind wanted, const std::string& wha
                                  std::string(name_of(wanted)));
 }
 
-std::string quoted(std::string_view key) { return "'" + std::string(key) + "' "; }
+std::string in_quotes(std::string_view key) { return "'" + std::string(key) + "' "; }
 
 double number_of(const Value& value, std::string_view key) {
-  require_kind(value, Value::Kind::Number, quoted(key));
+  require_kind(value, Value::Kind::Number, in_quotes(key));
   return value.as_number();
 }
 
 std::string string_of(const Value& value, std::string_view key) {
-  require_kind(value, Value::Kind::String, quoted(key));
+  require_kind(value, Value::Kind::String, in_quotes(key));
   return value.as_string();
 }
 
@@ -133,7 +133,7 @@ std::string ObjectReader::string(std::string_view key, const std::string& fallba
 bool ObjectReader::boolean(std::string_view key, bool fallback) {
   const Value* found = optional(key);
   if (!found) return fallback;
-  require_kind(*found, Value::Kind::Bool, quoted(key));
+  require_kind(*found, Value::Kind::Bool, in_quotes(key));
   return found->as_bool();
 }
 

@@ -29,7 +29,7 @@ std::vector<const Law*> laws_meant(const std::string& named, const ModelNames& m
   return meant;
 }
 
-std::string quoted(std::string_view text) { return "'" + std::string(text) + "'"; }
+std::string in_quotes(std::string_view text) { return "'" + std::string(text) + "'"; }
 
 /// The rows that may be meant by `parameter`: those of the law named, else of the laws among
 /// `models`.
@@ -62,7 +62,7 @@ ParameterChoice named(std::string_view text, const std::string& option, const Mo
   }
   choice.parameter = trim(dot == std::string_view::npos ? text : text.substr(dot + 1));
   if (rows_named(choice, models).empty())
-    throw Error(option, "no model to be fitted has a parameter " + quoted(choice.parameter),
+    throw Error(option, "no model to be fitted has a parameter " + in_quotes(choice.parameter),
                 suggest(choice.parameter, known_parameters(choice.law, models)));
   return choice;
 }
@@ -71,7 +71,7 @@ Statement parse_statement(std::string_view text, const std::string& option,
                           const ModelNames& models, const std::string& right) {
   const std::size_t equals = text.find('=');
   if (equals == std::string_view::npos || trim(text.substr(equals + 1)).empty())
-    throw Error(option, quoted(text) + " does not say what the parameter is to be", right);
+    throw Error(option, in_quotes(text) + " does not say what the parameter is to be", right);
   return {named(text.substr(0, equals), option, models), trim(text.substr(equals + 1))};
 }
 
@@ -171,7 +171,7 @@ ParameterChoice parse_bounds_choice(std::string_view text, const std::string& op
   auto [choice, value] = parse_statement(text, option, models, "write c0=0:5000");
   const std::size_t colon = value.find(':');
   if (colon == std::string_view::npos)
-    throw Error(option, quoted(text) + " has one bound", "write lower:upper, as c0=0:5000");
+    throw Error(option, in_quotes(text) + " has one bound", "write lower:upper, as c0=0:5000");
   choice.bounds = {chosen_quantity(trim(value.substr(0, colon)), choice, option, models),
                    chosen_quantity(trim(value.substr(colon + 1)), choice, option, models)};
   return choice;
@@ -183,7 +183,7 @@ ParameterChoice parse_prior_choice(std::string_view text, const std::string& opt
   auto [choice, value] = parse_statement(text, option, models, "write k1=500+-100");
   const std::size_t sign = value.find(kSign);
   if (sign == std::string_view::npos)
-    throw Error(option, quoted(text) + " has no standard deviation", "write k1=500+-100");
+    throw Error(option, in_quotes(text) + " has no standard deviation", "write k1=500+-100");
   choice.prior = {chosen_quantity(trim(value.substr(0, sign)), choice, option, models),
                   chosen_quantity(trim(value.substr(sign + kSign.size())), choice, option, models)};
   if (!(choice.prior->deviation > 0))
