@@ -64,7 +64,7 @@ TEST_CASE(
   CHECK(contains(text, "AM: amplitude 0.025 m, speed_max 1.5 m/s, carrier 5 Hz"));
   CHECK(contains(text, "PRBS: clock 0.05 s, order 9"));
   CHECK(contains(text, "0...2.5 A"));
-  CHECK(contains(text, "derived against measured"));
+  CHECK(contains(text, "Velocity derived from displacement, against the measured one"));
   CHECK_FALSE(contains(text, "true force offset"));
 }
 

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <filesystem>
 
 #include "damper/kinds/family/example_family.h"
@@ -112,9 +113,8 @@ goals: [{maximise: force, by: second}]
   CHECK_CLOSE(own.disagreement, std::abs(own.second[0] / own.first[0] - 1), 1e-12, 0);
   CHECK(describe(report.request.goals[0]).ends_with(", by the second model"));
   const DocumentTable table = constraint_table(report, own);
-  CHECK(std::ranges::any_of(table.rows, [](const std::vector<std::string>& row) {
-    return std::ranges::any_of(
-        row, [](const std::string& cell) { return cell.find("family_h3x15") != cell.npos; });
+  CHECK(std::ranges::any_of(table.columns, [](const TextColumn& column) {
+    return column.title.find("family_h3x15") != std::string::npos;
   }));
   CHECK(message_of([&] { designed(request, {.model = file}); }).find("second model") !=
         std::string::npos);

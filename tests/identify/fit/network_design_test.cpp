@@ -72,7 +72,7 @@ TEST_CASE("what the trainer does not use is refused") {
       CAPTURE(message);
       CHECK(message.find("choose a batch trainer") != std::string::npos);
     }
-  CHECK(refused({"trainer=bayesian", "l2=1e-3"}).find("finds the price by itself") !=
+  CHECK(refused({"trainer=bayesian", "l2=1e-3"}).find("finds the weight decay by itself") !=
         std::string::npos);
   for (const char* trainer : {"lm", "lbfgs", "sgd", "momentum", "rmsprop", "adam", "adamw"})
     CHECK(refused({std::string("trainer=") + trainer, "l2=1e-3", "patience=5"}).empty());

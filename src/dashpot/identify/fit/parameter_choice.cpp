@@ -5,6 +5,7 @@
 
 #include "dashpot/base/text.h"
 #include "dashpot/base/units.h"
+#include "dashpot/damper/model_info.h"
 #include "dashpot/damper/registry.h"
 #include "dashpot/error.h"
 
@@ -58,7 +59,8 @@ ParameterChoice named(std::string_view text, const std::string& option, const Mo
   const std::size_t dot = text.find('.');
   if (dot != std::string_view::npos) {
     choice.law = trim(text.substr(0, dot));
-    if (!law_inside(choice.law)) find_law(choice.law, option);  // says what is known
+    if (!law_inside(choice.law))
+      throw_unknown_model(choice.law, option, model_names(), more_model_names());
   }
   choice.parameter = trim(dot == std::string_view::npos ? text : text.substr(dot + 1));
   if (rows_named(choice, models).empty())
