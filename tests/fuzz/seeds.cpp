@@ -74,7 +74,7 @@ std::string daq_seed() {
   return text;
 }
 
-std::string model_seed(std::unique_ptr<dashpot::DamperModel> model, DriveUnit drive_unit) {
+std::string model_seed(std::unique_ptr<dashpot::DamperModel> model, dashpot::DriveUnit drive_unit) {
   dashpot::ModelFile file;
   file.model = std::move(model);
   file.drive_unit = drive_unit;

@@ -87,11 +87,13 @@ std::string vehicle_text(std::size_t vehicle) {
 
 /// Nothing when the key does not open with a vehicle.
 std::optional<std::size_t> vehicle_in(std::string_view key) {
-  if (key.size() != kVehicleDigits + kControllerDigits) return std::nullopt;
-  std::size_t vehicle = 0;
+  std::optional<std::size_t> vehicle;
+  if (key.size() != kVehicleDigits + kControllerDigits) return vehicle;
+  std::size_t number = 0;
   const char* end = key.data() + kVehicleDigits;
-  const auto [stop, error] = std::from_chars(key.data(), end, vehicle);
-  return stop == end && error == std::errc() ? std::optional(vehicle) : std::nullopt;
+  const auto [stop, error] = std::from_chars(key.data(), end, number);
+  if (stop == end && error == std::errc()) vehicle = number;
+  return vehicle;
 }
 
 // The bytes of a ride: its measures, in their order. They are read on the machine that wrote them,
