@@ -17,6 +17,8 @@
 #include "dashpot/damper/kinds/law/law_model.h"
 #include "dashpot/damper/kinds/narx/presets.h"
 #include "dashpot/damper/kinds/network/presets.h"
+#include "dashpot/damper/kinds/passive_network/passive_network.h"
+#include "dashpot/damper/kinds/passive_network/presets.h"
 #include "dashpot/damper/kinds/state_space/presets.h"
 #include "dashpot/damper/kinds/state_space/state_space_model.h"
 #include "dashpot/damper/nets/mlp.h"
@@ -194,6 +196,14 @@ void describe(ModelSheet& sheet, const StateSpacePreset& preset) {
   add_states(sheet, preset.members * preset.current_lags, "u, 1");
 }
 
+void describe(ModelSheet& sheet, const PassiveNetworkPreset& preset) {
+  sheet.numbers = preset.members * PassiveLayout(preset.sizes).count;
+  add_states(sheet, preset.members, "q, 1 (where the drive varies)");
+  add_states(sheet, preset.members * preset.sizes.memories, "u, 1");
+  add_states(sheet, preset.members * preset.sizes.springs, "s, 1");
+  add_states(sheet, preset.members, "w, 1");
+}
+
 template <auto presets>
 void describe_preset(ModelSheet& sheet) {
   describe(sheet, find_preset(presets(), sheet.name));
@@ -209,6 +219,7 @@ constexpr std::array kDescriptions{
     KindDescription{ModelKind::Narx, describe_preset<narx_presets>},
     KindDescription{ModelKind::HysteresisNetwork, describe_preset<hysteresis_network_presets>},
     KindDescription{ModelKind::StateSpace, describe_preset<state_space_presets>},
+    KindDescription{ModelKind::PassiveNetwork, describe_preset<passive_network_presets>},
     KindDescription{ModelKind::Fuzzy, describe_preset<fuzzy_presets>},
     KindDescription{ModelKind::Hybrid, describe_preset<hybrid_presets>},
     KindDescription{ModelKind::Family, describe_preset<family_presets>},

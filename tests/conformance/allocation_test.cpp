@@ -5,6 +5,7 @@
 #include "damper/inverse/inverses.h"
 #include "damper/kinds/family/example_family.h"
 #include "damper/kinds/narx/narx_example.h"
+#include "damper/kinds/passive_network/passive_network_example.h"
 #include "damper/kinds/state_space/state_space_example.h"
 #include "dashpot/damper/inverse/registry.h"
 #include "dashpot/damper/kinds/fuzzy/fuzzy_model.h"
@@ -100,6 +101,7 @@ TEST_CASE("stepping static networks allocates nothing") {
 
 TEST_CASE("stepping a state space allocates nothing") {
   check_stepping(StateSpaceModel("test", {example_state_space(1), example_state_space(2)}));
+  check_stepping(PassiveNetworkModel("test", {example_passive_network(1)}));
 }
 
 TEST_CASE("stepping a network with fed-back forces allocates nothing") {

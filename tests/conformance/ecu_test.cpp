@@ -2,6 +2,7 @@
 
 #include "dashpot/base/file.h"
 #include "dashpot/damper/kinds/hysteresis_network/presets.h"
+#include "dashpot/damper/kinds/passive_network/presets.h"
 #include "dashpot/export/c/c_controller.h"
 #include "dashpot/export/c/c_source.h"
 #include "dashpot/export/c/c_text.h"
@@ -53,6 +54,12 @@ std::vector<ExampleModel> ecu_models() {
   }
   models.push_back(
       {"bank", std::make_shared<HysteresisNetworkModel>("hysteresis_network", std::move(members))});
+  PassiveNetwork passive = example_passive_network();
+  passive.sizes = find_preset(passive_network_presets(), "passive_network_one_sensor").sizes;
+  passive.displacement_scale = 0;
+  initialise(passive, 0.01, 0.02, 1);
+  models.push_back({"passive", std::make_shared<PassiveNetworkModel>("passive_network_one_sensor",
+                                                                     std::vector{passive})});
   return models;
 }
 

@@ -9,6 +9,7 @@
 #include "dashpot/damper/kinds/hysteresis_network/presets.h"
 #include "dashpot/damper/kinds/narx/presets.h"
 #include "dashpot/damper/kinds/network/presets.h"
+#include "dashpot/damper/kinds/passive_network/presets.h"
 #include "dashpot/damper/kinds/state_space/presets.h"
 #include "support.h"
 
@@ -21,7 +22,7 @@ TEST_CASE("laws stand in alphabetical order, the other kinds follow in theirs") 
   CHECK(std::vector<std::string>(others, names.end()) ==
         std::vector<std::string>{"mlp_one_sensor", "mlp_two_sensors", "narx_one_sensor",
                                  "narx_two_sensors", "hysteresis_network", "neural_state_space",
-                                 "anfis", "takagi_sugeno", "large_scale_bouc_wen+network",
+                                 "passive_network", "passive_network_one_sensor", "anfis", "takagi_sugeno", "large_scale_bouc_wen+network",
                                  "modified_bouc_wen+network", "family_gated", "family_h3x15",
                                  "family_h3x15_residual", "family_h3x15_total"});
   for (const Law* law : laws()) {
@@ -59,6 +60,15 @@ TEST_CASE("state spaces say their kind and need one sensor") {
     CHECK(info.kind == ModelKind::StateSpace);
     CHECK(info.inputs == std::vector<std::string>{"velocity", "current"});
     CHECK(&find_preset(state_space_presets(), preset.name) == &preset);
+  }
+}
+
+TEST_CASE("passive networks say their kind and which sensors they read") {
+  for (const PassiveNetworkPreset& preset : passive_network_presets()) {
+    const ModelInfo info = model_info(preset.name);
+    CHECK(info.kind == ModelKind::PassiveNetwork);
+    CHECK(info.needs_displacement() == preset.displacement);
+    CHECK(&find_preset(passive_network_presets(), preset.name) == &preset);
   }
 }
 

@@ -7,6 +7,7 @@
 #include "damper/kinds/hybrid/hybrid_model_example.h"
 #include "damper/kinds/hysteresis_network/hysteresis_network_example.h"
 #include "damper/kinds/narx/narx_example.h"
+#include "damper/kinds/passive_network/passive_network_example.h"
 #include "damper/kinds/state_space/state_space_example.h"
 #include "dashpot/damper/kinds/fuzzy/fuzzy_model.h"
 #include "dashpot/damper/kinds/law/law_model.h"
@@ -79,6 +80,9 @@ inline std::vector<ExampleModel> example_models() {
                              {example_hysteresis_network(1), example_hysteresis_network(2)}, 2));
   add("state_space",
       StateSpaceModel("neural_state_space", {example_state_space(1), example_state_space(2)}, 2));
+  add("passive_network",
+      PassiveNetworkModel("passive_network",
+                          {example_passive_network(1), example_passive_network(2)}, 2));
   add("fuzzy", example_fuzzy());
   add("hybrid", example_hybrid());
   add("family_gated", example_family());

@@ -16,6 +16,8 @@
 #include "dashpot/damper/kinds/narx/presets.h"
 #include "dashpot/damper/kinds/network/network_model.h"
 #include "dashpot/damper/kinds/network/presets.h"
+#include "dashpot/damper/kinds/passive_network/passive_network_model.h"
+#include "dashpot/damper/kinds/passive_network/presets.h"
 #include "dashpot/damper/kinds/state_space/presets.h"
 #include "dashpot/damper/kinds/state_space/state_space_model.h"
 #include "dashpot/error.h"
@@ -51,6 +53,8 @@ constexpr std::array kKinds{
     KindRow{ModelKind::HysteresisNetwork, list<hysteresis_network_presets>,
             read<hysteresis_network_model_from_json>},
     KindRow{ModelKind::StateSpace, list<state_space_presets>, read<state_space_model_from_json>},
+    KindRow{ModelKind::PassiveNetwork, list<passive_network_presets>,
+            read<passive_network_model_from_json>},
     KindRow{ModelKind::Fuzzy, list<fuzzy_presets>, read<fuzzy_model_from_json>},
     KindRow{ModelKind::Hybrid, list<hybrid_presets>, read<hybrid_model_from_json>},
     KindRow{ModelKind::Family, list<family_presets>, read<family_model_from_json>},

@@ -1,8 +1,12 @@
 #pragma once
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
+
+#include "dashpot/damper_input.h"
 
 namespace dashpot {
 
@@ -64,5 +68,14 @@ struct GatedNetwork {
   double sum(const double* linear, const double* held) const noexcept;
   void fill_gates(const double* currents, double* c) const noexcept;
 };
+
+/// The output, in raw units, at the signals that a source of states gives it at this instant.
+template <class Source>
+double read_by(const GatedNetwork& network, const Source& source, const DamperInput& input,
+               std::span<const double> state) noexcept {
+  std::array<double, GatedNetwork::kMaxSignals> signals;
+  source.read(input, state, signals.data());
+  return network.evaluate(signals.data());
+}
 
 }  // namespace dashpot

@@ -1,27 +1,22 @@
 #pragma once
-#include <array>
 #include <cmath>
 #include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "dashpot/damper/nets/gated_network.h"
 #include "dashpot/damper_model.h"
 #include "dashpot/error.h"
 #include "dashpot/value.h"
 
 namespace dashpot {
 
-/// Velocity and current -> force through states of its own: the mean of a few members, each of
-/// which has states() that follow the motion and a `network` that reads them.
-template <class Member>
-/// A model from velocity and current to force through states of its own: the mean of a few members,
-/// each of which has states() that follow the motion and a `network` that reads them. Immutable;
-/// the caller's state holds the members' states one after the other.
+/// A model from motion and current to force through states of its own: the mean of a few members.
+/// Immutable; the caller's state holds the members' states one after the other.
 ///
-/// A Member has states(), with rest, advance, flow, read and size as HysteresisBank has them,
-/// `network`, parameter_count(), to_json() and require_sound(where).
+/// A Member has states(), with rest, advance, flow and size as HysteresisBank has them,
+/// force(input, state), parameter_count(), to_json() and require_sound(where).
+template <class Member>
 class StatefulEnsemble : public DamperModel {
  public:
   std::string name() const override { return name_; }
@@ -42,7 +37,7 @@ class StatefulEnsemble : public DamperModel {
   }
   double force(const DamperInput& input, std::span<const double> state) const noexcept override {
     double sum = 0;
-    for (const Member& member : members_) sum += read(member, input, own(member, state));
+    for (const Member& member : members_) sum += member.force(input, own(member, state));
     return sum / static_cast<double>(members_.size()) + offset_;
   }
   bool flows() const noexcept override { return true; }
@@ -61,7 +56,7 @@ class StatefulEnsemble : public DamperModel {
     const double mean = force(input, state) - offset_;
     double squares = 0;
     for (const Member& member : members_) {
-      const double apart = read(member, input, own(member, state)) - mean;
+      const double apart = member.force(input, own(member, state)) - mean;
       squares += apart * apart;
     }
     return std::sqrt(squares / static_cast<double>(members_.size() - 1));
@@ -98,12 +93,6 @@ class StatefulEnsemble : public DamperModel {
     const std::span<Number> part = state.first(member.states().size());
     state = state.subspan(part.size());
     return part;
-  }
-  static double read(const Member& member, const DamperInput& input,
-                     std::span<const double> state) {
-    std::array<double, GatedNetwork::kMaxSignals> signals;
-    member.states().read(input, state, signals.data());
-    return member.network.evaluate(signals.data());
   }
 
   std::string name_;

@@ -9,6 +9,7 @@
 #include "dashpot/damper/kinds/hysteresis_network/presets.h"
 #include "dashpot/damper/kinds/narx/presets.h"
 #include "dashpot/damper/kinds/network/presets.h"
+#include "dashpot/damper/kinds/passive_network/presets.h"
 #include "dashpot/damper/kinds/state_space/presets.h"
 #include "dashpot/damper/registry.h"
 #include "dashpot/error.h"
@@ -32,6 +33,7 @@ FitReport fit_preset(std::string_view model, const std::vector<Record>& training
 
 constexpr std::array<std::string_view, 0> kNone{};
 constexpr std::array<std::string_view, 4> kOfStates{"hidden", "epochs", "l2", "members"};
+constexpr std::array<std::string_view, 4> kOfPassive{"hidden", "rate", "epochs", "members"};
 constexpr std::array<std::string_view, 12> kOfNarx{"hidden",  "activation", "trainer", "epochs",
                                                    "l2",      "members",    "delays",  "feedback",
                                                    "spacing", "training",   "window",  "output"};
@@ -59,6 +61,8 @@ constexpr std::array kFits{
             fit_preset<hysteresis_network_presets, fit_hysteresis_network>, always<kOfStates>},
     KindFit{ModelKind::StateSpace, fit_preset<state_space_presets, fit_state_space>,
             always<kOfStates>},
+    KindFit{ModelKind::PassiveNetwork, fit_preset<passive_network_presets, fit_passive_network>,
+            always<kOfPassive>},
     KindFit{ModelKind::Fuzzy, fit_preset<fuzzy_presets, fit_fuzzy>, always<kNone>},
     KindFit{ModelKind::Hybrid, fit_preset<hybrid_presets, fit_hybrid>, always<kNone>},
     KindFit{ModelKind::Family, fit_preset<family_presets, fit_family>, settings_of_family,

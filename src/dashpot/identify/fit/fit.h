@@ -20,6 +20,7 @@ struct HysteresisNetworkPreset;
 struct Law;
 struct NarxPreset;
 struct NetworkPreset;
+struct PassiveNetworkPreset;
 struct StateSpacePreset;
 
 FitReport fit_law(const Law& law, const std::vector<Record>& training, DriveUnit drive_unit,
@@ -34,6 +35,9 @@ FitReport fit_hysteresis_network(const HysteresisNetworkPreset& preset,
                                  const IdentifyOptions& options);
 FitReport fit_state_space(const StateSpacePreset& preset, const std::vector<Record>& training,
                           DriveUnit drive_unit, const IdentifyOptions& options);
+FitReport fit_passive_network(const PassiveNetworkPreset& preset,
+                              const std::vector<Record>& training, DriveUnit drive_unit,
+                              const IdentifyOptions& options);
 FitReport fit_fuzzy(const FuzzyPreset& preset, const std::vector<Record>& training,
                     DriveUnit drive_unit, const IdentifyOptions& options);
 FitReport fit_hybrid(const HybridPreset& preset, const std::vector<Record>& training,

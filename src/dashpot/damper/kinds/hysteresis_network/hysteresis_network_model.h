@@ -17,6 +17,9 @@ struct HysteresisNetwork {
   const HysteresisBank& states() const noexcept { return bank; }
   /// Rates, weights of neurons and gates.
   std::size_t parameter_count() const noexcept { return bank.size() + network.parameter_count(); }
+  double force(const DamperInput& input, std::span<const double> state) const noexcept {
+    return read_by(network, bank, input, state);
+  }
   Value to_json() const;
   void require_sound(const std::string& where) const;
 };

@@ -19,6 +19,9 @@ struct StateSpaceNetwork {
   std::size_t parameter_count() const noexcept {
     return cell.parameter_count() + network.parameter_count();
   }
+  double force(const DamperInput& input, std::span<const double> state) const noexcept {
+    return read_by(network, cell, input, state);
+  }
   Value to_json() const;
   void require_sound(const std::string& where) const;
 };

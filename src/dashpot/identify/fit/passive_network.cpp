@@ -1,0 +1,201 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "dashpot/base/parallel.h"
+#include "dashpot/damper/kinds/passive_network/passive_network_model.h"
+#include "dashpot/damper/kinds/passive_network/presets.h"
+#include "dashpot/damper/kinds/passive_network/train_passive_network.h"
+#include "dashpot/error.h"
+#include "dashpot/evaluate.h"
+#include "dashpot/identify/fit/fit.h"
+#include "dashpot/identify/fit/free_run_records.h"
+#include "dashpot/identify/fit/member_report.h"
+#include "dashpot/identify/fit/trials.h"
+#include "dashpot/identify/judge/stroke.h"
+
+namespace dashpot {
+namespace {
+
+// The network's step: a share of the time between two turns, and short where the drive switches.
+constexpr double kStepsPerStroke = 25, kLongestStep = 0.01, kLongestSwitchingStep = 0.001;  // s
+constexpr double kWindowTime = 1, kRunInShare = 0.25;  // s; of a window
+constexpr std::size_t kShortestWindow = 128, kLongestWindow = 400;
+constexpr std::size_t kUpdates = 1600, kTrialUpdates = 500;
+/// How much the weights shrink by which networks read the drive: freely, or hardly at all.
+constexpr std::array kDriveDecays{0.0, 1.0};
+constexpr double kDriveSpan = 2;  // of the standardised drive
+
+using Records = std::vector<const FreeRunRecord*>;
+
+/// s: fine enough for the quickest motion of these records and, where it varies, for their drive.
+double network_step(const Records& records, bool drive_varies) {
+  double stroke = INFINITY, own = 0;
+  for (const FreeRunRecord* record : records) {
+    stroke = std::min(stroke, mean_stroke(record->inputs, record->time).duration);
+    own = std::max(own, (record->time.back() - record->time.front()) /
+                            static_cast<double>(record->time.size() - 1));
+  }
+  const double longest = drive_varies ? kLongestSwitchingStep : kLongestStep;
+  return std::max(own, std::min(longest, stroke / kStepsPerStroke));
+}
+
+/// A network of the preset's size with the scales and ranges of the records.
+PassiveNetwork scaled_network(const PassiveNetworkPreset& preset, const Records& records,
+                              const DriveRange& drive) {
+  PassiveNetwork n;
+  n.sizes = preset.sizes;
+  n.lags = drive.varies;
+  n.inert = true;
+
+  // Means and squares of the motion.
+  double samples = 0, displacements = 0, displacement_squares = 0, velocity_squares = 0;
+  double lowest = INFINITY, highest = -INFINITY, slowest = INFINITY, fastest = -INFINITY;
+  for (const FreeRunRecord* record : records)
+    for (const DamperInput& input : record->inputs) {
+      samples += 1;
+      displacements += input.displacement;
+      displacement_squares += input.displacement * input.displacement;
+      velocity_squares += input.velocity * input.velocity;
+      lowest = std::min(lowest, input.displacement);
+      highest = std::max(highest, input.displacement);
+      slowest = std::min(slowest, input.velocity);
+      fastest = std::max(fastest, input.velocity);
+    }
+  n.velocity_scale = std::max(std::sqrt(velocity_squares / samples), 1e-9);
+  n.velocity_low = slowest / n.velocity_scale;
+  n.velocity_high = fastest / n.velocity_scale;
+  if (preset.displacement) {
+    n.displacement_mean = displacements / samples;
+    const double variance =
+        displacement_squares / samples - n.displacement_mean * n.displacement_mean;
+    n.displacement_scale = std::sqrt(std::max(variance, 1e-18));
+    n.displacement_low = (lowest - n.displacement_mean) / n.displacement_scale;
+    n.displacement_high = (highest - n.displacement_mean) / n.displacement_scale;
+  }
+
+  // The drive, from 0, and the force.
+  const double most = std::max(std::abs(drive.low), std::abs(drive.high));
+  n.drive_scale = most > 0 ? most / kDriveSpan : 1;
+  n.drive_low = drive.low / n.drive_scale;
+  n.drive_high = drive.high / n.drive_scale;
+  n.force_scale = force_deviation(records);
+  n.model_step = network_step(records, drive.varies);
+  return n;
+}
+
+/// The preset with what the user's design says otherwise: neurons of the gates, then of the viscous
+/// term.
+PassiveNetworkPreset designed(PassiveNetworkPreset preset, const NetworkDesign& design) {
+  for (const std::size_t neurons : design.hidden)
+    if (neurons < 1 || neurons > PassiveNetwork::kMaxNeurons)
+      throw Error("--network hidden", std::to_string(neurons) + " neurons",
+                  "1 to " + std::to_string(PassiveNetwork::kMaxNeurons) + " for " +
+                      std::string(preset.name));
+  if (!design.hidden.empty()) preset.sizes.neurons = design.hidden.front();
+  if (design.hidden.size() > 1) preset.sizes.viscous_neurons = design.hidden[1];
+  preset.members = design.members.value_or(preset.members);
+  return preset;
+}
+
+/// One preset on one set of records.
+class PassiveNetworkFit {
+ public:
+  PassiveNetworkFit(const PassiveNetworkPreset& preset, const std::vector<Record>& training,
+                    DriveUnit drive_unit, const IdentifyOptions& options)
+      : preset_(designed(preset, options.network)),
+        options_(options),
+        records_(free_run_records(training, drive_unit)) {
+    for (const FreeRunRecord& record : records_) all_.push_back(&record);
+    const DriveRange drive = drive_range(training, drive_unit);
+    start_ = scaled_network(preset_, all_, drive);
+    if (!drive.varies && drive.levels > 2) decay_ = best_drive_decay(Trials(training, drive_unit));
+  }
+
+  struct Member {
+    PassiveNetwork network;
+    FreeRunTrainReport report;
+  };
+
+  /// Members differ in their random start and in the windows that they see.
+  std::vector<Member> members() const {
+    const std::vector<FreeRunRecord> coarse = at_step(all_, start_.model_step);
+    std::vector<Member> members(preset_.members);
+    parallel_for(members.size(), options_.threads, [&](std::size_t k) {
+      members[k] = trained(all_, coarse, {decay_, kUpdates, options_.seed + k});
+    });
+    return members;
+  }
+
+ private:
+  struct Effort {
+    double decay;
+    std::size_t updates;
+    std::uint64_t seed;
+  };
+
+  Member trained(const Records& records, const std::vector<FreeRunRecord>& coarse,
+                 Effort effort) const {
+    const WayRange way = way_range(records);
+    const double samples = std::clamp(kWindowTime / start_.model_step,
+                                      static_cast<double>(kShortestWindow),
+                                      static_cast<double>(kLongestWindow));
+    PassiveTrainOptions options;
+    options.updates = options_.network.epochs.value_or(effort.updates);
+    options.window = static_cast<std::size_t>(samples);
+    options.run_in = static_cast<std::size_t>(samples * kRunInShare);
+    options.rate = options_.network.rate.value_or(options.rate);
+    options.drive_decay = effort.decay;
+    options.offsets = options_.offset == OffsetMode::Record;
+    options.seed = effort.seed;
+    options.on_update = [this] { options_.monitor.check(); };
+
+    Member member{start_, {}};
+    initialise(member.network, way.shortest, way.longest, effort.seed);
+    member.report = train(member.network, coarse, options);
+    return member;
+  }
+
+  /// The decay with which trials leave least of what was held back: by the mean logarithm of their
+  /// squares, so that one wild extrapolation does not decide alone.
+  double best_drive_decay(const Trials& trials) const {
+    const std::size_t choices = kDriveDecays.size();
+    std::vector<double> left(choices * trials.all().size());
+    parallel_for(left.size(), options_.threads, [&](std::size_t k) {
+      const FreeRunTrial& trial = trials.all()[k / choices];
+      const Member found = trained(trial.training, at_step(trial.training, start_.model_step),
+                                   {kDriveDecays[k % choices], kTrialUpdates, options_.seed});
+      double squares = 0;
+      for (const FreeRunRecord* record : trial.held_back)
+        squares += squares_left(found.network, *record, options_.offset == OffsetMode::Record);
+      left[k] = std::log(squares);
+    });
+
+    std::array<double, kDriveDecays.size()> sums{};
+    for (std::size_t k = 0; k < left.size(); ++k) sums[k % choices] += left[k];
+    return kDriveDecays[static_cast<std::size_t>(std::ranges::min_element(sums) - sums.begin())];
+  }
+
+  const PassiveNetworkPreset preset_;
+  const IdentifyOptions& options_;
+  std::vector<FreeRunRecord> records_;
+  Records all_;
+  PassiveNetwork start_;
+  double decay_ = 0;
+};
+
+}  // namespace
+
+FitReport fit_passive_network(const PassiveNetworkPreset& preset,
+                              const std::vector<Record>& training, DriveUnit drive_unit,
+                              const IdentifyOptions& options) {
+  const std::vector<PassiveNetworkFit::Member> members =
+      PassiveNetworkFit(preset, training, drive_unit, options).members();
+  FitReport report = report_of_members(members);
+  std::vector<PassiveNetwork> networks;
+  for (const PassiveNetworkFit::Member& member : members) networks.push_back(member.network);
+  report.model = std::make_shared<PassiveNetworkModel>(std::string(preset.name), std::move(networks));
+  return report;
+}
+
+}  // namespace dashpot

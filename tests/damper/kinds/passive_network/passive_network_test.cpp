@@ -1,0 +1,127 @@
+#include <cmath>
+#include <cstdlib>
+
+#include "damper/kinds/passive_network/passive_network_example.h"
+#include "dashpot/base/value_json.h"
+#include "support.h"
+
+using namespace dashpot;
+
+namespace {
+
+/// A motion whose displacement is the integral of its velocity, under a current that leaps.
+class Shaken {
+ public:
+  Shaken(std::uint64_t seed, double step) : random_(seed), step_(step) {}
+  DamperInput next(const DamperInput& from) {
+    DamperInput to = from;
+    to.velocity = 0.98 * from.velocity + 0.05 * random_.normal();
+    to.displacement += step_ * (from.velocity + to.velocity) / 2;
+    if (random_.uniform() < 0.02) to.current = 2 * random_.uniform();
+    return to;
+  }
+
+ private:
+  Random random_;
+  double step_;
+};
+
+/// What a network gave beyond what it had taken in, J, at the worst instant of a random run, and the
+/// work that was done on it, J; the work by the trapezoidal rule.
+struct Balance {
+  double worst = -INFINITY, work = 0;
+};
+Balance balance(const PassiveNetwork& network, std::uint64_t seed, double step, int samples) {
+  Shaken shaken(seed, step);
+  DamperInput now;
+  std::vector<double> state(network.size());
+  network.rest(now, state);
+  const double begin = network.stored_energy(now, state);
+  Balance result;
+  double net = 0;
+  for (int k = 0; k < samples; ++k) {
+    const DamperInput next = shaken.next(now);
+    const double before = network.force(now, state) * now.velocity;
+    network.advance(now, next, step, state);
+    const double power = (before + network.force(next, state) * next.velocity) / 2;
+    net += power * step;
+    result.work += std::abs(power) * step;
+    now = next;
+    result.worst = std::max(result.worst, network.stored_energy(now, state) - begin - net);
+  }
+  return result;
+}
+
+int random_networks() {
+  const char* asked = std::getenv("DASHPOT_PASSIVE_NETWORKS");
+  return asked ? std::atoi(asked) : 500;
+}
+
+}  // namespace
+
+TEST_CASE("whatever its numbers, a passive network gives back no more than it took in") {
+  Random random(7);
+  for (int k = 0; k < random_networks(); ++k) {
+    // Networks from tame to wild; steps so short that the rule which sums the work is exact.
+    const double spread = 3 * random.uniform(), step = 1e-6 * std::pow(10, 1.5 * random.uniform());
+    const PassiveNetwork network = example_passive_network(random.next(), spread);
+    const Balance found = balance(network, random.next(), step, 400);
+    CAPTURE(k);
+    CHECK(found.worst <= 1e-4 * found.work + 1e-12);
+  }
+}
+
+TEST_CASE("the check finds a network that does generate energy") {
+  PassiveNetwork network = example_passive_network(3, 0.5);
+  const PassiveLayout at(network.sizes);
+  network.numbers[at.inertia] = -20;
+  CHECK(balance(network, 5, 1e-5, 400).worst > 1e-3 * balance(network, 5, 1e-5, 400).work);
+}
+
+TEST_CASE("a file with a number that would generate energy is refused") {
+  for (const bool spring : {false, true}) {
+    PassiveNetwork network = example_passive_network();
+    const PassiveLayout at(network.sizes);
+    network.numbers[spring ? at.stiffness : at.levers + 1] = -0.1;
+    const std::string message =
+        message_of([&] { PassiveNetworkModel("passive_network", {network}); });
+    CHECK(message.find("never negative: the network would generate energy") != std::string::npos);
+  }
+}
+
+TEST_CASE("a passive network is a model file, to the bit") {
+  const PassiveNetworkModel model("passive_network",
+                                  {example_passive_network(1), example_passive_network(2)}, 3);
+  const auto again = passive_network_model_from_json(model.to_json());
+  CHECK(format_json(again->to_json()) == format_json(model.to_json()));
+  CHECK(again->state_size() == model.state_size());
+}
+
+TEST_CASE("the force does not depend on how a motion is sampled") {
+  const PassiveNetwork network = example_passive_network(4, 0.3);
+  const auto forces = [&](double step) {
+    const auto motion = [](double time) {
+      return DamperInput{0.01 * std::sin(20 * time), 0.2 * std::cos(20 * time),
+                         1 + 0.5 * std::sin(3 * time)};
+    };
+    std::vector<double> state(network.size()), found;
+    network.rest(motion(0), state);
+    const int every = static_cast<int>(std::lround(0.004 / step));
+    for (int k = 0; k < 250 * every; ++k) {
+      network.advance(motion(k * step), motion((k + 1) * step), step, state);
+      if (k % every == every - 1) found.push_back(network.force(motion((k + 1) * step), state));
+    }
+    return found;
+  };
+
+  // Of the force's power, at most 0.1 % between 4, 1 and 0.25 ms.
+  const std::vector<double> coarse = forces(0.004), middle = forces(0.001), fine = forces(0.00025);
+  double power = 0, coarse_error = 0, middle_error = 0;
+  for (std::size_t k = 0; k < fine.size(); ++k) {
+    power += fine[k] * fine[k];
+    coarse_error += (coarse[k] - fine[k]) * (coarse[k] - fine[k]);
+    middle_error += (middle[k] - fine[k]) * (middle[k] - fine[k]);
+  }
+  CHECK(coarse_error < 1e-3 * power);
+  CHECK(middle_error < 1e-3 * power);
+}

@@ -1,0 +1,73 @@
+#include <cmath>
+
+#include "damper/kinds/passive_network/passive_network_example.h"
+#include "support.h"
+
+using namespace dashpot;
+
+namespace {
+
+std::vector<FreeRunRecord> noisy_records() {
+  Random random(3);
+  std::vector<FreeRunRecord> records(3);
+  for (std::size_t r = 0; r < records.size(); ++r)
+    for (int k = 0; k < 300; ++k) {
+      const double time = k * 0.002, phase = 9 * time + static_cast<double>(r);
+      records[r].inputs.push_back(
+          {0.01 * std::sin(phase), 0.09 * std::cos(phase), 0.5 + 0.4 * std::sin(5 * time)});
+      records[r].time.push_back(time);
+      records[r].force.push_back(500 * std::cos(phase) + 50 * random.normal());
+    }
+  return records;
+}
+
+}  // namespace
+
+TEST_CASE("gradients through time are those of differences, for every number") {
+  PassiveNetwork network = example_passive_network(2, 0.3);
+  const std::vector<FreeRunRecord> records = noisy_records();
+  const PassiveTrainOptions options{.window = 100, .run_in = 20};
+  const FreeRunCost at = passive_cost(network, records, options);
+
+  // The kernel counts in single precision, so a difference needs a wide step.
+  double largest = 0;
+  for (const double slope : at.gradient) largest = std::max(largest, std::abs(slope));
+  for (std::size_t k = 0; k < network.numbers.size(); ++k) {
+    const double number = network.numbers[k], step = 3e-3 * std::max(std::abs(number), 0.1);
+    network.numbers[k] = number + step;
+    const double above = passive_cost(network, records, options).cost;
+    network.numbers[k] = number - step;
+    const double below = passive_cost(network, records, options).cost;
+    network.numbers[k] = number;
+    CAPTURE(k);
+    CHECK_CLOSE(at.gradient[k], (above - below) / (2 * step), 0.02, 1e-3 * largest);
+  }
+}
+
+TEST_CASE("the windows' kernel has the force of the model") {
+  const PassiveNetwork network = example_passive_network(5, 0.3);
+  const std::vector<FreeRunRecord> records = noisy_records();
+
+  // A record's cost by the kernel is that of the model's own free run over the same window.
+  PassiveTrainOptions options{.window = 364, .run_in = 64, .offsets = false};
+  const double cost = passive_cost(network, records, options).cost;
+  double expected = 0;
+  Random random(options.seed);
+  for (int window = 0; window < 32; ++window) {
+    const FreeRunRecord& record = records[random.index(records.size())];
+    random.index(1);  // its only place
+    expected += squares_left(network, record, false) / (network.force_scale * network.force_scale);
+  }
+  CHECK_CLOSE(cost, expected, 2e-3, 0);
+}
+
+TEST_CASE("training lowers the error, and repeats to the bit") {
+  const std::vector<FreeRunRecord> records = noisy_records();
+  const PassiveTrainOptions options{.updates = 60, .window = 128, .run_in = 32};
+  PassiveNetwork network = example_passive_network(6, 0), again = network;
+  const double before = passive_cost(network, records, options).cost;
+  train(network, records, options);
+  train(again, records, options);
+  CHECK(passive_cost(network, records, options).cost < 0.5 * before);
+  CHECK(network.numbers == again.numbers);
+}
