@@ -4,8 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "dashpot/numerics/symmetric.h"
-
 namespace dashpot {
 
 /// A problem min 0.5 |r(x)|^2 within bounds, for Levenberg-Marquardt by Ceres. Ceres itself appears

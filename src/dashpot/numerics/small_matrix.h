@@ -47,6 +47,12 @@ SmallMatrix<Columns, Rows> transposed(const SmallMatrix<Rows, Columns>& a) {
   return turned;
 }
 
+/// The inverse of a regular matrix; one that is singular gives numbers that are not finite.
+inline SmallMatrix<2, 2> inverse(const SmallMatrix<2, 2>& a) {
+  const double scale = 1 / (a(0, 0) * a(1, 1) - a(1, 0) * a(0, 1));
+  return {{a(1, 1) * scale, -a(0, 1) * scale, -a(1, 0) * scale, a(0, 0) * scale}};
+}
+
 /// matrix += weight (a'b + b'a) / 2 for rows a and b: the form weight (a.x)(b.x).
 template <std::size_t Size>
 void add_product(SmallMatrix<Size, Size>& matrix, double weight, const SmallMatrix<1, Size>& a,

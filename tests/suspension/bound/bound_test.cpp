@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "dashpot/base/random.h"
-#include "dashpot/numerics/riccati.h"
+#include "dashpot/numerics/linear_algebra.h"
 #include "dashpot/plant.h"
 #include "dashpot/suspension/bound/optimum.h"
 #include "dashpot/suspension/bound/relaxation.h"

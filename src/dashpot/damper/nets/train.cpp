@@ -6,7 +6,7 @@
 #include "dashpot/damper/nets/mlp.h"
 #include "dashpot/damper/nets/normal_equations.h"
 #include "dashpot/damper/nets/stopping.h"
-#include "dashpot/numerics/symmetric.h"
+#include "dashpot/numerics/linear_algebra.h"
 
 namespace dashpot {
 namespace {

@@ -10,7 +10,7 @@
 #include "dashpot/identify/fit/free_run_records.h"
 #include "dashpot/identify/fit/training_samples.h"
 #include "dashpot/identify/judge/stroke.h"
-#include "dashpot/numerics/symmetric.h"
+#include "dashpot/numerics/linear_algebra.h"
 
 namespace dashpot {
 namespace {

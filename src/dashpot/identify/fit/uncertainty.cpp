@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "dashpot/numerics/least_squares.h"
+#include "dashpot/numerics/linear_algebra.h"
 
 namespace dashpot {
 
@@ -55,14 +55,6 @@ std::vector<double> independent_variances(
 namespace {
 
 using Matrix = std::vector<double>;  // square, row by row
-
-Matrix product(const Matrix& a, const Matrix& b, std::size_t n) {
-  Matrix c(n * n, 0.0);
-  for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t k = 0; k < n; ++k)
-      for (std::size_t j = 0; j < n; ++j) c[i * n + j] += a[i * n + k] * b[k * n + j];
-  return c;
-}
 
 /// The rows and columns of the unknowns named, counted in the size of each.
 Matrix scaled_part(const Matrix& whole, std::size_t n, const std::vector<std::size_t>& unknowns,

@@ -1,12 +1,11 @@
 #include "dashpot/suspension/bound/sampled_plant.h"
 
+#include <algorithm>
 #include <cmath>
-
-#include <Eigen/Dense>
-#include <unsupported/Eigen/MatrixFunctions>
 
 #include "dashpot/base/text.h"
 #include "dashpot/error.h"
+#include "dashpot/numerics/linear_algebra.h"
 #include "dashpot/suspension/plants/linear.h"
 
 namespace dashpot {
@@ -24,6 +23,13 @@ void require_quarter_car(const Plant& plant) {
       strut.compression_stop > 0)
     throw Error(plant.name, "is not linear but for its damper: the clairvoyant bound asks for that",
                 right);
+}
+
+template <std::size_t Rows, std::size_t Columns>
+SmallMatrix<Rows, Columns> small(const std::vector<double>& values) {
+  SmallMatrix<Rows, Columns> matrix;
+  std::copy_n(values.begin(), Rows * Columns, matrix.values.begin());
+  return matrix;
 }
 
 /// A row over [q, q', 1, F], looked at after a motion.
@@ -67,27 +73,25 @@ void SampledPlant::set_rates(const Plant& plant) {
   damping_ = tyre.damping;
 
   // M q'' = -K q - C q' - row F + tyre P, divided by M.
-  using Square = Eigen::Matrix<double, 2, 2, Eigen::RowMajor>;
-  const Square inverse = Eigen::Map<const Square>(linear.mass.data()).inverse();
-  const Square by_q = -inverse * Eigen::Map<const Square>(linear.stiffness.data());
-  const Square by_v = -inverse * Eigen::Map<const Square>(linear.damping.data());
-  const Eigen::Vector2d by_force = -inverse * Eigen::Map<const Eigen::Vector2d>(strut.row.data());
-  const Eigen::Vector2d by_push = inverse * Eigen::Map<const Eigen::Vector2d>(tyre.row.data());
+  const SmallMatrix<2, 2> over_mass = inverse(small<2, 2>(linear.mass)),
+                          by_q = -1 * (over_mass * small<2, 2>(linear.stiffness)),
+                          by_v = -1 * (over_mass * small<2, 2>(linear.damping));
+  const SmallMatrix<2, 1> by_force = -1 * (over_mass * small<2, 1>(strut.row)),
+                          by_push = over_mass * small<2, 1>(tyre.row);
 
   // Coordinate by coordinate into the rows: rates of motion, damper speed and tyre force.
   for (std::size_t i = 0; i < 2; ++i) {
-    const auto row = static_cast<Eigen::Index>(i);
     rates_.motion(i, i + 2) = 1;
     for (std::size_t j = 0; j < 2; ++j) {
-      rates_.motion(i + 2, j) = by_q(row, static_cast<Eigen::Index>(j));
-      rates_.motion(i + 2, j + 2) = by_v(row, static_cast<Eigen::Index>(j));
+      rates_.motion(i + 2, j) = by_q(i, j);
+      rates_.motion(i + 2, j + 2) = by_v(i, j);
     }
-    rates_.motion(i + 2, kForce) = by_force(row);
-    by_push_(i + 2, 0) = by_push(row);
+    rates_.motion(i + 2, kForce) = by_force(i, 0);
+    by_push_(i + 2, 0) = by_push(i, 0);
     rates_.speed(0, i + 2) = strut.row[i];
     rates_.tyre_force(0, i) = -tyre.stiffness * tyre.row[i];
     rates_.tyre_force(0, i + 2) = -tyre.damping * tyre.row[i];
-    acceleration_by_push_ += strut.body_row[i] * by_push(row);
+    acceleration_by_push_ += strut.body_row[i] * by_push(i, 0);
   }
 
   // The body's acceleration is a sum of these rows.
@@ -98,24 +102,23 @@ void SampledPlant::set_rates(const Plant& plant) {
 
 SampledPlant::Flow SampledPlant::flow(double time) const {
   // The chain of x with F and the push, which stay or rise, [x, F, push, its rate]' = chain [...].
-  Eigen::Matrix<double, 7, 7> chain = Eigen::Matrix<double, 7, 7>::Zero();
-  for (int i = 0; i < 4; ++i) {
-    const auto row = static_cast<std::size_t>(i);
-    for (int j = 0; j < 4; ++j) chain(i, j) = rates_.motion(row, static_cast<std::size_t>(j));
-    chain(i, 4) = rates_.motion(row, kForce);
-    chain(i, 5) = by_push_(row, 0);
+  SmallMatrix<7, 7> chain;
+  for (std::size_t i = 0; i < 4; ++i) {
+    for (std::size_t j = 0; j < 4; ++j) chain(i, j) = rates_.motion(i, j);
+    chain(i, 4) = rates_.motion(i, kForce);
+    chain(i, 5) = by_push_(i, 0);
   }
   chain(5, 6) = 1;
 
   // One exponential moves them all.
-  const Eigen::Matrix<double, 7, 7> moved = (chain * time).exp();
+  const std::vector<double> moved = exponential((time * chain).values, 7);
   Flow out;
-  for (int i = 0; i < 4; ++i) {
-    const auto row = static_cast<std::size_t>(i);
-    for (int j = 0; j < 4; ++j) out.motion(row, static_cast<std::size_t>(j)) = moved(i, j);
-    out.motion(row, kForce) = moved(i, 4);
-    out.constant(row, 0) = moved(i, 5);
-    out.rising(row, 0) = moved(i, 6);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const double* const row = &moved[7 * i];
+    for (std::size_t j = 0; j < 4; ++j) out.motion(i, j) = row[j];
+    out.motion(i, kForce) = row[4];
+    out.constant(i, 0) = row[5];
+    out.rising(i, 0) = row[6];
   }
   out.motion(kOne, kOne) = 1;
   return out;

@@ -1,8 +1,6 @@
 #include "dashpot/suspension/control/regulator.h"
 
-#include <Eigen/Dense>
-
-#include "dashpot/numerics/riccati.h"
+#include "dashpot/numerics/linear_algebra.h"
 #include "dashpot/suspension/control/damping_law.h"
 #include "dashpot/suspension/plants/linear.h"
 
@@ -17,24 +15,27 @@ extern const ControlLaw kClippedLqr, kClippedOptimal;
 
 namespace {
 
-using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-
-Matrix matrix_of(const std::vector<double>& values, Eigen::Index n) {
-  return Eigen::Map<const Matrix>(values.data(), n, n);
-}
-Eigen::RowVectorXd row_of(const std::vector<double>& values) {
-  return Eigen::Map<const Eigen::RowVectorXd>(values.data(),
-                                              static_cast<Eigen::Index>(values.size()));
-}
-std::vector<double> values_of(const Matrix& matrix) {
-  return {matrix.data(), matrix.data() + matrix.size()};
-}
-
 /// An output y = c x + d u whose square has a weight in the cost.
 struct Output {
-  Eigen::RowVectorXd c, d;
+  std::vector<double> c, d;
   double weight;
 };
+
+/// The sum over all rows i of factor_i times the row, of a matrix with so many columns.
+std::vector<double> sum_of_rows(const std::vector<double>& factors, const double* rows,
+                                std::size_t columns) {
+  std::vector<double> sum(columns);
+  for (const double factor : factors)
+    for (double& value : sum) value += factor * *rows++;
+  return sum;
+}
+
+/// matrix += weight a' b.
+void add_product(std::vector<double>& matrix, double weight, const std::vector<double>& a,
+                 const std::vector<double>& b) {
+  for (std::size_t i = 0; i < a.size(); ++i)
+    for (std::size_t j = 0; j < b.size(); ++j) matrix[i * b.size() + j] += weight * a[i] * b[j];
+}
 
 struct Parameters {
   double deflection, tyre_deflection, force, top_acceleration;
@@ -85,41 +86,49 @@ const std::vector<ParameterRow> kWeights{
 std::vector<double> regulator_of(const Plant& plant, const RegulatorWeights& weights) {
   // The plant as x' = a x + b u, with x = [q, q'] and u the forces up on the bodies.
   const LinearPlant linear = linear_plant(plant);
-  const auto n = static_cast<Eigen::Index>(plant.size()),
-             m = static_cast<Eigen::Index>(plant.struts.size());
-  const Matrix inverse = matrix_of(linear.mass, n).inverse();
-  Matrix a = Matrix::Zero(2 * n, 2 * n), b = Matrix::Zero(2 * n, m);
-  a.topRightCorner(n, n).setIdentity();
-  a.bottomLeftCorner(n, n) = -inverse * matrix_of(linear.stiffness, n);
-  a.bottomRightCorner(n, n) = -inverse * matrix_of(linear.damping, n);
-  for (Eigen::Index k = 0; k < m; ++k)
-    b.col(k).tail(n) = inverse * row_of(plant.struts[static_cast<std::size_t>(k)].row).transpose();
+  const std::size_t n = plant.size(), states = 2 * n, m = plant.struts.size();
+  const std::vector<double> inverse = dashpot::inverse(linear.mass, n),
+                            by_q = product(inverse, linear.stiffness, n),
+                            by_v = product(inverse, linear.damping, n);
+  std::vector<double> a(states * states), b(states * m);
+  for (std::size_t i = 0; i < n; ++i) {
+    a[i * states + n + i] = 1;
+    for (std::size_t j = 0; j < n; ++j) {
+      a[(n + i) * states + j] = -by_q[i * n + j];
+      a[(n + i) * states + n + j] = -by_v[i * n + j];
+    }
+  }
+  for (std::size_t k = 0; k < m; ++k) {
+    const std::vector<double> by_force = product(inverse, plant.struts[k].row, n);
+    for (std::size_t i = 0; i < n; ++i) b[(n + i) * m + k] = by_force[i];
+  }
 
   // The outputs y = c x + d u whose squares count, each with its weight.
   std::vector<Output> outputs;
   const auto of_heights = [&](const std::vector<double>& row, double weight) {
-    Output output{Eigen::RowVectorXd::Zero(2 * n), Eigen::RowVectorXd::Zero(m), weight};
-    output.c.head(n) = row_of(row);
-    outputs.push_back(output);
+    Output output{row, std::vector<double>(m), weight};
+    output.c.resize(states);
+    outputs.push_back(std::move(output));
   };
   for (const Strut& strut : plant.struts) {
-    outputs.push_back(
-        {row_of(strut.body_row) * a.bottomRows(n), row_of(strut.body_row) * b.bottomRows(n), 1});
+    outputs.push_back({sum_of_rows(strut.body_row, &a[n * states], states),
+                       sum_of_rows(strut.body_row, &b[n * m], m), 1});
     of_heights(strut.row, weights.deflection);
   }
   for (const Tyre& tyre : plant.tyres) of_heights(tyre.row, weights.tyre_deflection);
-  outputs.push_back({a.row(2 * n - 1), b.row(2 * n - 1), weights.top_acceleration});
+  outputs.push_back(
+      {{a.end() - states, a.end()}, {b.end() - m, b.end()}, weights.top_acceleration});
 
   // Their sum as x' q x + 2 x' cross u + u' r u, and the regulator for it.
-  Matrix q = Matrix::Zero(2 * n, 2 * n), cross = Matrix::Zero(2 * n, m),
-         r = weights.force * Matrix::Identity(m, m);
+  std::vector<double> q(states * states), cross(states * m), r(m * m);
+  for (std::size_t k = 0; k < m; ++k) r[k * m + k] = weights.force;
   for (const Output& y : outputs) {
-    q += y.weight * y.c.transpose() * y.c;
-    cross += y.weight * y.c.transpose() * y.d;
-    r += y.weight * y.d.transpose() * y.d;
+    add_product(q, y.weight, y.c, y.c);
+    add_product(cross, y.weight, y.c, y.d);
+    add_product(r, y.weight, y.d, y.d);
   }
-  return regulator_gain({static_cast<std::size_t>(2 * n), plant.struts.size(), values_of(a),
-                         values_of(b), values_of(q), values_of(cross), values_of(r)});
+  return regulator_gain(
+      {states, m, std::move(a), std::move(b), std::move(q), std::move(cross), std::move(r)});
 }
 
 const ControlLaw kClippedLqr{.name = "clipped_lqr",

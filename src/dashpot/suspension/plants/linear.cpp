@@ -4,23 +4,16 @@
 #include <cmath>
 #include <numbers>
 
-#include <Eigen/Dense>
-
+#include "dashpot/numerics/linear_algebra.h"
 #include "dashpot/suspension/plants/assemble.h"
 
 namespace dashpot {
 namespace {
 
-using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 using Complex = std::complex<double>;
 
-Eigen::Map<const Matrix> map_of(const std::vector<double>& values, std::size_t n) {
-  return {values.data(), static_cast<Eigen::Index>(n), static_cast<Eigen::Index>(n)};
-}
-
-void add_row(Eigen::VectorXcd& force, const std::vector<double>& row, Complex value) {
-  for (std::size_t k = 0; k < row.size(); ++k)
-    force[static_cast<Eigen::Index>(k)] += row[k] * value;
+void add_row(std::vector<Complex>& force, const std::vector<double>& row, Complex value) {
+  for (std::size_t k = 0; k < row.size(); ++k) force[k] += row[k] * value;
 }
 
 }  // namespace
@@ -37,10 +30,8 @@ LinearPlant linear_plant(const Plant& plant, const std::vector<double>& damper) 
 }
 
 std::vector<double> natural_frequencies(const LinearPlant& plant) {
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(
-      map_of(plant.stiffness, plant.size), map_of(plant.mass, plant.size), Eigen::EigenvaluesOnly);
   std::vector<double> frequencies;
-  for (const double square : solver.eigenvalues())
+  for (const double square : eigenvalues(plant.stiffness, plant.mass, plant.size))
     frequencies.push_back(std::sqrt(std::max(square, 0.0)) / (2 * std::numbers::pi));
   return frequencies;
 }
@@ -52,12 +43,12 @@ std::vector<Complex> frequency_response(const Plant& plant, const std::vector<do
   const Complex s(0, 2 * std::numbers::pi * frequency);
 
   // s^2 M + s C + K at s = 2 pi i f.
-  const Eigen::MatrixXcd dynamic = s * s * map_of(linear.mass, n).cast<Complex>() +
-                                   s * map_of(linear.damping, n).cast<Complex>() +
-                                   map_of(linear.stiffness, n).cast<Complex>();
+  std::vector<Complex> dynamic(n * n);
+  for (std::size_t k = 0; k < dynamic.size(); ++k)
+    dynamic[k] = s * s * linear.mass[k] + s * linear.damping[k] + linear.stiffness[k];
 
   // Forces of a ground that moves by 1: through tyres, and through dampers that stand on it.
-  Eigen::VectorXcd force = Eigen::VectorXcd::Zero(static_cast<Eigen::Index>(n));
+  std::vector<Complex> force(n);
   for (const Tyre& tyre : plant.tyres) {
     const Complex delay = speed > 0 ? std::exp(-s * tyre.behind / speed) : Complex(1);
     add_row(force, tyre.row, (tyre.stiffness + s * tyre.damping) * delay);
@@ -66,13 +57,12 @@ std::vector<Complex> frequency_response(const Plant& plant, const std::vector<do
     if (plant.struts[k].track) add_row(force, plant.struts[k].row, s * damper[k]);
 
   // Or of a ground that shakes by 1.
-  if (plant.tyres.empty() && !plant.ground.empty())
-    force = -(map_of(plant.mass, n) *
-              Eigen::Map<const Eigen::VectorXd>(plant.ground.data(), static_cast<Eigen::Index>(n)))
-                 .cast<Complex>();
+  if (plant.tyres.empty() && !plant.ground.empty()) {
+    const std::vector<double> shaken = product(plant.mass, plant.ground, n);
+    for (std::size_t k = 0; k < n; ++k) force[k] = -shaken[k];
+  }
 
-  const Eigen::VectorXcd q = dynamic.partialPivLu().solve(force);
-  return {q.begin(), q.end()};
+  return solve(dynamic, force);
 }
 
 }  // namespace dashpot

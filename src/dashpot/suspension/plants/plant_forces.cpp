@@ -2,22 +2,9 @@
 
 #include <cmath>
 
-#include <Eigen/Dense>
+#include "dashpot/numerics/linear_algebra.h"
 
 namespace dashpot {
-namespace {
-
-using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-
-RowMajor matrix_of(const std::vector<double>& values, std::size_t n) {
-  const auto size = static_cast<Eigen::Index>(n);
-  return Eigen::Map<const RowMajor>(values.data(), size, size);
-}
-Eigen::VectorXd vector_of(const std::vector<double>& values) {
-  return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
-}
-
-}  // namespace
 
 PlantForces::PlantForces(const Plant& plant, const GroundMotion& ground)
     : plant_(plant),
@@ -28,37 +15,27 @@ PlantForces::PlantForces(const Plant& plant, const GroundMotion& ground)
   for (const Tyre& tyre : plant.tyres) contacts_.push_back(contact_of(tyre, plant.tyres_may_lift));
 
   // q'' by state, strut forces and road pushes: M^-1 times the columns of each.
-  const RowMajor mass = matrix_of(plant.mass, plant.size());
-  const auto n = static_cast<Eigen::Index>(plant.size());
-  const Eigen::PartialPivLU<RowMajor> masses(mass);
-  const auto put = [&](const RowMajor& forces, std::vector<double>& rows) {
-    const RowMajor solved = masses.solve(forces);
-    rows.assign(solved.data(), solved.data() + solved.size());
-  };
-  RowMajor by_state(n, 2 * n), by_strut(n, plant.struts.size()), by_tyre(n, plant.tyres.size());
-  by_state << -matrix_of(linear_.stiffness, plant.size()),
-      -matrix_of(linear_.damping, plant.size());
-  for (std::size_t s = 0; s < plant.struts.size(); ++s)
-    by_strut.col(static_cast<Eigen::Index>(s)) = -vector_of(plant.struts[s].row);
-  for (std::size_t w = 0; w < plant.tyres.size(); ++w)
-    by_tyre.col(static_cast<Eigen::Index>(w)) = vector_of(plant.tyres[w].row);
-  put(by_state, by_state_);
-  put(by_strut, by_strut_);
-  put(by_tyre, by_tyre_);
+  const std::size_t n = plant.size(), struts = plant.struts.size(), tyres = plant.tyres.size();
+  std::vector<double> by_state, by_strut, by_tyre;
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t j = 0; j < n; ++j) by_state.push_back(-linear_.stiffness[i * n + j]);
+    for (std::size_t j = 0; j < n; ++j) by_state.push_back(-linear_.damping[i * n + j]);
+    for (const Strut& strut : plant.struts) by_strut.push_back(-strut.row[i]);
+    for (const Tyre& tyre : plant.tyres) by_tyre.push_back(tyre.row[i]);
+  }
+  by_state_ = solve_columns(plant.mass, by_state, n);
+  if (struts > 0) by_strut_ = solve_columns(plant.mass, by_strut, n);
+  if (tyres > 0) by_tyre_ = solve_columns(plant.mass, by_tyre, n);
 
   // M e, the inertia that a shaking ground drives.
-  if (!plant.ground.empty()) {
-    const Eigen::VectorXd shaken = mass * vector_of(plant.ground);
-    shaken_.assign(shaken.begin(), shaken.end());
-  }
+  if (!plant.ground.empty()) shaken_ = product(plant.mass, plant.ground, n);
 
   // Where the plant rests for each tyre lifted by 1 m.
-  const Eigen::PartialPivLU<RowMajor> stiffness(matrix_of(linear_.stiffness, plant.size()));
-  for (std::size_t t = 0; t < plant.tyres.size(); ++t) {
-    const Eigen::VectorXd q =
-        stiffness.solve(plant.tyres[t].stiffness * vector_of(plant.tyres[t].row));
-    for (std::size_t k = 0; k < plant.size(); ++k)
-      resting_[k * plant.tyres.size() + t] = q[static_cast<Eigen::Index>(k)];
+  for (std::size_t t = 0; t < tyres; ++t) {
+    std::vector<double> force = plant.tyres[t].row;
+    for (double& value : force) value *= plant.tyres[t].stiffness;
+    const std::vector<double> q = solve(linear_.stiffness, force);
+    for (std::size_t k = 0; k < n; ++k) resting_[k * tyres + t] = q[k];
   }
 }
 

@@ -2,8 +2,7 @@
 #include <cmath>
 #include <limits>
 
-#include <Eigen/Dense>
-
+#include "dashpot/numerics/linear_algebra.h"
 #include "dashpot/suspension/steps/plant_equations.h"
 #include "dashpot/suspension/steps/step_control.h"
 
@@ -38,19 +37,22 @@ constexpr double kSlopes[kStages][kStages - 1] = {
     {8.083246795921522, -7.981132988064893, -31.52159432874371, 16.31930543123136,
      -6.058818238834054}};
 
-using Vector = Eigen::VectorXd;
-using Matrix = Eigen::MatrixXd;
-using Index = Eigen::Index;
+using Vector = std::vector<double>;
+
+/// sum += factor * terms.
+void add(Vector& sum, double factor, const Vector& terms) {
+  for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += factor * terms[k];
+}
 
 class ImplicitSteps final : public StepMethod {
  public:
   ImplicitSteps(const PlantForces& forces, const IntegratorOptions& options,
                 const PlantState& start)
-      : equations_(forces, start), options_(options), size_(static_cast<Index>(equations_.size())) {
-    for (Vector* vector : {&y_, &f_, &trial_, &slope_, &by_time_, &error_})
-      *vector = Vector::Zero(size_);
-    for (Vector& u : u_) u = Vector::Zero(size_);
-    jacobian_ = Matrix::Zero(size_, size_);
+      : equations_(forces, start), options_(options), size_(equations_.size()) {
+    for (Vector* vector : {&y_, &f_, &trial_, &slope_, &by_time_}) vector->resize(size_);
+    for (Vector& u : u_) u.resize(size_);
+    jacobian_.resize(size_ * size_);
+    matrix_.resize(size_ * size_);
   }
 
   void refresh(PlantState& state) override {
@@ -112,42 +114,45 @@ class ImplicitSteps final : public StepMethod {
     constexpr double kLeast = 1e-5;
 
     // By the state: one component after the other.
-    for (Index j = 0; j < size_; ++j) {
+    for (std::size_t j = 0; j < size_; ++j) {
       const double kept = y_[j];
       const double change =
           std::sqrt(std::numeric_limits<double>::epsilon() * std::max(kLeast, std::abs(kept)));
       y_[j] = kept + change;
       rates(done, y_, slope_);
       y_[j] = kept;
-      jacobian_.col(j) = (slope_ - f_) / change;
+      for (std::size_t i = 0; i < size_; ++i)
+        jacobian_[j * size_ + i] = (slope_[i] - f_[i]) / change;
     }
 
     // By time.
     const double later = 1e-4 * length, sign = done + later <= length ? 1 : -1;
     rates(done + sign * later, y_, by_time_);
-    by_time_ = (by_time_ - f_) * (sign / later);
+    for (std::size_t i = 0; i < size_; ++i) by_time_[i] = (by_time_[i] - f_[i]) * (sign / later);
   }
 
-  /// trial_ becomes the end of a step, error_ its error.
+  /// trial_ becomes the end of a step, the last of u_ its error.
   void attempt(double done, double h) {
-    solver_.compute(Matrix::Identity(size_, size_) / (kGamma * h) - jacobian_);
+    for (std::size_t k = 0; k < matrix_.size(); ++k) matrix_[k] = 0 - jacobian_[k];
+    for (std::size_t j = 0; j < size_; ++j)
+      matrix_[j * size_ + j] = 1 / (kGamma * h) - jacobian_[j * size_ + j];
+    factors_.factorise_columns(matrix_, size_);
 
     // One linear system per stage, all with the same matrix.
     for (std::size_t s = 0; s < kStages; ++s) {
       trial_ = y_;
-      for (std::size_t j = 0; j < s; ++j) trial_ += kFrom[s][j] * u_[j];
+      for (std::size_t j = 0; j < s; ++j) add(trial_, kFrom[s][j], u_[j]);
       if (s == 0)
         slope_ = f_;
       else
         rates(done + kAt[s] * h, trial_, slope_);
-      slope_ += (h * kByTime[s]) * by_time_;
-      for (std::size_t j = 0; j < s; ++j) slope_ += (kSlopes[s][j] / h) * u_[j];
-      u_[s] = solver_.solve(slope_);
+      add(slope_, h * kByTime[s], by_time_);
+      for (std::size_t j = 0; j < s; ++j) add(slope_, kSlopes[s][j] / h, u_[j]);
+      factors_.solve(slope_, u_[s]);
     }
 
     // The method is stiffly accurate: the last stage is the end, and its increment the error.
-    error_ = u_[kStages - 1];
-    trial_ += error_;
+    add(trial_, 1, u_[kStages - 1]);
   }
 
   double distance() const {
@@ -155,17 +160,17 @@ class ImplicitSteps final : public StepMethod {
         {equations_.coordinates(),
          {y_.data(), equations_.size()},
          {trial_.data(), equations_.size()}},
-        options_, [&](std::size_t k) { return std::abs(error_[static_cast<Index>(k)]); },
+        options_, [&](std::size_t k) { return std::abs(u_[kStages - 1][k]); },
         [](std::size_t) { return 0.0; });
   }
 
   PlantEquations equations_;
   IntegratorOptions options_;
-  Index size_;
-  Vector y_, f_, trial_, slope_, by_time_, error_;
+  std::size_t size_;
+  Vector y_, f_, trial_, slope_, by_time_;
   Vector u_[kStages];
-  Matrix jacobian_;
-  Eigen::PartialPivLU<Matrix> solver_;
+  Vector jacobian_, matrix_;  ///< column by column
+  Factors factors_;
   double next_ = 0;  ///< s, the length to try next
 };
 

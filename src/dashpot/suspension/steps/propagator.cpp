@@ -1,42 +1,51 @@
 #include "dashpot/suspension/steps/propagator.h"
 
-#include <Eigen/Dense>
-#include <unsupported/Eigen/MatrixFunctions>
+#include "dashpot/numerics/linear_algebra.h"
 
 namespace dashpot {
 namespace {
 
-using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-
-RowMajor matrix_of(const std::vector<double>& values, std::size_t n) {
-  const auto size = static_cast<Eigen::Index>(n);
-  return Eigen::Map<const RowMajor>(values.data(), size, size);
-}
-
 /// The part of x after `time` by x at the start and by g, g' and g'' / 2 there: one exponential of
-/// the chain x' = A x + B g, g' = g1, g1' = 2 g2.
-RowMajor by_derivatives(const LinearPlant& plant, double time) {
-  const auto n = static_cast<Eigen::Index>(plant.size);
-  const RowMajor inverse = matrix_of(plant.mass, plant.size).inverse();
-  RowMajor chain = RowMajor::Zero(5 * n, 5 * n);
-  chain.block(0, n, n, n).setIdentity();
-  chain.block(n, 0, n, n) = -inverse * matrix_of(plant.stiffness, plant.size);
-  chain.block(n, n, n, n) = -inverse * matrix_of(plant.damping, plant.size);
-  chain.block(n, 2 * n, n, n) = inverse;
-  chain.block(2 * n, 3 * n, n, n).setIdentity();
-  chain.block(3 * n, 4 * n, n, n) = 2 * RowMajor::Identity(n, n);
-  return RowMajor((chain * time).exp()).topRows(2 * n);
+/// the chain x' = A x + B g, g' = g1, g1' = 2 g2. 5 n columns.
+std::vector<double> by_derivatives(const LinearPlant& plant, double time) {
+  const std::size_t n = plant.size;
+  const std::vector<double> inverse = dashpot::inverse(plant.mass, n),
+                            by_q = product(inverse, plant.stiffness, n),
+                            by_v = product(inverse, plant.damping, n);
+
+  // The chain, times the time: rows of q, q', g and g1; g2 stays.
+  std::vector<double> chain(5 * n * 5 * n);
+  const auto at = [&](std::size_t row, std::size_t column) -> double& {
+    return chain[row * 5 * n + column];
+  };
+  for (std::size_t i = 0; i < n; ++i) {
+    at(i, n + i) = time;
+    for (std::size_t j = 0; j < n; ++j) {
+      at(n + i, j) = -by_q[i * n + j] * time;
+      at(n + i, n + j) = -by_v[i * n + j] * time;
+      at(n + i, 2 * n + j) = inverse[i * n + j] * time;
+    }
+    at(2 * n + i, 3 * n + i) = time;
+    at(3 * n + i, 4 * n + i) = 2 * time;
+  }
+
+  std::vector<double> moved = exponential(chain, 5 * n);
+  moved.resize(2 * n * 5 * n);
+  return moved;
 }
 
 /// The same by g at the start, the middle and the end of a step of length h.
-std::vector<double> by_values(const RowMajor& rows, std::size_t size, double h) {
-  const auto n = static_cast<Eigen::Index>(size);
-  const auto g0 = rows.middleCols(2 * n, n), g1 = rows.middleCols(3 * n, n),
-             g2 = rows.middleCols(4 * n, n);
-  RowMajor out(2 * n, 5 * n);
-  out << rows.leftCols(2 * n), g0 - 3 / h * g1 + 2 / (h * h) * g2, 4 / h * g1 - 4 / (h * h) * g2,
-      -1 / h * g1 + 2 / (h * h) * g2;
-  return {out.data(), out.data() + out.size()};
+std::vector<double> by_values(std::vector<double> rows, std::size_t n, double h) {
+  for (std::size_t i = 0; i < 2 * n; ++i) {
+    double* const g = &rows[i * 5 * n + 2 * n];
+    for (std::size_t k = 0; k < n; ++k) {
+      const double g0 = g[k], g1 = g[n + k], g2 = g[2 * n + k];
+      g[k] = g0 - 3 / h * g1 + 2 / (h * h) * g2;
+      g[n + k] = 4 / h * g1 - 4 / (h * h) * g2;
+      g[2 * n + k] = -1 / h * g1 + 2 / (h * h) * g2;
+    }
+  }
+  return rows;
 }
 
 }  // namespace

@@ -1,0 +1,184 @@
+#include "dashpot/numerics/linear_algebra.h"
+
+#include <cassert>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <unsupported/Eigen/MatrixFunctions>
+
+#include "dashpot/error.h"
+
+namespace dashpot {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXcd;
+using Eigen::MatrixXd;
+using Eigen::VectorXcd;
+using Eigen::VectorXd;
+using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+Eigen::Map<const RowMajor> as_matrix(std::span<const double> values, std::size_t rows,
+                                     std::size_t columns) {
+  assert(values.size() == rows * columns);
+  return {values.data(), static_cast<Index>(rows), static_cast<Index>(columns)};
+}
+Eigen::Map<const RowMajor> as_square(std::span<const double> values, std::size_t n) {
+  return as_matrix(values, n, n);
+}
+Eigen::Map<const VectorXd> as_vector(std::span<const double> values) {
+  return {values.data(), static_cast<Index>(values.size())};
+}
+std::vector<double> values_of(const RowMajor& matrix) {
+  return {matrix.data(), matrix.data() + matrix.size()};
+}
+
+/// [V1; V2]: eigenvectors of the Hamiltonian's eigenvalues left of the imaginary axis.
+MatrixXcd stable_subspace(const MatrixXd& hamiltonian) {
+  const Eigen::EigenSolver<MatrixXd> solver(hamiltonian);
+  const Index n = hamiltonian.rows() / 2;
+  MatrixXcd stable(2 * n, n);
+  Index found = 0;
+  for (Index k = 0; k < 2 * n; ++k)
+    if (solver.eigenvalues()[k].real() < 0 && found < n)
+      stable.col(found++) = solver.eigenvectors().col(k);
+  if (found < n) throw Error("regulator", "a mode is neither damped nor reached by the input");
+  return stable;
+}
+
+}  // namespace
+
+std::vector<double> product(std::span<const double> a, std::span<const double> b,
+                            std::size_t inner) {
+  if (b.size() == inner) {
+    const VectorXd result = as_matrix(a, a.size() / inner, inner) * as_vector(b);
+    return {result.begin(), result.end()};
+  }
+  return values_of(as_matrix(a, a.size() / inner, inner) * as_matrix(b, inner, b.size() / inner));
+}
+
+std::vector<double> inverse(std::span<const double> matrix, std::size_t n) {
+  return values_of(as_square(matrix, n).inverse());
+}
+
+std::vector<double> solve(std::span<const double> matrix, std::span<const double> right) {
+  const Eigen::PartialPivLU<RowMajor> factors(as_square(matrix, right.size()));
+  const VectorXd x = factors.solve(as_vector(right));
+  return {x.begin(), x.end()};
+}
+
+std::vector<std::complex<double>> solve(std::span<const std::complex<double>> matrix,
+                                        std::span<const std::complex<double>> right) {
+  assert(matrix.size() == right.size() * right.size());
+  const auto n = static_cast<Index>(right.size());
+  using ComplexRows =
+      Eigen::Matrix<std::complex<double>, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  const MatrixXcd columns = Eigen::Map<const ComplexRows>(matrix.data(), n, n);
+  const VectorXcd x = columns.partialPivLu().solve(Eigen::Map<const VectorXcd>(right.data(), n));
+  return {x.begin(), x.end()};
+}
+
+std::vector<double> solve_columns(std::span<const double> matrix, std::span<const double> right,
+                                  std::size_t n) {
+  const Eigen::PartialPivLU<RowMajor> factors(as_square(matrix, n));
+  const RowMajor columns = as_matrix(right, n, right.size() / n);
+  return values_of(factors.solve(columns));
+}
+
+std::vector<double> exponential(std::span<const double> matrix, std::size_t n) {
+  const RowMajor exponent = as_square(matrix, n);
+  return values_of(exponent.exp());
+}
+
+struct Factors::Decomposition {
+  Eigen::PartialPivLU<MatrixXd> lu;
+};
+
+Factors::Factors() : decomposition_(std::make_unique<Decomposition>()) {}
+Factors::~Factors() = default;
+
+void Factors::factorise_columns(std::span<const double> matrix, std::size_t n) {
+  assert(matrix.size() == n * n);
+  decomposition_->lu.compute(
+      MatrixXd::Map(matrix.data(), static_cast<Index>(n), static_cast<Index>(n)));
+}
+
+void Factors::solve(std::span<const double> right, std::span<double> x) const {
+  assert(x.size() == right.size());
+  VectorXd::Map(x.data(), static_cast<Index>(x.size())) =
+      decomposition_->lu.solve(as_vector(right));
+}
+
+SymmetricInverse invert_symmetric(std::span<const double> matrix, std::size_t n, double tolerance) {
+  SymmetricInverse result{std::vector<double>(n * n, 0.0), {}};
+  if (n == 0) return result;
+
+  // Decompose, and call an eigenvalue weak by comparison with the largest in magnitude.
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(as_square(matrix, n));
+  const double floor = tolerance * eigen.eigenvalues().cwiseAbs().maxCoeff();
+
+  // inverse = sum of v v' / lambda over the directions that are not weak.
+  Eigen::Map<RowMajor> inverse(result.inverse.data(), eigen.eigenvalues().size(),
+                               eigen.eigenvalues().size());
+  for (Index i = 0; i < eigen.eigenvalues().size(); ++i) {
+    const VectorXd direction = eigen.eigenvectors().col(i);
+    if (eigen.eigenvalues()[i] > floor)
+      inverse.noalias() += direction * direction.transpose() / eigen.eigenvalues()[i];
+    else
+      result.weak.emplace_back(direction.begin(), direction.end());
+  }
+  return result;
+}
+
+std::vector<double> eigenvalues(std::span<const double> a, std::span<const double> b,
+                                std::size_t n) {
+  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> solver(as_square(a, n), as_square(b, n),
+                                                                  Eigen::EigenvaluesOnly);
+  return {solver.eigenvalues().begin(), solver.eigenvalues().end()};
+}
+
+bool solve_positive_definite(std::span<const double> matrix, std::span<const double> right,
+                             std::span<double> x) {
+  assert(x.size() == right.size());
+  const Eigen::LLT<MatrixXd> factor(as_square(matrix, right.size()));
+  if (factor.info() != Eigen::Success) return false;
+  VectorXd::Map(x.data(), static_cast<Index>(x.size())) = factor.solve(as_vector(right));
+  return true;
+}
+
+std::optional<double> trace_of_inverse(std::span<const double> matrix, std::size_t n) {
+  const Eigen::LLT<MatrixXd> factor(as_square(matrix, n));
+  if (factor.info() != Eigen::Success) return std::nullopt;
+  // inverse = M' M with M the inverse of the factor: its trace is the sum of the squares of M.
+  const auto size = static_cast<Index>(n);
+  return factor.matrixL().solve(MatrixXd::Identity(size, size)).squaredNorm();
+}
+
+std::vector<double> regulator_gain(const RegulatorProblem& p) {
+  const auto n = static_cast<Index>(p.states);
+  const MatrixXd b = as_matrix(p.b, p.states, p.inputs), cross = as_matrix(p.n, p.states, p.inputs);
+
+  // The weights on the inputs must be positive definite with digits to spare, since they are
+  // inverted.
+  const Eigen::LLT<MatrixXd> r(as_square(p.r, p.inputs));
+  const VectorXd pivots = MatrixXd(r.matrixL()).diagonal();
+  if (r.info() != Eigen::Success || pivots.minCoeff() < 1e-7 * pivots.maxCoeff())
+    throw Error("regulator", "a combination of inputs costs nothing",
+                "a weight on the inputs themselves");
+
+  // Remove the cross term: with v = u + R^-1 N'x the weights are Q - N R^-1 N' and R alone.
+  const MatrixXd a = as_square(p.a, p.states) - b * r.solve(cross.transpose());
+  const MatrixXd q = as_square(p.q, p.states) - cross * r.solve(cross.transpose());
+
+  // The stabilising solution P maps the upper half of the stable subspace onto the lower, column
+  // by column: P V1 = V2.
+  MatrixXd hamiltonian(2 * n, 2 * n);
+  hamiltonian << a, -b * r.solve(b.transpose()), -q, -a.transpose();
+  const MatrixXcd stable = stable_subspace(hamiltonian);
+  const MatrixXd cost =
+      stable.topRows(n).transpose().partialPivLu().solve(stable.bottomRows(n).transpose()).real();
+  return values_of(r.solve(b.transpose() * cost.transpose() + cross.transpose()));
+}
+
+}  // namespace dashpot
