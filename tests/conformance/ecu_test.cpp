@@ -57,7 +57,7 @@ std::vector<ExampleModel> ecu_models() {
   PassiveNetwork passive = example_passive_network();
   passive.sizes = find_preset(passive_network_presets(), "passive_network_one_sensor").sizes;
   passive.displacement_scale = 0;
-  initialise(passive, 0.01, 0.02, 1);
+  initialise(passive, 1);
   models.push_back({"passive", std::make_shared<PassiveNetworkModel>("passive_network_one_sensor",
                                                                      std::vector{passive})});
   return models;

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "dashpot/numerics/least_squares.h"
+#include "dashpot/numerics/linear_algebra.h"
 #include "support.h"
 
 using namespace dashpot;

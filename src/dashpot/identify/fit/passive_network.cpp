@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
 
 #include "dashpot/base/parallel.h"
 #include "dashpot/damper/kinds/passive_network/passive_network_model.h"
@@ -21,9 +22,10 @@ namespace {
 constexpr double kStepsPerStroke = 25, kLongestStep = 0.01, kLongestSwitchingStep = 0.001;  // s
 constexpr double kWindowTime = 1, kRunInShare = 0.25;  // s; of a window
 constexpr std::size_t kShortestWindow = 128, kLongestWindow = 400;
-constexpr std::size_t kUpdates = 1600, kTrialUpdates = 500;
-/// How much the weights shrink by which networks read the drive: freely, or hardly at all.
-constexpr std::array kDriveDecays{0.0, 1.0};
+constexpr std::size_t kUpdates = 1600, kTrialUpdates = 400;
+/// How much the weights shrink by which networks read the drive: freely, hardly, not at all.
+constexpr std::array kDriveDecays{0.0, 1.0, 30.0};
+constexpr std::size_t kMostMotions = 4, kMostLevels = 6;  // groups of them, held back in turn
 constexpr double kDriveSpan = 2;  // of the standardised drive
 
 using Records = std::vector<const FreeRunRecord*>;
@@ -104,12 +106,15 @@ class PassiveNetworkFit {
   PassiveNetworkFit(const PassiveNetworkPreset& preset, const std::vector<Record>& training,
                     DriveUnit drive_unit, const IdentifyOptions& options)
       : preset_(designed(preset, options.network)),
-        options_(options),
-        records_(free_run_records(training, drive_unit)) {
-    for (const FreeRunRecord& record : records_) all_.push_back(&record);
+        options_(options) {
+    const std::vector<FreeRunRecord> recorded = free_run_records(training, drive_unit);
+    Records as_recorded;
+    for (const FreeRunRecord& record : recorded) as_recorded.push_back(&record);
     const DriveRange drive = drive_range(training, drive_unit);
-    start_ = scaled_network(preset_, all_, drive);
-    if (!drive.varies && drive.levels > 2) decay_ = best_drive_decay(Trials(training, drive_unit));
+    start_ = scaled_network(preset_, as_recorded, drive);
+    records_ = at_step(as_recorded, start_.model_step);
+    for (const FreeRunRecord& record : records_) all_.push_back(&record);
+    if (!drive.varies && drive.levels > 1) decay_ = best_drive_decay(training);
   }
 
   struct Member {
@@ -119,10 +124,9 @@ class PassiveNetworkFit {
 
   /// Members differ in their random start and in the windows that they see.
   std::vector<Member> members() const {
-    const std::vector<FreeRunRecord> coarse = at_step(all_, start_.model_step);
     std::vector<Member> members(preset_.members);
     parallel_for(members.size(), options_.threads, [&](std::size_t k) {
-      members[k] = trained(all_, coarse, {decay_, kUpdates, options_.seed + k});
+      members[k] = trained(all_, {decay_, kUpdates, options_.seed + k});
     });
     return members;
   }
@@ -134,9 +138,7 @@ class PassiveNetworkFit {
     std::uint64_t seed;
   };
 
-  Member trained(const Records& records, const std::vector<FreeRunRecord>& coarse,
-                 Effort effort) const {
-    const WayRange way = way_range(records);
+  Member trained(const Records& records, Effort effort) const {
     const double samples = std::clamp(kWindowTime / start_.model_step,
                                       static_cast<double>(kShortestWindow),
                                       static_cast<double>(kLongestWindow));
@@ -151,34 +153,66 @@ class PassiveNetworkFit {
     options.on_update = [this] { options_.monitor.check(); };
 
     Member member{start_, {}};
-    initialise(member.network, way.shortest, way.longest, effort.seed);
-    member.report = train(member.network, coarse, options);
+    initialise(member.network, effort.seed);
+    member.report = train(member.network, records, options);
     return member;
   }
 
-  /// The decay with which trials leave least of what was held back: by the mean logarithm of their
-  /// squares, so that one wild extrapolation does not decide alone.
-  double best_drive_decay(const Trials& trials) const {
+  /// Divisions of the records by a value that each has: the values are dealt in turn to `groups`
+  /// at most, and each group is held back once.
+  template <class Value>
+  std::vector<FreeRunTrial> held_back_in_turn(const std::vector<Value>& values,
+                                              std::size_t groups) const {
+    const std::set<Value> distinct(values.begin(), values.end());
+    groups = std::min(groups, distinct.size());
+    std::vector<FreeRunTrial> trials(groups > 1 ? groups : 0);
+    for (std::size_t r = 0; r < values.size(); ++r) {
+      const auto place =
+          static_cast<std::size_t>(std::distance(distinct.begin(), distinct.find(values[r])));
+      for (std::size_t group = 0; group < trials.size(); ++group)
+        (place % groups == group ? trials[group].held_back : trials[group].training)
+            .push_back(&records_[r]);
+    }
+    return trials;
+  }
+
+  /// The mean logarithm of what trials leave of the records held back, for each decay: of the
+  /// logarithm, so that one wild extrapolation does not decide alone.
+  std::array<double, kDriveDecays.size()> left_of(const std::vector<FreeRunTrial>& trials) const {
     const std::size_t choices = kDriveDecays.size();
-    std::vector<double> left(choices * trials.all().size());
+    std::vector<double> left(choices * trials.size());
     parallel_for(left.size(), options_.threads, [&](std::size_t k) {
-      const FreeRunTrial& trial = trials.all()[k / choices];
-      const Member found = trained(trial.training, at_step(trial.training, start_.model_step),
-                                   {kDriveDecays[k % choices], kTrialUpdates, options_.seed});
+      const FreeRunTrial& trial = trials[k / choices];
+      const Member found = trained(trial.training, {kDriveDecays[k % choices], kTrialUpdates, options_.seed});
       double squares = 0;
       for (const FreeRunRecord* record : trial.held_back)
         squares += squares_left(found.network, *record, options_.offset == OffsetMode::Record);
-      left[k] = std::log(squares);
+      left[k] = std::log(squares) / static_cast<double>(trials.size());
     });
+    std::array<double, kDriveDecays.size()> means{};
+    for (std::size_t k = 0; k < left.size(); ++k) means[k % choices] += left[k];
+    return means;
+  }
 
-    std::array<double, kDriveDecays.size()> sums{};
-    for (std::size_t k = 0; k < left.size(); ++k) sums[k % choices] += left[k];
-    return kDriveDecays[static_cast<std::size_t>(std::ranges::min_element(sums) - sums.begin())];
+  /// The decay that does best where motions and where levels of the drive, their ends too, are held
+  /// back in turn; both count alike.
+  double best_drive_decay(const std::vector<Record>& training) const {
+    std::vector<std::string> conditions;
+    std::vector<double> levels;
+    for (const Record& record : training) {
+      conditions.push_back(record.condition);
+      levels.push_back(record.drive_level.value_or(0));
+    }
+    const auto by_motion = left_of(held_back_in_turn(conditions, kMostMotions));
+    const auto by_level = left_of(held_back_in_turn(levels, kMostLevels));
+    std::array<double, kDriveDecays.size()> both{};
+    for (std::size_t k = 0; k < both.size(); ++k) both[k] = by_motion[k] + by_level[k];
+    return kDriveDecays[static_cast<std::size_t>(std::ranges::min_element(both) - both.begin())];
   }
 
   const PassiveNetworkPreset preset_;
   const IdentifyOptions& options_;
-  std::vector<FreeRunRecord> records_;
+  std::vector<FreeRunRecord> records_;  ///< at the network's step
   Records all_;
   PassiveNetwork start_;
   double decay_ = 0;

@@ -20,7 +20,7 @@ inline dashpot::PassiveNetwork example_passive_network(std::uint64_t seed = 1,
   network.velocity_high = 3;
   network.force_scale = 500;
   network.model_step = 0.002;
-  initialise(network, 0.01, 0.02, seed);
+  initialise(network, seed);
   dashpot::Random random(seed + 1000);
   const dashpot::PassiveLayout at(network.sizes);
   for (std::size_t k = 0; k < network.numbers.size(); ++k)

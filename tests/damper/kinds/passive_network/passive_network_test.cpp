@@ -2,7 +2,6 @@
 #include <cstdlib>
 
 #include "damper/kinds/passive_network/passive_network_example.h"
-#include "dashpot/base/value_json.h"
 #include "support.h"
 
 using namespace dashpot;

@@ -21,11 +21,18 @@ std::vector<FreeRunRecord> noisy_records() {
   return records;
 }
 
+std::vector<const FreeRunRecord*> pointers_to(const std::vector<FreeRunRecord>& records) {
+  std::vector<const FreeRunRecord*> pointers;
+  for (const FreeRunRecord& record : records) pointers.push_back(&record);
+  return pointers;
+}
+
 }  // namespace
 
 TEST_CASE("gradients through time are those of differences, for every number") {
   PassiveNetwork network = example_passive_network(2, 0.3);
-  const std::vector<FreeRunRecord> records = noisy_records();
+  const std::vector<FreeRunRecord> made = noisy_records();
+  const std::vector<const FreeRunRecord*> records = pointers_to(made);
   const PassiveTrainOptions options{.window = 100, .run_in = 20};
   const FreeRunCost at = passive_cost(network, records, options);
 
@@ -46,7 +53,8 @@ TEST_CASE("gradients through time are those of differences, for every number") {
 
 TEST_CASE("the windows' kernel has the force of the model") {
   const PassiveNetwork network = example_passive_network(5, 0.3);
-  const std::vector<FreeRunRecord> records = noisy_records();
+  const std::vector<FreeRunRecord> made = noisy_records();
+  const std::vector<const FreeRunRecord*> records = pointers_to(made);
 
   // A record's cost by the kernel is that of the model's own free run over the same window.
   PassiveTrainOptions options{.window = 364, .run_in = 64, .offsets = false};
@@ -54,7 +62,7 @@ TEST_CASE("the windows' kernel has the force of the model") {
   double expected = 0;
   Random random(options.seed);
   for (int window = 0; window < 32; ++window) {
-    const FreeRunRecord& record = records[random.index(records.size())];
+    const FreeRunRecord& record = *records[random.index(records.size())];
     random.index(1);  // its only place
     expected += squares_left(network, record, false) / (network.force_scale * network.force_scale);
   }
@@ -62,7 +70,8 @@ TEST_CASE("the windows' kernel has the force of the model") {
 }
 
 TEST_CASE("training lowers the error, and repeats to the bit") {
-  const std::vector<FreeRunRecord> records = noisy_records();
+  const std::vector<FreeRunRecord> made = noisy_records();
+  const std::vector<const FreeRunRecord*> records = pointers_to(made);
   const PassiveTrainOptions options{.updates = 60, .window = 128, .run_in = 32};
   PassiveNetwork network = example_passive_network(6, 0), again = network;
   const double before = passive_cost(network, records, options).cost;

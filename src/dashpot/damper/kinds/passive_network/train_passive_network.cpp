@@ -61,7 +61,7 @@ double mean_of(const Samples& samples) {
 /// lanes.
 class WindowBatch {
  public:
-  WindowBatch(const PassiveNetwork& network, const std::vector<FreeRunRecord>& records,
+  WindowBatch(const PassiveNetwork& network, const std::vector<const FreeRunRecord*>& records,
               const PassiveTrainOptions& options)
       : network_(network),
         options_(options),
@@ -69,7 +69,7 @@ class WindowBatch {
         numbers_(network.numbers.size()),
         gradient_(network.numbers.size()),
         room_(kernel_.room_for(network.sizes, options.window)) {
-    for (const FreeRunRecord& record : records) samples_.push_back(standardised(network, record));
+    for (const FreeRunRecord* record : records) samples_.push_back(standardised(network, *record));
     const std::size_t block = options.window * kernel_.lanes;
     for (AlignedVector<float>* signal :
          {&displacement_, &velocity_, &drive_, &force_, &weight_, &forces_})
@@ -275,8 +275,7 @@ std::vector<FreeRunRecord> at_step(const std::vector<const FreeRunRecord*>& reco
   return all;
 }
 
-void initialise(PassiveNetwork& network, double shortest_way, double longest_way,
-                std::uint64_t seed) {
+void initialise(PassiveNetwork& network, std::uint64_t seed) {
   const PassiveSizes& z = network.sizes;
   const PassiveLayout at(z);
   Random random(seed);
@@ -284,12 +283,12 @@ void initialise(PassiveNetwork& network, double shortest_way, double longest_way
   double* const numbers = network.numbers.data();
 
   // Neurons: forces of springs by a normal distribution, all else within the reach of what is seen.
-  const double reach = 1 / std::sqrt(static_cast<double>(z.seen()));
+  const double seen_reach = 1 / std::sqrt(static_cast<double>(z.seen()));
   for (std::size_t j = 0; j < z.neurons + z.memories; ++j)
     for (std::size_t i = 0; i < z.inputs(); ++i) {
       const bool spring = i >= z.seen() && i + 1 < z.inputs();
       numbers[at.weights + j * z.inputs() + i] =
-          spring ? 0.3 * random.normal() : reach * random.uniform(-1, 1);
+          spring ? 0.3 * random.normal() : seen_reach * random.uniform(-1, 1);
     }
   const double viscous_reach = 1 / std::sqrt(static_cast<double>(z.seen() + 1));
   for (std::size_t k = at.viscous_weights; k < at.viscous; ++k)
@@ -307,14 +306,12 @@ void initialise(PassiveNetwork& network, double shortest_way, double longest_way
     row[z.neurons] = k < z.springs ? kByTime : kByWay;
   }
 
-  // Stiffness from soft to stiff, by the ways on which the springs yield.
-  const double longest = 0.4 * longest_way;
-  const double shortest = std::min(0.06 * shortest_way, 0.01 * longest);
+  // Stiffness from soft to stiff.
+  constexpr double kSoft = 2.5, kStiff = 250;  // 1/s
   for (std::size_t k = 0; k < z.springs; ++k) {
     const double share =
         z.springs > 1 ? static_cast<double>(k) / static_cast<double>(z.springs - 1) : 0.5;
-    numbers[at.stiffness + k] =
-        network.velocity_scale / (longest * std::pow(shortest / longest, share));
+    numbers[at.stiffness + k] = kSoft * std::pow(kStiff / kSoft, share);
     numbers[at.levers + k] = std::exp(-0.5);
     numbers[at.levers + z.springs + k] = 1;
   }
@@ -334,7 +331,7 @@ void initialise(PassiveNetwork& network, double shortest_way, double longest_way
   numbers[at.inertia_rate] = 200;
 }
 
-FreeRunTrainReport train(PassiveNetwork& network, const std::vector<FreeRunRecord>& records,
+FreeRunTrainReport train(PassiveNetwork& network, const std::vector<const FreeRunRecord*>& records,
                          const PassiveTrainOptions& options) {
   const FlushToZero flush;
   WindowBatch batch(network, records, options);
@@ -361,7 +358,8 @@ FreeRunTrainReport train(PassiveNetwork& network, const std::vector<FreeRunRecor
           .rmse = std::sqrt(mean_square) * network.force_scale};
 }
 
-FreeRunCost passive_cost(const PassiveNetwork& network, const std::vector<FreeRunRecord>& records,
+FreeRunCost passive_cost(const PassiveNetwork& network,
+                         const std::vector<const FreeRunRecord*>& records,
                          const PassiveTrainOptions& options) {
   WindowBatch batch(network, records, options);
   Random random(options.seed);

@@ -25,19 +25,19 @@ struct PassiveTrainOptions {
 /// network's scales when it trains.
 std::vector<FreeRunRecord> at_step(const std::vector<const FreeRunRecord*>& records, double step);
 
-/// Numbers to start from: springs that yield on ways from four tenths of the longest way between two
-/// turns, m, down to a small share of the shortest. Scales must be set.
-void initialise(PassiveNetwork& network, double shortest_way, double longest_way,
-                std::uint64_t seed);
+/// Numbers to start from: springs that yield on the ways of 0.4 s to 4 ms at the velocity's scale.
+/// Scales must be set.
+void initialise(PassiveNetwork& network, std::uint64_t seed);
 
 /// Trains on records that at_step() made for network.model_step. The same bits for the same input
 /// and instruction set.
-FreeRunTrainReport train(PassiveNetwork& network, const std::vector<FreeRunRecord>& records,
+FreeRunTrainReport train(PassiveNetwork& network, const std::vector<const FreeRunRecord*>& records,
                          const PassiveTrainOptions& options);
 
 /// The sum of weighted squared errors over windows of the records, standardised, and its gradient by
 /// PassiveNetwork::numbers; for tests. The windows are those of the first update.
-FreeRunCost passive_cost(const PassiveNetwork& network, const std::vector<FreeRunRecord>& records,
+FreeRunCost passive_cost(const PassiveNetwork& network,
+                         const std::vector<const FreeRunRecord*>& records,
                          const PassiveTrainOptions& options);
 
 /// Sum of a record's squared errors over its scored samples, N^2, less their mean when `offset`.
