@@ -22,7 +22,8 @@ TEST_CASE("laws stand in alphabetical order, the other kinds follow in theirs") 
   CHECK(std::vector<std::string>(others, names.end()) ==
         std::vector<std::string>{"mlp_one_sensor", "mlp_two_sensors", "narx_one_sensor",
                                  "narx_two_sensors", "hysteresis_network", "neural_state_space",
-                                 "passive_network", "passive_network_one_sensor", "anfis", "takagi_sugeno", "large_scale_bouc_wen+network",
+                                 "passive_network", "passive_network_one_sensor", "anfis",
+                                 "takagi_sugeno", "large_scale_bouc_wen+network",
                                  "modified_bouc_wen+network", "family_gated", "family_h3x15",
                                  "family_h3x15_residual", "family_h3x15_total"});
   for (const Law* law : laws()) {

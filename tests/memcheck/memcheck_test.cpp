@@ -29,7 +29,8 @@ TEST_CASE(
   if (!is_there("cc") || !is_there("valgrind")) return;
   const TemporaryFolder folder;
   for (const ExampleModel& example : example_models())
-    for (const char* name : {"bouc_wen", "narx", "hysteresis_network", "state_space", "passive_network", "hybrid"})
+    for (const char* name :
+         {"bouc_wen", "narx", "hysteresis_network", "state_space", "passive_network", "hybrid"})
       if (example.name == name)
         write(folder, write_c_source(exported(*example.model), {.name = example.name + "_x"}));
   int blocks = 0;

@@ -2,40 +2,38 @@
 #include "lag.h"
 
 /* A damper that cannot generate energy, whatever its networks say, as C99 text that the library
- * takes in and the C export ships. Springs of fixed stiffness k hang on levers A(q) that the drive q
- * moves, and resistances r drain them; with v, x, q and the forces s and f standardised:
- *   s' = k (A v - r s),   r = exp(g_a) + |A v| exp(g_b)      A = P + Q a, P, Q >= 0
- *   f  = sum A s + c v + U'(x) + m (v - w) n,   w' = n (v - w)
- *   a  = 1 - exp(-q / i),  q' = (drive - q) rate
- * The gates g and the viscous term c >= 0 are small networks of v, x, q and of memories u that may
- * be anything; g reads s, too:
- *   [h, p] = tanh(W [v, x, q, u, s, 1]),  g = G [h, 1, a],  u' = rate (p - u)
- *   c = (z + sqrt(z^2 + 1)) / 2,  z = C [tanh(V [v, x, q, u, 1]), 1, a]
- * U is convex: x^2 and an exponential to each side, which go on straight outside of the data.
- * Declared before: PASSIVE_MOST_INPUTS, PASSIVE_MOST_NEURONS, PASSIVE_MOST_SPRINGS. */
+ * takes in and the C export ships. Springs of fixed stiffness k hang on levers A(q) that the drive
+ * q moves, and resistances r drain them; with v, x, q and the forces s and f standardised: s' = k
+ * (A v - r s),   r = exp(g_a) + |A v| exp(g_b)      A = P + Q a, P, Q >= 0 f  = sum A s + c v +
+ * U'(x) + m (v - w) n,   w' = n (v - w) a  = 1 - exp(-q / i),  q' = (drive - q) rate The gates g
+ * and the viscous term c >= 0 are small networks of v, x, q and of memories u that may be anything;
+ * g reads s, too: [h, p] = tanh(W [v, x, q, u, s, 1]),  g = G [h, 1, a],  u' = rate (p - u) c = (z
+ * + sqrt(z^2 + 1)) / 2,  z = C [tanh(V [v, x, q, u, 1]), 1, a] U is convex: x^2 and an exponential
+ * to each side, which go on straight outside of the data. Declared before: PASSIVE_MOST_INPUTS,
+ * PASSIVE_MOST_NEURONS, PASSIVE_MOST_SPRINGS. */
 typedef struct PassiveCell {
   int springs, memories, neurons, viscous_neurons;
-  int lags;                             /* 1: the drive acts through a lag, which is a state */
-  int inert;                            /* 1: with inertia, whose speed w is a state */
-  double displacement_mean;             /* m */
-  double displacement_gain;             /* 1/m; 0: displacement is not read */
+  int lags;                 /* 1: the drive acts through a lag, which is a state */
+  int inert;                /* 1: with inertia, whose speed w is a state */
+  double displacement_mean; /* m */
+  double displacement_gain; /* 1/m; 0: displacement is not read */
   double displacement_low, displacement_high;
-  double velocity_gain;                 /* s/m */
-  double velocity_low, velocity_high;   /* what the networks see is held within */
-  double drive_gain;                    /* 1/A or 1/V */
+  double velocity_gain;               /* s/m */
+  double velocity_low, velocity_high; /* what the networks see is held within */
+  double drive_gain;                  /* 1/A or 1/V */
   double drive_low, drive_high;
-  double force_scale;                   /* N */
-  double drive_rate, saturation;        /* 1/s; i above */
-  double inertia, inertia_rate;         /* m n; n, 1/s */
-  const double* potential;              /* stiffness; size and slope to each side */
-  const double* stiffness;              /* k, 1/s */
-  const double* levers;                 /* P, then Q */
-  const double* memory_rates;           /* 1/s */
-  const double* weights;                /* W, row by row: neurons, then memories */
-  const double* gates;                  /* G, row by row: g_a of all springs, then g_b */
-  const double* viscous_weights;        /* V, row by row */
-  const double* viscous;                /* C */
-  double model_step;                    /* s; a longer step is divided */
+  double force_scale;            /* N */
+  double drive_rate, saturation; /* 1/s; i above */
+  double inertia, inertia_rate;  /* m n; n, 1/s */
+  const double* potential;       /* stiffness; size and slope to each side */
+  const double* stiffness;       /* k, 1/s */
+  const double* levers;          /* P, then Q */
+  const double* memory_rates;    /* 1/s */
+  const double* weights;         /* W, row by row: neurons, then memories */
+  const double* gates;           /* G, row by row: g_a of all springs, then g_b */
+  const double* viscous_weights; /* V, row by row */
+  const double* viscous;         /* C */
+  double model_step;             /* s; a longer step is divided */
 } PassiveCell;
 
 /* Where the parts of the state stand: q, u, s, w. */
@@ -181,8 +179,8 @@ static inline void passive_advance(const PassiveCell* c, const DamperInput* from
     double drive = i0 + ((i1 - i0) * middle);
     if (c->lags != 0) {
       drive = 0.5 * state[0];
-      state[0] = lag_after(state[0], i0 + ((i1 - i0) * begin), i0 + ((i1 - i0) * end),
-                           c->drive_rate * h);
+      state[0] =
+          lag_after(state[0], i0 + ((i1 - i0) * begin), i0 + ((i1 - i0) * end), c->drive_rate * h);
       drive += 0.5 * state[0];
     }
     passive_step(c, h, v0 + ((v1 - v0) * middle), x0 + ((x1 - x0) * middle), drive, state);

@@ -26,7 +26,7 @@ constexpr std::size_t kUpdates = 1600, kTrialUpdates = 400;
 /// How much the weights shrink by which networks read the drive: freely, hardly, not at all.
 constexpr std::array kDriveDecays{0.0, 1.0, 30.0};
 constexpr std::size_t kMostMotions = 4, kMostLevels = 6;  // groups of them, held back in turn
-constexpr double kDriveSpan = 2;  // of the standardised drive
+constexpr double kDriveSpan = 2;                          // of the standardised drive
 
 using Records = std::vector<const FreeRunRecord*>;
 
@@ -105,8 +105,7 @@ class PassiveNetworkFit {
  public:
   PassiveNetworkFit(const PassiveNetworkPreset& preset, const std::vector<Record>& training,
                     DriveUnit drive_unit, const IdentifyOptions& options)
-      : preset_(designed(preset, options.network)),
-        options_(options) {
+      : preset_(designed(preset, options.network)), options_(options) {
     const std::vector<FreeRunRecord> recorded = free_run_records(training, drive_unit);
     Records as_recorded;
     for (const FreeRunRecord& record : recorded) as_recorded.push_back(&record);
@@ -139,9 +138,9 @@ class PassiveNetworkFit {
   };
 
   Member trained(const Records& records, Effort effort) const {
-    const double samples = std::clamp(kWindowTime / start_.model_step,
-                                      static_cast<double>(kShortestWindow),
-                                      static_cast<double>(kLongestWindow));
+    const double samples =
+        std::clamp(kWindowTime / start_.model_step, static_cast<double>(kShortestWindow),
+                   static_cast<double>(kLongestWindow));
     PassiveTrainOptions options;
     options.updates = options_.network.epochs.value_or(effort.updates);
     options.window = static_cast<std::size_t>(samples);
@@ -183,7 +182,8 @@ class PassiveNetworkFit {
     std::vector<double> left(choices * trials.size());
     parallel_for(left.size(), options_.threads, [&](std::size_t k) {
       const FreeRunTrial& trial = trials[k / choices];
-      const Member found = trained(trial.training, {kDriveDecays[k % choices], kTrialUpdates, options_.seed});
+      const Member found =
+          trained(trial.training, {kDriveDecays[k % choices], kTrialUpdates, options_.seed});
       double squares = 0;
       for (const FreeRunRecord* record : trial.held_back)
         squares += squares_left(found.network, *record, options_.offset == OffsetMode::Record);
@@ -228,7 +228,8 @@ FitReport fit_passive_network(const PassiveNetworkPreset& preset,
   FitReport report = report_of_members(members);
   std::vector<PassiveNetwork> networks;
   for (const PassiveNetworkFit::Member& member : members) networks.push_back(member.network);
-  report.model = std::make_shared<PassiveNetworkModel>(std::string(preset.name), std::move(networks));
+  report.model =
+      std::make_shared<PassiveNetworkModel>(std::string(preset.name), std::move(networks));
   return report;
 }
 

@@ -1,10 +1,14 @@
 #pragma once
+#include <algorithm>
+#include <cmath>
+
 #include "dashpot/base/random.h"
 #include "dashpot/damper/kinds/passive_network/passive_network_model.h"
 #include "dashpot/damper/kinds/passive_network/train_passive_network.h"
 
 /// Three springs, two memories, four neurons and three of the viscous term, with lag, inertia and
-/// displacement; random numbers, those of the networks `spread` beside where training starts. A
+/// displacement; random numbers, those of the networks `spread`
+/// beside where training starts. A
 /// force of some 1 kN.
 inline dashpot::PassiveNetwork example_passive_network(std::uint64_t seed = 1,
                                                        double spread = 0.5) {
@@ -24,8 +28,9 @@ inline dashpot::PassiveNetwork example_passive_network(std::uint64_t seed = 1,
   dashpot::Random random(seed + 1000);
   const dashpot::PassiveLayout at(network.sizes);
   for (std::size_t k = 0; k < network.numbers.size(); ++k)
-    network.numbers[k] = k < at.first_positive()
-                             ? network.numbers[k] + spread * random.normal()
-                             : network.numbers[k] * std::exp(spread * random.normal());
+    network.numbers[k] =
+        k < at.first_positive()
+            ? network.numbers[k] + spread * random.normal()
+            : network.numbers[k] * std::exp(std::min(spread, 0.7) * random.normal());
   return network;
 }

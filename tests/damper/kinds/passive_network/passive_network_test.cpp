@@ -25,8 +25,8 @@ class Shaken {
   double step_;
 };
 
-/// What a network gave beyond what it had taken in, J, at the worst instant of a random run, and the
-/// work that was done on it, J; the work by the trapezoidal rule.
+/// What a network gave beyond what it had taken in, J, at the worst instant of a random run, and
+/// the work that was done on it, J; the work by the trapezoidal rule.
 struct Balance {
   double worst = -INFINITY, work = 0;
 };

@@ -1,9 +1,8 @@
 #include "dashpot/damper/kinds/passive_network/passive_network.h"
 
-#include <math.h>  // the C text says fabs, not std::fabs
-
 #include <algorithm>
 #include <cmath>
+#include <math.h>  // the C text says fabs, not std::fabs
 
 #include "dashpot/damper/nets/tanh.h"
 #include "dashpot/error.h"
@@ -142,7 +141,8 @@ void PassiveNetwork::require_sound(const std::string& where) const {
 
   // Scales are divided by, ranges go upwards.
   for (const double scale : {velocity_scale, drive_scale, force_scale, model_step})
-    if (!(scale > 0) || !std::isfinite(scale)) throw Error(where, "has a scale that is not positive");
+    if (!(scale > 0) || !std::isfinite(scale))
+      throw Error(where, "has a scale that is not positive");
   if (!(displacement_scale >= 0) || !std::isfinite(displacement_scale) ||
       !std::isfinite(displacement_mean))
     throw Error(where, "has a displacement scale that is negative or not finite");
@@ -155,8 +155,9 @@ void PassiveNetwork::require_sound(const std::string& where) const {
   require_most(numbers.size(), at.count, at.count, "numbers");
   for (std::size_t k = 0; k < at.count; ++k)
     if (!std::isfinite(numbers[k]) || (k >= at.first_positive() && numbers[k] < 0))
-      throw Error(where, "number " + std::to_string(k + 1) + " of the passive network is " +
-                             std::to_string(numbers[k]),
+      throw Error(where,
+                  "number " + std::to_string(k + 1) + " of the passive network is " +
+                      std::to_string(numbers[k]),
                   "a finite one, from " + std::to_string(at.first_positive() + 1) +
                       " on never negative: the network would generate energy");
   for (std::size_t k = 0; k < sizes.springs; ++k)

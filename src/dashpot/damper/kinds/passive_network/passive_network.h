@@ -18,15 +18,15 @@ struct PassiveNetwork {
   PassiveSizes sizes;
   bool lags = false, inert = false;
 
-  double displacement_mean = 0;                ///< m
-  double displacement_scale = 0;               ///< m; 0: displacement is not read
+  double displacement_mean = 0;                        ///< m
+  double displacement_scale = 0;                       ///< m; 0: displacement is not read
   double displacement_low = 0, displacement_high = 0;  ///< standardised, as all ranges
-  double velocity_scale = 1;                   ///< m/s
-  double velocity_low = -1, velocity_high = 1;  ///< the networks see v held within
-  double drive_scale = 1;                      ///< A or V
+  double velocity_scale = 1;                           ///< m/s
+  double velocity_low = -1, velocity_high = 1;         ///< the networks see v held within
+  double drive_scale = 1;                              ///< A or V
   double drive_low = 0, drive_high = 2;
-  double force_scale = 1;                      ///< N
-  double model_step = 1e-3;                    ///< s; a longer step is divided, into 1000 at most
+  double force_scale = 1;    ///< N
+  double model_step = 1e-3;  ///< s; a longer step is divided, into 1000 at most
 
   /// By PassiveLayout: weights of networks, then numbers that are never negative. That no other
   /// condition has to hold is what passivity rests on.

@@ -105,8 +105,8 @@ Value PassiveNetwork::to_json() const {
                              {"model_step", model_step}});
   for (const Part& part : parts(sizes)) {
     const auto first = numbers.begin() + static_cast<std::ptrdiff_t>(part.first);
-    out.add(part.name,
-            Value::array(std::vector<double>(first, first + static_cast<std::ptrdiff_t>(part.count))));
+    out.add(part.name, Value::array(std::vector<double>(
+                           first, first + static_cast<std::ptrdiff_t>(part.count))));
   }
   return out;
 }

@@ -1,7 +1,5 @@
 #include "dashpot/damper/kinds/passive_network/passive_windows.h"
 
-#include "dashpot/damper/kinds/passive_network/simd/tables.h"
-
 namespace dashpot {
 
 PassiveLayout::PassiveLayout(const PassiveSizes& sizes) {
@@ -23,15 +21,6 @@ PassiveLayout::PassiveLayout(const PassiveSizes& sizes) {
   drive_rate = take(1);
   inertia = take(1);
   inertia_rate = take(1);
-}
-
-const PassiveKernel& passive_kernel(SimdLevel level) {
-#if defined(__x86_64__)
-  if (level == SimdLevel::Avx512) return avx512_passive();
-  if (level == SimdLevel::Avx2) return avx2_passive();
-#endif
-  (void)level;
-  return baseline_passive();
 }
 
 }  // namespace dashpot

@@ -9,12 +9,12 @@ namespace dashpot {
 struct PassiveSizes {
   std::size_t springs = 0, memories = 0, neurons = 0, viscous_neurons = 0;
 
-  std::size_t seen() const noexcept { return 3 + memories; }           ///< v, x, q, memories
+  std::size_t seen() const noexcept { return 3 + memories; }            ///< v, x, q, memories
   std::size_t inputs() const noexcept { return seen() + springs + 1; }  ///< and springs, 1
 };
 
-/// Where the numbers of a passive network stand in the flat array that is trained; each part is laid
-/// out as c_text/passive_cell.h has it.
+/// Where the numbers of a passive network stand in the flat array that is trained; each part is
+/// laid out as c_text/passive_cell.h has it.
 struct PassiveLayout {
   explicit PassiveLayout(const PassiveSizes& sizes);
 

@@ -11,23 +11,25 @@ constexpr const char* kEquation =
     "A = P + Q a,  a = 1 - exp(-q / i),  q' = (current - q) rate,  k, P, Q, m >= 0,\n"
     "[h, p] = tanh(W [v, x, q, u, s, 1]),  g = G [h, 1, a],  u' = rate (p - u),\n"
     "c = (z + sqrt(z^2 + 1)) / 2,  z = C [tanh(V [v, x, q, u, 1]), 1, a],  U convex";
-constexpr const char* kSource = "Dashpot's own; springs that a resistance drains are the elements "
-                                "of rheology, a transformer and resistances that depend on "
-                                "anything keep a port-Hamiltonian system passive";
+constexpr const char* kSource =
+    "Dashpot's own; springs that a resistance drains are the elements "
+    "of rheology, a transformer and resistances that depend on "
+    "anything keep a port-Hamiltonian system passive";
 
 constexpr std::array<PassiveNetworkPreset, 2> kPresets{{
     {.name = "passive_network",
      .title = "Passive network",
      .equation = kEquation,
      .source = kSource,
-     .remarks = "Cannot generate energy, whatever its numbers and whatever the current does: "
-                "energy is stored in springs of fixed stiffness, a convex potential and an inertia "
-                "alone; the networks set resistances and a viscous term that is never negative, and "
-                "the current moves levers. Displacement is read where the records have it. The "
-                "drive's lag is fitted where the drive varies within records. Trained by descent "
-                "over windows with gradients through time; how much the networks may read of the "
-                "drive is chosen on held-back conditions and levels. Steps longer than the model's "
-                "own, kept in the file, are divided.",
+     .remarks =
+         "Cannot generate energy, whatever its numbers and whatever the current does: "
+         "energy is stored in springs of fixed stiffness, a convex potential and an inertia "
+         "alone; the networks set resistances and a viscous term that is never negative, and "
+         "the current moves levers. Displacement is read where the records have it. The "
+         "drive's lag is fitted where the drive varies within records. Trained by descent "
+         "over windows with gradients through time; how much the networks may read of the "
+         "drive is chosen on held-back conditions and levels. Steps longer than the model's "
+         "own, kept in the file, are divided.",
      .sizes = {.springs = 12, .memories = 4, .neurons = 24, .viscous_neurons = 12},
      .members = 3},
     {.name = "passive_network_one_sensor",
@@ -43,8 +45,8 @@ constexpr std::array<PassiveNetworkPreset, 2> kPresets{{
 }  // namespace
 
 ModelInfo PassiveNetworkPreset::info() const {
-  ModelInfo info{name, ModelKind::PassiveNetwork, title, equation, source, remarks,
-                 {"velocity", "current"}};
+  ModelInfo info{name,    ModelKind::PassiveNetwork, title, equation, source,
+                 remarks, {"velocity", "current"}};
   if (displacement) info.inputs.insert(info.inputs.begin(), "displacement");
   return info;
 }

@@ -133,7 +133,8 @@ class WindowBatch {
     const auto length = static_cast<std::ptrdiff_t>(samples.force.size());
     const auto run_in = static_cast<std::ptrdiff_t>(options_.run_in);
     const auto window = static_cast<std::ptrdiff_t>(options_.window);
-    const auto places = static_cast<std::size_t>(std::max<std::ptrdiff_t>(1, length + run_in - window));
+    const auto places =
+        static_cast<std::size_t>(std::max<std::ptrdiff_t>(1, length + run_in - window));
     const auto start = static_cast<std::ptrdiff_t>(random.index(places)) - run_in;
     std::size_t at = lane;
     for (std::ptrdiff_t t = 0; t < window; ++t, at += kernel_.lanes) {
@@ -179,13 +180,13 @@ class Descent {
             std::vector<double> gradient, const std::vector<double>& offset_gradient) {
     const std::size_t count = values_.size();
     for (std::size_t k = first_positive_; k < count; ++k) gradient[k] *= numbers[k];
-    const double norm = std::sqrt(
-        std::inner_product(gradient.begin(), gradient.end(), gradient.begin(), 0.0));
+    const double norm =
+        std::sqrt(std::inner_product(gradient.begin(), gradient.end(), gradient.begin(), 0.0));
     const double shorter = norm > kMostNorm ? kMostNorm / norm : 1;
 
     const double share = static_cast<double>(update) / static_cast<double>(options_.updates);
-    const double rate = kLeastRate + (options_.rate - kLeastRate) / 2 *
-                                         (1 + std::cos(std::numbers::pi * share));
+    const double rate =
+        kLeastRate + (options_.rate - kLeastRate) / 2 * (1 + std::cos(std::numbers::pi * share));
     kept_mean_ *= kMean;
     kept_square_ *= kSquare;
     const auto move = [&](std::size_t k, double slope) {
@@ -344,8 +345,8 @@ FreeRunTrainReport train(PassiveNetwork& network, const std::vector<const FreeRu
   for (std::size_t update = 0; update < options.updates; ++update) {
     const double squares = batch.run(network.numbers, offsets, random);
     const double scored = std::max(1.0, batch.scored());
-    mean_square = update == 0 ? squares / scored
-                              : kMemory * mean_square + (1 - kMemory) * squares / scored;
+    mean_square =
+        update == 0 ? squares / scored : kMemory * mean_square + (1 - kMemory) * squares / scored;
     std::vector<double> gradient(batch.gradient().begin(), batch.gradient().end());
     std::vector<double> offset_gradient = batch.offset_gradient();
     for (double& slope : gradient) slope /= scored;

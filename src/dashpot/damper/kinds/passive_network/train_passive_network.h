@@ -12,7 +12,8 @@ namespace dashpot {
 /// that start anywhere in the records, each run freely from rest, gradients through time.
 struct PassiveTrainOptions {
   std::size_t updates = 1600;
-  std::size_t window = 256, run_in = 64;  ///< samples of the network's step; the run-in is not scored
+  std::size_t window = 256,
+              run_in = 64;  ///< samples of the network's step; the run-in is not scored
   double rate = 1e-2;
   double weight_decay = 1e-5;
   double drive_decay = 0;  ///< of the weights by which networks read the drive
@@ -34,8 +35,8 @@ void initialise(PassiveNetwork& network, std::uint64_t seed);
 FreeRunTrainReport train(PassiveNetwork& network, const std::vector<const FreeRunRecord*>& records,
                          const PassiveTrainOptions& options);
 
-/// The sum of weighted squared errors over windows of the records, standardised, and its gradient by
-/// PassiveNetwork::numbers; for tests. The windows are those of the first update.
+/// The sum of weighted squared errors over windows of the records, standardised, and its gradient
+/// by PassiveNetwork::numbers; for tests. The windows are those of the first update.
 FreeRunCost passive_cost(const PassiveNetwork& network,
                          const std::vector<const FreeRunRecord*>& records,
                          const PassiveTrainOptions& options);

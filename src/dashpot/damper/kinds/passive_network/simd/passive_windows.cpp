@@ -84,8 +84,7 @@ struct History {
 
 /// gradient[j][i] += sum over samples and lanes of slopes[j] in[i].
 template <std::size_t kRows, std::size_t kColumns>
-void add_tile(float* gradient, std::size_t count, History slopes, History in,
-              std::size_t samples) {
+void add_tile(float* gradient, std::size_t count, History slopes, History in, std::size_t samples) {
   V sums[kRows][kColumns] = {};
   for (std::size_t t = 0; t < samples; ++t) {
     const V *d = slopes.at + t * slopes.step, *x = in.at + t * in.step;
@@ -116,8 +115,8 @@ void add_products(float* gradient, std::size_t rows, std::size_t count, History 
 
 /// What a pass forward keeps, a row per sample of each.
 struct Rows {
-  V *inputs, *hidden, *goals, *gates, *springs, *memories, *drives, *shares, *levers, *decays, *means,
-      *reaches, *seen, *viscous, *z, *followers, *slopes, *gate_slopes, *viscous_slopes;
+  V *inputs, *hidden, *goals, *gates, *springs, *memories, *drives, *shares, *levers, *decays,
+      *means, *reaches, *seen, *viscous, *z, *followers, *slopes, *gate_slopes, *viscous_slopes;
 };
 
 /// Hands out rows of the room; with a null room it only counts.
@@ -173,8 +172,16 @@ std::size_t room_for(const PassiveSizes& sizes, std::size_t samples) noexcept {
 class Pass {
  public:
   explicit Pass(const PassiveWindows& w)
-      : w_(w), z_(w.sizes), at_(z_), n_(z_.springs), m_(z_.memories), h_(z_.neurons),
-        hc_(z_.viscous_neurons), p_(w.numbers), room_(w.room), r_(rows_in(room_, z_, w.samples)) {
+      : w_(w),
+        z_(w.sizes),
+        at_(z_),
+        n_(z_.springs),
+        m_(z_.memories),
+        h_(z_.neurons),
+        hc_(z_.viscous_neurons),
+        p_(w.numbers),
+        room_(w.room),
+        r_(rows_in(room_, z_, w.samples)) {
     drive_kept_ = w.lags ? scalar_exp(-p_[at_.drive_rate] * w.step) : 0.0f;
     follower_kept_ = scalar_exp(-p_[at_.inertia_rate] * w.step);
     for (std::size_t k = 0; k < m_; ++k)
@@ -320,8 +327,8 @@ class Pass {
       const float turn = p_[at_.stiffness + k] * w_.step;
       const V levered = r_.levers[here], reach = r_.reaches[here], decay = r_.decays[here];
       const V mean = r_.means[here], way = levered * v, slope = by_springs_[k];
-      const V by_reach = slope * (turn * way * mean_decay_slope(reach, decay, mean) -
-                                  decay * r_.springs[here]);
+      const V by_reach =
+          slope * (turn * way * mean_decay_slope(reach, decay, mean) - decay * r_.springs[here]);
       const V by_way = slope * turn * mean;
       by_stiffness_[k] += (by_reach * reach + by_way * way) * (1 / p_[at_.stiffness + k]);
       const V by_lever = by_way * v + by_reach * turn * gates[n_ + k] * magnitude(v);
@@ -329,8 +336,7 @@ class Pass {
       by_levers_[n_ + k] += by_lever * r_.shares[2 * t + 1];
       by_share += by_lever * p_[at_.levers + n_ + k];
       gate_slopes[k] = within(gates[k], by_reach * turn * gates[k]);
-      gate_slopes[n_ + k] =
-          within(gates[n_ + k], by_reach * turn * magnitude(way) * gates[n_ + k]);
+      gate_slopes[n_ + k] = within(gates[n_ + k], by_reach * turn * magnitude(way) * gates[n_ + k]);
       by_springs_[k] = slope * decay;
     }
 
@@ -359,8 +365,7 @@ class Pass {
       by_drive += drive_kept_ * after + 0.5f * by_middle;
     }
     if (w_.inert) {
-      by_inertia_rate_ -=
-          by_follower_ * (r_.followers[t] - v) * (follower_kept_ * w_.step);
+      by_inertia_rate_ -= by_follower_ * (r_.followers[t] - v) * (follower_kept_ * w_.step);
       by_follower_ = by_follower_ * follower_kept_;
     }
   }
@@ -409,9 +414,7 @@ class Pass {
   }
 
   /// A gate that is held at an end does not move.
-  static V within(V gate, V slope) {
-    return (gate > 6.2e-6f) & (gate < 2980.0f) ? slope : V{};
-  }
+  static V within(V gate, V slope) { return (gate > 6.2e-6f) & (gate < 2980.0f) ? slope : V{}; }
 
   /// Adds everything to the gradient.
   void gather() {
@@ -448,7 +451,8 @@ class Pass {
   // Slopes by the states after the sample that the way back has reached, and sums over samples.
   V by_springs_[kMostStates] = {}, by_memories_[kMostStates] = {}, by_drive_{}, by_follower_{};
   V by_levers_[2 * kMostStates] = {}, by_stiffness_[kMostStates] = {},
-    by_memory_rates_[kMostStates] = {}, by_viscous_[kMaxWidth] = {}, by_potential_[5] = {};
+                   by_memory_rates_[kMostStates] = {}, by_viscous_[kMaxWidth] = {},
+                   by_potential_[5] = {};
   V by_saturation_{}, by_drive_rate_{}, by_inertia_{}, by_inertia_rate_{};
 };
 
