@@ -92,6 +92,14 @@ TEST_CASE("the exponential of a rotation and of a shear") {
   const double t = 2;
   const std::vector<double> turn = exponential(std::vector<double>{0, -t, t, 0}, 2),
                             shear = exponential(std::vector<double>{0, 5, 0, 0}, 2);
+  SmallMatrix<7, 7> small;
+  small(1, 5) = -t;
+  small(5, 1) = t;
+  const SmallMatrix<7, 7> turned = exponential(small);
+  CHECK_CLOSE(turned(1, 5), -std::sin(t), 1e-13, 0);
+  CHECK_CLOSE(turned(5, 5), std::cos(t), 1e-13, 0);
+  CHECK(turned(6, 6) == 1);
+
   CHECK_CLOSE(turn[0], std::cos(t), 1e-13, 0);
   CHECK_CLOSE(turn[1], -std::sin(t), 1e-13, 0);
   CHECK_CLOSE(turn[2], std::sin(t), 1e-13, 0);

@@ -51,11 +51,14 @@ MatrixXcd stable_subspace(const MatrixXd& hamiltonian) {
 
 std::vector<double> product(std::span<const double> a, std::span<const double> b,
                             std::size_t inner) {
-  if (b.size() == inner) {
-    const VectorXd result = as_matrix(a, a.size() / inner, inner) * as_vector(b);
-    return {result.begin(), result.end()};
-  }
-  return values_of(as_matrix(a, a.size() / inner, inner) * as_matrix(b, inner, b.size() / inner));
+  assert(a.size() % inner == 0 && b.size() % inner == 0);
+  const std::size_t rows = a.size() / inner, columns = b.size() / inner;
+  std::vector<double> sum(rows * columns);
+  for (std::size_t i = 0; i < rows; ++i)
+    for (std::size_t k = 0; k < inner; ++k)
+      for (std::size_t j = 0; j < columns; ++j)
+        sum[i * columns + j] += a[i * inner + k] * b[k * columns + j];
+  return sum;
 }
 
 std::vector<double> inverse(std::span<const double> matrix, std::size_t n) {
@@ -89,6 +92,15 @@ std::vector<double> solve_columns(std::span<const double> matrix, std::span<cons
 std::vector<double> exponential(std::span<const double> matrix, std::size_t n) {
   const RowMajor exponent = as_square(matrix, n);
   return values_of(exponent.exp());
+}
+
+SmallMatrix<7, 7> exponential(const SmallMatrix<7, 7>& matrix) {
+  using Rows = Eigen::Matrix<double, 7, 7, Eigen::RowMajor>;
+  const Eigen::Matrix<double, 7, 7> exponent = Rows::Map(matrix.values.data()),
+                                    power = exponent.exp();
+  SmallMatrix<7, 7> result;
+  Rows::Map(result.values.data()) = power;
+  return result;
 }
 
 struct Factors::Decomposition {

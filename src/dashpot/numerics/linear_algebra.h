@@ -5,6 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "dashpot/numerics/small_matrix.h"
+
 // Linear algebra of dense matrices, of some ten to some hundred rows. Whatever decomposes a matrix
 // stands here, so that one file alone pays the compile time of the library that does it.
 //
@@ -32,6 +34,7 @@ std::vector<double> solve_columns(std::span<const double> matrix, std::span<cons
 
 /// exp(matrix), the sum of its powers over their factorials.
 std::vector<double> exponential(std::span<const double> matrix, std::size_t n);
+SmallMatrix<7, 7> exponential(const SmallMatrix<7, 7>& matrix);
 
 /// The factors of one matrix for many right sides. Allocates nothing after the first matrix.
 class Factors {

@@ -111,14 +111,13 @@ SampledPlant::Flow SampledPlant::flow(double time) const {
   chain(5, 6) = 1;
 
   // One exponential moves them all.
-  const std::vector<double> moved = exponential((time * chain).values, 7);
+  const SmallMatrix<7, 7> moved = exponential(time * chain);
   Flow out;
   for (std::size_t i = 0; i < 4; ++i) {
-    const double* const row = &moved[7 * i];
-    for (std::size_t j = 0; j < 4; ++j) out.motion(i, j) = row[j];
-    out.motion(i, kForce) = row[4];
-    out.constant(i, 0) = row[5];
-    out.rising(i, 0) = row[6];
+    for (std::size_t j = 0; j < 4; ++j) out.motion(i, j) = moved(i, j);
+    out.motion(i, kForce) = moved(i, 4);
+    out.constant(i, 0) = moved(i, 5);
+    out.rising(i, 0) = moved(i, 6);
   }
   out.motion(kOne, kOne) = 1;
   return out;
