@@ -93,6 +93,8 @@ std::string protocol_title(const LeaveOut& leave_out) {
       return "one record left out";
     case LeaveOut::By::Fraction:
       return "the end of every record left out";
+    case LeaveOut::By::Blocks:
+      return fmt::format("one of {} blocks of time left out", leave_out.blocks);
     case LeaveOut::By::Each:
       return "each " + join(leave_out.values, " and ") + " left out";
     case LeaveOut::By::Roles:
@@ -129,6 +131,12 @@ std::string protocol(const LeaveOut& leave_out, std::size_t folds) {
           "The last {} % of every record is left out: the model is fitted on what comes before, "
           "runs on, and is judged on the end.",
           format_number(100 * leave_out.fraction, 3));
+    case LeaveOut::By::Blocks:
+      return fmt::format(
+          "The time of every record is divided into {0} blocks. In turn ({0} divisions), the model "
+          "is fitted on what lies before and after a block, runs from the start of the record "
+          "through it, and is judged on it; the figures pool all of them.",
+          leave_out.blocks);
     case LeaveOut::By::Roles:
       break;
   }
