@@ -139,6 +139,19 @@ TEST_CASE("forgetting: a model with a clock of its own is judged by its force, n
   CHECK(forgetting(Clocked(), records, DriveUnit::Ampere, 3 * kSpan).is_forgotten());
 }
 
+TEST_CASE(
+    "forgetting: the slow spring of Spencer's law is no fault, and the time says that it is slow") {
+  // As published, y relaxes with (c0 + c1) / k0 = (21 + 283) / 46.9 = 6.5 s.
+  const Law& law = find_law("modified_bouc_wen");
+  std::vector<double> values;
+  for (const ParamInfo& param : law.params) values.push_back(param.value);
+  const std::vector<Record> records{sine("slow", 0.5, 4, 0.025), sine("fast", 3, 1, 0.002)};
+  const Forgetting result =
+      forgetting(LawModel::constant(law, values), records, DriveUnit::Ampere, 1000);
+  CHECK(result.is_forgotten());
+  CHECK(result.seconds > 2);
+}
+
 TEST_CASE("forgetting: a single record, and one that is shorter than the time allowed") {
   CHECK(forgetting(Lag(0.2), {sine("only", 1, 8)}, DriveUnit::Ampere, kSpan).is_forgotten());
   CHECK(forgetting(Lag(0.2), {sine("short", 2, 0.5)}, DriveUnit::Ampere, kSpan).is_forgotten());

@@ -73,6 +73,8 @@ TEST_CASE("paired difference: the 90 % interval covers 85 to 95 % with heavy tai
       CHECK(covered > 85);
       CHECK(covered < 95);
     }
+    const UnlikeUnits twice{2};
+    CHECK(coverage(units, twice.mean_difference(), twice) > 80);
     const double covered =
         coverage(units, 0.5, [](Random& random) { return Pair{0.5 + heavy(random), 0}; });
     CHECK(covered > 85);
@@ -105,7 +107,7 @@ TEST_CASE("paired difference: a clear one over five units, worked out by hand") 
   CHECK(!paired_difference(std::vector<double>{1}, std::vector<double>{0}));
 }
 
-TEST_CASE("what units add to the error: folds, else records, else stretches of the only record") {
+TEST_CASE("what units add to the error: folds, else records, else stretches of few records") {
   Evaluation first, second;
   first.records = {result_with(1, 100), result_with(4, 100)};
   second.records = {result_with(9, 200)};
@@ -115,12 +117,17 @@ TEST_CASE("what units add to the error: folds, else records, else stretches of t
   REQUIRE(by_fold.size() == 2);
   CHECK_CLOSE(by_fold[0], 1.25, 1e-12, 0);
   CHECK_CLOSE(by_fold[1], 4.5, 1e-12, 0);
-  const std::vector<double> by_record = esr_parts(std::vector{first});
-  REQUIRE(by_record.size() == 2);
-  CHECK_CLOSE(by_record[1], 2, 1e-12, 0);
   const std::vector<double> by_stretch = esr_parts(std::vector{second});
   REQUIRE(by_stretch.size() == 5);
   for (const double part : by_stretch) CHECK_CLOSE(part, 9.0 / 5, 1e-12, 0);
+  const std::vector<double> of_two = esr_parts(std::vector{first});
+  REQUIRE(of_two.size() == 6);
+  CHECK_CLOSE(of_two[3] + of_two[4] + of_two[5], 2, 1e-12, 0);
+
+  first.records.insert(first.records.end(), 3, result_with(4, 100));
+  const std::vector<double> by_record = esr_parts(std::vector{first});
+  REQUIRE(by_record.size() == 5);
+  CHECK_CLOSE(by_record[1], 0.8, 1e-12, 0);
 
   second.diverged = 1;
   CHECK(esr_parts(std::vector{first, second}).empty());

@@ -96,8 +96,6 @@ Forgetting meeting(const DamperModel& model, const Drive& motion, const std::vec
   State state = rest_of(model, motion);
   const std::vector<double> from_rest = force_from(model, motion, motion.time.size(), state);
   const double begin = motion.time.front();
-  const double allowed =
-      begin + std::clamp(motion.duration() / 2, kForgettingLeast, kForgettingMost);
 
   for (State start : starts) {
     const std::vector<double> force = force_from(model, motion, motion.time.size(), start);
@@ -109,7 +107,8 @@ Forgetting meeting(const DamperModel& model, const Drive& motion, const std::vec
       const double share = std::abs(force[k] - from_rest[k]) / force_span;
       if (share > kForgottenShare)
         result.seconds = std::max(result.seconds, motion.time[k] - begin);
-      if (motion.time[k] >= allowed) result.share_left = std::max(result.share_left, share);
+      if (motion.time[k] - begin >= kForgettingSeconds)
+        result.share_left = std::max(result.share_left, share);
     }
   }
   return result;
@@ -136,7 +135,7 @@ Forgetting forgetting(const DamperModel& model, const std::vector<Record>& recor
     const Drive before = drive_of(records[(k + records.size() - 1) % records.size()], drive_unit);
     starts.push_back(state_at(damper, before, takeover_samples(damper, before).back()));
 
-    const Drive motion = repeated(drive_of(records[k], drive_unit), 2 * kForgettingLeast);
+    const Drive motion = repeated(drive_of(records[k], drive_unit), kForgettingRun);
     results[k] = meeting(damper, motion, starts, force_span);
     results[k].record = records[k].name;
   });

@@ -14,14 +14,16 @@
 namespace dashpot {
 
 inline constexpr double kForgottenShare = 0.01;  ///< of the force span: runs this near have met
-/// The time allowed: half of a record's motion, between these.
-inline constexpr double kForgettingLeast = 2, kForgettingMost = 10;  ///< s
+/// s, the time allowed. The spring between two dashpots of Spencer's law, as published, relaxes
+/// with 6.5 s: three times that. What is slower is no memory of the fluid or of friction.
+inline constexpr double kForgettingSeconds = 20;
+inline constexpr double kForgettingRun = 30;  ///< s, how long a motion is run at least
 
 /// Runs the model along the motion and the drive of each record from rest; from the states in which
 /// it is where its force is greatest and least on the record whose measured force spans most; and
 /// from its state at the end of the record before, the last one before the first. A record that is
-/// shorter than twice the least time is repeated until it is as long. All runs must have met after
-/// the time allowed, and from there on stay together.
+/// shorter than a run is repeated. All runs must have met after the time allowed, and from there on
+/// stay together.
 ///
 /// A model that feeds back its force at steps of its own is taken over at one of these, so that all
 /// runs step at the same instants of the motion.

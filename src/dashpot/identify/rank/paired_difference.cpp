@@ -8,15 +8,13 @@
 namespace dashpot {
 namespace {
 
-constexpr std::size_t kStretches = 5;  ///< of an only record
-
-/// Errors over equal stretches of a record's scored samples.
-std::vector<ErrorSums> by_stretch(const RecordResult& record) {
-  std::vector<ErrorSums> sums(kStretches);
+/// Errors over so many equal stretches of a record's scored samples.
+std::vector<ErrorSums> by_stretch(const RecordResult& record, std::size_t stretches) {
+  std::vector<ErrorSums> sums(stretches);
   const std::size_t scored = record.measured.size() - record.warm_up;
   for (std::size_t k = 0; k < scored; ++k)
-    sums[k * kStretches / scored].add(record.measured[record.warm_up + k],
-                                      record.modelled[record.warm_up + k]);
+    sums[k * stretches / scored].add(record.measured[record.warm_up + k],
+                                     record.modelled[record.warm_up + k]);
   return sums;
 }
 
@@ -29,9 +27,12 @@ std::vector<ErrorSums> by_unit(std::span<const Evaluation> folds) {
     }
     return sums;
   }
+
+  // Few records are divided once more, each into as many stretches.
   const std::vector<RecordResult>& records = folds.front().records;
-  if (records.size() == 1) return by_stretch(records.front());
-  for (const RecordResult& record : records) sums.push_back(record.sums);
+  const std::size_t stretches = (kLeastUnits + records.size() - 1) / records.size();
+  for (const RecordResult& record : records)
+    for (const ErrorSums& stretch : by_stretch(record, stretches)) sums.push_back(stretch);
   return sums;
 }
 

@@ -88,7 +88,7 @@ double expected_cost(const std::string& model, const Record& record, DriveUnit d
 /// What differences between models are taken over.
 std::string unit_of(const LeaveOut& leave_out, const std::vector<Fold>& folds) {
   if (folds.size() > 1) return leave_out.by == LeaveOut::By::Blocks ? "block" : "division";
-  return folds.front().left_out.size() > 1 ? "record" : "stretch of time";
+  return folds.front().left_out.size() < kLeastUnits ? "stretch of time" : "record";
 }
 
 /// A block of a record becomes a result of its own: "run 1, 4 to 8 s".
