@@ -229,7 +229,8 @@ typedef struct dashpot_ranking dashpot_ranking;
 
 /// Identifies as `dashpot identify` does: fits every model, judges each on recordings that it has
 /// not seen, ranks them. Options as for dashpot_fit, and "leave_out": "condition", "current=0.5",
-/// "fraction=0.3" ...; "models" may hold the groups "usual" (when absent), "all" and "family".
+/// "blocks=5", "fraction=0.3" ...; "models" may hold the groups "usual" (when absent), "all" and
+/// "family".
 DASHPOT_API dashpot_status dashpot_identify(const dashpot_recordings* recordings,
                                             const char* options, const dashpot_monitor* monitor,
                                             dashpot_ranking** ranking);

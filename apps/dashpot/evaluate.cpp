@@ -11,6 +11,7 @@
 #include "dashpot/identify/judge/extrapolation.h"
 #include "dashpot/rank.h"
 #include "dashpot/report/report_json.h"
+#include "dashpot/report/words.h"
 #include "data.h"
 #include "document_text.h"
 #include "results.h"
@@ -35,7 +36,8 @@ constexpr std::string_view kExample =
     "dashpot evaluate results/models/tanh_kwok.json more-recordings/ --json | jq .pooled.rmse_N";
 
 /// A ranking of this model alone, fitted elsewhere.
-Ranking as_ranking(const std::string& name, ModelFile file, const Evaluation& evaluation) {
+Ranking as_ranking(const std::string& name, ModelFile file, const Dataset& dataset,
+                   const Evaluation& evaluation) {
   RankedModel ranked;
   ranked.name = file.model->name();
   ranked.title = name;
@@ -46,7 +48,8 @@ Ranking as_ranking(const std::string& name, ModelFile file, const Evaluation& ev
   ranked.left_out = evaluation;
   for (RecordResult& r : ranked.left_out.records) r.left_out = true;
   Ranking ranking;
-  ranking.folds = {"all records, none of them fitted"};
+  ranking.seen = seen_records(file.provenance, dataset);
+  ranking.folds = {"all records, nothing fitted"};
   ranking.models.push_back(std::move(ranked));
   return ranking;
 }
@@ -69,11 +72,15 @@ int run(const Settings& settings, Console& console) {
   const std::vector<Extrapolation> outside = extrapolations(file, dataset);
 
   Value data = evaluation_json(file, evaluation, outside);
-  const Ranking ranking = as_ranking(settings.model, std::move(file), evaluation);
+  const Ranking ranking = as_ranking(settings.model, std::move(file), dataset, evaluation);
   Document document = evaluation_document(report_input(dataset, ranking, console));
   document.data = std::move(data);
   print_document(document, console);
   for (const Extrapolation& e : outside) console.warn(describe(e));
+  if (const std::size_t seen = *ranking.seen; seen > 0)
+    console.warn(
+        fmt::format("the fit of the model has seen {} of {}: these errors are no judgement", seen,
+                    counted(dataset.records.size(), "record")));
   for (const std::string& what : outside_family(evaluation))
     console.warn(what + ": it extrapolates there");
   if (console.json) console.print_json(document_json(document));

@@ -26,6 +26,7 @@ struct ErrorSums {
   double force_min = 0, force_max = 0;             ///< N
   void add(double measured, double modelled);
   void add(const ErrorSums& other);
+  double force_variation() const;  ///< sum of (F - mean F)^2
 };
 
 /// The errors of a model, every figure by its name (TC-11 in docs/sources.md).
@@ -157,8 +158,19 @@ struct StressRun {
   bool is_bounded() const;   ///< finite, and within kStressSpans spans
 };
 
+/// Whether a model forgets the state in which it began. Runs of one motion, from rest and from
+/// states that the model met elsewhere in the data, must meet.
+struct Forgetting {
+  bool is_tested = false;  ///< a model without a state has nothing to forget
+  double seconds = 0;      ///< until the last two runs had met, as far as they did
+  double share_left = 0;   ///< force between them after the time allowed, over the span of the data
+  std::string record;      ///< whose motion it was; empty where nothing was left
+  bool is_forgotten() const;  ///< not tested, or share_left within kForgottenShare
+};
+
 /// How evaluate() treats offsets and bands. Records whose offset is known, by name, keep it: an
-/// offset learnt on the training part of a record serves its left-out part.
+/// offset learnt on the training part of a record serves its left-out part; of several parts, their
+/// mean.
 struct EvaluateOptions {
   OffsetMode offset = OffsetMode::Record;
   std::vector<std::pair<std::string, double>> known_offsets;

@@ -19,6 +19,14 @@ namespace dashpot {
 
 class FitStore;
 
+/// How far a model's pooled ESR lies behind that of another one, over the same left-out units.
+struct PairedDifference {
+  double esr = 0;            ///< %
+  double low = 0, high = 0;  ///< %, its 90 % interval
+  std::size_t units = 0;     ///< that it comes from
+  bool holds_zero() const { return low <= 0 && high >= 0; }
+};
+
 /// One model, fitted on all records and judged on those that its fits had not seen.
 struct RankedModel {
   std::string name, title;
@@ -32,15 +40,32 @@ struct RankedModel {
   double seconds = 0;               ///< CPU time of all its fits
   double nanoseconds_per_step = 0;  ///< cost of advance + force, measured
   StressRun stress;                 ///< the final model, beyond its domain
+  Forgetting forgetting;            ///< the final model, over its training records
+  /// %, what each unit (Ranking::unit) adds to the pooled ESR; empty where a record diverged.
+  std::vector<double> esr_parts;
+  std::optional<PairedDifference> behind;  ///< to the first model; none for itself
 };
+/// Fitted, and finite on every left-out record.
+bool is_usable(const RankedModel& model);
+/// Usable, and it forgets the state in which it began: what may be called best.
+bool is_recommendable(const RankedModel& model);
 
 /// Models in order of their error on left-out records.
 struct Ranking {
   LeaveOut leave_out;
-  std::vector<std::string> folds;   ///< their names
-  std::vector<RankedModel> models;  ///< best first, by left-out ESR with offsets; diverged last
-  std::size_t kept_fits = 0;        ///< found in the store
-  double wall_seconds = 0;          ///< from the first fit to the last figure
+  std::vector<std::string> folds;  ///< their names
+  /// Best first, by left-out ESR with offsets; then those that do not forget, then those that
+  /// diverged, then failed ones.
+  std::vector<RankedModel> models;
+  std::string unit;  ///< over which differences are taken: "division", "block" ...
+  /// Of a model that was fitted elsewhere: how many of the records its fit has seen.
+  std::optional<std::size_t> seen;
+  std::size_t kept_fits = 0;  ///< found in the store
+  double wall_seconds = 0;    ///< from the first fit to the last figure
+
+  /// The models that may be called best: the first, and those whose difference to it cannot be told
+  /// from 0, in their order. One: the winner. None: no model can be recommended.
+  std::vector<const RankedModel*> leaders() const;
 };
 
 /// Cross-validates each model over the folds of the split and ranks them. Without training roles,
@@ -54,6 +79,9 @@ Ranking rank(const std::vector<std::string>& models, const Dataset& dataset,
 /// The origin of a model that this command made from these records of the dataset.
 Provenance provenance_of(const Dataset& dataset, std::vector<std::string> records,
                          const std::string& command);
+/// How many records of a dataset a model's fit has seen: those of its training records' names,
+/// where the datasets share a file by its SHA-256.
+std::size_t seen_records(const Provenance& provenance, const Dataset& dataset);
 /// The ranked model as a file, with domain and provenance taken from the records. Throws Error when
 /// the fit failed.
 ModelFile to_model_file(const RankedModel& ranked, const Dataset& dataset,

@@ -19,7 +19,7 @@ struct Fold {
 };
 
 /// The way that the dataset file states; else the strictest one that the records allow: by
-/// condition, current, record, or the end of the only one.
+/// condition, current, record, or five blocks of the only one, one after the other.
 LeaveOut default_leave_out(const Dataset& dataset);
 
 /// The folds of a dataset, in the order of its records or of the values asked for. Throws Error

@@ -65,7 +65,10 @@ class Identification(InFolder):
         self.assertTrue(told)
         force, half_width = ranking.best.predict(recording(0.5)[0], interval=True)
         self.assertEqual(force.shape, half_width.shape)
-        self.assertIn("predicts the force best", str(ranking))
+        self.assertIn("Bingham", str(ranking))
+        self.assertEqual(ranking.leaders[0], "bingham")
+        behind = ranking.report["models"][1]["behind"]
+        self.assertLessEqual(behind["low"], behind["esr_percent"])
         ranking.save_report(str(self.folder / "report.html"))
         self.assertIn("<html", (self.folder / "report.html").read_text())
         with self.assertRaises(dashpot.Error):

@@ -1,5 +1,7 @@
 #include "dashpot/split.h"
 
+#include <algorithm>
+
 #include "dashpot/record/trial_parts.h"
 #include "support.h"
 
@@ -49,6 +51,56 @@ TEST_CASE("a left-out fraction runs from the start and is scored at the end") {
   CHECK(folds[0].left_out[0].warm_up == 7);
 }
 
+TEST_CASE("blocks of a record's time are left out in turn, and no sample is in both parts") {
+  Dataset dataset;
+  dataset.name = "one";
+  Record& record = dataset.records.emplace_back();
+  record.name = "run";
+  record.condition = "noise";
+  record.warm_up = 3;
+  for (int k = 0; k < 203; ++k) record.time.push_back(k);
+  record.channels = {{"force", "N", record.time, ""}};
+  CHECK(format_leave_out(default_leave_out(dataset)) == "blocks=5");
+
+  // Each of the 200 scored samples is judged once, after a run from the record's start.
+  const auto folds = split(dataset, default_leave_out(dataset));
+  REQUIRE(folds.size() == 5);
+  std::vector<int> judged(203);
+  for (const Fold& fold : folds) {
+    REQUIRE(fold.left_out.size() == 1);
+    const Record& left_out = fold.left_out.front();
+    CHECK(left_out.time.front() == 0);
+    CHECK(left_out.name == "run");
+    const double from = left_out.time[left_out.warm_up], to = left_out.time.back();
+    for (std::size_t k = left_out.warm_up; k < left_out.size(); ++k)
+      ++judged[static_cast<std::size_t>(left_out.time[k])];
+    for (const Record& training : fold.training)
+      CHECK((training.time.back() < from || training.time.front() > to));
+  }
+  CHECK(std::count(judged.begin(), judged.end(), 1) == 200);
+  CHECK(std::count(judged.begin(), judged.begin() + 3, 0) == 3);
+
+  // What follows a block begins in the middle of a motion: a twentieth of the record is its run-in.
+  CHECK(folds[1].name == "without block 2 of 5");
+  REQUIRE(folds[1].training.size() == 2);
+  CHECK(folds[1].training[0].size() == 43);
+  CHECK(folds[1].training[0].warm_up == 3);
+  CHECK(folds[1].training[1].time.front() == 83);
+  CHECK(folds[1].training[1].warm_up == 10);
+  CHECK(folds[0].training.size() == 1);
+  CHECK(folds[4].training.size() == 1);
+
+  // Too short for five blocks: the message says how many there may be.
+  dataset.records[0].keep(0, 73);
+  const std::string message = message_of([&] { split(dataset, parse_leave_out("blocks")); });
+  CHECK(message.find("run has 70 samples to score, and 5 blocks need 100") != std::string::npos);
+  CHECK(message.find("'blocks=3'") != std::string::npos);
+  CHECK(split(dataset, parse_leave_out("blocks=3")).size() == 3);
+  dataset.records[0].keep(0, 30);
+  CHECK(message_of([&] { split(dataset, parse_leave_out("blocks")); }).find("'blocks=") ==
+        std::string::npos);
+}
+
 TEST_CASE("roles") {
   Dataset dataset = small_dataset();
   CHECK(message_of([&] { split(dataset, parse_leave_out("roles")); }).find("gives no roles") !=
@@ -68,8 +120,7 @@ TEST_CASE("by default, the strictest way that the records allow") {
   dataset.records.pop_back();
   CHECK(default_leave_out(dataset).by == LeaveOut::By::Record);
   dataset.records.pop_back();
-  CHECK(default_leave_out(dataset).by == LeaveOut::By::Fraction);
-  CHECK_NOTHROW(split(dataset, default_leave_out(dataset)));
+  CHECK(default_leave_out(dataset).by == LeaveOut::By::Blocks);
   dataset.leave_out = parse_leave_out("record");
   CHECK(default_leave_out(dataset).by == LeaveOut::By::Record);
 }
@@ -87,10 +138,10 @@ TEST_CASE("an impossible split says which ways would work") {
 
 TEST_CASE("ways of leaving out as text") {
   for (const char* text : {"condition", "current", "current=0.5,1", "record", "fraction=0.33",
-                           "roles", "each=gap,pole_length"})
+                           "blocks=7", "roles", "each=gap,pole_length"})
     CHECK(format_leave_out(parse_leave_out(text)) == text);
-  for (const char* text :
-       {"", "conditions", "fraction=2", "fraction=x", "current=", "roles=1", "each", "each="}) {
+  for (const char* text : {"", "conditions", "fraction=2", "fraction=x", "blocks=1", "blocks=2.5",
+                           "blocks=x", "blocks=1e9", "current=", "roles=1", "each", "each="}) {
     CAPTURE(text);
     CHECK(!message_of([&] { parse_leave_out(text); }).empty());
   }

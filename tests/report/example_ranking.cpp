@@ -188,6 +188,7 @@ ExampleRanking example_ranking(std::size_t samples) {
   for (const Motion& motion : kMotions)
     for (const double current : kCurrents)
       example.dataset.records.push_back(make_record(motion, current, samples, random));
+  example.ranking.unit = "division";
   for (const Motion& motion : kMotions)
     example.ranking.folds.push_back(
         fmt::format("without {:g} mm {:g} Hz", 1000 * motion.amplitude, motion.frequency));
@@ -203,6 +204,10 @@ ExampleRanking example_ranking(std::size_t samples) {
     model.seconds = 2.3;
     model.nanoseconds_per_step = 48;
     model.stress = {.seconds = 5, .finite = true, .largest_share = 1.5};
+    model.forgetting = {
+        .is_tested = true, .seconds = 0.8, .share_left = 1e-4, .record = "a record"};
+    if (&flaw == &kFlaws[1])
+      model.behind = PairedDifference{.esr = 1.6, .low = 0.4, .high = 2.8, .units = 4};
     example.ranking.models.push_back(std::move(model));
   }
   return example;

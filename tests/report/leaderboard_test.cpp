@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "dashpot/base/text.h"
 #include "dashpot/report/ranking_tables.h"
 #include "report/example_ranking.h"
@@ -53,6 +55,17 @@ TEST_CASE("what a model does beyond its data, in a word") {
   CHECK(stress_text({.seconds = 5, .finite = false, .largest_share = 2}) == "diverged");
   CHECK(stress_text({.seconds = 5, .finite = true, .largest_share = 2}) == "yes");
   CHECK(stress_text({.seconds = 5, .finite = true, .largest_share = 12}) == "12 spans");
+}
+
+TEST_CASE("whether a model forgets, and how far it is behind, in a word") {
+  CHECK(forgetting_text({}) == "-");
+  CHECK(forgetting_text({.is_tested = true, .seconds = 0.84, .share_left = 0.002}) == "0.84 s");
+  CHECK(forgetting_text({.is_tested = true, .seconds = 9, .share_left = 0.031}) == "no, 3.1 %");
+  CHECK(forgetting_text({.is_tested = true, .seconds = 9, .share_left = INFINITY}) == "diverges");
+  RankedModel model;
+  CHECK(behind_text(model) == "-");
+  model.behind = PairedDifference{.esr = 0.2, .low = -0.051, .high = 0.45, .units = 5};
+  CHECK(behind_text(model) == "-0.05 ... 0.45");
 }
 
 TEST_CASE("leaderboard as Markdown and CSV: no date, every figure") {

@@ -109,7 +109,7 @@ TEST_CASE("reports of nothing") {
         "figures: no model was judged on any record");
 }
 
-TEST_CASE("verdict: the best, its worst record, the next, and who diverged") {
+TEST_CASE("verdict: the winner, its worst record, the next, and who diverged") {
   ExampleRanking example = example_ranking();
   auto& models = example.ranking.models;
   models[0].left_out.pooled.esr = 2;
@@ -124,11 +124,78 @@ TEST_CASE("verdict: the best, its worst record, the next, and who diverged") {
         "with 7.1 "
         "%. Next "
         "comes Hyperbolic tangent (Kwok) with 3.6 %. 1 model diverged.");
-  models[1].left_out.pooled.esr = 2.1;
-  CHECK(contains(verdict(example.ranking),
-                 "Hyperbolic tangent (Kwok) is practically as good (2.1 %)."));
   models.erase(models.begin(), models.begin() + 2);
   CHECK(contains(verdict(example.ranking), "No model can be used"));
+}
+
+TEST_CASE("verdict: no winner is named where the data name none") {
+  ExampleRanking example = example_ranking();
+  auto& models = example.ranking.models;
+  models[0].left_out.pooled.esr = 2;
+  models[1].left_out.pooled.esr = 2.1;
+  models[1].behind = PairedDifference{.esr = 0.1, .low = -0.4, .high = 0.6, .units = 4};
+  REQUIRE(example.ranking.leaders().size() == 2);
+  const std::string tied = verdict(example.ranking);
+  CAPTURE(tied);
+  CHECK(tied.starts_with(
+      "Modified Bouc-Wen (Spencer) and Hyperbolic tangent (Kwok) cannot be told apart on these "
+      "recordings. Modified Bouc-Wen (Spencer) has the smallest error: on recordings that it has "
+      "not seen it leaves 2.0 % of the force's power unexplained"));
+  CHECK(!contains(tied, "best"));
+  CHECK(contains(difference_note(example.ranking).value_or(""), "over 4 divisions"));
+
+  // A model without an interval cannot be told apart either.
+  models[1].behind.reset();
+  CHECK(example.ranking.leaders().size() == 2);
+
+  // With one model there is nothing to be best of; with one usable model, nothing beside it.
+  models.erase(models.begin() + 1);
+  CHECK(contains(verdict(example.ranking), "(Spencer) is the only model that can be used: on"));
+  models.pop_back();
+  CHECK(verdict(example.ranking)
+            .starts_with("Modified Bouc-Wen (Spencer): on recordings that it has not seen it"));
+  CHECK(!difference_note(example.ranking));
+
+  // Parts of recordings are said to be parts.
+  example.ranking.leave_out.by = LeaveOut::By::Blocks;
+  CHECK(contains(verdict(example.ranking), "on parts of the recordings that it has not seen it"));
+}
+
+TEST_CASE("verdict: a model that does not forget is not recommended, however small its error") {
+  ExampleRanking example = example_ranking();
+  auto& models = example.ranking.models;
+  models[0].left_out.pooled.esr = 2;
+  std::swap(models[0], models[1]);  // as rank() has them: those that do not forget come last
+  models[1].forgetting.share_left = 0.07;
+  models[0].behind.reset();
+  models[0].left_out.pooled.esr = 3;
+  REQUIRE(example.ranking.leaders().size() == 1);
+  const std::string said = verdict(example.ranking);
+  CAPTURE(said);
+  CHECK(said.starts_with("Hyperbolic tangent (Kwok) is the only model that can be used"));
+  CHECK(contains(said,
+                 "Modified Bouc-Wen (Spencer) does not forget how it began and is not "
+                 "recommended, in spite of 2.0 %."));
+  const DocumentTable table = ranking_document(example.input()).sections.front().tables.front();
+  CHECK(table.rows[1].back() == "remembers");
+  CHECK(table.warnings[1]);
+  models[0].forgetting.share_left = 0.02;
+  CHECK(contains(verdict(example.ranking), "No model can be recommended"));
+}
+
+TEST_CASE("verdict of a model fitted elsewhere: whether its fit has seen the recordings") {
+  ExampleRanking example = example_ranking();
+  auto& ranking = example.ranking;
+  ranking.models.resize(1);
+  ranking.seen = 0;
+  CHECK(contains(verdict(ranking), "on recordings that it has not seen"));
+  ranking.seen = 5;
+  CHECK(contains(verdict(ranking), "on 12 recordings, of which its fit has seen 5,"));
+  ranking.seen = 12;
+  CHECK(contains(verdict(ranking), "on the recordings that it was fitted on"));
+  CHECK(!contains(verdict(ranking), "not seen"));
+  CHECK(contains(protocol(ranking), "its fit has seen 12 of 12 records"));
+  CHECK(protocol_title(ranking) == "a model fitted elsewhere");
 }
 
 TEST_CASE("the one-step note names models that feed force back, or says that there are none") {

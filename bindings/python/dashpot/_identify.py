@@ -52,8 +52,16 @@ class Ranking:
 
     @property
     def best(self) -> _core.DamperModel:
-        """The first; raises NotUsable where no fit succeeded."""
+        """The first: the least error of those that can be recommended; raises NotUsable where no fit succeeded.
+
+        See `leaders` for those that the data cannot tell from it.
+        """
         return self[0]
+
+    @property
+    def leaders(self) -> list:
+        """Names of the models that may be called best: one is the winner, several cannot be told apart."""
+        return self.report["leaders"]
 
     @property
     def report(self) -> dict:
@@ -61,10 +69,15 @@ class Ranking:
         return json.loads(self._core.report("json"))
 
     def frame(self):
-        """A line per model (pandas): errors on the recordings left out."""
+        """A line per model (pandas): errors on the recordings left out, and the 90 % interval of how far its ESR
+        lies behind that of the first."""
         import pandas
 
-        lines = [{"model": model["name"], **model["left_out"]["pooled"]} for model in self.report["models"]]
+        lines = []
+        for model in self.report["models"]:
+            behind = model["behind"] or {}
+            interval = {f"behind_{end}_percent": behind.get(end, float("nan")) for end in ("low", "high")}
+            lines.append({"model": model["name"], **model["left_out"]["pooled"], **interval})
         return pandas.DataFrame(lines).set_index("model")
 
     def save_report(self, path: str) -> None:
@@ -94,7 +107,7 @@ def identify(
     """What `dashpot identify` does, with the same figures.
 
     recordings: Recordings, or paths. models: names as `dashpot models` lists them, "usual", "all" or "family".
-    leave_out: "condition", "current=0.5", "record", "fraction=0.3", "each=gap" (None: as the dataset file says,
+    leave_out: "condition", "current=0.5", "record", "blocks=5", "fraction=0.3", "each=gap" (None: as the dataset file says,
     else the strictest that the recordings allow). progress: called with (stage, fraction 0 ... 1).
     options: force_offset ("record" or "none"), form, fix, free, bounds, prior, network (lists as the command
     line has them: ["alpha=exponential"]), starts, search, seed, threads (0: all cores).

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <string_view>
 
@@ -13,10 +14,13 @@ struct Way {
   LeaveOut::By by;
   std::string_view name;
 };
-constexpr Way kWays[] = {
-    {LeaveOut::By::Condition, "condition"}, {LeaveOut::By::Current, "current"},
-    {LeaveOut::By::Record, "record"},       {LeaveOut::By::Fraction, "fraction"},
-    {LeaveOut::By::Roles, "roles"},         {LeaveOut::By::Each, "each"}};
+constexpr Way kWays[] = {{LeaveOut::By::Condition, "condition"},
+                         {LeaveOut::By::Current, "current"},
+                         {LeaveOut::By::Record, "record"},
+                         {LeaveOut::By::Fraction, "fraction"},
+                         {LeaveOut::By::Blocks, "blocks"},
+                         {LeaveOut::By::Roles, "roles"},
+                         {LeaveOut::By::Each, "each"}};
 
 }  // namespace
 
@@ -27,8 +31,8 @@ LeaveOut parse_leave_out(const std::string& text) {
                                 [&](const Way& w) { return w.name == name; });
   if (way == std::end(kWays))
     throw Error("", "cannot leave out by '" + text + "'",
-                "'condition', 'current', 'current=0.5,1', 'record', 'fraction=0.3', 'roles' or "
-                "'each=gap,pole_length'");
+                "'condition', 'current', 'current=0.5,1', 'record', 'blocks=5', 'fraction=0.3', "
+                "'roles' or 'each=gap,pole_length'");
 
   LeaveOut out;
   out.by = way->by;
@@ -39,12 +43,21 @@ LeaveOut parse_leave_out(const std::string& text) {
 
   const std::string rest = text.substr(equals + 1);
 
-  // The value: a number for a fraction, a list of names or levels for all others.
+  // The value: a number for a fraction and for blocks, a list of names or levels for all others.
   if (out.by == LeaveOut::By::Fraction) {
     out.fraction = parse_number(rest).value_or(0);
     if (!(out.fraction > 0 && out.fraction < 1))
       throw Error("", "fraction '" + rest + "' cannot be left out",
                   "a number between 0 and 1: 'fraction=0.3'");
+    return out;
+  }
+  if (out.by == LeaveOut::By::Blocks) {
+    constexpr double kMost = 1000;
+    const double blocks = parse_number(rest).value_or(0);
+    if (!(blocks >= 2 && blocks <= kMost && blocks == std::floor(blocks)))
+      throw Error("", "'" + rest + "' blocks cannot be left out in turn",
+                  "a whole number from 2 to 1000: 'blocks=5'");
+    out.blocks = static_cast<std::size_t>(blocks);
     return out;
   }
   if (out.by == LeaveOut::By::Roles)
@@ -62,6 +75,7 @@ std::string format_leave_out(const LeaveOut& leave_out) {
                                 [&](const Way& w) { return w.by == leave_out.by; });
   std::string text(way->name);
   if (leave_out.by == LeaveOut::By::Fraction) return text + "=" + format_exact(leave_out.fraction);
+  if (leave_out.by == LeaveOut::By::Blocks) return text + "=" + std::to_string(leave_out.blocks);
   return leave_out.values.empty() ? text : text + "=" + join(leave_out.values, ",");
 }
 

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "dashpot/base/text.h"
 #include "dashpot/error.h"
+#include "dashpot/record/blocks.h"
 #include "dashpot/record/what_varies.h"
 
 namespace dashpot {
@@ -19,11 +21,23 @@ bool has_roles(const Dataset& dataset) {
   return has_role(dataset, Role::Training) && has_role(dataset, Role::LeftOut);
 }
 
+constexpr std::size_t kLeastOfBlock = 20;  ///< samples that a block is scored on
+
+/// How many blocks of time each record can be divided into, up to those that are usual.
+std::size_t most_blocks(const Dataset& dataset) {
+  std::size_t most = LeaveOut().blocks;
+  for (const Record& record : dataset.records)
+    most = std::min(most, samples_per_block(record, 1) / kLeastOfBlock);
+  return most;
+}
+
 std::string ways_that_work(const Dataset& dataset) {
   std::vector<std::string> ways;
   if (conditions(dataset).size() > 1) ways.emplace_back("'condition'");
   if (levels(dataset).size() > 2) ways.emplace_back("'current'");
   if (dataset.records.size() > 1) ways.emplace_back("'record'");
+  if (const std::size_t blocks = most_blocks(dataset); blocks > 1)
+    ways.push_back("'blocks=" + std::to_string(blocks) + "'");
   ways.emplace_back("'fraction=0.3'");
   if (has_roles(dataset)) ways.emplace_back("'roles'");
   return "leave out by " + join(ways, ", ");
@@ -151,6 +165,27 @@ std::vector<Fold> by_fraction(const Dataset& dataset, const LeaveOut& how) {
   return {fold};
 }
 
+/// Leaves out one block of time of every record after the other.
+std::vector<Fold> by_blocks(const Dataset& dataset, const LeaveOut& how) {
+  for (const Record& record : dataset.records)
+    if (samples_per_block(record, how.blocks) < kLeastOfBlock)
+      impossible(dataset, record.name + " has " + std::to_string(samples_per_block(record, 1)) +
+                              " samples to score, and " + std::to_string(how.blocks) +
+                              " blocks need " + std::to_string(how.blocks * kLeastOfBlock));
+
+  std::vector<Fold> folds(how.blocks);
+  for (std::size_t block = 0; block < how.blocks; ++block) {
+    folds[block].name =
+        "without block " + std::to_string(block + 1) + " of " + std::to_string(how.blocks);
+    for (const Record& record : dataset.records) {
+      BlockLeftOut divided = leave_out_block(record, block, how.blocks);
+      folds[block].left_out.push_back(std::move(divided.left_out));
+      std::ranges::move(divided.training, std::back_inserter(folds[block].training));
+    }
+  }
+  return folds;
+}
+
 std::vector<Fold> by_roles(const Dataset& dataset) {
   if (!has_roles(dataset)) impossible(dataset, "its dataset file gives no roles");
   Fold fold;
@@ -172,7 +207,7 @@ LeaveOut default_leave_out(const Dataset& dataset) {
   } else if (levels(dataset).size() > 2) {
     out.by = LeaveOut::By::Current;
   } else {
-    out.by = dataset.records.size() > 1 ? LeaveOut::By::Record : LeaveOut::By::Fraction;
+    out.by = dataset.records.size() > 1 ? LeaveOut::By::Record : LeaveOut::By::Blocks;
   }
   return out;
 }
@@ -186,6 +221,8 @@ std::vector<Fold> split(const Dataset& dataset, const LeaveOut& leave_out) {
       return by_record(dataset, leave_out);
     case LeaveOut::By::Fraction:
       return by_fraction(dataset, leave_out);
+    case LeaveOut::By::Blocks:
+      return by_blocks(dataset, leave_out);
     case LeaveOut::By::Roles:
       return by_roles(dataset);
     case LeaveOut::By::Each:

@@ -1,29 +1,21 @@
 #include "dashpot/record/trial_parts.h"
 
 #include <algorithm>
+#include <iterator>
 
+#include "dashpot/record/blocks.h"
 #include "dashpot/record/what_varies.h"
 
 namespace dashpot {
 namespace {
 
-/// Divides the scored samples of a record into equal stretches and leaves one out: it is run from
-/// the record's start and scored on that stretch. What lies before and after it serves the fit, as
-/// two records.
-void hold_back_part(const Record& record, std::size_t part, std::size_t parts, Fold& fold) {
-  const std::size_t scored = record.size() - std::min(record.warm_up, record.size());
-  const std::size_t from = record.warm_up + scored * part / parts;
-  const std::size_t to = record.warm_up + scored * (part + 1) / parts;
-  constexpr std::size_t kLeast = 10;  // samples of a stretch
-  if (to < from + kLeast) return;
-  fold.left_out.push_back(record.slice(0, to));
-  fold.left_out.back().warm_up = from;
-
-  if (part > 0) fold.training.push_back(record.slice(0, from));
-  if (part + 1 == parts) return;
-  Record after = record.slice(to, record.size());
-  after.warm_up = std::min(record.warm_up, after.size() / 4);
-  fold.training.push_back(std::move(after));
+/// Holds back one block of a record, unless it would be too short.
+void hold_back_block(const Record& record, std::size_t block, std::size_t blocks, Fold& fold) {
+  constexpr std::size_t kLeast = 10;  // samples of a block
+  if (samples_per_block(record, blocks) < kLeast) return;
+  BlockLeftOut divided = leave_out_block(record, block, blocks);
+  fold.left_out.push_back(std::move(divided.left_out));
+  std::ranges::move(divided.training, std::back_inserter(fold.training));
 }
 
 /// Holds back the end of each part. The model still runs from the start of the record.
@@ -62,7 +54,7 @@ std::vector<Fold> hold_back(const std::vector<Record>& training, const LeaveOut&
       if (whole)
         (r % parts == part ? fold.left_out : fold.training).push_back(training[r]);
       else
-        hold_back_part(training[r], part, parts, fold);
+        hold_back_block(training[r], part, parts, fold);
     }
     if (!fold.training.empty() && !fold.left_out.empty()) folds.push_back(std::move(fold));
   }

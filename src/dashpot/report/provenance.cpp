@@ -63,11 +63,11 @@ Terms judged_terms() {
        "express."}};
 }
 
-DocumentSection judged_section(const LeaveOut& leave_out, const std::vector<std::string>& folds,
+DocumentSection judged_section(std::string protocol, const std::vector<std::string>& folds,
                                Terms terms) {
   DocumentSection section{.name = "judged",
                           .title = "How it was judged",
-                          .paragraphs = {protocol(leave_out, folds.size())},
+                          .paragraphs = {std::move(protocol)},
                           .facts = std::move(terms),
                           .audience = Audience::Files};
   if (!folds.empty())

@@ -18,7 +18,7 @@ using Terms = std::vector<std::pair<std::string, std::string>>;
 Terms judged_terms();
 
 /// How records were left out, the terms, and the folds.
-DocumentSection judged_section(const LeaveOut& leave_out, const std::vector<std::string>& folds,
+DocumentSection judged_section(std::string protocol, const std::vector<std::string>& folds,
                                Terms terms);
 
 /// The dataset, its citation, files and notes; `display`: what the page's curves leave out.

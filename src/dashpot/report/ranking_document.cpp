@@ -16,7 +16,9 @@ constexpr std::string_view kLegend =
     "samples; Mean, Worst: by record; Train: on the records of the fit. Slow: RMS error below 5 % "
     "of the top speed. Energy: of the dissipated energy, by record. Par.: fitted numbers. Fit: CPU "
     "time of all fits. Bounded: the force stays within ten spans at twice the stroke and speed of "
-    "the data.";
+    "the data. Behind: ESR behind the first model's, 90 % interval of the paired difference; "
+    "Apart: "
+    "whether it excludes 0. Forgets: runs from different states meet after so long.";
 
 /// Every column of the page; identify's own selection on a terminal.
 DocumentSection ranking_section(const Ranking& ranking) {
@@ -24,6 +26,8 @@ DocumentSection ranking_section(const Ranking& ranking) {
   DocumentTable table = model_table(ranking, {{"model", 0, kText},
                                               {"title", 0, kPage},
                                               {"esr_percent"},
+                                              {"behind_percent", 2},
+                                              {"told_apart"},
                                               {"rmse_N"},
                                               {"fit_percent"},
                                               {"r2", 6},
@@ -41,11 +45,14 @@ DocumentSection ranking_section(const Ranking& ranking) {
                                               {"nanoseconds_per_step", 7},
                                               {"fit_cpu_seconds", 3},
                                               {"largest_spans", 0, kPage},
+                                              {"forgets", 0, kPage},
                                               {"status"}});
 
   // A click on a row shows the model below.
   table.leads_to = "closer";
-  table.note = one_step_note(ranking).value_or("");
+  table.note = difference_note(ranking).value_or("");
+  if (const std::optional<std::string> one_step = one_step_note(ranking))
+    table.note += (table.note.empty() ? "" : " ") + *one_step;
   return {.name = "ranking",
           .title = "Ranking",
           .paragraphs = {},
@@ -185,7 +192,7 @@ Document ranking_document(const ReportInput& input) {
   Document document{.title = input.dataset.name,
                     .subtitle = counted(input.dataset.records.size(), "record") + " · " +
                                 counted(ranking.models.size(), "model") + " · " +
-                                protocol_title(ranking.leave_out),
+                                protocol_title(ranking),
                     .verdict = verdict(ranking),
                     .sections = {},
                     .command = input.command,
@@ -211,7 +218,7 @@ Document ranking_document(const ReportInput& input) {
                                  .audience = Audience::Page});
     document.sections.push_back(fitted_section(ranking));
   }
-  document.sections.push_back(judged_section(ranking.leave_out, ranking.folds, judged_terms()));
+  document.sections.push_back(judged_section(protocol(ranking), ranking.folds, judged_terms()));
   document.provenance = provenance_section(input.dataset, display);
   return document;
 }
@@ -230,12 +237,13 @@ Document leaderboard_document(const ReportInput& input) {
   document.sections.push_back(
       {.name = "leaderboard",
        .title = "Leaderboard",
-       .paragraphs = {"Left out: " + format_leave_out(ranking.leave_out) + ". " +
-                          protocol(ranking.leave_out, ranking.folds.size()),
+       .paragraphs = {"Left out: " + format_leave_out(ranking.leave_out) + ". " + protocol(ranking),
                       std::string(kLegend)},
        .tables = {model_table(ranking, {{"place"},
                                         {"model"},
                                         {"esr_percent"},
+                                        {"behind_percent", 2},
+                                        {"told_apart", 1},
                                         {"training_esr_percent"},
                                         {"mean_esr_percent", 1},
                                         {"worst_esr_percent", 1},
@@ -245,6 +253,7 @@ Document leaderboard_document(const ReportInput& input) {
                                         {"nanoseconds_per_step", 1},
                                         {"fit_cpu_seconds", 1},
                                         {"bounded", 1},
+                                        {"forgets", 2},
                                         {"status"}}),
                   breakdown_table(ranking, input.dataset.drive_unit)}});
   for (DocumentSection& section : interval_sections(ranking))

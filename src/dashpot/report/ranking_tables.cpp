@@ -34,6 +34,7 @@ std::string four_digits(double value) { return number_text(value, 4); }
 std::string status_text(const RankedModel& model) {
   if (!model.fit.model || model.fit.status == FitReport::Status::Failed) return "fit failed";
   if (model.left_out.diverged) return fmt::format("{} diverged", model.left_out.diverged);
+  if (!model.forgetting.is_forgotten()) return "remembers";
   return model.fit.status == FitReport::Status::IterationLimit ? "limit" : "";
 }
 
@@ -62,6 +63,9 @@ using Model = const RankedModel&;
 double pre_yield_rmse(Model m) {
   return m.left_out.bands.empty() ? 0 : m.left_out.bands.front().metrics.rmse;
 }
+
+/// What was not measured, as of a model that was fitted elsewhere, is no zero.
+double none_for_zero(double value) { return value > 0 ? value : kNone; }
 
 /// Every column that a table of models may have.
 const std::vector<ModelColumn>& model_columns() {
@@ -125,13 +129,37 @@ const std::vector<ModelColumn>& model_columns() {
             [](Model m) { return static_cast<double>(m.fit.model->parameter_count()); }, whole),
         figure(
             "nanoseconds_per_step", "ns/step", "Time of one step on this machine",
-            [](Model m) { return m.nanoseconds_per_step; }, three_digits),
+            [](Model m) { return none_for_zero(m.nanoseconds_per_step); }, three_digits),
         figure(
             "fit_cpu_seconds", "Fit s", "CPU time of all folds and the final fit",
-            [](Model m) { return m.seconds; }, two_digits),
+            [](Model m) { return none_for_zero(m.seconds); }, two_digits),
         words("status", "Status",
-              "limit: the fit stopped at its iteration limit; diverged: on so many records",
+              "limit: the fit stopped at its iteration limit; diverged: on so many records; "
+              "remembers: it does not forget how it began, and is not recommended",
               status_text)};
+
+    // Against the first model, sorted by the difference itself.
+    all.push_back(
+        {"behind_percent",
+         {.title = "Behind %",
+          .numeric = true,
+          .hint = "90 % interval of the paired difference of its ESR to the first "
+                  "model's"},
+         [](Model m) { return DocumentCell{behind_text(m), m.behind ? m.behind->esr : kNone}; }});
+    all.push_back(words("told_apart", "Apart",
+                        "Whether the data tell the model from the first one: that interval does "
+                        "not hold 0",
+                        [](Model m) -> std::string {
+                          return !m.behind ? "-" : m.behind->holds_zero() ? "no" : "yes";
+                        }));
+    all.push_back({"forgets",
+                   {.title = "Forgets",
+                    .hint = "Time after which runs of one motion from different states are within "
+                            "1 % of the force span for good; or no, and what is left between them"},
+                   [](Model m) {
+                     return DocumentCell{forgetting_text(m.forgetting),
+                                         m.forgetting.is_tested ? m.forgetting.seconds : kNone};
+                   }});
 
     // Behaviour beyond the data: in a word, and on a page with the number to sort by.
     all.push_back({"bounded", {.title = "Bounded"}, [](Model m) {
@@ -221,7 +249,7 @@ DocumentTable model_table(const Ranking& ranking, const std::vector<ColumnChoice
     TextColumn look = column_named(choice.name).look;
     look.priority = choice.priority;
     look.audience = choice.audience;
-    look.elastic = !look.numeric && look.title != "Status";
+    look.elastic = !look.numeric && look.title != "Status" && look.title != "Apart";
     table.columns.push_back(look);
   }
 
@@ -233,7 +261,7 @@ DocumentTable model_table(const Ranking& ranking, const std::vector<ColumnChoice
       row.push_back(choice.name == std::string("place") ? DocumentCell{std::to_string(place + 1)}
                                                         : column_named(choice.name).cell(model));
     add_row(table, row);
-    table.warnings.push_back(!is_usable(model));
+    table.warnings.push_back(!is_recommendable(model));
     table.chooses.push_back({{"model", place}});
     const auto worst = std::ranges::find(records, model.left_out.worst_record);
     if (worst != records.end())
@@ -360,6 +388,18 @@ std::string interval_sentence(const Evaluation& evaluation) {
       percent_text(all.mean_width_percent()));
 }
 
+std::string behind_text(const RankedModel& model) {
+  if (!model.behind) return "-";
+  return percent_text(model.behind->low) + " ... " + percent_text(model.behind->high);
+}
+
+std::string forgetting_text(const Forgetting& result) {
+  if (!result.is_tested) return "-";
+  if (result.is_forgotten()) return number_text(result.seconds, 2) + " s";
+  return std::isfinite(result.share_left) ? "no, " + percent_text(100 * result.share_left) + " %"
+                                          : "diverges";
+}
+
 std::string stress_text(const StressRun& run) {
   if (run.seconds == 0) return "-";
   if (!run.finite) return "diverged";
@@ -383,8 +423,11 @@ std::string csv_leaderboard(const ReportInput& input) {
   constexpr std::array kFigures{"esr_percent",       "training_esr_percent", "mean_esr_percent",
                                 "worst_esr_percent", "pre_yield_rmse_N",     "energy_error_percent",
                                 "parameters",        "nanoseconds_per_step", "fit_cpu_seconds"};
-  std::string text = "rank,model,usable," + join({kFigures.begin(), kFigures.end()}, ",") +
-                     ",stress_finite,stress_largest_spans,diverged_records,wall_seconds_of_all\n";
+  std::string text =
+      "rank,model,usable," + join({kFigures.begin(), kFigures.end()}, ",") +
+      ",stress_finite,stress_largest_spans,diverged_records,behind_percent,behind_low_percent,"
+      "behind_high_percent,told_apart,forgets,forgets_after_s,"
+      "wall_seconds_of_all\n";
 
   // Figures of models that were not judged stay empty.
   std::size_t rank = 0;
@@ -393,10 +436,19 @@ std::string csv_leaderboard(const ReportInput& input) {
                                        is_usable(model) ? "yes" : "no"};
     for (const char* name : kFigures)
       fields.push_back(is_judged(model) ? format_exact(column_named(name).cell(model).key) : "");
-    fields.insert(
-        fields.end(),
-        {model.stress.finite ? "yes" : "no", format_exact(model.stress.largest_share),
-         std::to_string(model.left_out.diverged), format_exact(input.ranking.wall_seconds)});
+    fields.insert(fields.end(),
+                  {model.stress.finite ? "yes" : "no", format_exact(model.stress.largest_share),
+                   std::to_string(model.left_out.diverged)});
+    for (double PairedDifference::* figure :
+         {&PairedDifference::esr, &PairedDifference::low, &PairedDifference::high})
+      fields.push_back(model.behind ? format_exact((*model.behind).*figure) : "");
+    const Forgetting& forgetting = model.forgetting;
+    fields.insert(fields.end(), {!model.behind                ? ""
+                                 : model.behind->holds_zero() ? "no"
+                                                              : "yes",
+                                 forgetting.is_forgotten() ? "yes" : "no",
+                                 forgetting.is_tested ? format_exact(forgetting.seconds) : "",
+                                 format_exact(input.ranking.wall_seconds)});
     text += join(fields, ",") + "\n";
   }
   return text;

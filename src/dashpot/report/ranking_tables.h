@@ -31,6 +31,10 @@ DocumentTable record_table(const Evaluation& evaluation);
 
 /// "The 90 % interval of the model covers 88.1 % of the samples, ..."; empty without intervals.
 std::string interval_sentence(const Evaluation& evaluation);
+/// "-0.12 ... 0.45": the interval of a model's difference to the first; "-" where there is none.
+std::string behind_text(const RankedModel& model);
+/// "0.8 s", "no, 3.1 %"; "-" when the model has no memory or was not tested.
+std::string forgetting_text(const Forgetting& result);
 /// "yes", "12 spans", "diverged"; "-" when the model was not driven beyond its data.
 std::string stress_text(const StressRun& run);
 

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 
+#include "dashpot/base/any_number.h"
 #include "dashpot/damper/force_band.h"
 #include "dashpot/identify/judge/stress.h"
+#include "dashpot/identify/rank/paired_difference.h"
 #include "dashpot/report/safe_text.h"
 #include "dashpot/report/words.h"
 
@@ -62,6 +64,24 @@ Value stress_json(const StressRun& run) {
                         {"largest_spans", run.largest_share}});
 }
 
+Value forgetting_json(const Forgetting& result) {
+  if (!result.is_tested) return {};
+  return Value::object({{"forgets", result.is_forgotten()},
+                        {"seconds", result.seconds},
+                        {"percent_left", any_number(100 * result.share_left)},
+                        {"record", result.record}});
+}
+
+Value behind_json(const std::optional<PairedDifference>& behind) {
+  if (!behind) return {};
+  return Value::object({{"esr_percent", behind->esr},
+                        {"low", behind->low},
+                        {"high", behind->high},
+                        {"level_percent", 100 * kPairedLevel},
+                        {"units", behind->units},
+                        {"told_apart", !behind->holds_zero()}});
+}
+
 Value model_json(const RankedModel& model, const std::vector<std::string>& folds) {
   Value fold_fits = Value::array();
   for (std::size_t i = 0; i < model.fold_fits.size(); ++i) {
@@ -79,6 +99,9 @@ Value model_json(const RankedModel& model, const std::vector<std::string>& folds
                         {"nanoseconds_per_step", model.nanoseconds_per_step},
                         {"seconds", model.seconds},
                         {"interval", band_json(model.band)},
+                        {"behind", behind_json(model.behind)},
+                        {"esr_parts_percent", Value::array(model.esr_parts)},
+                        {"forgetting", forgetting_json(model.forgetting)},
                         {"stress", stress_json(model.stress)},
                         {"fit", fit_json(model.fit)},
                         {"fold_fits", std::move(fold_fits)},
@@ -167,6 +190,8 @@ Value json_report(const ReportInput& input) {
   Value models = Value::array();
   for (const RankedModel& model : ranking.models)
     models.push_back(model_json(model, ranking.folds));
+  Value leaders = Value::array();
+  for (const RankedModel* model : ranking.leaders()) leaders.push_back(model->name);
   const std::optional<std::string> one_step = one_step_note(ranking);
 
   // Provenance and protocol first.
@@ -176,10 +201,12 @@ Value json_report(const ReportInput& input) {
                                     {"command", input.command},
                                     {"dataset", dataset_json(input.dataset)},
                                     {"leave_out", format_leave_out(ranking.leave_out)},
-                                    {"protocol_title", protocol_title(ranking.leave_out)},
-                                    {"protocol", protocol(ranking.leave_out, ranking.folds.size())},
+                                    {"protocol_title", protocol_title(ranking)},
+                                    {"protocol", protocol(ranking)},
                                     {"folds", Value::array(ranking.folds)},
                                     {"verdict", verdict(ranking)},
+                                    {"leaders", std::move(leaders)},
+                                    {"unit", ranking.unit},
                                     {"one_step", one_step ? Value(*one_step) : Value()},
                                     {"wall_seconds", ranking.wall_seconds},
                                     {"models", std::move(models)}}));

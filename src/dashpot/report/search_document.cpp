@@ -341,7 +341,8 @@ Document search_document(const SearchInput& input) {
                                .paragraphs = {},
                                .tables = {std::move(trials)},
                                .lead = "Best first; a click on a head sorts."});
-  document.sections.push_back(judged_section(search.leave_out, search.folds, search_terms()));
+  document.sections.push_back(judged_section(protocol(search.leave_out, search.folds.size()),
+                                             search.folds, search_terms()));
   document.provenance = provenance_section(input.dataset, "All trials are shown.");
   return document;
 }

@@ -42,13 +42,72 @@ const std::string& display_name(const RankedModel& model) {
 
 namespace {
 
-std::string next_best(const RankedModel& best, const RankedModel& next) {
-  const double ratio = next.left_out.pooled.esr / best.left_out.pooled.esr;
-  if (ratio < 1.1)
-    return fmt::format(" {} is practically as good ({} %).", display_name(next),
-                       percent_text(next.left_out.pooled.esr));
-  return fmt::format(" Next comes {} with {} %.", display_name(next),
-                     percent_text(next.left_out.pooled.esr));
+/// "A", "A and B", "A, B, C and 4 more".
+std::string names_of(const std::vector<const RankedModel*>& models) {
+  constexpr std::size_t kMost = 4;
+  std::vector<std::string> names;
+  for (const RankedModel* model : models) names.push_back(display_name(*model));
+  if (names.size() > kMost) {
+    const std::string more = fmt::format("{} more", names.size() - kMost + 1);
+    names.resize(kMost - 1);
+    names.push_back(more);
+  }
+  const std::string last = names.back();
+  names.pop_back();
+  return names.empty() ? last : join(names, ", ") + " and " + last;
+}
+
+/// What a model was judged on: "on recordings that it has not seen".
+std::string judged_on(const Ranking& ranking) {
+  const std::size_t records = ranking.models.front().left_out.records.size();
+  const std::size_t seen = ranking.seen.value_or(0);
+  if (seen == records && seen > 0) return "on the recordings that it was fitted on";
+  if (seen > 0)
+    return fmt::format("on {}, of which its fit has seen {},", counted(records, "recording"), seen);
+  const bool is_in_time = ranking.leave_out.by == LeaveOut::By::Fraction ||
+                          ranking.leave_out.by == LeaveOut::By::Blocks;
+  return is_in_time && !ranking.seen ? "on parts of the recordings that it has not seen"
+                                     : "on recordings that it has not seen";
+}
+
+std::string errors_of(const RankedModel& model) {
+  const Metrics& pooled = model.left_out.pooled;
+  return fmt::format(
+      "it leaves {} % of the force's power unexplained, an RMS error of {} N; its worst record is "
+      "{} with {} %.",
+      percent_text(pooled.esr), number_text(pooled.rmse), model.left_out.worst_record,
+      percent_text(model.left_out.worst_esr));
+}
+
+/// The model that is best, or those that may be.
+std::string leading(const Ranking& ranking, const std::vector<const RankedModel*>& leaders) {
+  const RankedModel& best = *leaders.front();
+  const std::string errors = judged_on(ranking) + " " + errors_of(best);
+
+  // Nothing to compare with.
+  const auto usable = std::ranges::count_if(ranking.models, is_recommendable);
+  if (usable == 1) {
+    const char* alone =
+        ranking.models.size() > 1 ? "{} is the only model that can be used: {}" : "{}: {}";
+    return fmt::format(fmt::runtime(alone), display_name(best), errors);
+  }
+
+  // A winner, and the one behind it.
+  if (leaders.size() == 1)
+    return fmt::format("{} predicts the force best: {} Next comes {} with {} %.",
+                       display_name(best), errors, display_name(ranking.models[1]),
+                       percent_text(ranking.models[1].left_out.pooled.esr));
+
+  // Several that may be best: the first and the simplest.
+  const auto numbers = [](const RankedModel* m) { return m->fit.model->parameter_count(); };
+  const RankedModel& simplest = **std::ranges::min_element(leaders, {}, numbers);
+  return fmt::format("{} cannot be told apart on these recordings. {} has the smallest error: {}{}",
+                     names_of(leaders), display_name(best), errors,
+                     &simplest == &best ? " It is the simplest of them, too."
+                                        : fmt::format(" The simplest of them is {}: {}, {} %.",
+                                                      display_name(simplest),
+                                                      counted(numbers(&simplest), "fitted number"),
+                                                      percent_text(simplest.left_out.pooled.esr)));
 }
 
 }  // namespace
@@ -57,26 +116,32 @@ bool is_judged(const RankedModel& model) {
   return model.fit.model && model.left_out.pooled.samples > 0;
 }
 
-bool is_usable(const RankedModel& model) {
-  return model.fit.status != FitReport::Status::Failed && model.left_out.diverged == 0 &&
-         !model.left_out.records.empty() && std::isfinite(model.left_out.pooled.esr);
-}
-
 std::string verdict(const Ranking& ranking) {
   const auto& models = ranking.models;
   if (models.empty()) return "No model was tried.";
-  if (!is_usable(models.front()))
+  const std::vector<const RankedModel*> leaders = ranking.leaders();
+  if (std::ranges::none_of(models, is_usable))
     return "No model can be used: each one failed or diverged on at least one left-out record.";
-  const RankedModel& best = models.front();
-  const Metrics& pooled = best.left_out.pooled;
-  std::string text = fmt::format(
-      "{} predicts the force best: on recordings that it has not seen it leaves {} % of the "
-      "force's power unexplained, an RMS error of {} N; its worst record is {} with {} %.",
-      display_name(best), percent_text(pooled.esr), number_text(pooled.rmse),
-      best.left_out.worst_record, percent_text(best.left_out.worst_esr));
+  if (leaders.empty())
+    return "No model can be recommended: each one failed, diverged or does not forget how it "
+           "began.";
+  std::string text = leading(ranking, leaders);
 
-  // Beside it the next one, and how many cannot be used.
-  if (models.size() > 1 && is_usable(models[1])) text += next_best(best, models[1]);
+  // How many cannot be recommended; a smaller error is no reason to take one of them.
+  std::vector<const RankedModel*> remembering;
+  for (const RankedModel& model : models)
+    if (is_usable(model) && !model.forgetting.is_forgotten()) remembering.push_back(&model);
+  if (!remembering.empty()) {
+    const bool is_smaller =
+        remembering.front()->left_out.pooled.esr < models.front().left_out.pooled.esr;
+    text +=
+        fmt::format(" {} {} not forget how {} began and {} not recommended{}.",
+                    names_of(remembering), remembering.size() == 1 ? "does" : "do",
+                    remembering.size() == 1 ? "it" : "they", remembering.size() == 1 ? "is" : "are",
+                    is_smaller ? fmt::format(", in spite of {} %",
+                                             percent_text(remembering.front()->left_out.pooled.esr))
+                               : "");
+  }
   const auto diverged =
       std::ranges::count_if(models, [](const RankedModel& m) { return m.left_out.diverged > 0; });
   if (diverged) text += fmt::format(" {} diverged.", counted(diverged, "model"));
@@ -93,6 +158,8 @@ std::string protocol_title(const LeaveOut& leave_out) {
       return "one record left out";
     case LeaveOut::By::Fraction:
       return "the end of every record left out";
+    case LeaveOut::By::Blocks:
+      return fmt::format("one of {} blocks of time left out", leave_out.blocks);
     case LeaveOut::By::Each:
       return "each " + join(leave_out.values, " and ") + " left out";
     case LeaveOut::By::Roles:
@@ -129,11 +196,41 @@ std::string protocol(const LeaveOut& leave_out, std::size_t folds) {
           "The last {} % of every record is left out: the model is fitted on what comes before, "
           "runs on, and is judged on the end.",
           format_number(100 * leave_out.fraction, 3));
+    case LeaveOut::By::Blocks:
+      return fmt::format(
+          "The time of every record is divided into {0} blocks. In turn ({0} divisions), the model "
+          "is fitted on what lies before and after a block, runs from the start of the record "
+          "through it, and is judged on it; the figures pool all of them.",
+          leave_out.blocks);
     case LeaveOut::By::Roles:
       break;
   }
   return "The dataset file states which records are for training and which are left out; the model "
          "is fitted on the former and judged on the latter.";
+}
+
+std::string protocol_title(const Ranking& ranking) {
+  return ranking.seen ? "a model fitted elsewhere" : protocol_title(ranking.leave_out);
+}
+
+std::string protocol(const Ranking& ranking) {
+  if (!ranking.seen) return protocol(ranking.leave_out, ranking.folds.size());
+  return fmt::format(
+      "The model comes from a file; nothing is fitted here but the force zero of each record. By "
+      "name and by the SHA-256 of the files, its fit has seen {} of {}.",
+      *ranking.seen, counted(ranking.models.front().left_out.records.size(), "record"));
+}
+
+std::optional<std::string> difference_note(const Ranking& ranking) {
+  const auto compared = std::ranges::find_if(
+      ranking.models, [](const RankedModel& model) { return model.behind.has_value(); });
+  if (compared == ranking.models.end()) return std::nullopt;
+  return fmt::format(
+      "Behind: how far the ESR of a model lies behind that of the first, with the 90 % interval of "
+      "the paired difference over {}. Where it holds 0, the two cannot be told apart.",
+      ranking.unit == "stretch of time"
+          ? fmt::format("{} stretches of time", compared->behind->units)
+          : counted(compared->behind->units, ranking.unit));
 }
 
 std::optional<std::string> one_step_note(const Ranking& ranking) {

@@ -17,18 +17,20 @@ std::string status_name(FitReport::Status status);
 /// The model's title, or its name when it has none.
 const std::string& display_name(const RankedModel& model);
 
-/// Fitted, and finite on every left-out record.
-bool is_usable(const RankedModel& model);
-
 /// There are figures of it: it was fitted and run on left-out records.
 bool is_judged(const RankedModel& model);
 
-/// One or two sentences: which model is best, how good it is on what it has not seen, and what is
-/// next.
+/// A few sentences: which model is best, or which ones cannot be told apart; how good it is on what
+/// it has not seen; what is next; and which ones cannot be recommended.
 std::string verdict(const Ranking& ranking);
 /// How records were left out: a few words, and in full.
 std::string protocol_title(const LeaveOut& leave_out);
 std::string protocol(const LeaveOut& leave_out, std::size_t folds);
+/// The same of a ranking, whose model may have been fitted elsewhere.
+std::string protocol_title(const Ranking& ranking);
+std::string protocol(const Ranking& ranking);
+/// What the interval of a model's difference to the first says; nothing for a single model.
+std::optional<std::string> difference_note(const Ranking& ranking);
 /// The one-step errors of models that feed force back, or that there are none; nothing when models
 /// failed.
 std::optional<std::string> one_step_note(const Ranking& ranking);

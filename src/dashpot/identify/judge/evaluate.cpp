@@ -23,10 +23,13 @@ const std::vector<double>& drive_samples(const Record& record, DriveUnit drive_u
                   ".csv), in manifest.csv or in a dataset file");
 }
 
-const double* known_offset(const EvaluateOptions& options, const std::string& record) {
+/// The offset that training gave the record: the mean over its parts, where a block was left out
+/// between them.
+std::optional<double> known_offset(const EvaluateOptions& options, const std::string& record) {
+  double sum = 0, parts = 0;
   for (const auto& [name, offset] : options.known_offsets)
-    if (name == record) return &offset;
-  return nullptr;
+    if (name == record) sum += offset, ++parts;
+  return parts > 0 ? std::optional(sum / parts) : std::nullopt;
 }
 
 /// Mean of measured - modelled over the scored samples.
@@ -131,7 +134,7 @@ RecordResult evaluate_record(const DamperModel& model, const Record& record, Dri
   if (result.diverged_at) return result;
 
   // The record's free offset, unless training has fixed it.
-  if (const double* known = known_offset(options, record.name)) {
+  if (const std::optional<double> known = known_offset(options, record.name)) {
     result.offset = *known;
   } else if (options.offset == OffsetMode::Record) {
     result.offset = mean_error(result);

@@ -31,13 +31,16 @@ void ErrorSums::add(const ErrorSums& other) {
   error += other.error;
 }
 
+double ErrorSums::force_variation() const {
+  return force_squared - force * force / static_cast<double>(n);
+}
+
 Metrics metrics(const ErrorSums& sums) {
   Metrics m;
   m.samples = sums.n;
   if (sums.n == 0) return m;
   const double n = static_cast<double>(sums.n);
   const double span = sums.force_max - sums.force_min;
-  const double force_variation = sums.force_squared - sums.force * sums.force / n;
   const double error_variation = sums.squared - sums.error * sums.error / n;
 
   // Errors in N, and as shares of the force.
@@ -47,11 +50,11 @@ Metrics metrics(const ErrorSums& sums) {
   m.nrmse_max = 100 * m.rmse / std::max(std::abs(sums.force_min), std::abs(sums.force_max));
 
   // Ratios of power.
-  m.esr = 100 * sums.squared / force_variation;
+  m.esr = 100 * sums.squared / sums.force_variation();
   m.r2 = 1 - m.esr / 100;
   m.rrse = std::sqrt(m.esr / 100);
   m.fit = 100 * (1 - m.rrse);
-  m.vaf = 100 * (1 - error_variation / force_variation);
+  m.vaf = 100 * (1 - error_variation / sums.force_variation());
 
   m.mae = sums.absolute / n;
   m.max_error = sums.largest;

@@ -13,8 +13,10 @@
 #include "dashpot/error.h"
 #include "dashpot/identify.h"
 #include "dashpot/identify/judge/conformal.h"
+#include "dashpot/identify/judge/forgetting.h"
 #include "dashpot/identify/judge/stress.h"
 #include "dashpot/identify/rank/fit_store.h"
+#include "dashpot/identify/rank/paired_difference.h"
 #include "dashpot/record/trial_parts.h"
 
 namespace dashpot {
@@ -83,6 +85,29 @@ double expected_cost(const std::string& model, const Record& record, DriveUnit d
   return is_law(model) ? of_law : of_law + kNetwork;
 }
 
+/// What differences between models are taken over.
+std::string unit_of(const LeaveOut& leave_out, const std::vector<Fold>& folds) {
+  if (folds.size() > 1) return leave_out.by == LeaveOut::By::Blocks ? "block" : "division";
+  return folds.front().left_out.size() < kLeastUnits ? "stretch of time" : "record";
+}
+
+/// A block of a record becomes a result of its own: "run 1, 4 to 8 s".
+void name_block(RecordResult& result) {
+  result.record += ", " + format_number(result.time[result.warm_up], 3) + " to " +
+                   format_number(result.time.back(), 3) + " s";
+}
+
+/// What is wrong with a model that does not forget.
+std::string forgetting_warning(const Forgetting& result) {
+  const std::string left = std::isfinite(result.share_left)
+                               ? "runs from different states still differ by " +
+                                     format_number(100 * result.share_left, 2) +
+                                     " % of the force span"
+                               : "it diverges from a state that it meets elsewhere in the data";
+  return "it does not forget how it began: on '" + result.record + "' " + left +
+         "; it is not recommended";
+}
+
 /// All fits of one ranking: for each model one per fold, then the final one.
 class RankingRun {
  public:
@@ -100,6 +125,7 @@ class RankingRun {
         force_span_(force_span(training_)) {
     // Empty rows for all models, with a place for each fit.
     ranking_.leave_out = leave_out;
+    ranking_.unit = unit_of(leave_out, folds_);
     for (const Fold& fold : folds_) ranking_.folds.push_back(fold.name);
     for (const std::string& model : models) {
       RankedModel ranked;
@@ -132,6 +158,7 @@ class RankingRun {
     // Then judge and sort.
     for (RankedModel& ranked : ranking_.models) judge(ranked);
     std::stable_sort(ranking_.models.begin(), ranking_.models.end(), better);
+    compare_with_first();
     ranking_.kept_fits = kept_;
     ranking_.wall_seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -196,17 +223,26 @@ class RankingRun {
       const FitReport& fit = fit_of(ranked, f);
       if (!fit.model) return fail(ranked, folds_[f].name);
       evaluations.push_back(evaluate_fit(fit, folds_[f].left_out));
-      for (RecordResult& record : evaluations.back().records) record.left_out = true;
+      for (RecordResult& record : evaluations.back().records) {
+        record.left_out = true;
+        if (ranking_.leave_out.by == LeaveOut::By::Blocks) name_block(record);
+      }
     }
     const std::vector<ErrorGroups> errors = add_bands(ranked, evaluations);
     ranked.left_out = pool(evaluations);
+    ranked.esr_parts = esr_parts(evaluations);
 
-    // The final model: errors on its own records, its interval, its behaviour beyond them.
+    // The final model: errors on its own records, its interval, its memory, its behaviour beyond
+    // them.
     if (!ranked.fit.model) return fail(ranked, "all records");
     ranked.training = evaluate_fit(ranked.fit, training_);
     ranked.band = conformal_band(error_shape(ranked.training.records), errors);
     drop_curves(ranked.training);
     ranked.stress = stress(*ranked.fit.model, domain_, force_span_);
+    ranked.forgetting = forgetting(*ranked.fit.model, training_, dataset_.drive_unit, force_span_,
+                                   options_.threads);
+    if (!ranked.forgetting.is_forgotten())
+      ranked.fit.warnings.push_back(forgetting_warning(ranked.forgetting));
     ranked.nanoseconds_per_step =
         step_cost(*ranked.fit.model, training_.front(), dataset_.drive_unit);
   }
@@ -264,12 +300,22 @@ class RankingRun {
   static bool better(const RankedModel& a, const RankedModel& b) {
     const auto rank_of = [](const RankedModel& m) {
       const bool failed = m.fit.status == FitReport::Status::Failed;
-      return std::pair(failed                    ? 2
-                       : m.left_out.diverged > 0 ? 1
-                                                 : 0,
+      return std::pair(failed                         ? 3
+                       : m.left_out.diverged > 0      ? 2
+                       : !m.forgetting.is_forgotten() ? 1
+                                                      : 0,
                        failed ? 0.0 : m.left_out.pooled.esr);
     };
     return rank_of(a) < rank_of(b);
+  }
+
+  /// The first model is what the others are measured by, if it can be recommended.
+  void compare_with_first() {
+    std::vector<RankedModel>& models = ranking_.models;
+    if (models.empty() || !is_recommendable(models.front())) return;
+    for (auto model = models.begin() + 1; model != models.end(); ++model)
+      if (is_usable(*model) && !model->esr_parts.empty())
+        model->behind = paired_difference(model->esr_parts, models.front().esr_parts);
   }
 
   const Dataset& dataset_;
@@ -287,6 +333,23 @@ class RankingRun {
 
 }  // namespace
 
+bool is_usable(const RankedModel& model) {
+  return model.fit.status != FitReport::Status::Failed && model.left_out.diverged == 0 &&
+         !model.left_out.records.empty() && std::isfinite(model.left_out.pooled.esr);
+}
+
+bool is_recommendable(const RankedModel& model) {
+  return is_usable(model) && model.forgetting.is_forgotten();
+}
+
+std::vector<const RankedModel*> Ranking::leaders() const {
+  std::vector<const RankedModel*> leaders;
+  for (const RankedModel& model : models)
+    if (is_recommendable(model) && (leaders.empty() || !model.behind || model.behind->holds_zero()))
+      leaders.push_back(&model);
+  return leaders;
+}
+
 Ranking rank(const std::vector<std::string>& models, const Dataset& dataset,
              const LeaveOut& leave_out, const IdentifyOptions& options, FitStore* store) {
   return RankingRun(models, dataset, leave_out, options, store).run();
@@ -301,6 +364,18 @@ Provenance provenance_of(const Dataset& dataset, std::vector<std::string> record
   for (const SourceFile& source : dataset.files) from.files.push_back({source.path, source.sha256});
   from.training_records = std::move(records);
   return from;
+}
+
+std::size_t seen_records(const Provenance& provenance, const Dataset& dataset) {
+  const bool share_a_file = std::ranges::any_of(dataset.files, [&](const SourceFile& file) {
+    return std::ranges::find(provenance.files, file.sha256, &Provenance::File::sha256) !=
+           provenance.files.end();
+  });
+  if (!share_a_file) return 0;
+  return static_cast<std::size_t>(std::ranges::count_if(dataset.records, [&](const Record& record) {
+    return std::ranges::find(provenance.training_records, record.name) !=
+           provenance.training_records.end();
+  }));
 }
 
 ModelFile to_model_file(const RankedModel& ranked, const Dataset& dataset,
