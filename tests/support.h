@@ -1,9 +1,13 @@
 #pragma once
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <string>
 
 #include <doctest/doctest.h>
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN(),
+                 kInfinity = std::numeric_limits<double>::infinity();
 
 /// |actual - expected| <= rel |expected| + abs, with both numbers in the message.
 #define CHECK_CLOSE(actual, expected, relative, absolute)              \

@@ -46,7 +46,7 @@ void check_choice(const std::string& word, const Option& option) {
 }
 
 /// Writes the words given for one option to its variable.
-struct Store {
+struct StoreWords {
   const Option& option;
   const std::vector<std::string>& words;
 
@@ -81,7 +81,7 @@ void add(CLI::App& app, const Option& option) {
     return;
   }
   CLI::Option* added = app.add_option(option.names, [&option](const CLI::results_t& words) {
-    std::visit(Store{option, words}, option.target);
+    std::visit(StoreWords{option, words}, option.target);
     return true;
   });
   added->multi_option_policy(option.is_list() ? CLI::MultiOptionPolicy::TakeAll

@@ -10,13 +10,13 @@
 namespace dashpot::cli {
 namespace {
 
-struct Settings {
+struct BenchSettings {
   CampaignSettings campaign;
   std::string folder = "dashpot-bench";
   bool list_sequences = false;
 };
 
-constexpr std::string_view kExample =
+constexpr std::string_view kBenchExample =
     "# A campaign with twice the usual noise, and what identification makes of it:\n"
     "dashpot bench --noise 0.02 --output virtual\n"
     "dashpot identify virtual/ --output results\n"
@@ -36,7 +36,7 @@ int list_sequences(Console& console) {
   return kDone;
 }
 
-int run(const Settings& settings, Console& console) {
+int run_bench(const BenchSettings& settings, Console& console) {
   if (settings.list_sequences) return list_sequences(console);
 
   // The whole campaign is recorded before the first file is written.
@@ -64,7 +64,7 @@ int run(const Settings& settings, Console& console) {
 }  // namespace
 
 Command bench_command() {
-  auto settings = std::make_shared<Settings>();
+  auto settings = std::make_shared<BenchSettings>();
   Command command{.name = "bench",
                   .title = "Record a virtual damper on a virtual test bench",
                   .description =
@@ -75,8 +75,8 @@ Command bench_command() {
                       "files with a dataset file beside them: to try Dashpot out, to test a method "
                       "on a known truth, to plan a campaign before the real bench is booked.",
                   .options = campaign_options(settings->campaign),
-                  .example = std::string(kExample),
-                  .run = [settings](Console& console) { return run(*settings, console); }};
+                  .example = std::string(kBenchExample),
+                  .run = [settings](Console& console) { return run_bench(*settings, console); }};
 
   command.options.push_back({.names = "-o,--output",
                              .target = &settings->folder,

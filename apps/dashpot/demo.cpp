@@ -26,13 +26,13 @@ CampaignSettings small_campaign() {
   return campaign;
 }
 
-struct Settings {
+struct DemoSettings {
   CampaignSettings campaign = small_campaign();
   FitSettings fit;
   ResultSettings results{.folder = "dashpot-demo"};
 };
 
-constexpr std::string_view kExample =
+constexpr std::string_view kDemoExample =
     "dashpot demo --output demo    # then read demo/report.html\n"
     "\n"
     "# The recordings that it made are ordinary files:\n"
@@ -64,7 +64,7 @@ const RankedModel& find_model(const Ranking& ranking, const std::string& name) {
   return *std::ranges::find(ranking.models, name, &RankedModel::name);
 }
 
-int run(const Settings& settings, Console& console) {
+int run_demo(const DemoSettings& settings, Console& console) {
   CampaignSettings campaign = settings.campaign;
   campaign.bench.seed = settings.fit.options.seed;
   const ParameterSet damper = load_parameter_set(campaign.damper);
@@ -104,7 +104,7 @@ int run(const Settings& settings, Console& console) {
 }  // namespace
 
 Command demo_command() {
-  auto settings = std::make_shared<Settings>();
+  auto settings = std::make_shared<DemoSettings>();
   settings->fit.options.starts = 2;  // enough for data this clean, in half the time
   Command command{.name = "demo",
                   .title = "See everything at work: a virtual damper, measured and identified",
@@ -113,8 +113,8 @@ Command demo_command() {
                       "files as from a real campaign, checks that the known parameters are found "
                       "again, and writes the report. Needs no data.",
                   .options = fit_options(settings->fit),
-                  .example = std::string(kExample),
-                  .run = [settings](Console& console) { return run(*settings, console); }};
+                  .example = std::string(kDemoExample),
+                  .run = [settings](Console& console) { return run_demo(*settings, console); }};
   append(command.options, result_options(settings->results));
   return command;
 }

@@ -20,14 +20,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Settings {
+struct DesignSettings {
   std::string request, folder = "dashpot-design", method = "nsga2", outside_family = "mark";
   DesignOptions options;
   std::uint64_t points = DesignOptions().points;
   bool quantities = false, report = true;
 };
 
-constexpr std::string_view kExample =
+constexpr std::string_view kDesignExample =
     "# A front of dampers for a car: a large range of forces against little mass\n"
     "dashpot design passenger_car --output car\n"
     "\n"
@@ -45,7 +45,7 @@ constexpr std::string_view kExample =
     "dashpot physics car/designs/design_001.yaml --current 2 --velocity 0.3\n"
     "dashpot track car/models/design_001.json";
 
-DesignRequest requested(const Settings& settings) {
+DesignRequest requested(const DesignSettings& settings) {
   if (settings.request.empty())
     throw UsageError("REQUEST", "is missing: a file, or one of " + join(request_names(), ", "));
   return is_path(settings.request) ? load_request(settings.request)
@@ -137,7 +137,7 @@ std::string write_designs(const DesignReport& report, const fs::path& folder,
   return models.text();
 }
 
-void write_results(const Document& report, const DesignInput& input, const Settings& settings,
+void write_results(const Document& report, const DesignInput& input, const DesignSettings& settings,
                    Console& console) {
   const fs::path folder = settings.folder;
   std::string where;
@@ -153,7 +153,7 @@ void write_results(const Document& report, const DesignInput& input, const Setti
   console.print(where);
 }
 
-int run(Settings settings, Console& console) {
+int run_design(DesignSettings settings, Console& console) {
   if (settings.quantities) {
     console.print(quantities_text(console.width()));
     return kDone;
@@ -188,7 +188,7 @@ int run(Settings settings, Console& console) {
   return kNotUsable;
 }
 
-std::vector<Option> options_of(Settings& settings) {
+std::vector<Option> options_of(DesignSettings& settings) {
   return {
       // The request, and where its designs go.
       {.names = "REQUEST",
@@ -260,7 +260,7 @@ std::vector<Option> options_of(Settings& settings) {
 }  // namespace
 
 Command design_command() {
-  auto settings = std::make_shared<Settings>();
+  auto settings = std::make_shared<DesignSettings>();
   return {.name = "design",
           .title = "Design dampers that meet a request",
           .description =
@@ -270,8 +270,8 @@ Command design_command() {
               "model for the other commands, after it was read again and checked. Where no design "
               "is possible, it says which constraints conflict.",
           .options = options_of(*settings),
-          .example = std::string(kExample),
-          .run = [settings](Console& console) { return run(*settings, console); }};
+          .example = std::string(kDesignExample),
+          .run = [settings](Console& console) { return run_design(*settings, console); }};
 }
 
 }  // namespace dashpot::cli

@@ -19,7 +19,7 @@
 namespace dashpot::cli {
 namespace {
 
-struct Settings {
+struct EvaluateSettings {
   std::string model;
   DataSettings data;
   std::string force_offset = "record";
@@ -28,7 +28,7 @@ struct Settings {
   int threads = 0;
 };
 
-constexpr std::string_view kExample =
+constexpr std::string_view kEvaluateExample =
     "# How well does a model, fitted elsewhere, predict these recordings?\n"
     "dashpot evaluate results/models/tanh_kwok.json more-recordings/\n"
     "\n"
@@ -54,7 +54,7 @@ Ranking as_ranking(const std::string& name, ModelFile file, const Dataset& datas
   return ranking;
 }
 
-int run(const Settings& settings, Console& console) {
+int run_evaluate(const EvaluateSettings& settings, Console& console) {
   ModelFile file = load_model(settings.model);
   if (const auto* family = model_as<FamilyModel>(*file.model);
       family && settings.outside_family == "refuse")
@@ -97,7 +97,7 @@ int run(const Settings& settings, Console& console) {
 }  // namespace
 
 Command evaluate_command() {
-  auto settings = std::make_shared<Settings>();
+  auto settings = std::make_shared<EvaluateSettings>();
   Command command{.name = "evaluate",
                   .title = "Judge a model file on recordings, without fitting",
                   .description =
@@ -109,8 +109,8 @@ Command evaluate_command() {
                                .help = "a model file that 'dashpot identify' wrote",
                                .takes = Takes::File,
                                .required = true}},
-                  .example = std::string(kExample),
-                  .run = [settings](Console& console) { return run(*settings, console); }};
+                  .example = std::string(kEvaluateExample),
+                  .run = [settings](Console& console) { return run_evaluate(*settings, console); }};
 
   append(command.options, data_options(settings->data));
 

@@ -18,7 +18,7 @@
 namespace dashpot::cli {
 namespace {
 
-struct Settings {
+struct ExportSettings {
   DamperChoice damper;
   VehicleChoice vehicle;
   std::vector<std::string> formats;
@@ -26,7 +26,7 @@ struct Settings {
   bool sources_only = false;
 };
 
-constexpr std::string_view kExample =
+constexpr std::string_view kExportExample =
     "# A fitted model for an ECU: one header, one source, and a test that checks them:\n"
     "dashpot export results/models/bouc_wen.json --to c --precision float --sample-time 1ms\n"
     "\n"
@@ -70,7 +70,7 @@ bool is_inverse(const std::string& path) {
          format->as_string() == "dashpot-inverse";
 }
 
-std::optional<CPrecision> precision_of(const Settings& settings) {
+std::optional<CPrecision> precision_of(const ExportSettings& settings) {
   if (settings.precision.empty()) return {};
   return settings.precision == "float" ? CPrecision::Single : CPrecision::Double;
 }
@@ -82,7 +82,7 @@ void add(std::vector<ExportedFile> written, std::vector<ExportedFile>& files) {
       files.push_back(std::move(file));
 }
 
-std::vector<ExportedFile> damper_files(const Settings& settings, const ExportOptions& options,
+std::vector<ExportedFile> damper_files(const ExportSettings& settings, const ExportOptions& options,
                                        Console& console) {
   const ModelFile file = load_damper_file(settings.damper, "export", console);
   std::vector<ExportedFile> files;
@@ -92,7 +92,7 @@ std::vector<ExportedFile> damper_files(const Settings& settings, const ExportOpt
 }
 
 /// Throws Error where one of the formats is of models alone; `what` was to become it.
-void require_blocks(const Settings& settings, const std::string& where, const std::string& what) {
+void require_blocks(const ExportSettings& settings, const std::string& where, const std::string& what) {
   std::vector<std::string> possible;
   for (const Exporter& exporter : exporters())
     if (exporter.write_block) possible.emplace_back(exporter.name);
@@ -103,7 +103,7 @@ void require_blocks(const Settings& settings, const std::string& where, const st
 }
 
 /// Null: what is named is a damper.
-CBlockMaker chosen_block(const Settings& settings, const ExportOptions& options, Console& console) {
+CBlockMaker chosen_block(const ExportSettings& settings, const ExportOptions& options, Console& console) {
   const VehicleChoice& vehicle = settings.vehicle;
 
   // A controller takes its damper and sensors with it.
@@ -131,7 +131,7 @@ CBlockMaker chosen_block(const Settings& settings, const ExportOptions& options,
   return scheme_block(vehicle, settings.damper, options, console);
 }
 
-std::vector<ExportedFile> exported_files(const Settings& settings, const ExportOptions& options,
+std::vector<ExportedFile> exported_files(const ExportSettings& settings, const ExportOptions& options,
                                          Console& console) {
   const CBlockMaker block = chosen_block(settings, options, console);
   if (!block) return damper_files(settings, options, console);
@@ -141,7 +141,7 @@ std::vector<ExportedFile> exported_files(const Settings& settings, const ExportO
   return files;
 }
 
-int run(const Settings& settings, Console& console) {
+int run_export(const ExportSettings& settings, Console& console) {
   if (settings.formats.empty())
     throw UsageError("--to", "is missing", "one or more of " + join(exporter_names(), ", "));
   if (settings.folder.empty()) throw UsageError("--output", "the name of the folder is empty");
@@ -175,7 +175,7 @@ int run(const Settings& settings, Console& console) {
 }  // namespace
 
 Command export_command() {
-  auto settings = std::make_shared<Settings>();
+  auto settings = std::make_shared<ExportSettings>();
   std::vector<Option> options = damper_options(settings->damper);
   append(options, control_options(settings->vehicle));
 
@@ -226,8 +226,8 @@ Command export_command() {
               "controller (--controller) are exported, too, where a format takes them." +
               formats_text(),
           .options = std::move(options),
-          .example = std::string(kExample),
-          .run = [settings](Console& console) { return run(*settings, console); }};
+          .example = std::string(kExportExample),
+          .run = [settings](Console& console) { return run_export(*settings, console); }};
 }
 
 }  // namespace dashpot::cli

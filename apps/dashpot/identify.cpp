@@ -7,7 +7,7 @@
 namespace dashpot::cli {
 namespace {
 
-constexpr std::string_view kExample =
+constexpr std::string_view kIdentifyExample =
     "# Each condition in turn is left out to judge the models:\n"
     "dashpot identify recordings/ --output results\n"
     "\n"
@@ -20,7 +20,7 @@ constexpr std::string_view kExample =
     "# Then read results/report.html, and use the best model:\n"
     "dashpot evaluate results/models/tanh_kwok.json more-recordings/";
 
-int run(const RankingSettings& settings, Console& console) {
+int run_identify(const RankingSettings& settings, Console& console) {
   const RankingData data = ranking_data(settings, console);
   const std::vector<std::string> models = chosen_models(settings.fit, data.dataset, console);
   const Ranking ranking =
@@ -44,8 +44,8 @@ Command identify_command() {
               "and current in, force out) on records that it has not seen. Ranks the models by "
               "that error, saves each as a file and writes a report.",
           .options = ranking_options(*settings),
-          .example = std::string(kExample),
-          .run = [settings](Console& console) { return run(*settings, console); }};
+          .example = std::string(kIdentifyExample),
+          .run = [settings](Console& console) { return run_identify(*settings, console); }};
 }
 
 }  // namespace dashpot::cli

@@ -11,12 +11,12 @@
 namespace dashpot::cli {
 namespace {
 
-struct Settings {
+struct InspectSettings {
   DataSettings data;
   std::string folder;
 };
 
-constexpr std::string_view kExample =
+constexpr std::string_view kInspectExample =
     "# Which column is what, in which unit, under which conditions?\n"
     "dashpot inspect recordings/\n"
     "\n"
@@ -26,7 +26,7 @@ constexpr std::string_view kExample =
     "# Something wrong? State it in a dataset file and look again:\n"
     "dashpot inspect recordings/ --dataset recordings.yaml";
 
-int run(const Settings& settings, Console& console) {
+int run_inspect(const InspectSettings& settings, Console& console) {
   LoadOptions options = settings.data.load;
   options.monitor = console.monitor();
   const Dataset dataset =
@@ -53,7 +53,7 @@ int run(const Settings& settings, Console& console) {
 }  // namespace
 
 Command inspect_command() {
-  auto settings = std::make_shared<Settings>();
+  auto settings = std::make_shared<InspectSettings>();
   Command command{
       .name = "inspect",
       .title = "Show what is understood of recordings",
@@ -62,8 +62,8 @@ Command inspect_command() {
           "unit, the conditions of each record, and what was inferred or passed over. Where "
           "velocity was measured, also compares it with the velocity derived from displacement.",
       .options = data_options(settings->data),
-      .example = std::string(kExample),
-      .run = [settings](Console& console) { return run(*settings, console); }};
+      .example = std::string(kInspectExample),
+      .run = [settings](Console& console) { return run_inspect(*settings, console); }};
 
   // Everything is printed here, so --verbose would do nothing.
   std::erase_if(command.options,

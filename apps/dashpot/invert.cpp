@@ -20,7 +20,7 @@
 namespace dashpot::cli {
 namespace {
 
-struct Settings {
+struct InvertSettings {
   DamperChoice damper;
   DataSettings recordings;
   std::vector<std::string> networks = {"chang_zhou"};
@@ -30,7 +30,7 @@ struct Settings {
   int threads = 0;
 };
 
-constexpr std::string_view kExample =
+constexpr std::string_view kInvertExample =
     "# An inverse of a model, and how it follows a wanted force:\n"
     "dashpot invert results/models/tanh_kwok.json --output inverse.json\n"
     "dashpot track results/models/tanh_kwok.json --inverse inverse.json,numeric\n"
@@ -61,7 +61,7 @@ struct Bench {
   DriveUnit drive_unit = DriveUnit::None;
 };
 
-Bench make_bench(const Settings& settings, Console& console) {
+Bench make_bench(const InvertSettings& settings, Console& console) {
   Bench bench;
   const bool recorded = !settings.recordings.paths.empty();
   if (recorded) {
@@ -97,13 +97,13 @@ std::vector<TrackReport> follow(const Bench& bench, const InverseModel& inverse)
 }
 
 /// Root mean square over the trials of the error in reach, % of span.
-double error_in_reach(const std::vector<TrackReport>& reports) {
+double mean_error_in_reach(const std::vector<TrackReport>& reports) {
   double squares = 0;
   for (const TrackReport& r : reports) squares += r.reachable.rms_span * r.reachable.rms_span;
   return std::sqrt(squares / static_cast<double>(reports.size()));
 }
 
-Candidate teach(const Settings& settings, const Bench& bench, const std::string& network,
+Candidate teach(const InvertSettings& settings, const Bench& bench, const std::string& network,
                 Console& console) {
   InverseFitOptions options;
   options.network = network;
@@ -128,14 +128,14 @@ Candidate teach(const Settings& settings, const Bench& bench, const std::string&
   return candidate;
 }
 
-std::vector<std::string> chosen_networks(const Settings& settings) {
+std::vector<std::string> chosen_networks(const InvertSettings& settings) {
   if (std::ranges::find(settings.networks, "all") == settings.networks.end())
     return settings.networks;
   return inverse_network_names();
 }
 
 /// The best first: by the force that it makes, else by its current.
-std::vector<Candidate> teach_all(const Settings& settings, const Bench& bench, Console& console) {
+std::vector<Candidate> teach_all(const InvertSettings& settings, const Bench& bench, Console& console) {
   std::vector<Candidate> candidates;
   for (const std::string& network : chosen_networks(settings)) {
     console.check_stop();
@@ -150,7 +150,7 @@ std::vector<Candidate> teach_all(const Settings& settings, const Bench& bench, C
   // The error of the force counts; the current's only where no damper gives a force.
   if (candidates.empty()) throw Error("invert", "no network can be taught with these data");
   std::ranges::stable_sort(candidates, {}, [](const Candidate& c) {
-    return c.reports.empty() ? c.fit.left_out_rmse : error_in_reach(c.reports);
+    return c.reports.empty() ? c.fit.left_out_rmse : mean_error_in_reach(c.reports);
   });
   return candidates;
 }
@@ -195,7 +195,7 @@ Value json_of(const Candidate& candidate, const Bench& bench) {
                         {"tracking", std::move(trials)}});
 }
 
-void save(const Candidate& best, const Bench& bench, const Settings& settings, Console& console) {
+void save(const Candidate& best, const Bench& bench, const InvertSettings& settings, Console& console) {
   InverseFile file{.network = best.fit.network,
                    .drive_unit = bench.drive_unit,
                    .domain = best.fit.domain,
@@ -221,7 +221,7 @@ void write_figure(const std::vector<Candidate>& candidates, const std::vector<Tr
                 write_track_figure(schemes, bench.drive_unit, folder).front().string() + '\n');
 }
 
-int run(const Settings& settings, Console& console) {
+int run_invert(const InvertSettings& settings, Console& console) {
   const Bench bench = make_bench(settings, console);
   const std::vector<Candidate> candidates = teach_all(settings, bench, console);
 
@@ -251,7 +251,7 @@ int run(const Settings& settings, Console& console) {
   return kDone;
 }
 
-std::vector<Option> network_options(Settings& s) {
+std::vector<Option> network_options(InvertSettings& s) {
   std::vector<std::string> names = inverse_network_names();
   names.emplace_back("all");
 
@@ -295,8 +295,8 @@ std::vector<Option> network_options(Settings& s) {
 }  // namespace
 
 Command invert_command() {
-  auto settings = std::make_shared<Settings>();
-  Settings& s = *settings;
+  auto settings = std::make_shared<InvertSettings>();
+  InvertSettings& s = *settings;
   Command command{.name = "invert",
                   .title = "Train a network that gives the current for a wanted force",
                   .description =
@@ -308,8 +308,8 @@ Command invert_command() {
                       "track'. Recordings at a single current cannot teach it; recordings with a "
                       "constant current each cannot teach a network that feeds its currents back.",
                   .options = damper_options(s.damper),
-                  .example = std::string(kExample),
-                  .run = [settings](Console& console) { return run(*settings, console); }};
+                  .example = std::string(kInvertExample),
+                  .run = [settings](Console& console) { return run_invert(*settings, console); }};
 
   // The recordings, where they teach in place of the model.
   command.options.push_back(

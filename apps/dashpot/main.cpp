@@ -86,7 +86,7 @@ int run_command(std::vector<std::string> words, Console& console) {
   return command.run(console);
 }
 
-int run(const std::vector<std::string>& words, Console& console) {
+int run_words(const std::vector<std::string>& words, Console& console) {
   if (words.empty() || words.front() == "--help" || words.front() == "-h") {
     console.print(overview(all_commands(), console));
     return kDone;
@@ -95,7 +95,7 @@ int run(const std::vector<std::string>& words, Console& console) {
   // 'dashpot help rank' is 'dashpot rank --help'.
   if (words.front() == "help") {
     std::vector<std::string> named(words.begin() + 1, words.end());
-    if (named.empty()) return run({}, console);
+    if (named.empty()) return run_words({}, console);
     named.emplace_back("--help");
     return run_command(named, console);
   }
@@ -118,7 +118,7 @@ std::string help_for(const std::vector<std::string>& words) {
 
 int run_and_explain(const std::vector<std::string>& words, Console& console) {
   try {
-    const int code = run(words, console);
+    const int code = run_words(words, console);
     console.finish();
     return code;
   } catch (const ReaderGone&) {

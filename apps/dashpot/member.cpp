@@ -15,12 +15,12 @@
 namespace dashpot::cli {
 namespace {
 
-struct Settings {
+struct MemberSettings {
   std::string model, damper, outside_family = "mark", output;
   std::vector<std::string> changes;
 };
 
-constexpr std::string_view kExample =
+constexpr std::string_view kMemberExample =
     "# One damper of a fitted family, as a model that every other command takes:\n"
     "dashpot member results/models/family_gated.json --set gap=1.25mm,pole_length=9mm -o "
     "member.json\n"
@@ -36,7 +36,7 @@ DamperDescription description_of(const std::string& damper) {
                                                          : load_description(damper);
 }
 
-Conditions changes_of(const Settings& settings) {
+Conditions changes_of(const MemberSettings& settings) {
   Conditions conditions;
   for (const std::string& change : settings.changes) {
     const std::size_t equals = change.find('=');
@@ -80,7 +80,7 @@ std::string table_of(const FamilyModel& model, int width) {
   return table.text(static_cast<std::size_t>(width));
 }
 
-int run(const Settings& settings, Console& console) {
+int run_member(const MemberSettings& settings, Console& console) {
   ModelFile file = load_model(settings.model);
   const auto* family = model_as<FamilyModel>(*file.model);
   if (!family)
@@ -117,7 +117,7 @@ int run(const Settings& settings, Console& console) {
 }  // namespace
 
 Command member_command() {
-  auto settings = std::make_shared<Settings>();
+  auto settings = std::make_shared<MemberSettings>();
   return {
       .name = "member",
       .title = "One damper of a fitted family, as a model of its own",
@@ -155,8 +155,8 @@ Command member_command() {
                    .value = "FILE",
                    .takes = Takes::File}},
 
-      .example = std::string(kExample),
-      .run = [settings](Console& console) { return run(*settings, console); }};
+      .example = std::string(kMemberExample),
+      .run = [settings](Console& console) { return run_member(*settings, console); }};
 }
 
 }  // namespace dashpot::cli

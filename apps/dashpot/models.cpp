@@ -9,12 +9,12 @@
 namespace dashpot::cli {
 namespace {
 
-struct Settings {
+struct ModelsSettings {
   std::string name;
   bool markdown = false;
 };
 
-constexpr std::string_view kExample =
+constexpr std::string_view kModelsExample =
     "# What is there to choose from?\n"
     "dashpot models\n"
     "\n"
@@ -45,7 +45,7 @@ Value json_list(const std::vector<std::string>& names) {
   return list;
 }
 
-int run(const Settings& settings, Console& console) {
+int run_models(const ModelsSettings& settings, Console& console) {
   const bool all = settings.name.empty();
   const std::vector<std::string> names = all ? model_names() : std::vector{settings.name};
   if (console.json)
@@ -63,7 +63,7 @@ int run(const Settings& settings, Console& console) {
 }  // namespace
 
 Command models_command() {
-  auto settings = std::make_shared<Settings>();
+  auto settings = std::make_shared<ModelsSettings>();
   return {.name = "models",
           .title = "The damper models: equations, parameters, sources",
           .description =
@@ -80,8 +80,8 @@ Command models_command() {
                        .target = &settings->markdown,
                        .help = "print a page for the documentation"}},
 
-          .example = std::string(kExample),
-          .run = [settings](Console& console) { return run(*settings, console); }};
+          .example = std::string(kModelsExample),
+          .run = [settings](Console& console) { return run_models(*settings, console); }};
 }
 
 }  // namespace dashpot::cli

@@ -14,13 +14,13 @@
 namespace dashpot::cli {
 namespace {
 
-struct Settings {
+struct PhysicsSettings {
   std::string damper, current = "1", velocity = "0.1", displacement = "0";
   std::vector<std::string> changes;
   bool fields = false;
 };
 
-constexpr std::string_view kExample =
+constexpr std::string_view kPhysicsExample =
     "# Every step from the current to the force of a damper that comes with Dashpot:\n"
     "dashpot physics passenger_car --current 2 --velocity 0.3\n"
     "\n"
@@ -30,7 +30,7 @@ constexpr std::string_view kExample =
     "# What a description may state, with units and defaults:\n"
     "dashpot physics --fields";
 
-DamperDescription described(const Settings& settings) {
+DamperDescription described(const PhysicsSettings& settings) {
   const std::vector<std::string> known = description_names();
   DamperDescription description = std::ranges::find(known, settings.damper) != known.end()
                                       ? named_description(settings.damper)
@@ -88,7 +88,7 @@ Value quantities_json(const DamperPhysics& physics) {
   return list;
 }
 
-int run(const Settings& settings, Console& console) {
+int run_physics(const PhysicsSettings& settings, Console& console) {
   if (settings.fields) {
     console.print(fields_table(console.width()));
     return kDone;
@@ -128,7 +128,7 @@ int run(const Settings& settings, Console& console) {
 }  // namespace
 
 Command physics_command() {
-  auto settings = std::make_shared<Settings>();
+  auto settings = std::make_shared<PhysicsSettings>();
   return {.name = "physics",
           .title = "From drawing, coil and fluid to force: every step with its unit",
           .description =
@@ -167,8 +167,8 @@ Command physics_command() {
                        .target = &settings->fields,
                        .help = "list the fields of a description"}},
 
-          .example = std::string(kExample),
-          .run = [settings](Console& console) { return run(*settings, console); }};
+          .example = std::string(kPhysicsExample),
+          .run = [settings](Console& console) { return run_physics(*settings, console); }};
 }
 
 }  // namespace dashpot::cli

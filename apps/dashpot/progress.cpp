@@ -16,7 +16,7 @@ constexpr auto kRedraw = 100ms;  // fast enough to look alive
 constexpr auto kLogLine = 5s;    // slow enough for a log to stay readable
 constexpr auto kSettle = 3s;     // no forecast before this
 constexpr int kBarColumns = 24;
-constexpr int kLeastColumns = 50;  // narrower terminals get no bar, only words
+constexpr int kLeastBarColumns = 50;  // narrower terminals get no bar, only words
 
 }  // namespace
 
@@ -54,7 +54,7 @@ std::string ProgressLine::bar(const Progress& progress) const {
   const double fraction = std::clamp(progress.fraction, 0.0, 1.0);
   const auto filled = static_cast<std::size_t>(std::lround(fraction * kBarColumns));
   std::string line = fmt::format("{:3.0f} %", 100 * fraction);
-  if (width_ >= kLeastColumns)
+  if (width_ >= kLeastBarColumns)
     line += " [" + std::string(filled, '=') + std::string(kBarColumns - filled, ' ') + "]";
   line += remaining(fraction) + "  " + progress.stage;
   return first_columns(line, static_cast<std::size_t>(width_ - 1));

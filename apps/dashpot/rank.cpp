@@ -18,13 +18,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Settings {
+struct RankSettings {
   RankingSettings ranking;
   bool markdown = false;
   bool fresh = false;
 };
 
-constexpr std::string_view kExample =
+constexpr std::string_view kRankExample =
     "# Every model there is, each judged on records that it has not seen:\n"
     "dashpot rank recordings/ --output ranking\n"
     "\n"
@@ -43,7 +43,7 @@ std::string time_line(const Ranking& ranking, int threads) {
                          : fmt::format("; {} kept from before", counted(ranking.kept_fits, "fit")));
 }
 
-int run(const Settings& settings, Console& console) {
+int run_rank(const RankSettings& settings, Console& console) {
   const RankingSettings& asked = settings.ranking;
   const RankingData data = ranking_data(asked, console);
   const fs::path folder = asked.results.folder;
@@ -76,7 +76,7 @@ int run(const Settings& settings, Console& console) {
 }  // namespace
 
 Command rank_command() {
-  auto settings = std::make_shared<Settings>();
+  auto settings = std::make_shared<RankSettings>();
   settings->ranking.fit.models = {"all"};
   settings->ranking.results.folder = "dashpot-ranking";
   Command command{.name = "rank",
@@ -88,8 +88,8 @@ Command rank_command() {
                       "and whether the force stays bounded beyond the data. Finished fits are kept "
                       "in DIR/fits.sqlite: the same command goes on where it was interrupted.",
                   .options = ranking_options(settings->ranking),
-                  .example = std::string(kExample),
-                  .run = [settings](Console& console) { return run(*settings, console); }};
+                  .example = std::string(kRankExample),
+                  .run = [settings](Console& console) { return run_rank(*settings, console); }};
 
   append(command.options,
          {{.names = "--markdown",

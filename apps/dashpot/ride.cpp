@@ -11,7 +11,7 @@
 namespace dashpot::cli {
 namespace {
 
-struct Settings {
+struct RideSettings {
   VehicleChoice vehicle;
   RoadChoice road = {.road = RideStudyOptions{}.road, .duration = RideStudyOptions{}.road_duration};
   StudyResults results = {.folder = "dashpot-ride"};
@@ -23,7 +23,7 @@ struct Settings {
   bool bound = false;
 };
 
-constexpr std::string_view kExample =
+constexpr std::string_view kRideExample =
     "# The usual controllers in a quarter car with an ideal damper, against a passive one:\n"
     "dashpot ride\n"
     "\n"
@@ -34,14 +34,14 @@ constexpr std::string_view kExample =
     "# Every law on a worse road, passive at 1000 N*s/m:\n"
     "dashpot ride --controllers all --road iso8608,class=D --against viscous,damping=1000";
 
-std::vector<double> frequencies_of(const Settings& settings) {
+std::vector<double> frequencies_of(const RideSettings& settings) {
   std::vector<double> frequencies;
   for (const std::string& text : settings.frequencies)
     frequencies.push_back(parse_quantity(text, "Hz", "--frequencies"));
   return frequencies.empty() ? usual_frequencies() : frequencies;
 }
 
-RideStudyOptions options_of(const Settings& settings, Console& console) {
+RideStudyOptions options_of(const RideSettings& settings, Console& console) {
   return {.vehicle = words_of(settings.vehicle),
           .controllers = words_between(settings.controllers),
           .against = settings.against,
@@ -60,7 +60,7 @@ RideStudyOptions options_of(const Settings& settings, Console& console) {
           .monitor = console.monitor()};
 }
 
-int run(const Settings& settings, Console& console) {
+int run_ride(const RideSettings& settings, Console& console) {
   if (!settings.list.empty()) {
     print_list(settings.list, console);
     return kDone;
@@ -73,7 +73,7 @@ int run(const Settings& settings, Console& console) {
   return kDone;
 }
 
-std::vector<Option> study_options(Settings& settings) {
+std::vector<Option> study_options(RideSettings& settings) {
   return {
       {.names = "--controllers",
        .target = &settings.controllers,
@@ -133,7 +133,7 @@ std::vector<Option> study_options(Settings& settings) {
 }  // namespace
 
 Command ride_command() {
-  auto settings = std::make_shared<Settings>();
+  auto settings = std::make_shared<RideSettings>();
   Command command{
       .name = "ride",
       .title = "Compare controllers in a vehicle, over frequency and on a road",
@@ -143,8 +143,8 @@ Command ride_command() {
           "ratio to passive, the gain curves with the one-sensor paper's limits, and comfort "
           "against road holding beside what the same dampers do when they are held at one drive.",
       .options = vehicle_options(settings->vehicle),
-      .example = std::string(kExample),
-      .run = [settings](Console& console) { return run(*settings, console); }};
+      .example = std::string(kRideExample),
+      .run = [settings](Console& console) { return run_ride(*settings, console); }};
 
   // The controllers and excitations, then the road and the results.
   append(command.options, study_options(*settings));

@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Settings {
+struct SearchSettings {
   RankingSettings ranking;
   std::string model = SearchOptions().model;
   std::vector<std::string> over;
@@ -33,7 +33,7 @@ struct Settings {
   bool fresh = false;
 };
 
-constexpr std::string_view kExample =
+constexpr std::string_view kSearchExample =
     "# 24 networks drawn at random, each judged on records that it has not seen:\n"
     "dashpot search recordings/ --over hidden=3:30 --over activation=tanh,relu --output search\n"
     "\n"
@@ -68,7 +68,7 @@ std::vector<SearchAxis> axes_of(const std::vector<std::string>& words) {
   return axes;
 }
 
-SearchOptions search_options(const Settings& settings, Console& console) {
+SearchOptions search_options(const SearchSettings& settings, Console& console) {
   SearchOptions options;
   options.model = settings.model;
 
@@ -169,7 +169,7 @@ std::string time_line(const SearchReport& report) {
 }
 
 int run_in(const fs::path& folder, const RankingData& data, const SearchOptions& options,
-           const Settings& settings, Console& console) {
+           const SearchSettings& settings, Console& console) {
   const fs::path file = folder / "search.sqlite";
   if (settings.fresh) Store::remove(file);
   console.talk("search: " + search_plan(search_rungs(options), options.effort) + '\n');
@@ -195,7 +195,7 @@ int run_in(const fs::path& folder, const RankingData& data, const SearchOptions&
   return kNotUsable;
 }
 
-int run(const Settings& settings, Console& console) {
+int run_search(const SearchSettings& settings, Console& console) {
   const SearchOptions options = search_options(settings, console);
   const RankingData data = ranking_data(settings.ranking, console);
   const fs::path folder = settings.ranking.results.folder;
@@ -208,7 +208,7 @@ int run(const Settings& settings, Console& console) {
   }
 }
 
-std::vector<Option> own_options(Settings& settings) {
+std::vector<Option> own_options(SearchSettings& settings) {
   return {
       {.names = "--model",
        .target = &settings.model,
@@ -258,7 +258,7 @@ std::vector<Option> own_options(Settings& settings) {
 }  // namespace
 
 Command search_command() {
-  auto settings = std::make_shared<Settings>();
+  auto settings = std::make_shared<SearchSettings>();
   settings->ranking.results.folder = "dashpot-search";
   Command command{
       .name = "search",
@@ -271,8 +271,8 @@ Command search_command() {
           "goes on where it was stopped, and more --trials go on beyond it. The result does not "
           "depend on threads or interruptions.",
       .options = ranking_options(settings->ranking),
-      .example = std::string(kExample),
-      .run = [settings](Console& console) { return run(*settings, console); }};
+      .example = std::string(kSearchExample),
+      .run = [settings](Console& console) { return run_search(*settings, console); }};
   // A search has one model, and parameters of laws are not its business.
   constexpr std::array kOthers{"--models", "--form",  "--fix",   "--free",
                                "--bounds", "--prior", "--search"};

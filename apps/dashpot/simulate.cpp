@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Settings {
+struct SimulateSettings {
   VehicleChoice vehicle;
   RoadChoice road;
   StudyResults results;
@@ -25,7 +25,7 @@ struct Settings {
   bool mat = false;
 };
 
-constexpr std::string_view kExample =
+constexpr std::string_view kSimulateExample =
     "# A quarter car over a class C road, its ideal damper ruled by one accelerometer:\n"
     "dashpot simulate --controller mix1\n"
     "\n"
@@ -37,7 +37,7 @@ constexpr std::string_view kExample =
     "dashpot simulate --plant dyke_spencer1996 --damper spencer1997,x0=0 \\\n"
     "    --road earthquake,file=el_centro_g.dat,unit=g0,time_scale=0.2 --against viscous,damping=0";
 
-Simulation simulate_choice(const Settings& settings, Console& console) {
+Simulation simulate_choice(const SimulateSettings& settings, Console& console) {
   const VehicleWords words = words_of(settings.vehicle);
   const auto vehicle = std::make_shared<const Vehicle>(make_vehicle(words));
   const GroundPointer ground = ground_of(settings.road, settings.vehicle.seed, vehicle->set.plant);
@@ -64,7 +64,7 @@ Simulation simulate_choice(const Settings& settings, Console& console) {
   return simulation;
 }
 
-void write_trace(const Settings& settings, const SimulatedRun& run, const std::string& name,
+void write_trace(const SimulateSettings& settings, const SimulatedRun& run, const std::string& name,
                  Console& console) {
   const fs::path file =
       fs::path(settings.results.folder) / (name + (settings.mat ? ".mat" : ".csv"));
@@ -72,7 +72,7 @@ void write_trace(const Settings& settings, const SimulatedRun& run, const std::s
   console.print("Trace    " + file.string() + '\n');
 }
 
-int run(const Settings& settings, Console& console) {
+int run_simulate(const SimulateSettings& settings, Console& console) {
   if (!settings.list.empty()) {
     print_list(settings.list, console);
     return kDone;
@@ -100,7 +100,7 @@ int run(const Settings& settings, Console& console) {
 }  // namespace
 
 Command simulate_command() {
-  auto settings = std::make_shared<Settings>();
+  auto settings = std::make_shared<SimulateSettings>();
   Command command{
       .name = "simulate",
       .title = "Drive a vehicle with a damper and a controller over a road",
@@ -112,8 +112,8 @@ Command simulate_command() {
           "damper. Warns of what cannot be trusted: lost contact, end stops that were hit, a "
           "damper used beyond its data.",
       .options = controlled_vehicle_options(settings->vehicle),
-      .example = std::string(kExample),
-      .run = [settings](Console& console) { return run(*settings, console); }};
+      .example = std::string(kSimulateExample),
+      .run = [settings](Console& console) { return run_simulate(*settings, console); }};
 
   // The road below, and the passive vehicle for comparison.
   append(command.options, road_options(settings->road));

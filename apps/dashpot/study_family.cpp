@@ -14,14 +14,14 @@
 namespace dashpot::cli {
 namespace {
 
-struct Settings {
+struct StudyFamilySettings {
   DataSettings data;
   StudyResults results = {.folder = "dashpot-family"};
   FamilyStudyOptions options;
   int seeds = 10;
 };
 
-constexpr std::string_view kExample =
+constexpr std::string_view kStudyFamilyExample =
     "# The paper's experiments on its published recordings; interrupted, the same command goes "
     "on:\n"
     "dashpot study family recordings/family-dnn --figures --output family\n"
@@ -29,7 +29,7 @@ constexpr std::string_view kExample =
     "# A first look: two seeds, a tenth of the training:\n"
     "dashpot study family recordings/family-dnn --seeds 2 --effort 0.1";
 
-int run(const Settings& settings, Console& console) {
+int run_study_family(const StudyFamilySettings& settings, Console& console) {
   prepare_study(settings.results);
   FamilySamples family = family_samples(load_recordings(settings.data, console));
 
@@ -55,7 +55,7 @@ int run(const Settings& settings, Console& console) {
 }  // namespace
 
 Command family_study() {
-  auto settings = std::make_shared<Settings>();
+  auto settings = std::make_shared<StudyFamilySettings>();
   Command command{
       .name = "study family",
       .title = "The family paper's figures, on its published recordings",
@@ -69,8 +69,8 @@ Command family_study() {
           "seen. Finished trainings are kept in DIR/trainings.sqlite: the same command goes on "
           "where it was interrupted.",
       .options = data_options(settings->data),
-      .example = std::string(kExample),
-      .run = [settings](Console& console) { return run(*settings, console); }};
+      .example = std::string(kStudyFamilyExample),
+      .run = [settings](Console& console) { return run_study_family(*settings, console); }};
 
   append(command.options, study_result_options(settings->results, "trainings"));
 

@@ -14,7 +14,7 @@
 namespace dashpot::cli {
 namespace {
 
-struct Settings {
+struct StudyOneSensorSettings {
   DataSettings data;
   std::string leave_out;
   StudyResults results = {.folder = "dashpot-one-sensor"};
@@ -22,14 +22,14 @@ struct Settings {
   int most_neurons = 20;
 };
 
-constexpr std::string_view kExample =
+constexpr std::string_view kStudyOneSensorExample =
     "# The paper's experiments on two virtual dampers; interrupted, the same command goes on:\n"
     "dashpot study one-sensor --figures --output one-sensor\n"
     "\n"
     "# The same questions to recordings of your own:\n"
     "dashpot study one-sensor recordings/ --leave-out condition";
 
-std::vector<StudiedDamper> studied_dampers(const Settings& settings, Console& console) {
+std::vector<StudiedDamper> studied_dampers(const StudyOneSensorSettings& settings, Console& console) {
   if (settings.data.paths.empty()) return virtual_dampers(settings.options.seed);
   const std::optional<LeaveOut> stated = stated_leave_out(settings.leave_out);
   const Dataset dataset = load_recordings(settings.data, console);
@@ -44,7 +44,7 @@ std::vector<std::string> row_names() {
   return names;
 }
 
-int run(const Settings& settings, Console& console) {
+int run_study_one_sensor(const StudyOneSensorSettings& settings, Console& console) {
   prepare_study(settings.results);
 
   OneSensorOptions options = settings.options;
@@ -67,7 +67,7 @@ int run(const Settings& settings, Console& console) {
 }  // namespace
 
 Command one_sensor_study() {
-  auto settings = std::make_shared<Settings>();
+  auto settings = std::make_shared<StudyOneSensorSettings>();
   Command command{
       .name = "study one-sensor",
       .title = "The one-sensor paper's tables and figures, on virtual dampers or your recordings",
@@ -79,8 +79,8 @@ Command one_sensor_study() {
           "sensor. Without DATA on two virtual dampers shaped after the paper's words. Finished "
           "fits are kept in DIR/fits.sqlite: the same command goes on where it was interrupted.",
       .options = data_options(settings->data),
-      .example = std::string(kExample),
-      .run = [settings](Console& console) { return run(*settings, console); }};
+      .example = std::string(kStudyOneSensorExample),
+      .run = [settings](Console& console) { return run_study_one_sensor(*settings, console); }};
 
   // Recordings are optional: the study has dampers of its own.
   command.options.front().required = false;

@@ -12,7 +12,7 @@
 namespace dashpot::cli {
 namespace {
 
-constexpr std::string_view kExample =
+constexpr std::string_view kStudyRecoveryExample =
     "# Every law, a hundred times each; the table goes into a file:\n"
     "dashpot study recovery > recovery.md\n"
     "\n"
@@ -79,7 +79,7 @@ Value to_json(const LawRecovery& recovery) {
                         {"parameters", std::move(parameters)}});
 }
 
-int run(RecoveryStudyOptions options, Console& console) {
+int run_study_recovery(RecoveryStudyOptions options, Console& console) {
   options.monitor = console.monitor();
   const std::vector<LawRecovery> recoveries = study_recovery(options);
 
@@ -158,8 +158,8 @@ Command recovery_study() {
 
            seed_option(options.seed),
            threads_option(options.threads)},
-      .example = std::string(kExample),
-      .run = [settings](Console& console) { return run(*settings, console); }};
+      .example = std::string(kStudyRecoveryExample),
+      .run = [settings](Console& console) { return run_study_recovery(*settings, console); }};
 }
 
 }  // namespace dashpot::cli

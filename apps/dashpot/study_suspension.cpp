@@ -9,16 +9,16 @@
 namespace dashpot::cli {
 namespace {
 
-struct Settings {
+struct StudySuspensionSettings {
   StudyResults results = {.folder = "dashpot-suspension"};
   SuspensionStudyOptions options;
 };
 
-constexpr std::string_view kExample =
+constexpr std::string_view kStudySuspensionExample =
     "# Figures 12 and 13 and table 8 of the paper beside ours, and what is possible at best:\n"
     "dashpot study suspension --figures --output suspension";
 
-int run(const Settings& settings, Console& console) {
+int run_study_suspension(const StudySuspensionSettings& settings, Console& console) {
   prepare_study(settings.results);
   SuspensionStudyOptions options = settings.options;
   options.monitor = console.monitor();
@@ -31,7 +31,7 @@ int run(const Settings& settings, Console& console) {
 }  // namespace
 
 Command suspension_study() {
-  auto settings = std::make_shared<Settings>();
+  auto settings = std::make_shared<StudySuspensionSettings>();
   Command command{
       .name = "study suspension",
       .title = "The one-sensor paper's suspension, and what is possible at best",
@@ -43,8 +43,8 @@ Command suspension_study() {
           "knew the road would reach. Says which of the paper's claims follow, and which least "
           "damping they would need.",
       .options = {},
-      .example = std::string(kExample),
-      .run = [settings](Console& console) { return run(*settings, console); }};
+      .example = std::string(kStudySuspensionExample),
+      .run = [settings](Console& console) { return run_study_suspension(*settings, console); }};
 
   // This study keeps nothing between runs that --fresh could ignore.
   for (Option& option : study_result_options(settings->results, "data"))

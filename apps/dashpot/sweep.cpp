@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Settings {
+struct SweepSettings {
   std::string request;
   StudyResults results = {.folder = "dashpot-sweep"};
   std::uint64_t samples = 0, seed = 0;
@@ -29,7 +29,7 @@ struct Settings {
   bool measures = false;
 };
 
-constexpr std::string_view kExample =
+constexpr std::string_view kSweepExample =
     "# Three controllers on the same thousand cars and roads:\n"
     "dashpot sweep comfort --output comfort\n"
     "\n"
@@ -40,7 +40,7 @@ constexpr std::string_view kExample =
     "# Your own: what varies and how, as docs/sweep.md describes:\n"
     "dashpot sweep my_sweep.yaml --figures";
 
-SweepRequest requested(const Settings& settings) {
+SweepRequest requested(const SweepSettings& settings) {
   if (settings.request.empty())
     throw UsageError("REQUEST", "is missing: a file, or one of " + join(sweep_names(), ", "));
   SweepRequest request =
@@ -75,7 +75,7 @@ void write_tables(const Sweep& result, const fs::path& folder, Console& console)
 }
 
 /// Runs the request; each block of rides is kept in the folder of the results as it ends.
-Sweep run_sweep(const SweepRequest& request, const Settings& settings, Console& console) {
+Sweep run_sweep(const SweepRequest& request, const SweepSettings& settings, Console& console) {
   const fs::path file = fs::path(settings.results.folder) / "sweep.sqlite";
   if (settings.results.fresh) Store::remove(file);
   SweepStore store(file, request, program_id());
@@ -85,7 +85,7 @@ Sweep run_sweep(const SweepRequest& request, const Settings& settings, Console& 
   return sweep(request, store, {settings.threads, console.monitor()});
 }
 
-int run(const Settings& settings, Console& console) {
+int run_sweep(const SweepSettings& settings, Console& console) {
   if (settings.measures) {
     console.print(measures_text(console.width()));
     return kDone;
@@ -116,7 +116,7 @@ int run(const Settings& settings, Console& console) {
   }
 }
 
-std::vector<Option> options_of(Settings& settings) {
+std::vector<Option> options_of(SweepSettings& settings) {
   std::vector<Option> options{
       // The request, and what may stand in place of its numbers.
       {.names = "REQUEST",
@@ -159,7 +159,7 @@ std::vector<Option> options_of(Settings& settings) {
 }  // namespace
 
 Command sweep_command() {
-  auto settings = std::make_shared<Settings>();
+  auto settings = std::make_shared<SweepSettings>();
   return {
       .name = "sweep",
       .title = "Thousands of vehicles over roads: how far controllers and dampers can be trusted",
@@ -173,8 +173,8 @@ Command sweep_command() {
           "interruptions.",
 
       .options = options_of(*settings),
-      .example = std::string(kExample),
-      .run = [settings](Console& console) { return run(*settings, console); }};
+      .example = std::string(kSweepExample),
+      .run = [settings](Console& console) { return run_sweep(*settings, console); }};
 }
 
 }  // namespace dashpot::cli

@@ -20,7 +20,7 @@
 namespace dashpot::cli {
 namespace {
 
-struct Settings {
+struct TrackSettings {
   DamperChoice damper;
   std::string recording, folder;
   std::vector<std::string> inverses;
@@ -31,7 +31,7 @@ struct Settings {
   std::uint64_t seed = 1;
 };
 
-constexpr std::string_view kExample =
+constexpr std::string_view kTrackExample =
     "# Which way from a wanted force to a voltage follows best?\n"
     "dashpot track --parameters spencer1997\n"
     "\n"
@@ -64,7 +64,7 @@ Task recorded_task(const std::string& path) {
           "measured, " + record.name};
 }
 
-Task make_task(const Settings& settings, const DamperModel& damper, DriverOptions driver) {
+Task make_task(const TrackSettings& settings, const DamperModel& damper, DriverOptions driver) {
   if (!settings.recording.empty()) return recorded_task(settings.recording);
 
   // The motion comes first: what force is possible depends on it.
@@ -91,7 +91,7 @@ Task make_task(const Settings& settings, const DamperModel& damper, DriverOption
   return task;
 }
 
-DriverOptions make_driver(const Settings& settings, const Damper& damper) {
+DriverOptions make_driver(const TrackSettings& settings, const Damper& damper) {
   DriverOptions driver{.period = settings.period};
   if (settings.rate_limit > 0) driver.rate_max = settings.rate_limit;
   return driver_of(damper, settings.damper, driver);
@@ -115,7 +115,7 @@ std::unique_ptr<InverseModel> make_inverse(const std::string& word, const Damper
 }
 
 /// Tracks with the schemes asked for, or with all that apply. The best comes first.
-std::vector<TrackedScheme> track_all(const Settings& settings, const Damper& damper,
+std::vector<TrackedScheme> track_all(const TrackSettings& settings, const Damper& damper,
                                      const Driver& driver, const Task& task, Console& console) {
   const InverseLimits limits = limits_of(driver.options(), task.motion.sample_time);
   const bool asked = !settings.inverses.empty();
@@ -187,7 +187,7 @@ Value json_of(const std::vector<TrackedScheme>& tracked, const Damper& damper, c
                         {"schemes", std::move(schemes)}});
 }
 
-int run(const Settings& settings, Console& console) {
+int run_track(const TrackSettings& settings, Console& console) {
   const Damper damper = load_damper(settings.damper, "track", console);
   const DriverOptions options = make_driver(settings, damper);
   const Driver driver(options);
@@ -218,7 +218,7 @@ int run(const Settings& settings, Console& console) {
 }
 
 /// The motion, and the force that is wanted along it.
-std::vector<Option> task_options(Settings& s) {
+std::vector<Option> task_options(TrackSettings& s) {
   return {{.names = "--wanted",
            .target = &s.wanted,
            .help = "wanted force: random within what the damper can give, or a sine",
@@ -272,7 +272,7 @@ std::vector<Option> task_options(Settings& s) {
           seed_option(s.seed)};
 }
 
-std::vector<Option> driver_options(Settings& s) {
+std::vector<Option> driver_options(TrackSettings& s) {
   return {
       {.names = "--rate-limit",
        .target = &s.rate_limit,
@@ -290,7 +290,7 @@ std::vector<Option> driver_options(Settings& s) {
 }  // namespace
 
 Command track_command() {
-  auto settings = std::make_shared<Settings>();
+  auto settings = std::make_shared<TrackSettings>();
   Command command{
       .name = "track",
       .title = "Follow a wanted force: inverse models side by side",
@@ -300,11 +300,11 @@ Command track_command() {
           "force was out of reach of any current at that instant, and how often the command was at "
           "a limit. The first 0.1 s, in which the coil starts, are not scored.",
       .options = {},
-      .example = std::string(kExample),
-      .run = [settings](Console& console) { return run(*settings, console); }};
+      .example = std::string(kTrackExample),
+      .run = [settings](Console& console) { return run_track(*settings, console); }};
 
   // The options refer to the settings, which live as long as the command.
-  Settings& s = *settings;
+  TrackSettings& s = *settings;
   command.options = damper_options(s.damper);
   command.options.push_back(
       {.names = "--inverse",

@@ -8,8 +8,6 @@
 
 namespace {
 
-const double kNaN = std::numeric_limits<double>::quiet_NaN();
-const double kInfinity = std::numeric_limits<double>::infinity();
 
 struct Sine {
   explicit Sine(std::size_t count) {

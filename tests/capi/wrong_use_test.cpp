@@ -12,8 +12,6 @@
 
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// One way of calling; it says what is wrong with it.
 using Call = std::function<dashpot_status()>;

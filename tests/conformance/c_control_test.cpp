@@ -11,7 +11,7 @@ std::vector<ExportedFile> exported_controller(const Vehicle& vehicle,
   return write_c_block(c_controller_block(vehicle, options), "");
 }
 
-void write_all(const TemporaryFolder& folder, CPrecision precision) {
+void write_controllers(const TemporaryFolder& folder, CPrecision precision) {
   for (const BlockCase& one : controller_cases())
     for (const ExportedFile& file : write_c_block(one.block({.precision = precision}), ""))
       folder.write(file.name, file.content);
@@ -22,7 +22,7 @@ void write_all(const TemporaryFolder& folder, CPrecision precision) {
 TEST_CASE("exported controllers: every law gives the library's commands within 1e-12") {
   if (!is_there("cc")) return;
   const TemporaryFolder folder;
-  write_all(folder, CPrecision::Double);
+  write_controllers(folder, CPrecision::Double);
   check_that_it_runs(folder, kAsTheTests);
 }
 
@@ -30,7 +30,7 @@ TEST_CASE("exported controllers: in single precision within 1e-5, without a doub
           doctest::test_suite("long")) {
   if (!is_there("cc")) return;
   const TemporaryFolder folder;
-  write_all(folder, CPrecision::Single);
+  write_controllers(folder, CPrecision::Single);
   check_that_it_runs(folder, "-Wdouble-promotion");
 }
 

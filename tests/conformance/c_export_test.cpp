@@ -11,7 +11,7 @@ using namespace dashpot;
 
 namespace {
 
-void write_all(const TemporaryFolder& folder, CPrecision precision) {
+void write_dampers(const TemporaryFolder& folder, CPrecision precision) {
   for (const ExampleModel& example : example_models())
     for (const ExportedFile& file : write_c_source(
              exported(*example.model), {.name = example.name + "_x", .precision = precision}))
@@ -24,7 +24,7 @@ TEST_CASE(
     "exported C: every kind of model in double precision gives the library's force within 1e-12") {
   if (!is_there("cc")) return;
   const TemporaryFolder folder;
-  write_all(folder, CPrecision::Double);
+  write_dampers(folder, CPrecision::Double);
   check_that_it_runs(folder, kAsTheTests);
 }
 
@@ -33,7 +33,7 @@ TEST_CASE(
     doctest::test_suite("long")) {
   if (!is_there("cc")) return;
   const TemporaryFolder folder;
-  write_all(folder, CPrecision::Single);
+  write_dampers(folder, CPrecision::Single);
   check_that_it_runs(folder, "-Wdouble-promotion");
 }
 

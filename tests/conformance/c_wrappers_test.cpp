@@ -13,15 +13,15 @@ using namespace dashpot;
 
 namespace {
 
-constexpr double kStep = 1e-3;
-constexpr std::size_t kSteps = 200;
+constexpr double kWrapperStep = 1e-3;
+constexpr std::size_t kWrapperSteps = 200;
 
 /// Inputs and the library's force, a row a step.
 std::vector<std::vector<double>> run_of(const DamperModel& model) {
-  const std::vector<DamperInput> inputs = export_run(exported(model).domain, kStep, kSteps);
-  const std::vector<double> force = force_along(model, inputs, kStep);
+  const std::vector<DamperInput> inputs = export_run(exported(model).domain, kWrapperStep, kWrapperSteps);
+  const std::vector<double> force = force_along(model, inputs, kWrapperStep);
   std::vector<std::vector<double>> rows;
-  for (std::size_t k = 0; k < kSteps; ++k)
+  for (std::size_t k = 0; k < kWrapperSteps; ++k)
     rows.push_back({inputs[k].displacement, inputs[k].velocity, inputs[k].current, force[k]});
   return rows;
 }
@@ -29,7 +29,7 @@ std::vector<std::vector<double>> run_of(const DamperModel& model) {
 std::string run_header(const DamperModel& model) {
   std::string rows;
   for (const std::vector<double>& row : run_of(model)) rows += "  " + c_numbers(row) + ",\n";
-  return "#define SAMPLE_TIME " + c_number(kStep) + "\nstatic const double kRun[][4] = {\n" + rows +
+  return "#define SAMPLE_TIME " + c_number(kWrapperStep) + "\nstatic const double kRun[][4] = {\n" + rows +
          "};\n";
 }
 
@@ -42,7 +42,7 @@ std::string run_csv(const DamperModel& model) {
   return text;
 }
 
-void write_all(const TemporaryFolder& folder, const std::vector<ExportedFile>& files) {
+void write_wrappers(const TemporaryFolder& folder, const std::vector<ExportedFile>& files) {
   for (const ExportedFile& file : files) write_file(folder.path() / file.name, file.content);
 }
 
@@ -66,8 +66,8 @@ TEST_CASE("exported S-function: it steps as Simulink steps it, and gives the lib
   for_each_kind([](const ExampleModel& example) {
     CAPTURE(example.name);
     const TemporaryFolder folder;
-    write_all(folder,
-              write_sfunction(exported(*example.model), {.name = "x", .sample_time = kStep}));
+    write_wrappers(folder,
+              write_sfunction(exported(*example.model), {.name = "x", .sample_time = kWrapperStep}));
     folder.write("run.h", run_header(*example.model));
     const ProgramResult result = run_in(folder, "cc -std=c99 -Wall -Wextra -Werror -isystem '" +
                                                     project_file("tests/conformance/simulink") +
@@ -85,8 +85,8 @@ TEST_CASE(
   for_each_kind([](const ExampleModel& example) {
     CAPTURE(example.name);
     const TemporaryFolder folder;
-    write_all(folder,
-              write_modelica(exported(*example.model), {.name = "x", .sample_time = kStep}));
+    write_wrappers(folder,
+              write_modelica(exported(*example.model), {.name = "x", .sample_time = kWrapperStep}));
     folder.write("run.h", run_header(*example.model));
     folder.write("main.c", R"(#include <math.h>
 #include "run.h"
@@ -119,7 +119,7 @@ TEST_CASE("exported Modelica package: what begins ends, and what is called is th
   ExportedModel said = exported(model);
   said.origin = "two \"lines\"\nof it";
   const std::vector<ExportedFile> files = write_modelica(
-      said, {.name = "front", .sample_time = kStep, .command = "dashpot export \"<x>\""});
+      said, {.name = "front", .sample_time = kWrapperStep, .command = "dashpot export \"<x>\""});
   REQUIRE(files.back().name == "front/package.mo");
   const std::string& text = files.back().content;
   for (const char* name :
@@ -148,8 +148,8 @@ TEST_CASE("exported MEX: Octave builds it and gets the library's force" *
     for (const CPrecision precision : {CPrecision::Double, CPrecision::Single}) {
       const bool single = precision == CPrecision::Single;
       const std::string name = example.name + (single ? "_s" : "_d");
-      write_all(folder, write_mex(exported(*example.model),
-                                  {.name = name, .precision = precision, .sample_time = kStep}));
+      write_wrappers(folder, write_mex(exported(*example.model),
+                                  {.name = name, .precision = precision, .sample_time = kWrapperStep}));
       folder.write(name + ".csv", run_csv(*example.model));
       commands += "mkoctfile --mex " + name + "_mex.c " + name + ".c && ";
       checks += "run = csvread('" + name + ".csv'); f = " + name +

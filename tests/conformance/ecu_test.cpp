@@ -14,7 +14,7 @@ using namespace dashpot;
 
 namespace {
 
-constexpr std::size_t kSteps = 60;
+constexpr std::size_t kEcuSteps = 60;
 constexpr double kClock = 168e6, kTime = 100e-6;  // Hz of a common ECU; s that a step may take
 
 bool are_there(const std::vector<std::string>& programs) {
@@ -104,7 +104,7 @@ void write_controllers(const TemporaryFolder& folder, Board& board) {
         folder.write(file.name, file.content);
       std::string numbers, next;
       std::vector<double> expected;
-      for (std::size_t k = 0; k < kSteps; ++k) {
+      for (std::size_t k = 0; k < kEcuSteps; ++k) {
         numbers += "  " + c_numbers(block.samples[k].inputs) + ",\n";
         expected.push_back(block.samples[k].commands[0]);
       }
@@ -141,7 +141,7 @@ void write_models(const TemporaryFolder& folder) {
           example.name + (precision == CPrecision::Single ? "_float" : "_double");
       const CSource source =
           c_source(model, {.name = prefix, .precision = precision, .sample_time = 1e-3});
-      run = export_run(model.domain, source.sample_time, kSteps);
+      run = export_run(model.domain, source.sample_time, kEcuSteps);
       folder.write(prefix + ".h", source.header);
       folder.write(prefix + ".c", source.source);
       board.add(
@@ -159,7 +159,7 @@ void write_models(const TemporaryFolder& folder) {
     inputs +=
         "  " + c_numbers(std::vector{input.displacement, input.velocity, input.current}) + ",\n";
   write_controllers(folder, board);
-  folder.write("models.h", board.includes + "\n#define STEPS " + std::to_string(kSteps) +
+  folder.write("models.h", board.includes + "\n#define STEPS " + std::to_string(kEcuSteps) +
                                "\n#define MODELS(X)" + board.list +
                                "\n\nstatic const double kInputs[STEPS][3] = {\n" + inputs + "};\n" +
                                board.functions);

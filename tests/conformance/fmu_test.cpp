@@ -9,8 +9,8 @@ using namespace dashpot;
 
 namespace {
 
-constexpr double kStep = 1e-3;
-constexpr std::size_t kSteps = 200;
+constexpr double kFmuStep = 1e-3;
+constexpr std::size_t kFmuSteps = 200;
 
 double span_of(const std::vector<double>& force) {
   const auto [low, high] = std::minmax_element(force.begin(), force.end());
@@ -19,8 +19,8 @@ double span_of(const std::vector<double>& force) {
 
 /// Sets the inputs of each instant, then reads the force there.
 void check_co_simulation(const LoadedFmu& fmu, const DamperModel& model) {
-  const double step = model.feedback_step() > 0 ? model.feedback_step() : kStep;
-  const std::vector<DamperInput> run = export_run(exported(model).domain, step, kSteps);
+  const double step = model.feedback_step() > 0 ? model.feedback_step() : kFmuStep;
+  const std::vector<DamperInput> run = export_run(exported(model).domain, step, kFmuSteps);
   const std::vector<double> expected = force_along(model, run, step);
   const double tolerance = 1e-12 * span_of(expected);
   FmuInstance instance(fmu, false);
@@ -49,8 +49,8 @@ std::vector<double> slopes(const LawModel& law, const DamperInput& input,
 /// Sets the library's states and compares force and slopes there.
 void check_model_exchange(const LoadedFmu& fmu, const DamperModel& model) {
   const auto* law = dynamic_cast<const LawModel*>(&model);
-  const std::vector<DamperInput> run = export_run(exported(model).domain, kStep, kSteps);
-  const double span = span_of(force_along(model, run, kStep));
+  const std::vector<DamperInput> run = export_run(exported(model).domain, kFmuStep, kFmuSteps);
+  const double span = span_of(force_along(model, run, kFmuStep));
   FmuInstance instance(fmu, true);
   REQUIRE(instance.handle);
   instance.initialize(run[0]);
@@ -60,8 +60,8 @@ void check_model_exchange(const LoadedFmu& fmu, const DamperModel& model) {
   CHECK(fmu.call("GetContinuousStates", instance.handle, read.data(), read.size()) == 0);
   for (std::size_t i = 0; i < state.size(); ++i) CHECK_CLOSE(read[i], state[i], 1e-12, 0);
   for (std::size_t k = 1; k < run.size(); ++k) {
-    model.advance(run[k - 1], run[k], kStep, state);
-    REQUIRE(fmu.call("SetTime", instance.handle, static_cast<double>(k) * kStep) == 0);
+    model.advance(run[k - 1], run[k], kFmuStep, state);
+    REQUIRE(fmu.call("SetTime", instance.handle, static_cast<double>(k) * kFmuStep) == 0);
     REQUIRE(instance.set(run[k]) == 0);
     REQUIRE(fmu.call("SetContinuousStates", instance.handle,
                      static_cast<const double*>(state.data()), state.size()) == 0);
@@ -97,7 +97,7 @@ TEST_CASE(
   }
   parallel_for(tasks.size(), 0, [&](std::size_t k) {
     ExportOptions options{.sample_time = tasks[k].example->model->feedback_step()};
-    if (options.sample_time == 0) options.sample_time = kStep;
+    if (options.sample_time == 0) options.sample_time = kFmuStep;
     tasks[k].archive = fmu_of(exported(*tasks[k].example->model), tasks[k].version, options);
   });
   for (const Task& task : tasks) {

@@ -14,7 +14,7 @@ using namespace dashpot;
 
 namespace {
 
-constexpr double kSampleTime = 2e-3;
+constexpr double kNarxSampleTime = 2e-3;
 
 /// Random motion and a current that jumps at random, and what the damper makes of them.
 struct Run {
@@ -25,8 +25,8 @@ struct Run {
 Run random_run(const DamperModel& damper, std::size_t samples, double noise, std::uint64_t seed) {
   const Motion motion = random_motion({.amplitude = 0.01,
                                        .frequency = 3,
-                                       .duration = kSampleTime * static_cast<double>(samples),
-                                       .sample_time = kSampleTime,
+                                       .duration = kNarxSampleTime * static_cast<double>(samples),
+                                       .sample_time = kNarxSampleTime,
                                        .seed = seed});
   Run run;
   Random random(seed);
@@ -38,9 +38,9 @@ Run random_run(const DamperModel& damper, std::size_t samples, double noise, std
     if (k == 0)
       damper.rest(now, state);
     else
-      damper.advance(run.inputs.back(), now, kSampleTime, state);
+      damper.advance(run.inputs.back(), now, kNarxSampleTime, state);
     run.inputs.push_back(now);
-    run.time.push_back(kSampleTime * static_cast<double>(k));
+    run.time.push_back(kNarxSampleTime * static_cast<double>(k));
     run.force.push_back(damper.force(now, state) + noise * random.normal());
   }
   return run;
@@ -50,7 +50,7 @@ Record record_of(const Run& run) {
   Record record;
   record.name = record.condition = "random";
   record.time = run.time;
-  record.sample_time = kSampleTime;
+  record.sample_time = kNarxSampleTime;
   const auto add = [&](const char* name, const char* unit, auto value) {
     Channel channel{name, unit, {}, {}};
     for (std::size_t k = 0; k < run.time.size(); ++k) channel.samples.push_back(value(k));
@@ -107,7 +107,7 @@ Outcome outcome_of(const NarxModel& model, const Run& run) {
   std::vector<double> state(model.state_size());
   model.rest(run.inputs.front(), state);
   for (std::size_t k = 0; k < run.inputs.size(); ++k) {
-    if (k > 0) model.advance(run.inputs[k - 1], run.inputs[k], kSampleTime, state);
+    if (k > 0) model.advance(run.inputs[k - 1], run.inputs[k], kNarxSampleTime, state);
     const double force = model.force(run.inputs[k], state);
     outcome.not_numbers += !std::isfinite(force);
     outcome.beyond +=

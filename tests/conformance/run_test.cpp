@@ -8,7 +8,7 @@ using namespace dashpot;
 
 namespace {
 
-constexpr double kStep = 1e-3;
+constexpr double kRunStep = 1e-3;
 
 /// The forces and spreads of a run, sample by sample.
 struct Forces {
@@ -20,7 +20,7 @@ Forces stepped(const DamperModel& model, const std::vector<DamperInput>& inputs)
   std::vector<double> state(model.state_size());
   model.rest(inputs.front(), state);
   for (std::size_t k = 0; k < inputs.size(); ++k) {
-    if (k > 0) model.advance(inputs[k - 1], inputs[k], kStep, state);
+    if (k > 0) model.advance(inputs[k - 1], inputs[k], kRunStep, state);
     expected.force.push_back(model.force(inputs[k], state));
     expected.spread.push_back(model.spread(inputs[k], state));
   }
@@ -32,7 +32,7 @@ void check_run(const DamperModel& model, const std::vector<DamperInput>& inputs)
   Forces got{std::vector<double>(inputs.size(), -1), std::vector<double>(inputs.size(), -1)};
   std::vector<double> state(model.state_size());
   model.rest(inputs.front(), state);
-  CHECK(model.run(inputs, {.step = kStep}, state, {got.force.data(), got.spread.data()}) ==
+  CHECK(model.run(inputs, {.step = kRunStep}, state, {got.force.data(), got.spread.data()}) ==
         inputs.size());
   CHECK(got.force == expected.force);
   CHECK(got.spread == expected.spread);
@@ -47,7 +47,7 @@ LawModel quick(const Law& law) {
 }  // namespace
 
 TEST_CASE("a series of samples gives the bits that stepping gives, whatever the current does") {
-  std::vector<DamperInput> moving = export_run({-0.02, 0.02, -0.3, 0.3, 0, 2}, kStep, 600);
+  std::vector<DamperInput> moving = export_run({-0.02, 0.02, -0.3, 0.3, 0, 2}, kRunStep, 600);
   std::vector<DamperInput> held = moving;
   for (std::size_t k = 0; k < held.size(); ++k) held[k].current = k < 290 ? 0.5 : 1.5;
   for (const std::vector<DamperInput>* inputs : {&moving, &held}) {
@@ -76,6 +76,6 @@ TEST_CASE("a series ends before the first force that is no number") {
       std::vector<double> state(model.state_size());
       model.rest(inputs.front(), state);
       CAPTURE(name);
-      CHECK(model.run(some, {.step = kStep}, state, {force.data()}) == broken);
+      CHECK(model.run(some, {.step = kRunStep}, state, {force.data()}) == broken);
     }
 }

@@ -30,7 +30,7 @@ std::string family_file(const TemporaryFolder& folder, const FamilyModel& model)
   return path.string();
 }
 
-DesignReport designed(const std::string& text, DesignOptions options) {
+DesignReport designed_by_family(const std::string& text, DesignOptions options) {
   options.threads = 1;
   return design(parse_request(text, "request.yaml"), options);
 }
@@ -81,7 +81,7 @@ TEST_CASE(
 TEST_CASE("design beyond a family: marked, or kept within it by a constraint of its own") {
   const TemporaryFolder folder;
   const std::string file = family_file(folder, example_family());
-  const DesignReport marked = designed(kRequest, {.model = file});
+  const DesignReport marked = designed_by_family(kRequest, {.model = file});
   REQUIRE(marked.designs.size() == 1);
   CHECK_CLOSE(marked.designs[0].damper.gap, 3e-3, 1e-6, 0);
   REQUIRE(!marked.designs[0].outside.empty());
@@ -89,7 +89,7 @@ TEST_CASE("design beyond a family: marked, or kept within it by a constraint of 
   CHECK(csv_design(marked).find("the family has") != std::string::npos);
   CHECK(design_verdict(marked).find("beyond the dampers") != std::string::npos);
 
-  const DesignReport within = designed(kRequest, {.model = file, .refuse_outside = true});
+  const DesignReport within = designed_by_family(kRequest, {.model = file, .refuse_outside = true});
   REQUIRE(within.designs.size() == 1);
   CHECK(within.designs[0].outside.empty());
   CHECK_CLOSE(within.designs[0].damper.gap, 2e-3, 1e-4, 0);
@@ -103,7 +103,7 @@ TEST_CASE("design by two models: constraints and goals of either, and by how muc
 constraints: [{quantity: force, min: 1 N}, {quantity: force, max: 1 MN, by: both}]
 goals: [{maximise: force, by: second}]
 )";
-  const DesignReport report = designed(request, {.model = "physics", .second = file});
+  const DesignReport report = designed_by_family(request, {.model = "physics", .second = file});
   REQUIRE(report.designs.size() == 1);
   const Design& own = report.designs[0];
   CHECK(report.request.constraints.size() == 3);
@@ -116,7 +116,7 @@ goals: [{maximise: force, by: second}]
   CHECK(std::ranges::any_of(table.columns, [](const TextColumn& column) {
     return column.title.find("family_h3x15") != std::string::npos;
   }));
-  CHECK(message_of([&] { designed(request, {.model = file}); }).find("second model") !=
+  CHECK(message_of([&] { designed_by_family(request, {.model = file}); }).find("second model") !=
         std::string::npos);
 }
 
@@ -125,12 +125,12 @@ TEST_CASE("design by a family: what it cannot know is told") {
   const std::string file = family_file(folder, example_family());
   const std::string request = std::string(kRequest).substr(0, std::string(kRequest).find("goals")) +
                               "goals: [{maximise: force, current: 3 A}]";
-  const DesignReport report = designed(request, {.model = file});
+  const DesignReport report = designed_by_family(request, {.model = file});
   REQUIRE(report.notes.size() == 2);
   CHECK(report.notes[0] == "family_gated knows a current up to 1 A, not of 3 A");
   CHECK(report.notes[1].find("does not see turns:") != std::string::npos);  // it reads the current
   CHECK(message_of([&] {
-          designed(request, {.model = file, .refuse_outside = true});
+          designed_by_family(request, {.model = file, .refuse_outside = true});
         }).find("3 A") != std::string::npos);
   const std::string law = folder.write("law.json", "{}").string();
   CHECK_THROWS_AS(make_design_model(law, "--model"), Error);

@@ -10,13 +10,13 @@ using namespace dashpot;
 
 namespace {
 
-constexpr double kStep = 2e-3;  // s, the controller's
+constexpr double kControlStep = 2e-3;  // s, the controller's
 
 /// An accelerometer's integral decides: every sample that is lost, doubled or late changes what
 /// follows.
 const CBlockMaker& skyhook() {
   static const Vehicle vehicle = make_vehicle(
-      {.controller = "skyhook_modified", .sample_time = kStep, .sensors = {.in_car = true}});
+      {.controller = "skyhook_modified", .sample_time = kControlStep, .sensors = {.in_car = true}});
   static const CBlockMaker maker = [](const ExportOptions& options) {
     return c_controller_block(vehicle, options);
   };
@@ -36,7 +36,7 @@ const CBlock& block() {
 }
 
 template <class Test>
-void for_both_versions(Test test) {
+void for_both_skyhooks(Test test) {
   if (!has_compiler()) return;
   for (const int version : {2, 3}) {
     CAPTURE(version);
@@ -57,7 +57,7 @@ std::vector<double> between(const std::vector<double>& from, const std::vector<d
 void check_fine_steps(const LoadedFmu& fmu, std::size_t parts) {
   FmuInstance instance(fmu, false);
   instance.initialize_at(inputs_at(0));
-  const double length = kStep / static_cast<double>(parts);
+  const double length = kControlStep / static_cast<double>(parts);
   for (std::size_t k = 1; k < block().samples.size(); ++k)
     for (std::size_t part = 1; part <= parts; ++part) {
       REQUIRE(instance.step(static_cast<double>((k - 1) * parts + part - 1) * length, length) == 0);
@@ -71,7 +71,7 @@ void check_fine_steps(const LoadedFmu& fmu, std::size_t parts) {
 }  // namespace
 
 TEST_CASE("FMU of a block: between samples commands are held, however short the steps") {
-  for_both_versions([](const LoadedFmu& fmu) {
+  for_both_skyhooks([](const LoadedFmu& fmu) {
     for (const std::size_t parts : {1, 2, 3, 10}) {
       CAPTURE(parts);
       check_fine_steps(fmu, parts);
@@ -80,17 +80,17 @@ TEST_CASE("FMU of a block: between samples commands are held, however short the 
 }
 
 TEST_CASE("FMU of a block: samples within a longer step see inputs that are linear") {
-  for_both_versions([](const LoadedFmu& fmu) {
+  for_both_skyhooks([](const LoadedFmu& fmu) {
     // Three samples to a step in one, step by step in the other.
     FmuInstance longer(fmu, false), shorter(fmu, false);
     longer.initialize_at(inputs_at(0));
     shorter.initialize_at(inputs_at(0));
     for (std::size_t k = 3; k < block().samples.size(); k += 3) {
-      const double time = static_cast<double>(k - 3) * kStep;
-      REQUIRE(longer.step(time, 3 * kStep) == 0);
+      const double time = static_cast<double>(k - 3) * kControlStep;
+      REQUIRE(longer.step(time, 3 * kControlStep) == 0);
       REQUIRE(longer.set_inputs(inputs_at(k)) == 0);
       for (int part = 1; part <= 3; ++part) {
-        REQUIRE(shorter.step(time + (part - 1) * kStep, kStep) == 0);
+        REQUIRE(shorter.step(time + (part - 1) * kControlStep, kControlStep) == 0);
         REQUIRE(shorter.set_inputs(part == 3
                                        ? inputs_at(k)
                                        : between(inputs_at(k - 3), inputs_at(k), part / 3.0)) == 0);
@@ -103,11 +103,11 @@ TEST_CASE("FMU of a block: samples within a longer step see inputs that are line
 TEST_CASE(
     "FMU of a block: inputs set before the command is read are the sample's, else those of "
     "before") {
-  for_both_versions([](const LoadedFmu& fmu) {
+  for_both_skyhooks([](const LoadedFmu& fmu) {
     FmuInstance set(fmu, false), held(fmu, false), late(fmu, false);
     for (FmuInstance* instance : {&set, &held, &late}) {
       instance->initialize_at(inputs_at(0));
-      REQUIRE(instance->step(0, kStep) == 0);
+      REQUIRE(instance->step(0, kControlStep) == 0);
     }
     REQUIRE(set.set_inputs(inputs_at(40)) == 0);
     REQUIRE(held.set_inputs(inputs_at(0)) == 0);
@@ -116,7 +116,7 @@ TEST_CASE(
     CHECK(late.get("command") == set.get("command"));
     CHECK(set.get("command") != held.get("command"));
     // No sample: what is set now waits.
-    REQUIRE(set.step(kStep, 0.4 * kStep) == 0);
+    REQUIRE(set.step(kControlStep, 0.4 * kControlStep) == 0);
     const double command = set.get("command");
     REQUIRE(set.set_inputs(inputs_at(0)) == 0);
     CHECK(set.get("command") == command);
@@ -161,7 +161,7 @@ TEST_CASE(
 }
 
 TEST_CASE("FMU of a block: a state taken between two samples goes on as if nothing had been") {
-  for_both_versions([](const LoadedFmu& fmu) {
+  for_both_skyhooks([](const LoadedFmu& fmu) {
     const std::string word = fmu.version == 2 ? "FMUstate" : "FMUState";
     FmuInstance one(fmu, false), two(fmu, false);
     one.initialize_at(inputs_at(0));
@@ -169,7 +169,7 @@ TEST_CASE("FMU of a block: a state taken between two samples goes on as if nothi
     const auto run = [](FmuInstance& instance, int from, int to) {
       std::vector<double> commands;
       for (int k = from; k < to; ++k) {
-        CHECK(instance.step(0.7 * kStep * k, 0.7 * kStep) == 0);
+        CHECK(instance.step(0.7 * kControlStep * k, 0.7 * kControlStep) == 0);
         CHECK(instance.set_inputs(inputs_at(static_cast<std::size_t>(k))) == 0);
         commands.push_back(instance.get("command"));
       }
@@ -194,7 +194,7 @@ TEST_CASE("FMU of a block: a state taken between two samples goes on as if nothi
 }
 
 TEST_CASE("FMU of a block: what it cannot do ends in an error and a message") {
-  for_both_versions([](const LoadedFmu& fmu) {
+  for_both_skyhooks([](const LoadedFmu& fmu) {
     FmuInstance exchange(fmu, true);
     CHECK(exchange.handle == nullptr);
     CHECK(exchange.messages.size() == 1);
@@ -218,7 +218,7 @@ TEST_CASE("FMU of a block: what it cannot do ends in an error and a message") {
     CHECK(says("command is neither an input nor a parameter"));
     CHECK(instance.set({1}, {std::numeric_limits<double>::infinity()}) == 3);
     CHECK(says("the value for body_acceleration is not a finite number"));
-    for (const double length : {1e9, HUGE_VAL, -kStep}) {
+    for (const double length : {1e9, HUGE_VAL, -kControlStep}) {
       CHECK(instance.step(0, length) == 3);
       CHECK(says("is impossible"));
     }

@@ -13,7 +13,6 @@ using namespace dashpot;
 
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Rosenbrock's function as residuals 10 (y - x^2) and 1 - x, with its Jacobian.
 LeastSquaresProblem rosenbrock() {

@@ -19,7 +19,7 @@
 namespace dashpot {
 namespace {
 
-constexpr double kFails = 1e6;  // in units of the goals' extent
+constexpr double kFailsFront = 1e6;  // in units of the goals' extent
 using Places = std::vector<pagmo::vector_double>;
 
 /// The problem as pagmo sees it; a place that fails is worse in every goal than any that holds.
@@ -31,7 +31,7 @@ struct PagmoProblem {
     ++*evaluations;
     FrontProblem::Value value = problem->evaluate(place);
     if (value.violation > 0)
-      return pagmo::vector_double(problem->goals, kFails * (1 + value.violation));
+      return pagmo::vector_double(problem->goals, kFailsFront * (1 + value.violation));
     for (std::size_t k = 0; k < value.goals.size(); ++k) value.goals[k] /= problem->scale[k];
     return value.goals;
   }
@@ -66,7 +66,7 @@ class Archive {
   explicit Archive(std::size_t most) : most_(most) {}
   void add(const pagmo::population& population) {
     for (std::size_t k = 0; k < population.size(); ++k)
-      if (const auto& goals = population.get_f()[k]; goals[0] < kFails)
+      if (const auto& goals = population.get_f()[k]; goals[0] < kFailsFront)
         insert(population.get_x()[k], goals);
     if (places_.size() <= most_) return;
     std::vector<std::size_t> kept = pagmo::select_best_N_mo(goals_, most_);

@@ -104,9 +104,9 @@ std::vector<bool> held_by_bounds(const LeastSquaresProblem& problem, const std::
 
 /// Passes iterations on; stops Ceres once a callback has thrown, or when another unknown arrives at
 /// a bound.
-class Listener final : public ceres::IterationCallback {
+class LeastSquaresListener final : public ceres::IterationCallback {
  public:
-  Listener(const LeastSquaresProblem& problem, const LeastSquaresOptions& options,
+  LeastSquaresListener(const LeastSquaresProblem& problem, const LeastSquaresOptions& options,
            const LeastSquaresReport& report, std::exception_ptr& failure)
       : problem_(problem), options_(options), report_(report), failure_(failure) {}
 
@@ -138,7 +138,7 @@ class Listener final : public ceres::IterationCallback {
   bool hopeless_ = false;
 };
 
-ceres::Solver::Options ceres_options(const LeastSquaresOptions& options, Listener& listener) {
+ceres::Solver::Options ceres_options(const LeastSquaresOptions& options, LeastSquaresListener& listener) {
   ceres::Solver::Options result;
   result.linear_solver_type =
       options.normal_equations ? ceres::DENSE_NORMAL_CHOLESKY : ceres::DENSE_QR;
@@ -261,7 +261,7 @@ LeastSquaresReport solve(const LeastSquaresProblem& problem, std::vector<double>
     report.x[k] = std::clamp(report.x[k], problem.lower[k], problem.upper[k]);
 
   std::exception_ptr failure;
-  Listener listener(problem, options, report, failure);
+  LeastSquaresListener listener(problem, options, report, failure);
   WholeProblem whole(problem, options, failure);
   ceres::Solver::Options settings = ceres_options(options, listener);
 

@@ -33,9 +33,9 @@ class Wrapped final : public ceres::FirstOrderFunction {
   std::exception_ptr& failure_;
 };
 
-class Listener final : public ceres::IterationCallback {
+class MinimiseListener final : public ceres::IterationCallback {
  public:
-  Listener(const MinimiseOptions& options, const std::vector<double>& x,
+  MinimiseListener(const MinimiseOptions& options, const std::vector<double>& x,
            std::exception_ptr& failure)
       : options_(options), x_(x), failure_(failure) {}
 
@@ -64,7 +64,7 @@ MinimiseReport minimise(const SmoothFunction& function, std::vector<double> star
   MinimiseReport report;
   report.x = std::move(start);
   std::exception_ptr failure;
-  Listener listener(options, report.x, failure);
+  MinimiseListener listener(options, report.x, failure);
 
   // L-BFGS is Ceres' default direction; the line search keeps Wolfe's conditions.
   ceres::GradientProblemSolver::Options how;

@@ -129,7 +129,7 @@ void take_channels(Record& record, RawTable& table, const ColumnUses& uses) {
   }
 }
 
-const Channel& motion_of(const Record& record) {
+const Channel& motion_channel(const Record& record) {
   const Channel* displacement = record.find("displacement");
   return displacement ? *displacement : record.channel("velocity");
 }
@@ -154,7 +154,7 @@ void cut(Record& record, const FileStatement& statement) {
   if (statement.cut_rest) {
     const std::size_t n = last - first;
     const auto [begin, end] = moving_part(std::span(record.time).subspan(first, n),
-                                          std::span(motion_of(record).samples).subspan(first, n));
+                                          std::span(motion_channel(record).samples).subspan(first, n));
     last = first + end;
     first += begin;
   }

@@ -104,10 +104,10 @@ DriveSignal amplitude_modulated_binary(std::span<const double> values, const Dri
 
 constexpr ParameterRow kClock{"clock", "s", 0.05, 1e-5, 1e4, "time of one bit"};
 constexpr ParameterRow kOrder{"order", "1", 9, 3, 16, "bits of the shift register", true};
-constexpr std::string_view kPaper =
+constexpr std::string_view kDriveSource =
     "the one-sensor paper, after Lozoya-Santos et al. 2009; times our own";
 
-const std::array kSequences{
+const std::array kDriveSequences{
     DriveSequence{
         {.name = "APRBS",
          .title = "Amplitude-modulated pseudo-random binary signal",
@@ -120,7 +120,7 @@ const std::array kSequences{
         {.name = "ICPS",
          .title = "Increased clock period signal",
          .equation = "the k-th level lasts k clock and is uniform in low ... high",
-         .source = kPaper,
+         .source = kDriveSource,
          .remarks = "Fast changes first, then slower and slower ones. The paper says that the "
                     "amplitude is random; that the period grows in proportion is recalled.",
          .params = {{"clock", "s", 0.02, 1e-5, 1e4, "time of the first level"}}},
@@ -129,7 +129,7 @@ const std::array kSequences{
         {.name = "PRBS",
          .title = "Pseudo-random binary signal",
          .equation = "low or high by the bits of a maximum-length shift register",
-         .source = kPaper,
+         .source = kDriveSource,
          .remarks = "2^order - 1 bits long, one more high than low; the seed is where it begins.",
          .params = {kClock, kOrder}},
         pseudo_random_binary},
@@ -137,7 +137,7 @@ const std::array kSequences{
         {.name = "SC",
          .title = "Stepped constants",
          .equation = "low + (high - low) k / (levels - 1), k = 0 ... levels - 1, each for hold",
-         .source = kPaper,
+         .source = kDriveSource,
          .remarks = "The paper's SC (10) and SC (2) are levels = 10 and 2. Begins again at low.",
          .params = {{"levels", "1", 10, 2, 1000, "number of constants", true},
                     {"hold", "s", 0, 0, 1e5, "time of each; 0: the duration over levels"}}},
@@ -146,7 +146,7 @@ const std::array kSequences{
 
 }  // namespace
 
-std::span<const DriveSequence> drive_sequences() { return kSequences; }
+std::span<const DriveSequence> drive_sequences() { return kDriveSequences; }
 
 std::vector<bool> maximum_length_bits(int order, std::uint32_t start, std::size_t count) {
   // Bits that are fed back, of primitive polynomials: 0x60 is x^7 + x^6 + 1.

@@ -6,14 +6,13 @@
 
 #include "dashpot/base/text.h"
 #include "dashpot/error.h"
+#include "dashpot/numerics/constants.h"
 #include "dashpot/parameter_table.h"
 #include "dashpot/record/excitation.h"
 #include "dashpot/record/road_deflection.h"
 
 namespace dashpot {
 namespace {
-
-constexpr double kTurn = 2 * std::numbers::pi;
 
 struct AmplitudeModulated {
   double amplitude, speed_max, carrier, modulation, depth, duration;
@@ -191,16 +190,16 @@ constexpr ParameterRow kFrequencyMin{"frequency_min", "Hz", 0.5, 1e-3, 500, "lea
 constexpr ParameterRow kFrequencyMax{"frequency_max", "Hz", 15, 1e-3, 500, "greatest frequency"};
 constexpr ParameterRow kDuration{"duration", "s", 60, 0.1, 3600, "length of the motion"};
 constexpr ParameterRow kRepeats{"repeats", "1", 1, 1, 1000, "times that it is run through", true};
-constexpr std::string_view kPaper =
+constexpr std::string_view kMotionSource =
     "the one-sensor paper (its ranges), after Lozoya-Santos et al. 2009; all other numbers our own";
 
-const std::array kSequences{
+const std::array kMotionSequences{
     MotionSequence{
         {.name = "AM",
          .title = "Amplitude-modulated sine",
          .equation = "x = -A(t) cos(2 pi carrier t)\n"
                      "A(t) = amplitude (1 - depth cos(2 pi modulation t)) / (1 + depth)",
-         .source = kPaper,
+         .source = kMotionSource,
          .remarks = "One frequency at every amplitude. Begins at the least amplitude.",
          .params = {kAmplitude,
                     kSpeedMax,
@@ -215,7 +214,7 @@ const std::array kSequences{
          .equation = "x = -A(f) cos(phi),  phi' = 2 pi f\n"
                      "f between frequency_min and frequency_max as 1 - cos(2 pi modulation t)\n"
                      "A(f) = amplitude (1 + (2 pi f amplitude / s)^8)^(-1/8)",
-         .source = kPaper,
+         .source = kMotionSource,
          .remarks = "Every frequency. Begins at the lowest. s is as far below speed_max as the "
                     "changing amplitude needs.",
          .params = {kAmplitude,
@@ -250,7 +249,7 @@ const std::array kSequences{
          .title = "Stepped frequency sinusoid",
          .equation = "x = A(f) sin(2 pi f t), whole periods at f = frequency_min, + step, ...\n"
                      "A(f) = min(amplitude, speed_max / (2 pi f))",
-         .source = kPaper,
+         .source = kMotionSource,
          .remarks = "Each packet comes and goes over half a period, so that a bench can follow: "
                     "the bare definition asks for jumps of velocity.",
          .params = {kAmplitude,
@@ -265,7 +264,7 @@ const std::array kSequences{
         {.name = "TPNVS",
          .title = "Triangular wave with positive and negative variable slopes",
          .equation = "x' = +-v_k, v_k = speed_min ... speed_max in equal ratios",
-         .source = kPaper,
+         .source = kMotionSource,
          .remarks = "Constant speed on every stroke, as great in one direction as in the other. "
                     "The turns have a constant acceleration, as a bench has. A speed that the "
                     "stroke is too short for is reduced.",
@@ -281,6 +280,6 @@ const std::array kSequences{
 
 }  // namespace
 
-std::span<const MotionSequence> motion_sequences() { return kSequences; }
+std::span<const MotionSequence> motion_sequences() { return kMotionSequences; }
 
 }  // namespace dashpot

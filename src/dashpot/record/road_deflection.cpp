@@ -8,12 +8,12 @@
 
 #include "dashpot/base/random.h"
 #include "dashpot/error.h"
+#include "dashpot/numerics/constants.h"
 
 namespace dashpot {
 namespace {
 
 using Complex = std::complex<double>;
-constexpr double kTurn = 2 * std::numbers::pi;
 
 /// |deflection / road| at f Hz of the one-sensor paper's quarter-car (its table 7).
 double deflection_gain(double f, double damping) {

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "dashpot/base/text.h"
+#include "dashpot/numerics/constants.h"
 #include "dashpot/record/differentiate.h"
 #include "dashpot/report/provenance.h"
 #include "dashpot/report/series.h"
@@ -15,8 +16,6 @@ namespace dashpot {
 namespace {
 
 constexpr double kPointsOfPage = 250000;  ///< about 16 bytes each in base64
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-
 /// A second velocity, from displacement, for a record that brings a velocity of its own.
 Channel derived_velocity(const Record& record) {
   const Channel* velocity = record.find("velocity");
@@ -127,7 +126,7 @@ std::string role_name(Role role) {
 
 /// Least and greatest sample of a channel.
 std::pair<double, double> extent_of(const Channel* channel) {
-  if (!channel || channel->samples.empty()) return {kNone, kNone};
+  if (!channel || channel->samples.empty()) return {kNoNumber, kNoNumber};
   const auto [least, greatest] = std::ranges::minmax(channel->samples);
   return {least, greatest};
 }
@@ -147,9 +146,9 @@ DocumentTable record_table(const Dataset& dataset) {
                force = extent_of(record.find("force"));
     std::vector<DocumentCell> row{{record.name}, {record.condition}};
     for (const double value :
-         {record.drive_level.value_or(kNone), static_cast<double>(record.size()),
+         {record.drive_level.value_or(kNoNumber), static_cast<double>(record.size()),
           record.size() ? record.time.back() - record.time.front() : 0.0,
-          record.sample_time > 0 ? 1 / record.sample_time : kNone, x.first, x.second,
+          record.sample_time > 0 ? 1 / record.sample_time : kNoNumber, x.first, x.second,
           std::max(std::abs(v.first), std::abs(v.second)), force.first, force.second})
       row.push_back({number_text(value), value});
     row[3].text = std::to_string(record.size());

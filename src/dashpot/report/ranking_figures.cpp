@@ -71,7 +71,7 @@ std::string drive_text(const RecordResult& result, const std::string& unit) {
   return result.drive_level ? format_number(*result.drive_level, 3) + " " + unit : result.record;
 }
 
-std::string level_colour(std::size_t level, std::size_t count) {
+std::string level_class(std::size_t level, std::size_t count) {
   return fmt::format("level-{}-{}", level + 1, count);
 }
 
@@ -158,7 +158,7 @@ class RecordPanels {
     const auto place =
         static_cast<std::size_t>(std::ranges::find(together, &curves) - together.begin());
     const std::string drive = drive_text(first, to_string(input_.dataset.drive_unit)),
-                      colour = level_colour(place, together.size());
+                      colour = level_class(place, together.size());
     std::vector<std::pair<FigurePanel*, std::size_t>> axes;
     for (const auto& [panel, samples] :
          {std::pair{&velocity_, &first.velocity}, std::pair{&displacement_, &first.displacement}})
@@ -350,7 +350,7 @@ void add_peaks(FigurePanel& panel, const RankedModel& model, std::size_t place,
   for (auto& [key, peaks] : levels) {
     std::ranges::sort(peaks, {}, &Peak::velocity);
     FigureSeries measured{.label = key.second,
-                          .colour = level_colour(level++, levels.size()),
+                          .colour = level_class(level++, levels.size()),
                           .x = {},
                           .y = {},
                           .mark = Mark::Dots,

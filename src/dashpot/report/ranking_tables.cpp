@@ -11,13 +11,12 @@
 #include "dashpot/base/text.h"
 #include "dashpot/identify/judge/conformal.h"
 #include "dashpot/identify/judge/stress.h"
+#include "dashpot/numerics/constants.h"
 #include "dashpot/report/safe_text.h"
 #include "dashpot/report/words.h"
 
 namespace dashpot {
 namespace {
-
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 /// A column of the ranking: its name for programs, how people see it, and a model's cell in it.
 struct ModelColumn {
@@ -54,7 +53,7 @@ ModelColumn figure(const char* name, const char* title, const char* hint, Figure
           {.title = title, .numeric = true, .hint = hint, .descending = descending},
           [=](const RankedModel& model) {
             return is_judged(model) ? DocumentCell{text(value(model)), value(model)}
-                                    : DocumentCell{"-", kNone};
+                                    : DocumentCell{"-", kNoNumber};
           }};
 }
 
@@ -65,7 +64,7 @@ double pre_yield_rmse(Model m) {
 }
 
 /// What was not measured, as of a model that was fitted elsewhere, is no zero.
-double none_for_zero(double value) { return value > 0 ? value : kNone; }
+double none_for_zero(double value) { return value > 0 ? value : kNoNumber; }
 
 /// Every column that a table of models may have.
 const std::vector<ModelColumn>& model_columns() {
@@ -121,7 +120,7 @@ const std::vector<ModelColumn>& model_columns() {
         figure(
             "interval_width_N", "Width N", "Mean width of that interval",
             [](Model m) {
-              return m.left_out.coverage.samples ? m.left_out.coverage.mean_width() : kNone;
+              return m.left_out.coverage.samples ? m.left_out.coverage.mean_width() : kNoNumber;
             },
             three_digits),
         figure(
@@ -145,7 +144,7 @@ const std::vector<ModelColumn>& model_columns() {
           .numeric = true,
           .hint = "90 % interval of the paired difference of its ESR to the first "
                   "model's"},
-         [](Model m) { return DocumentCell{behind_text(m), m.behind ? m.behind->esr : kNone}; }});
+         [](Model m) { return DocumentCell{behind_text(m), m.behind ? m.behind->esr : kNoNumber}; }});
     all.push_back(words("told_apart", "Apart",
                         "Whether the data tell the model from the first one: that interval does "
                         "not hold 0",
@@ -158,7 +157,7 @@ const std::vector<ModelColumn>& model_columns() {
                             "1 % of the force span for good; or no, and what is left between them"},
                    [](Model m) {
                      return DocumentCell{forgetting_text(m.forgetting),
-                                         m.forgetting.is_tested ? m.forgetting.seconds : kNone};
+                                         m.forgetting.is_tested ? m.forgetting.seconds : kNoNumber};
                    }});
 
     // Behaviour beyond the data: in a word, and on a page with the number to sort by.
@@ -333,7 +332,7 @@ DocumentTable parameter_table(const FitReport& fit) {
   for (const FittedParameter& p : fit.parameters) {
     add_row(table, {{p.name},
                     {number_text(p.value, 5), p.value},
-                    {interval_text(p), p.fixed ? kNone : p.high - p.low},
+                    {interval_text(p), p.fixed ? kNoNumber : p.high - p.low},
                     {p.unit},
                     {p.meaning},
                     {remark(p)}});
@@ -370,7 +369,7 @@ DocumentTable record_table(const Evaluation& evaluation) {
                     percent(r.metrics_without_offset.esr),
                     percent(r.energy_error),
                     percent(r.coverage.percent()),
-                    {end, r.diverged_at.value_or(kNone)}});
+                    {end, r.diverged_at.value_or(kNoNumber)}});
     table.warnings.push_back(r.diverged_at.has_value());
   }
   return table;

@@ -1,16 +1,14 @@
 // A sweep for programs: tables and JSON.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "dashpot/base/text.h"
+#include "dashpot/numerics/constants.h"
 #include "dashpot/report/sweep_report.h"
 #include "dashpot/suspension/sweep/statistics.h"
 
 namespace dashpot {
 namespace {
-
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 /// A table that is filled row by row: texts first, then numbers.
 class Rows {
@@ -89,7 +87,7 @@ void add_spread_columns(Rows& rows) {
 std::vector<double> figures_of(const SweepSpread& spread) {
   std::vector<double> figures{static_cast<double>(spread.count), spread.mean, spread.deviation};
   for (const Quantile& q : spread.quantiles)
-    figures.insert(figures.end(), {q.value, q.low.value_or(kNone), q.high.value_or(kNone)});
+    figures.insert(figures.end(), {q.value, q.low.value_or(kNoNumber), q.high.value_or(kNoNumber)});
   return figures;
 }
 

@@ -3,12 +3,12 @@
 #include "support.h"
 
 namespace {
-constexpr Arctan kDamper{
+constexpr Arctan kArctanDamper{
     .f_y = 600, .kappa = 80, .v_h = 0.01, .c = 1000, .a_s = 0.05, .r = 200, .f0 = 20};
 
 double force(double v, double a) {
-  const double z = v - a / kDamper.r;
-  return arctan_force(&kDamper, 0, v, &z);
+  const double z = v - a / kArctanDamper.r;
+  return arctan_force(&kArctanDamper, 0, v, &z);
 }
 }  // namespace
 

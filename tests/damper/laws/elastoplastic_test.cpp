@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kAmplitude = 0.01, kSpeed = 2 * std::numbers::pi * kAmplitude;
 
-DamperInput sine(double t) {
+DamperInput slow_sine(double t) {
   const double phase = 2 * std::numbers::pi * t;
   return {kAmplitude * std::sin(phase), kSpeed * std::cos(phase), 0};
 }
@@ -26,15 +26,15 @@ TEST_CASE(
   for (const int samples : {500, 4000}) {
     const double h = 1.0 / samples;
     std::vector<double> state(1);
-    model.rest(sine(0), state);
+    model.rest(slow_sine(0), state);
     double energy = 0, before = 0, crossing = 0;
     for (int k = 0; k < 2 * samples; ++k) {
-      const DamperInput now = sine(k * h);
+      const DamperInput now = slow_sine(k * h);
       const double force = model.force(now, state);
       if (k >= samples) energy += force * now.velocity * h;
       if (before > 0 && force <= 0) crossing = now.displacement;
       before = force;
-      model.advance(now, sine((k + 1) * h), h, state);
+      model.advance(now, slow_sine((k + 1) * h), h, state);
     }
     // The crossing lies between two samples, |v| h apart.
     CHECK_CLOSE(crossing, 7.5e-3, 0, 0.041559364 * h + 2e-6);

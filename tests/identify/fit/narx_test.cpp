@@ -9,7 +9,7 @@ using namespace dashpot;
 
 namespace {
 
-Dataset campaign(std::vector<SineMotion> motions, double sample_rate = 100) {
+Dataset sampled_campaign(std::vector<SineMotion> motions, double sample_rate = 100) {
   Dataset dataset = small_campaign(std::move(motions), {.sample_rate = sample_rate});
   for (Record& record : dataset.records)
     record.warm_up = 20;  // they begin in motion, models at rest
@@ -29,7 +29,7 @@ const NarxModel& narx(const FitReport& fit) { return dynamic_cast<const NarxMode
 
 TEST_CASE(
     "a NARX network learns a damper in free run, with the same bits on any number of threads") {
-  const std::vector<Record> training = campaign({{0.01, 1}, {0.005, 3}}).records;
+  const std::vector<Record> training = sampled_campaign({{0.01, 1}, {0.005, 3}}).records;
   IdentifyOptions options = with("hidden=6,epochs=20,l2=1e-5");
   const FitReport one = identify("narx_one_sensor", training, DriveUnit::Ampere, options);
   options.threads = 3;
@@ -41,11 +41,11 @@ TEST_CASE(
   CHECK_CLOSE(one.training_rmse, seen.pooled.rmse, 0.5, 0);
   REQUIRE(seen.one_step);
   CHECK(seen.one_step->esr < 1);
-  CHECK(evaluate(*one.model, campaign({{0.007, 2}}).records, DriveUnit::Ampere).pooled.esr < 3);
+  CHECK(evaluate(*one.model, sampled_campaign({{0.007, 2}}).records, DriveUnit::Ampere).pooled.esr < 3);
 }
 
 TEST_CASE("a network's design says what it reads and what comes back") {
-  const std::vector<Record> training = campaign({{0.01, 1}}).records;
+  const std::vector<Record> training = sampled_campaign({{0.01, 1}}).records;
   const FitReport fit =
       identify("narx_two_sensors", training, DriveUnit::Ampere,
                with("hidden=3-2,activation=relu,delays=1,feedback=3,spacing=2,members=2,"
@@ -69,7 +69,7 @@ TEST_CASE("a network's design says what it reads and what comes back") {
 TEST_CASE(
     "the weight decay is found on parts of the training records, the same on any number of "
     "threads") {
-  const std::vector<Record> training = campaign({{0.01, 1}, {0.005, 3}}).records;
+  const std::vector<Record> training = sampled_campaign({{0.01, 1}, {0.005, 3}}).records;
   IdentifyOptions options = with("hidden=3,epochs=5");
   const FitReport one = identify("narx_one_sensor", training, DriveUnit::Ampere, options);
   options.threads = 3;
@@ -87,7 +87,7 @@ TEST_CASE(
 
 TEST_CASE(
     "a step of the network is a millisecond, or a sample where that is longer, unless stated") {
-  const std::vector<Record> training = campaign({{0.01, 1}}, 3000).records;
+  const std::vector<Record> training = sampled_campaign({{0.01, 1}}, 3000).records;
   const auto step = [&](const std::string& settings) {
     return narx(identify("narx_one_sensor", training, DriveUnit::Ampere,
                          with("hidden=2,epochs=2,l2=1e-5" + settings)))
@@ -98,7 +98,7 @@ TEST_CASE(
 }
 
 TEST_CASE("a model that can diverge says so, a bounded one does not") {
-  const std::vector<Record> training = campaign({{0.01, 1}}).records;
+  const std::vector<Record> training = sampled_campaign({{0.01, 1}}).records;
   const auto warnings = [&](const std::string& settings) {
     return identify("narx_one_sensor", training, DriveUnit::Ampere,
                     with("hidden=3,epochs=3,activation=relu" + settings))
@@ -112,7 +112,7 @@ TEST_CASE("a model that can diverge says so, a bounded one does not") {
 }
 
 TEST_CASE("a static preset with delays reads past inputs and feeds nothing back") {
-  const std::vector<Record> training = campaign({{0.01, 1}, {0.005, 3}}).records;
+  const std::vector<Record> training = sampled_campaign({{0.01, 1}, {0.005, 3}}).records;
   const FitReport fit =
       identify("mlp_one_sensor", training, DriveUnit::Ampere, with("hidden=5,l2=1e-4,delays=2"));
   CHECK(narx(fit).regressors().count() == 3 + 1);
@@ -126,8 +126,8 @@ TEST_CASE("a static preset with delays reads past inputs and feeds nothing back"
 }
 
 TEST_CASE("records of several rates are brought to the step of the slowest") {
-  std::vector<Record> training = campaign({{0.01, 1}}, 100).records;
-  for (const Record& record : campaign({{0.01, 1.5}}, 250).records) training.push_back(record);
+  std::vector<Record> training = sampled_campaign({{0.01, 1}}, 100).records;
+  for (const Record& record : sampled_campaign({{0.01, 1.5}}, 250).records) training.push_back(record);
   const FitReport fit =
       identify("narx_one_sensor", training, DriveUnit::Ampere, with("hidden=4,epochs=15,l2=1e-5"));
   CHECK(fit.model->feedback_step() == 0.01);
@@ -138,7 +138,7 @@ TEST_CASE("records of several rates are brought to the step of the slowest") {
 }
 
 TEST_CASE("records that are shorter than the network's past are refused") {
-  std::vector<Record> training = {campaign({{0.01, 1}}).records.front().slice(0, 10)};
+  std::vector<Record> training = {sampled_campaign({{0.01, 1}}).records.front().slice(0, 10)};
   const std::string message = message_of(
       [&] { identify("narx_one_sensor", training, DriveUnit::Ampere, with("delays=20")); });
   CHECK(message.find("no record is longer than the network's past") != std::string::npos);

@@ -12,7 +12,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr Index kBlock = 256;  // samples of which a Gram matrix is made at a time
+constexpr Index kGramBlock = 256;  // samples of which a Gram matrix is made at a time
 
 /// The problem linearised at one point: the Gram matrix of [J r], (n + 1) x (n + 1) and divided by
 /// the number of samples, with the records' best offsets taken out of it, and these offsets.
@@ -31,11 +31,11 @@ class GramSink final : public RowSink {
   GramSink(Index columns, const FreeRunSearchOptions& options)
       : options_(options),
         gram_(MatrixXd::Zero(columns, columns)),
-        block_(columns, kBlock),
+        block_(columns, kGramBlock),
         sums_(VectorXd::Zero(columns)) {}
 
   double* row() override {
-    if (filled_ == kBlock) flush();
+    if (filled_ == kGramBlock) flush();
     return block_.col(filled_++).data();
   }
 

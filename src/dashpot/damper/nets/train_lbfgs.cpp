@@ -13,7 +13,7 @@
 namespace dashpot {
 namespace {
 
-constexpr std::size_t kStretches = 8;  // of samples: as many threads can share the work
+constexpr std::size_t kSampleStretches = 8;  // of samples: as many threads can share the work
 constexpr std::size_t kPass = 64;      // samples that go through the network together
 
 /// Cost and gradient over all samples: sums over fixed stretches, then over those, so that they do
@@ -26,8 +26,8 @@ class FullBatch {
         options_(options),
         blocks_(make_blocks(mlp, samples, options.offset_decay)),
         errors_(mlp, blocks_, options.threads, options.level),
-        sums_(kStretches) {
-    for (std::size_t k = 0; k < kStretches; ++k)
+        sums_(kSampleStretches) {
+    for (std::size_t k = 0; k < kSampleStretches; ++k)
       networks_.push_back(std::make_unique<PaddedNetwork<double>>(mlp, kPass, options.level));
   }
 
@@ -37,12 +37,12 @@ class FullBatch {
     const std::size_t count = samples_.targets.size();
     if (!samples_.group.empty()) offsets_ = errors_.errors(w).offsets;
 
-    parallel_for(kStretches, options_.threads, [&](std::size_t k) {
+    parallel_for(kSampleStretches, options_.threads, [&](std::size_t k) {
       networks_[k]->set_parameters(w);
       sums_[k].squares = 0;
       sums_[k].gradient.assign(w.size(), 0.0);
-      const std::size_t end = (k + 1) * count / kStretches;
-      for (std::size_t first = k * count / kStretches; first < end; first += kPass)
+      const std::size_t end = (k + 1) * count / kSampleStretches;
+      for (std::size_t first = k * count / kSampleStretches; first < end; first += kPass)
         add(*networks_[k], first, std::min(kPass, end - first), sums_[k]);
     });
 

@@ -7,7 +7,7 @@
 namespace dashpot {
 namespace {
 
-constexpr const char* kTest =
+constexpr const char* kBlockTest =
     R"(/* Steps through a run and compares the commands with those of Dashpot @version@ in
  * double precision. Returns 0 when they agree within @tolerance@ of their range wherever a command
  * makes a difference. */
@@ -96,7 +96,7 @@ std::vector<ExportedFile> c_block_sources(const CBlock& block, const std::string
 std::vector<ExportedFile> write_c_block(const CBlock& block, const std::string& command) {
   std::vector<ExportedFile> files = c_block_sources(block, block.name, command);
   const std::string test =
-      filled(kTest, {{"version", block.version},
+      filled(kBlockTest, {{"version", block.version},
                      {"steps", std::to_string(block.samples.size())},
                      {"inputs", std::to_string(block.samples.front().inputs.size())},
                      {"commands", std::to_string(block.samples.front().commands.size())},

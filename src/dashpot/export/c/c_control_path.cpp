@@ -74,8 +74,6 @@ static const ForceLoop kLoop = @gains@;
 #include "force_loop.h"
 )";
 
-std::string number(std::size_t count) { return std::to_string(count); }
-
 bool has(const std::set<std::string>& names, const char* name) { return names.count(name) > 0; }
 
 /// The parts of a strut's state, one behind the other: the filters that make velocities, the laws'
@@ -122,14 +120,14 @@ std::string command_code(const MountedDamper& damper, const CControlLaw& law, co
         {{"ratio", c_number(damper.motion_ratio)},
          {"loop", loops ? "    wanted = force_loop_step(&kLoop, wanted, s->force, "
                           "DAMPER_SAMPLE_TIME, &state[" +
-                              number(at.loop) + "]);\n"
+                              std::to_string(at.loop) + "]);\n"
                         : ""},
          {"limit", loops ? "    force_loop_limit(command, " + c_number(damper.driver.current_min) +
                                ", " + c_number(damper.driver.current_max) + ", &state[" +
-                               number(at.loop) + "]);\n"
+                               std::to_string(at.loop) + "]);\n"
                          : ""},
          {"measured", c_inverse(*damper.inverse).needs_force ? "s->force / ratio" : "0"},
-         {"inverse", number(at.inverse)}});
+         {"inverse", std::to_string(at.inverse)}});
   }
 
   // A parameter that the function does without is named, as compilers ask for it.
@@ -180,7 +178,7 @@ std::string filters_function(const Vehicle& vehicle, const std::set<std::string>
   if (at.slope) {
     texts += "#include \"filtered_slope.h\"\n";
     lines += "  const double deflection_velocity =\n      filtered_slope(measured->deflection, " +
-             c_number(filters.share()) + ", DAMPER_SAMPLE_TIME, &state[" + number(at.slope_at()) +
+             c_number(filters.share()) + ", DAMPER_SAMPLE_TIME, &state[" + std::to_string(at.slope_at()) +
              "]);\n";
   }
 
@@ -217,14 +215,14 @@ std::string rest_function(const MountedDamper& damper, const Layout& at, bool in
         "  state[1] = (isfinite(measured->body_acceleration) != 0) ? measured->body_acceleration : "
         "0;\n";
   if (at.slope)
-    lines += "  state[" + number(at.slope_at() + 1) +
+    lines += "  state[" + std::to_string(at.slope_at() + 1) +
              "] = (isfinite(measured->deflection) != 0) ? measured->deflection : 0;\n";
   if (inverts)
     lines +=
         "  DamperInput still;\n  still.displacement = " + c_number(damper.motion_ratio) +
         " * measured->deflection;\n  still.velocity = 0;\n  still.current = measured->current;\n"
         "  inverse_rest(&still, &state[" +
-        number(at.inverse) + "]);\n";
+        std::to_string(at.inverse) + "]);\n";
   if (lines.empty()) lines = "  (void)measured;\n  (void)state;\n";
   return "static void strut_rest(const damper_signals* measured, double* state) {\n" + lines +
          "}\n\n";

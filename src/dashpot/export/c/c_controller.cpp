@@ -13,14 +13,14 @@
 namespace dashpot {
 namespace {
 
-constexpr std::size_t kTestSteps = 200;
+constexpr std::size_t kControllerTestSteps = 200;
 
-constexpr const char* kAbout =
+constexpr const char* kControllerAbout =
     R"(Dampers: @dampers@.
 Damping from @damping_min@ to @damping_max@ N*s/m over commands from @low@ to @high@@unit@.@inverse@
 @sensors@)";
 
-constexpr const char* kHeader = R"(/* @title@
+constexpr const char* kControllerHeader = R"(/* @title@
  *
  * For @plant@. @about@
  *
@@ -52,8 +52,6 @@ std::string with_lines(std::string text, const std::string& name, const std::str
   const std::string place = "  /* @" + name + "@ */\n";
   return text.replace(text.find(place), place.size(), lines);
 }
-
-std::string number(std::size_t count) { return std::to_string(count); }
 
 std::string fields_of(const CControlPath& path) {
   std::string fields;
@@ -125,10 +123,10 @@ std::vector<std::pair<std::string, std::string>> facts(const Vehicle& vehicle,
       {"sensors", sensors_text(vehicle, path)},
       {"deviations", std::string(c_deviations())},
       {"version", options.version},
-      {"struts", number(struts)},
+      {"struts", std::to_string(struts)},
       {"plant_states",
-       states ? "#define DAMPER_PLANT_STATES " + number(path.plant_states) + "\n" : std::string()},
-      {"size", number(size)},
+       states ? "#define DAMPER_PLANT_STATES " + std::to_string(path.plant_states) + "\n" : std::string()},
+      {"size", std::to_string(size)},
       {"sample_time", c_number(limits.sample_time)}};
 }
 
@@ -175,7 +173,7 @@ CBlock c_controller_block(const Vehicle& vehicle, const ExportOptions& options) 
   auto values = facts(vehicle, path, options);
 
   // The facts that the header states, and its struct of signals.
-  const std::vector<std::string> about = split(filled(kAbout, values), '\n');
+  const std::vector<std::string> about = split(filled(kControllerAbout, values), '\n');
   values.emplace_back("about", join(about, "\n * "));
   const std::string interface =
       with_lines(with_lines(std::string(c_text("control_api.h")), "signals", fields_of(path)),
@@ -190,9 +188,9 @@ CBlock c_controller_block(const Vehicle& vehicle, const ExportOptions& options) 
       .title = "the controller " + vehicle.controller_name + " for " + vehicle.set.name,
       .about = join(about, " "),
       .precision = options.c_precision(),
-      .header = filled(kHeader + interface + kCHeaderEnd, values),
+      .header = filled(kControllerHeader + interface + kCHeaderEnd, values),
       .source = "#include \"@prefix@.h\"\n\n#include <math.h>\n\n#define STRUT_STATE " +
-                number(path.strut_state) + "\n\n" + with_texts(path.code) +
+                std::to_string(path.strut_state) + "\n\n" + with_texts(path.code) +
                 std::string(c_text("control_api.c")),
       .step = "damper_step(&model, &input, commands);",
       .inputs = ports_of(vehicle, path),
@@ -202,7 +200,7 @@ CBlock c_controller_block(const Vehicle& vehicle, const ExportOptions& options) 
       .sample_time = limits.sample_time,
       .range = limits.current_max - limits.current_min,
       .tolerance = tolerance_of(vehicle, path, options.c_precision()),
-      .samples = controller_run(vehicle, path, kTestSteps),
+      .samples = controller_run(vehicle, path, kControllerTestSteps),
       .version = options.version};
 }
 

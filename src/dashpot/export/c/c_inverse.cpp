@@ -12,13 +12,13 @@
 namespace dashpot {
 namespace {
 
-constexpr std::size_t kTestSteps = 200;
+constexpr std::size_t kInverseTestSteps = 200;
 
-constexpr const char* kAbout =
+constexpr const char* kInverseAbout =
     "Displacement m and velocity m/s, extension positive; force N, positive when it resists "
     "extension; current @unit@, @low@ ... @high@.";
 
-constexpr const char* kHeader = R"(/* The current for a wanted force: @title@.
+constexpr const char* kInverseHeader = R"(/* The current for a wanted force: @title@.
  *
  * @about@
  * C99 with math.h: no heap, no files, no variables outside a damper_model.
@@ -94,7 +94,7 @@ bool matters(const InverseModel& inverse, const InverseInput& input, std::span<d
 std::vector<CBlock::Sample> run_of(const ExportedInverse& exported) {
   const InverseModel& inverse = exported.model;
   const std::vector<DamperInput> run =
-      export_run(exported.domain, inverse.limits().sample_time, kTestSteps);
+      export_run(exported.domain, inverse.limits().sample_time, kInverseTestSteps);
   const Wishes wishes = wishes_along(inverse, run);
   std::vector<double> state(inverse.state_size());
   std::vector<CBlock::Sample> samples;
@@ -125,7 +125,7 @@ CBlock c_inverse_block(const ExportedInverse& inverse, const ExportOptions& opti
   const std::size_t size = std::max<std::size_t>(1, inverse.model.state_size());
 
   // The facts that the header states.
-  const std::string about = filled(kAbout, {{"unit", unit},
+  const std::string about = filled(kInverseAbout, {{"unit", unit},
                                             {"low", format_number(limits.current_min)},
                                             {"high", format_number(limits.current_max)}});
   const std::vector<std::pair<std::string, std::string>> values{
@@ -143,7 +143,7 @@ CBlock c_inverse_block(const ExportedInverse& inverse, const ExportOptions& opti
       .title = inverse.title,
       .about = about,
       .precision = options.c_precision(),
-      .header = filled(kHeader + std::string(c_text("inverse_api.h")) + kCHeaderEnd, values),
+      .header = filled(kInverseHeader + std::string(c_text("inverse_api.h")) + kCHeaderEnd, values),
       .source =
           kBegin + with_texts(c_inverse(inverse.model).code) + std::string(c_text("inverse_api.c")),
       .step = "commands[0] = damper_step(&model, &input);",

@@ -9,8 +9,6 @@
 namespace dashpot {
 namespace {
 
-std::string number(std::size_t count) { return std::to_string(count); }
-
 std::vector<int> as_ints(const std::vector<std::size_t>& values) {
   return {values.begin(), values.end()};
 }
@@ -25,7 +23,7 @@ std::string mlp_tables(const Mlp& mlp, const std::string& name) {
 }
 
 std::string mlp_entry(const Mlp& mlp, const std::string& name) {
-  return "    {" + name + "Layers, " + number(mlp.layers.size()) + ", " + name + "Activations, " +
+  return "    {" + name + "Layers, " + std::to_string(mlp.layers.size()) + ", " + name + "Activations, " +
          name + "Parameters, " + name + "Mean, " + name + "Scale, " + c_number(mlp.output_mean) +
          ", " + c_number(mlp.output_scale) + "},\n";
 }
@@ -44,8 +42,8 @@ std::string network_tables(const GatedNetwork& network, const std::string& name)
 }
 
 std::string network_entry(const GatedNetwork& network, const std::string& name) {
-  return "    {" + number(network.signals.size()) + ", " + number(network.currents) + ", " +
-         number(network.hidden()) + ", " + name + "Mean, " + name + "Scale, " + name + "Low, " +
+  return "    {" + std::to_string(network.signals.size()) + ", " + std::to_string(network.currents) + ", " +
+         std::to_string(network.hidden()) + ", " + name + "Mean, " + name + "Scale, " + name + "Low, " +
          name + "High, " + name + "Neurons, " + name + "Gates, " + c_number(network.output_scale) +
          "},\n";
 }
@@ -73,11 +71,11 @@ std::string c_mlps(std::span<const Mlp> members) {
   std::string tables, entries;
   for (std::size_t m = 0; m < members.size(); ++m) {
     widest = std::max(widest, *std::ranges::max_element(members[m].layers));
-    const std::string name = "kMlp" + number(m);
+    const std::string name = "kMlp" + std::to_string(m);
     tables += mlp_tables(members[m], name);
     entries += mlp_entry(members[m], name);
   }
-  return "#define MLP_MOST_WIDTH " + number(widest) + "\n\n" + "#include \"mlp.h\"\n" + tables +
+  return "#define MLP_MOST_WIDTH " + std::to_string(widest) + "\n\n" + "#include \"mlp.h\"\n" + tables +
          array_of("Mlp", "kMlps", entries);
 }
 
@@ -87,12 +85,12 @@ std::string c_gated_networks(const std::vector<const GatedNetwork*>& networks) {
   for (std::size_t m = 0; m < networks.size(); ++m) {
     signals = std::max(signals, networks[m]->signals.size());
     gates = std::max(gates, networks[m]->gate_count());
-    const std::string name = "kNetwork" + number(m);
+    const std::string name = "kNetwork" + std::to_string(m);
     tables += network_tables(*networks[m], name);
     entries += network_entry(*networks[m], name);
   }
-  return "#define GATED_MOST_SIGNALS " + number(signals) + "\n#define GATED_MOST_GATES " +
-         number(gates) + "\n\n" + "#include \"gated_network.h\"\n" + tables +
+  return "#define GATED_MOST_SIGNALS " + std::to_string(signals) + "\n#define GATED_MOST_GATES " +
+         std::to_string(gates) + "\n\n" + "#include \"gated_network.h\"\n" + tables +
          array_of("GatedNetwork", "kNetworks", entries);
 }
 
@@ -100,10 +98,10 @@ std::string c_banks(const std::vector<const HysteresisBank*>& banks) {
   std::string tables, entries;
   for (std::size_t m = 0; m < banks.size(); ++m) {
     const HysteresisBank& bank = *banks[m];
-    const std::string name = "kBank" + number(m);
+    const std::string name = "kBank" + std::to_string(m);
     tables += c_table(name + "Rates", bank.rates());
-    entries += "    {" + name + "Rates, " + number(bank.path_rates.size()) + ", " +
-               number(bank.velocity_rates.size()) + ", " + number(bank.current_rates.size()) +
+    entries += "    {" + name + "Rates, " + std::to_string(bank.path_rates.size()) + ", " +
+               std::to_string(bank.velocity_rates.size()) + ", " + std::to_string(bank.current_rates.size()) +
                "},\n";
   }
   return "#include \"hysteresis_bank.h\"\n" + tables +
@@ -142,7 +140,7 @@ static double model_force(const DamperInput* input, const double* state) {
 }
 
 )",
-      {{"part", part}, {"array", array}, {"count", number(count)}, {"offset", c_number(offset)}});
+      {{"part", part}, {"array", array}, {"count", std::to_string(count)}, {"offset", c_number(offset)}});
 }
 
 std::string c_stateless(const std::string& stem) {

@@ -13,9 +13,9 @@
 namespace dashpot {
 namespace {
 
-constexpr std::size_t kTestSteps = 200;
+constexpr std::size_t kDamperTestSteps = 200;
 
-constexpr const char* kHeader = R"(/* @title@.
+constexpr const char* kDamperHeader = R"(/* @title@.
  *
  * @what@
  * Inputs: displacement m and velocity m/s, extension positive; command @unit@. Output: force N,
@@ -69,7 +69,7 @@ void damper_derivatives(const damper_input* input, const double* state, double* 
 }
 )";
 
-constexpr const char* kTest =
+constexpr const char* kDamperTest =
     R"(/* Steps through a run and compares the force with the one that Dashpot @version@ computed in
  * double precision. Returns 0 when they agree within @tolerance@ of the force's span. */
 #include "@prefix@.h"
@@ -107,7 +107,7 @@ int main(void) {
 )";
 
 std::string rows_of(const ExportedModel& model, double sample_time) {
-  const std::vector<DamperInput> run = export_run(model.domain, sample_time, kTestSteps);
+  const std::vector<DamperInput> run = export_run(model.domain, sample_time, kDamperTestSteps);
   const std::vector<double> force = force_along(model.model, run, sample_time);
   std::string rows;
   for (std::size_t k = 0; k < run.size(); ++k)
@@ -127,7 +127,7 @@ Facts facts_of(const ExportedModel& model, const ExportOptions& options, const C
                 {"deviations", std::string(c_deviations())},
                 {"size", std::to_string(std::max<std::size_t>(1, source.state_size))},
                 {"unused", source.state_size == 0 ? ": one that is not used" : ""},
-                {"steps", std::to_string(kTestSteps)},
+                {"steps", std::to_string(kDamperTestSteps)},
                 {"tolerance", options.c_precision() == CPrecision::Single ? "1e-5" : "1e-12"}});
   return facts;
 }
@@ -191,7 +191,7 @@ CSource c_source(const ExportedModel& model, const ExportOptions& options) {
   };
   Facts facts = facts_of(model, options, source);
   source.header = filled(
-      finished(filled(kHeader, facts) + std::string(c_text("damper_api.h")) +
+      finished(filled(kDamperHeader, facts) + std::string(c_text("damper_api.h")) +
                (code.has_derivatives ? kDerivatives : "") + (law ? kDefaults : "") + kCHeaderEnd),
       {{"what", in_comment(model.origin)}, {"command", in_comment(options.command)}});
 
@@ -204,7 +204,7 @@ CSource c_source(const ExportedModel& model, const ExportOptions& options) {
 
   // The test: a run with the forces that the library gives.
   facts.emplace_back("rows", rows_of(model, source.sample_time));
-  source.test = finished(filled(kTest, facts));
+  source.test = finished(filled(kDamperTest, facts));
   return source;
 }
 

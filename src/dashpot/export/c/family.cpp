@@ -9,8 +9,6 @@
 namespace dashpot {
 namespace {
 
-std::string number(std::size_t count) { return std::to_string(count); }
-
 std::string yield_stress() {
   return "yield_stress_at(kYieldCurrents, kYieldStresses, FAMILY_YIELD_POINTS, input->current)";
 }
@@ -26,7 +24,7 @@ bool reads_yield_stress(const FamilyModel& model) {
 
 std::string yield_curve(const FamilyMember& member) {
   return "#include \"yield_curve.h\"\n#define FAMILY_YIELD_POINTS " +
-         number(member.yield.currents.size()) + "\n\n" +
+         std::to_string(member.yield.currents.size()) + "\n\n" +
          c_table("kYieldCurrents", member.yield.currents) +
          c_table("kYieldStresses", member.yield.stresses) + "\n";
 }
@@ -70,10 +68,10 @@ std::string network_code(const FamilyModel& model, const FamilyNetwork& network)
       value = yield_stress();
     else if (name != "displacement" && name != "velocity" && name != "current")
       value = c_number(member_number(model.member(), name));
-    code += "  raw[" + number(k) + "] = " + value + ";\n";
+    code += "  raw[" + std::to_string(k) + "] = " + value + ";\n";
   }
 
-  const std::string count = number(network.mlps().size());
+  const std::string count = std::to_string(network.mlps().size());
   return code + "  for (k = 0; k < " + count +
          "; ++k) {\n    sum += mlp_evaluate(&kMlps[k], raw);\n  }\n  return sum / " + count +
          ";\n}\n\n";
@@ -127,10 +125,10 @@ static double family_force(const DamperInput* input, const double* state) {
 std::string gates_code(const FamilyModel& model, const FamilyGates& gates) {
   std::string soft;
   for (std::size_t k = 0; k < gates.soft_speeds.size(); ++k)
-    soft += "  terms[" + number(gates.bank.signal_count() + k) + "] = tanh(input->velocity / " +
+    soft += "  terms[" + std::to_string(gates.bank.signal_count() + k) + "] = tanh(input->velocity / " +
             c_number(gates.soft_speeds[k]) + ");\n";
   soft += "  terms[FAMILY_TERMS - 1] = 1.0;\n";
-  return c_banks({&gates.bank}) + "#define FAMILY_TERMS " + number(gates.term_count()) +
+  return c_banks({&gates.bank}) + "#define FAMILY_TERMS " + std::to_string(gates.term_count()) +
          "\n\n/* Per term: powers 0 to 3 of the field's share. */\n" +
          c_table("kWeights", by_power_of_field(gates, model.member())) + "\n" +
          filled(kGates, {{"half_current", c_number(gates.half_current)},

@@ -5,8 +5,6 @@
 namespace dashpot {
 namespace {
 
-std::string number(std::size_t count) { return std::to_string(count); }
-
 std::string sugeno_code(const Sugeno& sugeno) {
   std::vector<double> mean, scale, low, high;
   for (const Sugeno::Input& input : sugeno.inputs) {
@@ -19,7 +17,7 @@ std::string sugeno_code(const Sugeno& sugeno) {
   // The sets, a row each, and the rules: each the number of its sets, then these.
   std::string memberships;
   for (const Membership& m : sugeno.memberships)
-    memberships += "    {" + number(static_cast<std::size_t>(m.shape)) + ", " + number(m.input) +
+    memberships += "    {" + std::to_string(static_cast<std::size_t>(m.shape)) + ", " + std::to_string(m.input) +
                    ", " + c_number(m.centre) + ", " + c_number(m.width) + ", " + c_number(m.slope) +
                    "},\n";
   std::vector<int> rules;
@@ -28,16 +26,16 @@ std::string sugeno_code(const Sugeno& sugeno) {
     rules.insert(rules.end(), rule.begin(), rule.end());
   }
 
-  return "#define SUGENO_MOST_INPUTS " + number(sugeno.inputs.size()) +
-         "\n#define SUGENO_MOST_MEMBERSHIPS " + number(sugeno.memberships.size()) +
-         "\n#define SUGENO_MOST_RULES " + number(sugeno.rules.size()) + "\n\n" +
+  return "#define SUGENO_MOST_INPUTS " + std::to_string(sugeno.inputs.size()) +
+         "\n#define SUGENO_MOST_MEMBERSHIPS " + std::to_string(sugeno.memberships.size()) +
+         "\n#define SUGENO_MOST_RULES " + std::to_string(sugeno.rules.size()) + "\n\n" +
          "#include \"sugeno.h\"\n" + c_table("kMean", mean) + c_table("kScale", scale) +
          c_table("kLow", low) + c_table("kHigh", high) + c_table("kRules", rules) +
          c_table("kConsequents", sugeno.consequents) +
          "static const Membership kMemberships[] = {\n" + memberships +
-         "};\n\nstatic const Sugeno kSugeno = {" + number(sugeno.inputs.size()) +
-         ", kMean, kScale, kLow, kHigh, kMemberships, " + number(sugeno.memberships.size()) +
-         ", kRules, " + number(sugeno.rules.size()) + ", kConsequents, " +
+         "};\n\nstatic const Sugeno kSugeno = {" + std::to_string(sugeno.inputs.size()) +
+         ", kMean, kScale, kLow, kHigh, kMemberships, " + std::to_string(sugeno.memberships.size()) +
+         ", kRules, " + std::to_string(sugeno.rules.size()) + ", kConsequents, " +
          c_number(sugeno.output_mean) + ", " + c_number(sugeno.output_scale) + "};\n\n";
 }
 
@@ -52,7 +50,7 @@ std::vector<Lag> lags_of(const FuzzyInputs& inputs) {
     lags.push_back({"0", "velocity", c_number(inputs.lags().velocity), "0"});
   if (inputs.has("current") && inputs.lags().coil > 0)
     lags.push_back(
-        {number(lags.size()), "current", c_number(inputs.lags().coil), "input->current"});
+        {std::to_string(lags.size()), "current", c_number(inputs.lags().coil), "input->current"});
   return lags;
 }
 
@@ -86,7 +84,7 @@ std::string force_function(const FuzzyModel& model, const std::vector<Lag>& lags
     if (names[k] == "velocity_change") value = "input->velocity - state[0]";
     if (names[k] == "current" && !lags.empty() && lags.back().input == "current")
       value = "state[" + lags.back().place + "]";
-    code += "  raw[" + number(k) + "] = " + value + ";\n";
+    code += "  raw[" + std::to_string(k) + "] = " + value + ";\n";
   }
   return code + (lags.empty() ? "  (void)state;\n" : "") +
          "  return sugeno_evaluate(&kSugeno, raw) + " + c_number(model.offset()) + ";\n}\n\n";

@@ -95,8 +95,6 @@ std::string in_single(const std::vector<CToken>& tokens) {
   return joined(out);
 }
 
-bool is_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
-
 /// `comment` with its words, which are no tokens, replaced.
 template <class Replace>
 std::string with_words(std::string_view comment, Replace&& replaced) {

@@ -20,7 +20,6 @@ constexpr std::string_view kMarks = "+-*/%<>=!&|^~?:;,.()[]{}#\\";
 
 bool is_space(char c) { return std::isspace(static_cast<unsigned char>(c)) != 0; }
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
-bool is_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
 
 class Scanner {
  public:
@@ -127,6 +126,8 @@ class Scanner {
 };
 
 }  // namespace
+
+bool is_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
 
 std::vector<CToken> c_tokens(std::string_view code) { return Scanner(code).all(); }
 

@@ -25,6 +25,9 @@ struct CToken {
   bool is(std::string_view other) const { return kind != Kind::End && text == other; }
 };
 
+/// Whether `c` may stand in a name.
+bool is_word(char c);
+
 /// All of the code, which must outlive the tokens, and an End. Takes every C text of Dashpot, those
 /// that are no part of the subset (docs/c-subset.md) included. Throws Error, with the line, at a
 /// comment or string that does not end and at a character that C does not have.

@@ -13,7 +13,6 @@
 namespace dashpot {
 namespace {
 
-using FmuRole = FmuVariable::Role;
 
 /// SOURCE_DATE_EPOCH, by which builds are made reproducible, or now.
 std::time_t time_of_making() {

@@ -18,6 +18,8 @@ struct FmuVariable {
   std::size_t derivative_of = 0;  ///< value reference of the state
 };
 
+using FmuRole = FmuVariable::Role;
+
 /// All that is known of an FMU, whichever version of FMI it speaks.
 struct Fmu {
   int version = 3;   ///< of FMI: 2 or 3

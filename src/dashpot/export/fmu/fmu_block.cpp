@@ -5,7 +5,6 @@
 namespace dashpot {
 namespace {
 
-using FmuRole = FmuVariable::Role;
 
 /// The functions that fmu_block.h asks of a block.
 constexpr const char* kDefinitions = R"(

@@ -10,7 +10,6 @@
 namespace dashpot {
 namespace {
 
-using FmuRole = FmuVariable::Role;
 using Node = pugi::xml_node;
 
 void set(Node node, const char* name, const std::string& value) {

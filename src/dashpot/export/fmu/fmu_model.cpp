@@ -9,7 +9,6 @@
 namespace dashpot {
 namespace {
 
-using FmuRole = FmuVariable::Role;
 
 constexpr std::size_t kReferenceSteps = 500;
 

@@ -34,7 +34,6 @@ void add_variables(const Fmu& fmu, Node body) {
   Node head = table.append_child("tr");
   for (const char* title : {"name", "unit", "start", "range", "meaning"}) add(head, "th", title);
   for (const FmuVariable& variable : fmu.variables) {
-    using FmuRole = FmuVariable::Role;
     const bool starts = variable.role == FmuRole::Input || variable.role == FmuRole::Parameter;
     Node row = table.append_child("tr");
     for (const std::string& cell :

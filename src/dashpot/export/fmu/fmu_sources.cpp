@@ -44,7 +44,6 @@ std::string bound(double value) {
 }
 
 std::string model_header(const Fmu& fmu) {
-  using FmuRole = FmuVariable::Role;
   std::string names, ranges;
   std::vector<double> nominals;
   for (const FmuVariable& variable : fmu.variables) {

@@ -31,8 +31,6 @@ bool all_are(const std::vector<double>& values, double value) {
   return std::ranges::all_of(values, [&](double each) { return each == value; });
 }
 
-std::int64_t size_of(const auto& list) { return static_cast<std::int64_t>(list.size()); }
-
 /// Writes the nodes that are needed, region by region (the step itself, then each loop where its
 /// results are due), level by level, group by group.
 class Writer {

@@ -12,8 +12,6 @@ namespace {
 
 constexpr const char* kBatchShape = "batch_shape";
 
-std::int64_t size_of(const auto& list) { return static_cast<std::int64_t>(list.size()); }
-
 }  // namespace
 
 std::string OnnxTensors::emit(std::string_view op, Names inputs, std::string output,

@@ -11,6 +11,9 @@
 
 namespace dashpot::trace {
 
+/// As ONNX counts.
+std::int64_t size_of(const auto& list) { return static_cast<std::int64_t>(list.size()); }
+
 /// The tensors of an ONNX graph while it is written, and which node of a Graph stands where in
 /// them. A tensor has the shape [batch, width]; a node is one of its columns, a constant is none.
 /// Writes the operators that put columns together.

@@ -15,11 +15,11 @@
 namespace dashpot {
 namespace {
 
-constexpr std::size_t kSamples = 8000;       // of a fit, every k-th; the states see all
-constexpr std::size_t kTrialSamples = 2500;  // of a trial of a weight decay
-constexpr int kIterations = 60, kTrialIterations = 30;
-constexpr double kTolerance = 1e-4;
-constexpr std::array kDecays{1e-1, 1e-2, 1e-3, 1e-4};  // in the mean square of what the law leaves
+constexpr std::size_t kHybridSamples = 8000;       // of a fit, every k-th; the states see all
+constexpr std::size_t kHybridTrialSamples = 2500;  // of a trial of a weight decay
+constexpr int kHybridIterations = 60, kHybridTrialIterations = 30;
+constexpr double kHybridTolerance = 1e-4;
+constexpr std::array kHybridDecays{1e-1, 1e-2, 1e-3, 1e-4};  // in the mean square of what the law leaves
 
 constexpr std::size_t kFewestLevels = 4;  // that tell more than a line, one of them left out
 
@@ -54,7 +54,7 @@ class HybridFit {
         data_(data_of(law, preset, training, drive_unit, options.offset)),
         all_(all_parts(training)) {
     // The mixing comes from the signals of the law as its own fit left it.
-    const SignalRows rows = residuals(all_, kSamples).signals(law_.solved.x);
+    const SignalRows rows = residuals(all_, kHybridSamples).signals(law_.solved.x);
     mixing_ = mixing_of(rows);
 
     // The network at its start: motions mixed to deviation 1, currents over the range of the drive.
@@ -73,13 +73,13 @@ class HybridFit {
 
   /// The law's unknowns, from where its own fit left them, and the weights, together.
   LeastSquaresReport solve_jointly() const {
-    const HybridResiduals residuals = this->residuals(all_, kSamples);
+    const HybridResiduals residuals = this->residuals(all_, kHybridSamples);
     std::vector<double> start = law_.solved.x;
     const std::vector<double> weights = starting_weights();
     start.insert(start.end(), weights.begin(), weights.end());
     return solve(residuals.problem(with_decay(decay_, residuals), law_.solved.x,
                                    law_.noise.independent, options_.threads),
-                 std::move(start), solver(kIterations));
+                 std::move(start), solver(kHybridIterations));
   }
 
   HybridModel model(std::span<const double> x) const {
@@ -91,7 +91,7 @@ class HybridFit {
   }
 
   double training_rmse(std::span<const double> x) const {
-    const HybridResiduals residuals = this->residuals(all_, kSamples);
+    const HybridResiduals residuals = this->residuals(all_, kHybridSamples);
     return std::sqrt(squared_error(residuals, residuals.signals(x.first(law_.unknowns.size())),
                                    x.subspan(law_.unknowns.size())));
   }
@@ -129,7 +129,7 @@ class HybridFit {
   }
 
   LeastSquaresOptions solver(int iterations) const {
-    LeastSquaresOptions solver = solver_options(options_, iterations, kTolerance);
+    LeastSquaresOptions solver = solver_options(options_, iterations, kHybridTolerance);
     solver.normal_equations = true;
     return solver;
   }
@@ -144,28 +144,28 @@ class HybridFit {
   /// The weight decay with which trials predict best what was held back from them. The law stays
   /// where its fit on all records left it, for the decay concerns the network alone.
   double best_decay(const std::vector<TrialParts>& trials) const {
-    std::vector<double> errors(kDecays.size() * trials.size());
+    std::vector<double> errors(kHybridDecays.size() * trials.size());
     parallel_for(errors.size(), options_.threads, [&](std::size_t k) {
       // Train the weights with this decay on the trial's training part.
-      const TrialParts& trial = trials[k / kDecays.size()];
-      const HybridResiduals seen = residuals(trial.training, kTrialSamples);
+      const TrialParts& trial = trials[k / kHybridDecays.size()];
+      const HybridResiduals seen = residuals(trial.training, kHybridTrialSamples);
       const SignalRows rows = seen.signals(law_.solved.x);
       const LeastSquaresProblem problem =
-          seen.problem(with_decay(kDecays[k % kDecays.size()], seen), rows);
+          seen.problem(with_decay(kHybridDecays[k % kHybridDecays.size()], seen), rows);
       const std::vector<double> weights =
-          solve(problem, starting_weights(), solver(kTrialIterations)).x;
+          solve(problem, starting_weights(), solver(kHybridTrialIterations)).x;
 
       // Its error on the part held back, as a share of the untrained network's.
-      const HybridResiduals unseen = residuals(trial.held_back, kTrialSamples);
+      const HybridResiduals unseen = residuals(trial.held_back, kHybridTrialSamples);
       const SignalRows held_back = unseen.signals(law_.solved.x);
       errors[k] = squared_error(unseen, held_back, weights) /
                   squared_error(unseen, held_back, starting_weights());
     });
 
     // The decay with the least errors over all trials.
-    std::array<double, kDecays.size()> sums{};
-    for (std::size_t k = 0; k < errors.size(); ++k) sums[k % kDecays.size()] += errors[k];
-    return kDecays[static_cast<std::size_t>(std::min_element(sums.begin(), sums.end()) -
+    std::array<double, kHybridDecays.size()> sums{};
+    for (std::size_t k = 0; k < errors.size(); ++k) sums[k % kHybridDecays.size()] += errors[k];
+    return kHybridDecays[static_cast<std::size_t>(std::min_element(sums.begin(), sums.end()) -
                                             sums.begin())];
   }
 

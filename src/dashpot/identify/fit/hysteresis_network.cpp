@@ -15,10 +15,10 @@
 namespace dashpot {
 namespace {
 
-constexpr std::size_t kSamples = 8000;                  // of a fit, every k-th; the states see all
-constexpr std::size_t kTrialSamples = 2500;             // of a trial of a decay
-constexpr int kIterations = 60, kTrialIterations = 25;  // stopping early, too, keeps weights small
-constexpr std::array kDecays{1e-3, 1e-4, 1e-5};
+constexpr std::size_t kBankSamples = 8000;                  // of a fit, every k-th; the states see all
+constexpr std::size_t kBankTrialSamples = 2500;             // of a trial of a decay
+constexpr int kBankIterations = 60, kBankTrialIterations = 25;  // stopping early, too, keeps weights small
+constexpr std::array kBankDecays{1e-3, 1e-4, 1e-5};
 
 using Records = std::vector<const FreeRunRecord*>;
 
@@ -75,7 +75,7 @@ class HysteresisNetworkFit {
       : options_(options),
         hidden_(hidden_of(preset, options.network)),
         members_(options.network.members.value_or(preset.members)),
-        iterations_(static_cast<int>(options.network.epochs.value_or(kIterations))),
+        iterations_(static_cast<int>(options.network.epochs.value_or(kBankIterations))),
         records_(free_run_records(training, drive_unit)) {
     for (const FreeRunRecord& record : records_) all_.push_back(&record);
     const DriveRange drive = drive_range(training, drive_unit);
@@ -94,7 +94,7 @@ class HysteresisNetworkFit {
   std::vector<Member> members() const {
     std::vector<Member> members(members_);
     parallel_for(members.size(), options_.threads, [&](std::size_t k) {
-      members[k] = fit(all_, kSamples, {decay_, iterations_, k});
+      members[k] = fit(all_, kBankSamples, {decay_, iterations_, k});
     });
     return members;
   }
@@ -103,9 +103,9 @@ class HysteresisNetworkFit {
   /// The weight decay with which trials predict best what was held back from them.
   double best_decay(const Trials& trials) const {
     return trials.best_decay(
-        kDecays, options_.threads, [this](const FreeRunTrial& trial, double decay) {
-          const Effort effort{decay, std::min(kTrialIterations, iterations_)};
-          const HysteresisNetwork found = fit(trial.training, kTrialSamples, effort).network;
+        kBankDecays, options_.threads, [this](const FreeRunTrial& trial, double decay) {
+          const Effort effort{decay, std::min(kBankTrialIterations, iterations_)};
+          const HysteresisNetwork found = fit(trial.training, kBankTrialSamples, effort).network;
           double squares = 0;
           for (const FreeRunRecord* record : trial.held_back)
             squares += squares_left(found, *record, options_.offset == OffsetMode::Record);

@@ -11,7 +11,7 @@
 namespace dashpot {
 namespace {
 
-constexpr double kSlowest = 0.05, kFastest = 50;  // rates of an exponential, per range of the drive
+constexpr double kSlowestRate = 0.05, kFastestRate = 50;  // rates of an exponential, per range of the drive
 
 /// The form as far as these currents determine it: two levels allow a line at most, and with one
 /// nothing depends on current.
@@ -131,8 +131,8 @@ void LawUnknowns::add_unknowns(Row& row) {
   // Its ends apart from each other, or the rate would be without effect at the start.
   *(start_.end() - 3) = std::clamp(0.5 * start, lower, upper);
   *(start_.end() - 2) = std::clamp(1.5 * start, lower, upper);
-  lower_.back() = kSlowest;
-  upper_.back() = kFastest;
+  lower_.back() = kSlowestRate;
+  upper_.back() = kFastestRate;
   start_.back() = 1;
 }
 

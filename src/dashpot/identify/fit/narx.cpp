@@ -22,7 +22,7 @@ namespace {
 
 // Rows of regressors at most; finer records give some of the grids that lie in them.
 constexpr std::size_t kMostRows = 6000;
-constexpr std::array kDecays{1e-2, 1e-3, 1e-4, 1e-5};
+constexpr std::array kNarxDecays{1e-2, 1e-3, 1e-4, 1e-5};
 constexpr std::size_t kMostTrials = 4, kTrialRows = 2000;  // of decays
 constexpr int kFirstIterations = 40;  // series-parallel, where free run follows
 // s: a step of the network is as many samples as fit in, unless the design states them. At shorter
@@ -353,17 +353,17 @@ double best_decay(const NarxPlan& plan, const Regressors& regressors,
   if (options.network.l2) return *options.network.l2;
   const std::vector<Fold> folds = trial_folds(training);
   const std::size_t trials = std::min(folds.size(), kMostTrials);
-  std::vector<double> squares(trials * kDecays.size());
+  std::vector<double> squares(trials * kNarxDecays.size());
   parallel_for(squares.size(), options.threads, [&](std::size_t k) {
     // Spread over all: conditions come first, levels of the drive last.
-    const Fold& fold = folds[(2 * (k / kDecays.size()) + 1) * folds.size() / (2 * trials)];
+    const Fold& fold = folds[(2 * (k / kNarxDecays.size()) + 1) * folds.size() / (2 * trials)];
 
     const NarxData seen =
         training_data(plan, regressors, fold.training, drive_unit, options, kTrialRows);
     const NarxData unseen(regressors, fold.left_out, drive_unit, kTrialRows);
 
     // Train briefly, no longer than the design allows, and score the best network in free run.
-    Effort effort{.decay = kDecays[k % kDecays.size()]};
+    Effort effort{.decay = kNarxDecays[k % kNarxDecays.size()]};
     if (options.network.epochs)
       effort.first_iterations = effort.iterations =
           std::min(effort.iterations, static_cast<int>(*options.network.epochs));
@@ -372,9 +372,9 @@ double best_decay(const NarxPlan& plan, const Regressors& regressors,
   });
 
   // The decay with the least squares over all trials.
-  std::array<double, kDecays.size()> sums{};
-  for (std::size_t k = 0; k < squares.size(); ++k) sums[k % kDecays.size()] += squares[k];
-  return kDecays[static_cast<std::size_t>(std::min_element(sums.begin(), sums.end()) -
+  std::array<double, kNarxDecays.size()> sums{};
+  for (std::size_t k = 0; k < squares.size(); ++k) sums[k % kNarxDecays.size()] += squares[k];
+  return kNarxDecays[static_cast<std::size_t>(std::min_element(sums.begin(), sums.end()) -
                                           sums.begin())];
 }
 

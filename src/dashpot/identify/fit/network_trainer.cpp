@@ -15,8 +15,8 @@
 namespace dashpot {
 namespace {
 
-constexpr std::array kDecays{1e-2, 1e-3, 3e-4, 1e-4, 1e-5};
-constexpr std::size_t kTrialSamples = 2500;
+constexpr std::array kNetworkDecays{1e-2, 1e-3, 3e-4, 1e-4, 1e-5};
+constexpr std::size_t kNetworkTrialSamples = 2500;
 constexpr std::size_t kTrialStarts = 2;
 constexpr int kBatchEpochs = 100;
 
@@ -70,7 +70,7 @@ TrainingSamples without_offsets(TrainingSamples samples, const Mlp& start,
   TrainOptions how{.threads = options.threads};
   how.on_iteration = [&](int, double) { options.monitor.check(); };
   const TrainReport found =
-      train(beside, thinned(samples, start.layers.front(), kTrialSamples), how);
+      train(beside, thinned(samples, start.layers.front(), kNetworkTrialSamples), how);
 
   // Take the offsets that it found out of all samples, which then need no groups.
   for (std::size_t s = 0; s < samples.targets.size(); ++s)
@@ -143,18 +143,18 @@ class DecayTrials {
               const IdentifyOptions& options)
       : start_(start), options_(options) {
     for (const Fold& fold : trial_folds(training))
-      lessons_.push_back({thinned(samples_of(fold.training), start.layers.front(), kTrialSamples),
-                          thinned(samples_of(fold.left_out), start.layers.front(), kTrialSamples)});
+      lessons_.push_back({thinned(samples_of(fold.training), start.layers.front(), kNetworkTrialSamples),
+                          thinned(samples_of(fold.left_out), start.layers.front(), kNetworkTrialSamples)});
   }
 
   double best() const {
-    std::vector<double> errors(kDecays.size() * lessons_.size() * kTrialStarts);
+    std::vector<double> errors(kNetworkDecays.size() * lessons_.size() * kTrialStarts);
     parallel_for(errors.size(), options_.threads, [&](std::size_t k) {
-      errors[k] = error(kDecays[k % kDecays.size()], k / kDecays.size());
+      errors[k] = error(kNetworkDecays[k % kNetworkDecays.size()], k / kNetworkDecays.size());
     });
-    std::array<double, kDecays.size()> sums{};
-    for (std::size_t k = 0; k < errors.size(); ++k) sums[k % kDecays.size()] += errors[k];
-    return kDecays[static_cast<std::size_t>(std::min_element(sums.begin(), sums.end()) -
+    std::array<double, kNetworkDecays.size()> sums{};
+    for (std::size_t k = 0; k < errors.size(); ++k) sums[k % kNetworkDecays.size()] += errors[k];
+    return kNetworkDecays[static_cast<std::size_t>(std::min_element(sums.begin(), sums.end()) -
                                             sums.begin())];
   }
 

@@ -14,16 +14,16 @@
 namespace dashpot {
 namespace {
 
-constexpr std::size_t kSamples = 6000;    // of a fit, every k-th; the states see all
+constexpr std::size_t kStateSpaceSamples = 6000;    // of a fit, every k-th; the states see all
 constexpr std::size_t kWindow = 400;      // samples of a window
 constexpr std::size_t kWindowStride = 2;  // of its samples, scored
 constexpr std::size_t kWindowSteps = 12000, kTrialSteps = 5000;
-constexpr int kWindowIterations = 25, kTrialIterations = 12, kFinishIterations = 30;
+constexpr int kWindowIterations = 25, kStateSpaceTrialIterations = 12, kFinishIterations = 30;
 // Iterations that end a lone trial: a short one prefers small weights, so a lone one is made in
 // full.
 constexpr int kTrialFinish = 10;
-constexpr double kTolerance = 1e-3;  // stopping early, too, keeps weights small
-constexpr std::array kDecays{1e-3, 1e-4, 1e-5};
+constexpr double kStateSpaceTolerance = 1e-3;  // stopping early, too, keeps weights small
+constexpr std::array kStateSpaceDecays{1e-3, 1e-4, 1e-5};
 constexpr double kMostStep = 0.005;  // s, of the model
 
 using Records = std::vector<const FreeRunRecord*>;
@@ -134,10 +134,10 @@ class StateSpaceFit {
   double best_decay(const Trials& trials) const {
     const bool lone = trials.all().size() == 1;
     return trials.best_decay(
-        kDecays, options_.threads, [this, lone](const FreeRunTrial& trial, double decay) {
+        kStateSpaceDecays, options_.threads, [this, lone](const FreeRunTrial& trial, double decay) {
           StateSpaceNetwork found =
               from_windows(trial.training, lone ? Effort{decay, kWindowIterations, kWindowSteps}
-                                                : Effort{decay, kTrialIterations, kTrialSteps});
+                                                : Effort{decay, kStateSpaceTrialIterations, kTrialSteps});
           if (lone) train(found, trial.training, finish(decay, kTrialFinish));
           double squares = 0;
           for (const FreeRunRecord* record : trial.held_back)
@@ -148,10 +148,10 @@ class StateSpaceFit {
 
   StateSpaceTrainOptions finish(double decay, int iterations) const {
     return {.max_iterations = static_cast<int>(options_.network.epochs.value_or(iterations)),
-            .tolerance = kTolerance,
+            .tolerance = kStateSpaceTolerance,
             .weight_decay = decay,
             .offsets = options_.offset == OffsetMode::Record,
-            .stride = (scored_samples(all_) + kSamples - 1) / kSamples,
+            .stride = (scored_samples(all_) + kStateSpaceSamples - 1) / kStateSpaceSamples,
             .on_iteration = [this] { options_.monitor.check(); }};
   }
 

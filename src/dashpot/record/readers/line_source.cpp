@@ -13,12 +13,12 @@ namespace {
 
 constexpr std::size_t kBlock = std::size_t{1} << 20;
 
-using File = std::unique_ptr<gzFile_s, int (*)(gzFile_s*)>;
+using GzipFile = std::unique_ptr<gzFile_s, int (*)(gzFile_s*)>;
 
-File open(const fs::path& path) {
+GzipFile open(const fs::path& path) {
   std::error_code error;
   if (fs::is_directory(path, error)) throw Error(path.string(), "is a folder, not a file");
-  File file(gzopen(path.c_str(), "rb"), gzclose);
+  GzipFile file(gzopen(path.c_str(), "rb"), gzclose);
   if (!file) throw Error(path.string(), std::string("cannot be read: ") + std::strerror(errno));
   gzbuffer(file.get(), 1 << 18);
   return file;
@@ -93,7 +93,7 @@ bool LineSource::fill() {
 }
 
 std::string read_head(const fs::path& path, std::size_t bytes) {
-  const File file = open(path);
+  const GzipFile file = open(path);
   std::string head(bytes, '\0');
   head.resize(read_some(file.get(), head.data(), bytes, path.string()));
   return head;

@@ -20,9 +20,9 @@ namespace dashpot {
 namespace {
 
 constexpr std::size_t kMostColumns = 64;  // of one matrix: more is an image, not a recording
-constexpr int kDeepest = 4;
+constexpr int kDeepestVariable = 4;
 
-using File = std::unique_ptr<mat_t, int (*)(mat_t*)>;
+using MatFile = std::unique_ptr<mat_t, int (*)(mat_t*)>;
 using Variable = std::unique_ptr<matvar_t, void (*)(matvar_t*)>;
 
 /// One real two-dimensional array, column by column.
@@ -83,7 +83,7 @@ class Collector {
   Collector(mat_t* file, std::string path) : file_(file), path_(std::move(path)) {}
 
   void collect(matvar_t& variable, const std::string& name, int depth) {
-    if (variable.rank != 2 || depth > kDeepest) return pass_over(name, "not two-dimensional");
+    if (variable.rank != 2 || depth > kDeepestVariable) return pass_over(name, "not two-dimensional");
 
     // Go into structures of one element; pass over what is no matrix of real numbers.
     const std::size_t rows = variable.dims[0], columns = variable.dims[1];
@@ -201,7 +201,7 @@ std::vector<RawTable> read_mat(const fs::path& path) {
 
   static std::once_flag quiet;  // the MAT library prints otherwise
   std::call_once(quiet, [] { Mat_LogInitFunc("dashpot", [](int, char*) {}); });
-  const File mat(Mat_Open(file.c_str(), MAT_ACC_RDONLY), Mat_Close);
+  const MatFile mat(Mat_Open(file.c_str(), MAT_ACC_RDONLY), Mat_Close);
   if (!mat) throw Error(file, "damaged or cut off MAT file", "copy it again from its source");
 
   Collector collector(mat.get(), file);

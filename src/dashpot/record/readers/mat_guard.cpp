@@ -12,7 +12,7 @@ namespace dashpot {
 namespace {
 
 constexpr std::size_t kHeader = 128;
-constexpr int kDeepest = 8;
+constexpr int kDeepestStructure = 8;
 
 // Types of elements and classes of arrays in the version 5 format.
 enum Element : std::uint32_t { kInt8 = 1, kInt32 = 5, kUint32 = 6, kMatrix = 14, kCompressed = 15 };
@@ -165,8 +165,8 @@ void check_structure(Cursor& cursor, std::size_t count, int depth) {
 }
 
 void check_matrix(std::string_view bytes, const Cursor& outer, int depth) {
-  if (depth > kDeepest)
-    damaged(outer.file(), "structures nested more than " + std::to_string(kDeepest) + " deep");
+  if (depth > kDeepestStructure)
+    damaged(outer.file(), "structures nested more than " + std::to_string(kDeepestStructure) + " deep");
 
   // The flags tell the class; classes that are never opened need no check.
   Cursor cursor(bytes, outer.swap(), outer.file());

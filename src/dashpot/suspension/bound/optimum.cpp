@@ -7,7 +7,6 @@
 namespace dashpot {
 namespace {
 
-constexpr std::size_t kOne = 4, kForce = 5;
 using State = SmallMatrix<5, 1>;  // [q, q', 1]
 using Law = SmallMatrix<1, 5>;
 
@@ -30,19 +29,19 @@ template <class Choose>
 Path run(const SampledPlant& car, const ForceRange& range, const RideIndex& index, Choose choose) {
   Path path;
   State z;
-  z(kOne, 0) = 1;
+  z(kOnePlace, 0) = 1;
   for (std::size_t cell = 0; cell < car.cells(); ++cell) {
     // The force that is chosen, clipped to what the damper can give at this speed.
     const AffineCar now = car.over(cell);
-    const double free = at(now.speed, z), by_force = now.speed(0, kForce);
+    const double free = at(now.speed, z), by_force = now.speed(0, kForcePlace);
     const double soft = range.force_against(free, by_force, 0),
                  hard = range.force_against(free, by_force, 1);
     const double force =
         std::clamp(choose(cell, z, free, by_force), std::min(soft, hard), std::max(soft, hard));
 
     // The outputs under this force, and what they add to the index.
-    const double a = at(now.acceleration, z) + now.acceleration(0, kForce) * force;
-    const double w = at(now.tyre_force, z) + now.tyre_force(0, kForce) * force;
+    const double a = at(now.acceleration, z) + now.acceleration(0, kForcePlace) * force;
+    const double w = at(now.tyre_force, z) + now.tyre_force(0, kForcePlace) * force;
     path.sum += car.step() * (index.comfort * a * a + index.holding * w * w);
     path.states.push_back(z);
     path.forces.push_back(force);
@@ -51,7 +50,7 @@ Path run(const SampledPlant& car, const ForceRange& range, const RideIndex& inde
     // One cell further.
     SmallMatrix<6, 1> joint;
     for (std::size_t i = 0; i < 5; ++i) joint(i, 0) = z(i, 0);
-    joint(kForce, 0) = force;
+    joint(kForcePlace, 0) = force;
     z = now.motion * joint;
   }
   return path;
@@ -67,12 +66,12 @@ std::vector<Law> sweep_back(const SampledPlant& car, const ForceRange& range,
     const SmallMatrix<6, 6> form =
         car.step() * cost_form(now, index) + transposed(now.motion) * (value * now.motion);
     Law law;
-    for (std::size_t j = 0; j < 5; ++j) law(0, j) = -form(kForce, j) / form(kForce, kForce);
+    for (std::size_t j = 0; j < 5; ++j) law(0, j) = -form(kForcePlace, j) / form(kForcePlace, kForcePlace);
     laws[cell] = law;
 
     // Where the path's force is at an end of its range, the law keeps it there.
     const State& z = path.states[cell];
-    const double free = at(now.speed, z), by_force = now.speed(0, kForce);
+    const double free = at(now.speed, z), by_force = now.speed(0, kForcePlace);
 
     const double wanted = (law * z)(0, 0);
     const double soft = range.force_against(free, by_force, 0),
@@ -83,14 +82,14 @@ std::vector<Law> sweep_back(const SampledPlant& car, const ForceRange& range,
       const double force = is_hard ? hard : soft;
       const auto [slope, offset] = range.piece(free + by_force * force, is_hard ? 1 : 0);
       for (std::size_t j = 0; j < 5; ++j)
-        law(0, j) = (slope * now.speed(0, j) + (j == kOne ? offset : 0)) / (1 - slope * by_force);
+        law(0, j) = (slope * now.speed(0, j) + (j == kOnePlace ? offset : 0)) / (1 - slope * by_force);
     }
 
     // The value one cell earlier, under that law.
     SmallMatrix<6, 5> lift;
     for (std::size_t i = 0; i < 5; ++i) {
       lift(i, i) = 1;
-      lift(kForce, i) = law(0, i);
+      lift(kForcePlace, i) = law(0, i);
     }
     value = transposed(lift) * (form * lift);
   }

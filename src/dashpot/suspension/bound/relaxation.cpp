@@ -12,7 +12,6 @@ namespace {
 
 using Form = SmallMatrix<6, 6>;    // over [q, q', 1, F]
 using Value5 = SmallMatrix<5, 5>;  // over [q, q', 1]
-constexpr std::size_t kOne = 4, kForce = 5;
 
 SmallMatrix<1, 6> unit_row(std::size_t place) {
   SmallMatrix<1, 6> row;
@@ -22,7 +21,7 @@ SmallMatrix<1, 6> unit_row(std::size_t place) {
 
 /// form += weight q(v, F)
 void add_limit(Form& form, double weight, const ForceLimit& limit, const SmallMatrix<1, 6>& speed) {
-  static const SmallMatrix<1, 6> force = unit_row(kForce), one = unit_row(kOne);
+  static const SmallMatrix<1, 6> force = unit_row(kForcePlace), one = unit_row(kOnePlace);
   add_product(form, weight * limit.ff, force, force);
   add_product(form, weight * limit.fv, force, speed);
   add_product(form, weight * limit.vv, speed, speed);
@@ -46,10 +45,10 @@ struct Minimum {
 };
 Minimum minimum_over_force(const Form& form) {
   Minimum out;
-  for (std::size_t j = 0; j < 5; ++j) out.law(0, j) = -form(kForce, j) / form(kForce, kForce);
+  for (std::size_t j = 0; j < 5; ++j) out.law(0, j) = -form(kForcePlace, j) / form(kForcePlace, kForcePlace);
   for (std::size_t i = 0; i < 5; ++i)
     for (std::size_t j = 0; j < 5; ++j)
-      out.value(i, j) = form(i, j) + form(i, kForce) * out.law(0, j);
+      out.value(i, j) = form(i, j) + form(i, kForcePlace) * out.law(0, j);
   return out;
 }
 
@@ -80,7 +79,7 @@ class Certificate {
     Value5 p;
     for (std::size_t cell = car_.cells(); cell-- > 0;)
       if (!back_over(cell, p)) return {};
-    return p(kOne, kOne);
+    return p(kOnePlace, kOnePlace);
   }
 
  private:
@@ -119,7 +118,7 @@ class Certificate {
     const AffineCar now = car_.at(cell, into);
     Form form = integrand(now, limits_, index_, multipliers_.in(cell));
     add_value(form, p, now.motion, false);
-    if (!(form(kForce, kForce) > 0)) return false;
+    if (!(form(kForcePlace, kForcePlace) > 0)) return false;
     slope = minimum_over_force(form).value;
     return true;
   }
@@ -159,18 +158,18 @@ class Dual {
     Value5 p;
     double shaken = 0;
     for (std::size_t cell = car_.cells(); cell-- > 0;) {
-      for (std::size_t i = 0; i < kOne; ++i) shaken += noise_[i] * p(i, i);
+      for (std::size_t i = 0; i < kOnePlace; ++i) shaken += noise_[i] * p(i, i);
 
       // One step back: the value over [q, q', 1], least by the force.
       const AffineCar car = car_.over(cell);
       Form form = car_.step() * integrand(car, limits_, index_, multipliers.in(cell));
       add_value(form, p, car.motion, true);
-      if (!(form(kForce, kForce) > 0)) return false;
+      if (!(form(kForcePlace, kForcePlace) > 0)) return false;
       const Minimum least = minimum_over_force(form);
       p = least.value;
       law_[cell] = least.law;
     }
-    out = p(kOne, kOne) + shaken;
+    out = p(kOnePlace, kOnePlace) + shaken;
     return std::isfinite(out);
   }
 
@@ -179,7 +178,7 @@ class Dual {
   void slope(const Multipliers& multipliers, std::span<double> out) const {
     std::fill(out.begin(), out.end(), 0.0);
     Value5 moment;  // of [q, q', 1]
-    moment(kOne, kOne) = 1;
+    moment(kOnePlace, kOnePlace) = 1;
     for (std::size_t cell = 0; cell < car_.cells(); ++cell) {
       const AffineCar car = car_.over(cell);
 
@@ -196,7 +195,7 @@ class Dual {
 
       // The moments one cell later, with the noise.
       moment = car.motion * joint * transposed(car.motion);
-      for (std::size_t i = 0; i < kOne; ++i) moment(i, i) += noise_[i];
+      for (std::size_t i = 0; i < kOnePlace; ++i) moment(i, i) += noise_[i];
     }
   }
 
@@ -207,7 +206,7 @@ class Dual {
     SmallMatrix<6, 5> lift;
     for (std::size_t i = 0; i < 5; ++i) {
       lift(i, i) = 1;
-      lift(kForce, i) = law(0, i);
+      lift(kForcePlace, i) = law(0, i);
     }
     return lift * moment * transposed(lift);
   }
@@ -224,7 +223,7 @@ class Dual {
 std::array<double, 4> typical_motion(const SampledPlant& car, double damping) {
   std::array<double, 4> sum{};
   SmallMatrix<5, 1> z;
-  z(kOne, 0) = 1;
+  z(kOnePlace, 0) = 1;
   for (std::size_t cell = 0; cell < car.cells(); ++cell) {
     const AffineCar now = car.over(cell);
 
@@ -232,7 +231,7 @@ std::array<double, 4> typical_motion(const SampledPlant& car, double damping) {
     SmallMatrix<6, 1> with_force;
     for (std::size_t i = 0; i < 5; ++i) with_force(i, 0) = z(i, 0);
     const double free = (now.speed * with_force)(0, 0);
-    with_force(kForce, 0) = damping * free / (1 - damping * now.speed(0, kForce));
+    with_force(kForcePlace, 0) = damping * free / (1 - damping * now.speed(0, kForcePlace));
     z = now.motion * with_force;
     for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += z(i, 0) * z(i, 0);
   }
@@ -303,7 +302,7 @@ Relaxation relax(const SampledPlant& car, const SampledPlant& coarse,
                  const std::vector<ForceLimit>& limits, const RideIndex& index,
                  const RelaxationOptions& options) {
   // A first guess of their size: the weight that the index itself gives a force.
-  const double by_force = coarse.at(0, 0).acceleration(0, kForce);
+  const double by_force = coarse.at(0, 0).acceleration(0, kForcePlace);
   const double natural = index.comfort * by_force * by_force + index.holding;
   const std::array<double, 4> motion = typical_motion(coarse, middle_damping(limits));
 

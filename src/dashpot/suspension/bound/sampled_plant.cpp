@@ -11,8 +11,6 @@
 namespace dashpot {
 namespace {
 
-constexpr std::size_t kOne = 4, kForce = 5;  // places in [q, q', 1, F]
-
 void require_quarter_car(const Plant& plant) {
   const std::string right = "a quarter car without stops, friction and lifting tyre";
   if (plant.size() != 2 || plant.struts.size() != 1 || plant.tyres.size() != 1 ||
@@ -37,7 +35,7 @@ SmallMatrix<1, 6> after(const SmallMatrix<1, 6>& row, const SmallMatrix<5, 6>& m
   SmallMatrix<1, 6> out;
   for (std::size_t i = 0; i < 5; ++i)
     for (std::size_t j = 0; j < 6; ++j) out(0, j) += row(0, i) * motion(i, j);
-  out(0, kForce) += row(0, kForce);
+  out(0, kForcePlace) += row(0, kForcePlace);
   return out;
 }
 
@@ -86,7 +84,7 @@ void SampledPlant::set_rates(const Plant& plant) {
       rates_.motion(i + 2, j) = by_q(i, j);
       rates_.motion(i + 2, j + 2) = by_v(i, j);
     }
-    rates_.motion(i + 2, kForce) = by_force(i, 0);
+    rates_.motion(i + 2, kForcePlace) = by_force(i, 0);
     by_push_(i + 2, 0) = by_push(i, 0);
     rates_.speed(0, i + 2) = strut.row[i];
     rates_.tyre_force(0, i) = -tyre.stiffness * tyre.row[i];
@@ -105,7 +103,7 @@ SampledPlant::Flow SampledPlant::flow(double time) const {
   SmallMatrix<7, 7> chain;
   for (std::size_t i = 0; i < 4; ++i) {
     for (std::size_t j = 0; j < 4; ++j) chain(i, j) = rates_.motion(i, j);
-    chain(i, 4) = rates_.motion(i, kForce);
+    chain(i, 4) = rates_.motion(i, kForcePlace);
     chain(i, 5) = by_push_(i, 0);
   }
   chain(5, 6) = 1;
@@ -115,24 +113,24 @@ SampledPlant::Flow SampledPlant::flow(double time) const {
   Flow out;
   for (std::size_t i = 0; i < 4; ++i) {
     for (std::size_t j = 0; j < 4; ++j) out.motion(i, j) = moved(i, j);
-    out.motion(i, kForce) = moved(i, 4);
+    out.motion(i, kForcePlace) = moved(i, 4);
     out.constant(i, 0) = moved(i, 5);
     out.rising(i, 0) = moved(i, 6);
   }
-  out.motion(kOne, kOne) = 1;
+  out.motion(kOnePlace, kOnePlace) = 1;
   return out;
 }
 
 void SampledPlant::drive(AffineCar& car, const SmallMatrix<5, 1>& change,
                          const SmallMatrix<5, 1>& state, double push) const noexcept {
   for (std::size_t i = 0; i < 4; ++i) {
-    car.motion(i, kOne) = change(i, 0);
-    car.acceleration(0, kOne) += rates_.acceleration(0, i) * state(i, 0);
-    car.tyre_force(0, kOne) += rates_.tyre_force(0, i) * state(i, 0);
-    car.speed(0, kOne) += rates_.speed(0, i) * state(i, 0);
+    car.motion(i, kOnePlace) = change(i, 0);
+    car.acceleration(0, kOnePlace) += rates_.acceleration(0, i) * state(i, 0);
+    car.tyre_force(0, kOnePlace) += rates_.tyre_force(0, i) * state(i, 0);
+    car.speed(0, kOnePlace) += rates_.speed(0, i) * state(i, 0);
   }
-  car.acceleration(0, kOne) += acceleration_by_push_ * push;
-  car.tyre_force(0, kOne) += push;
+  car.acceleration(0, kOnePlace) += acceleration_by_push_ * push;
+  car.tyre_force(0, kOnePlace) += push;
 }
 
 AffineCar SampledPlant::at(std::size_t cell, double into) const noexcept {

@@ -14,6 +14,8 @@ struct RideIndex {
   double holding = 0;  ///< 1/N^2
 };
 
+constexpr std::size_t kOnePlace = 4, kForcePlace = 5;  ///< places in [q, q', 1, F]
+
 /// A quarter car as it moves under a damper's force F. All rows stand over [q, q', 1, F]: a
 /// function that is affine in state and force is linear in these.
 struct AffineCar {

@@ -8,12 +8,12 @@ extern const ControlLaw kFrequencyEstimation;
 
 namespace {
 
-struct Parameters {
+struct EstimationParameters {
   double window, low, middle, high;
 };
 
 ControllerPointer make(std::span<const double> values, const ControlContext& context) {
-  const auto p = values_as<Parameters>(values);
+  const auto p = values_as<EstimationParameters>(values);
   const Feb feb{exp(-context.limits.sample_time / p.window), p.low, p.middle, p.high};
   return std::make_unique<StrutLaw<kFrequencyEstimation, Feb, feb_demand, 2>>(feb, context);
 }

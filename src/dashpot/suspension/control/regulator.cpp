@@ -37,7 +37,7 @@ void add_product(std::vector<double>& matrix, double weight, const std::vector<d
     for (std::size_t j = 0; j < b.size(); ++j) matrix[i * b.size() + j] += weight * a[i] * b[j];
 }
 
-struct Parameters {
+struct RegulatorParameters {
   double deflection, tyre_deflection, force, top_acceleration;
 };
 
@@ -66,7 +66,7 @@ class ClippedRegulator final : public Controller {
 
 template <const ControlLaw& kLaw, auto Demand>
 ControllerPointer make(std::span<const double> values, const ControlContext& context) {
-  const auto p = values_as<Parameters>(values);
+  const auto p = values_as<RegulatorParameters>(values);
   return std::make_unique<ClippedRegulator<kLaw, Demand>>(
       regulator_of(context.plant, {p.deflection, p.tyre_deflection, p.force, p.top_acceleration}),
       context);

@@ -2,11 +2,11 @@
 
 #include <cmath>
 #include <math.h>  // the C texts say isfinite, not std::isfinite
-#include <numbers>
 #include <utility>
 
 #include "dashpot/base/text.h"
 #include "dashpot/error.h"
+#include "dashpot/numerics/constants.h"
 
 namespace dashpot {
 namespace {
@@ -42,7 +42,6 @@ Sensors::Sensors(const SensorOptions& o, std::size_t struts, double sample_time)
 
   // Coefficients of the filters at this sample time, and room for what the delay holds back.
   delay_ = static_cast<std::size_t>(std::lround(o.delay / sample_time));
-  constexpr double kTurn = 2 * std::numbers::pi;
   keep_ = std::exp(-kTurn * o.integration_corner * dt_);
   share_ = -std::expm1(-kTurn * o.derivative_corner * dt_);
   for (Memory& memory : memories_) memory.waiting.resize(delay_);

@@ -1,14 +1,12 @@
 #include "dashpot/suspension/ground/deterministic.h"
 
 #include <cmath>
-#include <numbers>
 
 #include "dashpot/base/text.h"
+#include "dashpot/numerics/constants.h"
 
 namespace dashpot {
 namespace {
-
-constexpr double kTurn = 2 * std::numbers::pi;
 
 std::string with_unit(double value, const char* unit) { return format_number(value) + " " + unit; }
 

@@ -13,11 +13,11 @@ namespace {
 
 constexpr ParameterRow kRoughness{
     "roughness", "m^3", 256e-6, 1e-9, 1, "G_d at 0.1 cycle/m; class=A ... H stands for it"};
-constexpr ParameterRow kSpeed{"speed", "m/s", 20, 0.1, 200, "of the vehicle"};
+constexpr ParameterRow kSpeedRow{"speed", "m/s", 20, 0.1, 200, "of the vehicle"};
 constexpr ParameterRow kLength{"length", "m", 1000, 1, 1e6, "of the road"};
 constexpr ParameterRow kLeast{"wave_number_min",          "1/m", 0.011, 1e-4, 100,
                               "longest wave: 1 over this"};
-constexpr ParameterRow kGreatest{"wave_number_max",           "1/m", 2.83, 1e-3, 1000,
+constexpr ParameterRow kGreatestRow{"wave_number_max",           "1/m", 2.83, 1e-3, 1000,
                                  "shortest wave: 1 over this"};
 constexpr ParameterRow kTrackWidth{
     "track_width", "m", 0, 0, 10, "between left and right; 0: one track"};
@@ -71,7 +71,7 @@ const std::array kSequences{
                     .remarks = "",
                     .params = {{"height", "m", 0.08, -1, 1, "at its middle"},
                                {"length", "m", 3, 0.01, 100, "along the way"},
-                               kSpeed,
+                               kSpeedRow,
                                {"at", "m", 10, 0, 1e5, "where it begins"}}},
                    [](std::span<const double> v, std::uint64_t) {
                      return bump_ground(v[0], v[1], v[2], v[3]);
@@ -104,7 +104,7 @@ const std::array kSequences{
          .source = "ISO 8608",
          .remarks = "Quick to make; one track; rolls off below wave_number_min.",
          .params = {kRoughness,
-                    kSpeed,
+                    kSpeedRow,
                     kLength,
                     kLeast,
                     {"spacing", "m", 0.05, 1e-3, 1, "between points"}}},
@@ -118,10 +118,10 @@ const std::array kSequences{
                     "first metres "
                     "rise from level.",
          .params = {kRoughness,
-                    kSpeed,
+                    kSpeedRow,
                     kLength,
                     kLeast,
-                    kGreatest,
+                    kGreatestRow,
                     kTrackWidth,
                     {"waves", "1", 1000, 10, 1e5, "cosines", true}}},
         make_cosine_road},
@@ -132,7 +132,7 @@ const std::array kSequences{
                     .remarks = "A hundredth of the work of the sum of cosines; repeats itself "
                                "after L, the length in points "
                                "rounded up to a power of two.",
-                    .params = {kRoughness, kSpeed, kLength, kLeast, kGreatest, kTrackWidth}},
+                    .params = {kRoughness, kSpeedRow, kLength, kLeast, kGreatestRow, kTrackWidth}},
                    make_harmonic_road},
     GroundSequence{
         {.name = "sine",

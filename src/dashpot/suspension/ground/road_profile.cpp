@@ -3,17 +3,15 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <numbers>
 
 #include "dashpot/base/random.h"
 #include "dashpot/base/text.h"
 #include "dashpot/error.h"
+#include "dashpot/numerics/constants.h"
 #include "dashpot/numerics/spectrum.h"
 
 namespace dashpot {
 namespace {
-
-constexpr double kTurn = 2 * std::numbers::pi;
 
 /// Heights at points, a cubic between each two with central slopes. One more at each end mirrors
 /// the track there, so that it is level where the road goes on level.

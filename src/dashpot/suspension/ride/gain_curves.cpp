@@ -4,14 +4,13 @@
 #include <array>
 #include <cmath>
 #include <complex>
-#include <limits>
 
+#include "dashpot/numerics/constants.h"
 #include "dashpot/suspension/ground/deterministic.h"
 
 namespace dashpot {
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr double kBeyond = 1.25;  // how far the chirp goes beyond the frequencies that are read
 constexpr int kChirpPeriods = 4;
 
@@ -33,7 +32,7 @@ Responses responses_of(const Plant& plant, const Trace& trace) {
 
 GainPoint no_gain(double frequency) {
   GainPoint point{.frequency = frequency};
-  for (const auto gain : kGains) point.*gain = {kNone, kNone};
+  for (const auto gain : kGains) point.*gain = {kNoNumber, kNoNumber};
   return point;
 }
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "dashpot/numerics/constants.h"
 #include "dashpot/suspension/ride/ride.h"
 #include "dashpot/suspension/ride/weighting.h"
 #include "dashpot/suspension/trace.h"
@@ -12,7 +12,6 @@ namespace dashpot {
 namespace {
 
 using Samples = std::span<const double>;
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr double kBand = 0.05;  // of settling
 
 double greatest(Samples x) {
@@ -131,7 +130,7 @@ class Reading {
         ++count;
       }
     add("current", "drive, mean over its range", "%",
-        count > 0 ? 100 * sum / static_cast<double>(count) : kNone);
+        count > 0 ? 100 * sum / static_cast<double>(count) : kNoNumber);
   }
 
   /// After a step at this instant, s: how the first coordinate's acceleration settles to 5 % of its
@@ -150,7 +149,7 @@ class Reading {
       const StepMeasures step = step_measures(a, dt_, 0, kBand * greatest(a));
       add("settling", body + " acceleration, settled to 5 % of its peak", "s", step.settling_time);
       add("decay_ratio", body + " acceleration, second over first peak", "1",
-          step.decay_ratio.value_or(kNone));
+          step.decay_ratio.value_or(kNoNumber));
       add("deviation", body + " acceleration, greatest", "m/s^2",
           std::abs(step.greatest_deviation));
     }
@@ -188,7 +187,7 @@ std::vector<RideMeasure> ride_measures(const Vehicle& vehicle, const GroundMotio
 
 double measure_named(std::span<const RideMeasure> measures, std::string_view name) {
   const auto found = std::ranges::find(measures, name, &RideMeasure::name);
-  return found != measures.end() ? found->value : kNone;
+  return found != measures.end() ? found->value : kNoNumber;
 }
 
 }  // namespace dashpot

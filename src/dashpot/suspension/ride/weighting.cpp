@@ -9,14 +9,13 @@
 
 #include "dashpot/base/text.h"
 #include "dashpot/error.h"
+#include "dashpot/numerics/constants.h"
 #include "dashpot/suspension/ride/ride.h"
 
 namespace dashpot {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kTurn = 2 * std::numbers::pi;
-
 constexpr std::array kWeightings{
     Weighting{"Wb", "vertical, trains (BS 6841)", 0.4, 100, 16, 16, 0.55, 2.5, 0.9, 4, 0.95},
     Weighting{"Wc", "seat back, horizontal", 0.4, 100, 8, 8, 0.63, 0, 1, 0, 1},

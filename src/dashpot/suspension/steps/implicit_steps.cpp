@@ -17,18 +17,18 @@ namespace {
 //
 // and y + sum a_6j u_j + u_6 is the end of the step, u_6 the difference of the two solutions.
 // Below, c_i is kAt, a_ij kFrom, c_ij kSlopes, d_i kByTime.
-constexpr std::size_t kStages = 6;
+constexpr std::size_t kImplicitStages = 6;
 constexpr double kGamma = 0.25;
-constexpr double kAt[kStages] = {0, 0.386, 0.21, 0.63, 1, 1};
-constexpr double kByTime[kStages] = {0.25, -0.1043, 0.1035, -0.0362, 0, 0};
-constexpr double kFrom[kStages][kStages - 1] = {
+constexpr double kAt[kImplicitStages] = {0, 0.386, 0.21, 0.63, 1, 1};
+constexpr double kByTime[kImplicitStages] = {0.25, -0.1043, 0.1035, -0.0362, 0, 0};
+constexpr double kFrom[kImplicitStages][kImplicitStages - 1] = {
     {},
     {1.544},
     {0.9466785280815826, 0.2557011698983284},
     {3.314825187068521, 2.896124015972201, 0.9986419139977817},
     {1.221224509226641, 6.019134481288629, 12.53708332932087, -0.6878860361058950},
     {1.221224509226641, 6.019134481288629, 12.53708332932087, -0.6878860361058950, 1}};
-constexpr double kSlopes[kStages][kStages - 1] = {
+constexpr double kSlopes[kImplicitStages][kImplicitStages - 1] = {
     {},
     {-5.6688},
     {-2.430093356833875, -0.2063599157091915},
@@ -139,7 +139,7 @@ class ImplicitSteps final : public StepMethod {
     factors_.factorise_columns(matrix_, size_);
 
     // One linear system per stage, all with the same matrix.
-    for (std::size_t s = 0; s < kStages; ++s) {
+    for (std::size_t s = 0; s < kImplicitStages; ++s) {
       trial_ = y_;
       for (std::size_t j = 0; j < s; ++j) add(trial_, kFrom[s][j], u_[j]);
       if (s == 0)
@@ -152,7 +152,7 @@ class ImplicitSteps final : public StepMethod {
     }
 
     // The method is stiffly accurate: the last stage is the end, and its increment the error.
-    add(trial_, 1, u_[kStages - 1]);
+    add(trial_, 1, u_[kImplicitStages - 1]);
   }
 
   double distance() const {
@@ -160,7 +160,7 @@ class ImplicitSteps final : public StepMethod {
         {equations_.coordinates(),
          {y_.data(), equations_.size()},
          {trial_.data(), equations_.size()}},
-        options_, [&](std::size_t k) { return std::abs(u_[kStages - 1][k]); },
+        options_, [&](std::size_t k) { return std::abs(u_[kImplicitStages - 1][k]); },
         [](std::size_t) { return 0.0; });
   }
 
@@ -168,7 +168,7 @@ class ImplicitSteps final : public StepMethod {
   IntegratorOptions options_;
   std::size_t size_;
   Vector y_, f_, trial_, slope_, by_time_;
-  Vector u_[kStages];
+  Vector u_[kImplicitStages];
   Vector jacobian_, matrix_;  ///< column by column
   Factors factors_;
   double next_ = 0;  ///< s, the length to try next

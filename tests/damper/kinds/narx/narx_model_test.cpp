@@ -122,8 +122,6 @@ TEST_CASE("a force that runs away stands still at the range, and free run tells 
 }
 
 TEST_CASE("whatever comes in, a NARX model gives a number") {
-  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN(),
-                   kInfinity = std::numeric_limits<double>::infinity();
   const Regressors regressors = example_regressors();
   Mlp relu = example_narx_network(regressors);
   relu.activations = {Activation::Relu, Activation::Identity};
