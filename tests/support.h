@@ -19,6 +19,10 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN(),
           (relative) * std::abs(check_expected) + (absolute));         \
   } while (false)
 
+inline bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
 /// The message of the dashpot::Error (or other exception) that `code` throws; "" when it throws
 /// none.
 template <class Code>

@@ -35,10 +35,6 @@ inline std::string message_of(dashpot_status expected, dashpot_status status) {
   return dashpot_last_error();
 }
 
-inline bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
 /// Sine motions at constant currents, of a Bingham damper: 400 N + 200 N/A at yield, 1000 N s/m.
 struct BinghamBench {
   explicit BinghamBench(double current, double frequency = 2) {

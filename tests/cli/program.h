@@ -19,10 +19,6 @@ inline ProgramResult stdout_of_dashpot(const std::string& arguments) {
   return run_program("( " + program_path() + " " + arguments + " 2>/dev/null )");
 }
 
-inline bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
 /// The lines of the ```sh blocks of a page.
 inline std::vector<std::string> shell_commands(const std::string& page) {
   const std::string fence = "```sh\n";

@@ -9,10 +9,6 @@ using namespace dashpot;
 
 namespace {
 
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
 std::string leaderboard_text(const ExampleRanking& example, int width) {
   const DocumentTable table = leaderboard_document(example.input()).sections[0].tables[0];
   return text_table(table.columns, table.rows, width);

@@ -16,10 +16,6 @@ using namespace dashpot;
 
 namespace {
 
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
 const Value& at(const Value& value, const std::string& path) {
   const Value* here = &value;
   for (const std::string& key : split(path, '.')) {

@@ -1,5 +1,6 @@
 #include "dashpot/numerics/linear_algebra.h"
 
+#include <algorithm>
 #include <cassert>
 
 #include <Eigen/Cholesky>
@@ -17,21 +18,30 @@ using Eigen::MatrixXcd;
 using Eigen::MatrixXd;
 using Eigen::VectorXcd;
 using Eigen::VectorXd;
-using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-Eigen::Map<const RowMajor> as_matrix(std::span<const double> values, std::size_t rows,
-                                     std::size_t columns) {
+// What comes in and goes out lies row by row; in here all matrices are of one type, since Eigen's
+// decompositions are templates that take seconds to compile for each.
+
+MatrixXd as_matrix(std::span<const double> values, std::size_t rows, std::size_t columns) {
   assert(values.size() == rows * columns);
-  return {values.data(), static_cast<Index>(rows), static_cast<Index>(columns)};
+  MatrixXd matrix(rows, columns);
+  for (std::size_t i = 0; i < rows; ++i)
+    for (std::size_t j = 0; j < columns; ++j)
+      matrix(static_cast<Index>(i), static_cast<Index>(j)) = values[i * columns + j];
+  return matrix;
 }
-Eigen::Map<const RowMajor> as_square(std::span<const double> values, std::size_t n) {
+MatrixXd as_square(std::span<const double> values, std::size_t n) {
   return as_matrix(values, n, n);
 }
 Eigen::Map<const VectorXd> as_vector(std::span<const double> values) {
   return {values.data(), static_cast<Index>(values.size())};
 }
-std::vector<double> values_of(const RowMajor& matrix) {
-  return {matrix.data(), matrix.data() + matrix.size()};
+std::vector<double> values_of(const MatrixXd& matrix) {
+  std::vector<double> values;
+  values.reserve(static_cast<std::size_t>(matrix.size()));
+  for (Index i = 0; i < matrix.rows(); ++i)
+    for (Index j = 0; j < matrix.cols(); ++j) values.push_back(matrix(i, j));
+  return values;
 }
 
 /// [V1; V2]: eigenvectors of the Hamiltonian's eigenvalues left of the imaginary axis.
@@ -66,7 +76,7 @@ std::vector<double> inverse(std::span<const double> matrix, std::size_t n) {
 }
 
 std::vector<double> solve(std::span<const double> matrix, std::span<const double> right) {
-  const Eigen::PartialPivLU<RowMajor> factors(as_square(matrix, right.size()));
+  const Eigen::PartialPivLU<MatrixXd> factors(as_square(matrix, right.size()));
   const VectorXd x = factors.solve(as_vector(right));
   return {x.begin(), x.end()};
 }
@@ -75,31 +85,24 @@ std::vector<std::complex<double>> solve(std::span<const std::complex<double>> ma
                                         std::span<const std::complex<double>> right) {
   assert(matrix.size() == right.size() * right.size());
   const auto n = static_cast<Index>(right.size());
-  using ComplexRows =
-      Eigen::Matrix<std::complex<double>, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  const MatrixXcd columns = Eigen::Map<const ComplexRows>(matrix.data(), n, n);
-  const VectorXcd x = columns.partialPivLu().solve(Eigen::Map<const VectorXcd>(right.data(), n));
+  const MatrixXcd columns = MatrixXcd::Map(matrix.data(), n, n).transpose();
+  const VectorXcd x = columns.partialPivLu().solve(VectorXcd::Map(right.data(), n));
   return {x.begin(), x.end()};
 }
 
 std::vector<double> solve_columns(std::span<const double> matrix, std::span<const double> right,
                                   std::size_t n) {
-  const Eigen::PartialPivLU<RowMajor> factors(as_square(matrix, n));
-  const RowMajor columns = as_matrix(right, n, right.size() / n);
-  return values_of(factors.solve(columns));
+  const Eigen::PartialPivLU<MatrixXd> factors(as_square(matrix, n));
+  return values_of(factors.solve(as_matrix(right, n, right.size() / n)));
 }
 
 std::vector<double> exponential(std::span<const double> matrix, std::size_t n) {
-  const RowMajor exponent = as_square(matrix, n);
-  return values_of(exponent.exp());
+  return values_of(as_square(matrix, n).exp());
 }
 
 SmallMatrix<7, 7> exponential(const SmallMatrix<7, 7>& matrix) {
-  using Rows = Eigen::Matrix<double, 7, 7, Eigen::RowMajor>;
-  const Eigen::Matrix<double, 7, 7> exponent = Rows::Map(matrix.values.data()),
-                                    power = exponent.exp();
   SmallMatrix<7, 7> result;
-  Rows::Map(result.values.data()) = power;
+  std::ranges::copy(exponential(matrix.values, 7), result.values.begin());
   return result;
 }
 
@@ -131,7 +134,7 @@ SymmetricInverse invert_symmetric(std::span<const double> matrix, std::size_t n,
   const double floor = tolerance * eigen.eigenvalues().cwiseAbs().maxCoeff();
 
   // inverse = sum of v v' / lambda over the directions that are not weak.
-  Eigen::Map<RowMajor> inverse(result.inverse.data(), eigen.eigenvalues().size(),
+  auto inverse = MatrixXd::Map(result.inverse.data(), eigen.eigenvalues().size(),
                                eigen.eigenvalues().size());
   for (Index i = 0; i < eigen.eigenvalues().size(); ++i) {
     const VectorXd direction = eigen.eigenvectors().col(i);

@@ -14,7 +14,7 @@ NetworkDesign parsed(const std::vector<std::string>& texts) {
   return design;
 }
 
-std::string refusal(const std::string& text) {
+std::string design_refusal(const std::string& text) {
   return message_of([&] { parsed({text}); });
 }
 
@@ -39,16 +39,16 @@ TEST_CASE("a network's design is read, written and read again") {
 }
 
 TEST_CASE("a wrong setting is told, with what would be right") {
-  CHECK(refusal("hiden=3").find("did you mean 'hidden'") != std::string::npos);
-  CHECK(refusal("hidden").find("has no value") != std::string::npos);
-  CHECK(refusal("hidden=15-0").find("a whole number from 1") != std::string::npos);
-  CHECK(refusal("hidden=500").find("at most 128") != std::string::npos);
-  CHECK(refusal("trainer=adm").find("did you mean 'adam'") != std::string::npos);
-  CHECK(refusal("rate=0").find("a number above 0") != std::string::npos);
-  CHECK(refusal("l2=-1").find("a number of 0 or more") != std::string::npos);
-  CHECK(refusal("members=1000").find("from 1 to 100") != std::string::npos);
-  CHECK(refusal("schedule=cosin").find("did you mean 'cosine'") != std::string::npos);
-  CHECK(refusal("batch=2.5").find("a whole number") != std::string::npos);
+  CHECK(design_refusal("hiden=3").find("did you mean 'hidden'") != std::string::npos);
+  CHECK(design_refusal("hidden").find("has no value") != std::string::npos);
+  CHECK(design_refusal("hidden=15-0").find("a whole number from 1") != std::string::npos);
+  CHECK(design_refusal("hidden=500").find("at most 128") != std::string::npos);
+  CHECK(design_refusal("trainer=adm").find("did you mean 'adam'") != std::string::npos);
+  CHECK(design_refusal("rate=0").find("a number above 0") != std::string::npos);
+  CHECK(design_refusal("l2=-1").find("a number of 0 or more") != std::string::npos);
+  CHECK(design_refusal("members=1000").find("from 1 to 100") != std::string::npos);
+  CHECK(design_refusal("schedule=cosin").find("did you mean 'cosine'") != std::string::npos);
+  CHECK(design_refusal("batch=2.5").find("a whole number") != std::string::npos);
 }
 
 TEST_CASE("what no model follows is refused") {

@@ -52,10 +52,6 @@ SuspensionStudy made_study() {
   return study;
 }
 
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
 }  // namespace
 
 TEST_CASE("dampings of the paper's gains at the wheel's resonance: TC-3.6c") {
