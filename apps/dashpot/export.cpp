@@ -92,7 +92,8 @@ std::vector<ExportedFile> damper_files(const ExportSettings& settings, const Exp
 }
 
 /// Throws Error where one of the formats is of models alone; `what` was to become it.
-void require_blocks(const ExportSettings& settings, const std::string& where, const std::string& what) {
+void require_blocks(const ExportSettings& settings, const std::string& where,
+                    const std::string& what) {
   std::vector<std::string> possible;
   for (const Exporter& exporter : exporters())
     if (exporter.write_block) possible.emplace_back(exporter.name);
@@ -103,7 +104,8 @@ void require_blocks(const ExportSettings& settings, const std::string& where, co
 }
 
 /// Null: what is named is a damper.
-CBlockMaker chosen_block(const ExportSettings& settings, const ExportOptions& options, Console& console) {
+CBlockMaker chosen_block(const ExportSettings& settings, const ExportOptions& options,
+                         Console& console) {
   const VehicleChoice& vehicle = settings.vehicle;
 
   // A controller takes its damper and sensors with it.
@@ -131,8 +133,8 @@ CBlockMaker chosen_block(const ExportSettings& settings, const ExportOptions& op
   return scheme_block(vehicle, settings.damper, options, console);
 }
 
-std::vector<ExportedFile> exported_files(const ExportSettings& settings, const ExportOptions& options,
-                                         Console& console) {
+std::vector<ExportedFile> exported_files(const ExportSettings& settings,
+                                         const ExportOptions& options, Console& console) {
   const CBlockMaker block = chosen_block(settings, options, console);
   if (!block) return damper_files(settings, options, console);
   std::vector<ExportedFile> files;

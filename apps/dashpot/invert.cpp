@@ -135,7 +135,8 @@ std::vector<std::string> chosen_networks(const InvertSettings& settings) {
 }
 
 /// The best first: by the force that it makes, else by its current.
-std::vector<Candidate> teach_all(const InvertSettings& settings, const Bench& bench, Console& console) {
+std::vector<Candidate> teach_all(const InvertSettings& settings, const Bench& bench,
+                                 Console& console) {
   std::vector<Candidate> candidates;
   for (const std::string& network : chosen_networks(settings)) {
     console.check_stop();
@@ -195,7 +196,8 @@ Value json_of(const Candidate& candidate, const Bench& bench) {
                         {"tracking", std::move(trials)}});
 }
 
-void save(const Candidate& best, const Bench& bench, const InvertSettings& settings, Console& console) {
+void save(const Candidate& best, const Bench& bench, const InvertSettings& settings,
+          Console& console) {
   InverseFile file{.network = best.fit.network,
                    .drive_unit = bench.drive_unit,
                    .domain = best.fit.domain,

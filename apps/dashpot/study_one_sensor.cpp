@@ -29,7 +29,8 @@ constexpr std::string_view kStudyOneSensorExample =
     "# The same questions to recordings of your own:\n"
     "dashpot study one-sensor recordings/ --leave-out condition";
 
-std::vector<StudiedDamper> studied_dampers(const StudyOneSensorSettings& settings, Console& console) {
+std::vector<StudiedDamper> studied_dampers(const StudyOneSensorSettings& settings,
+                                           Console& console) {
   if (settings.data.paths.empty()) return virtual_dampers(settings.options.seed);
   const std::optional<LeaveOut> stated = stated_leave_out(settings.leave_out);
   const Dataset dataset = load_recordings(settings.data, console);

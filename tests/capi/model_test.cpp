@@ -8,7 +8,6 @@
 
 namespace {
 
-
 struct Sine {
   explicit Sine(std::size_t count) {
     for (std::size_t k = 0; k < count; ++k) {

@@ -12,7 +12,6 @@
 
 namespace {
 
-
 /// One way of calling; it says what is wrong with it.
 using Call = std::function<dashpot_status()>;
 

@@ -18,7 +18,8 @@ constexpr std::size_t kWrapperSteps = 200;
 
 /// Inputs and the library's force, a row a step.
 std::vector<std::vector<double>> run_of(const DamperModel& model) {
-  const std::vector<DamperInput> inputs = export_run(exported(model).domain, kWrapperStep, kWrapperSteps);
+  const std::vector<DamperInput> inputs =
+      export_run(exported(model).domain, kWrapperStep, kWrapperSteps);
   const std::vector<double> force = force_along(model, inputs, kWrapperStep);
   std::vector<std::vector<double>> rows;
   for (std::size_t k = 0; k < kWrapperSteps; ++k)
@@ -29,8 +30,8 @@ std::vector<std::vector<double>> run_of(const DamperModel& model) {
 std::string run_header(const DamperModel& model) {
   std::string rows;
   for (const std::vector<double>& row : run_of(model)) rows += "  " + c_numbers(row) + ",\n";
-  return "#define SAMPLE_TIME " + c_number(kWrapperStep) + "\nstatic const double kRun[][4] = {\n" + rows +
-         "};\n";
+  return "#define SAMPLE_TIME " + c_number(kWrapperStep) + "\nstatic const double kRun[][4] = {\n" +
+         rows + "};\n";
 }
 
 std::string run_csv(const DamperModel& model) {
@@ -66,8 +67,8 @@ TEST_CASE("exported S-function: it steps as Simulink steps it, and gives the lib
   for_each_kind([](const ExampleModel& example) {
     CAPTURE(example.name);
     const TemporaryFolder folder;
-    write_wrappers(folder,
-              write_sfunction(exported(*example.model), {.name = "x", .sample_time = kWrapperStep}));
+    write_wrappers(folder, write_sfunction(exported(*example.model),
+                                           {.name = "x", .sample_time = kWrapperStep}));
     folder.write("run.h", run_header(*example.model));
     const ProgramResult result = run_in(folder, "cc -std=c99 -Wall -Wextra -Werror -isystem '" +
                                                     project_file("tests/conformance/simulink") +
@@ -85,8 +86,8 @@ TEST_CASE(
   for_each_kind([](const ExampleModel& example) {
     CAPTURE(example.name);
     const TemporaryFolder folder;
-    write_wrappers(folder,
-              write_modelica(exported(*example.model), {.name = "x", .sample_time = kWrapperStep}));
+    write_wrappers(folder, write_modelica(exported(*example.model),
+                                          {.name = "x", .sample_time = kWrapperStep}));
     folder.write("run.h", run_header(*example.model));
     folder.write("main.c", R"(#include <math.h>
 #include "run.h"
@@ -148,8 +149,9 @@ TEST_CASE("exported MEX: Octave builds it and gets the library's force" *
     for (const CPrecision precision : {CPrecision::Double, CPrecision::Single}) {
       const bool single = precision == CPrecision::Single;
       const std::string name = example.name + (single ? "_s" : "_d");
-      write_wrappers(folder, write_mex(exported(*example.model),
-                                  {.name = name, .precision = precision, .sample_time = kWrapperStep}));
+      write_wrappers(
+          folder, write_mex(exported(*example.model),
+                            {.name = name, .precision = precision, .sample_time = kWrapperStep}));
       folder.write(name + ".csv", run_csv(*example.model));
       commands += "mkoctfile --mex " + name + "_mex.c " + name + ".c && ";
       checks += "run = csvread('" + name + ".csv'); f = " + name +

@@ -13,7 +13,6 @@ using namespace dashpot;
 
 namespace {
 
-
 /// Rosenbrock's function as residuals 10 (y - x^2) and 1 - x, with its Jacobian.
 LeastSquaresProblem rosenbrock() {
   LeastSquaresProblem problem;

@@ -12,7 +12,6 @@ using namespace dashpot;
 
 namespace {
 
-
 /// A problem of NIST's Statistical Reference Datasets (nonlinear regression): certified to 11
 /// digits.
 struct Certified {

@@ -6,9 +6,7 @@
 
 using namespace dashpot;
 
-namespace {
-
-}  // namespace
+namespace {}  // namespace
 
 TEST_CASE(
     "a search's verdict names the best, the smallest that is as good, and the price of choosing") {

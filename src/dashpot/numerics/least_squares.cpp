@@ -107,7 +107,7 @@ std::vector<bool> held_by_bounds(const LeastSquaresProblem& problem, const std::
 class LeastSquaresListener final : public ceres::IterationCallback {
  public:
   LeastSquaresListener(const LeastSquaresProblem& problem, const LeastSquaresOptions& options,
-           const LeastSquaresReport& report, std::exception_ptr& failure)
+                       const LeastSquaresReport& report, std::exception_ptr& failure)
       : problem_(problem), options_(options), report_(report), failure_(failure) {}
 
   void set_held(const std::vector<bool>& held) { held_ = held; }
@@ -138,7 +138,8 @@ class LeastSquaresListener final : public ceres::IterationCallback {
   bool hopeless_ = false;
 };
 
-ceres::Solver::Options ceres_options(const LeastSquaresOptions& options, LeastSquaresListener& listener) {
+ceres::Solver::Options ceres_options(const LeastSquaresOptions& options,
+                                     LeastSquaresListener& listener) {
   ceres::Solver::Options result;
   result.linear_solver_type =
       options.normal_equations ? ceres::DENSE_NORMAL_CHOLESKY : ceres::DENSE_QR;

@@ -134,8 +134,8 @@ SymmetricInverse invert_symmetric(std::span<const double> matrix, std::size_t n,
   const double floor = tolerance * eigen.eigenvalues().cwiseAbs().maxCoeff();
 
   // inverse = sum of v v' / lambda over the directions that are not weak.
-  auto inverse = MatrixXd::Map(result.inverse.data(), eigen.eigenvalues().size(),
-                               eigen.eigenvalues().size());
+  auto inverse =
+      MatrixXd::Map(result.inverse.data(), eigen.eigenvalues().size(), eigen.eigenvalues().size());
   for (Index i = 0; i < eigen.eigenvalues().size(); ++i) {
     const VectorXd direction = eigen.eigenvectors().col(i);
     if (eigen.eigenvalues()[i] > floor)

@@ -36,7 +36,7 @@ class Wrapped final : public ceres::FirstOrderFunction {
 class MinimiseListener final : public ceres::IterationCallback {
  public:
   MinimiseListener(const MinimiseOptions& options, const std::vector<double>& x,
-           std::exception_ptr& failure)
+                   std::exception_ptr& failure)
       : options_(options), x_(x), failure_(failure) {}
 
   ceres::CallbackReturnType operator()(const ceres::IterationSummary& summary) override {

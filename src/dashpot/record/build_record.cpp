@@ -153,8 +153,9 @@ void cut(Record& record, const FileStatement& statement) {
   // Rest is looked for within what the times leave.
   if (statement.cut_rest) {
     const std::size_t n = last - first;
-    const auto [begin, end] = moving_part(std::span(record.time).subspan(first, n),
-                                          std::span(motion_channel(record).samples).subspan(first, n));
+    const auto [begin, end] =
+        moving_part(std::span(record.time).subspan(first, n),
+                    std::span(motion_channel(record).samples).subspan(first, n));
     last = first + end;
     first += begin;
   }

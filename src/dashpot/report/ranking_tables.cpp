@@ -138,13 +138,14 @@ const std::vector<ModelColumn>& model_columns() {
               status_text)};
 
     // Against the first model, sorted by the difference itself.
-    all.push_back(
-        {"behind_percent",
-         {.title = "Behind %",
-          .numeric = true,
-          .hint = "90 % interval of the paired difference of its ESR to the first "
-                  "model's"},
-         [](Model m) { return DocumentCell{behind_text(m), m.behind ? m.behind->esr : kNoNumber}; }});
+    all.push_back({"behind_percent",
+                   {.title = "Behind %",
+                    .numeric = true,
+                    .hint = "90 % interval of the paired difference of its ESR to the first "
+                            "model's"},
+                   [](Model m) {
+                     return DocumentCell{behind_text(m), m.behind ? m.behind->esr : kNoNumber};
+                   }});
     all.push_back(words("told_apart", "Apart",
                         "Whether the data tell the model from the first one: that interval does "
                         "not hold 0",

@@ -41,7 +41,8 @@ TEST_CASE(
   CHECK_CLOSE(one.training_rmse, seen.pooled.rmse, 0.5, 0);
   REQUIRE(seen.one_step);
   CHECK(seen.one_step->esr < 1);
-  CHECK(evaluate(*one.model, sampled_campaign({{0.007, 2}}).records, DriveUnit::Ampere).pooled.esr < 3);
+  CHECK(evaluate(*one.model, sampled_campaign({{0.007, 2}}).records, DriveUnit::Ampere).pooled.esr <
+        3);
 }
 
 TEST_CASE("a network's design says what it reads and what comes back") {
@@ -127,7 +128,8 @@ TEST_CASE("a static preset with delays reads past inputs and feeds nothing back"
 
 TEST_CASE("records of several rates are brought to the step of the slowest") {
   std::vector<Record> training = sampled_campaign({{0.01, 1}}, 100).records;
-  for (const Record& record : sampled_campaign({{0.01, 1.5}}, 250).records) training.push_back(record);
+  for (const Record& record : sampled_campaign({{0.01, 1.5}}, 250).records)
+    training.push_back(record);
   const FitReport fit =
       identify("narx_one_sensor", training, DriveUnit::Ampere, with("hidden=4,epochs=15,l2=1e-5"));
   CHECK(fit.model->feedback_step() == 0.01);

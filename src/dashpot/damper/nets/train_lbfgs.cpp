@@ -14,7 +14,7 @@ namespace dashpot {
 namespace {
 
 constexpr std::size_t kSampleStretches = 8;  // of samples: as many threads can share the work
-constexpr std::size_t kPass = 64;      // samples that go through the network together
+constexpr std::size_t kPass = 64;            // samples that go through the network together
 
 /// Cost and gradient over all samples: sums over fixed stretches, then over those, so that they do
 /// not depend on the number of threads.

@@ -97,14 +97,14 @@ std::vector<ExportedFile> write_c_block(const CBlock& block, const std::string& 
   std::vector<ExportedFile> files = c_block_sources(block, block.name, command);
   const std::string test =
       filled(kBlockTest, {{"version", block.version},
-                     {"steps", std::to_string(block.samples.size())},
-                     {"inputs", std::to_string(block.samples.front().inputs.size())},
-                     {"commands", std::to_string(block.samples.front().commands.size())},
-                     {"reads", c_block_reads(block)},
-                     {"step", block.step},
-                     {"range", c_number(block.range)},
-                     {"tolerance", c_number(block.tolerance)},
-                     {"rows", rows_of(block)}});
+                          {"steps", std::to_string(block.samples.size())},
+                          {"inputs", std::to_string(block.samples.front().inputs.size())},
+                          {"commands", std::to_string(block.samples.front().commands.size())},
+                          {"reads", c_block_reads(block)},
+                          {"step", block.step},
+                          {"range", c_number(block.range)},
+                          {"tolerance", c_number(block.tolerance)},
+                          {"rows", rows_of(block)}});
   files.push_back({block.name + "_test.c", finished(block, test, block.name, command)});
   return files;
 }

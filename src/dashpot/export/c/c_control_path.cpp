@@ -178,8 +178,8 @@ std::string filters_function(const Vehicle& vehicle, const std::set<std::string>
   if (at.slope) {
     texts += "#include \"filtered_slope.h\"\n";
     lines += "  const double deflection_velocity =\n      filtered_slope(measured->deflection, " +
-             c_number(filters.share()) + ", DAMPER_SAMPLE_TIME, &state[" + std::to_string(at.slope_at()) +
-             "]);\n";
+             c_number(filters.share()) + ", DAMPER_SAMPLE_TIME, &state[" +
+             std::to_string(at.slope_at()) + "]);\n";
   }
 
   // A field for each signal: measured, or made of what is.

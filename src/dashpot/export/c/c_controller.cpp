@@ -125,7 +125,8 @@ std::vector<std::pair<std::string, std::string>> facts(const Vehicle& vehicle,
       {"version", options.version},
       {"struts", std::to_string(struts)},
       {"plant_states",
-       states ? "#define DAMPER_PLANT_STATES " + std::to_string(path.plant_states) + "\n" : std::string()},
+       states ? "#define DAMPER_PLANT_STATES " + std::to_string(path.plant_states) + "\n"
+              : std::string()},
       {"size", std::to_string(size)},
       {"sample_time", c_number(limits.sample_time)}};
 }

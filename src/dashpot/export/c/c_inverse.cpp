@@ -126,8 +126,8 @@ CBlock c_inverse_block(const ExportedInverse& inverse, const ExportOptions& opti
 
   // The facts that the header states.
   const std::string about = filled(kInverseAbout, {{"unit", unit},
-                                            {"low", format_number(limits.current_min)},
-                                            {"high", format_number(limits.current_max)}});
+                                                   {"low", format_number(limits.current_min)},
+                                                   {"high", format_number(limits.current_max)}});
   const std::vector<std::pair<std::string, std::string>> values{
       {"title", inverse.title},
       {"about", about},

@@ -23,9 +23,9 @@ std::string mlp_tables(const Mlp& mlp, const std::string& name) {
 }
 
 std::string mlp_entry(const Mlp& mlp, const std::string& name) {
-  return "    {" + name + "Layers, " + std::to_string(mlp.layers.size()) + ", " + name + "Activations, " +
-         name + "Parameters, " + name + "Mean, " + name + "Scale, " + c_number(mlp.output_mean) +
-         ", " + c_number(mlp.output_scale) + "},\n";
+  return "    {" + name + "Layers, " + std::to_string(mlp.layers.size()) + ", " + name +
+         "Activations, " + name + "Parameters, " + name + "Mean, " + name + "Scale, " +
+         c_number(mlp.output_mean) + ", " + c_number(mlp.output_scale) + "},\n";
 }
 
 std::string network_tables(const GatedNetwork& network, const std::string& name) {
@@ -42,10 +42,10 @@ std::string network_tables(const GatedNetwork& network, const std::string& name)
 }
 
 std::string network_entry(const GatedNetwork& network, const std::string& name) {
-  return "    {" + std::to_string(network.signals.size()) + ", " + std::to_string(network.currents) + ", " +
-         std::to_string(network.hidden()) + ", " + name + "Mean, " + name + "Scale, " + name + "Low, " +
-         name + "High, " + name + "Neurons, " + name + "Gates, " + c_number(network.output_scale) +
-         "},\n";
+  return "    {" + std::to_string(network.signals.size()) + ", " +
+         std::to_string(network.currents) + ", " + std::to_string(network.hidden()) + ", " + name +
+         "Mean, " + name + "Scale, " + name + "Low, " + name + "High, " + name + "Neurons, " +
+         name + "Gates, " + c_number(network.output_scale) + "},\n";
 }
 
 std::string array_of(const std::string& type, const std::string& name, const std::string& entries) {
@@ -75,8 +75,8 @@ std::string c_mlps(std::span<const Mlp> members) {
     tables += mlp_tables(members[m], name);
     entries += mlp_entry(members[m], name);
   }
-  return "#define MLP_MOST_WIDTH " + std::to_string(widest) + "\n\n" + "#include \"mlp.h\"\n" + tables +
-         array_of("Mlp", "kMlps", entries);
+  return "#define MLP_MOST_WIDTH " + std::to_string(widest) + "\n\n" + "#include \"mlp.h\"\n" +
+         tables + array_of("Mlp", "kMlps", entries);
 }
 
 std::string c_gated_networks(const std::vector<const GatedNetwork*>& networks) {
@@ -101,8 +101,8 @@ std::string c_banks(const std::vector<const HysteresisBank*>& banks) {
     const std::string name = "kBank" + std::to_string(m);
     tables += c_table(name + "Rates", bank.rates());
     entries += "    {" + name + "Rates, " + std::to_string(bank.path_rates.size()) + ", " +
-               std::to_string(bank.velocity_rates.size()) + ", " + std::to_string(bank.current_rates.size()) +
-               "},\n";
+               std::to_string(bank.velocity_rates.size()) + ", " +
+               std::to_string(bank.current_rates.size()) + "},\n";
   }
   return "#include \"hysteresis_bank.h\"\n" + tables +
          array_of("HysteresisBank", "kBanks", entries);
@@ -140,7 +140,10 @@ static double model_force(const DamperInput* input, const double* state) {
 }
 
 )",
-      {{"part", part}, {"array", array}, {"count", std::to_string(count)}, {"offset", c_number(offset)}});
+      {{"part", part},
+       {"array", array},
+       {"count", std::to_string(count)},
+       {"offset", c_number(offset)}});
 }
 
 std::string c_stateless(const std::string& stem) {

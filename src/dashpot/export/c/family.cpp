@@ -125,8 +125,8 @@ static double family_force(const DamperInput* input, const double* state) {
 std::string gates_code(const FamilyModel& model, const FamilyGates& gates) {
   std::string soft;
   for (std::size_t k = 0; k < gates.soft_speeds.size(); ++k)
-    soft += "  terms[" + std::to_string(gates.bank.signal_count() + k) + "] = tanh(input->velocity / " +
-            c_number(gates.soft_speeds[k]) + ");\n";
+    soft += "  terms[" + std::to_string(gates.bank.signal_count() + k) +
+            "] = tanh(input->velocity / " + c_number(gates.soft_speeds[k]) + ");\n";
   soft += "  terms[FAMILY_TERMS - 1] = 1.0;\n";
   return c_banks({&gates.bank}) + "#define FAMILY_TERMS " + std::to_string(gates.term_count()) +
          "\n\n/* Per term: powers 0 to 3 of the field's share. */\n" +

@@ -17,9 +17,9 @@ std::string sugeno_code(const Sugeno& sugeno) {
   // The sets, a row each, and the rules: each the number of its sets, then these.
   std::string memberships;
   for (const Membership& m : sugeno.memberships)
-    memberships += "    {" + std::to_string(static_cast<std::size_t>(m.shape)) + ", " + std::to_string(m.input) +
-                   ", " + c_number(m.centre) + ", " + c_number(m.width) + ", " + c_number(m.slope) +
-                   "},\n";
+    memberships += "    {" + std::to_string(static_cast<std::size_t>(m.shape)) + ", " +
+                   std::to_string(m.input) + ", " + c_number(m.centre) + ", " + c_number(m.width) +
+                   ", " + c_number(m.slope) + "},\n";
   std::vector<int> rules;
   for (const std::vector<std::size_t>& rule : sugeno.rules) {
     rules.push_back(static_cast<int>(rule.size()));
@@ -34,9 +34,10 @@ std::string sugeno_code(const Sugeno& sugeno) {
          c_table("kConsequents", sugeno.consequents) +
          "static const Membership kMemberships[] = {\n" + memberships +
          "};\n\nstatic const Sugeno kSugeno = {" + std::to_string(sugeno.inputs.size()) +
-         ", kMean, kScale, kLow, kHigh, kMemberships, " + std::to_string(sugeno.memberships.size()) +
-         ", kRules, " + std::to_string(sugeno.rules.size()) + ", kConsequents, " +
-         c_number(sugeno.output_mean) + ", " + c_number(sugeno.output_scale) + "};\n\n";
+         ", kMean, kScale, kLow, kHigh, kMemberships, " +
+         std::to_string(sugeno.memberships.size()) + ", kRules, " +
+         std::to_string(sugeno.rules.size()) + ", kConsequents, " + c_number(sugeno.output_mean) +
+         ", " + c_number(sugeno.output_scale) + "};\n\n";
 }
 
 /// A lagged number of the state, the past velocity or the coil's current, and how fast it follows.

@@ -13,7 +13,6 @@
 namespace dashpot {
 namespace {
 
-
 /// SOURCE_DATE_EPOCH, by which builds are made reproducible, or now.
 std::time_t time_of_making() {
   const char* fixed = std::getenv("SOURCE_DATE_EPOCH");

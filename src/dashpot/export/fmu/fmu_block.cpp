@@ -5,7 +5,6 @@
 namespace dashpot {
 namespace {
 
-
 /// The functions that fmu_block.h asks of a block.
 constexpr const char* kDefinitions = R"(
 static void fmu_read(const double* row, damper_input* input) {

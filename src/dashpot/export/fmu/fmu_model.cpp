@@ -9,7 +9,6 @@
 namespace dashpot {
 namespace {
 
-
 constexpr std::size_t kReferenceSteps = 500;
 
 constexpr const char* kCoSimulation =

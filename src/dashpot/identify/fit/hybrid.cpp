@@ -19,7 +19,8 @@ constexpr std::size_t kHybridSamples = 8000;       // of a fit, every k-th; the 
 constexpr std::size_t kHybridTrialSamples = 2500;  // of a trial of a weight decay
 constexpr int kHybridIterations = 60, kHybridTrialIterations = 30;
 constexpr double kHybridTolerance = 1e-4;
-constexpr std::array kHybridDecays{1e-1, 1e-2, 1e-3, 1e-4};  // in the mean square of what the law leaves
+constexpr std::array kHybridDecays{1e-1, 1e-2, 1e-3,
+                                   1e-4};  // in the mean square of what the law leaves
 
 constexpr std::size_t kFewestLevels = 4;  // that tell more than a line, one of them left out
 
@@ -166,7 +167,7 @@ class HybridFit {
     std::array<double, kHybridDecays.size()> sums{};
     for (std::size_t k = 0; k < errors.size(); ++k) sums[k % kHybridDecays.size()] += errors[k];
     return kHybridDecays[static_cast<std::size_t>(std::min_element(sums.begin(), sums.end()) -
-                                            sums.begin())];
+                                                  sums.begin())];
   }
 
   void find_ranges(GatedNetwork& network, const SignalRows& rows) const {

@@ -15,9 +15,10 @@
 namespace dashpot {
 namespace {
 
-constexpr std::size_t kBankSamples = 8000;                  // of a fit, every k-th; the states see all
-constexpr std::size_t kBankTrialSamples = 2500;             // of a trial of a decay
-constexpr int kBankIterations = 60, kBankTrialIterations = 25;  // stopping early, too, keeps weights small
+constexpr std::size_t kBankSamples = 8000;       // of a fit, every k-th; the states see all
+constexpr std::size_t kBankTrialSamples = 2500;  // of a trial of a decay
+constexpr int kBankIterations = 60,
+              kBankTrialIterations = 25;  // stopping early, too, keeps weights small
 constexpr std::array kBankDecays{1e-3, 1e-4, 1e-5};
 
 using Records = std::vector<const FreeRunRecord*>;

@@ -11,7 +11,8 @@
 namespace dashpot {
 namespace {
 
-constexpr double kSlowestRate = 0.05, kFastestRate = 50;  // rates of an exponential, per range of the drive
+constexpr double kSlowestRate = 0.05,
+                 kFastestRate = 50;  // rates of an exponential, per range of the drive
 
 /// The form as far as these currents determine it: two levels allow a line at most, and with one
 /// nothing depends on current.

@@ -375,7 +375,7 @@ double best_decay(const NarxPlan& plan, const Regressors& regressors,
   std::array<double, kNarxDecays.size()> sums{};
   for (std::size_t k = 0; k < squares.size(); ++k) sums[k % kNarxDecays.size()] += squares[k];
   return kNarxDecays[static_cast<std::size_t>(std::min_element(sums.begin(), sums.end()) -
-                                          sums.begin())];
+                                              sums.begin())];
 }
 
 Effort full_effort(const NarxPlan& plan, const IdentifyOptions& options, double decay) {

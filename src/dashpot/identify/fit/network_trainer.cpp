@@ -143,8 +143,9 @@ class DecayTrials {
               const IdentifyOptions& options)
       : start_(start), options_(options) {
     for (const Fold& fold : trial_folds(training))
-      lessons_.push_back({thinned(samples_of(fold.training), start.layers.front(), kNetworkTrialSamples),
-                          thinned(samples_of(fold.left_out), start.layers.front(), kNetworkTrialSamples)});
+      lessons_.push_back(
+          {thinned(samples_of(fold.training), start.layers.front(), kNetworkTrialSamples),
+           thinned(samples_of(fold.left_out), start.layers.front(), kNetworkTrialSamples)});
   }
 
   double best() const {
@@ -155,7 +156,7 @@ class DecayTrials {
     std::array<double, kNetworkDecays.size()> sums{};
     for (std::size_t k = 0; k < errors.size(); ++k) sums[k % kNetworkDecays.size()] += errors[k];
     return kNetworkDecays[static_cast<std::size_t>(std::min_element(sums.begin(), sums.end()) -
-                                            sums.begin())];
+                                                   sums.begin())];
   }
 
  private:

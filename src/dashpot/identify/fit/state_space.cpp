@@ -14,9 +14,9 @@
 namespace dashpot {
 namespace {
 
-constexpr std::size_t kStateSpaceSamples = 6000;    // of a fit, every k-th; the states see all
-constexpr std::size_t kWindow = 400;      // samples of a window
-constexpr std::size_t kWindowStride = 2;  // of its samples, scored
+constexpr std::size_t kStateSpaceSamples = 6000;  // of a fit, every k-th; the states see all
+constexpr std::size_t kWindow = 400;              // samples of a window
+constexpr std::size_t kWindowStride = 2;          // of its samples, scored
 constexpr std::size_t kWindowSteps = 12000, kTrialSteps = 5000;
 constexpr int kWindowIterations = 25, kStateSpaceTrialIterations = 12, kFinishIterations = 30;
 // Iterations that end a lone trial: a short one prefers small weights, so a lone one is made in
@@ -135,9 +135,9 @@ class StateSpaceFit {
     const bool lone = trials.all().size() == 1;
     return trials.best_decay(
         kStateSpaceDecays, options_.threads, [this, lone](const FreeRunTrial& trial, double decay) {
-          StateSpaceNetwork found =
-              from_windows(trial.training, lone ? Effort{decay, kWindowIterations, kWindowSteps}
-                                                : Effort{decay, kStateSpaceTrialIterations, kTrialSteps});
+          StateSpaceNetwork found = from_windows(
+              trial.training, lone ? Effort{decay, kWindowIterations, kWindowSteps}
+                                   : Effort{decay, kStateSpaceTrialIterations, kTrialSteps});
           if (lone) train(found, trial.training, finish(decay, kTrialFinish));
           double squares = 0;
           for (const FreeRunRecord* record : trial.held_back)

@@ -83,7 +83,8 @@ class Collector {
   Collector(mat_t* file, std::string path) : file_(file), path_(std::move(path)) {}
 
   void collect(matvar_t& variable, const std::string& name, int depth) {
-    if (variable.rank != 2 || depth > kDeepestVariable) return pass_over(name, "not two-dimensional");
+    if (variable.rank != 2 || depth > kDeepestVariable)
+      return pass_over(name, "not two-dimensional");
 
     // Go into structures of one element; pass over what is no matrix of real numbers.
     const std::size_t rows = variable.dims[0], columns = variable.dims[1];

@@ -166,7 +166,8 @@ void check_structure(Cursor& cursor, std::size_t count, int depth) {
 
 void check_matrix(std::string_view bytes, const Cursor& outer, int depth) {
   if (depth > kDeepestStructure)
-    damaged(outer.file(), "structures nested more than " + std::to_string(kDeepestStructure) + " deep");
+    damaged(outer.file(),
+            "structures nested more than " + std::to_string(kDeepestStructure) + " deep");
 
   // The flags tell the class; classes that are never opened need no check.
   Cursor cursor(bytes, outer.swap(), outer.file());

@@ -66,7 +66,8 @@ std::vector<Law> sweep_back(const SampledPlant& car, const ForceRange& range,
     const SmallMatrix<6, 6> form =
         car.step() * cost_form(now, index) + transposed(now.motion) * (value * now.motion);
     Law law;
-    for (std::size_t j = 0; j < 5; ++j) law(0, j) = -form(kForcePlace, j) / form(kForcePlace, kForcePlace);
+    for (std::size_t j = 0; j < 5; ++j)
+      law(0, j) = -form(kForcePlace, j) / form(kForcePlace, kForcePlace);
     laws[cell] = law;
 
     // Where the path's force is at an end of its range, the law keeps it there.
@@ -82,7 +83,8 @@ std::vector<Law> sweep_back(const SampledPlant& car, const ForceRange& range,
       const double force = is_hard ? hard : soft;
       const auto [slope, offset] = range.piece(free + by_force * force, is_hard ? 1 : 0);
       for (std::size_t j = 0; j < 5; ++j)
-        law(0, j) = (slope * now.speed(0, j) + (j == kOnePlace ? offset : 0)) / (1 - slope * by_force);
+        law(0, j) =
+            (slope * now.speed(0, j) + (j == kOnePlace ? offset : 0)) / (1 - slope * by_force);
     }
 
     // The value one cell earlier, under that law.

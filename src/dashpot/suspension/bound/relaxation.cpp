@@ -45,7 +45,8 @@ struct Minimum {
 };
 Minimum minimum_over_force(const Form& form) {
   Minimum out;
-  for (std::size_t j = 0; j < 5; ++j) out.law(0, j) = -form(kForcePlace, j) / form(kForcePlace, kForcePlace);
+  for (std::size_t j = 0; j < 5; ++j)
+    out.law(0, j) = -form(kForcePlace, j) / form(kForcePlace, kForcePlace);
   for (std::size_t i = 0; i < 5; ++i)
     for (std::size_t j = 0; j < 5; ++j)
       out.value(i, j) = form(i, j) + form(i, kForcePlace) * out.law(0, j);

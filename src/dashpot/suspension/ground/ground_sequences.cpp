@@ -18,7 +18,7 @@ constexpr ParameterRow kLength{"length", "m", 1000, 1, 1e6, "of the road"};
 constexpr ParameterRow kLeast{"wave_number_min",          "1/m", 0.011, 1e-4, 100,
                               "longest wave: 1 over this"};
 constexpr ParameterRow kGreatestRow{"wave_number_max",           "1/m", 2.83, 1e-3, 1000,
-                                 "shortest wave: 1 over this"};
+                                    "shortest wave: 1 over this"};
 constexpr ParameterRow kTrackWidth{
     "track_width", "m", 0, 0, 10, "between left and right; 0: one track"};
 constexpr ParameterRow kAmplitude{"amplitude", "m", 0.01, 1e-6, 10, "of the sine"};
