@@ -3,7 +3,7 @@
 #include <cassert>
 #include <cmath>
 
-#include <boost/math/distributions/students_t.hpp>
+#include "dashpot/numerics/distributions.h"
 
 namespace dashpot {
 namespace {
@@ -65,8 +65,7 @@ std::optional<PairedDifference> paired_difference(std::span<const double> esr_pa
     squares += std::pow(esr_parts[k] - leader_parts[k] - difference.esr / n, 2);
 
   // The interval of a sum of n such differences.
-  const double quantile =
-      boost::math::quantile(boost::math::students_t(n - 1), (1 + kPairedLevel) / 2);
+  const double quantile = students_t_quantile(n - 1, (1 + kPairedLevel) / 2);
   const double half = quantile * std::sqrt(n * squares / (n - 1));
   difference.low = difference.esr - half;
   difference.high = difference.esr + half;

@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include <boost/math/special_functions/erf.hpp>
-
 #include "dashpot/base/read_quantity.h"
 #include "dashpot/base/text.h"
 #include "dashpot/base/units.h"
 #include "dashpot/error.h"
+#include "dashpot/numerics/distributions.h"
 
 namespace dashpot {
 namespace {
@@ -24,7 +23,7 @@ double normal_between(double low, double high, double u) {
   // Computed from the lower tail, where probabilities keep their digits.
   if (low > 0) return -normal_between(-high, -low, 1 - u);
   const double share = normal_share(low) + u * (normal_share(high) - normal_share(low));
-  return std::clamp(-std::sqrt(2.0) * boost::math::erfc_inv(2 * share), low, high);
+  return std::clamp(normal_quantile(share), low, high);
 }
 
 std::string with_unit(double value, const std::string& unit) {

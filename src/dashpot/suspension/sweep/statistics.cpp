@@ -4,8 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include <boost/math/distributions/binomial.hpp>
-#include <boost/math/special_functions/erf.hpp>
+#include "dashpot/numerics/distributions.h"
 
 namespace dashpot {
 namespace {
@@ -54,13 +53,13 @@ Quantile quantile_of(std::span<const double> sorted, double share) {
 
   // Of `count` values, B lie below the quantile, and B is binomial. The value of rank j, from 1,
   // is above the quantile with the probability that B < j.
-  const boost::math::binomial_distribution<> below_it(static_cast<double>(count), share);
+  const Binomial below_it{static_cast<double>(count), share};
   const double tail = 0.5 * (1 - kSweepConfidence);
-  auto j = static_cast<std::size_t>(boost::math::quantile(below_it, tail)) + 1;
-  while (j > 0 && boost::math::cdf(below_it, static_cast<double>(j - 1)) > tail) --j;
+  auto j = static_cast<std::size_t>(below_it.quantile(tail)) + 1;
+  while (j > 0 && below_it.at_most(static_cast<double>(j - 1)) > tail) --j;
   if (j > 0) quantile.low = sorted[j - 1];
-  auto k = static_cast<std::size_t>(boost::math::quantile(below_it, 1 - tail)) + 1;
-  while (k <= count && boost::math::cdf(below_it, static_cast<double>(k - 1)) < 1 - tail) ++k;
+  auto k = static_cast<std::size_t>(below_it.quantile(1 - tail)) + 1;
+  while (k <= count && below_it.at_most(static_cast<double>(k - 1)) < 1 - tail) ++k;
   if (k <= count) quantile.high = sorted[k - 1];
   return quantile;
 }
@@ -100,7 +99,7 @@ std::optional<double> rank_correlation(std::span<const double> x, std::span<cons
 }
 
 double chance_correlation(std::size_t pairs) {
-  const double z = std::sqrt(2.0) * boost::math::erf_inv(kSweepConfidence);
+  const double z = normal_quantile(0.5 * (1 + kSweepConfidence));
   return pairs > 1 ? std::min(1.0, z / std::sqrt(static_cast<double>(pairs - 1))) : 1;
 }
 

@@ -1,0 +1,19 @@
+#pragma once
+
+namespace dashpot {
+
+// Quantiles: the value that lies above a share `p` of all, 0 < p < 1. Computed by Boost.Math in
+// double precision alone, so that they are the same on every processor and under valgrind.
+
+double normal_quantile(double p);
+double students_t_quantile(double degrees, double p);  ///< degrees > 0, of freedom
+
+/// How many of `trials` succeed, each with the probability `success`.
+struct Binomial {
+  double trials, success;
+
+  double quantile(double p) const;     ///< rounded away from the middle
+  double at_most(double count) const;  ///< the probability of `count` successes or fewer
+};
+
+}  // namespace dashpot
