@@ -14,13 +14,13 @@ namespace {
 const LeaveOut kByMotion{.by = LeaveOut::By::Condition};
 
 /// Two motions at two currents, so three fits of each model.
-const Dataset& campaign() {
+const Dataset& two_motions() {
   static const Dataset dataset = small_campaign({{0.01, 1}, {0.005, 3}});
   return dataset;
 }
 
 ChosenModels choose(std::vector<std::string> models, double budget,
-                    const Dataset& dataset = campaign()) {
+                    const Dataset& dataset = two_motions()) {
   FitWords words;
   words.models = std::move(models);
   words.budget = budget;
@@ -34,10 +34,10 @@ std::vector<std::string> untried_of(const ChosenModels& chosen) {
 }
 
 double minutes_of(const std::vector<std::string>& models) {
-  const Divisions divisions = divide(campaign(), kByMotion);
+  const Divisions divisions = divide(two_motions(), kByMotion);
   double seconds = 0;
   for (const std::string& model : models)
-    seconds += expected_seconds(model, divisions, campaign().drive_unit);
+    seconds += expected_seconds(model, divisions, two_motions().drive_unit);
   return seconds / 60 / 2;
 }
 
@@ -58,9 +58,14 @@ TEST_CASE("a growing budget tries more of the usual models, in their order") {
 }
 
 TEST_CASE("the budget that is named for an untried model tries it, and not a whole minute less") {
-  const UntriedModel last = choose({"all"}, 1).budget.value().untried.back();
-  CHECK(untried_of(choose({"all"}, last.budget_minutes)).empty());
-  CHECK(untried_of(choose({"all"}, last.budget_minutes - 1)).back() == last.name);
+  const Dataset dataset = small_campaign({{0.01, 1}, {0.005, 3}, {0.02, 0.5}, {0.002, 5}},
+                                         {.drive_levels = {0, 0.25, 0.5, 0.75, 1}});
+  const ChosenModels few = choose({"all"}, 0.1, dataset);
+  REQUIRE(!few.budget.value().untried.empty());
+  const UntriedModel last = few.budget->untried.back();
+  REQUIRE(last.budget_minutes > 1);
+  CHECK(untried_of(choose({"all"}, last.budget_minutes, dataset)).empty());
+  CHECK(untried_of(choose({"all"}, last.budget_minutes - 1, dataset)).back() == last.name);
 }
 
 TEST_CASE("a budget of 0 is no limit, and 'all' has none unless one is stated") {
@@ -103,7 +108,7 @@ TEST_CASE("models that are named are never dropped, whatever they cost") {
 }
 
 TEST_CASE("without a displacement the passive network of one sensor stands for the other") {
-  Dataset blind = campaign();
+  Dataset blind = two_motions();
   for (Record& record : blind.records)
     std::erase_if(record.channels, [](const Channel& c) { return c.name == "displacement"; });
   const ChosenModels chosen = choose({"usual"}, 0, blind);
@@ -113,7 +118,7 @@ TEST_CASE("without a displacement the passive network of one sensor stands for t
 }
 
 TEST_CASE("costs follow the data: more records cost more, fewer updates of a network less") {
-  const Divisions two = divide(campaign(), kByMotion);
+  const Divisions two = divide(two_motions(), kByMotion);
   const Divisions four =
       divide(small_campaign({{0.01, 1}, {0.005, 3}, {0.02, 0.5}, {0.002, 5}}), kByMotion);
   for (const std::string& model : usual_models()) {
