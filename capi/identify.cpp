@@ -1,4 +1,5 @@
 #include "dashpot/base/date.h"
+#include "dashpot/identify/rank/model_choice.h"
 #include "dashpot/report/report_json.h"
 #include "dashpot/report/safe_text.h"
 #include "dashpot/report/words.h"
@@ -55,14 +56,15 @@ void fit(const Dataset& dataset, FitOptions options, const dashpot_monitor* moni
 }
 
 Ranking rank_watched(const Dataset& dataset, FitOptions& options, const dashpot_monitor* monitor) {
-  const std::vector<std::string> names = choose_models(options.words.models, dataset.records).names;
-  IdentifyOptions asked = identify_options(options.words, names, "options, ");
   const LeaveOut leave_out = options.leave_out ? *options.leave_out : default_leave_out(dataset);
+  const ChosenModels models = choose_models(options.words, dataset, leave_out, "options, budget");
+  IdentifyOptions asked = identify_options(options.words, models.names, "options, ");
   Ranking ranking;
   run_watched(monitor, [&](const Monitor& watched) {
     asked.monitor = watched;
-    ranking = rank(names, dataset, leave_out, asked);
+    ranking = rank(models.names, dataset, leave_out, asked);
   });
+  ranking.budget = models.budget;
   return ranking;
 }
 

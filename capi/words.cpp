@@ -47,6 +47,7 @@ FitOptions read_fit_options(const char* text) {
   // The words are those of the command line, so that both mean the same.
   FitWords& words = out.words;
   if (reader.optional("models")) words.models = texts(reader, "models");
+  words.budget = reader.number("budget", words.budget);
   words.force_offset = reader.string("force_offset", words.force_offset);
   words.forms = texts(reader, "form");
   words.fixed = texts(reader, "fix");

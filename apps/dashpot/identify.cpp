@@ -14,7 +14,8 @@ constexpr std::string_view kIdentifyExample =
     "# Two models only, judged on currents that they have not seen:\n"
     "dashpot identify recordings/ --models bingham,tanh_kwok --leave-out current\n"
     "\n"
-    "# Every model that there is ('dashpot rank' compares them in full):\n"
+    "# More time for what is tried unasked; or every model that there is:\n"
+    "dashpot identify recordings/ --budget 10\n"
     "dashpot identify recordings/ --models all\n"
     "\n"
     "# Then read results/report.html, and use the best model:\n"
@@ -22,9 +23,10 @@ constexpr std::string_view kIdentifyExample =
 
 int run_identify(const RankingSettings& settings, Console& console) {
   const RankingData data = ranking_data(settings, console);
-  const std::vector<std::string> models = chosen_models(settings.fit, data.dataset, console);
-  const Ranking ranking =
-      rank(models, data.dataset, data.leave_out, identify_options(settings.fit, models, console));
+  const ChosenModels models = chosen_models(settings.fit, data.dataset, data.leave_out, console);
+  Ranking ranking = rank(models.names, data.dataset, data.leave_out,
+                         identify_options(settings.fit, models.names, console));
+  ranking.budget = models.budget;
   const ReportInput input = report_input(data.dataset, ranking, console);
   const Document report = ranking_document(input);
   print_results(report, ranking, console);
@@ -37,15 +39,18 @@ int run_identify(const RankingSettings& settings, Console& console) {
 
 Command identify_command() {
   auto settings = std::make_shared<RankingSettings>();
-  return {.name = "identify",
-          .title = "Turn recordings into ranked damper models and a report",
-          .description =
-              "Fits each model to all training records together and judges it in free run (motion "
-              "and current in, force out) on records that it has not seen. Ranks the models by "
-              "that error, saves each as a file and writes a report.",
-          .options = ranking_options(*settings),
-          .example = std::string(kIdentifyExample),
-          .run = [settings](Console& console) { return run_identify(*settings, console); }};
+  Command command{
+      .name = "identify",
+      .title = "Turn recordings into ranked damper models and a report",
+      .description =
+          "Fits each model to all training records together and judges it in free run (motion "
+          "and current in, force out) on records that it has not seen. Ranks the models by "
+          "that error, saves each as a file and writes a report.",
+      .options = ranking_options(*settings),
+      .example = std::string(kIdentifyExample),
+      .run = [settings](Console& console) { return run_identify(*settings, console); }};
+  command.options.push_back(budget_option(settings->fit, budget_of_groups()));
+  return command;
 }
 
 }  // namespace dashpot::cli

@@ -31,7 +31,9 @@ std::vector<Option> fit_options(FitSettings& settings) {
        .target = &settings.models,
        .help = "the models to fit, separated by commas; 'usual' stands for " +
                join(usual_models(), ", ") +
-               "; 'all' for every model of one damper that 'dashpot models' lists, 'family' for "
+               " (passive_network_one_sensor where the records have no displacement), as far as "
+               "the time allows; 'all' for every model of one damper that 'dashpot models' lists, "
+               "'family' for "
                "those of a family of dampers",
        .value = "NAMES",
        .choices = names_and_groups(),
@@ -96,13 +98,29 @@ std::vector<Option> fit_options(FitSettings& settings) {
       threads_option(settings.options.threads)};
 }
 
-std::vector<std::string> chosen_models(const FitSettings& settings, const Dataset& dataset,
-                                       Console& console) {
-  ChosenModels chosen = choose_models(settings.models, dataset.records);
+std::string budget_of_groups() {
+  return format_number(kUsualBudget) + " for 'usual', no limit for 'all'";
+}
+
+Option budget_option(FitSettings& settings, const std::string& default_text) {
+  return {.names = "--budget",
+          .target = &settings.budget,
+          .help =
+              "minutes on two cores, by estimated cost, that the models of a group ('usual', "
+              "'all') may take: cheap ones are tried first, and what is not tried is said; "
+              "models that are named themselves are always fitted; 0: no limit",
+          .value = "MINUTES",
+          .minimum = 0,
+          .default_text = default_text};
+}
+
+ChosenModels chosen_models(const FitSettings& settings, const Dataset& dataset,
+                           const LeaveOut& leave_out, Console& console) {
+  ChosenModels chosen = choose_models(settings, dataset, leave_out, "--budget");
   if (!chosen.passed_over.empty())
     console.note("not every record has a displacement, which these models need: " +
                  join(chosen.passed_over, ", "));
-  return std::move(chosen.names);
+  return chosen;
 }
 
 IdentifyOptions identify_options(const FitSettings& settings,

@@ -4,6 +4,7 @@
 
 #include "command.h"
 #include "dashpot/identify/fit/fit_words.h"
+#include "dashpot/identify/rank/model_choice.h"
 
 namespace dashpot::cli {
 
@@ -11,11 +12,15 @@ namespace dashpot::cli {
 using FitSettings = FitWords;
 
 std::vector<Option> fit_options(FitSettings& settings);
+/// What --budget is unless it is stated.
+std::string budget_of_groups();
+/// The time that a group of models may take; `default_text` says what it is unless stated.
+Option budget_option(FitSettings& settings, const std::string& default_text);
 
-/// The models asked for, those of them that the data allow when a group is asked for; a note names
-/// those passed over.
-std::vector<std::string> chosen_models(const FitSettings& settings, const Dataset& dataset,
-                                       Console& console);
+/// The models asked for; of a group, those that the data and the budget allow. A note names those
+/// that need a channel which the data lack.
+ChosenModels chosen_models(const FitSettings& settings, const Dataset& dataset,
+                           const LeaveOut& leave_out, Console& console);
 
 /// Throws UsageError where what was chosen for a parameter does not fit `models`.
 IdentifyOptions identify_options(const FitSettings& settings,

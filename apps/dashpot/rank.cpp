@@ -51,10 +51,11 @@ int run_rank(const RankSettings& settings, Console& console) {
   // Finished fits are kept beside the results, so that an interrupted run goes on.
   std::optional<FitStore> store;
   if (!settings.fresh) store.emplace(kept_file(folder, "fits", console), program_id());
-  const std::vector<std::string> models = chosen_models(asked.fit, data.dataset, console);
-  const Ranking ranking =
-      rank(models, data.dataset, data.leave_out, identify_options(asked.fit, models, console),
-           store ? &*store : nullptr);
+  const ChosenModels models = chosen_models(asked.fit, data.dataset, data.leave_out, console);
+  Ranking ranking =
+      rank(models.names, data.dataset, data.leave_out,
+           identify_options(asked.fit, models.names, console), store ? &*store : nullptr);
+  ranking.budget = models.budget;
   const ReportInput input = report_input(data.dataset, ranking, console);
 
   // The leaderboard is printed; the report that is written has each model in full.
@@ -92,7 +93,8 @@ Command rank_command() {
                   .run = [settings](Console& console) { return run_rank(*settings, console); }};
 
   append(command.options,
-         {{.names = "--markdown",
+         {budget_option(settings->ranking.fit, budget_of_groups()),
+          {.names = "--markdown",
            .target = &settings->markdown,
            .help = "print the tables as a part of a Markdown page, without a date"},
           {.names = "--fresh",

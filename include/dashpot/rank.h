@@ -50,6 +50,20 @@ bool is_usable(const RankedModel& model);
 /// Usable, and it forgets the state in which it began: what may be called best.
 bool is_recommendable(const RankedModel& model);
 
+/// A model that a budget of time left untried.
+struct UntriedModel {
+  std::string name, title;
+  double minutes = 0;         ///< that its fits would take on two cores, estimated
+  double budget_minutes = 0;  ///< the least whole budget that tries it too
+};
+/// What the models that nobody named one by one were chosen by.
+struct FitBudget {
+  double minutes = 0;           ///< on two cores; 0: no limit
+  double expected_minutes = 0;  ///< of those that it chose, estimated
+  std::string too_small_for;    ///< the one model that was tried though the budget allows none
+  std::vector<UntriedModel> untried;  ///< in the order in which larger budgets try them
+};
+
 /// Models in order of their error on left-out records.
 struct Ranking {
   LeaveOut leave_out;
@@ -60,6 +74,8 @@ struct Ranking {
   std::string unit;  ///< over which differences are taken: "division", "block" ...
   /// Of a model that was fitted elsewhere: how many of the records its fit has seen.
   std::optional<std::size_t> seen;
+  /// Where models were chosen within a budget: whoever chose them states it here.
+  std::optional<FitBudget> budget;
   std::size_t kept_fits = 0;  ///< found in the store
   double wall_seconds = 0;    ///< from the first fit to the last figure
 

@@ -48,6 +48,25 @@ TEST_CASE("arrays are fitted: the damper's own numbers come out") {
   CHECK_CLOSE(parameter(json, "c0_a").find("value")->as_number(), 1000, 1e-6, 0);
 }
 
+TEST_CASE(
+    "unless models are named, a budget chooses them and the report says what it left untried") {
+  const Recordings recordings = bench();
+  HeldRanking ranking;
+  REQUIRE(dashpot_identify(recordings, R"({"budget": 1e-6, "starts": 1, "threads": 1})", nullptr,
+                           &ranking) == DASHPOT_OK);
+  CHECK(dashpot_ranking_count(ranking) == 1);
+  Text json;
+  REQUIRE(dashpot_ranking_report(ranking, "json", &json) == DASHPOT_OK);
+  const Value budget = *parse_json(json.handle, "report").find("budget");
+  CHECK(budget.find("minutes")->as_number() == 1e-6);
+  CHECK(!budget.find("untried")->items().empty());
+
+  dashpot_ranking* none = nullptr;
+  CHECK(contains(message_of(DASHPOT_BAD_INPUT,
+                            dashpot_identify(recordings, R"({"budget": -1})", nullptr, &none)),
+                 "options, budget: is -1; minutes, 0 (no limit) or more"));
+}
+
 TEST_CASE("models are ranked, reported and taken from the ranking") {
   const Recordings recordings = bench();
   HeldRanking ranking;

@@ -48,6 +48,27 @@ TEST_CASE("identify prints the ranking on stdout and progress on stderr") {
   CHECK(fs::exists(folder.path() / "models/bingham.json"));
 }
 
+TEST_CASE("identify says what the budget left untried, on the terminal, in JSON and on the page") {
+  const TemporaryFolder folder;
+  const std::string asked = "identify " + small_campaign().string() + " --output " +
+                            folder.path().string() + " --starts 1 --budget 0.02";
+  const ProgramResult out = stdout_of_dashpot(asked);
+  CHECK(out.exit_code == 0);
+  const std::string untried = "Not tried within 0.02 min on two cores: ";
+  CHECK(contains(out.output, untried));
+  CHECK(contains(out.output, "passive_network (about "));
+  CHECK(contains(read_file(folder.path() / "report.html"), untried));
+
+  // Its figures for programs; and a model that is named needs no budget.
+  const Value report = parse_json(read_file(folder.path() / "report.json"), "report.json");
+  const Value& budget = *report.find("budget");
+  CHECK(budget.find("minutes")->as_number() == 0.02);
+  CHECK(budget.find("expected_minutes")->as_number() < 0.02);
+  CHECK(!budget.find("untried")->items().empty());
+  CHECK(contains(budget.find("note")->as_string(), untried));
+  CHECK(!contains(stdout_of_dashpot(asked + " --models bingham").output, "Not tried"));
+}
+
 TEST_CASE("identify: what the user knows of parameters shapes the fit and stands in its table") {
   const TemporaryFolder folder;
   const ProgramResult out = stdout_of_dashpot(

@@ -113,7 +113,7 @@ TEST_CASE("identify fits the usual models unless it is told otherwise; rank fits
                   "--leave-out fraction=0.3 --no-report --output " +
                   folder.path().string());
   CHECK(result.exit_code == 0);
-  for (const char* model : {"bingham", "tanh_kwok", "arctan", "modified_bouc_wen",
-                            "large_scale_bouc_wen", "anfis", "mlp_one_sensor"})
+  for (const char* model : {"bingham", "tanh_kwok", "modified_bouc_wen", "large_scale_bouc_wen",
+                            "passive_network", "hysteresis_network"})
     CHECK_MESSAGE(fs::exists(folder.path() / "models" / (std::string(model) + ".json")), model);
 }

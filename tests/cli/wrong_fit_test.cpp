@@ -76,3 +76,14 @@ TEST_CASE("a results folder that cannot be written is refused before the fit") {
   CHECK(!contains(result.output, "fitting"));
   CHECK(read_file(file) == "old");
 }
+
+TEST_CASE("a budget that is no time is refused before anything is read") {
+  const auto fit = [](const std::string& budget, const std::string& said) {
+    return Wrong{budget,
+                 {{"a_1Hz.csv", csv()}, {"b_2Hz.csv", csv()}},
+                 "identify DIR --quiet --output DIR/results --budget " + budget,
+                 2,
+                 {"--budget", said}};
+  };
+  for (const Wrong& wrong : {fit("-1", "-1"), fit("soon", "soon"), fit("nan", "nan")}) check(wrong);
+}

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "dashpot.h"
+#include "dashpot/identify/rank/model_choice.h"
 #include "fuzz.h"
 #include "words.h"
 

@@ -54,6 +54,13 @@ class RecordingsInMemory(unittest.TestCase):
 
 
 class Identification(InFolder):
+    def test_budget(self):
+        ranking = dashpot.identify(bench(), budget=1e-6, starts=1)
+        self.assertEqual(len(ranking), 1)
+        self.assertIn("passive_network", " ".join(model["name"] for model in ranking.untried))
+        self.assertGreaterEqual(ranking.untried[-1]["budget_minutes"], ranking.untried[0]["budget_minutes"])
+        self.assertEqual(dashpot.identify(bench(), "bingham", budget=1e-6, starts=1).untried, [])
+
     def test_ranking(self):
         told = []
         ranking = dashpot.identify(

@@ -68,6 +68,12 @@ class Ranking:
         """All figures, as `dashpot identify --json` prints them."""
         return json.loads(self._core.report("json"))
 
+    @property
+    def untried(self) -> list:
+        """What the budget left untried: dicts of "name", "title", "minutes" (estimated, on two cores) and
+        "budget_minutes" (the least whole budget that tries it too)."""
+        return self.report.get("budget", {}).get("untried", [])
+
     def frame(self):
         """A line per model (pandas): errors on the recordings left out, and the 90 % interval of how far its ESR
         lies behind that of the first."""
@@ -101,6 +107,7 @@ def identify(
     models: Words = "usual",
     leave_out: Optional[str] = None,
     *,
+    budget: Optional[float] = None,
     progress: Progress = None,
     **options,
 ) -> Ranking:
@@ -108,7 +115,9 @@ def identify(
 
     recordings: Recordings, or paths. models: names as `dashpot models` lists them, "usual", "all" or "family".
     leave_out: "condition", "current=0.5", "record", "blocks=5", "fraction=0.3", "each=gap" (None: as the dataset file says,
-    else the strictest that the recordings allow). progress: called with (stage, fraction 0 ... 1).
+    else the strictest that the recordings allow). budget: minutes on two cores, by estimated cost, that the models
+    of "usual" (None: 2) and "all" (None: no limit) may take, 0: no limit; `Ranking.untried` is what was not tried.
+    progress: called with (stage, fraction 0 ... 1).
     options: force_offset ("record" or "none"), form, fix, free, bounds, prior, network (lists as the command
     line has them: ["alpha=exponential"]), starts, search, seed, threads (0: all cores).
 
@@ -118,6 +127,8 @@ def identify(
     asked = {"models": words(models), "command": "dashpot.identify (Python)", **fit_options(**options)}
     if leave_out is not None:
         asked["leave_out"] = leave_out
+    if budget is not None:
+        asked["budget"] = budget
     return Ranking(_core.identify(data._core, json.dumps(asked), progress))
 
 

@@ -53,9 +53,10 @@ DocumentSection ranking_section(const Ranking& ranking) {
   table.note = difference_note(ranking).value_or("");
   if (const std::optional<std::string> one_step = one_step_note(ranking))
     table.note += (table.note.empty() ? "" : " ") + *one_step;
+  const std::optional<std::string> untried = budget_note(ranking);
   return {.name = "ranking",
           .title = "Ranking",
-          .paragraphs = {},
+          .paragraphs = untried ? std::vector{*untried} : std::vector<std::string>(),
           .tables = {std::move(table)},
           .lead =
               "Best first. Every figure is of left-out records in free run unless its column says "
@@ -258,6 +259,9 @@ Document leaderboard_document(const ReportInput& input) {
                   breakdown_table(ranking, input.dataset.drive_unit)}});
   for (DocumentSection& section : interval_sections(ranking))
     document.sections.push_back(std::move(section));
+
+  if (const std::optional<std::string> untried = budget_note(ranking))
+    document.sections.front().paragraphs.push_back(*untried);
 
   // Provenance is the citation alone: the part has neither command nor date.
   if (!input.dataset.citation.empty())

@@ -185,6 +185,22 @@ Value dataset_json(const Dataset& dataset) {
                         {"notes", Value::array(dataset.notes)}});
 }
 
+/// Of models that nobody named one by one: what they were chosen by.
+Value budget_json(const Ranking& ranking) {
+  const FitBudget& budget = *ranking.budget;
+  Value untried = Value::array();
+  for (const UntriedModel& model : budget.untried)
+    untried.push_back(Value::object({{"name", model.name},
+                                     {"title", model.title},
+                                     {"minutes", model.minutes},
+                                     {"budget_minutes", model.budget_minutes}}));
+  const std::optional<std::string> note = budget_note(ranking);
+  return Value::object({{"minutes", budget.minutes},
+                        {"expected_minutes", budget.expected_minutes},
+                        {"untried", std::move(untried)},
+                        {"note", note ? Value(*note) : Value()}});
+}
+
 Value json_report(const ReportInput& input) {
   const Ranking& ranking = input.ranking;
   Value models = Value::array();
@@ -195,21 +211,25 @@ Value json_report(const ReportInput& input) {
   const std::optional<std::string> one_step = one_step_note(ranking);
 
   // Provenance and protocol first.
-  return presentable(Value::object({{"format", "dashpot report 1"},
-                                    {"version", input.version},
-                                    {"date", input.date},
-                                    {"command", input.command},
-                                    {"dataset", dataset_json(input.dataset)},
-                                    {"leave_out", format_leave_out(ranking.leave_out)},
-                                    {"protocol_title", protocol_title(ranking)},
-                                    {"protocol", protocol(ranking)},
-                                    {"folds", Value::array(ranking.folds)},
-                                    {"verdict", verdict(ranking)},
-                                    {"leaders", std::move(leaders)},
-                                    {"unit", ranking.unit},
-                                    {"one_step", one_step ? Value(*one_step) : Value()},
-                                    {"wall_seconds", ranking.wall_seconds},
-                                    {"models", std::move(models)}}));
+  Value report = Value::object({{"format", "dashpot report 1"},
+                                {"version", input.version},
+                                {"date", input.date},
+                                {"command", input.command},
+                                {"dataset", dataset_json(input.dataset)},
+                                {"leave_out", format_leave_out(ranking.leave_out)},
+                                {"protocol_title", protocol_title(ranking)},
+                                {"protocol", protocol(ranking)},
+                                {"folds", Value::array(ranking.folds)},
+                                {"verdict", verdict(ranking)},
+                                {"leaders", std::move(leaders)},
+                                {"unit", ranking.unit},
+                                {"one_step", one_step ? Value(*one_step) : Value()},
+                                {"wall_seconds", ranking.wall_seconds},
+                                {"models", std::move(models)}});
+
+  // Only a ranking whose models Dashpot chose has a budget.
+  if (ranking.budget) report.add("budget", budget_json(ranking));
+  return presentable(std::move(report));
 }
 
 }  // namespace dashpot

@@ -110,6 +110,15 @@ std::string leading(const Ranking& ranking, const std::vector<const RankedModel*
                                                       percent_text(simplest.left_out.pooled.esr)));
 }
 
+/// "about 40 s", "about 6 min": an estimate is not told more precisely.
+std::string about_minutes(double minutes) {
+  constexpr double kSeconds = 60, kTens = 10, kMinutesFrom = 1.5;
+  const double seconds = kSeconds * minutes;
+  if (minutes >= kMinutesFrom) return fmt::format("about {:.0f} min", minutes);
+  return fmt::format("about {:.0f} s",
+                     seconds < kTens ? std::ceil(seconds) : kTens * std::ceil(seconds / kTens));
+}
+
 }  // namespace
 
 bool is_judged(const RankedModel& model) {
@@ -231,6 +240,30 @@ std::optional<std::string> difference_note(const Ranking& ranking) {
       ranking.unit == "stretch of time"
           ? fmt::format("{} stretches of time", compared->behind->units)
           : counted(compared->behind->units, ranking.unit));
+}
+
+std::optional<std::string> budget_note(const Ranking& ranking) {
+  if (!ranking.budget) return std::nullopt;
+  const FitBudget& budget = *ranking.budget;
+  const std::string within = format_number(budget.minutes) + " min on two cores";
+
+  std::string note;
+  if (!budget.too_small_for.empty())
+    note = fmt::format("No model can be fitted within {}: the cheapest, {}, was tried alone ({}).",
+                       within, budget.too_small_for, about_minutes(budget.expected_minutes));
+  if (budget.untried.empty()) return note.empty() ? std::nullopt : std::optional(note);
+
+  // Each with its own cost; then the budgets that reach the next one and all of them.
+  std::vector<std::string> models;
+  for (const UntriedModel& model : budget.untried)
+    models.push_back(fmt::format("{} ({})", model.name, about_minutes(model.minutes)));
+  const std::string next = format_number(budget.untried.front().budget_minutes);
+  const std::string all = format_number(budget.untried.back().budget_minutes);
+  const std::string tries =
+      next == all ? "" : fmt::format("--budget {} tries the first too, ", next);
+  return fmt::format("{}Not tried within {}: {}; {}--budget {} tries {}.",
+                     note.empty() ? "" : note + " ", within, join(models, ", "), tries, all,
+                     models.size() == 1 ? "it too" : "all");
 }
 
 std::optional<std::string> one_step_note(const Ranking& ranking) {

@@ -38,6 +38,11 @@ FitReport fit_state_space(const StateSpacePreset& preset, const std::vector<Reco
 FitReport fit_passive_network(const PassiveNetworkPreset& preset,
                               const std::vector<Record>& training, DriveUnit drive_unit,
                               const IdentifyOptions& options);
+/// Steps through windows, those side by side in lanes counted once, that the fit above takes: its
+/// cost is in proportion.
+double passive_training_steps(const PassiveNetworkPreset& preset,
+                              const std::vector<Record>& training, DriveUnit drive_unit,
+                              const NetworkDesign& design);
 FitReport fit_fuzzy(const FuzzyPreset& preset, const std::vector<Record>& training,
                     DriveUnit drive_unit, const IdentifyOptions& options);
 FitReport fit_hybrid(const HybridPreset& preset, const std::vector<Record>& training,

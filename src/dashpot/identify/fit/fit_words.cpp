@@ -1,9 +1,5 @@
 #include "dashpot/identify/fit/fit_words.h"
 
-#include <algorithm>
-
-#include "dashpot/base/text.h"
-#include "dashpot/damper/registry.h"
 #include "dashpot/error.h"
 #include "dashpot/identify/fit/fit.h"
 #include "dashpot/identify/fit/network_design.h"
@@ -11,20 +7,6 @@
 
 namespace dashpot {
 namespace {
-
-/// The models that one word stands for.
-std::vector<std::string> models_of(const std::string& word) {
-  // Models of a family need what recordings of one damper do not have: each word stands for one of
-  // both.
-  if (word == "all" || word == "family") {
-    std::vector<std::string> names = model_names();
-    std::erase_if(names, [&](const std::string& name) {
-      return (model_info(name).kind == ModelKind::Family) != (word == "family");
-    });
-    return names;
-  }
-  return word == "usual" ? usual_models() : std::vector{word};
-}
 
 std::vector<ParameterChoice> parameter_choices(const FitWords& words,
                                                const std::vector<std::string>& models,
@@ -50,28 +32,6 @@ std::vector<ParameterChoice> parameter_choices(const FitWords& words,
 }
 
 }  // namespace
-
-const std::vector<std::string>& usual_models() {
-  static const std::vector<std::string> names = {
-      "bingham", "tanh_kwok",     "arctan", "modified_bouc_wen", "large_scale_bouc_wen",
-      "anfis",   "mlp_one_sensor"};
-  return names;
-}
-
-ChosenModels choose_models(const std::vector<std::string>& words,
-                           const std::vector<Record>& records) {
-  const bool has_displacement = std::ranges::all_of(
-      records, [](const Record& r) { return r.find("displacement") != nullptr; });
-  ChosenModels chosen;
-  for (const std::string& word : words)
-    for (const std::string& model : models_of(word)) {
-      const bool fits =
-          model == word || has_displacement || !model_info(model).needs_displacement();
-      std::vector<std::string>& list = fits ? chosen.names : chosen.passed_over;
-      if (std::ranges::find(list, model) == list.end()) list.push_back(model);
-    }
-  return chosen;
-}
 
 OffsetMode offset_mode(const std::string& word, const std::string& where) {
   if (word != "record" && word != "none") throw Error(where, "is '" + word + "'", "record or none");

@@ -22,7 +22,8 @@ namespace {
 constexpr double kStepsPerStroke = 25, kLongestStep = 0.01, kLongestSwitchingStep = 0.001;  // s
 constexpr double kWindowTime = 1, kRunInShare = 0.25;  // s; of a window
 constexpr std::size_t kShortestWindow = 128, kLongestWindow = 400;
-constexpr std::size_t kUpdates = 1600, kTrialUpdates = 400;
+constexpr std::size_t kUpdates = 1600,
+                      kTrialShare = 4;  // of a member; a trial makes one in so many
 /// How much the weights shrink by which networks read the drive: freely, hardly, not at all.
 constexpr std::array kDriveDecays{0.0, 1.0, 30.0};
 constexpr std::size_t kMostMotions = 4, kMostLevels = 6;  // groups of them, held back in turn
@@ -41,6 +42,41 @@ double network_step(const Records& records, bool drive_varies) {
   const double longest = drive_varies ? kLongestSwitchingStep : kLongestStep;
   return std::max(own, std::min(longest, stroke / kStepsPerStroke));
 }
+
+/// Samples of a window at that step.
+std::size_t window_samples(double step) {
+  return static_cast<std::size_t>(std::clamp(kWindowTime / step,
+                                             static_cast<double>(kShortestWindow),
+                                             static_cast<double>(kLongestWindow)));
+}
+
+/// Updates of a member, and of a trial, which is as much shorter as the design asks for.
+std::size_t member_updates(const NetworkDesign& design) { return design.epochs.value_or(kUpdates); }
+std::size_t trial_updates(const NetworkDesign& design) {
+  return std::max<std::size_t>(member_updates(design) / kTrialShare, 1);
+}
+
+/// Values that are held back in turn are dealt to so many groups; a single one cannot be.
+template <class Value>
+std::size_t group_count(const std::vector<Value>& values, std::size_t most) {
+  const std::size_t distinct = std::set<Value>(values.begin(), values.end()).size();
+  return distinct > 1 ? std::min(distinct, most) : 0;
+}
+
+std::vector<std::string> conditions_of(const std::vector<Record>& records) {
+  std::vector<std::string> conditions;
+  for (const Record& record : records) conditions.push_back(record.condition);
+  return conditions;
+}
+
+std::vector<double> levels_of(const std::vector<Record>& records) {
+  std::vector<double> levels;
+  for (const Record& record : records) levels.push_back(record.drive_level.value_or(0));
+  return levels;
+}
+
+/// How much the networks may read of the drive is tried where there are levels of it.
+bool tries_decays(const DriveRange& drive) { return !drive.varies && drive.levels > 1; }
 
 /// A network of the preset's size with the scales and ranges of the records.
 PassiveNetwork scaled_network(const PassiveNetworkPreset& preset, const Records& records,
@@ -113,7 +149,7 @@ class PassiveNetworkFit {
     start_ = scaled_network(preset_, as_recorded, drive);
     records_ = at_step(as_recorded, start_.model_step);
     for (const FreeRunRecord& record : records_) all_.push_back(&record);
-    if (!drive.varies && drive.levels > 1) decay_ = best_drive_decay(training);
+    if (tries_decays(drive)) decay_ = best_drive_decay(training);
   }
 
   struct Member {
@@ -125,7 +161,7 @@ class PassiveNetworkFit {
   std::vector<Member> members() const {
     std::vector<Member> members(preset_.members);
     parallel_for(members.size(), options_.threads, [&](std::size_t k) {
-      members[k] = trained(all_, {decay_, kUpdates, options_.seed + k});
+      members[k] = trained(all_, {decay_, member_updates(options_.network), options_.seed + k});
     });
     return members;
   }
@@ -138,13 +174,10 @@ class PassiveNetworkFit {
   };
 
   Member trained(const Records& records, Effort effort) const {
-    const double samples =
-        std::clamp(kWindowTime / start_.model_step, static_cast<double>(kShortestWindow),
-                   static_cast<double>(kLongestWindow));
     PassiveTrainOptions options;
-    options.updates = options_.network.epochs.value_or(effort.updates);
-    options.window = static_cast<std::size_t>(samples);
-    options.run_in = static_cast<std::size_t>(samples * kRunInShare);
+    options.updates = effort.updates;
+    options.window = window_samples(start_.model_step);
+    options.run_in = static_cast<std::size_t>(static_cast<double>(options.window) * kRunInShare);
     options.rate = options_.network.rate.value_or(options.rate);
     options.drive_decay = effort.decay;
     options.offsets = options_.offset == OffsetMode::Record;
@@ -163,8 +196,8 @@ class PassiveNetworkFit {
   std::vector<FreeRunTrial> held_back_in_turn(const std::vector<Value>& values,
                                               std::size_t groups) const {
     const std::set<Value> distinct(values.begin(), values.end());
-    groups = std::min(groups, distinct.size());
-    std::vector<FreeRunTrial> trials(groups > 1 ? groups : 0);
+    groups = group_count(values, groups);
+    std::vector<FreeRunTrial> trials(groups);
     for (std::size_t r = 0; r < values.size(); ++r) {
       const auto place =
           static_cast<std::size_t>(std::distance(distinct.begin(), distinct.find(values[r])));
@@ -183,7 +216,8 @@ class PassiveNetworkFit {
     parallel_for(left.size(), options_.threads, [&](std::size_t k) {
       const FreeRunTrial& trial = trials[k / choices];
       const Member found =
-          trained(trial.training, {kDriveDecays[k % choices], kTrialUpdates, options_.seed});
+          trained(trial.training,
+                  {kDriveDecays[k % choices], trial_updates(options_.network), options_.seed});
       double squares = 0;
       for (const FreeRunRecord* record : trial.held_back)
         squares += squares_left(found.network, *record, options_.offset == OffsetMode::Record);
@@ -197,14 +231,8 @@ class PassiveNetworkFit {
   /// The decay that does best where motions and where levels of the drive, their ends too, are held
   /// back in turn; both count alike.
   double best_drive_decay(const std::vector<Record>& training) const {
-    std::vector<std::string> conditions;
-    std::vector<double> levels;
-    for (const Record& record : training) {
-      conditions.push_back(record.condition);
-      levels.push_back(record.drive_level.value_or(0));
-    }
-    const auto by_motion = left_of(held_back_in_turn(conditions, kMostMotions));
-    const auto by_level = left_of(held_back_in_turn(levels, kMostLevels));
+    const auto by_motion = left_of(held_back_in_turn(conditions_of(training), kMostMotions));
+    const auto by_level = left_of(held_back_in_turn(levels_of(training), kMostLevels));
     std::array<double, kDriveDecays.size()> both{};
     for (std::size_t k = 0; k < both.size(); ++k) both[k] = by_motion[k] + by_level[k];
     return kDriveDecays[static_cast<std::size_t>(std::ranges::min_element(both) - both.begin())];
@@ -219,6 +247,23 @@ class PassiveNetworkFit {
 };
 
 }  // namespace
+
+double passive_training_steps(const PassiveNetworkPreset& preset,
+                              const std::vector<Record>& training, DriveUnit drive_unit,
+                              const NetworkDesign& design) {
+  const std::vector<FreeRunRecord> recorded = free_run_records(training, drive_unit);
+  Records records;
+  for (const FreeRunRecord& record : recorded) records.push_back(&record);
+  const DriveRange drive = drive_range(training, drive_unit);
+
+  // The members, and the trials of each shrinkage on each group held back.
+  std::size_t updates = designed(preset, design).members * member_updates(design);
+  if (tries_decays(drive))
+    updates += (group_count(conditions_of(training), kMostMotions) +
+                group_count(levels_of(training), kMostLevels)) *
+               kDriveDecays.size() * trial_updates(design);
+  return static_cast<double>(updates * window_samples(network_step(records, drive.varies)));
+}
 
 FitReport fit_passive_network(const PassiveNetworkPreset& preset,
                               const std::vector<Record>& training, DriveUnit drive_unit,

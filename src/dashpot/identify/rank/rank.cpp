@@ -15,18 +15,12 @@
 #include "dashpot/identify/judge/conformal.h"
 #include "dashpot/identify/judge/forgetting.h"
 #include "dashpot/identify/judge/stress.h"
+#include "dashpot/identify/rank/divisions.h"
 #include "dashpot/identify/rank/fit_store.h"
 #include "dashpot/identify/rank/paired_difference.h"
-#include "dashpot/record/trial_parts.h"
 
 namespace dashpot {
 namespace {
-
-/// Whether one part of the records is set aside for good. The model of the only fold is then the
-/// final one.
-bool is_one_division(const LeaveOut& leave_out) {
-  return leave_out.by == LeaveOut::By::Fraction || leave_out.by == LeaveOut::By::Roles;
-}
 
 /// Nanoseconds for one advance and one force as a simulation asks for them, measured over a whole
 /// record.
@@ -116,11 +110,7 @@ class RankingRun {
       : dataset_(dataset),
         options_(options),
         store_(store),
-        folds_(split(dataset, leave_out)),
-        held_back_(folds_.size() > 1 ? std::vector<Fold>()
-                                     : hold_back(folds_.front().training, leave_out)),
-        one_division_(is_one_division(leave_out)),
-        training_(one_division_ ? folds_.front().training : dataset.records),
+        divisions_(divide(dataset, leave_out)),
         domain_(domain_of(training_, dataset.drive_unit)),
         force_span_(force_span(training_)) {
     // Empty rows for all models, with a place for each fit.
@@ -131,7 +121,7 @@ class RankingRun {
       RankedModel ranked;
       ranked.name = model;
       ranked.title = model_info(model).title;
-      ranked.fold_fits.resize(one_division_ ? 0 : folds_.size());
+      ranked.fold_fits.resize(divisions_.is_one ? 0 : folds_.size());
       ranked.held_back_fits.resize(held_back_.size());
       ranking_.models.push_back(std::move(ranked));
     }
@@ -321,10 +311,10 @@ class RankingRun {
   const Dataset& dataset_;
   const IdentifyOptions& options_;
   FitStore* store_;
-  std::vector<Fold> folds_;
-  std::vector<Fold> held_back_;  ///< of the only fold's training; several folds serve each other
-  bool one_division_;
-  std::vector<Record> training_;
+  const Divisions divisions_;
+  const std::vector<Fold>& folds_ = divisions_.folds;
+  const std::vector<Fold>& held_back_ = divisions_.held_back;
+  const std::vector<Record>& training_ = divisions_.training;
   Domain domain_;
   double force_span_;
   std::atomic<std::size_t> kept_ = 0;

@@ -1,0 +1,201 @@
+#include "dashpot/identify/rank/model_choice.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "dashpot/base/text.h"
+#include "dashpot/damper/kinds/passive_network/presets.h"
+#include "dashpot/damper/registry.h"
+#include "dashpot/error.h"
+#include "dashpot/identify/fit/fit.h"
+#include "dashpot/identify/fit/network_design.h"
+
+namespace dashpot {
+namespace {
+
+constexpr double kCores = 2;  // that a budget is stated for
+
+/// CPU seconds of one fit of a model: so much whatever the records, so much per thousand samples of
+/// them, up to as many as the fit reads; and of passive networks per thousand steps of training.
+struct FitCost {
+  double per_fit = 0, per_thousand_samples = 0;
+  double most_thousands = INFINITY;  // of samples
+  double per_thousand_steps = 0;
+};
+
+// Measured on utfsm, utfpr, nees-2012-1158, sysidentpy-simulated and the virtual bench, rounded.
+struct ModelCost {
+  std::string_view model;
+  FitCost cost;
+};
+constexpr std::array kModelCosts{
+    ModelCost{"bingham", {0.005, 0.0015}},
+    ModelCost{"tanh_kwok", {0.02, 0.005}},
+    ModelCost{"large_scale_bouc_wen", {0.2, 0.05}},
+    ModelCost{"modified_bouc_wen", {0.3, 0.08}},
+    ModelCost{"extended_bingham", {0.3, 0.2}},
+    ModelCost{"passive_network_one_sensor",
+              {.per_fit = 0.5, .per_thousand_samples = 0, .per_thousand_steps = 0.007}},
+};
+
+/// Of the models without a row of their own; what has none here either costs as a hybrid does.
+struct KindCost {
+  ModelKind kind;
+  FitCost cost;
+};
+constexpr std::array kKindCosts{
+    KindCost{ModelKind::Law, {0.1, 0.03}},
+    KindCost{ModelKind::Network, {0.3, 0.2, 10}},
+    KindCost{ModelKind::Narx, {0.5, 0.5, 6}},
+    KindCost{ModelKind::HysteresisNetwork, {0.5, 1, 8}},
+    KindCost{ModelKind::StateSpace, {2, 5.5, 6}},
+    KindCost{ModelKind::PassiveNetwork,
+             {.per_fit = 0.5, .per_thousand_samples = 0, .per_thousand_steps = 0.0095}},
+    KindCost{ModelKind::Fuzzy, {0.1, 0.04, 20}},
+};
+constexpr FitCost kOtherCost{2, 0.2};
+
+FitCost cost_of(const std::string& model) {
+  const auto own = std::ranges::find(kModelCosts, model, &ModelCost::model);
+  if (own != kModelCosts.end()) return own->cost;
+  const auto of_kind = std::ranges::find(kKindCosts, model_info(model).kind, &KindCost::kind);
+  return of_kind != kKindCosts.end() ? of_kind->cost : kOtherCost;
+}
+
+bool has_displacement(const std::vector<Record>& records) {
+  return std::ranges::all_of(records,
+                             [](const Record& r) { return r.find("displacement") != nullptr; });
+}
+
+/// The models that one word stands for.
+std::vector<std::string> models_of(const std::string& word, const std::vector<Record>& records) {
+  // Models of a family need what recordings of one damper do not have: each word stands for one of
+  // both.
+  if (word == "all" || word == "family") {
+    std::vector<std::string> names = model_names();
+    std::erase_if(names, [&](const std::string& name) {
+      return (model_info(name).kind == ModelKind::Family) != (word == "family");
+    });
+    return names;
+  }
+  if (word != "usual") return {word};
+
+  std::vector<std::string> names = usual_models();
+  if (!has_displacement(records))
+    std::ranges::replace(names, std::string("passive_network"),
+                         std::string("passive_network_one_sensor"));
+  return names;
+}
+
+/// The minutes that limit a group; 0: none do.
+double minutes_for(const FitWords& words, const std::string& group) {
+  if (group != "usual" && group != "all") return 0;
+  if (!std::isnan(words.budget)) return words.budget;
+  return group == "usual" ? kUsualBudget : 0;
+}
+
+NetworkDesign design_of(const FitWords& words, const std::string& where) {
+  NetworkDesign design;
+  for (const std::string& text : words.network) parse_network_setting(text, where, design);
+  return design;
+}
+
+}  // namespace
+
+const std::vector<std::string>& usual_models() {
+  static const std::vector<std::string> names = {
+      "bingham",         "tanh_kwok",          "large_scale_bouc_wen", "modified_bouc_wen",
+      "passive_network", "hysteresis_network", "extended_bingham",     "neural_state_space"};
+  return names;
+}
+
+double expected_seconds(const std::string& model, const Divisions& divisions, DriveUnit drive_unit,
+                        const NetworkDesign& design) {
+  constexpr double kThousand = 1000;
+  const FitCost cost = cost_of(model);
+  double seconds = 0;
+  for (const std::vector<Record>* training : fits_of(divisions)) {
+    double samples = 0;
+    for (const Record& record : *training) samples += static_cast<double>(record.size());
+    seconds += cost.per_fit +
+               cost.per_thousand_samples * std::min(samples / kThousand, cost.most_thousands);
+    if (model_info(model).kind == ModelKind::PassiveNetwork)
+      seconds += cost.per_thousand_steps / kThousand *
+                 passive_training_steps(find_preset(passive_network_presets(), model), *training,
+                                        drive_unit, design);
+  }
+  return seconds;
+}
+
+ChosenModels choose_models(const std::vector<std::string>& words,
+                           const std::vector<Record>& records) {
+  const bool displaced = has_displacement(records);
+  ChosenModels chosen;
+  for (const std::string& word : words)
+    for (const std::string& model : models_of(word, records)) {
+      const bool fits = model == word || displaced || !model_info(model).needs_displacement();
+      std::vector<std::string>& list = fits ? chosen.names : chosen.passed_over;
+      if (std::ranges::find(list, model) == list.end()) list.push_back(model);
+    }
+  return chosen;
+}
+
+ChosenModels choose_models(const FitWords& words, const Dataset& dataset, const LeaveOut& leave_out,
+                           const std::string& where) {
+  if (!std::isnan(words.budget) && !(words.budget >= 0 && std::isfinite(words.budget)))
+    throw Error(where, "is " + format_number(words.budget), "minutes, 0 (no limit) or more");
+  ChosenModels chosen = choose_models(words.models, dataset.records);
+
+  // The widest limit counts where several groups are named.
+  double minutes = 0;
+  for (const std::string& word : words.models)
+    if (const double of_group = minutes_for(words, word); of_group > 0)
+      minutes = std::max(minutes, of_group);
+    else if (word == "all")
+      return chosen;
+  if (minutes <= 0) return chosen;
+
+  // The models that nobody named: the usual ones in their order, then the others by their cost.
+  const Divisions divisions = divide(dataset, leave_out);
+  const NetworkDesign design = design_of(words, "--network");
+  const auto usual = models_of("usual", dataset.records);
+  struct Candidate {
+    std::string name;
+    double seconds;
+    std::ptrdiff_t place;
+  };
+  std::vector<Candidate> candidates;
+  for (const std::string& name : chosen.names) {
+    const bool named = std::ranges::find(words.models, name) != words.models.end();
+    if (named || model_info(name).kind == ModelKind::Family) continue;
+    candidates.push_back({name, expected_seconds(name, divisions, dataset.drive_unit, design),
+                          std::ranges::find(usual, name) - usual.begin()});
+  }
+  std::ranges::stable_sort(candidates, [](const Candidate& a, const Candidate& b) {
+    return std::pair(a.place, a.seconds) < std::pair(b.place, b.seconds);
+  });
+
+  // Try them up to the first that the budget does not reach.
+  FitBudget budget{.minutes = minutes};
+  double spent = 0;  // minutes, with those that stay untried
+  for (const Candidate& candidate : candidates) {
+    const double own = candidate.seconds / 60 / kCores;
+    spent += own;
+    if (spent <= minutes) {
+      budget.expected_minutes = spent;
+    } else if (&candidate == &candidates.front() && chosen.names.size() == candidates.size()) {
+      // A ranking of nothing helps nobody.
+      budget.expected_minutes = spent;
+      budget.too_small_for = candidate.name;
+    } else {
+      budget.untried.push_back(
+          {candidate.name, std::string(model_info(candidate.name).title), own, std::ceil(spent)});
+      std::erase(chosen.names, candidate.name);
+    }
+  }
+  chosen.budget = std::move(budget);
+  return chosen;
+}
+
+}  // namespace dashpot
