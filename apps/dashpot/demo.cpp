@@ -28,9 +28,9 @@ CampaignSettings small_campaign() {
 }
 
 /// Minutes on two cores for the usual models, and what a passive network trains for in them: a
-/// fifth of its usual updates is enough for records this clean.
-constexpr double kDemoBudget = 0.3;
-constexpr std::string_view kQuickTraining = "epochs=300";
+/// sixth of its usual updates is enough for records this clean.
+constexpr double kDemoBudget = 0.25;
+constexpr std::string_view kQuickTraining = "epochs=250";
 
 struct DemoSettings {
   CampaignSettings campaign = small_campaign();

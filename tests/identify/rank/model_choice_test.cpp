@@ -117,6 +117,18 @@ TEST_CASE("without a displacement the passive network of one sensor stands for t
   for (const std::string& name : chosen.names) CHECK(!model_info(name).needs_displacement());
 }
 
+TEST_CASE("where the drive varies within records the hysteresis network comes before the passive") {
+  const auto first_of_both = [](const Dataset& dataset) {
+    for (const std::string& name : choose({"usual"}, 0, dataset).names)
+      if (name == "passive_network" || name == "hysteresis_network") return name;
+    return std::string();
+  };
+  Dataset varying = two_motions();
+  for (Record& record : varying.records) record.drive_level.reset();
+  CHECK(first_of_both(two_motions()) == "passive_network");
+  CHECK(first_of_both(varying) == "hysteresis_network");
+}
+
 TEST_CASE("costs follow the data: more records cost more, fewer updates of a network less") {
   const Divisions two = divide(two_motions(), kByMotion);
   const Divisions four =

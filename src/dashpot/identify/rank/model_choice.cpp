@@ -21,6 +21,7 @@ constexpr double kCores = 2;  // that a budget is stated for
 struct FitCost {
   double per_fit = 0, per_thousand_samples = 0;
   double most_thousands = INFINITY;  // of samples
+  double varying = 1;                // times as much where the drive varies within records
   double per_thousand_steps = 0;
 };
 
@@ -30,13 +31,13 @@ struct ModelCost {
   FitCost cost;
 };
 constexpr std::array kModelCosts{
-    ModelCost{"bingham", {0.005, 0.0015}},
-    ModelCost{"tanh_kwok", {0.02, 0.005}},
-    ModelCost{"large_scale_bouc_wen", {0.2, 0.05}},
-    ModelCost{"modified_bouc_wen", {0.3, 0.08}},
-    ModelCost{"extended_bingham", {0.3, 0.2}},
-    ModelCost{"passive_network_one_sensor",
-              {.per_fit = 0.5, .per_thousand_samples = 0, .per_thousand_steps = 0.007}},
+    ModelCost{"bingham", {.per_fit = 0.01, .per_thousand_samples = 0.0015, .varying = 2}},
+    ModelCost{"tanh_kwok", {.per_fit = 0.03, .per_thousand_samples = 0.0055, .varying = 2}},
+    ModelCost{"large_scale_bouc_wen",
+              {.per_fit = 0.2, .per_thousand_samples = 0.065, .varying = 2}},
+    ModelCost{"modified_bouc_wen", {.per_fit = 0.3, .per_thousand_samples = 0.11, .varying = 2}},
+    ModelCost{"extended_bingham", {.per_fit = 0.3, .per_thousand_samples = 0.3, .varying = 2}},
+    ModelCost{"passive_network_one_sensor", {.per_fit = 0.5, .per_thousand_steps = 0.007}},
 };
 
 /// Of the models without a row of their own; what has none here either costs as a hybrid does.
@@ -45,16 +46,19 @@ struct KindCost {
   FitCost cost;
 };
 constexpr std::array kKindCosts{
-    KindCost{ModelKind::Law, {0.1, 0.03}},
-    KindCost{ModelKind::Network, {0.3, 0.2, 10}},
-    KindCost{ModelKind::Narx, {0.5, 0.5, 6}},
-    KindCost{ModelKind::HysteresisNetwork, {0.5, 1, 8}},
-    KindCost{ModelKind::StateSpace, {2, 5.5, 6}},
-    KindCost{ModelKind::PassiveNetwork,
-             {.per_fit = 0.5, .per_thousand_samples = 0, .per_thousand_steps = 0.0095}},
-    KindCost{ModelKind::Fuzzy, {0.1, 0.04, 20}},
+    KindCost{ModelKind::Law, {.per_fit = 0.1, .per_thousand_samples = 0.04, .varying = 2}},
+    KindCost{ModelKind::Network,
+             {.per_fit = 0.3, .per_thousand_samples = 0.2, .most_thousands = 10}},
+    KindCost{ModelKind::Narx, {.per_fit = 0.5, .per_thousand_samples = 0.5, .most_thousands = 6}},
+    KindCost{ModelKind::HysteresisNetwork,
+             {.per_fit = 0.5, .per_thousand_samples = 1.2, .most_thousands = 8, .varying = 1.5}},
+    KindCost{ModelKind::StateSpace,
+             {.per_fit = 2, .per_thousand_samples = 5.2, .most_thousands = 6}},
+    KindCost{ModelKind::PassiveNetwork, {.per_fit = 0.5, .per_thousand_steps = 0.0095}},
+    KindCost{ModelKind::Fuzzy,
+             {.per_fit = 0.1, .per_thousand_samples = 0.04, .most_thousands = 20}},
 };
-constexpr FitCost kOtherCost{2, 0.2};
+constexpr FitCost kOtherCost{.per_fit = 2, .per_thousand_samples = 0.3};
 
 FitCost cost_of(const std::string& model) {
   const auto own = std::ranges::find(kModelCosts, model, &ModelCost::model);
@@ -66,6 +70,10 @@ FitCost cost_of(const std::string& model) {
 bool has_displacement(const std::vector<Record>& records) {
   return std::ranges::all_of(records,
                              [](const Record& r) { return r.find("displacement") != nullptr; });
+}
+
+bool varies_within(const std::vector<Record>& records) {
+  return std::ranges::any_of(records, [](const Record& r) { return !r.drive_level.has_value(); });
 }
 
 /// The models that one word stands for.
@@ -81,7 +89,11 @@ std::vector<std::string> models_of(const std::string& word, const std::vector<Re
   }
   if (word != "usual") return {word};
 
+  // In the order that wins on such data, of the channels that they have.
   std::vector<std::string> names = usual_models();
+  if (varies_within(records))
+    std::iter_swap(std::ranges::find(names, "passive_network"),
+                   std::ranges::find(names, "hysteresis_network"));
   if (!has_displacement(records))
     std::ranges::replace(names, std::string("passive_network"),
                          std::string("passive_network_one_sensor"));
@@ -118,8 +130,9 @@ double expected_seconds(const std::string& model, const Divisions& divisions, Dr
   for (const std::vector<Record>* training : fits_of(divisions)) {
     double samples = 0;
     for (const Record& record : *training) samples += static_cast<double>(record.size());
-    seconds += cost.per_fit +
-               cost.per_thousand_samples * std::min(samples / kThousand, cost.most_thousands);
+    seconds += (cost.per_fit +
+                cost.per_thousand_samples * std::min(samples / kThousand, cost.most_thousands)) *
+               (varies_within(*training) ? cost.varying : 1);
     if (model_info(model).kind == ModelKind::PassiveNetwork)
       seconds += cost.per_thousand_steps / kThousand *
                  passive_training_steps(find_preset(passive_network_presets(), model), *training,

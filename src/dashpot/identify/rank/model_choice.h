@@ -15,8 +15,9 @@ namespace dashpot {
 constexpr double kUsualBudget = 2;  ///< minutes on two cores, for the group "usual"
 
 /// What is tried unasked, in the order in which a growing budget tries it: few laws that cost
-/// seconds, then what left least on measured dampers for its cost (docs/identify.md has the
-/// figures). `passive_network` reads the displacement; without one, its twin of one sensor stands
+/// seconds, then what left least on measured dampers for its cost (docs/concepts.md has the
+/// figures). Where the drive varies within records, `hysteresis_network` comes before
+/// `passive_network`. The latter reads the displacement; without one, its twin of one sensor stands
 /// in its place.
 const std::vector<std::string>& usual_models();
 
