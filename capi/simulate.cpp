@@ -32,9 +32,9 @@ Value measures_of(const Trace& trace, const Vehicle& vehicle, const GroundMotion
 
 std::string report_text(const Trace& trace, const Vehicle& vehicle, const GroundMotion& ground,
                         const SimulateOptions& options) {
-  std::vector<std::string> warnings = trace.warnings;
-
-  // The integrator's warnings, and those of a damper that left the range of its data.
+  // The damper's own warnings, the integrator's, and those of a damper that left its data's range.
+  std::vector<std::string> warnings = vehicle.warnings;
+  std::ranges::copy(trace.warnings, std::back_inserter(warnings));
   std::ranges::move(domain_warnings(domain_use(vehicle, trace), RunOptions{}.allowed_outside),
                     std::back_inserter(warnings));
   const Value report =

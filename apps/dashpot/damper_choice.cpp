@@ -4,6 +4,7 @@
 
 #include "console.h"
 #include "dashpot/damper/parameter_set.h"
+#include "dashpot/dissipation.h"
 #include "dashpot/identify/judge/track.h"
 
 namespace dashpot::cli {
@@ -40,10 +41,18 @@ ModelFile load_damper_file(const DamperChoice& choice, const std::string& comman
                            Console& console) {
   if (choice.model.empty() == choice.parameters.empty())
     throw UsageError(command, "needs one damper", "give a model file, or --parameters NAME");
-  if (!choice.model.empty()) return load_model(choice.model);
-  const ParameterSet set = load_parameter_set(choice.parameters);
-  if (!set.verified) console.note("these parameters are an example: " + set.reason);
-  return to_model_file(set);
+
+  ModelFile file;
+  if (!choice.model.empty()) {
+    file = load_model(choice.model);
+  } else {
+    const ParameterSet set = load_parameter_set(choice.parameters);
+    if (!set.verified) console.note("these parameters are an example: " + set.reason);
+    file = to_model_file(set);
+  }
+  if (const std::string active = activity(dissipation_of(file), file.drive_unit); !active.empty())
+    console.warn(file.model->name() + ": " + active + "; what swings with it may never rest");
+  return file;
 }
 
 Damper load_damper(const DamperChoice& choice, const std::string& command, Console& console) {

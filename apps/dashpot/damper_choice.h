@@ -22,7 +22,8 @@ struct DamperChoice {
 std::vector<Option> damper_options(DamperChoice& choice);
 std::vector<Option> coil_options(DamperChoice& choice);
 
-/// Throws UsageError where not exactly one damper was chosen.
+/// Warns where the damper feeds energy into some motions. Throws UsageError where not exactly one
+/// was chosen.
 ModelFile load_damper_file(const DamperChoice& choice, const std::string& command,
                            Console& console);
 

@@ -44,6 +44,7 @@ Ranking as_ranking(const std::string& name, ModelFile file, const Dataset& datas
   ranked.fit.status = FitReport::Status::Converged;
   ranked.fit.message = "not fitted here: read from " + name;
   ranked.fit.model = std::move(file.model);
+  ranked.dissipation = dissipation_of(file);
   ranked.band = std::move(file.interval);
   ranked.left_out = evaluation;
   for (RecordResult& r : ranked.left_out.records) r.left_out = true;

@@ -29,6 +29,9 @@ struct Domain {
   double current_min = 0, current_max = 0;            ///< A or V; spikes at switching left out
 };
 
+/// The motions of a car's damper, for models whose data do not say theirs.
+Domain usual_domain(double current_min, double current_max);
+
 /// The caller's arrays for a series of forces.
 struct Response {
   double* force;             ///< N, one per sample

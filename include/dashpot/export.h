@@ -30,8 +30,6 @@ struct ExportedModel {
   std::string origin;      ///< where it comes from, in words
 };
 
-/// The motions of a car's damper, for models whose data do not say theirs.
-Domain usual_domain(double current_min, double current_max);
 /// The model of a file, which must outlive the result.
 ExportedModel exported_model(const ModelFile& file);
 

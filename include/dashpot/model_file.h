@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "dashpot/damper_model.h"
+#include "dashpot/dissipation.h"
 #include "dashpot/drive.h"
 #include "dashpot/value.h"
 
@@ -26,7 +27,11 @@ struct ModelFile {
   Value quality;  ///< the report's figures on training and left-out data; may be null
   /// Around the force, where left-out records allow one.
   std::optional<ForceBand> interval;
+  std::optional<Dissipation> dissipation;  ///< as measured when the model was made
 };
+
+/// As the file has it, or measured now.
+Dissipation dissipation_of(const ModelFile& file);
 
 /// Reads a model file. Throws Error with file and key on anything unknown, missing or out of
 /// bounds.

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "dashpot/dissipation.h"
 #include "dashpot/evaluate.h"
 #include "dashpot/identify.h"
 #include "dashpot/model_file.h"
@@ -41,13 +42,15 @@ struct RankedModel {
   double nanoseconds_per_step = 0;  ///< cost of advance + force, measured
   StressRun stress;                 ///< the final model, beyond its domain
   Forgetting forgetting;            ///< the final model, over its training records
+  Dissipation dissipation;          ///< the final model, within its domain
   /// %, what each unit (Ranking::unit) adds to the pooled ESR; empty where a record diverged.
   std::vector<double> esr_parts;
   std::optional<PairedDifference> behind;  ///< to the first model; none for itself
 };
 /// Fitted, and finite on every left-out record.
 bool is_usable(const RankedModel& model);
-/// Usable, and it forgets the state in which it began: what may be called best.
+/// Usable, it forgets the state in which it began, and it feeds no energy into what moves it: what
+/// may be called best.
 bool is_recommendable(const RankedModel& model);
 
 /// A model that a budget of time left untried.
@@ -68,8 +71,8 @@ struct FitBudget {
 struct Ranking {
   LeaveOut leave_out;
   std::vector<std::string> folds;  ///< their names
-  /// Best first, by left-out ESR with offsets; then those that do not forget, then those that
-  /// diverged, then failed ones.
+  /// Best first, by left-out ESR with offsets; then those that do not forget or feed energy in,
+  /// then those that diverged, then failed ones.
   std::vector<RankedModel> models;
   std::string unit;  ///< over which differences are taken: "division", "block" ...
   /// Of a model that was fitted elsewhere: how many of the records its fit has seen.

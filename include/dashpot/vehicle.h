@@ -48,7 +48,8 @@ struct Vehicle {
   std::string controller_name;   ///< as it was named; empty: none
   ControlLimits limits;
   SensorOptions sensors;
-  std::vector<std::string> notes;  ///< "the numbers of ... are an example: ..."
+  std::vector<std::string> notes;     ///< "the numbers of ... are an example: ..."
+  std::vector<std::string> warnings;  ///< what its dampers are known to do wrong
 
   /// This vehicle on a ground, which must outlive the setting.
   Setting on(const GroundMotion& ground) const {

@@ -55,6 +55,16 @@ std::string message_after(const std::string& from, const std::string& to) {
 
 }  // namespace
 
+TEST_CASE("a file keeps the verdict on its model, and one without is measured") {
+  ModelFile file = spencer();
+  CHECK(dissipation_of(file).dissipates());
+  file.dissipation = {.is_tested = true, .frequency = 40, .share = -INFINITY, .active_to = 200};
+  const ModelFile again = parse_model(format_model(file), "m.json");
+  CHECK(format_model(again) == format_model(file));
+  CHECK(dissipation_of(again).share == -INFINITY);
+  CHECK(contains(activity(dissipation_of(again), DriveUnit::Volt), "it diverges at 40 Hz"));
+}
+
 TEST_CASE("a law's file comes back as it was, to the last bit") {
   const TemporaryFolder folder;
   const ModelFile saved = spencer();

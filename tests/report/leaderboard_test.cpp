@@ -53,6 +53,15 @@ TEST_CASE("what a model does beyond its data, in a word") {
   CHECK(stress_text({.seconds = 5, .finite = true, .largest_share = 12}) == "12 spans");
 }
 
+TEST_CASE("whether a model takes energy out of all motions, in a word") {
+  CHECK(dissipation_text({}) == "-");
+  CHECK(dissipation_text({.is_tested = true, .share = 0.3}) == "yes");
+  Dissipation active{.is_tested = true, .share = -0.3, .active_from = 40, .active_to = 200};
+  CHECK(dissipation_text(active) == "no, 40 to 200 Hz");
+  active.active_to = 40;
+  CHECK(dissipation_text(active) == "no, 40 Hz");
+}
+
 TEST_CASE("whether a model forgets, and how far it is behind, in a word") {
   CHECK(forgetting_text({}) == "-");
   CHECK(forgetting_text({.is_tested = true, .seconds = 0.84, .share_left = 0.002}) == "0.84 s");

@@ -179,6 +179,36 @@ TEST_CASE("verdict: a model that does not forget is not recommended, however sma
   CHECK(contains(verdict(example.ranking), "No model can be recommended"));
 }
 
+TEST_CASE("verdict: a model that feeds energy in is not recommended, and says where") {
+  ExampleRanking example = example_ranking();
+  auto& models = example.ranking.models;
+  std::swap(models[0], models[1]);  // as rank() has them: those that feed energy in come last
+  models[0].behind.reset();
+  models[0].left_out.pooled.esr = 3;
+  models[1].left_out.pooled.esr = 2;
+  models[1].dissipation = {.is_tested = true,
+                           .frequency = 75,
+                           .amplitude = 1e-5,
+                           .drive = 1,
+                           .damping = -4000,
+                           .share = -0.8,
+                           .active_from = 40,
+                           .active_to = 200};
+  const std::string said = verdict(example.ranking);
+  CAPTURE(said);
+  CHECK(contains(said,
+                 "Modified Bouc-Wen (Spencer) feeds energy into some motions and is not "
+                 "recommended, in spite of 2.0 %."));
+  const Document document = ranking_document(example.input());
+  const DocumentTable& table = document.sections.front().tables.front();
+  CHECK(table.rows[1].back() == "feeds energy");
+  CHECK(std::ranges::find(table.rows[1], "no, 40 to 200 Hz") != table.rows[1].end());
+  CHECK(table.warnings[1]);
+  CHECK(at(json_report(example.input()), "models.1.dissipation.dissipates").as_bool() == false);
+  CHECK(at(json_report(example.input()), "models.1.dissipation.damping_N_s_per_m").as_number() ==
+        -4000);
+}
+
 TEST_CASE("verdict of a model fitted elsewhere: whether its fit has seen the recordings") {
   ExampleRanking example = example_ranking();
   auto& ranking = example.ranking;

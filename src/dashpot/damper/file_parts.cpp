@@ -1,5 +1,9 @@
 #include "dashpot/damper/file_parts.h"
 
+#include <array>
+#include <utility>
+
+#include "dashpot/base/any_number.h"
 #include "dashpot/base/text.h"
 #include "dashpot/error.h"
 
@@ -19,6 +23,16 @@ std::vector<Axis> axes(DriveUnit drive_unit) {
           {"velocity", "m/s", &Domain::velocity_min, &Domain::velocity_max},
           {"drive", to_string(drive_unit), &Domain::current_min, &Domain::current_max}};
 }
+
+/// The numbers of a verdict, in the order of the file.
+constexpr std::array<std::pair<std::string_view, double Dissipation::*>, 7> kVerdict{
+    {{"frequency_Hz", &Dissipation::frequency},
+     {"amplitude_m", &Dissipation::amplitude},
+     {"position_m", &Dissipation::position},
+     {"drive", &Dissipation::drive},
+     {"damping_N_s_per_m", &Dissipation::damping},
+     {"active_from_Hz", &Dissipation::active_from},
+     {"active_to_Hz", &Dissipation::active_to}}};
 
 }  // namespace
 
@@ -53,6 +67,24 @@ Domain read_domain(const Value& value, DriveUnit drive_unit) {
   }
   reader.finish();
   return domain;
+}
+
+Value to_json(const Dissipation& result) {
+  if (!result.is_tested) return {};
+  Value out = Value::object(
+      {{"dissipates", result.dissipates()}, {"least_share", any_number(result.share)}});
+  for (const auto& [key, member] : kVerdict) out.add(std::string(key), result.*member);
+  return out;
+}
+
+Dissipation read_dissipation(const Value& value) {
+  ObjectReader reader(value, "the dissipation");
+  Dissipation result{.is_tested = true};
+  reader.optional("dissipates");  // follows from the share
+  result.share = read_any_number(reader.required("least_share"));
+  for (const auto& [key, member] : kVerdict) result.*member = reader.number(key);
+  reader.finish();
+  return result;
 }
 
 Value to_json(const Provenance& from) {

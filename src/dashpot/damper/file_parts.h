@@ -3,6 +3,7 @@
 #include <string_view>
 
 #include "dashpot/damper_model.h"
+#include "dashpot/dissipation.h"
 #include "dashpot/drive.h"
 #include "dashpot/value.h"
 
@@ -23,6 +24,10 @@ DriveUnit read_drive_unit(ObjectReader& reader);
 Value to_json(const Domain& domain, DriveUnit drive_unit);
 /// Throws Error naming the key on anything unknown, missing, in another unit or out of order.
 Domain read_domain(const Value& value, DriveUnit drive_unit);
+
+/// In SI units, with "dissipates" for whoever reads the file; it is not read back.
+Value to_json(const Dissipation& result);
+Dissipation read_dissipation(const Value& value);
 
 Value to_json(const Provenance& from);
 Provenance read_provenance(const Value& value);

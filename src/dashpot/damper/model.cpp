@@ -4,6 +4,10 @@
 
 namespace dashpot {
 
+Domain usual_domain(double current_min, double current_max) {
+  return {-0.025, 0.025, -0.5, 0.5, current_min, current_max};
+}
+
 std::size_t DamperModel::run(std::span<const DamperInput> inputs, Steps steps,
                              std::span<double> state, Response to) const noexcept {
   for (std::size_t k = 0; k < inputs.size(); ++k) {

@@ -24,6 +24,10 @@ void require_law(const LawModel& law, const ModelFile& file, const std::string& 
 
 }  // namespace
 
+Dissipation dissipation_of(const ModelFile& file) {
+  return file.dissipation ? *file.dissipation : dissipation(*file.model, file.domain);
+}
+
 std::string format_model(const ModelFile& file) {
   Value document = Value::object({{"format", kFormat.name},
                                   {"version", kFormat.version},
@@ -35,6 +39,7 @@ std::string format_model(const ModelFile& file) {
                                   {"quality", file.quality},
                                   {"provenance", to_json(file.provenance)}});
   if (file.interval) document.add("interval", to_json(*file.interval));
+  if (file.dissipation) document.add("dissipation", to_json(*file.dissipation));
   return format_json(document);
 }
 
@@ -65,6 +70,8 @@ ModelFile parse_model(std::string_view text, const std::string& source) {
   }
   if (const Value* interval = reader.optional("interval"))
     file.interval = read_force_band(*interval);
+  if (const Value* dissipation = reader.optional("dissipation"))
+    file.dissipation = read_dissipation(*dissipation);
   file.provenance = read_provenance(reader.required("provenance"));
   reader.finish();
   return file;

@@ -6,6 +6,7 @@
 #include "dashpot/base/data_folder.h"
 #include "dashpot/base/file.h"
 #include "dashpot/base/text.h"
+#include "dashpot/damper/file_parts.h"
 #include "dashpot/error.h"
 
 namespace fs = std::filesystem;
@@ -48,6 +49,8 @@ ParameterSet parse_parameter_set(std::string_view text, const std::string& sourc
       .drive_max = ends[1],
       .model = std::move(*law_model_from_json(model)),
       .drive_levels = read_drive_levels(reader.optional("drive_levels"), ends[0], ends[1])};
+  if (const Value* dissipation = reader.optional("dissipation"))
+    set.dissipation = read_dissipation(*dissipation);
   reader.finish();
   for (const double drive : ends) require_bounds(set.model, drive, model.where());
   return set;
@@ -67,6 +70,7 @@ ModelFile to_model_file(const ParameterSet& set) {
   file.drive_unit = set.model.drive_unit();
   file.domain.current_min = set.drive_min;
   file.domain.current_max = set.drive_max;
+  file.dissipation = set.dissipation;
   file.provenance.dataset = set.damper;
   file.provenance.citation = set.source + (set.verified ? "" : " (an example: " + set.reason + ")");
   return file;

@@ -17,7 +17,8 @@ struct ParameterSet {
   double drive_min = 0, drive_max = 0;  ///< A or V, where it holds
   LawModel model;
   std::vector<double> drive_levels =
-      {};  ///< those that its driver can give; empty: all in that range
+      {};                        ///< those that its driver can give; empty: all in that range
+  Dissipation dissipation = {};  ///< stated where it feeds energy in; else not tested
 };
 
 /// Names of the sets that come with Dashpot, in alphabetical order.

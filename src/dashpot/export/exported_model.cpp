@@ -3,6 +3,7 @@
 #include <cstdlib>
 
 #include "dashpot/base/text.h"
+#include "dashpot/dissipation.h"
 #include "dashpot/error.h"
 #include "dashpot/export.h"
 
@@ -18,10 +19,6 @@ bool is_c_name(const std::string& name) {
 
 }  // namespace
 
-Domain usual_domain(double current_min, double current_max) {
-  return {-0.025, 0.025, -0.5, 0.5, current_min, current_max};
-}
-
 ExportedModel exported_model(const ModelFile& file) {
   const Provenance& from = file.provenance;
   ExportedModel exported{.model = *file.model,
@@ -31,6 +28,8 @@ ExportedModel exported_model(const ModelFile& file) {
                          .origin = from.created.empty()
                                        ? from.dataset + ": " + from.citation
                                        : "Identified from " + from.dataset + ", " + from.created};
+  if (const std::string active = activity(dissipation_of(file), file.drive_unit); !active.empty())
+    exported.origin += ". WARNING: " + active;
   Domain& domain = exported.domain;
   if (!(domain.velocity_min < domain.velocity_max))
     domain = usual_domain(domain.current_min, domain.current_max);

@@ -46,6 +46,7 @@ DocumentSection ranking_section(const Ranking& ranking) {
                                               {"fit_cpu_seconds", 3},
                                               {"largest_spans", 0, kPage},
                                               {"forgets", 0, kPage},
+                                              {"dissipates", 1},
                                               {"status"}});
 
   // A click on a row shows the model below.
@@ -255,6 +256,7 @@ Document leaderboard_document(const ReportInput& input) {
                                         {"fit_cpu_seconds", 1},
                                         {"bounded", 1},
                                         {"forgets", 2},
+                                        {"dissipates", 1},
                                         {"status"}}),
                   breakdown_table(ranking, input.dataset.drive_unit)}});
   for (DocumentSection& section : interval_sections(ranking))

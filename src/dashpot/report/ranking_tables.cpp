@@ -34,6 +34,7 @@ std::string status_text(const RankedModel& model) {
   if (!model.fit.model || model.fit.status == FitReport::Status::Failed) return "fit failed";
   if (model.left_out.diverged) return fmt::format("{} diverged", model.left_out.diverged);
   if (!model.forgetting.is_forgotten()) return "remembers";
+  if (!model.dissipation.dissipates()) return "feeds energy";
   return model.fit.status == FitReport::Status::IterationLimit ? "limit" : "";
 }
 
@@ -134,7 +135,8 @@ const std::vector<ModelColumn>& model_columns() {
             [](Model m) { return none_for_zero(m.seconds); }, two_digits),
         words("status", "Status",
               "limit: the fit stopped at its iteration limit; diverged: on so many records; "
-              "remembers: it does not forget how it began, and is not recommended",
+              "remembers: it does not forget how it began; feeds energy: into some motions; "
+              "neither is recommended",
               status_text)};
 
     // Against the first model, sorted by the difference itself.
@@ -159,6 +161,16 @@ const std::vector<ModelColumn>& model_columns() {
                    [](Model m) {
                      return DocumentCell{forgetting_text(m.forgetting),
                                          m.forgetting.is_tested ? m.forgetting.seconds : kNoNumber};
+                   }});
+
+    all.push_back({"dissipates",
+                   {.title = "Dissipates",
+                    .hint = "Whether it takes energy out of every sine from 1 to 200 Hz and from "
+                            "0.1 um to the strokes and speeds of the data; or the band in which "
+                            "it feeds some in"},
+                   [](Model m) {
+                     return DocumentCell{dissipation_text(m.dissipation),
+                                         m.dissipation.is_tested ? m.dissipation.share : kNoNumber};
                    }});
 
     // Behaviour beyond the data: in a word, and on a page with the number to sort by.
@@ -400,6 +412,14 @@ std::string forgetting_text(const Forgetting& result) {
                                           : "diverges";
 }
 
+std::string dissipation_text(const Dissipation& result) {
+  if (!result.is_tested) return "-";
+  if (result.dissipates()) return "yes";
+  std::string band = number_text(result.active_from, 3);
+  if (result.active_to > result.active_from) band += " to " + number_text(result.active_to, 3);
+  return "no, " + band + " Hz";
+}
+
 std::string stress_text(const StressRun& run) {
   if (run.seconds == 0) return "-";
   if (!run.finite) return "diverged";
@@ -426,7 +446,7 @@ std::string csv_leaderboard(const ReportInput& input) {
   std::string text =
       "rank,model,usable," + join({kFigures.begin(), kFigures.end()}, ",") +
       ",stress_finite,stress_largest_spans,diverged_records,behind_percent,behind_low_percent,"
-      "behind_high_percent,told_apart,forgets,forgets_after_s,"
+      "behind_high_percent,told_apart,forgets,forgets_after_s,dissipates,least_share,"
       "wall_seconds_of_all\n";
 
   // Figures of models that were not judged stay empty.
@@ -443,12 +463,15 @@ std::string csv_leaderboard(const ReportInput& input) {
          {&PairedDifference::esr, &PairedDifference::low, &PairedDifference::high})
       fields.push_back(model.behind ? format_exact((*model.behind).*figure) : "");
     const Forgetting& forgetting = model.forgetting;
-    fields.insert(fields.end(), {!model.behind                ? ""
-                                 : model.behind->holds_zero() ? "no"
-                                                              : "yes",
-                                 forgetting.is_forgotten() ? "yes" : "no",
-                                 forgetting.is_tested ? format_exact(forgetting.seconds) : "",
-                                 format_exact(input.ranking.wall_seconds)});
+    fields.insert(fields.end(),
+                  {!model.behind                ? ""
+                   : model.behind->holds_zero() ? "no"
+                                                : "yes",
+                   forgetting.is_forgotten() ? "yes" : "no",
+                   forgetting.is_tested ? format_exact(forgetting.seconds) : "",
+                   model.dissipation.dissipates() ? "yes" : "no",
+                   model.dissipation.is_tested ? format_exact(model.dissipation.share) : "",
+                   format_exact(input.ranking.wall_seconds)});
     text += join(fields, ",") + "\n";
   }
   return text;

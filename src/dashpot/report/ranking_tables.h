@@ -35,6 +35,7 @@ std::string interval_sentence(const Evaluation& evaluation);
 std::string behind_text(const RankedModel& model);
 /// "0.8 s", "no, 3.1 %"; "-" when the model has no memory or was not tested.
 std::string forgetting_text(const Forgetting& result);
+std::string dissipation_text(const Dissipation& result);
 /// "yes", "12 spans", "diverged"; "-" when the model was not driven beyond its data.
 std::string stress_text(const StressRun& run);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "dashpot/base/any_number.h"
+#include "dashpot/damper/file_parts.h"
 #include "dashpot/damper/force_band.h"
 #include "dashpot/identify/judge/stress.h"
 #include "dashpot/identify/rank/paired_difference.h"
@@ -102,6 +103,7 @@ Value model_json(const RankedModel& model, const std::vector<std::string>& folds
                         {"behind", behind_json(model.behind)},
                         {"esr_parts_percent", Value::array(model.esr_parts)},
                         {"forgetting", forgetting_json(model.forgetting)},
+                        {"dissipation", to_json(model.dissipation)},
                         {"stress", stress_json(model.stress)},
                         {"fit", fit_json(model.fit)},
                         {"fold_fits", std::move(fold_fits)},

@@ -132,25 +132,28 @@ std::string verdict(const Ranking& ranking) {
   if (std::ranges::none_of(models, is_usable))
     return "No model can be used: each one failed or diverged on at least one left-out record.";
   if (leaders.empty())
-    return "No model can be recommended: each one failed, diverged or does not forget how it "
-           "began.";
+    return "No model can be recommended: each one failed, diverged, does not forget how it began "
+           "or feeds energy into some motions.";
   std::string text = leading(ranking, leaders);
 
-  // How many cannot be recommended; a smaller error is no reason to take one of them.
-  std::vector<const RankedModel*> remembering;
-  for (const RankedModel& model : models)
-    if (is_usable(model) && !model.forgetting.is_forgotten()) remembering.push_back(&model);
-  if (!remembering.empty()) {
-    const bool is_smaller =
-        remembering.front()->left_out.pooled.esr < models.front().left_out.pooled.esr;
-    text +=
-        fmt::format(" {} {} not forget how {} began and {} not recommended{}.",
-                    names_of(remembering), remembering.size() == 1 ? "does" : "do",
-                    remembering.size() == 1 ? "it" : "they", remembering.size() == 1 ? "is" : "are",
-                    is_smaller ? fmt::format(", in spite of {} %",
-                                             percent_text(remembering.front()->left_out.pooled.esr))
-                               : "");
-  }
+  // Which cannot be recommended; a smaller error is no reason to take one of them.
+  const auto refused = [&](auto is_refused, std::string_view does, std::string_view do_) {
+    std::vector<const RankedModel*> all;
+    for (const RankedModel& model : models)
+      if (is_usable(model) && is_refused(model)) all.push_back(&model);
+    if (all.empty()) return std::string();
+    const double least = all.front()->left_out.pooled.esr;
+    const bool is_smaller = least < models.front().left_out.pooled.esr;
+    const bool is_one = all.size() == 1;
+    return fmt::format(" {} {} and {} not recommended{}.", names_of(all), is_one ? does : do_,
+                       is_one ? "is" : "are",
+                       is_smaller ? fmt::format(", in spite of {} %", percent_text(least)) : "");
+  };
+  const auto remembers = [](const RankedModel& m) { return !m.forgetting.is_forgotten(); };
+  text += refused(remembers, "does not forget how it began", "do not forget how they began");
+  text +=
+      refused([&](const RankedModel& m) { return !remembers(m) && !m.dissipation.dissipates(); },
+              "feeds energy into some motions", "feed energy into some motions");
   const auto diverged =
       std::ranges::count_if(models, [](const RankedModel& m) { return m.left_out.diverged > 0; });
   if (diverged) text += fmt::format(" {} diverged.", counted(diverged, "model"));

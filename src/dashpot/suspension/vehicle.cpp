@@ -219,11 +219,14 @@ Vehicle make_vehicle(const VehicleWords& words) {
                                  " is beyond the greatest, " + drive.text(drive.high));
 
   // Each in its strut; a note that several have stands once.
+  const auto add = [](const std::vector<std::string>& some, std::vector<std::string>& all) {
+    for (const std::string& text : some)
+      if (std::ranges::find(all, text) == all.end()) all.push_back(text);
+  };
   vehicle.drive_unit = drive.unit;
   for (const ChosenDamper& damper : chosen) {
-    for (const std::string& note : damper.notes)
-      if (std::ranges::find(vehicle.notes, note) == vehicle.notes.end())
-        vehicle.notes.push_back(note);
+    add(damper.notes, vehicle.notes);
+    add(damper.warnings, vehicle.warnings);
     vehicle.dampers.push_back(mount(damper, drive, words));
     vehicle.damper_names.push_back(damper.name);
     vehicle.domains.push_back(damper.domain);

@@ -23,3 +23,16 @@ TEST_CASE("friction that jumps is seen, and then sets in along a straight line")
     CHECK(force(*soft, v) == force(*bingham(0), v));
   CHECK(force(*soft->with_offset(7), 0.3) == force(*soft, 0.3) + 7);
 }
+
+TEST_CASE("a force that jumps in the middle of the stroke changes over a short way instead") {
+  // F = 1000 v + 700 tanh(100 v + 0.9 sgn(x))
+  const auto kwok = std::make_shared<LawModel>(
+      LawModel::constant(find_law("tanh_kwok"), {1000, 0, 700, 100, 0.9, 0}));
+  CHECK(jumps_in_middle(*kwok, 0, 1));
+  CHECK(!jumps_at_rest(*kwok, 0, 1));
+  const auto soft = with_soft_sides(kwok);
+  CHECK(!jumps_in_middle(*soft, 0, 1));
+  const auto at = [](const DamperModel& model, double x) { return model.force({x, 0, 0}, {}); };
+  CHECK_CLOSE(at(*soft, 0.5 * kSideWay), 0.5 * 700 * std::tanh(0.9), 1e-12, 0);
+  for (const double x : {-0.01, -kSideWay, kSideWay, 0.01}) CHECK(at(*soft, x) == at(*kwok, x));
+}

@@ -222,8 +222,8 @@ class RankingRun {
     ranked.left_out = pool(evaluations);
     ranked.esr_parts = esr_parts(evaluations);
 
-    // The final model: errors on its own records, its interval, its memory, its behaviour beyond
-    // them.
+    // The final model: errors on its own records, its interval, its behaviour beyond them, its
+    // memory, its energy.
     if (!ranked.fit.model) return fail(ranked, "all records");
     ranked.training = evaluate_fit(ranked.fit, training_);
     ranked.band = conformal_band(error_shape(ranked.training.records), errors);
@@ -233,6 +233,10 @@ class RankingRun {
                                    options_.threads);
     if (!ranked.forgetting.is_forgotten())
       ranked.fit.warnings.push_back(forgetting_warning(ranked.forgetting));
+    ranked.dissipation = dissipation(*ranked.fit.model, domain_, options_.threads);
+    if (!ranked.dissipation.dissipates())
+      ranked.fit.warnings.push_back(activity(ranked.dissipation, dataset_.drive_unit) +
+                                    "; it is not recommended");
     ranked.nanoseconds_per_step =
         step_cost(*ranked.fit.model, training_.front(), dataset_.drive_unit);
   }
@@ -290,10 +294,10 @@ class RankingRun {
   static bool better(const RankedModel& a, const RankedModel& b) {
     const auto rank_of = [](const RankedModel& m) {
       const bool failed = m.fit.status == FitReport::Status::Failed;
-      return std::pair(failed                         ? 3
-                       : m.left_out.diverged > 0      ? 2
-                       : !m.forgetting.is_forgotten() ? 1
-                                                      : 0,
+      return std::pair(failed                    ? 3
+                       : m.left_out.diverged > 0 ? 2
+                       : !is_recommendable(m)    ? 1
+                                                 : 0,
                        failed ? 0.0 : m.left_out.pooled.esr);
     };
     return rank_of(a) < rank_of(b);
@@ -329,7 +333,7 @@ bool is_usable(const RankedModel& model) {
 }
 
 bool is_recommendable(const RankedModel& model) {
-  return is_usable(model) && model.forgetting.is_forgotten();
+  return is_usable(model) && model.forgetting.is_forgotten() && model.dissipation.dissipates();
 }
 
 std::vector<const RankedModel*> Ranking::leaders() const {
@@ -393,6 +397,7 @@ ModelFile to_model_file(const RankedModel& ranked, const Dataset& dataset,
   file.quality = Value::object({{"training", to_json(ranked.training.pooled)},
                                 {"left_out", to_json(ranked.left_out.pooled)}});
   file.interval = ranked.band;
+  if (ranked.dissipation.is_tested) file.dissipation = ranked.dissipation;
   return file;
 }
 

@@ -100,6 +100,12 @@ void take_model(ChosenDamper& damper, const DamperModel& model) {
   if (!damper.model) damper.model = std::move(bare.model);
 }
 
+/// Says where the damper feeds energy into what moves it.
+void warn_of_activity(ChosenDamper& damper, const Dissipation& result) {
+  if (const std::string active = activity(result, damper.drive_unit); !active.empty())
+    damper.warnings.push_back(damper.name + ": " + active + "; what swings with it may never rest");
+}
+
 void require_nothing(Words settings, const std::string& name, const std::string& where) {
   if (!settings.empty())
     throw Error(where, "'" + settings.front() + "' says nothing to " + name,
@@ -121,6 +127,7 @@ ChosenDamper from_file(const std::filesystem::path& path) {
   damper.drive_min = std::max(0.0, file.domain.current_min);
   damper.drive_max = std::max(damper.drive_min, file.domain.current_max);
   damper.domain = file.domain;
+  warn_of_activity(damper, dissipation_of(file));
   return damper;
 }
 
@@ -161,6 +168,7 @@ ChosenDamper from_set(const std::string& name, Words settings, const std::string
   damper.drive_max = set.drive_max;
   if (!set.verified)
     damper.notes.push_back("the numbers of " + name + " are an example: " + set.reason);
+  if (settings.empty()) warn_of_activity(damper, set.dissipation);
   return damper;
 }
 
@@ -219,6 +227,12 @@ ChosenDamper choose_damper(const std::string& text, const std::string& where) {
   if (jumps_at_rest(*damper.model, damper.drive_min, damper.drive_max)) {
     damper.notes.push_back(friction_note(*damper.model));
     damper.model = with_soft_friction(damper.model);
+  }
+  if (jumps_in_middle(*damper.model, damper.drive_min, damper.drive_max)) {
+    damper.notes.push_back("the force of " + damper.model->name() +
+                           " jumps in the middle of the stroke; it changes over " +
+                           format_number(1000 * kSideWay) + " mm to both sides here");
+    damper.model = with_soft_sides(damper.model);
   }
 
   // How it is mounted.

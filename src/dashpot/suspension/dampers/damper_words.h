@@ -37,6 +37,7 @@ struct ChosenDamper {
   std::optional<Domain> domain;         ///< where its data were
   std::optional<DampingRange> damping;  ///< at the strut, where it is stated
   std::vector<std::string> notes;
+  std::vector<std::string> warnings;  ///< what it is known to do wrong
 
   bool is_passive() const { return !(drive_min < drive_max); }
 };

@@ -7,9 +7,11 @@
 namespace dashpot {
 namespace {
 
-class SoftFriction final : public DamperModel {
+/// A model whose force is a straight line where one of its inputs is within `reach` of 0.
+class Softened final : public DamperModel {
  public:
-  explicit SoftFriction(std::shared_ptr<const DamperModel> model) : model_(std::move(model)) {}
+  Softened(std::shared_ptr<const DamperModel> model, double DamperInput::* what, double reach)
+      : model_(std::move(model)), what_(what), reach_(reach) {}
 
   ModelKind kind() const override { return model_->kind(); }
   std::string name() const override { return model_->name(); }
@@ -24,54 +26,75 @@ class SoftFriction final : public DamperModel {
     model_->advance(from, to, dt, state);
   }
   double force(const DamperInput& input, std::span<const double> state) const noexcept override {
-    if (!(std::abs(input.velocity) < kFrictionSpeed)) return model_->force(input, state);
-    return between_ends(input, state);
+    return is_within(input) ? between_ends(input, state) : model_->force(input, state);
   }
   bool flows() const noexcept override { return model_->flows(); }
   double flow(const DamperInput& input, std::span<const double> state,
               std::span<double> rates) const noexcept override {
     const double force = model_->flow(input, state, rates);
-    return std::abs(input.velocity) < kFrictionSpeed ? between_ends(input, state) : force;
+    return is_within(input) ? between_ends(input, state) : force;
   }
   bool has_diverged(std::span<const double> state) const noexcept override {
     return model_->has_diverged(state);
   }
   double feedback_step() const noexcept override { return model_->feedback_step(); }
   std::unique_ptr<DamperModel> with_offset(double newton) const override {
-    return std::make_unique<SoftFriction>(model_->with_offset(newton));
+    return std::make_unique<Softened>(model_->with_offset(newton), what_, reach_);
   }
   Value to_json() const override { return model_->to_json(); }
 
  private:
+  bool is_within(const DamperInput& input) const noexcept {
+    return std::abs(input.*what_) < reach_;
+  }
   double between_ends(DamperInput at, std::span<const double> state) const noexcept {
-    const double share = 0.5 + 0.5 * at.velocity / kFrictionSpeed;
-    at.velocity = -kFrictionSpeed;
+    const double share = 0.5 + 0.5 * at.*what_ / reach_;
+    at.*what_ = -reach_;
     const double before = model_->force(at, state);
-    at.velocity = kFrictionSpeed;
+    at.*what_ = reach_;
     return before + share * (model_->force(at, state) - before);
   }
 
   std::shared_ptr<const DamperModel> model_;
+  double DamperInput::* what_;
+  double reach_;
 };
 
-}  // namespace
-
-bool jumps_at_rest(const DamperModel& model, double current_min, double current_max) {
-  constexpr double kNearly = 1e-9, kUsual = 0.1;  // m/s
+/// Whether the force jumps where that input passes 0.
+bool jumps(const DamperModel& model, double DamperInput::* what, double current_min,
+           double current_max) {
+  constexpr double kNearly = 1e-9, kUsual = 0.1;  // m/s, m
   constexpr double kNoticed = 1e-3;               // of the force at a usual speed
   std::vector<double> state(model.state_size());
   for (const double current : {current_min, 0.5 * (current_min + current_max), current_max}) {
     model.rest({0, 0, current}, state);
-    const auto rise = [&](double v) {
-      return std::abs(model.force({0, v, current}, state) - model.force({0, -v, current}, state));
+    const auto rise = [&](double DamperInput::* input, double value) {
+      DamperInput to{0, 0, current}, from = to;
+      to.*input = value;
+      from.*input = -value;
+      return std::abs(model.force(to, state) - model.force(from, state));
     };
-    if (rise(kNearly) > kNoticed * rise(kUsual)) return true;
+    if (rise(what, kNearly) > kNoticed * rise(&DamperInput::velocity, kUsual)) return true;
   }
   return false;
 }
 
+}  // namespace
+
+bool jumps_at_rest(const DamperModel& model, double current_min, double current_max) {
+  return jumps(model, &DamperInput::velocity, current_min, current_max);
+}
+
+bool jumps_in_middle(const DamperModel& model, double current_min, double current_max) {
+  return jumps(model, &DamperInput::displacement, current_min, current_max);
+}
+
 std::shared_ptr<const DamperModel> with_soft_friction(std::shared_ptr<const DamperModel> model) {
-  return std::make_shared<SoftFriction>(std::move(model));
+  return std::make_shared<Softened>(std::move(model), &DamperInput::velocity, kFrictionSpeed);
+}
+
+std::shared_ptr<const DamperModel> with_soft_sides(std::shared_ptr<const DamperModel> model) {
+  return std::make_shared<Softened>(std::move(model), &DamperInput::displacement, kSideWay);
 }
 
 }  // namespace dashpot

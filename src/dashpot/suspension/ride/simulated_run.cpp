@@ -37,7 +37,8 @@ SimulatedRun run_vehicle(const std::shared_ptr<const Vehicle>& vehicle, const Gr
                    .warnings = {}};
 
   run.measures = ride_measures(*vehicle, ground, run.trace, settings.discard);
-  run.warnings = run.trace.warnings;
+  run.warnings = vehicle->warnings;
+  run.warnings.insert(run.warnings.end(), run.trace.warnings.begin(), run.trace.warnings.end());
   for (std::string& warning :
        domain_warnings(domain_use(*vehicle, run.trace), options.allowed_outside))
     run.warnings.push_back(std::move(warning));

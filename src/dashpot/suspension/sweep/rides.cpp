@@ -33,8 +33,9 @@ SweepRider::SweepRider(const SweepRequest& request) : request_(request) {
     VehicleWords words = vehicle_words(request, c, first);
     words.where = request.source + ", " + request.controllers[c].name;
     examples_.push_back(make_vehicle(words));
-    for (const std::string& note : examples_.back().notes)
-      if (std::ranges::find(notes_, note) == notes_.end()) notes_.push_back(note);
+    for (const auto* texts : {&examples_.back().warnings, &examples_.back().notes})
+      for (const std::string& text : *texts)
+        if (std::ranges::find(notes_, text) == notes_.end()) notes_.push_back(text);
   }
   require_ground(*make_road(request, first), examples_.front().set.plant, request);
 }

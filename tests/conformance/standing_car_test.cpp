@@ -1,0 +1,133 @@
+#include <cmath>
+
+#include "damper/kinds/passive_network/passive_network_example.h"
+#include "dashpot/damper/parameter_set.h"
+#include "dashpot/dissipation.h"
+#include "dashpot/ground_motion.h"
+#include "dashpot/model_file.h"
+#include "dashpot/vehicle.h"
+#include "identify/small_campaign.h"
+#include "support.h"
+
+using namespace dashpot;
+
+namespace {
+
+constexpr double kAtRest = 1e-3;  // m/s^2, rms of the body
+constexpr double kDuration = 15, kWindow = 2;
+
+/// m/s^2, rms of the body's acceleration about its mean, from `begin` s on.
+double shaking(const Trace& trace, double begin, double end) {
+  const std::vector<double>& samples = trace.record.channel("body_acceleration").samples;
+  double sum = 0, squares = 0, count = 0;
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    if (trace.record.time[k] < begin || trace.record.time[k] > end) continue;
+    sum += samples[k];
+    squares += samples[k] * samples[k];
+    count += 1;
+  }
+  return std::sqrt(std::max(0.0, squares / count - (sum / count) * (sum / count)));
+}
+
+/// What is left of a step on which the car stands, and what was left 5 s before.
+struct AfterStep {
+  double before, last;
+  /// A damper that is all but elastic in small motions takes its time.
+  bool comes_to_rest() const { return last < kAtRest || last < 0.999 * before; }
+};
+AfterStep after_step(Vehicle vehicle, std::shared_ptr<const DamperModel> model = nullptr,
+                     const std::string& height = "3cm") {
+  if (model)
+    for (MountedDamper& damper : vehicle.dampers) damper.model = model;
+  const GroundPointer step = make_ground("step,height=" + height, 1);
+  const Trace trace = simulate(vehicle.on(*step), vehicle.options(kDuration));
+  REQUIRE_FALSE(trace.diverged_at);
+  return {shaking(trace, kDuration - kWindow - 5, kDuration - 5),
+          shaking(trace, kDuration - kWindow, kDuration)};
+}
+
+Vehicle car(const std::string& plant, const std::string& damper, double current) {
+  return make_vehicle({.plant = plant, .dampers = {damper}, .current = current});
+}
+
+constexpr std::array kPlants{"tudon_martinez2012", "savaresi_spelta", "renault_megane"};
+
+}  // namespace
+
+TEST_CASE("a car that stands comes to rest with each published damper of a car's size that passes" *
+          doctest::test_suite("long")) {
+  // Dampers of buildings are stiff beyond any car.
+  constexpr double kMostForce = 1e4;  // N at 0.3 m/s
+  int tried = 0;
+  for (const std::string& name : parameter_set_names()) {
+    const ParameterSet set = load_parameter_set(name);
+    const DamperInput quick{0, 0.3, set.drive_max};
+    std::vector<double> state(set.model.state_size());
+    set.model.rest(quick, state);
+    if (std::abs(set.model.force(quick, state)) > kMostForce || !set.dissipation.dissipates())
+      continue;
+    for (const std::string plant : kPlants) {
+      CAPTURE(name);
+      CAPTURE(plant);
+      const AfterStep left = after_step(car(plant, name, set.drive_max));
+      CAPTURE(left.before);
+      CAPTURE(left.last);
+      CHECK(left.comes_to_rest());
+      ++tried;
+    }
+  }
+  CHECK(tried > 20);
+}
+
+TEST_CASE("a car swings on for ever with the published damper that does not, and is told so") {
+  Vehicle shaken = car("tudon_martinez2012", "vrths_mr_tanh_acceleration", 1);
+  REQUIRE(shaken.warnings.size() == 1);
+  CHECK(contains(shaken.warnings[0], "it feeds energy into motions of 75 to 200 Hz"));
+  const AfterStep left = after_step(std::move(shaken));
+  CHECK_FALSE(left.comes_to_rest());
+  CHECK(left.last > 1);
+}
+
+TEST_CASE("a car that stands comes to rest with any passive network" *
+          doctest::test_suite("long")) {
+  for (std::uint64_t seed = 1; seed <= 8; ++seed)
+    for (const std::string plant : kPlants) {
+      CAPTURE(seed);
+      CAPTURE(plant);
+      const AfterStep left =
+          after_step(car(plant, "viscous", 0),
+                     std::make_shared<PassiveNetworkModel>(
+                         "passive_network", std::vector{example_passive_network(seed, 1)}));
+      CAPTURE(left.last);
+      CHECK(left.comes_to_rest());
+    }
+}
+
+TEST_CASE(
+    "a car that stands comes to rest with every fit that passes, and only with those is it "
+    "promised" *
+    doctest::test_suite("long")) {
+  const std::vector<Record> training = small_campaign({{0.01, 1}, {0.005, 3}}).records;
+  const Domain domain = domain_of(training, DriveUnit::Ampere);
+  const TemporaryFolder folder;
+  IdentifyOptions options;
+  options.network = {.epochs = 200, .members = 1};
+  for (const std::string name :
+       {"bingham", "tanh_kwok", "bouc_wen", "modified_bouc_wen", "large_scale_bouc_wen",
+        "extended_bingham", "passive_network", "hysteresis_network", "arctan", "tanh_acceleration",
+        "polynomial"}) {
+    CAPTURE(name);
+    const FitReport fit = identify(name, training, DriveUnit::Ampere, options);
+    REQUIRE(fit.model);
+    if (!dissipation(*fit.model, domain).dissipates()) continue;
+
+    // As a user mounts it, and within what the campaign has shown.
+    const std::string file = (folder.path() / (name + ".json")).string();
+    save_model({.model = fit.model->with_offset(0), .domain = domain}, file);
+    const AfterStep left =
+        after_step(car("tudon_martinez2012", file, domain.current_max), nullptr, "5mm");
+    CAPTURE(left.before);
+    CAPTURE(left.last);
+    CHECK(left.comes_to_rest());
+  }
+}
