@@ -43,8 +43,8 @@ Ranking as_ranking(const std::string& name, ModelFile file, const Dataset& datas
   ranked.title = name;
   ranked.fit.status = FitReport::Status::Converged;
   ranked.fit.message = "not fitted here: read from " + name;
-  ranked.fit.model = std::move(file.model);
   ranked.dissipation = dissipation_of(file);
+  ranked.fit.model = std::move(file.model);
   ranked.band = std::move(file.interval);
   ranked.left_out = evaluation;
   for (RecordResult& r : ranked.left_out.records) r.left_out = true;
@@ -78,6 +78,9 @@ int run_evaluate(const EvaluateSettings& settings, Console& console) {
   document.data = std::move(data);
   print_document(document, console);
   for (const Extrapolation& e : outside) console.warn(describe(e));
+  if (const std::string active = activity(ranking.models.front().dissipation, dataset.drive_unit);
+      !active.empty())
+    console.warn("beyond these recordings: " + active);
   if (const std::size_t seen = *ranking.seen; seen > 0)
     console.warn(
         fmt::format("the fit of the model has seen {} of {}: these errors are no judgement", seen,

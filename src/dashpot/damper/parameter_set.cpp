@@ -70,7 +70,7 @@ ModelFile to_model_file(const ParameterSet& set) {
   file.drive_unit = set.model.drive_unit();
   file.domain.current_min = set.drive_min;
   file.domain.current_max = set.drive_max;
-  file.dissipation = set.dissipation;
+  if (set.dissipation.is_tested) file.dissipation = set.dissipation;
   file.provenance.dataset = set.damper;
   file.provenance.citation = set.source + (set.verified ? "" : " (an example: " + set.reason + ")");
   return file;
