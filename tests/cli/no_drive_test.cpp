@@ -123,8 +123,8 @@ TEST_CASE("recordings with and without a drive are not one dataset, and it is sa
   folder.write("a_1A.csv", csv_of(records[0]));
   folder.write("b.csv", csv_of(records[1], "1"));
   folder.write("unknown.csv", csv_of(records[2]));
-  const std::string fit = "identify " + folder.path().string() + " --models bingham --output " +
-                          out.path().string();
+  const std::string fit =
+      "identify " + folder.path().string() + " --models bingham --output " + out.path().string();
   const ProgramResult mixed = run_dashpot(fit);
   CAPTURE(mixed.output);
   CHECK(mixed.exit_code == 1);

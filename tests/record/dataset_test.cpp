@@ -338,9 +338,10 @@ TEST_CASE("the direction that counts as extension is said where nobody has state
     return describe(load(folder.path()));
   };
   const std::string taken = "extension is taken as the direction in which 'x_mm' grows";
-  CHECK(has(notes(0), taken + " (motion and force do not tell)"));
-  CHECK(has(notes(-20), "-20 N, speaks for it"));
-  CHECK(has(notes(20), "20 N, speaks against it"));
+  CHECK(has(notes(0), taken + "; were it compression"));
+  CHECK(!has(notes(0), "the force at rest"));
+  CHECK(has(notes(-20), "the force at rest resists compression by 20 N, which speaks for"));
+  CHECK(has(notes(20), "the force at rest resists extension by 20 N, which speaks against"));
   CHECK(has(notes(0), "state 'sign: -1' for displacement and 'sign: -1' for force"));
 
   // What the note proposes turns the record round, and silences it.

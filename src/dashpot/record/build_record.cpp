@@ -327,20 +327,23 @@ void note_direction(Record& record, const RawTable& table, const ColumnUses& use
                             " and 'sign: " + (turned ? "1" : "-1") +
                             "' for force in a dataset file";
 
+  record.notes.push_back("extension is taken as the direction in which '" +
+                         label(table.columns[motion->column], motion->column) +
+                         (displacement ? "' grows" : "' is positive") + "; were it compression, " +
+                         other);
+
   // What speaks for or against it.
   constexpr double kNoticed = 0.05;  // of the force's half span
   const std::vector<double>& force = record.channel("force").samples;
   const auto [low, high] = std::minmax_element(force.begin(), force.end());
   const double at_rest = force_at_rest(record);
-  const std::string size = "the force at rest, " + format_number(at_rest, 3) + " N, ";
-  const std::string hint =
-      std::abs(at_rest) <= kNoticed * 0.5 * (*high - *low) ? "motion and force do not tell"
-      : at_rest < 0 ? size + "speaks for it if it is gas, which pushes outwards"
-                    : size + "speaks against it if it is gas, which pushes outwards";
-  record.notes.push_back("extension is taken as the direction in which '" +
-                         label(table.columns[motion->column], motion->column) +
-                         (displacement ? "' grows" : "' is positive") + " (" + hint +
-                         "); were it compression, " + other);
+  if (std::abs(at_rest) > kNoticed * 0.5 * (*high - *low))
+    record.notes.push_back(std::string("the force at rest resists ") +
+                           (at_rest < 0 ? "compression" : "extension") + " by " +
+                           format_number(std::abs(at_rest), 3) + " N, which speaks " +
+                           (at_rest < 0 ? "for" : "against") +
+                           " that direction if it is gas, which pushes outwards, and not the load "
+                           "cell's zero");
 }
 
 /// The span that dampers on test benches have, generously: beyond it the unit is doubtful, and only
