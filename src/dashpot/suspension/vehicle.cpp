@@ -237,16 +237,18 @@ Vehicle make_vehicle(const VehicleWords& words) {
                             " are an example: " + vehicle.set.reason);
 
   // Dampers, and the range over which all that are driven are driven.
-  const std::vector<ChosenDamper> chosen = choose_dampers(words, vehicle.set);
-  const DriveRange drive = drive_range(chosen, words);
+  const std::vector<ChosenDamper> named = choose_dampers(words, vehicle.set);
+  const DriveRange drive = drive_range(named, words);
+  std::vector<ChosenDamper> chosen;
+  for (const ChosenDamper& damper : named)
+    chosen.push_back(in_equilibrium(damper, starting_current(damper, drive, words)));
   if (drive.low < drive.high && !(words.current <= drive.high))
     throw Error(words.where, "a drive of " + drive.text(words.current) +
                                  " is beyond the greatest, " + drive.text(drive.high));
 
   // Each in its strut; a note that several have stands once.
   vehicle.drive_unit = drive.unit;
-  for (const ChosenDamper& named : chosen) {
-    const ChosenDamper damper = in_equilibrium(named, starting_current(named, drive, words));
+  for (const ChosenDamper& damper : chosen) {
     for (const std::string& note : damper.notes)
       if (std::ranges::find(vehicle.notes, note) == vehicle.notes.end())
         vehicle.notes.push_back(note);
@@ -255,7 +257,7 @@ Vehicle make_vehicle(const VehicleWords& words) {
     vehicle.domains.push_back(damper.domain);
   }
 
-  vehicle.limits = control_limits(chosen, drive, words, vehicle.notes);
+  vehicle.limits = control_limits(named, drive, words, vehicle.notes);
   add_controller(vehicle, drive, words);
   return vehicle;
 }

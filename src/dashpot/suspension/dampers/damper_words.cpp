@@ -91,21 +91,6 @@ std::shared_ptr<const DamperModel> without_jump(const LawModel& model,
   return std::make_shared<LawModel>(model.law(), parameters, model.drive_unit(), model.lag_rate());
 }
 
-/// Puts the model there, and the lag of its coil beside it.
-void take_model(ChosenDamper& damper, const DamperModel& model) {
-  BareDamper bare = without_coil_lag(model);
-  damper.lag_rate = bare.lag_rate;
-  if (const auto* law = model_as<LawModel>(*bare.model))
-    damper.model = without_jump(*law, damper.notes);
-  if (!damper.model) damper.model = std::move(bare.model);
-}
-
-void require_nothing(Words settings, const std::string& name, const std::string& where) {
-  if (!settings.empty())
-    throw Error(where, "'" + settings.front() + "' says nothing to " + name,
-                "motion_ratio=... or force_factor=...");
-}
-
 /// The law with these of its parameters constant.
 LawModel with_settings(const LawModel& model, Words settings, const std::string& where) {
   const Law& law = model.law();
@@ -131,6 +116,21 @@ LawModel with_settings(const LawModel& model, Words settings, const std::string&
   LawModel changed(law, parameters, model.drive_unit(), model.lag_rate());
   require_bounds(changed, 0, where);
   return changed;
+}
+
+/// Puts the model there, and the lag of its coil beside it.
+void take_model(ChosenDamper& damper, const DamperModel& model) {
+  BareDamper bare = without_coil_lag(model);
+  damper.lag_rate = bare.lag_rate;
+  if (const auto* law = model_as<LawModel>(*bare.model))
+    damper.model = without_jump(*law, damper.notes);
+  if (!damper.model) damper.model = std::move(bare.model);
+}
+
+void require_nothing(Words settings, const std::string& name, const std::string& where) {
+  if (!settings.empty())
+    throw Error(where, "'" + settings.front() + "' says nothing to " + name,
+                "motion_ratio=... or force_factor=...");
 }
 
 /// A curve, or a model file; a law's parameters may be set as those of a published damper are.
