@@ -77,7 +77,7 @@ typedef struct dashpot_model_info {
   const char* name;        ///< "tanh_kwok"; as the other texts: valid as long as the model
   const char* kind;        ///< "law", "network", "narx" ...
   const char* title;       ///< for people
-  const char* drive_unit;  ///< "A" or "V"
+  const char* drive_unit;  ///< "A", "V", or "" at one constant, unknown drive
   size_t state_size;       ///< numbers in a state array; may be 0
   size_t parameter_count;
   int needs_displacement;

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "dashpot/base/date.h"
 #include "dashpot/identify/rank/model_choice.h"
 #include "dashpot/report/report_json.h"
@@ -58,6 +60,10 @@ void fit(const Dataset& dataset, FitOptions options, const dashpot_monitor* moni
 Ranking rank_watched(const Dataset& dataset, FitOptions& options, const dashpot_monitor* monitor) {
   const LeaveOut leave_out = options.leave_out ? *options.leave_out : default_leave_out(dataset);
   const ChosenModels models = choose_models(options.words, dataset, leave_out, "options, budget");
+  for (const std::string& name : models.passed_over)
+    if (std::ranges::find(options.words.models, name) != options.words.models.end())
+      throw Error(name, "needs a displacement, which not every recording has",
+                  "record it, or leave this model out");
   IdentifyOptions asked = identify_options(options.words, models.names, "options, ");
   Ranking ranking;
   run_watched(monitor, [&](const Monitor& watched) {

@@ -67,20 +67,26 @@ void add(dashpot_recordings& recordings, const dashpot_table& table) {
   // The arrays are read as a file is, the force's sign stated beforehand.
   RawTable raw = copy_table(table, name);
   const FileStatement statement = statement_of(raw, table.conditions);
-  BuiltRecord built = build_record(
-      std::move(raw), {.statement = &statement, .stated_in = "the arrays", .name = name});
+  BuiltRecord built = build_record(std::move(raw), {.statement = &statement,
+                                                    .stated_in = "the arrays",
+                                                    .name = name,
+                                                    .level = {},
+                                                    .as_given = true});
   if (!built.refusal.empty()) throw Error(name, built.refusal);
 
   // One model has one drive: all recordings are driven in the same unit.
-  const bool is_current = built.record.find("current") != nullptr;
-  if (!is_current && !built.record.find("voltage"))
-    throw Error(name, "has neither current nor voltage", "a column of one of them drives the coil");
-  const DriveUnit drive_unit = is_current ? DriveUnit::Ampere : DriveUnit::Volt;
-  if (records.empty()) recordings.dataset.drive_unit = drive_unit;
-  if (drive_unit != recordings.dataset.drive_unit)
-    throw Error(
-        name, "is driven in " + to_string(drive_unit),
-        "the recordings before it are driven in " + to_string(recordings.dataset.drive_unit));
+  // Without current and voltage it is taken as of one constant, unknown drive.
+  const DriveUnit drive_unit = built.record.find("current")   ? DriveUnit::Ampere
+                               : built.record.find("voltage") ? DriveUnit::Volt
+                                                              : DriveUnit::None;
+  const DriveUnit before = recordings.dataset.drive_unit;
+  const auto words = [](DriveUnit unit) {
+    return unit == DriveUnit::None ? "no current or voltage" : "a drive in " + to_string(unit);
+  };
+  if (!records.empty() && drive_unit != before)
+    throw Error(name, "has " + words(drive_unit), "the recordings before it have " + words(before));
+  recordings.dataset.drive_unit = drive_unit;
+  if (drive_unit == DriveUnit::None) built.record.drive_level = 0;
 
   // Only a recording that was accepted is kept; on an error nothing is added.
   recordings.name_rests.push_back(split_name(name).rest);

@@ -118,7 +118,7 @@ ChosenModels chosen_models(const FitSettings& settings, const Dataset& dataset,
                            const LeaveOut& leave_out, Console& console) {
   ChosenModels chosen = choose_models(settings, dataset, leave_out, "--budget");
   if (!chosen.passed_over.empty())
-    console.note("not every record has a displacement, which these models need: " +
+    console.note("left out, since not every record has a displacement, which they need: " +
                  join(chosen.passed_over, ", "));
   return chosen;
 }

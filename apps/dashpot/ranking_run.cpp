@@ -11,8 +11,8 @@ Option leave_out_option(std::string& text) {
       .help =
           "what is left out to judge a model: condition, current, record, blocks (of time, one "
           "after the other), fraction (the end of every record), roles or each; name which ones "
-          "as current=0.5,1, blocks=5 or fraction=0.3, or of which conditions as "
-          "each=gap,pole_length",
+          "as current=0.5,1,varies (the records whose drive varies), blocks=5 or fraction=0.3, or "
+          "of which conditions as each=gap,pole_length",
       .value = "WHAT",
       .default_text =
           "as the dataset file says, else the first of condition, current and record that the "

@@ -52,7 +52,8 @@ struct LeaveOut {
   };
   By by = By::Condition;
   /// Which of them: levels (as texts), conditions or names of records. Empty: each one; for Current
-  /// each inner level, since a model is not asked to extrapolate in current. For Each: names of
+  /// each inner level, since a model is not asked to extrapolate in current, and then all records
+  /// whose drive varies, at once (by name: "varies"). For Each: names of
   /// conditions of the records, gap or viscosity; records that agree in all of them are left out
   /// together.
   std::vector<std::string> values;

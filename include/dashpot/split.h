@@ -4,6 +4,7 @@
 // Division of a dataset into folds: records to fit a model on, and records to judge it on.
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "dashpot/dataset.h"
@@ -17,6 +18,9 @@ struct Fold {
   std::vector<Record> training;
   std::vector<Record> left_out;  ///< judged from `warm_up` on
 };
+
+/// The name of the fold that leaves out all records whose drive varies.
+inline constexpr std::string_view kWithoutVaryingDrive = "without records of varying drive";
 
 /// The way that the dataset file states; else the strictest one that the records allow: by
 /// condition, current, record, or five blocks of the only one, one after the other.

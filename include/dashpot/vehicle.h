@@ -62,8 +62,10 @@ struct Vehicle {
 /// The plant of these words alone, with their values in place of its own.
 PlantSet load_plant(const VehicleWords& words);
 
-/// Makes the vehicle. Throws Error(where, ...) at a word that names nothing, at a value outside its
-/// bounds, at parts that do not fit together.
+/// Makes the vehicle, in equilibrium at rest: the force that a damper has at rest at no deflection
+/// and its first current is taken off its model, since the springs bear it. Throws Error(where,
+/// ...) at a word that names nothing, at a value outside its bounds, at parts that do not fit
+/// together.
 Vehicle make_vehicle(const VehicleWords& words);
 
 }  // namespace dashpot

@@ -185,8 +185,6 @@ TEST_CASE("recordings that cannot serve are refused, and nothing is added") {
   table.conditions = "{\"gap\": \"wide\"}";
   CHECK(contains(refusal(), "conditions"));
   table.conditions = nullptr;
-  table.column_count = 2;
-  CHECK(contains(refusal(), "neither current nor voltage"));
   table.column_count = 1;
   CHECK(contains(refusal(), "no column is force"));
   table.column_count = 3;
@@ -204,7 +202,35 @@ TEST_CASE("recordings that cannot serve are refused, and nothing is added") {
   CHECK(contains(refusal(), "one: is there already"));
   table.name = "two";
   columns[2].name = "voltage [V]";
-  CHECK(contains(refusal(), "driven in V"));
+  CHECK(contains(refusal(), "two: has a drive in V; the recordings before it have a drive in A"));
+  table.column_count = 2;
+  CHECK(contains(refusal(), "two: has no current or voltage"));
+}
+
+TEST_CASE("recordings in memory without a drive are fitted at one constant, unknown drive") {
+  Recordings recordings;
+  REQUIRE(dashpot_recordings_new(&recordings) == DASHPOT_OK);
+  BinghamBench motion(1);
+  for (double& x : motion.x) x += 0.075;
+  dashpot_named_column columns[] = {{"x", {motion.x.data(), 1}}, {"F", {motion.f.data(), 1}}};
+  const dashpot_table table = {"one", motion.x.size(), 0.005, columns, 2, nullptr};
+  REQUIRE(dashpot_recordings_add(recordings, &table) == DASHPOT_OK);
+
+  Model model;
+  REQUIRE(dashpot_fit(recordings, "{\"models\": [\"bingham\"]}", nullptr, &model, nullptr) ==
+          DASHPOT_OK);
+  dashpot_model_info info;
+  REQUIRE(dashpot_model_get_info(model, &info) == DASHPOT_OK);
+  CHECK(std::string(info.drive_unit).empty());
+
+  // Arrays are taken as they are: no stroke is centred behind the back of who gives them.
+  dashpot_channel x;
+  REQUIRE(dashpot_recordings_channel(recordings, 0, 1, &x) == DASHPOT_OK);
+  CHECK(x.data[0] == motion.x[0]);
+  char* text = nullptr;
+  REQUIRE(dashpot_recordings_describe(recordings, &text) == DASHPOT_OK);
+  CHECK(contains(text, "is an absolute stroke: laws of displacement expect its middle at 0"));
+  dashpot_text_free(&text);
 }
 
 TEST_CASE("wrong options, paths and calls in the wrong order give a status") {

@@ -12,12 +12,20 @@ const std::string kFit = "identify DIR --models bingham --quiet --output DIR/res
 
 TEST_CASE("recordings that no model can be fitted to") {
   const Wrong table[] = {
-      {"no current",
-       {{"a_1Hz.csv", csv(drop_current, 300, "t_s,x_mm,F_N\n")},
-        {"b_2Hz.csv", csv(drop_current, 300, "t_s,x_mm,F_N\n")}},
+      {"no current beside one",
+       {{"a_1Hz.csv", csv(drop_current, 300, "t_s,x_mm,F_N\n")}, {"b_2Hz.csv", csv()}},
        kFit,
        1,
-       {"has no known current", "manifest.csv"}},
+       {"a_1Hz: has no known current; 1 of 2 records has one", "manifest.csv", "'drive: none'"}},
+      {"no displacement, and none to be had",
+       {{"a.csv", csv(
+                      [](int k, auto& row) {
+                        if (k > 99) row[0] = format_number(k * 0.005 + 1, 9);
+                      },
+                      300, "t_s,v_mm_s,F_N,i_A\n")}},
+       "identify DIR --models tanh_kwok --quiet --leave-out blocks=2 --output DIR/results",
+       1,
+       {"a: has no displacement, which tanh_kwok needs", "as bingham"}},
       {"constant force",
        {{"a_1Hz.csv", csv(scaled(2, 0))}, {"b_2Hz.csv", csv(scaled(2, 0))}},
        kFit,

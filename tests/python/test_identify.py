@@ -36,6 +36,22 @@ class RecordingsInMemory(unittest.TestCase):
         with self.assertRaises(IndexError):
             recordings[3]
 
+    def test_without_current_the_drive_is_one_unknown_constant(self):
+        recordings = dashpot.Recordings()
+        t, _, v, _, force = bingham(1.0)
+        recordings.add({"t_s": t, "v [m/s]": v, "F_N": force}, name="public")
+        ranking = dashpot.identify(recordings, models=["bingham"], leave_out="blocks=3")
+        self.assertEqual(ranking.best.drive_unit, "")
+        self.assertNotIn("varies", str(ranking))
+        step = t[1] - t[0]
+        for current in (0.0, 7.0):
+            predicted = ranking.best.predict(np.column_stack([v, np.full_like(v, current)]), sample_time=step)
+            self.assertLess(np.std(predicted - force), 0.05 * np.std(force))
+        with self.assertRaisesRegex(dashpot.Error, "needs a displacement|has no displacement"):
+            dashpot.identify(recordings, models=["bingham", "tanh_kwok"], leave_out="blocks=3")
+        with self.assertRaisesRegex(dashpot.Error, "the recordings before it have no current or voltage"):
+            recordings.add({"t_s": t, "v [m/s]": v, "F_N": force, "i [A]": 0 * v}, name="driven")
+
     def test_views_outlive_the_recordings_and_cannot_be_written(self):
         view = bench()[0]["columns"]["force [N]"]
         np.testing.assert_array_equal(view, bingham(0.0)[4])
@@ -44,7 +60,7 @@ class RecordingsInMemory(unittest.TestCase):
 
     def test_wrong_tables_are_refused(self):
         t, x, v, i, force = bingham(0.0)
-        for table in ({"x": x, "F": force}, {"F": force}, {}, {"t": t, "x": x, "F": force[:-1], "i": i}):
+        for table in ({"F": force}, {}, {"t": t, "x": x, "F": force[:-1], "i": i}):
             with self.assertRaises(ValueError):
                 dashpot.Recordings().add(table, sample_time=0.005)
         with self.assertRaisesRegex(dashpot.Error, "there already"):

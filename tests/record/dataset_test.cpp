@@ -266,3 +266,114 @@ TEST_CASE("any file may hold any bytes") {
     }
   }
 }
+
+namespace {
+
+/// A sine of 10 mm about `middle` mm, with force = `gas` N + 1000 N*s/m * v, turned by `direction`.
+std::string stroke_csv(double middle, double gas = 0, double direction = 1) {
+  std::string text = "t_s,x_mm,F_N\n";
+  for (int k = 0; k < 300; ++k) {
+    const double t = k / 100.0, w = 2 * M_PI;
+    char line[96];
+    std::snprintf(line, sizeof line, "%.2f,%.6f,%.6f\n", t,
+                  middle + direction * 10 * std::sin(w * t),
+                  direction * (gas + 10 * w * std::cos(w * t)));
+    text += line;
+  }
+  return text;
+}
+
+double mean_of(const Channel& channel) {
+  double sum = 0;
+  for (const double value : channel.samples) sum += value;
+  return sum / static_cast<double>(channel.samples.size());
+}
+
+}  // namespace
+
+TEST_CASE("an absolute stroke is centred, and it is said by how much") {
+  const TemporaryFolder folder;
+  folder.write("a_1A.csv", stroke_csv(75));
+  folder.write("b_1A.csv", stroke_csv(-40));
+  folder.write("c_1A.csv", stroke_csv(3));  // beside the middle, but about it
+  const Dataset dataset = load(folder.path());
+  const auto centre = [&](const char* name) {
+    for (const Record& record : dataset.records)
+      if (record.name == name) return mean_of(record.channel("displacement"));
+    return kNaN;
+  };
+  CHECK_CLOSE(centre("a_1A"), 0, 0, 1e-12);
+  CHECK_CLOSE(centre("b_1A"), 0, 0, 1e-12);
+  CHECK_CLOSE(centre("c_1A"), 0.003, 0, 1e-9);
+  const std::string text = describe(dataset);
+  CHECK(has(text, "absolute stroke centred in 2 of 3 records, by -40 ... 75 mm"));
+  CHECK(has(text, "displacement of 65 ... 85 mm is an absolute stroke"));
+
+  // A record alone is centred as it is among others.
+  CHECK_CLOSE(mean_of(load(folder.path() / "a_1A.csv").records[0].channel("displacement")), 0, 0,
+              1e-12);
+}
+
+TEST_CASE("a stroke that is placed by its dataset file stays there") {
+  const auto centre = [](const std::string& words) {
+    const TemporaryFolder folder;
+    folder.write("a_1A.csv", stroke_csv(75));
+    folder.write("dataset.yaml",
+                 "files:\n  - match: a_1A.csv\n    channels: {force: F_N, displacement: {column: "
+                 "x_mm, unit: mm" +
+                     words + "}}\n    level: 1\n");
+    return mean_of(load(folder.path()).records.at(0).channel("displacement"));
+  };
+  CHECK_CLOSE(centre(""), 0, 0, 1e-12);
+  CHECK_CLOSE(centre(", centre: mean"), 0, 0, 1e-12);
+  CHECK_CLOSE(centre(", centre: none"), 0.075, 1e-9, 0);
+  CHECK_CLOSE(centre(", offset: 70"), 0.005, 1e-6, 0);
+}
+
+TEST_CASE("the direction that counts as extension is said where nobody has stated it") {
+  const auto notes = [](double gas, const std::string& dataset_file = "") {
+    const TemporaryFolder folder;
+    folder.write("a_1A.csv", stroke_csv(0, gas));
+    if (!dataset_file.empty()) folder.write("dataset.yaml", dataset_file);
+    return describe(load(folder.path()));
+  };
+  const std::string taken = "extension is taken as the direction in which 'x_mm' grows";
+  CHECK(has(notes(0), taken + "; were it compression"));
+  CHECK(!has(notes(0), "the force at rest"));
+  CHECK(has(notes(-20), "the force at rest resists compression by 20 N, which speaks for"));
+  CHECK(has(notes(20), "the force at rest resists extension by 20 N, which speaks against"));
+  CHECK(has(notes(0), "state 'sign: -1' for displacement and 'sign: -1' for force"));
+
+  // What the note proposes turns the record round, and silences it.
+  const std::string stated =
+      "files:\n  - match: a_1A.csv\n    level: 1\n    channels:\n"
+      "      displacement: {column: x_mm, unit: mm, sign: -1}\n"
+      "      force: {column: F_N, sign: -1}\n";
+  CHECK(!has(notes(20, stated), "extension is taken"));
+  const TemporaryFolder folder;
+  folder.write("a_1A.csv", stroke_csv(0, 20));
+  folder.write("dataset.yaml", stated);
+  const Dataset turned = load(folder.path());
+  CHECK_CLOSE(mean_of(turned.records.at(0).channel("force")), -20, 0.01, 0);
+}
+
+TEST_CASE("motions that run opposite ways and forces that drive are told") {
+  std::string text = "t_s,x_mm,v_mm_s,F_N\n";
+  for (int k = 0; k < 300; ++k) {
+    const double t = k / 100.0, w = 2 * M_PI;
+    text += std::to_string(t) + "," + std::to_string(10 * std::sin(w * t)) + "," +
+            std::to_string(-10 * w * std::cos(w * t)) + "," +
+            std::to_string(-10 * w * std::cos(w * t)) + "\n";
+  }
+  const TemporaryFolder folder;
+  folder.write("a_1A.csv", text);
+  CHECK(has(describe(load(folder.path())), "displacement falls where velocity is positive"));
+
+  const TemporaryFolder stated;
+  stated.write("a_1A.csv", stroke_csv(0));
+  stated.write("dataset.yaml",
+               "files:\n  - match: a_1A.csv\n    level: 1\n    channels:\n"
+               "      displacement: {column: x_mm, unit: mm}\n"
+               "      force: {column: F_N, sign: -1}\n");
+  CHECK(has(describe(load(stated.path())), "the damper puts energy in"));
+}

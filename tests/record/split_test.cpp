@@ -212,3 +212,32 @@ TEST_CASE("trials hold back each condition and each inner level, else the ends")
   CHECK(ends[0].left_out[0].size() == 10);
   CHECK(ends[0].left_out[0].warm_up == 9);
 }
+
+TEST_CASE("records whose drive varies are a division of their own beside the inner levels") {
+  Dataset dataset = small_dataset();
+  for (const std::size_t k : {2, 5}) {
+    dataset.records[k].drive_level.reset();
+    dataset.records[k].name += ", varying";
+  }
+  // Two levels are left, none of them an inner one.
+  const auto folds = split(dataset, parse_leave_out("current"));
+  REQUIRE(folds.size() == 1);
+  CHECK(folds[0].name == kWithoutVaryingDrive);
+  CHECK(folds[0].left_out.size() == 2);
+  CHECK(folds[0].training.size() == 4);
+  for (const Record& record : folds[0].left_out) CHECK(!record.drive_level);
+
+  // By name, beside a level; levels alone leave them in the training.
+  const auto named = split(dataset, parse_leave_out("current=0.5,varies"));
+  REQUIRE(named.size() == 2);
+  CHECK(*named[0].left_out[0].drive_level == 0.5);
+  CHECK(named[1].name == kWithoutVaryingDrive);
+  CHECK(split(dataset, parse_leave_out("current=0.5")).size() == 1);
+
+  // Where nothing else is there to train on, it is said why.
+  for (Record& record : dataset.records) record.drive_level.reset();
+  CHECK(contains(message_of([&] { split(dataset, parse_leave_out("current")); }),
+                 "the drive varies within all of its records"));
+  CHECK(contains(message_of([&] { split(small_dataset(), parse_leave_out("current=varies")); }),
+                 "no record is 'records of varying drive'"));
+}

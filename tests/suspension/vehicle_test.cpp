@@ -253,3 +253,48 @@ TEST_CASE("motions of the ground from files are named like the others") {
                     1)
             ->shakes());
 }
+
+TEST_CASE("a vehicle starts in equilibrium with its dampers' force at rest") {
+  // The law has its offset, the published damper its accumulator, the network what it learnt.
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "gas.json";
+  const LawModel gas = LawModel::constant(find_law("bingham"), {1000, 0, -220, 0.01});
+  save_model({.model = gas.with_offset(0), .domain = {-1, 1, -1, 1, 0, 1}}, path);
+  const GroundPointer step = make_ground("step,height=1 um", 1);
+  const auto greatest = [&](const Vehicle& vehicle) {
+    const Trace trace = simulate(vehicle.on(*step), vehicle.options(1));
+    double most = 0;
+    for (const double a : trace.record.channel("body_acceleration").samples)
+      most = std::max(most, std::abs(a));
+    return most;
+  };
+
+  for (const std::string& damper : {path.string(), std::string("spencer1997")}) {
+    CAPTURE(damper);
+    for (const double current : {0.0, 1.0}) {
+      const Vehicle vehicle = make_vehicle({.dampers = {damper}, .current = current});
+      CHECK(greatest(vehicle) < 1e-3);
+    }
+  }
+
+  // It is said, and what was said to be 0 needs no note.
+  const auto told = [](const Vehicle& vehicle) {
+    for (const std::string& note : vehicle.notes)
+      if (contains(note, "is borne by the springs")) return note;
+    return std::string();
+  };
+  CHECK(contains(told(make_vehicle({.dampers = {path.string()}})), "its force at rest, -220 N"));
+  CHECK(told(make_vehicle({.dampers = {path.string() + ",f0=0"}})).empty());
+  CHECK(told(make_vehicle({.dampers = {"spencer1997,x0=0"}})).empty());
+}
+
+TEST_CASE("the parameters of a law in a model file may be set as those of a published damper") {
+  const TemporaryFolder folder;
+  const auto path = (folder.path() / "law.json").string();
+  const LawModel law = LawModel::constant(find_law("bingham"), {1000, 100, 30, 0.01});
+  save_model({.model = law.with_offset(0), .domain = {-1, 1, -1, 1, 0, 1}}, path);
+  const ChosenDamper set = choose_damper(path + ",c0=2000,f0=0");
+  CHECK(set.name == "law.json, c0=2000, f0=0");
+  CHECK_CLOSE(force(set, 0.1, 0), 200 + 100 * std::tanh(10), 1e-9, 0);
+  CHECK(contains(message_of([&] { choose_damper(path + ",y0=1"); }), "has no parameter 'y0'"));
+}

@@ -25,7 +25,9 @@ def columns(frame) -> dict:
 
 
 def drive(found: dict, unit: str):
-    """The column that drives a model of this unit, A or V."""
+    """The column that drives a model of this unit, A or V; zeros for one fitted at one constant, unknown drive."""
+    if unit == "":
+        return np.zeros(len(found["velocity"]))
     name = "voltage" if unit == "V" else "current"
     if name not in found:
         raise _core.Error(f"no column is {name} by its name (there are {', '.join(found) or 'none'} that are known)")

@@ -46,7 +46,7 @@ class Recordings:
 
         table: a DataFrame or a dict of arrays, whose names tell channel and unit: "velocity" (SI), "x [mm]",
         "F_N"; others are left out. It needs a force, velocity or displacement (velocity is then derived), and
-        current or voltage. sample_time: s between samples, where no column is time. conditions: what was
+        current or voltage, unless none has one (one constant, unknown drive). sample_time: s between samples, where no column is time. conditions: what was
         constant, SI: {"gap": 0.001}. Raises Error at what cannot be used; nothing is added then.
         """
         names = table.columns if _frames.is_frame(table) else table

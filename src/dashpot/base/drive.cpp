@@ -11,11 +11,21 @@ const std::string& to_string(DriveUnit unit) {
   return kUnits[static_cast<std::size_t>(unit)];
 }
 
+const std::string& unit_of(DriveUnit unit) {
+  static const std::string kNumber = "1";
+  return unit == DriveUnit::None ? kNumber : to_string(unit);
+}
+
+const std::string& name_of(DriveUnit unit) {
+  static const std::string kNone = "none";
+  return unit == DriveUnit::None ? kNone : to_string(unit);
+}
+
 DriveUnit parse_drive_unit(std::string_view text, const std::string& where) {
-  for (const DriveUnit unit : {DriveUnit::Ampere, DriveUnit::Volt})
-    if (text == to_string(unit)) return unit;
+  for (const DriveUnit unit : {DriveUnit::None, DriveUnit::Ampere, DriveUnit::Volt})
+    if (text == name_of(unit)) return unit;
   throw Error(where, "drive unit '" + std::string(text) + "' is unknown",
-              "write A (current) or V (voltage)");
+              "write A (current), V (voltage) or none");
 }
 
 const std::string& drive_channel(DriveUnit unit) {

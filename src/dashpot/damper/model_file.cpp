@@ -16,8 +16,8 @@ constexpr FileFormat kFormat{"dashpot-model", "a model file", 1};
 /// A law says its drive unit itself, and its parameters have bounds all over the file's domain.
 void require_law(const LawModel& law, const ModelFile& file, const std::string& where) {
   if (law.drive_unit() != file.drive_unit)
-    throw Error(where, "drive_unit is " + to_string(law.drive_unit()) + ", but " +
-                           to_string(file.drive_unit) + " for the file");
+    throw Error(where, "drive_unit is " + name_of(law.drive_unit()) + ", but " +
+                           name_of(file.drive_unit) + " for the file");
   require_bounds(law, file.domain.current_min, where);
   require_bounds(law, file.domain.current_max, where);
 }
@@ -32,7 +32,7 @@ std::string format_model(const ModelFile& file) {
   Value document = Value::object({{"format", kFormat.name},
                                   {"version", kFormat.version},
                                   {"kind", name_of(file.model->kind())},
-                                  {"drive_unit", to_string(file.drive_unit)},
+                                  {"drive_unit", name_of(file.drive_unit)},
                                   {"sample_time", file.sample_time},
                                   {"domain", to_json(file.domain, file.drive_unit)},
                                   {"model", file.model->to_json()},

@@ -42,6 +42,19 @@ PowerSpectrum power_spectrum(std::span<const double> x, double dt) {
   return spectrum;
 }
 
+PowerSpectrum mean_power_spectrum(std::span<const double> x, double dt) {
+  constexpr std::size_t kLongest = std::size_t{1} << 20;
+  const std::size_t parts = std::max<std::size_t>(1, (x.size() + kLongest - 1) / kLongest);
+  const std::size_t length = x.size() / parts;
+  PowerSpectrum mean = power_spectrum(x.first(length), dt);
+  for (std::size_t part = 1; part < parts; ++part) {
+    const PowerSpectrum more = power_spectrum(x.subspan(part * length, length), dt);
+    for (std::size_t k = 0; k < mean.power.size(); ++k) mean.power[k] += more.power[k];
+  }
+  for (double& power : mean.power) power /= static_cast<double>(parts);
+  return mean;
+}
+
 std::vector<double> sum_of_harmonics(std::span<const std::complex<double>> lines,
                                      std::size_t points) {
   std::vector<std::complex<double>> half(points / 2 + 1);

@@ -16,6 +16,10 @@ struct PowerSpectrum {
 /// s. The powers add up to about the variance of x. Empty for an empty signal.
 PowerSpectrum power_spectrum(std::span<const double> x, double dt);
 
+/// The mean over equal parts of a long signal: each is long enough to resolve a motion, and the
+/// memory does not grow with the signal.
+PowerSpectrum mean_power_spectrum(std::span<const double> x, double dt);
+
 /// Adds harmonics up: y_j = sum over k of Re(lines_k exp(2 pi i j k / points)), j = 0 ... points -
 /// 1. points: a power of two, at least twice the lines.
 std::vector<double> sum_of_harmonics(std::span<const std::complex<double>> lines,

@@ -7,6 +7,7 @@
 #include "dashpot/base/text.h"
 #include "dashpot/error.h"
 #include "dashpot/record/differentiate.h"
+#include "dashpot/record/integrate.h"
 #include "dashpot/record/time_base.h"
 
 namespace dashpot {
@@ -181,6 +182,52 @@ void centre(Record& record, const ColumnUses& uses) {
   }
 }
 
+/// A stroke that is read from one end of the damper lies far from 0, where no law looks for the
+/// middle of the motion. Centres one that nobody has placed: its mean is beyond 80 % of its half
+/// range, and neither 'offset' nor 'centre' was stated. Returns what was subtracted, m.
+std::optional<double> centre_stroke(Record& record, const ColumnUses& uses, bool as_given) {
+  constexpr double kFar = 0.8, kMillimetres = 1e3;
+  const ColumnUse* use = find_use(uses, "displacement");
+  if (!use || use->placed) return std::nullopt;
+
+  // Where the stroke lies, beside its range.
+  std::vector<double>& x = record.find("displacement")->samples;
+  const auto [low, high] = std::minmax_element(x.begin(), x.end());
+  const double least = *low, greatest = *high;
+  const double mean = std::accumulate(x.begin(), x.end(), 0.0) / static_cast<double>(record.size());
+  if (!(std::abs(mean) > kFar * 0.5 * (greatest - least)) || least == greatest) return std::nullopt;
+
+  const std::string stroke = "displacement of " + format_number(kMillimetres * least, 3) + " ... " +
+                             format_number(kMillimetres * greatest, 3) +
+                             " mm is an absolute stroke";
+  if (as_given) {
+    record.notes.push_back(stroke + ": laws of displacement expect its middle at 0");
+    return std::nullopt;
+  }
+  for (double& value : x) value -= mean;
+  record.notes.push_back(stroke + ": centred, its mean of " +
+                         format_number(kMillimetres * mean, 4) +
+                         " mm subtracted ('centre: none' keeps it, 'offset' places it)");
+  return mean;
+}
+
+/// Notes displacement and velocity that were both recorded and run opposite ways.
+void doubt_directions(Record& record, const ColumnUses& uses) {
+  if (!find_use(uses, "displacement") || !find_use(uses, "velocity")) return;
+  const std::vector<double>& x = record.channel("displacement").samples;
+  const std::vector<double>& v = record.channel("velocity").samples;
+  double along = 0, either = 0;
+  for (std::size_t k = 1; k < record.size(); ++k) {
+    const double part = v[k] * (x[k] - x[k - 1]);
+    along += part;
+    either += std::abs(part);
+  }
+  if (along < -0.5 * either)
+    record.notes.push_back(
+        "displacement falls where velocity is positive: one of the two has the other sign; state "
+        "'sign: -1' for it in a dataset file");
+}
+
 /// Derives velocity from displacement where no column gives it. The cut-off is that of the dataset
 /// file, else the caller's, else chosen from the motion.
 void add_velocity(Record& record, const BuildContext& context) {
@@ -208,13 +255,31 @@ void add_velocity(Record& record, const BuildContext& context) {
   }
 }
 
+/// Integrates displacement from velocity where no column gives it. Where that cannot be done the
+/// record stays without one, with a note that says why: many models need none.
+void add_displacement(Record& record) {
+  if (record.find("displacement")) return;
+  const std::string without = "no displacement, and none can be integrated from the velocity: ";
+  if (!(record.sample_time > 0)) {
+    record.notes.push_back(without +
+                           "the time stamps are not uniform ('resample: RATE' in a dataset file)");
+    return;
+  }
+  try {
+    IntegratedDisplacement integrated =
+        integrate_without_drift(record.channel("velocity").samples, record.sample_time);
+    record.channels.push_back({"displacement", "m", std::move(integrated.x),
+                               "integrated from velocity, " + describe(integrated)});
+  } catch (const Error& error) {
+    record.notes.push_back(without + error.what());
+  }
+}
+
 /// A damper takes energy out. When nobody stated the sign of the force and the record puts energy
 /// in, it was recorded the other way round. A net energy below 20 % of what goes to and fro decides
 /// nothing: a spring or noise can make it.
 void settle_sign(Record& record, const ColumnUses& uses) {
   Channel* force = record.find("force");
-  if (find_use(uses, "force")->stated) return;
-
   const std::vector<double>& v = record.channel("velocity").samples;
   double energy = 0, throughput = 0;
   for (std::size_t k = 1; k < record.size(); ++k) {
@@ -224,11 +289,61 @@ void settle_sign(Record& record, const ColumnUses& uses) {
   }
 
   if (energy > -0.2 * throughput || throughput == 0) return;
+  if (find_use(uses, "force")->stated) {
+    record.notes.push_back(
+        "the damper puts energy in, with the force's sign as stated: is it right?");
+    return;
+  }
   for (double& value : force->samples) value = -value;
   force->origin += ", sign flipped";
   record.notes.push_back(
       "force sign flipped: as recorded the damper would put energy in (state 'sign: 1' to keep "
       "it)");
+}
+
+/// Mean force, N, while the motion turns: gas, and the zero of the load cell.
+double force_at_rest(const Record& record) {
+  constexpr double kTurning = 0.05;  // of the top speed
+  const std::vector<double>& v = record.channel("velocity").samples;
+  const std::vector<double>& force = record.channel("force").samples;
+  double top = 0, sum = 0, count = 0;
+  for (const double speed : v) top = std::max(top, std::abs(speed));
+  for (std::size_t k = 0; k < v.size(); ++k)
+    if (std::abs(v[k]) <= kTurning * top) sum += force[k], ++count;
+  return count > 0 ? sum / count : 0;
+}
+
+/// Notes which direction counts as extension where nobody has stated it, since energy tells only
+/// that motion and force fit each other: turned round together they fit as well, with rebound and
+/// compression exchanged. Gas is the only hint: it pushes outwards.
+void note_direction(Record& record, const RawTable& table, const ColumnUses& uses) {
+  const ColumnUse* displacement = find_use(uses, "displacement");
+  const ColumnUse* motion = displacement ? displacement : find_use(uses, "velocity");
+  if (motion->directed) return;
+
+  // The signs that would turn the record round.
+  const bool turned = record.channel("force").origin.find("sign flipped") != std::string::npos;
+  const std::string other = "state 'sign: -1' for " + motion->channel +
+                            " and 'sign: " + (turned ? "1" : "-1") +
+                            "' for force in a dataset file";
+
+  record.notes.push_back("extension is taken as the direction in which '" +
+                         label(table.columns[motion->column], motion->column) +
+                         (displacement ? "' grows" : "' is positive") + "; were it compression, " +
+                         other);
+
+  // What speaks for or against it.
+  constexpr double kNoticed = 0.05;  // of the force's half span
+  const std::vector<double>& force = record.channel("force").samples;
+  const auto [low, high] = std::minmax_element(force.begin(), force.end());
+  const double at_rest = force_at_rest(record);
+  if (std::abs(at_rest) > kNoticed * 0.5 * (*high - *low))
+    record.notes.push_back(std::string("the force at rest resists ") +
+                           (at_rest < 0 ? "compression" : "extension") + " by " +
+                           format_number(std::abs(at_rest), 3) + " N, which speaks " +
+                           (at_rest < 0 ? "for" : "against") +
+                           " that direction if it is gas, which pushes outwards, and not the load "
+                           "cell's zero");
 }
 
 /// The span that dampers on test benches have, generously: beyond it the unit is doubtful, and only
@@ -341,8 +456,12 @@ BuiltRecord build_record(RawTable table, const BuildContext& context) {
   cut(record, *context.statement);
   if (context.statement->resample_hz) resample(record, *context.statement->resample_hz);
   centre(record, uses);
+  built.centred = centre_stroke(record, uses, context.as_given);
+  doubt_directions(record, uses);
   add_velocity(record, context);
+  if (!context.as_given) add_displacement(record);
   settle_sign(record, uses);
+  if (!context.as_given) note_direction(record, table, uses);
   doubt_units(record, uses);
   add_drive(record, context.level);
   return built;

@@ -24,17 +24,21 @@ struct BuildContext {
   std::string name;       ///< of the record
   std::optional<KnownLevel> level;
   double velocity_cutoff_hz = 0;  ///< the caller's; 0: not stated
+  /// The motion is left as it is given: nothing is integrated and no stroke centred, since models
+  /// will be asked about other arrays like these.
+  bool as_given = false;
 };
 
 struct BuiltRecord {
   Record record;
   std::vector<ColumnReading> readings;
-  std::string refusal;  ///< not empty: why this table is not a recording of a damper
+  std::optional<double> centred;  ///< m, subtracted from an absolute stroke
+  std::string refusal;            ///< not empty: why this table is not a recording of a damper
 };
 
 /// The one way from a table of a file to a record in SI: channels and signs, time base, cuts,
-/// resampling, centring, velocity, drive level. Every later room takes a Record for granted:
-/// uniform or increasing time, all channels equally long, velocity present.
+/// resampling, centring, velocity, displacement, drive level. Every later room takes a Record for
+/// granted: uniform or increasing time, all channels equally long, velocity present.
 ///
 /// Takes the table's columns, so that a long recording is in memory once. Throws Error(file:line,
 /// ...) on numbers that cannot be used, and Error(file, ...) on time, units or cuts that cannot be;

@@ -51,6 +51,8 @@ void set_unit(ColumnUse& use, const std::string& unit_text, const ChannelStateme
   use.factor = statement.sign * statement.scale * to_si;
   use.raw_offset = statement.offset - shift / use.factor;
   use.centre = statement.centre;
+  use.placed = statement.placed;
+  use.directed = statement.directed;
 }
 
 ColumnUse use_stated(const RawTable& table, const ChannelStatement& statement,

@@ -15,6 +15,8 @@ struct ColumnUse {
   std::string si_unit;  ///< as stored
   double factor = 1, raw_offset = 0;
   bool centre = false;
+  bool directed = false;  ///< 'sign' was stated
+  bool placed = false;    ///< 'offset' or 'centre' was stated
   bool stated = false;
   std::string basis;
 };

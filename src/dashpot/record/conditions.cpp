@@ -23,9 +23,11 @@ struct Motion {
   bool velocity = false;  ///< amplitude is of the velocity
 };
 
-/// Half range, and the rate of upward crossings of the middle with a dead band against noise.
+/// Half range, and the rate of upward crossings of the middle with a dead band against noise. A
+/// displacement that was integrated is no better known than the velocity, which speaks for itself.
 Motion motion_of(const Record& record) {
   const Channel* channel = record.find("displacement");
+  if (channel && channel->origin.starts_with("integrated")) channel = nullptr;
   Motion motion;
   motion.velocity = !channel;
   if (!channel) channel = &record.channel("velocity");

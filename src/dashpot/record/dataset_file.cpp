@@ -91,10 +91,12 @@ ChannelStatement read_channel(const std::string& channel, const Value& value) {
     throw Error(statement.where, "'scale' or 'offset' is not a usable number");
 
   const std::string centre = reader.string("centre", "");
-  if (!centre.empty() && centre != "mean")
+  if (!centre.empty() && centre != "mean" && centre != "none")
     throw Error(reader.required("centre").where(), "'centre' is '" + centre + "'",
-                "it can be 'mean'");
-  statement.centre = !centre.empty();
+                "it can be 'mean' or 'none'");
+  statement.centre = centre == "mean";
+  statement.placed = !centre.empty() || reader.optional("offset") != nullptr;
+  statement.directed = reader.optional("sign") != nullptr;
   reader.finish();
   return statement;
 }

@@ -87,6 +87,7 @@ std::string fastest(const Record& record) {
 }
 
 std::string drive(const Record& record, DriveUnit unit) {
+  if (unit == DriveUnit::None) return "constant";
   if (record.drive_level) return format_number(*record.drive_level) + " " + to_string(unit);
   const std::string varying = range(record, drive_channel(unit), 1);
   return varying == "-" ? "unknown" : varying + " " + to_string(unit);

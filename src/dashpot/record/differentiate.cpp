@@ -29,21 +29,6 @@ void to_slope(std::vector<double>& x, double dt) {
   x[last] = last_slope;
 }
 
-/// The spectrum of a long record is the mean over equal parts of it: each is long enough to resolve
-/// the motion, and the memory does not grow with the record.
-PowerSpectrum mean_spectrum(std::span<const double> x, double dt) {
-  constexpr std::size_t kLongest = std::size_t{1} << 20;
-  const std::size_t parts = std::max<std::size_t>(1, (x.size() + kLongest - 1) / kLongest);
-  const std::size_t length = x.size() / parts;
-  PowerSpectrum mean = power_spectrum(x.first(length), dt);
-  for (std::size_t part = 1; part < parts; ++part) {
-    const PowerSpectrum more = power_spectrum(x.subspan(part * length, length), dt);
-    for (std::size_t k = 0; k < mean.power.size(); ++k) mean.power[k] += more.power[k];
-  }
-  for (double& power : mean.power) power /= static_cast<double>(parts);
-  return mean;
-}
-
 }  // namespace
 
 std::vector<double> differentiate_zero_phase(std::span<const double> x, double dt,
@@ -62,7 +47,7 @@ std::vector<double> differentiate_zero_phase(std::span<const double> x, double d
 
 double choose_cutoff_hz(std::span<const double> x, double dt) {
   constexpr double kPowerShare = 0.99, kMargin = 10, kLowest = 10, kHighestTimesDt = 0.4;
-  const PowerSpectrum spectrum = mean_spectrum(x, dt);
+  const PowerSpectrum spectrum = mean_power_spectrum(x, dt);
   const double wanted =
       kPowerShare * std::accumulate(spectrum.power.begin(), spectrum.power.end(), 0.0);
 

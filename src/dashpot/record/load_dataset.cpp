@@ -68,6 +68,8 @@ class Loader {
     sort_by_level();
     make_names_unique();
     settle_drive();
+    if (!centred_.empty()) note_centres();
+    note_displacements();
     return std::move(dataset_);
   }
 
@@ -138,6 +140,7 @@ class Loader {
       return false;
     }
 
+    if (built.centred) centred_.push_back(*built.centred);
     built.record.condition = condition.empty() ? group : condition;
     dataset_.readings.insert(dataset_.readings.end(), built.readings.begin(), built.readings.end());
     add_records(std::move(built.record), statement, name.rest);
@@ -266,17 +269,20 @@ class Loader {
   }
 
   /// The unit of the drive, which all records of a dataset share: stated, else that of most
-  /// records, current where both are as many.
+  /// records, current where both are as many, and none where no record tells its drive.
   void settle_drive() {
     std::size_t current = 0, voltage = 0;
     for (const Record& record : dataset_.records) {
       current += record.find("current") != nullptr;
       voltage += record.find("voltage") != nullptr;
     }
-    const std::size_t count = dataset_.records.size();
-    dataset_.drive_unit = sources_.stated.drive_unit.value_or(current >= voltage ? DriveUnit::Ampere
-                                                                                 : DriveUnit::Volt);
+    const DriveUnit told = current == 0 && voltage == 0 ? DriveUnit::None
+                           : current >= voltage         ? DriveUnit::Ampere
+                                                        : DriveUnit::Volt;
+    dataset_.drive_unit = sources_.stated.drive_unit.value_or(told);
+    if (dataset_.drive_unit == DriveUnit::None) return take_as_one_drive(current + voltage > 0);
 
+    const std::size_t count = dataset_.records.size();
     const std::size_t driven = dataset_.drive_unit == DriveUnit::Ampere ? current : voltage;
     if (driven < count)
       dataset_.notes.push_back(
@@ -285,11 +291,65 @@ class Loader {
           "name (run_0.5A.csv), in manifest.csv or in a dataset file");
   }
 
+  /// Nothing tells the drive, or the dataset file says that nothing counts as it: all records are
+  /// at one level without a unit.
+  void take_as_one_drive(bool had_one) {
+    for (Record& record : dataset_.records) {
+      record.drive_level = 0;
+      std::erase_if(record.channels,
+                    [](const Channel& c) { return c.name == "current" || c.name == "voltage"; });
+    }
+    dataset_.notes.push_back(
+        had_one ? "'drive: none' in " + stated_in_ +
+                      ": currents and voltages are not used, the drive is taken as one constant"
+                : std::string(
+                      "no drive channel: taken as one constant, unknown drive, as of a passive "
+                      "damper; if the current differs between records, give it in the file names "
+                      "(run_0.5A.csv), in manifest.csv or in a dataset file"));
+  }
+
+  /// By how much absolute strokes were centred. Different centres lose where the records lie to
+  /// each other.
+  void note_centres() {
+    constexpr double kMillimetres = 1e3, kSame = 1;  // mm
+    const auto [low, high] = std::ranges::minmax(centred_);
+    const std::string least = format_number(kMillimetres * low, 4),
+                      most = format_number(kMillimetres * high, 4);
+    const bool alike = kMillimetres * (high - low) <= kSame;
+    dataset_.notes.push_back(
+        "absolute stroke centred in " + std::to_string(centred_.size()) + " of " +
+        std::to_string(dataset_.records.size()) + " records, by " +
+        (alike ? least + " mm"
+               : least + " ... " + most +
+                     " mm, each by its own mean; where the force depends on the place, state one "
+                     "'offset' for all of them in a dataset file"));
+  }
+
+  /// How many records have a displacement that nobody measured, and how many have none.
+  void note_displacements() {
+    std::size_t integrated = 0, missing = 0;
+    for (const Record& record : dataset_.records) {
+      const Channel* displacement = record.find("displacement");
+      missing += displacement == nullptr;
+      integrated += displacement && displacement->origin.starts_with("integrated");
+    }
+    const std::string all = " of " + std::to_string(dataset_.records.size()) + " records";
+    if (integrated > 0)
+      dataset_.notes.push_back("displacement integrated from velocity in " +
+                               std::to_string(integrated) + all +
+                               ", drift removed; 'dashpot inspect' says how much");
+    if (missing > 0)
+      dataset_.notes.push_back(std::to_string(missing) + all +
+                               " have no displacement, and none could be integrated from the "
+                               "velocity; 'dashpot inspect' says why");
+  }
+
   Sources sources_;
   const LoadOptions& options_;
   Manifest manifest_;
   std::string stated_in_;
   Dataset dataset_;
+  std::vector<double> centred_;          ///< m, by which absolute strokes were moved
   std::vector<std::string> name_rests_;  ///< of each record: its name without the drive level
 };
 

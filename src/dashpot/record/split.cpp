@@ -31,10 +31,16 @@ std::size_t most_blocks(const Dataset& dataset) {
   return most;
 }
 
+bool varies_in_some(const Dataset& dataset) {
+  const auto varying =
+      std::ranges::count_if(dataset.records, [](const Record& r) { return !r.drive_level; });
+  return varying > 0 && static_cast<std::size_t>(varying) < dataset.records.size();
+}
+
 std::string ways_that_work(const Dataset& dataset) {
   std::vector<std::string> ways;
   if (conditions(dataset).size() > 1) ways.emplace_back("'condition'");
-  if (levels(dataset).size() > 2) ways.emplace_back("'current'");
+  if (levels(dataset).size() > 2 || varies_in_some(dataset)) ways.emplace_back("'current'");
   if (dataset.records.size() > 1) ways.emplace_back("'record'");
   if (const std::size_t blocks = most_blocks(dataset); blocks > 1)
     ways.push_back("'blocks=" + std::to_string(blocks) + "'");
@@ -72,24 +78,25 @@ std::vector<Fold> by_condition(const Dataset& dataset, const LeaveOut& how) {
   return folds;
 }
 
-/// The levels to leave out one after the other: those asked for, else all but the lowest and
-/// highest.
-std::vector<double> chosen_levels(const Dataset& dataset, const LeaveOut& how) {
-  if (how.values.empty()) {
-    const std::vector<double> all = levels(dataset);
-    if (all.size() < 3)
-      impossible(dataset, std::to_string(all.size()) +
-                              " constant drive level(s): no inner one to leave out");
-    return {all.begin() + 1, all.end() - 1};
-  }
+constexpr std::string_view kVaries = "varies";  // among levels: records whose drive is none
 
-  std::vector<double> out;
-  for (const std::string& text : how.values) {
-    const auto value = parse_number(text);
-    if (!value) impossible(dataset, "'" + text + "' is not a drive level");
-    out.push_back(*value);
-  }
-  return out;
+/// The drives to leave out one after the other, as they are written: those asked for, else all
+/// levels but the lowest and highest, and then the records whose drive varies, all at once.
+std::vector<std::string> chosen_drives(const Dataset& dataset, const LeaveOut& how) {
+  if (!how.values.empty()) return how.values;
+  const std::vector<double> all = levels(dataset);
+  std::vector<std::string> out;
+  for (std::size_t k = 1; k + 1 < all.size(); ++k) out.push_back(format_exact(all[k]));
+  if (varies_in_some(dataset)) out.emplace_back(kVaries);
+  if (!out.empty()) return out;
+
+  // Neither kind of division is possible.
+  if (dataset.drive_unit == DriveUnit::None)
+    impossible(dataset, "its one drive is constant and unknown");
+  impossible(dataset, all.empty()
+                          ? "the drive varies within all of its records, which have no level"
+                          : std::to_string(all.size()) +
+                                " constant drive level(s): no inner one to leave out");
 }
 
 /// Two levels are the same within their printed digits: 0.87 means 0.8712.
@@ -99,10 +106,18 @@ bool same_level(double level, double asked) {
 
 std::vector<Fold> by_current(const Dataset& dataset, const LeaveOut& how) {
   std::vector<Fold> folds;
-  for (const double level : chosen_levels(dataset, how))
+  for (const std::string& text : chosen_drives(dataset, how)) {
+    if (text == kVaries) {
+      folds.push_back(fold_by(dataset, std::string(kWithoutVaryingDrive),
+                              [](const Record& r) { return !r.drive_level; }));
+      continue;
+    }
+    const auto level = parse_number(text);
+    if (!level) impossible(dataset, "'" + text + "' is not a drive level");
     folds.push_back(fold_by(
-        dataset, "without " + format_number(level) + " " + to_string(dataset.drive_unit),
-        [&](const Record& r) { return r.drive_level && same_level(*r.drive_level, level); }));
+        dataset, "without " + format_number(*level) + " " + to_string(dataset.drive_unit),
+        [&](const Record& r) { return r.drive_level && same_level(*r.drive_level, *level); }));
+  }
   return folds;
 }
 

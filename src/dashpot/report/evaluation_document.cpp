@@ -9,8 +9,10 @@ namespace {
 
 std::string percent(double value) { return fmt::format("{:.2f}", value); }
 
-std::vector<std::string> record_row(const RecordResult& r) {
-  const std::string level = r.drive_level ? format_number(*r.drive_level) : "varies";
+std::vector<std::string> record_row(const RecordResult& r, const std::string& drive_unit) {
+  const std::string level = drive_unit.empty() ? "constant"
+                            : r.drive_level    ? format_number(*r.drive_level)
+                                               : "varies";
   if (r.diverged_at)
     return {r.record, level, "", "",
             "",       "",    "", "diverged at " + format_number(*r.diverged_at) + " s"};
@@ -27,7 +29,7 @@ std::vector<std::string> pooled_row(const std::string& name, const Metrics& m) {
 DocumentTable error_table(const Evaluation& evaluation, const std::string& drive_unit) {
   DocumentTable table{.title = {},
                       .columns = {{"record"},
-                                  {drive_unit, true},
+                                  {drive_unit.empty() ? "drive" : drive_unit, true},
                                   {"RMSE N", true},
                                   {"rms/half-span %", true},
                                   {"ESR %", true},
@@ -37,7 +39,7 @@ DocumentTable error_table(const Evaluation& evaluation, const std::string& drive
                       .rows = {}};
 
   // Records, then all samples together.
-  for (const RecordResult& r : evaluation.records) table.rows.push_back(record_row(r));
+  for (const RecordResult& r : evaluation.records) table.rows.push_back(record_row(r, drive_unit));
   if (evaluation.pooled.samples > 0) {
     table.rows.push_back(pooled_row("all", evaluation.pooled));
     table.rows.push_back(pooled_row("all, without offsets", evaluation.pooled_without_offset));

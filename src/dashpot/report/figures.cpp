@@ -47,7 +47,7 @@ std::string add_curves(GnuplotFigure& figure, const RecordResult& record,
 }
 
 std::string drive_label(const RecordResult& record, const std::string& unit) {
-  return record.drive_level ? format_number(*record.drive_level, 3) + " " + unit : record.record;
+  return record.drive_level ? level_text(*record.drive_level, unit) : record.record;
 }
 
 using Series = std::vector<double> RecordResult::*;

@@ -61,8 +61,9 @@ class ChannelPanels {
   void add(const Record& record, std::size_t place) {
     // Choose the samples that are shown.
     const Channel derived = derived_velocity(record);
-    const Channel* shown[] = {record.find("displacement"), record.find("velocity"),
-                              record.find("force"), record.find(drive_channel(drive_unit_))};
+    const Channel* shown[] = {
+        record.find("displacement"), record.find("velocity"), record.find("force"),
+        drive_unit_ == DriveUnit::None ? nullptr : record.find(drive_channel(drive_unit_))};
     std::vector<std::span<const double>> leading{record.time};
     for (const Channel* channel : shown)
       if (channel) leading.push_back(channel->samples);
@@ -131,6 +132,11 @@ std::pair<double, double> extent_of(const Channel* channel) {
   return {least, greatest};
 }
 
+/// NaN where the drive varies or is not known.
+double level_of(const Record& record, const Dataset& dataset) {
+  return dataset.drive_unit == DriveUnit::None ? kNoNumber : record.drive_level.value_or(kNoNumber);
+}
+
 DocumentTable record_table(const Dataset& dataset) {
   DocumentTable table{.title = {}, .columns = {{"Record"}, {"Condition"}}, .rows = {}};
   for (const std::string& title :
@@ -146,7 +152,7 @@ DocumentTable record_table(const Dataset& dataset) {
                force = extent_of(record.find("force"));
     std::vector<DocumentCell> row{{record.name}, {record.condition}};
     for (const double value :
-         {record.drive_level.value_or(kNoNumber), static_cast<double>(record.size()),
+         {level_of(record, dataset), static_cast<double>(record.size()),
           record.size() ? record.time.back() - record.time.front() : 0.0,
           record.sample_time > 0 ? 1 / record.sample_time : kNoNumber, x.first, x.second,
           std::max(std::abs(v.first), std::abs(v.second)), force.first, force.second})
@@ -222,15 +228,15 @@ Value json_inspection(const Dataset& dataset, const std::vector<VelocityCheck>& 
   for (const Record& r : dataset.records) {
     std::vector<std::string> channels;
     for (const Channel& channel : r.channels) channels.push_back(channel.name);
-    records.push_back(
-        Value::object({{"name", r.name},
-                       {"source", r.source},
-                       {"condition", r.condition},
-                       {"drive_level", r.drive_level ? Value(*r.drive_level) : Value()},
-                       {"samples", r.size()},
-                       {"sample_time", r.sample_time},
-                       {"channels", Value::array(channels)},
-                       {"notes", Value::array(r.notes)}}));
+    records.push_back(Value::object(
+        {{"name", r.name},
+         {"source", r.source},
+         {"condition", r.condition},
+         {"drive_level", std::isnan(level_of(r, dataset)) ? Value() : Value(level_of(r, dataset))},
+         {"samples", r.size()},
+         {"sample_time", r.sample_time},
+         {"channels", Value::array(channels)},
+         {"notes", Value::array(r.notes)}}));
   }
 
   // Files that were not read, and how well velocity can be derived.

@@ -11,6 +11,7 @@ namespace dashpot {
 namespace {
 
 std::string drive_levels(const Dataset& dataset) {
+  if (dataset.drive_unit == DriveUnit::None) return "one constant, unknown drive";
   std::set<double> levels;
   for (const Record& record : dataset.records)
     if (record.drive_level) levels.insert(*record.drive_level);

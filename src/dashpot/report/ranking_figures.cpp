@@ -68,7 +68,7 @@ std::vector<std::size_t> shown_samples(const RecordCurves& curves, std::size_t p
 }
 
 std::string drive_text(const RecordResult& result, const std::string& unit) {
-  return result.drive_level ? format_number(*result.drive_level, 3) + " " + unit : result.record;
+  return result.drive_level ? level_text(*result.drive_level, unit) : result.record;
 }
 
 std::string level_class(std::size_t level, std::size_t count) {
@@ -438,7 +438,7 @@ DocumentTable heat_map(const RankedModel& model, const std::string& unit) {
   DocumentTable table{
       .title = "ESR in %, " + display_name(model), .columns = {{"Condition"}}, .rows = {}};
   for (const auto& [level, none] : levels)
-    table.columns.push_back({level ? format_number(*level, 3) + " " + unit : "varying", true});
+    table.columns.push_back({level ? level_text(*level, unit) : "varying", true});
 
   for (const std::string& condition : conditions) {
     std::vector<std::string> row{condition};

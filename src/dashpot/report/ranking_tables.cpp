@@ -201,7 +201,7 @@ const ModelColumn& column_named(const std::string& name) {
 
 std::string level_title(const DriveResult& drive, const std::string& unit) {
   const std::string low = format_number(drive.low, 3);
-  return drive.low == drive.high ? low + " " + unit
+  return drive.low == drive.high ? level_text(drive.low, unit)
                                  : low + " ... " + format_number(drive.high, 3) + " " + unit;
 }
 
@@ -428,7 +428,7 @@ std::string stress_text(const StressRun& run) {
 
 std::string csv_report(const ReportInput& input) {
   std::string text =
-      "model,record,condition,drive_" + to_string(input.dataset.drive_unit) + ",left_out,samples";
+      "model,record,condition,drive_" + name_of(input.dataset.drive_unit) + ",left_out,samples";
   for (const auto& [name, member] : kMetricColumns) text += std::string(",") + name;
   text += ",esr_without_offset_percent,offset_N,energy_error_percent,diverged_at_s\n";
   for (const RankedModel& model : input.ranking.models) {

@@ -7,7 +7,9 @@
 namespace dashpot {
 namespace {
 
-bool is_measured(const Channel& velocity) { return !velocity.origin.starts_with("derived"); }
+bool is_measured(const Channel& motion) {
+  return !motion.origin.starts_with("derived") && !motion.origin.starts_with("integrated");
+}
 
 double rms_difference_percent(const std::vector<double>& derived,
                               const std::vector<double>& measured) {
@@ -27,8 +29,8 @@ std::vector<VelocityCheck> check_velocities(const Dataset& dataset, double cutof
   for (const Record& record : dataset.records) {
     const Channel* displacement = record.find("displacement");
     const Channel* velocity = record.find("velocity");
-    if (!displacement || !velocity || !is_measured(*velocity) || record.sample_time <= 0 ||
-        record.size() < kFewestSamples)
+    if (!displacement || !velocity || !is_measured(*velocity) || !is_measured(*displacement) ||
+        record.sample_time <= 0 || record.size() < kFewestSamples)
       continue;
 
     // Derive it as on loading, and compare over the whole record.

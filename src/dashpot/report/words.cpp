@@ -20,6 +20,10 @@ std::string number_text(double value, int digits) {
   return std::isfinite(value) ? format_number(value, digits) : "-";
 }
 
+std::string level_text(double level, const std::string& unit) {
+  return unit.empty() ? "constant drive" : format_number(level, 3) + " " + unit;
+}
+
 std::string counted(std::size_t count, const std::string& noun) {
   return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
 }
@@ -226,7 +230,12 @@ std::string protocol_title(const Ranking& ranking) {
 }
 
 std::string protocol(const Ranking& ranking) {
-  if (!ranking.seen) return protocol(ranking.leave_out, ranking.folds.size());
+  if (!ranking.seen) {
+    const bool varies =
+        std::ranges::find(ranking.folds, kWithoutVaryingDrive) != ranking.folds.end();
+    return protocol(ranking.leave_out, ranking.folds.size()) +
+           (varies ? " The records whose drive varies are one division of their own." : "");
+  }
   return fmt::format(
       "The model comes from a file; nothing is fitted here but the force zero of each record. By "
       "name and by the SHA-256 of the files, its fit has seen {} of {}.",

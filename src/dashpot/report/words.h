@@ -11,6 +11,8 @@ std::string percent_text(double value);
 /// `digits` significant digits, or "-" when not finite.
 std::string number_text(double value, int digits = 3);
 /// "2 records", "1 record".
+/// "0.5 A"; without a unit "constant drive", since nothing is known of it.
+std::string level_text(double level, const std::string& unit);
 std::string counted(std::size_t count, const std::string& noun);
 /// "converged", "iteration_limit", "failed".
 std::string status_name(FitReport::Status status);

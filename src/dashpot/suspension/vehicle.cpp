@@ -153,6 +153,31 @@ std::shared_ptr<const InverseModel> make_inverse(const ChosenDamper& damper,
   return std::make_shared<HistoryNetwork>(load_inverse(words.inverse).network, limits);
 }
 
+/// A, that a damper has before anything moves.
+double starting_current(const ChosenDamper& damper, const DriveRange& drive,
+                        const VehicleWords& words) {
+  if (damper.is_passive()) return 0;
+  return words.controller.empty() ? std::max(words.current, drive.low) : drive.low;
+}
+
+/// Takes off the force that the damper has at rest in its middle (gas, offset): the plant's
+/// coordinates count from where the vehicle stands with its dampers in, so the springs bear that
+/// force already, and nothing moves before the road does.
+ChosenDamper in_equilibrium(ChosenDamper damper, double current) {
+  std::vector<double> state(damper.model->state_size());
+  const DamperInput at_rest{0, 0, current};
+  damper.model->rest(at_rest, state);
+  const double force = damper.model->force(at_rest, state);
+  if (force == 0 || !std::isfinite(force)) return damper;
+  damper.model = damper.model->with_offset(-force);
+
+  constexpr double kTold = 0.1;  // N
+  if (std::abs(force) >= kTold)
+    damper.notes.push_back(damper.name + ": its force at rest, " + format_number(force, 3) +
+                           " N, is borne by the springs: the vehicle starts in equilibrium");
+  return damper;
+}
+
 MountedDamper mount(const ChosenDamper& damper, const DriveRange& drive,
                     const VehicleWords& words) {
   MountedDamper mounted{.model = damper.model,
@@ -174,7 +199,7 @@ MountedDamper mount(const ChosenDamper& damper, const DriveRange& drive,
     mounted.loop = {gains[0], gains[1], gains[2]};
   }
 
-  mounted.current = words.controller.empty() ? std::max(words.current, drive.low) : drive.low;
+  mounted.current = starting_current(damper, drive, words);
   return mounted;
 }
 
@@ -212,8 +237,11 @@ Vehicle make_vehicle(const VehicleWords& words) {
                             " are an example: " + vehicle.set.reason);
 
   // Dampers, and the range over which all that are driven are driven.
-  const std::vector<ChosenDamper> chosen = choose_dampers(words, vehicle.set);
-  const DriveRange drive = drive_range(chosen, words);
+  const std::vector<ChosenDamper> named = choose_dampers(words, vehicle.set);
+  const DriveRange drive = drive_range(named, words);
+  std::vector<ChosenDamper> chosen;
+  for (const ChosenDamper& damper : named)
+    chosen.push_back(in_equilibrium(damper, starting_current(damper, drive, words)));
   if (drive.low < drive.high && !(words.current <= drive.high))
     throw Error(words.where, "a drive of " + drive.text(words.current) +
                                  " is beyond the greatest, " + drive.text(drive.high));
@@ -232,7 +260,7 @@ Vehicle make_vehicle(const VehicleWords& words) {
     vehicle.domains.push_back(damper.domain);
   }
 
-  vehicle.limits = control_limits(chosen, drive, words, vehicle.notes);
+  vehicle.limits = control_limits(named, drive, words, vehicle.notes);
   add_controller(vehicle, drive, words);
   return vehicle;
 }

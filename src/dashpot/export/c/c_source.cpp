@@ -122,7 +122,7 @@ Facts facts_of(const ExportedModel& model, const ExportOptions& options, const C
   Facts facts = common_facts(model, options, source);
   facts.insert(facts.end(),
                {{"title", title_of(model.model)},
-                {"unit", to_string(model.drive_unit)},
+                {"unit", unit_of(model.drive_unit)},
                 {"prefix", source.prefix},
                 {"deviations", std::string(c_deviations())},
                 {"size", std::to_string(std::max<std::size_t>(1, source.state_size))},
@@ -139,7 +139,7 @@ std::vector<CSource::Variable> states_of(const DamperModel& model) {
       states.push_back(
           {std::string(state.name), std::string(state.unit), "internal state of the law"});
     if (law->lag_rate() > 0)
-      states.push_back({"coil_current", to_string(law->drive_unit()), "current in the coil"});
+      states.push_back({"coil_current", unit_of(law->drive_unit()), "current in the coil"});
   }
   return states;
 }
@@ -174,7 +174,7 @@ CSource c_source(const ExportedModel& model, const ExportOptions& options) {
       .state_size = model.model.state_size(),
       .inputs = {{"displacement", "m", "extension positive"},
                  {"velocity", "m/s", "extension positive"},
-                 {"current", to_string(model.drive_unit), "command to the coil"}},
+                 {"current", unit_of(model.drive_unit), "command to the coil"}},
       .outputs = {{"force", "N", "positive when it resists extension"}},
       .states = code.has_derivatives ? states_of(model.model) : std::vector<CSource::Variable>{},
       .sample_time = export_sample_time(model, options),

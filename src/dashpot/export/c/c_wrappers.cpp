@@ -116,12 +116,11 @@ std::string in_line(std::string text) {
 Facts package_facts(const ExportedModel& model, const ExportOptions& options,
                     const CSource& source) {
   Facts facts = common_facts(model, options, source);
-  facts.insert(facts.end(),
-               {{"name", source.prefix},
-                {"title", in_markup(title_of(model.model))},
-                {"unit", model.drive_unit == DriveUnit::None ? "1" : to_string(model.drive_unit)},
-                {"origin", in_line(model.origin)},
-                {"command", in_markup(options.command)}});
+  facts.insert(facts.end(), {{"name", source.prefix},
+                             {"title", in_markup(title_of(model.model))},
+                             {"unit", unit_of(model.drive_unit)},
+                             {"origin", in_line(model.origin)},
+                             {"command", in_markup(options.command)}});
   return facts;
 }
 

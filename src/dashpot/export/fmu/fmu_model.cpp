@@ -41,7 +41,7 @@ void add_ports(const ExportedModel& model, Fmu& fmu) {
                   .meaning = "its velocity, extension positive",
                   .nominal = extent(d.velocity_min, d.velocity_max)});
   list.push_back({.name = volts ? "u" : "i",
-                  .unit = to_string(model.drive_unit),
+                  .unit = unit_of(model.drive_unit),
                   .meaning = volts ? "voltage commanded" : "current commanded to the coil",
                   .nominal = extent(d.current_min, d.current_max)});
   list.push_back({.role = FmuRole::Output,
@@ -109,7 +109,7 @@ std::string domain_text(const ExportedModel& model) {
   };
   return "Known for displacements " + span(d.displacement_min, d.displacement_max, "m") +
          ", velocities " + span(d.velocity_min, d.velocity_max, "m/s") + " and commands " +
-         span(d.current_min, d.current_max, to_string(model.drive_unit)) +
+         span(d.current_min, d.current_max, unit_of(model.drive_unit)) +
          "; beyond, it extrapolates.";
 }
 

@@ -175,7 +175,7 @@ Rows facts_of(const ExportedModel& model) {
           {"origin", model.origin},
           {"domain_displacement", span_text(d.displacement_min, d.displacement_max, "m")},
           {"domain_velocity", span_text(d.velocity_min, d.velocity_max, "m/s")},
-          {"domain_current", span_text(d.current_min, d.current_max, to_string(model.drive_unit))}};
+          {"domain_current", span_text(d.current_min, d.current_max, unit_of(model.drive_unit))}};
 }
 
 std::vector<std::string> state_names(const DamperModel& model) {
@@ -204,7 +204,7 @@ CBlock damper_block(const ExportedModel& model, const ExportOptions& options) {
           .step = "commands[0] = damper_step(&model, &input);",
           .inputs = {{"displacement", "m", "extension positive", "displacement"},
                      {"velocity", "m/s", "extension positive", "velocity"},
-                     {"current", to_string(model.drive_unit), "command to the coil", "current"}},
+                     {"current", unit_of(model.drive_unit), "command to the coil", "current"}},
           .commands = {{"force", "N", "positive when it resists extension", "commands[0]"}},
           .state_size = size,
           .sample_time = sample_time,

@@ -33,7 +33,7 @@ double settled_force(const ExportedModel& model, double velocity, double current
   if (!std::isfinite(force))
     throw Error(model.model.name(), "has no finite force at " + format_number(velocity) +
                                         " m/s and " + format_number(current) + " " +
-                                        to_string(model.drive_unit));
+                                        unit_of(model.drive_unit));
   return force;
 }
 

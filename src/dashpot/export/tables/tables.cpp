@@ -87,7 +87,7 @@ std::string dpr(const ForceMap& map, std::size_t i, const std::string& title) {
 }  // namespace
 
 std::vector<ExportedFile> write_tables(const ExportedModel& model, const ExportOptions& options) {
-  const std::string name = export_name(model, options), unit = to_string(model.drive_unit);
+  const std::string name = export_name(model, options), unit = unit_of(model.drive_unit);
   const ForceMap map = force_map(model, export_sample_time(model, options));
   const CurrentMap inverse = inverse_of(map);
 
@@ -110,7 +110,7 @@ std::vector<ExportedFile> write_dpr(const ExportedModel& model, const ExportOpti
   const ForceMap map = force_map(model, export_sample_time(model, options));
   std::vector<ExportedFile> files;
   for (std::size_t i = 0; i < map.current.size(); ++i) {
-    const std::string drive = format_number(map.current[i]) + ' ' + to_string(model.drive_unit);
+    const std::string drive = format_number(map.current[i]) + ' ' + unit_of(model.drive_unit);
     files.push_back({fmt::format("{}_{:02}.dpr", name, i),
                      dpr(map, i, name + " at " + drive + ", made by Dashpot " + options.version)});
   }

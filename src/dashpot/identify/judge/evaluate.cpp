@@ -15,12 +15,39 @@ namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-const std::vector<double>& drive_samples(const Record& record, DriveUnit drive_unit) {
+/// The drive of a record; 0 throughout where the drive of the dataset is one unknown constant.
+std::vector<double> drive_samples(const Record& record, DriveUnit drive_unit) {
+  if (drive_unit == DriveUnit::None) return std::vector<double>(record.size());
+  return record.channel(drive_channel(drive_unit)).samples;
+}
+
+/// Refuses records whose drive is not known beside others whose drive is, and says which.
+void require_known_drive(const std::vector<Record>& records, DriveUnit drive_unit) {
+  if (drive_unit == DriveUnit::None) return;
   const std::string& name = drive_channel(drive_unit);
-  if (const Channel* drive = record.find(name)) return drive->samples;
-  throw Error(record.name, "has no known " + name,
+  std::vector<std::string> unknown;
+  for (const Record& record : records)
+    if (!record.find(name)) unknown.push_back(record.name);
+  if (unknown.empty()) return;
+
+  // The first few by name, beside how many have one.
+  constexpr std::size_t kNamed = 3;
+  const std::size_t known = records.size() - unknown.size();
+  const std::string first = unknown.front();
+  const std::size_t others = unknown.size() - 1;
+  unknown.erase(unknown.begin());
+  if (unknown.size() > kNamed) unknown.resize(kNamed);
+  std::string what = "has no known " + name;
+  if (others > 0)
+    what += (others == 1 ? ", nor has " : ", nor have ") + join(unknown, ", ") +
+            (others > kNamed ? " and " + std::to_string(others - kNamed) + " more" : "");
+  if (known > 0)
+    what += "; " + std::to_string(known) + " of " + std::to_string(records.size()) +
+            (known == 1 ? " records has one" : " records have one");
+  throw Error(first, what,
               "give it as a column, in the file name (run_0.5" + to_string(drive_unit) +
-                  ".csv), in manifest.csv or in a dataset file");
+                  ".csv), in manifest.csv or as 'level:' in a dataset file, whose 'drive: none' "
+                  "takes all records as of one constant, unknown drive");
 }
 
 /// The offset that training gave the record: the mean over its parts, where a block was left out
@@ -290,7 +317,7 @@ const RecordResult* Evaluation::worst_covered() const {
 
 std::vector<DamperInput> damper_inputs(const Record& record, DriveUnit drive_unit) {
   const std::vector<double>& velocity = record.channel("velocity").samples;
-  const std::vector<double>& drive = drive_samples(record, drive_unit);
+  const std::vector<double> drive = drive_samples(record, drive_unit);
   const Channel* displacement = record.find("displacement");
   std::vector<DamperInput> inputs(record.size());
   for (std::size_t k = 0; k < inputs.size(); ++k)
@@ -299,10 +326,11 @@ std::vector<DamperInput> damper_inputs(const Record& record, DriveUnit drive_uni
 }
 
 DriveRange drive_range(const std::vector<Record>& records, DriveUnit drive_unit) {
+  require_known_drive(records, drive_unit);
   DriveRange range;
   std::vector<double> samples, levels;
   for (const Record& record : records) {
-    const std::vector<double>& drive = drive_samples(record, drive_unit);
+    const std::vector<double> drive = drive_samples(record, drive_unit);
     samples.insert(samples.end(), drive.begin(), drive.end());
     if (record.drive_level)
       levels.push_back(*record.drive_level);
@@ -361,6 +389,7 @@ FreeRun free_run(const DamperModel& model, const std::vector<DamperInput>& input
 
 Evaluation evaluate(const DamperModel& model, const std::vector<Record>& records,
                     DriveUnit drive_unit, const EvaluateOptions& options) {
+  require_known_drive(records, drive_unit);
   for (const Record& record : records)
     if (model.needs_displacement() && !record.find("displacement"))
       throw Error(record.name, "has no displacement, which " + model.name() + " needs",

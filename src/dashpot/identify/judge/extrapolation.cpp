@@ -94,6 +94,18 @@ std::vector<std::string> outside_family(const Evaluation& evaluation) {
 
 void require_same_drive(const ModelFile& file, const Dataset& dataset, const std::string& where) {
   if (file.drive_unit == dataset.drive_unit) return;
+  if (file.drive_unit == DriveUnit::None)
+    throw Error(where,
+                "the model was fitted at one constant, unknown drive, but the recordings are "
+                "driven in " +
+                    to_string(dataset.drive_unit),
+                "state 'drive: none' in a dataset file to judge it on them all the same");
+  if (dataset.drive_unit == DriveUnit::None)
+    throw Error(where,
+                "the model is driven in " + to_string(file.drive_unit) +
+                    ", but no drive of the recordings is known",
+                "give it in the file names (run_0.5" + to_string(file.drive_unit) +
+                    ".csv), in manifest.csv or as 'level:' in a dataset file");
   throw Error(where,
               "the model is driven in " + to_string(file.drive_unit) +
                   ", but the recordings are driven in " + to_string(dataset.drive_unit),

@@ -67,6 +67,12 @@ FitCost cost_of(const std::string& model) {
   return of_kind != kKindCosts.end() ? of_kind->cost : kOtherCost;
 }
 
+bool is_model(const std::string& name) {
+  for (const auto& names : {model_names(), more_model_names()})
+    if (std::ranges::find(names, name) != names.end()) return true;
+  return false;
+}
+
 bool has_displacement(const std::vector<Record>& records) {
   return std::ranges::all_of(records,
                              [](const Record& r) { return r.find("displacement") != nullptr; });
@@ -147,11 +153,20 @@ ChosenModels choose_models(const std::vector<std::string>& words,
   ChosenModels chosen;
   for (const std::string& word : words)
     for (const std::string& model : models_of(word, records)) {
-      const bool fits = model == word || displaced || !model_info(model).needs_displacement();
+      const bool fits = displaced || !is_model(model) || !model_info(model).needs_displacement();
       std::vector<std::string>& list = fits ? chosen.names : chosen.passed_over;
       if (std::ranges::find(list, model) == list.end()) list.push_back(model);
     }
-  return chosen;
+  if (!chosen.names.empty() || chosen.passed_over.empty()) return chosen;
+
+  // Nothing is left to fit: say which record is in the way.
+  const auto without = std::ranges::find_if(
+      records, [](const Record& r) { return r.find("displacement") == nullptr; });
+  throw Error(without->name,
+              "has no displacement, which " + join(chosen.passed_over, ", ") +
+                  (chosen.passed_over.size() == 1 ? " needs" : " need"),
+              "'dashpot inspect' says why none was integrated from the velocity; or take models of "
+              "velocity and current only, as bingham");
 }
 
 ChosenModels choose_models(const FitWords& words, const Dataset& dataset, const LeaveOut& leave_out,

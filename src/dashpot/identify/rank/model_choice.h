@@ -30,11 +30,11 @@ double expected_seconds(const std::string& model, const Divisions& divisions, Dr
 /// The models that words stand for, each once.
 struct ChosenModels {
   std::vector<std::string> names;
-  std::vector<std::string>
-      passed_over;  ///< of a group: they need a displacement, which not every record has
-  std::optional<FitBudget> budget;  ///< where a group was named that a budget limits
+  std::vector<std::string> passed_over;  ///< they need a displacement, which not every record has
+  std::optional<FitBudget> budget;       ///< where a group was named that a budget limits
 };
-/// All of them, without a budget. An unknown name stays as it is: who fits it refuses it.
+/// All of them, without a budget. An unknown name stays as it is: who fits it refuses it. Throws
+/// Error when each of them needs a displacement that a record lacks.
 ChosenModels choose_models(const std::vector<std::string>& words,
                            const std::vector<Record>& records);
 

@@ -91,47 +91,7 @@ std::shared_ptr<const DamperModel> without_jump(const LawModel& model,
   return std::make_shared<LawModel>(model.law(), parameters, model.drive_unit(), model.lag_rate());
 }
 
-/// Puts the model there, and the lag of its coil beside it.
-void take_model(ChosenDamper& damper, const DamperModel& model) {
-  BareDamper bare = without_coil_lag(model);
-  damper.lag_rate = bare.lag_rate;
-  if (const auto* law = model_as<LawModel>(*bare.model))
-    damper.model = without_jump(*law, damper.notes);
-  if (!damper.model) damper.model = std::move(bare.model);
-}
-
-/// Says where the damper feeds energy into what moves it.
-void warn_of_activity(ChosenDamper& damper, const Dissipation& result) {
-  if (const std::string active = activity(result, damper.drive_unit); !active.empty())
-    damper.warnings.push_back(damper.name + ": " + active + "; what swings with it may never rest");
-}
-
-void require_nothing(Words settings, const std::string& name, const std::string& where) {
-  if (!settings.empty())
-    throw Error(where, "'" + settings.front() + "' says nothing to " + name,
-                "motion_ratio=... or force_factor=...");
-}
-
-ChosenDamper from_file(const std::filesystem::path& path) {
-  ChosenDamper damper{.name = path.filename().string()};
-  const std::string extension = lower(path.extension().string());
-  if (extension != ".json") {
-    const PassiveCurve curve = load_passive_curve(path.string());
-    damper.model = std::make_shared<PassiveCurve>(curve);
-    return damper;
-  }
-
-  const ModelFile file = load_model(path);
-  take_model(damper, *file.model);
-  damper.drive_unit = file.drive_unit;
-  damper.drive_min = std::max(0.0, file.domain.current_min);
-  damper.drive_max = std::max(damper.drive_min, file.domain.current_max);
-  damper.domain = file.domain;
-  warn_of_activity(damper, dissipation_of(file));
-  return damper;
-}
-
-/// The set's law with these of its parameters constant.
+/// The law with these of its parameters constant.
 LawModel with_settings(const LawModel& model, Words settings, const std::string& where) {
   const Law& law = model.law();
   Dependence parameters = model.parameters();
@@ -156,6 +116,56 @@ LawModel with_settings(const LawModel& model, Words settings, const std::string&
   LawModel changed(law, parameters, model.drive_unit(), model.lag_rate());
   require_bounds(changed, 0, where);
   return changed;
+}
+
+/// Puts the model there, and the lag of its coil beside it.
+void take_model(ChosenDamper& damper, const DamperModel& model) {
+  BareDamper bare = without_coil_lag(model);
+  damper.lag_rate = bare.lag_rate;
+  if (const auto* law = model_as<LawModel>(*bare.model))
+    damper.model = without_jump(*law, damper.notes);
+  if (!damper.model) damper.model = std::move(bare.model);
+}
+
+/// Says where the damper feeds energy into what moves it. A law whose parameters were replaced is
+/// not judged.
+void warn_of_activity(ChosenDamper& damper, const Dissipation& result) {
+  if (const std::string active = activity(result, damper.drive_unit); !active.empty())
+    damper.warnings.push_back(damper.name + ": " + active + "; what swings with it may never rest");
+}
+
+void require_nothing(Words settings, const std::string& name, const std::string& where) {
+  if (!settings.empty())
+    throw Error(where, "'" + settings.front() + "' says nothing to " + name,
+                "motion_ratio=... or force_factor=...");
+}
+
+/// A curve, or a model file; a law's parameters may be set as those of a published damper are.
+ChosenDamper from_file(const std::filesystem::path& path, Words settings,
+                       const std::string& where) {
+  ChosenDamper damper{.name = path.filename().string()};
+  const std::string extension = lower(path.extension().string());
+  if (extension != ".json") {
+    require_nothing(settings, path.string(), where);
+    const PassiveCurve curve = load_passive_curve(path.string());
+    damper.model = std::make_shared<PassiveCurve>(curve);
+    return damper;
+  }
+
+  const ModelFile file = load_model(path);
+  if (const auto* law = model_as<LawModel>(*file.model); law && !settings.empty()) {
+    take_model(damper, with_settings(*law, settings, where));
+    for (const std::string& setting : settings) damper.name += ", " + setting;
+  } else {
+    require_nothing(settings, path.string(), where);
+    take_model(damper, *file.model);
+  }
+  damper.drive_unit = file.drive_unit;
+  damper.drive_min = std::max(0.0, file.domain.current_min);
+  damper.drive_max = std::max(damper.drive_min, file.domain.current_max);
+  damper.domain = file.domain;
+  if (settings.empty()) warn_of_activity(damper, dissipation_of(file));
+  return damper;
 }
 
 ChosenDamper from_set(const std::string& name, Words settings, const std::string& where) {
@@ -220,8 +230,7 @@ ChosenDamper choose_damper(const std::string& text, const std::string& where) {
   const std::string name = parts.front();
   const Words settings = Words(parts).subspan(1);
   const bool is_file = name.find_first_of("./") != std::string::npos;
-  if (is_file) require_nothing(settings, name, where);
-  ChosenDamper damper = is_file ? from_file(name) : by_name(name, settings, where);
+  ChosenDamper damper = is_file ? from_file(name, settings, where) : by_name(name, settings, where);
 
   // Integrators need forces without jumps.
   if (jumps_at_rest(*damper.model, damper.drive_min, damper.drive_max)) {

@@ -42,7 +42,7 @@ struct ChosenDamper {
   bool is_passive() const { return !(drive_min < drive_max); }
 };
 
-/// From a text: a model file; a parameter set's name, with parameters of its law replaced
+/// From a text: a model file or a parameter set's name, with parameters of its law replaced
 /// ("spencer1997,x0=0"); "viscous,damping=1500"; "ideal,damping_min=300,damping_max=3900": any
 /// damping in between, the drive from 0 to 1 being the place; a passive curve by name or as a file
 /// with velocity and force. Each takes mounting_settings(). Throws Error(where, ...).

@@ -1,7 +1,6 @@
 #include "dashpot/damper/kinds/law/law_model.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 
 #include "dashpot/base/text.h"
@@ -42,7 +41,6 @@ void require_shape(const Law& law, const Dependence& parameters) {
 LawModel::LawModel(const Law& law, Dependence parameters, DriveUnit drive_unit, double lag_rate)
     : law_(&law), parameters_(std::move(parameters)), drive_unit_(drive_unit), lag_rate_(lag_rate) {
   require_shape(law, parameters_);
-  assert(drive_unit_ != DriveUnit::None);
   if (!(lag_rate_ >= 0 && std::isfinite(lag_rate_)))
     throw Error("lag_rate", "is " + format_number(lag_rate_), "write a rate in 1/s, 0 for none");
 

@@ -16,9 +16,8 @@ namespace dashpot {
 /// an RK4 integrator whose number of steps follows from the law's rate.
 class LawModel final : public DamperModel {
  public:
-  /// drive_unit: not None. lag_rate: 1/s, i' = -lag_rate (i - command); 0: no lag. Throws Error
-  /// when the number of parameters or of their coefficients is not what the law and the forms ask
-  /// for.
+  /// lag_rate: 1/s, i' = -lag_rate (i - command); 0: no lag. Throws Error when the number of
+  /// parameters or of their coefficients is not what the law and the forms ask for.
   LawModel(const Law& law, Dependence parameters, DriveUnit drive_unit, double lag_rate);
   /// Every parameter constant, at the values given (in table order), no lag; tests and examples use
   /// it.

@@ -48,7 +48,7 @@ Value LawModel::to_json() const {
                                   {"coefficients", Value::array(parameters_.coefficients[k])},
                                   {"unit", law_->params[k].unit}}));
   return Value::object({{"law", law_->name},
-                        {"drive_unit", to_string(drive_unit_)},
+                        {"drive_unit", name_of(drive_unit_)},
                         {"lag_rate", lag_rate_},
                         {"parameters", parameters}});
 }
