@@ -116,6 +116,16 @@ Course follow_shares(const SampledPlant& car, const ForceRange& range, const Rid
   return course_of(car, path_of_shares(car, range, index, shares));
 }
 
+MotionSquares motion_under(const SampledPlant& car, const ForceRange& range,
+                           const std::vector<double>& shares) {
+  MotionSquares squares{};
+  const Path path = path_of_shares(car, range, {}, shares);
+  for (const State& z : path.states)
+    for (std::size_t i = 0; i < squares.size(); ++i)
+      squares[i] += z(i, 0) * z(i, 0) / static_cast<double>(car.cells());
+  return squares;
+}
+
 Course improve(const SampledPlant& car, const ForceRange& range, const RideIndex& index,
                const Course& course) {
   constexpr double kLeastFall = 1e-6, kLeastStep = 1.0 / 128;

@@ -6,22 +6,11 @@
 #include "dashpot/base/text.h"
 #include "dashpot/error.h"
 #include "dashpot/numerics/linear_algebra.h"
+#include "dashpot/suspension/plants/assemble.h"
 #include "dashpot/suspension/plants/linear.h"
 
 namespace dashpot {
 namespace {
-
-void require_quarter_car(const Plant& plant) {
-  const std::string right = "a quarter car without stops, friction and lifting tyre";
-  if (plant.size() != 2 || plant.struts.size() != 1 || plant.tyres.size() != 1 ||
-      plant.struts[0].track)
-    throw Error(plant.name, "has no clairvoyant bound", right);
-  const Strut& strut = plant.struts[0];
-  if (plant.tyres_may_lift || strut.friction > 0 || strut.extension_stop > 0 ||
-      strut.compression_stop > 0)
-    throw Error(plant.name, "is not linear but for its damper: the clairvoyant bound asks for that",
-                right);
-}
 
 template <std::size_t Rows, std::size_t Columns>
 SmallMatrix<Rows, Columns> small(const std::vector<double>& values) {
@@ -40,6 +29,18 @@ SmallMatrix<1, 6> after(const SmallMatrix<1, 6>& row, const SmallMatrix<5, 6>& m
 }
 
 }  // namespace
+
+void require_quarter_car(const Plant& plant) {
+  const std::string right = "a quarter car without stops, friction and lifting tyre";
+  if (plant.size() != 2 || plant.struts.size() != 1 || plant.tyres.size() != 1 ||
+      plant.struts[0].track)
+    throw Error(plant.name, "has no clairvoyant bound", right);
+  const Strut& strut = plant.struts[0];
+  if (plant.tyres_may_lift || strut.friction > 0 || strut.extension_stop > 0 ||
+      strut.compression_stop > 0)
+    throw Error(plant.name, "is not linear but for its damper: the clairvoyant bound asks for that",
+                right);
+}
 
 SampledPlant::SampledPlant(const Plant& plant, const GroundMotion& ground, double duration,
                            double step)
@@ -150,6 +151,11 @@ AffineCar SampledPlant::over(std::size_t cell) const noexcept {
   drive(car, push * end_.constant + rising * end_.rising,
         push * middle_.constant + rising * middle_.rising, push + 0.5 * step_ * rising);
   return car;
+}
+
+Plant with_spring(Plant plant, double stiffness) {
+  add_along(plant.stiffness, plant.struts.front().row, stiffness);
+  return plant;
 }
 
 SmallMatrix<6, 6> cost_form(const AffineCar& car, const RideIndex& index) noexcept {
