@@ -78,15 +78,14 @@ std::string possible_note(const RideStudy& study) {
 }
 
 DocumentTable possible_table(const RideStudy& study) {
-  DocumentTable table{
-      .title = "Of what is possible",
-      .columns = {{.title = "controller"},
-                  {.title = "body rms, m/s^2", .numeric = true},
-                  {.title = "% of possible", .numeric = true},
-                  {.title = "tyre rms, N", .numeric = true},
-                  {.title = "% of possible", .numeric = true}},
-      .rows = {},
-      .note = possible_note(study)};
+  DocumentTable table{.title = "Of what is possible",
+                      .columns = {{.title = "controller"},
+                                  {.title = "body rms, m/s^2", .numeric = true},
+                                  {.title = "% of possible", .numeric = true},
+                                  {.title = "tyre rms, N", .numeric = true},
+                                  {.title = "% of possible", .numeric = true}},
+                      .rows = {},
+                      .note = possible_note(study)};
 
   // Each vehicle by the squares of its own ride.
   const Plant& plant = study.passive.road.vehicle->set.plant;
@@ -101,9 +100,9 @@ DocumentTable possible_table(const RideStudy& study) {
   }
 
   // Below them the optima and the bounds themselves.
-  table.rows.push_back(
-      {"optimum of each", number_text(std::sqrt(comfort.optimum / comfort.index.comfort)), "",
-       whole_text(std::sqrt(holding.optimum / holding.index.holding)), ""});
+  table.rows.push_back({"optimum of each",
+                        number_text(std::sqrt(comfort.optimum / comfort.index.comfort)), "",
+                        whole_text(std::sqrt(holding.optimum / holding.index.holding)), ""});
   const auto proven = [](const ClairvoyantBound& best, double weight, const auto& text) {
     return best.proven ? text(std::sqrt(best.bound / weight)) : std::string("-");
   };

@@ -140,10 +140,8 @@ ClairvoyantBound clairvoyant_bound(const Plant& plant, const GroundMotion& groun
   // The bound: limits sought on coarser cells, certified on the fine ones.
   const SampledPlant coarse(sprung, ground, options.duration, options.search_step);
   const MotionSquares motion = motion_under(car, range, found.shares);
-  const Relaxation relaxed = relax(coarse, range, index,
-                                   {.block = 1,
-                                    .iterations = options.iterations,
-                                    .size = course.value});
+  const Relaxation relaxed = relax(
+      coarse, range, index, {.block = 1, .iterations = options.iterations, .size = course.value});
   const std::optional<double> least =
       certified_best(sprung, car, coarse, range, index, relaxed, motion, course.value);
   if (!least) return found;

@@ -29,7 +29,7 @@ RideIndex weighted_index(double comfort, const RideSquares& reference);
 struct BoundOptions {
   double duration = 10;       ///< s
   double step = 1e-3;         ///< s, for which the optimum holds its demand
-  double search_step = 2e-3;  ///< s, of the cells on which limits are sought
+  double search_step = 4e-3;  ///< s, of the cells on which limits are sought
   int iterations = 60;        ///< of each climb to better limits
   std::vector<std::vector<double>>
       starts;  ///< shares per step that the optimum shall not fall behind

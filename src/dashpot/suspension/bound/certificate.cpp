@@ -5,13 +5,16 @@
 namespace dashpot {
 namespace {
 
-/// A lower bound of a limit along the edges of a range; minus infinity where there is none. Inside
-/// the range it is not less, being concave in F.
-double proven_least(const ForceRange& range, const ForceLimit& limit) {
+/// A lower bound of a limit at a displacement, along the edges of a range; minus infinity where
+/// there is none. Inside the range it is not less, being concave in F.
+double proven_least(const ForceRange& range, const ForceLimit& limit,
+                    const Interval& displacement) {
   double least = INFINITY;
-  const Interval ff = limit.ff, fv = limit.fv, vv = limit.vv, f = limit.f, v = limit.v;
-  const auto at = [&](const Interval& x, const Interval& force) {
-    return (ff * force + fv * x + f) * force + (vv * x + v) * x;
+  const Interval ff = limit.ff, fv = limit.fv, vv = limit.vv;
+  const Interval f = limit.f + displacement * limit.fx, v = limit.v + displacement * limit.vx,
+                 fixed = displacement * limit.x;
+  const auto at = [&](const Interval& speed, const Interval& force) {
+    return (ff * force + fv * speed + f) * force + (vv * speed + v) * speed + fixed;
   };
 
   for (std::size_t k = 0; k + 1 < range.velocity.size(); ++k)
@@ -45,6 +48,21 @@ double proven_least(const ForceRange& range, const ForceLimit& limit) {
   return least;
 }
 
+/// The same at all displacements of a range: the limit is a straight line in them, so that those at
+/// the ends of each part decide.
+double proven_least(const ForceRange& range, const ForceLimit& limit) {
+  if (!(limit.ff <= 0)) return -INFINITY;
+  if (range.parts.empty()) {
+    if (limit.fx != 0 || limit.vx != 0 || limit.x != 0) return -INFINITY;
+    return proven_least(range, limit, 0);
+  }
+  double least = INFINITY;
+  for (const ForceRange& part : range.parts)
+    for (const double end : {part.from, part.to})
+      least = std::min(least, proven_least(part, limit, end));
+  return least;
+}
+
 // Polynomials in time by their Bernstein coefficients: where these are at least 0, so is the
 // polynomial, from the start of its piece to the end.
 
@@ -64,8 +82,7 @@ Bernstein<N + M - 1> product(const Bernstein<N>& a, const Bernstein<M>& b) {
   for (std::size_t i = 0; i < N; ++i)
     for (std::size_t j = 0; j < M; ++j)
       out[i + j] += Interval(binomial(N - 1, i) * binomial(M - 1, j)) * a[i] * b[j];
-  for (std::size_t k = 0; k < out.size(); ++k)
-    out[k] = out[k] / Interval(binomial(N + M - 2, k));
+  for (std::size_t k = 0; k < out.size(); ++k) out[k] = out[k] / Interval(binomial(N + M - 2, k));
   return out;
 }
 
@@ -127,7 +144,7 @@ Certificate::Certificate(const Plant& plant, const SampledPlant& car, const Forc
                          const RideIndex& index, const LimitCourse& course)
     : car_(car), index_(index), course_(course), cell_(car.cells() - 1), into_(car.step()) {
   for (ForceLimit limit : course.limits) {
-    const double least = limit.ff <= 0 ? proven_least(range, limit) : -INFINITY;
+    const double least = proven_least(range, limit);
     limit.one = -least;
     limits_.push_back(std::isfinite(least) ? std::optional(limit) : std::nullopt);
   }
@@ -158,6 +175,7 @@ void Certificate::set_car(const Plant& plant) {
       by_push_[i + 2] += over_mass[i][l] * tyre.row[l];
     }
     speed_[i + 2] = strut.row[i];
+    displacement_[i] = strut.row[i];
     tyre_force_[i] = -stiffness_ * tyre.row[i];
     tyre_force_[i + 2] = -damping_ * tyre.row[i];
   }
@@ -219,7 +237,8 @@ bool Certificate::holds(const Cubic& value, double from, double to) const {
   std::array<Bernstein<4>, 5> force{};
   for (std::size_t i = 0; i < 5; ++i) {
     for (std::size_t l = 2; l < 4; ++l) add(force[i], by_force_[l], value.at(i, l));
-    const Interval fixed = i < 4 ? comfort * acceleration_[i] * a_f - half * limit.fv * speed_[i]
+    const Interval fixed = i < 4 ? comfort * acceleration_[i] * a_f -
+                                       half * (speed_[i] * limit.fv + displacement_[i] * limit.fx)
                                  : -(half * Interval(limit.f));
     add(force[i], fixed, Bernstein<1>{1});
   }
@@ -247,11 +266,12 @@ bool Certificate::holds(const Cubic& value, double from, double to) const {
       if (j < 4) {
         add(entry,
             comfort * acceleration_[i] * acceleration_[j] +
-                holding * tyre_force_[i] * tyre_force_[j] - limit.vv * speed_[i] * speed_[j],
+                holding * tyre_force_[i] * tyre_force_[j] - limit.vv * speed_[i] * speed_[j] -
+                half * limit.vx * (speed_[i] * displacement_[j] + displacement_[i] * speed_[j]),
             Bernstein<1>{1});
       } else if (i < 4) {
         add(entry, comfort * acceleration_[i] * a_w + holding * tyre_force_[i], push);
-        add(entry, -(half * limit.v * speed_[i]), Bernstein<1>{1});
+        add(entry, -(half * (speed_[i] * limit.v + displacement_[i] * limit.x)), Bernstein<1>{1});
       } else {
         add(entry, comfort * a_w * a_w + holding, product(push, push));
         add(entry, -limit.one, Bernstein<1>{1});

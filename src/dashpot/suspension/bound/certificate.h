@@ -76,7 +76,7 @@ class Certificate {
 
   // The car over [q, q'], by the force and by the tyre's push.
   std::array<std::array<Interval, 4>, 4> motion_;
-  std::array<Interval, 4> by_force_, by_push_, acceleration_, tyre_force_, speed_;
+  std::array<Interval, 4> by_force_, by_push_, acceleration_, tyre_force_, speed_, displacement_;
   Interval acceleration_by_force_, acceleration_by_push_, stiffness_, damping_;
 };
 

@@ -53,6 +53,12 @@ double ForceRange::share(double v, double f) const noexcept {
   return wide == 0 ? 0 : std::clamp((f - least) / wide, 0.0, 1.0);
 }
 
+const ForceRange& ForceRange::at(double displacement) const noexcept {
+  for (const ForceRange& part : parts)
+    if (displacement <= part.to) return part;
+  return parts.empty() ? *this : parts.back();
+}
+
 double ForceRange::least(std::size_t node) const noexcept {
   return std::min(soft[node], hard[node]);
 }
@@ -76,12 +82,12 @@ bool has_width(const ForceRange& range) { return range.soft != range.hard; }
 
 namespace {
 
-/// What is looked at: velocities of the table, and at each of them every current and displacement.
+/// What is looked at: at each velocity every current and some displacements.
 class ForceSamples {
  public:
   ForceSamples(const std::string& name, const StaticForce& force, const RangeLimits& limits)
       : name_(name), force_(force) {
-    constexpr int kCurrents = 32, kDisplacements = 16;  // the latter either way
+    constexpr int kCurrents = 32, kDisplacements = 12;  // the latter either way
     for (int k = 0; k <= kCurrents; ++k)
       currents_.push_back(limits.current_min +
                           (limits.current_max - limits.current_min) * k / kCurrents);
@@ -98,11 +104,13 @@ class ForceSamples {
   struct Ends {
     double least = INFINITY, greatest = -INFINITY;
   };
-  /// Beside a spring.
-  Ends at(double velocity, double stiffness) const {
+  /// Beside a spring, on one side of the displacements (-1 or 1, with what is close to 0) or on
+  /// both (0).
+  Ends at(double velocity, double stiffness, int side) const {
     Ends ends;
     const auto look = [&](double v) {
-      for (const double displacement : displacements_)
+      for (const double displacement : displacements_) {
+        if (displacement * side < 0) continue;
         for (const double current : currents_) {
           const double force = force_({displacement, v, current});
           if (!std::isfinite(force))
@@ -111,6 +119,7 @@ class ForceSamples {
           ends.least = std::min(ends.least, force - stiffness * displacement);
           ends.greatest = std::max(ends.greatest, force - stiffness * displacement);
         }
+      }
     };
     look(velocity);
     if (velocity == 0) {  // both sides of a jump
@@ -136,8 +145,10 @@ double narrowest_stiffness(const ForceSamples& samples, const std::vector<double
   const auto width = [&](double stiffness) {
     double sum = 0;
     for (std::size_t k = 0; k < velocity.size(); k += 8) {
-      const ForceSamples::Ends ends = samples.at(velocity[k], stiffness);
-      sum += ends.greatest - ends.least;
+      for (const int side : {-1, 1}) {
+        const ForceSamples::Ends ends = samples.at(velocity[k], stiffness, side);
+        sum += ends.greatest - ends.least;
+      }
     }
     return sum;
   };
@@ -147,10 +158,46 @@ double narrowest_stiffness(const ForceSamples& samples, const std::vector<double
   constexpr int kThirds = 40;
   for (int k = 0; k < kThirds; ++k) {
     const double first = low + (high - low) / 3, second = high - (high - low) / 3;
-    (width(first) <= width(second) ? high : low) = width(first) <= width(second) ? second : first;
+    if (width(first) <= width(second))
+      high = second;
+    else
+      low = first;
   }
   const double best = 0.5 * (low + high);
   return width(best) < (1 - 1e-9) * width(0) ? best : 0;
+}
+
+/// Soft and hard from the samples on one side of the displacements, or on both.
+void set_forces(ForceRange& range, const ForceSamples& samples, int side) {
+  // Least and greatest force at each velocity.
+  std::vector<ForceSamples::Ends> ends;
+  for (const double v : range.velocity) ends.push_back(samples.at(v, range.stiffness, side));
+
+  // Room for what lies between the velocities, where curves bend; a quarter more, because it too is
+  // looked at in some places only.
+  constexpr double kMore = 1.25;
+  constexpr double kBetween[] = {0.25, 0.5, 0.75};
+  std::vector<ForceSamples::Ends> room(ends.size(), {0, 0});
+  for (std::size_t k = 0; k + 1 < ends.size(); ++k)
+    for (const double share : kBetween) {
+      const auto mixed = [&](double a, double b) { return a + share * (b - a); };
+      const ForceSamples::Ends found =
+          samples.at(mixed(range.velocity[k], range.velocity[k + 1]), range.stiffness, side);
+      const double under = mixed(ends[k].least, ends[k + 1].least) - found.least,
+                   over = found.greatest - mixed(ends[k].greatest, ends[k + 1].greatest);
+      for (const std::size_t node : {k, k + 1}) {
+        room[node].least = std::max(room[node].least, kMore * under);
+        room[node].greatest = std::max(room[node].greatest, kMore * over);
+      }
+    }
+  range.soft.clear();
+  range.hard.clear();
+  for (std::size_t k = 0; k < ends.size(); ++k) {
+    const double least = ends[k].least - room[k].least,
+                 greatest = ends[k].greatest + room[k].greatest;
+    range.soft.push_back(range.velocity[k] < 0 ? greatest : least);
+    range.hard.push_back(range.velocity[k] < 0 ? least : greatest);
+  }
 }
 
 /// A range of damping, where all forces are in proportion to the velocity.
@@ -197,32 +244,22 @@ ForceRange force_range(const std::string& name, const StaticForce& force,
     range.stiffness = narrowest_stiffness(samples, range.velocity);
   }
 
-  // Least and greatest force at each velocity.
-  std::vector<ForceSamples::Ends> ends;
-  for (const double v : range.velocity) ends.push_back(samples.at(v, range.stiffness));
-
-  // Room for what lies between the velocities, where curves bend; a quarter more, because it too is
-  // looked at in some places only.
-  constexpr double kMore = 1.25;
-  constexpr double kBetween[] = {0.25, 0.5, 0.75};
-  std::vector<ForceSamples::Ends> room(ends.size(), {0, 0});
-  for (std::size_t k = 0; k + 1 < ends.size(); ++k)
-    for (const double share : kBetween) {
-      const auto mixed = [&](double a, double b) { return a + share * (b - a); };
-      const ForceSamples::Ends found =
-          samples.at(mixed(range.velocity[k], range.velocity[k + 1]), range.stiffness);
-      const double under = mixed(ends[k].least, ends[k + 1].least) - found.least,
-                   over = found.greatest - mixed(ends[k].greatest, ends[k + 1].greatest);
-      for (const std::size_t node : {k, k + 1}) {
-        room[node].least = std::max(room[node].least, kMore * under);
-        room[node].greatest = std::max(room[node].greatest, kMore * over);
-      }
+  // One table, or one for either side of the displacements and one for both.
+  set_forces(range, samples, 0);
+  if (samples.has_displacement()) {
+    ForceRange inner = range, outer = range;
+    set_forces(inner, samples, -1);
+    set_forces(outer, samples, 1);
+    inner.from = -limits.displacement;
+    outer.to = limits.displacement;
+    inner.to = outer.from = 0;
+    for (std::size_t k = 0; k < range.velocity.size(); ++k) {
+      range.soft[k] = range.velocity[k] < 0 ? std::max(inner.soft[k], outer.soft[k])
+                                            : std::min(inner.soft[k], outer.soft[k]);
+      range.hard[k] = range.velocity[k] < 0 ? std::min(inner.hard[k], outer.hard[k])
+                                            : std::max(inner.hard[k], outer.hard[k]);
     }
-  for (std::size_t k = 0; k < ends.size(); ++k) {
-    const double least = ends[k].least - room[k].least,
-                 greatest = ends[k].greatest + room[k].greatest;
-    range.soft.push_back(range.velocity[k] < 0 ? greatest : least);
-    range.hard.push_back(range.velocity[k] < 0 ? least : greatest);
+    range.parts = {std::move(inner), std::move(outer)};
   }
 
   // The damper itself reaches less: its least and greatest force at one displacement.
@@ -250,8 +287,8 @@ ForceRange model_range(const DamperModel& model, const RangeLimits& limits) {
     throw Error(model.name(), "depends on displacement, and no travel is stated");
   RangeLimits needed = limits;
   if (!model.needs_displacement()) needed.displacement = 0;
-  return force_range(model.name(), [&model](const DamperInput& at) { return model.force(at, {}); },
-                     needed);
+  return force_range(
+      model.name(), [&model](const DamperInput& at) { return model.force(at, {}); }, needed);
 }
 
 namespace {
@@ -271,7 +308,7 @@ double least_along(const ForceRange& range, const ForceLimit& q) {
 
       // Its values at the ends of the piece; outside the table pieces may go on for ever.
       const bool first = k == 0 && !range.ends, last = k + 2 == v.size() && !range.ends;
-      const auto at = [&](double x) { return q.at(x, slope * x + offset); };
+      const auto at = [&](double v_at) { return q.at(0, v_at, slope * v_at + offset); };
       if (!first) least = std::min(least, at(v[k]));
       if (!last) least = std::min(least, at(v[k + 1]));
       if ((first || last) && (square < 0 || (square == 0 && linear != 0))) {
@@ -312,7 +349,7 @@ std::vector<ForceLimit> sector_limits(const ForceRange& range) {
     // A limit that some constant makes hold all along the range, and that is not known yet.
     const double room = 1e-12 * std::max(std::abs(least), std::abs(greatest));
     const double a = least - room, b = greatest + room;
-    ForceLimit limit{-1, a + b, -a * b, 2 * rest, -rest * (a + b), 0};
+    ForceLimit limit{.ff = -1, .fv = a + b, .vv = -a * b, .f = 2 * rest, .v = -rest * (a + b)};
     limit.one = -least_along(range, limit);
     const auto same = [&](const ForceLimit& other) {
       return other.fv == limit.fv && other.vv == limit.vv;
@@ -330,9 +367,16 @@ std::vector<ForceLimit> sector_limits(const ForceRange& range) {
 
 std::vector<RangeCorner> corners(const ForceRange& range) {
   std::vector<RangeCorner> found;
-  for (std::size_t k = 0; k < range.velocity.size(); ++k) {
-    found.push_back({range.velocity[k], range.least(k)});
-    found.push_back({range.velocity[k], range.greatest(k)});
+  const auto add = [&](const ForceRange& part, double displacement) {
+    for (std::size_t k = 0; k < part.velocity.size(); k += 2) {
+      found.push_back({displacement, part.velocity[k], part.least(k)});
+      found.push_back({displacement, part.velocity[k], part.greatest(k)});
+    }
+  };
+  if (range.parts.empty()) add(range, 0);
+  for (const ForceRange& part : range.parts) {
+    add(part, part.from);
+    add(part, part.to);
   }
   return found;
 }

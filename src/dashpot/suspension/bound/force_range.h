@@ -18,12 +18,19 @@ struct ForceRange {
   /// rest of that dependence makes soft and hard lie further apart.
   double stiffness = 0;
   double travel = std::numeric_limits<double>::infinity();  ///< m either way, that this holds for
+  /// Narrower ranges for some displacements each, of the same velocities, which together are as
+  /// wide as this one. Empty: it holds for all.
+  std::vector<ForceRange> parts;
+  double from = -std::numeric_limits<double>::infinity(),
+         to = std::numeric_limits<double>::infinity();  ///< m, that a part is of
   /// Whether it is known up to the ends of the table only. Otherwise it goes straight on outside.
   bool ends = false;
   /// Least and greatest force, N, of the damper itself at a displacement, m, and a velocity, m/s;
   /// within the range. Empty: those of the range.
   std::function<std::pair<double, double>(double, double)> reach;
 
+  /// The part for a displacement, or this.
+  const ForceRange& at(double displacement) const noexcept;
   /// soft + share (hard - soft), N; share 0 ... 1.
   double force(double velocity, double share) const noexcept;
   /// The same where the force itself slows the motion: the force at velocity `free` + by_force
@@ -66,13 +73,15 @@ ForceRange model_range(const DamperModel& model, const RangeLimits& limits);
 /// Whether there is anything to choose.
 bool has_width(const ForceRange& range);
 
-/// A quadratic that no force of a range makes negative:
-/// q(v, F) = ff F^2 + fv F v + vv v^2 + f F + v v + one >= 0, ff <= 0.
+/// A quadratic that no force F of a range, at the displacement x and the velocity v, makes
+/// negative:
+///   q = ff F^2 + fv F v + vv v^2 + f F + v v + fx F x + vx v x + x x + one >= 0,   ff <= 0.
 struct ForceLimit {
-  double ff = 0, fv = 0, vv = 0, f = 0, v = 0, one = 0;
+  double ff = 0, fv = 0, vv = 0, f = 0, v = 0, fx = 0, vx = 0, x = 0, one = 0;
 
-  double at(double velocity, double force) const noexcept {
-    return (ff * force + fv * velocity + f) * force + (vv * velocity + v) * velocity + one;
+  double at(double displacement, double velocity, double force) const noexcept {
+    return (ff * force + fv * velocity + f + fx * displacement) * force +
+           (vv * velocity + v + vx * displacement) * velocity + x * displacement + one;
   }
 };
 /// Some that hold a range in: sectors, (F - l1(v)) (l2(v) - F) + one for straight lines l1 and l2
@@ -80,9 +89,10 @@ struct ForceLimit {
 /// millionth, which leaves room for rounding.
 std::vector<ForceLimit> sector_limits(const ForceRange& range);
 
-/// The velocities and forces at the corners of a range.
+/// Where a range has corners, also in displacement: at every other velocity of its table, for a
+/// search.
 struct RangeCorner {
-  double velocity, force;  ///< m/s, N
+  double displacement, velocity, force;  ///< m, m/s, N
 };
 std::vector<RangeCorner> corners(const ForceRange& range);
 

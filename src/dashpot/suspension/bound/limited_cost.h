@@ -19,6 +19,9 @@ inline CostForm limited_cost(const AffineCar& car, const ForceLimit& limit,
   add_product(form, -limit.vv, car.speed, car.speed);
   add_product(form, -limit.f, force, one);
   add_product(form, -limit.v, car.speed, one);
+  add_product(form, -limit.fx, force, car.displacement);
+  add_product(form, -limit.vx, car.speed, car.displacement);
+  add_product(form, -limit.x, car.displacement, one);
   add_product(form, -limit.one, one, one);
   return form;
 }

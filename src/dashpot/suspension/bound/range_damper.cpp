@@ -5,8 +5,8 @@
 namespace dashpot {
 
 double RangeDamper::force(const DamperInput& input, std::span<const double>) const noexcept {
-  const double wanted =
-      range_.force(input.velocity, input.current) + range_.stiffness * input.displacement;
+  const double wanted = range_.at(input.displacement).force(input.velocity, input.current) +
+                        range_.stiffness * input.displacement;
   if (!range_.reach) return wanted;
   const auto [least, greatest] = range_.reach(input.displacement, input.velocity);
   return std::clamp(wanted, least, greatest);
@@ -19,8 +19,12 @@ std::unique_ptr<DamperModel> RangeDamper::with_offset(double newton) const {
       const auto [least, greatest] = reach(displacement, velocity);
       return std::pair{least + newton, greatest + newton};
     };
-  for (double& force : moved.soft) force += newton;
-  for (double& force : moved.hard) force += newton;
+  const auto move = [newton](ForceRange& range) {
+    for (double& force : range.soft) force += newton;
+    for (double& force : range.hard) force += newton;
+  };
+  move(moved);
+  for (ForceRange& part : moved.parts) move(part);
   return std::make_unique<RangeDamper>(std::move(moved));
 }
 

@@ -11,17 +11,21 @@ namespace dashpot {
 namespace {
 
 /// The coefficients of a limit, for loops over them.
-constexpr double ForceLimit::* kCoefficients[] = {&ForceLimit::ff, &ForceLimit::fv,
-                                                  &ForceLimit::vv, &ForceLimit::f,
-                                                  &ForceLimit::v,  &ForceLimit::one};
+constexpr double ForceLimit::* kCoefficients[] = {
+    &ForceLimit::ff, &ForceLimit::fv, &ForceLimit::vv, &ForceLimit::f,  &ForceLimit::v,
+    &ForceLimit::fx, &ForceLimit::vx, &ForceLimit::x,  &ForceLimit::one};
 
 /// The minimum of L by its limits, with a barrier before the edge of those that have none: the sum
 /// over cells of barrier * log(R), R being the curvature of L by a cell's force. It is the minimum
 /// of the mean of L under forces that also tremble, less what a measure of order costs.
 class Dual {
  public:
-  Dual(const SampledPlant& car, const RideIndex& index)
-      : car_(car), index_(index), curvature_(car.cells()), law_(car.cells()) {}
+  Dual(const SampledPlant& car, const RideIndex& index, bool has_displacement)
+      : car_(car),
+        index_(index),
+        has_displacement_(has_displacement),
+        curvature_(car.cells()),
+        law_(car.cells()) {}
 
   /// False where there is no minimum.
   bool value(const LimitCourse& course, double barrier, double& out) {
@@ -44,7 +48,7 @@ class Dual {
   }
 
   /// Its slopes by the coefficients of each block's limit, at the course of the last value(): less
-  /// the means of [F^2, F v, v^2, F, v, 1] under the law and the trembling.
+  /// the means of [F^2, F v, v^2, F, v, F x, v x, x, 1] under the law and the trembling.
   std::vector<ForceLimit> slopes(const LimitCourse& course, double barrier) const {
     std::vector<ForceLimit> out(course.limits.size());
     StateForm moment;
@@ -67,6 +71,12 @@ class Dual {
       slope.vv -= h * (with_speed * transposed(now.speed))(0, 0);
       slope.f -= h * joint(kForcePlace, kOnePlace);
       slope.v -= h * with_speed(0, kOnePlace);
+      if (has_displacement_) {
+        const SmallMatrix<1, 6> with_displacement = now.displacement * joint;
+        slope.fx -= h * with_displacement(0, kForcePlace);
+        slope.vx -= h * (with_displacement * transposed(now.speed))(0, 0);
+        slope.x -= h * with_displacement(0, kOnePlace);
+      }
       slope.one -= h;
       moment = now.motion * joint * transposed(now.motion);
     }
@@ -76,6 +86,7 @@ class Dual {
  private:
   const SampledPlant& car_;
   const RideIndex& index_;
+  bool has_displacement_;  ///< the limits have it
   std::vector<double> curvature_;
   std::vector<SmallMatrix<1, 5>> law_;
 };
@@ -127,6 +138,10 @@ class FreeFamily final : public LimitFamily {
     const double damping = force / speed;
     unit_ = {curvature, curvature * damping, curvature * damping * damping, curvature * force,
              curvature * damping * force};
+    if (range.parts.empty()) return;
+    const double spring = force / (0.2 * range.travel);
+    for (const double unit : {spring, spring * damping, spring * force})
+      unit_.push_back(curvature * unit);
   }
 
   void set_smoothness(double smoothness) { smoothness_ = smoothness; }
@@ -156,15 +171,16 @@ class FreeFamily final : public LimitFamily {
 
  private:
   ForceLimit of(const double* x) const {
-    return {-unit_[0] * std::exp(x[0]), unit_[1] * x[1], unit_[2] * x[2],
-            unit_[3] * x[3],            unit_[4] * x[4], 0};
+    ForceLimit q{.ff = -unit_[0] * std::exp(x[0])};
+    for (std::size_t k = 1; k < unit_.size(); ++k) q.*kCoefficients[k] = unit_[k] * x[k];
+    return q;
   }
 
-  /// And the mean of [F^2, F v, v^2, F, v] by the weights of the corners in it.
+  /// And the mean of [F^2, F v, v^2, F, v, F x, v x, x] by the weights of the corners in it.
   double least(const ForceLimit& q, ForceLimit* mean) const {
     double least = INFINITY;
     for (std::size_t k = 0; k < corners_.size(); ++k) {
-      values_[k] = q.at(corners_[k].velocity, corners_[k].force);
+      values_[k] = q.at(corners_[k].displacement, corners_[k].velocity, corners_[k].force);
       least = std::min(least, values_[k]);
     }
     constexpr double kNothing = 40;
@@ -175,12 +191,15 @@ class FreeFamily final : public LimitFamily {
       const double weight = std::exp(-above);
       sum += weight;
       if (!mean) continue;
-      const auto [v, f] = corners_[k];
+      const auto [x, v, f] = corners_[k];
       mean->ff += weight * f * f;
       mean->fv += weight * f * v;
       mean->vv += weight * v * v;
       mean->f += weight * f;
       mean->v += weight * v;
+      mean->fx += weight * f * x;
+      mean->vx += weight * v * x;
+      mean->x += weight * x;
     }
     if (mean)
       for (const auto one : kCoefficients) mean->*one /= sum;
@@ -188,7 +207,7 @@ class FreeFamily final : public LimitFamily {
   }
 
   std::vector<RangeCorner> corners_;
-  std::array<double, 5> unit_{};
+  std::vector<double> unit_;  ///< of the coefficients, in their order
   double smoothness_ = 1;
   mutable std::vector<double> values_;
 };
@@ -280,7 +299,7 @@ Relaxation relax(const SampledPlant& car, const ForceRange& range, const RideInd
   // Units: the weight that the index itself gives a force.
   const double by_force = car.at(0, 0).acceleration(0, kForcePlace);
   const double curvature = index.comfort * by_force * by_force + index.holding;
-  Dual dual(car, index);
+  Dual dual(car, index, !range.parts.empty());
 
   // Sectors that stay, then over shorter and shorter blocks, towards the edge.
   const SectorFamily sectors(sector_limits(range));
@@ -311,7 +330,7 @@ Relaxation relax(const SampledPlant& car, const ForceRange& range, const RideInd
     climb.x.insert(climb.x.end(), x.begin(), x.end());
   }
   const auto up = [&](double height) {
-    constexpr double kSmoothness = 0.1;
+    constexpr double kSmoothness = 1;
     free.set_smoothness(kSmoothness * height * options.size);
     climb.up(free, height);
   };
@@ -336,13 +355,11 @@ LimitCourse on_cells(const LimitCourse& course, std::size_t cells, double ratio)
   return to;
 }
 
-LimitCourse mixed(const LimitCourse& a, const LimitCourse& b, double share_of_b,
-                  double size_of_b) {
+LimitCourse mixed(const LimitCourse& a, const LimitCourse& b, double share_of_b, double size_of_b) {
   LimitCourse out = a;
   for (ForceLimit& limit : out.limits)
     for (const auto one : kCoefficients)
-      limit.*one =
-          (1 - share_of_b) * limit.*one + share_of_b * size_of_b * b.limits.front().*one;
+      limit.*one = (1 - share_of_b) * limit.*one + share_of_b * size_of_b * b.limits.front().*one;
   return out;
 }
 

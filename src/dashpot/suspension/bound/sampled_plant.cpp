@@ -88,6 +88,7 @@ void SampledPlant::set_rates(const Plant& plant) {
     rates_.motion(i + 2, kForcePlace) = by_force(i, 0);
     by_push_(i + 2, 0) = by_push(i, 0);
     rates_.speed(0, i + 2) = strut.row[i];
+    rates_.displacement(0, i) = strut.row[i];
     rates_.tyre_force(0, i) = -tyre.stiffness * tyre.row[i];
     rates_.tyre_force(0, i + 2) = -tyre.damping * tyre.row[i];
     acceleration_by_push_ += strut.body_row[i] * by_push(i, 0);
@@ -129,6 +130,7 @@ void SampledPlant::drive(AffineCar& car, const SmallMatrix<5, 1>& change,
     car.acceleration(0, kOnePlace) += rates_.acceleration(0, i) * state(i, 0);
     car.tyre_force(0, kOnePlace) += rates_.tyre_force(0, i) * state(i, 0);
     car.speed(0, kOnePlace) += rates_.speed(0, i) * state(i, 0);
+    car.displacement(0, kOnePlace) += rates_.displacement(0, i) * state(i, 0);
   }
   car.acceleration(0, kOnePlace) += acceleration_by_push_ * push;
   car.tyre_force(0, kOnePlace) += push;
@@ -147,7 +149,8 @@ AffineCar SampledPlant::over(std::size_t cell) const noexcept {
   const double push = stiffness_ * road.height + damping_ * road.slope,
                rising = stiffness_ * road.slope;
   AffineCar car{end_.motion, after(rates_.acceleration, middle_.motion),
-                after(rates_.tyre_force, middle_.motion), after(rates_.speed, middle_.motion)};
+                after(rates_.tyre_force, middle_.motion), after(rates_.speed, middle_.motion),
+                after(rates_.displacement, middle_.motion)};
   drive(car, push * end_.constant + rising * end_.rising,
         push * middle_.constant + rising * middle_.rising, push + 0.5 * step_ * rising);
   return car;

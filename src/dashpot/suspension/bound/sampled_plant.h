@@ -20,8 +20,8 @@ constexpr std::size_t kOnePlace = 4, kForcePlace = 5;  ///< places in [q, q', 1,
 /// function that is affine in state and force is linear in these.
 struct AffineCar {
   SmallMatrix<5, 6> motion;  ///< of [q, q', 1]: its rate, or its value one step later
-  SmallMatrix<1, 6> acceleration, tyre_force,
-      speed;  ///< of the body, beyond the static load, of the damper
+  SmallMatrix<1, 6> acceleration, tyre_force;  ///< of the body; beyond the static load
+  SmallMatrix<1, 6> speed, displacement;       ///< of the damper
 };
 
 /// A quarter car on its road, cell by cell of one step. Within a cell the road is straight.
@@ -64,8 +64,8 @@ class SampledPlant {
   std::vector<Road> road_;
 };
 
-/// Throws Error at a plant that is not linear but for its one damper: not a quarter car, a tyre that
-/// may lift, stops, friction.
+/// Throws Error at a plant that is not linear but for its one damper: not a quarter car, a tyre
+/// that may lift, stops, friction.
 void require_quarter_car(const Plant& plant);
 /// The same plant with a spring, N/m, beside its first strut's damper.
 Plant with_spring(Plant plant, double stiffness);

@@ -18,15 +18,14 @@ ForceRange possible_forces(const Vehicle& vehicle, const StrutMotion& within,
   require_quarter_car(vehicle.set.plant);
 
   // At the strut, as the simulation mounts it.
-  return force_range(
-      where + ": " + vehicle.damper_names.front(),
-      [damper](const DamperInput& strut) {
-        return damper.at_strut(damper.model->force(damper.at_damper(strut), {}));
-      },
-      {.current_min = least,
-       .current_max = greatest,
-       .velocity = within.speed,
-       .displacement = damper.model->needs_displacement() ? within.travel : 0});
+  return force_range(where + ": " + vehicle.damper_names.front(),
+                     [damper](const DamperInput& strut) {
+                       return damper.at_strut(damper.model->force(damper.at_damper(strut), {}));
+                     },
+                     {.current_min = least,
+                      .current_max = greatest,
+                      .velocity = within.speed,
+                      .displacement = damper.model->needs_displacement() ? within.travel : 0});
 }
 
 std::vector<ClairvoyantBound> front_of_ride(const Plant& plant, const GroundMotion& ground,
