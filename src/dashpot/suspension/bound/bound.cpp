@@ -75,11 +75,13 @@ std::optional<double> certified_best(const Plant& plant, const SampledPlant& car
                                      const RideIndex& index, const Relaxation& relaxed,
                                      const MotionSquares& motion, double size) {
   if (relaxed.best.limits.empty()) return {};
+  LimitCourse best = relaxed.best;
+  tame(best, 30);
   constexpr double kPulls[] = {0, 0.003, 0.01, 0.03, 0.1, 0.3, 1};
   for (double part = 1; part > 1e-6; part /= 10)
     for (const double pull : kPulls) {
-      const LimitCourse course = on_cells(mixed(relaxed.best, relaxed.constant, pull, part),
-                                          car.cells(), coarse.step() / car.step());
+      const LimitCourse course = on_cells(mixed(best, relaxed.constant, pull, part), car.cells(),
+                                          coarse.step() / car.step());
       const std::optional<double> least =
           certified_minimum(plant, car, range, index, course, motion, size);
       if (least) return least;

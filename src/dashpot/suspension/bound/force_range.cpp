@@ -344,6 +344,9 @@ std::vector<ForceLimit> sector_limits(const ForceRange& range) {
     for (std::size_t k = 0; k <= last; ++k)
       for (const double share : {0.0, 1.0})
         include(range.velocity[k], range.force(range.velocity[k], share));
+    if (!range.ends)  // far outside of the table its last pieces decide
+      for (const double v : {2 * range.velocity[0] - 1, 2 * range.velocity[last] + 1})
+        for (const double share : {0.0, 1.0}) include(v, rest + range.piece(v, share).slope * v);
     if (!std::isfinite(least)) continue;
 
     // A limit that some constant makes hold all along the range, and that is not known yet.

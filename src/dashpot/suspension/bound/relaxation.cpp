@@ -306,7 +306,7 @@ Relaxation relax(const SampledPlant& car, const ForceRange& range, const RideInd
   if (sectors.unknowns() == 0) return {};
   Climb climb{car, dual, options.size, options.iterations};
   if (!climb.start(sectors, curvature)) return {};
-  climb.up(sectors, 1);
+  for (const double height : {1.0, 0.1, 0.01}) climb.up(sectors, height);
   Relaxation found{.best = {}, .constant = course_of(sectors, climb.x, climb.block)};
   for (const std::size_t block : {16, 4}) {
     climb.set_block(sectors, block * options.block);
@@ -353,6 +353,19 @@ LimitCourse on_cells(const LimitCourse& course, std::size_t cells, double ratio)
     to.limits.push_back(course.limits[std::min(there / course.block, course.limits.size() - 1)]);
   }
   return to;
+}
+
+void tame(LimitCourse& course, double factor) {
+  std::vector<double> sizes;
+  for (const ForceLimit& limit : course.limits) sizes.push_back(std::abs(limit.ff));
+  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+  std::nth_element(sizes.begin(), middle, sizes.end());
+  const double greatest = factor * *middle;
+  for (ForceLimit& limit : course.limits) {
+    const double size = std::abs(limit.ff);
+    if (!(size > greatest)) continue;
+    for (const auto one : kCoefficients) limit.*one *= greatest / size;
+  }
 }
 
 LimitCourse mixed(const LimitCourse& a, const LimitCourse& b, double share_of_b, double size_of_b) {

@@ -27,6 +27,10 @@ Relaxation relax(const SampledPlant& car, const ForceRange& range, const RideInd
 /// one of before.
 LimitCourse on_cells(const LimitCourse& course, std::size_t cells, double ratio);
 
+/// Makes limits smaller, as any positive factor may, whose curvature is above so many times the
+/// middle one: a climb drives them up where they matter to nothing, as on a car that stands.
+void tame(LimitCourse& course, double factor);
+
 /// share of a, the rest of b; block by block, b having one block only.
 LimitCourse mixed(const LimitCourse& a, const LimitCourse& b, double share_of_b, double size_of_b);
 
