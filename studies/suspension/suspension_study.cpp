@@ -173,7 +173,9 @@ std::vector<ClairvoyantBound> front_of(const SuspensionStudy& study, const Groun
 
 void add_bounds(SuspensionStudy& study, const GroundMotion& road) {
   const SchemeRide& passive = study.rides.front();
-  const ForceRange range = model_range(*study.damper.model, 0, study.limits.current_max, kFastest);
+  const ForceRange range = model_range(
+      *study.damper.model,
+      {.current_min = 0, .current_max = study.limits.current_max, .velocity = 2 * kFastest});
   study.road_front = front_of(study, road, range, passive.on_road, study.options.road_duration);
   const GroundPointer step = make_ground("step,height=3cm", 1);
   study.step_front = front_of(study, *step, range, passive.on_step, study.options.step_duration);

@@ -184,8 +184,8 @@ DocumentSection possible_section(const SuspensionStudy& study) {
   // A reason for the gap between bound and optimum.
   section.remarks.push_back(
       "The range is the network's own, from its least to its greatest force over all currents at "
-      "each velocity, in proportion beyond 1.5 m/s. It is lopsided and bent; the quadratic limits "
-      "of the proof hold it in with room to spare, which is part of the gap.");
+      "each velocity up to 3 m/s, twice the fastest on the bench: the bounds are for rides that "
+      "stay within. They are checked in interval arithmetic.");
   return section;
 }
 

@@ -70,6 +70,7 @@ Value front_json(const std::vector<ClairvoyantBound>& front) {
     list.push_back(Value::object({{"comfort_weight", best.index.comfort},
                                   {"holding_weight", best.index.holding},
                                   {"bound", best.bound},
+                                  {"proven", best.proven},
                                   {"optimum", best.optimum},
                                   {"gap", best.gap()},
                                   {"at_optimum", squares_json(best.squares)}}));

@@ -20,7 +20,7 @@ std::vector<FigureSeries> front_lines(const std::vector<ClairvoyantBound>& front
 /// Root of an index: as root mean squares are compared.
 double root_of(const RideIndex& index, const RideSquares& squares);
 /// "64": how much of what is possible beyond passive a controller reaches, %, of roots of the
-/// index; below 0 where it is worse than passive.
+/// index; below 0 where it is worse than passive; "-" where next to nothing is possible.
 std::string possible_text(const ClairvoyantBound& best, const RideSquares& passive,
                           const RideSquares& controller);
 

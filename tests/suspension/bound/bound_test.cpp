@@ -1,6 +1,8 @@
 #include "dashpot/suspension/bound/bound.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 #include "dashpot/base/random.h"
 #include "dashpot/numerics/linear_algebra.h"
@@ -29,6 +31,31 @@ RideSquares ride(const Plant& plant, const GroundMotion& ground, const ForceRang
   return ride_squares(simulate({plant, dampers, ground, controller.get()},
                                {.duration = duration, .output_step = 2.5e-4, .limits = limits}),
                       plant);
+}
+
+ForceRange bent_range() {
+  ForceRange range;
+  range.velocity = {-1, -0.2, 0, 0.1, 0.8};
+  range.soft = {-1500, -500, 0, 300, 2000};
+  range.hard = {-4000, -2500, 0, 2000, 6000};
+  return range;
+}
+
+/// A damper that is not like any model of Dashpot: lopsided, with an offset, a spring that gets
+/// stiffer, a force that hangs on the sign of the displacement, and bends in the velocity.
+StaticForce odd_damper(Random& random) {
+  const double yield = 800 * random.uniform(), viscous = 200 + 1500 * random.uniform(),
+               bend = 0.02 + 0.2 * random.uniform(), lopsided = 0.5 + random.uniform(),
+               offset = 300 * (random.uniform() - 0.5), spring = 2e4 * (random.uniform() - 0.5),
+               cubic = 1e6 * (random.uniform() - 0.5), shift = 0.05 * (random.uniform() - 0.5);
+  return [=](const DamperInput& at) {
+    const double v = at.velocity + shift * (at.displacement > 0 ? 1 : -1);
+    const double share = 0.15 + at.current * (0.5 + 0.35 * at.current);
+    const double side = v > 0 ? lopsided : 1;
+    return side * (share * yield * std::tanh(v / bend) + (0.5 + at.current) * viscous * v) +
+           offset + spring * at.displacement +
+           cubic * at.displacement * at.displacement * at.displacement;
+  };
 }
 
 }  // namespace
@@ -81,9 +108,14 @@ TEST_CASE("without limits the certificate is the linear regulator's cost") {
     cost += kStep * rate(middle, d);
     for (int i = 0; i < 4; ++i) x[i] += kStep * d[i];
   }
-  const std::optional<double> least = certified_minimum(car, {}, index, {car.cells(), 0, {}});
+  ForceRange any = damping_range(0, 1e4);
+  any.ends = true;
+  const LimitCourse no_limits{.block = car.cells(), .limits = {ForceLimit{}}};
+  const std::optional<double> least =
+      certified_minimum(plant, car, any, index, no_limits, {1, 1, 10, 10}, cost);
   REQUIRE(least);
-  CHECK_CLOSE(*least, cost, 1e-5, 0);
+  CHECK(*least <= cost * (1 + 1e-6));  // the midpoint rule's own error
+  CHECK_CLOSE(*least, cost, 1e-4, 0);
 }
 
 TEST_CASE("with one damping there is one motion, and a narrow range lies close to it") {
@@ -119,8 +151,9 @@ TEST_CASE(
         shares.insert(shares.end(), kCells, static_cast<double>(rest % kLevels) / (kLevels - 1));
       least = std::min(least, follow_shares(car, range, index, shares).value);
     }
-    const ClairvoyantBound found =
-        clairvoyant_bound(light_car(), *ground, range, index, {.duration = duration});
+    const ClairvoyantBound found = clairvoyant_bound(light_car(), *ground, range, index,
+                                                     {.duration = duration, .search_step = 2e-3});
+    CHECK(found.proven);
     CHECK(found.bound <= least);
     CHECK(found.optimum <= least * (1 + 1e-3));
     CHECK(found.bound <= found.optimum);
@@ -135,20 +168,31 @@ TEST_CASE("any multipliers bound from below, good ones and random ones") {
   const RideIndex index{1, 2e-6};
   const double optimum =
       improve(car, range, index, {0, std::vector<double>(car.cells(), 0.3)}).value;
+  const MotionSquares motion{1e-4, 1e-4, 1e-2, 1e-2};
+  const auto certified_with = [&](const std::vector<double>& multipliers) {
+    LimitCourse course{.block = car.cells() / multipliers.size(), .limits = {}};
+    for (const double multiplier : multipliers) {
+      ForceLimit limit = sector_limits(range).front();
+      for (const auto one : {&ForceLimit::ff, &ForceLimit::fv, &ForceLimit::vv})
+        limit.*one *= multiplier;
+      course.limits.push_back(limit);
+    }
+    return certified_minimum(light_car(), car, range, index, course, motion, optimum);
+  };
   Random random(1);
   int certified = 0;
   for (int k = 0; k < 20; ++k) {
-    Multipliers multipliers{.block = 50, .limits = 1, .values = {}};
+    std::vector<double> multipliers;
     for (int block = 0; block < 20; ++block)
-      multipliers.values.push_back(4e-6 * std::exp((k < 10 ? 0.3 : 3) * random.normal()));
-    const auto least = certified_minimum(car, force_limits(range), index, multipliers);
+      multipliers.push_back(4e-6 * std::exp((k < 10 ? 0.3 : 3) * random.normal()));
+    const auto least = certified_with(multipliers);
     if (!least) continue;
     ++certified;
     CHECK(*least <= optimum);
   }
   CHECK(certified >= 10);
   // Multipliers that leap up: the minimum is minus infinity, and that is found out.
-  CHECK_FALSE(certified_minimum(car, force_limits(range), index, {500, 1, {1e-9, 10}}));
+  CHECK_FALSE(certified_with({1e-9, 10}));
 }
 
 TEST_CASE("no controller beats the bound or the optimum, and the gap is small") {
@@ -179,30 +223,26 @@ TEST_CASE("no controller beats the bound or the optimum, and the gap is small") 
 }
 
 TEST_CASE("limits hold a range in, also a bent and lopsided one") {
-  const ForceRange bent{
-      {-1, -0.2, 0, 0.1, 0.8}, {-1500, -500, 0, 300, 2000}, {-4000, -2500, 0, 2000, 6000}};
+  const ForceRange bent = bent_range();
   for (const ForceRange& range : {damping_range(300, 3900), bent}) {
-    const std::vector<ForceLimit> limits = force_limits(range);
+    const std::vector<ForceLimit> limits = sector_limits(range);
     REQUIRE(!limits.empty());
     for (const ForceLimit& limit : limits)
       for (int k = -300; k <= 300; ++k)
         for (const double share : {0.0, 0.1, 0.5, 1.0}) {
           const double v = 0.01 * k, force = range.force(v, share);
-          const double q =
-              limit.ff * force * force + limit.fv * force * v + limit.vv * v * v + limit.one;
-          CHECK(q >= -1e-9 * force * force - 1e-9);
+          CHECK(limit.at(0, v, force) >= -1e-9 * force * force - 1e-9);
         }
   }
-  const std::vector<ForceLimit> exact = force_limits(damping_range(300, 3900));
+  const std::vector<ForceLimit> exact = sector_limits(damping_range(300, 3900));
   REQUIRE(exact.size() == 1);
-  CHECK_CLOSE(exact[0].fv, 4200, 1e-12, 0);
-  CHECK_CLOSE(exact[0].vv, -300 * 3900, 1e-12, 0);
+  CHECK_CLOSE(exact[0].fv, 4200, 1e-11, 0);
+  CHECK_CLOSE(exact[0].vv, -300 * 3900, 1e-10, 0);
   CHECK_CLOSE(exact[0].one, 0, 0, 1e-9);
 }
 
 TEST_CASE("a force that slows its own motion lies on the range") {
-  const ForceRange bent{
-      {-1, -0.2, 0, 0.1, 0.8}, {-1500, -500, 0, 300, 2000}, {-4000, -2500, 0, 2000, 6000}};
+  const ForceRange bent = bent_range();
   for (const double free : {-2.0, -0.21, -0.01, 0.0, 0.105, 0.3, 1.0})
     for (const double share : {0.0, 0.7, 1.0}) {
       const double by_force = -1e-5, force = bent.force_against(free, by_force, share);
@@ -222,4 +262,119 @@ TEST_CASE("what has no clairvoyant bound says so") {
   const Plant lifting = load_plant_set("savaresi_spelta", {{"tyres_may_lift", 1}}).plant;
   CHECK(bound(lifting).find("is not linear but for its damper") != std::string::npos);
   CHECK(message_of([] { damping_range(2, 1); }) == "damping range: least 2, greatest 1");
+}
+
+TEST_CASE("a spring inside a damper: the review's counter-example") {
+  // Passive at 1500 N*s/m with a stiffness of -15 kN/m: the range at displacement 0 knows nothing
+  // of it, and what is then proven is beaten by the passive damper itself.
+  const auto spring = [](double stiffness) {
+    return [stiffness](const DamperInput& at) {
+      return (1450 + 100 * at.current) * at.velocity + stiffness * at.displacement;
+    };
+  };
+  const RangeLimits limits{.current_min = 0, .current_max = 1, .velocity = 2, .displacement = 0.1};
+  const ForceRange range = force_range("odd", spring(-15e3), limits),
+                   blind = damping_range(1450, 1550);
+  CHECK_CLOSE(range.stiffness, -15e3, 1e-6, 0);
+
+  const GroundPointer ground = road(4);
+  const double duration = 2;
+  const RideIndex comfort{1, 0};
+  const BoundOptions options{.duration = duration, .iterations = 20};
+  const double passive = ride(light_car(), *ground, range, "constant", {}, duration).of(comfort);
+  const ClairvoyantBound wrong = clairvoyant_bound(light_car(), *ground, blind, comfort, options),
+                         right = clairvoyant_bound(light_car(), *ground, range, comfort, options);
+  CHECK(wrong.bound > passive);
+  CHECK(right.proven);
+  CHECK(right.bound < passive);
+  CHECK(right.bound > 0.5 * passive);
+}
+
+TEST_CASE("no random damper in a random car beats its bound") {
+  // DASHPOT_BOUND_CASES=10000 for more of them.
+  const char* asked = std::getenv("DASHPOT_BOUND_CASES");
+  const int cases = asked ? std::atoi(asked) : 24;
+  int proven = 0, rides = 0, outside = 0;
+  double closest = 1;
+  for (int k = 0; k < cases; ++k) {
+    CAPTURE(k);
+    Random random(static_cast<std::uint64_t>(k) + 1);
+    const auto about = [&](double value) { return value * std::exp(0.4 * random.normal()); };
+    const PlantSet set = load_plant_set("savaresi_spelta", {{"sprung_mass", about(400)},
+                                                            {"unsprung_mass", about(50)},
+                                                            {"spring_stiffness", about(20000)},
+                                                            {"tyre_stiffness", about(250000)}});
+    const ForceRange range =
+        force_range("odd", odd_damper(random),
+                    {.current_min = 0, .current_max = 1, .velocity = 3, .displacement = 0.15});
+    const GroundPointer ground =
+        k % 4 == 0 ? make_ground("step,height=3cm", 1)
+                   : make_ground("iso8608,class=D,speed=20,length=40", random.next());
+    const double duration = 0.4;
+    const RideSquares unit{1, 1e6};
+    const RideIndex index = weighted_index(0.5 * (k % 3), unit);
+    const ClairvoyantBound found = clairvoyant_bound(set.plant, *ground, range, index,
+                                                     {.duration = duration, .iterations = 10});
+    proven += found.proven;
+    if (!found.proven) continue;
+    CHECK(found.bound <= found.optimum);
+    closest = std::min(closest, found.gap());
+
+    // Controllers of Dashpot, and demands at random, on the damper itself.
+    const std::vector<MountedDamper> dampers{mounted(range)};
+    const ControlLaw* law = control_laws()[random.next() % control_laws().size()];
+    std::vector<double> shares;
+    while (shares.size() < 400)
+      shares.insert(shares.end(), 1 + random.next() % 50, random.uniform());
+    const ControlLimits limits{.damping_min = 200, .damping_max = 3000, .current_max = 1};
+    const ControllerPointer controllers[] = {
+        make_controller(std::string(law->name), {limits, set.plant}), play_shares(shares)};
+    for (const ControllerPointer& controller : controllers) {
+      const Trace trace = simulate({set.plant, dampers, *ground, controller.get()},
+                                   {.duration = duration, .output_step = 2.5e-4, .limits = limits});
+      ++rides;
+      outside += std::ranges::max(trace.record.channel("suspension_deflection").samples) > 0.15;
+      CHECK(ride_squares(trace, set.plant).of(index) >= found.bound);
+    }
+  }
+  CHECK(proven >= 0.95 * cases);
+  CHECK(outside == 0);
+  CHECK(closest < 0.3);  // bounds that say something
+  MESSAGE(proven << " bounds proven of " << cases << ", " << rides
+                 << " rides, none below; least gap of squares " << closest);
+}
+
+TEST_CASE("what is proposed and wrong is not proven") {
+  const GroundPointer ground = road();
+  const SampledPlant car(light_car(), *ground, 0.01, 1e-3);
+  const ForceRange range = damping_range(300, 3900);
+  const RideIndex index{1, 0};
+  ForceLimit sector = sector_limits(range).front();
+  for (const auto one : {&ForceLimit::ff, &ForceLimit::fv, &ForceLimit::vv}) sector.*one *= 1e-7;
+  const LimitCourse course{.block = car.cells(), .limits = {sector}};
+  const Certificate fresh(light_car(), car, range, index, course);
+  REQUIRE(fresh.limit(0));
+
+  // A V that is too high before the end of time, where it is 0.
+  StateForm rises;
+  for (std::size_t i = 0; i < 5; ++i) rises(i, i) = 1;
+  Certificate certificate = fresh;
+  CHECK_FALSE(certificate.back_to(0, 1e-3 * rises, -1 * rises, -1 * rises));
+  CHECK_FALSE(certificate.bound());
+
+  // Limits that a damper breaks: of a narrower range, and convex ones.
+  ForceLimit narrow = sector;
+  narrow.vv = -1e-7 * 1000 * 3900;
+  narrow.fv = 1e-7 * 4900;
+  const LimitCourse broken{.block = car.cells(), .limits = {narrow}};
+  CHECK_FALSE(Certificate(light_car(), car, range, index, broken).limit(0));
+  ForceLimit convex = sector;
+  convex.ff = 1e-7;
+  const LimitCourse bent{.block = car.cells(), .limits = {convex}};
+  CHECK_FALSE(Certificate(light_car(), car, range, index, bent).limit(0));
+}
+
+TEST_CASE("little possible gain has no share") {
+  CHECK(std::isnan(share_of_possible(1, 1.2, 0.97)));
+  CHECK_CLOSE(share_of_possible(1, 0.9, 0.8), 0.5, 1e-12, 0);
 }

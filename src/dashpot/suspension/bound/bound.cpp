@@ -5,6 +5,7 @@
 
 #include "dashpot/base/parallel.h"
 #include "dashpot/error.h"
+#include "dashpot/numerics/interval.h"
 #include "dashpot/suspension/bound/optimum.h"
 #include "dashpot/suspension/bound/relaxation.h"
 
@@ -67,6 +68,27 @@ Course best_course(const SampledPlant& car, const ForceRange& range, const RideI
   return best;
 }
 
+/// What the best limits prove. A climb may end at an edge that only its cells have: then the limits
+/// that stay pull it back, or less of them.
+std::optional<double> certified_best(const Plant& plant, const SampledPlant& car,
+                                     const SampledPlant& coarse, const ForceRange& range,
+                                     const RideIndex& index, const Relaxation& relaxed,
+                                     const MotionSquares& motion, double size) {
+  if (relaxed.best.limits.empty()) return {};
+  LimitCourse best = relaxed.best;
+  tame(best, 30);
+  constexpr double kPulls[] = {0, 0.003, 0.01, 0.03, 0.1, 0.3, 1};
+  for (double part = 1; part > 1e-6; part /= 10)
+    for (const double pull : kPulls) {
+      const LimitCourse course = on_cells(mixed(best, relaxed.constant, pull, part), car.cells(),
+                                          coarse.step() / car.step());
+      const std::optional<double> least =
+          certified_minimum(plant, car, range, index, course, motion, size);
+      if (least) return least;
+    }
+  return {};
+}
+
 }  // namespace
 
 RideSquares ride_squares(const Trace& trace, const Plant& plant) {
@@ -99,11 +121,15 @@ std::vector<double> shares_of(const Trace& trace, const Plant& plant, const Forc
 ClairvoyantBound clairvoyant_bound(const Plant& plant, const GroundMotion& ground,
                                    const ForceRange& range, const RideIndex& index,
                                    const BoundOptions& options) {
-  const SampledPlant car(plant, ground, options.duration, options.step);
+  // The range's spring works beside the plant's own.
+  require_quarter_car(plant);
+  const Plant sprung = with_spring(plant, range.stiffness);
+  const SampledPlant car(sprung, ground, options.duration, options.step);
   ClairvoyantBound found{.index = index, .squares = {}, .shares = {}};
 
   // The optimum: demands that the search finds, simulated.
-  found.shares = best_course(car, range, index, options.starts).shares;
+  const Course course = best_course(car, range, index, options.starts);
+  found.shares = course.shares;
   found.squares = simulated(plant, ground, range, found.shares, options);
   found.optimum = found.squares.of(index);
 
@@ -113,11 +139,17 @@ ClairvoyantBound clairvoyant_bound(const Plant& plant, const GroundMotion& groun
     return found;
   }
 
-  // The bound: multipliers sought on coarser cells, certified on the fine ones.
-  const SampledPlant coarse(plant, ground, options.duration, options.search_step);
-  found.bound =
-      relax(car, coarse, force_limits(range), index, {.block = 1, .iterations = options.iterations})
-          .bound;
+  // The bound: limits sought on coarser cells, certified on the fine ones.
+  const SampledPlant coarse(sprung, ground, options.duration, options.search_step);
+  const MotionSquares motion = motion_under(car, range, found.shares);
+  const Relaxation relaxed = relax(
+      coarse, range, index, {.block = 1, .iterations = options.iterations, .size = course.value});
+  const std::optional<double> least =
+      certified_best(sprung, car, coarse, range, index, relaxed, motion, course.value);
+  if (!least) return found;
+  const double duration = car.step() * static_cast<double>(car.cells());
+  found.bound = std::max(0.0, (Interval(*least) / Interval(duration)).low);
+  found.proven = true;
   return found;
 }
 
@@ -133,6 +165,7 @@ std::vector<ClairvoyantBound> clairvoyant_front(const Plant& plant, const Ground
 }
 
 double share_of_possible(double passive, double controller, double optimum) {
+  if (!(passive - optimum >= kLeastPossible * passive)) return NAN;
   return (passive - controller) / (passive - optimum);
 }
 

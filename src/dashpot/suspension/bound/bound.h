@@ -29,8 +29,8 @@ RideIndex weighted_index(double comfort, const RideSquares& reference);
 struct BoundOptions {
   double duration = 10;       ///< s
   double step = 1e-3;         ///< s, for which the optimum holds its demand
-  double search_step = 2e-3;  ///< s, of the cells on which multipliers are sought
-  int iterations = 60;        ///< of each climb to better multipliers
+  double search_step = 4e-3;  ///< s, of the cells on which limits are sought
+  int iterations = 60;        ///< of each climb to better limits
   std::vector<std::vector<double>>
       starts;  ///< shares per step that the optimum shall not fall behind
   int threads = 0;
@@ -39,17 +39,20 @@ struct BoundOptions {
 /// Bound and optimum of one index on one road.
 struct ClairvoyantBound {
   RideIndex index;
-  double bound = 0;            ///< proven: no force within the range makes the index less
+  double bound = 0;            ///< no force within the range makes the index less
   double optimum = 0;          ///< simulated: what the demands below reach
   RideSquares squares;         ///< of the optimum
   std::vector<double> shares;  ///< demands, per step, from softest (0) to hardest (1)
+  bool proven = false;         ///< the bound, by a certificate in interval arithmetic; else it is 0
 
   double gap() const { return optimum > 0 ? (optimum - bound) / optimum : 0; }
 };
 
 /// For every force F(t) within the range at each instant, however made, the index of this quarter
-/// car on this road, straight within steps, is at least `bound`. Throws Error at a plant that is
-/// not a linear quarter car.
+/// car on this road, straight within steps, is at least `bound`. Where the range ends, or holds for
+/// a travel only, that is said of the rides that stay within these. With one force for each motion,
+/// where there is nothing to choose, the bound is the index of the one ride there is, simulated.
+/// Throws Error at a plant that is not a linear quarter car.
 ClairvoyantBound clairvoyant_bound(const Plant& plant, const GroundMotion& ground,
                                    const ForceRange& range, const RideIndex& index,
                                    const BoundOptions& options);
@@ -61,7 +64,9 @@ std::vector<ClairvoyantBound> clairvoyant_front(const Plant& plant, const Ground
                                                 const BoundOptions& options);
 
 /// How much of what is possible a controller reaches: (passive - controller) / (passive - optimum).
+/// NaN where next to nothing is possible: the optimum is less than kLeastPossible better.
 double share_of_possible(double passive, double controller, double optimum);
+inline constexpr double kLeastPossible = 0.05;  ///< of passive
 
 /// Shares per step that a damper had in a trace whose output step is BoundOptions::step: a start
 /// for the optimum.

@@ -23,6 +23,11 @@ double at(const SmallMatrix<1, 6>& row, const State& z) {
   return sum;
 }
 
+/// The forces at the displacement that the damper has in the middle of a cell.
+const ForceRange& forces_at(const AffineCar& now, const ForceRange& range, const State& z) {
+  return range.parts.empty() ? range : range.at(at(now.displacement, z));
+}
+
 /// Along cells under forces as choose(cell, state, softest, hardest) asks for, clipped to the
 /// range.
 template <class Choose>
@@ -34,8 +39,9 @@ Path run(const SampledPlant& car, const ForceRange& range, const RideIndex& inde
     // The force that is chosen, clipped to what the damper can give at this speed.
     const AffineCar now = car.over(cell);
     const double free = at(now.speed, z), by_force = now.speed(0, kForcePlace);
-    const double soft = range.force_against(free, by_force, 0),
-                 hard = range.force_against(free, by_force, 1);
+    const ForceRange& forces = forces_at(now, range, z);
+    const double soft = forces.force_against(free, by_force, 0),
+                 hard = forces.force_against(free, by_force, 1);
     const double force =
         std::clamp(choose(cell, z, free, by_force), std::min(soft, hard), std::max(soft, hard));
 
@@ -45,7 +51,7 @@ Path run(const SampledPlant& car, const ForceRange& range, const RideIndex& inde
     path.sum += car.step() * (index.comfort * a * a + index.holding * w * w);
     path.states.push_back(z);
     path.forces.push_back(force);
-    path.shares.push_back(range.share(free + by_force * force, force));
+    path.shares.push_back(forces.share(free + by_force * force, force));
 
     // One cell further.
     SmallMatrix<6, 1> joint;
@@ -75,13 +81,14 @@ std::vector<Law> sweep_back(const SampledPlant& car, const ForceRange& range,
     const double free = at(now.speed, z), by_force = now.speed(0, kForcePlace);
 
     const double wanted = (law * z)(0, 0);
-    const double soft = range.force_against(free, by_force, 0),
-                 hard = range.force_against(free, by_force, 1);
+    const ForceRange& forces = forces_at(now, range, z);
+    const double soft = forces.force_against(free, by_force, 0),
+                 hard = forces.force_against(free, by_force, 1);
     const bool outside = wanted < std::min(soft, hard) || wanted > std::max(soft, hard);
     if (outside) {
       const bool is_hard = std::abs(wanted - hard) < std::abs(wanted - soft);
       const double force = is_hard ? hard : soft;
-      const auto [slope, offset] = range.piece(free + by_force * force, is_hard ? 1 : 0);
+      const auto [slope, offset] = forces.piece(free + by_force * force, is_hard ? 1 : 0);
       for (std::size_t j = 0; j < 5; ++j)
         law(0, j) =
             (slope * now.speed(0, j) + (j == kOnePlace ? offset : 0)) / (1 - slope * by_force);
@@ -104,9 +111,10 @@ Course course_of(const SampledPlant& car, Path path) {
 
 Path path_of_shares(const SampledPlant& car, const ForceRange& range, const RideIndex& index,
                     const std::vector<double>& shares) {
-  return run(car, range, index, [&](std::size_t cell, const State&, double free, double by_force) {
-    return range.force_against(free, by_force, shares[cell]);
-  });
+  return run(
+      car, range, index, [&](std::size_t cell, const State& z, double free, double by_force) {
+        return forces_at(car.over(cell), range, z).force_against(free, by_force, shares[cell]);
+      });
 }
 
 }  // namespace
@@ -114,6 +122,16 @@ Path path_of_shares(const SampledPlant& car, const ForceRange& range, const Ride
 Course follow_shares(const SampledPlant& car, const ForceRange& range, const RideIndex& index,
                      const std::vector<double>& shares) {
   return course_of(car, path_of_shares(car, range, index, shares));
+}
+
+MotionSquares motion_under(const SampledPlant& car, const ForceRange& range,
+                           const std::vector<double>& shares) {
+  MotionSquares squares{};
+  const Path path = path_of_shares(car, range, {}, shares);
+  for (const State& z : path.states)
+    for (std::size_t i = 0; i < squares.size(); ++i)
+      squares[i] += z(i, 0) * z(i, 0) / static_cast<double>(car.cells());
+  return squares;
 }
 
 Course improve(const SampledPlant& car, const ForceRange& range, const RideIndex& index,

@@ -3,6 +3,7 @@
 
 #include "dashpot/suspension/bound/force_range.h"
 #include "dashpot/suspension/bound/sampled_plant.h"
+#include "dashpot/suspension/bound/storage_function.h"
 
 namespace dashpot {
 
@@ -15,6 +16,10 @@ struct Course {
 /// Under shares that are given.
 Course follow_shares(const SampledPlant& car, const ForceRange& range, const RideIndex& index,
                      const std::vector<double>& shares);
+
+/// How far the car moves under them.
+MotionSquares motion_under(const SampledPlant& car, const ForceRange& range,
+                           const std::vector<double>& shares);
 
 /// From a course to a better one, until none is found: a Riccati sweep back along the course, in
 /// which a force at an end of its range stays there and one inside is free, gives a law per cell; a

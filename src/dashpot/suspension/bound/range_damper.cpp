@@ -1,18 +1,38 @@
 #include "dashpot/suspension/bound/range_damper.h"
 
+#include <algorithm>
+
 namespace dashpot {
+
+double RangeDamper::force(const DamperInput& input, std::span<const double>) const noexcept {
+  const double wanted = range_.at(input.displacement).force(input.velocity, input.current) +
+                        range_.stiffness * input.displacement;
+  if (!range_.reach) return wanted;
+  const auto [least, greatest] = range_.reach(input.displacement, input.velocity);
+  return std::clamp(wanted, least, greatest);
+}
 
 std::unique_ptr<DamperModel> RangeDamper::with_offset(double newton) const {
   ForceRange moved = range_;
-  for (double& force : moved.soft) force += newton;
-  for (double& force : moved.hard) force += newton;
+  if (moved.reach)
+    moved.reach = [reach = range_.reach, newton](double displacement, double velocity) {
+      const auto [least, greatest] = reach(displacement, velocity);
+      return std::pair{least + newton, greatest + newton};
+    };
+  const auto move = [newton](ForceRange& range) {
+    for (double& force : range.soft) force += newton;
+    for (double& force : range.hard) force += newton;
+  };
+  move(moved);
+  for (ForceRange& part : moved.parts) move(part);
   return std::make_unique<RangeDamper>(std::move(moved));
 }
 
 Value RangeDamper::to_json() const {
   return Value::object({{"velocity", Value::array(range_.velocity)},
                         {"soft", Value::array(range_.soft)},
-                        {"hard", Value::array(range_.hard)}});
+                        {"hard", Value::array(range_.hard)},
+                        {"stiffness", range_.stiffness}});
 }
 
 MountedDamper mounted(const ForceRange& range) {

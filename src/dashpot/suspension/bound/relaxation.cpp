@@ -1,345 +1,379 @@
 #include "dashpot/suspension/bound/relaxation.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <memory>
 
-#include "dashpot/error.h"
 #include "dashpot/numerics/minimise.h"
+#include "dashpot/suspension/bound/limited_cost.h"
 
 namespace dashpot {
 namespace {
 
-using Form = SmallMatrix<6, 6>;    // over [q, q', 1, F]
-using Value5 = SmallMatrix<5, 5>;  // over [q, q', 1]
+/// The coefficients of a limit, for loops over them.
+constexpr double ForceLimit::* kCoefficients[] = {
+    &ForceLimit::ff, &ForceLimit::fv, &ForceLimit::vv, &ForceLimit::f,  &ForceLimit::v,
+    &ForceLimit::fx, &ForceLimit::vx, &ForceLimit::x,  &ForceLimit::one};
 
-SmallMatrix<1, 6> unit_row(std::size_t place) {
-  SmallMatrix<1, 6> row;
-  row(0, place) = 1;
-  return row;
-}
-
-/// form += weight q(v, F)
-void add_limit(Form& form, double weight, const ForceLimit& limit, const SmallMatrix<1, 6>& speed) {
-  static const SmallMatrix<1, 6> force = unit_row(kForcePlace), one = unit_row(kOnePlace);
-  add_product(form, weight * limit.ff, force, force);
-  add_product(form, weight * limit.fv, force, speed);
-  add_product(form, weight * limit.vv, speed, speed);
-  add_product(form, weight * limit.one, one, one);
-}
-
-/// The integrand of L.
-Form integrand(const AffineCar& car, const std::vector<ForceLimit>& limits, const RideIndex& index,
-               const double* multipliers) {
-  Form form = cost_form(car, index);
-  for (std::size_t j = 0; j < limits.size(); ++j)
-    add_limit(form, -multipliers[j], limits[j], car.speed);
-  return form;
-}
-
-/// The minimum of a form over F: a form over [q, q', 1], and the F at which it lies, a row over the
-/// same.
-struct Minimum {
-  Value5 value;
-  SmallMatrix<1, 5> law;
-};
-Minimum minimum_over_force(const Form& form) {
-  Minimum out;
-  for (std::size_t j = 0; j < 5; ++j)
-    out.law(0, j) = -form(kForcePlace, j) / form(kForcePlace, kForcePlace);
-  for (std::size_t i = 0; i < 5; ++i)
-    for (std::size_t j = 0; j < 5; ++j)
-      out.value(i, j) = form(i, j) + form(i, kForcePlace) * out.law(0, j);
-  return out;
-}
-
-/// form += 2 z'P (rate of z), or z+'P z+ where `motion` is a whole step.
-void add_value(Form& form, const Value5& p, const SmallMatrix<5, 6>& motion, bool whole_step) {
-  const SmallMatrix<5, 6> moved = p * motion;
-  if (whole_step) {
-    form = form + transposed(motion) * moved;
-    return;
-  }
-  for (std::size_t i = 0; i < 5; ++i)
-    for (std::size_t j = 0; j < 6; ++j) {
-      form(i, j) += moved(i, j);
-      form(j, i) += moved(i, j);
-    }
-}
-
-// The certificate: the Riccati equation in continuous time, by Runge-Kutta in as many steps as a
-// cell needs.
-
-class Certificate {
+/// The minimum of L by its limits, with a barrier before the edge of those that have none: the sum
+/// over cells of barrier * log(R), R being the curvature of L by a cell's force. It is the minimum
+/// of the mean of L under forces that also tremble, less what a measure of order costs.
+class Dual {
  public:
-  Certificate(const SampledPlant& car, const std::vector<ForceLimit>& limits,
-              const RideIndex& index, const Multipliers& multipliers)
-      : car_(car), limits_(limits), index_(index), multipliers_(multipliers) {}
+  Dual(const SampledPlant& car, const RideIndex& index, bool has_displacement)
+      : car_(car),
+        index_(index),
+        has_displacement_(has_displacement),
+        curvature_(car.cells()),
+        law_(car.cells()) {}
 
-  std::optional<double> minimum() {
-    Value5 p;
-    for (std::size_t cell = car_.cells(); cell-- > 0;)
-      if (!back_over(cell, p)) return {};
-    return p(kOnePlace, kOnePlace);
+  /// False where there is no minimum.
+  bool value(const LimitCourse& course, double barrier, double& out) {
+    StateForm value;
+    double logarithms = 0;
+    for (std::size_t cell = car_.cells(); cell-- > 0;) {
+      // One step back: the value over [q, q', 1], least by the force.
+      const AffineCar now = car_.over(cell);
+      const CostForm form = car_.step() * limited_cost(now, course.in(cell), index_) +
+                            transposed(now.motion) * (value * now.motion);
+      curvature_[cell] = form(kForcePlace, kForcePlace);
+      if (!(curvature_[cell] > 0)) return false;
+      const LeastOverForce least = least_over_force(form);
+      value = least.value;
+      law_[cell] = least.law;
+      logarithms += std::log(curvature_[cell]);
+    }
+    out = value(kOnePlace, kOnePlace) + barrier * logarithms;
+    return std::isfinite(out);
+  }
+
+  /// Its slopes by the coefficients of each block's limit, at the course of the last value(): less
+  /// the means of [F^2, F v, v^2, F, v, F x, v x, x, 1] under the law and the trembling.
+  std::vector<ForceLimit> slopes(const LimitCourse& course, double barrier) const {
+    std::vector<ForceLimit> out(course.limits.size());
+    StateForm moment;
+    moment(kOnePlace, kOnePlace) = 1;
+    for (std::size_t cell = 0; cell < car_.cells(); ++cell) {
+      const AffineCar now = car_.over(cell);
+      SmallMatrix<6, 5> lift;
+      for (std::size_t i = 0; i < 5; ++i) {
+        lift(i, i) = 1;
+        lift(kForcePlace, i) = law_[cell](0, i);
+      }
+      CostForm joint = lift * moment * transposed(lift);
+      joint(kForcePlace, kForcePlace) += barrier / curvature_[cell];
+
+      const SmallMatrix<1, 6> with_speed = now.speed * joint;
+      const double h = car_.step();
+      ForceLimit& slope = out[cell / course.block];
+      slope.ff -= h * joint(kForcePlace, kForcePlace);
+      slope.fv -= h * with_speed(0, kForcePlace);
+      slope.vv -= h * (with_speed * transposed(now.speed))(0, 0);
+      slope.f -= h * joint(kForcePlace, kOnePlace);
+      slope.v -= h * with_speed(0, kOnePlace);
+      if (has_displacement_) {
+        const SmallMatrix<1, 6> with_displacement = now.displacement * joint;
+        slope.fx -= h * with_displacement(0, kForcePlace);
+        slope.vx -= h * (with_displacement * transposed(now.speed))(0, 0);
+        slope.x -= h * with_displacement(0, kOnePlace);
+      }
+      slope.one -= h;
+      moment = now.motion * joint * transposed(now.motion);
+    }
+    return out;
   }
 
  private:
-  /// A cell in `steps_` steps and in twice as many, until both agree; the next cell starts with
-  /// half as many.
-  bool back_over(std::size_t cell, Value5& p) {
-    constexpr int kMost = 256;
-    constexpr double kAgree = 1e-10;
-    for (int steps = std::max(1, steps_ / 2); steps <= kMost; steps *= 2) {
-      Value5 coarse = p, fine = p;
-      if (!integrate(cell, steps, coarse) || !integrate(cell, 2 * steps, fine)) continue;
-      if (!(size_of(fine + -1.0 * coarse) <= kAgree * size_of(fine))) continue;
-      p = fine;
-      steps_ = steps;
-      return true;
+  const SampledPlant& car_;
+  const RideIndex& index_;
+  bool has_displacement_;  ///< the limits have it
+  std::vector<double> curvature_;
+  std::vector<SmallMatrix<1, 5>> law_;
+};
+
+/// Limits that hold a range in, by unknowns.
+class LimitFamily {
+ public:
+  virtual ~LimitFamily() = default;
+  virtual std::size_t unknowns() const = 0;
+  virtual ForceLimit limit(const double* x) const = 0;
+  /// The slopes by the unknowns, from those by the limit's coefficients.
+  virtual void slopes(const double* x, const ForceLimit& by_limit, double* by_x) const = 0;
+};
+
+/// Sectors, by the logarithms of their multipliers.
+class SectorFamily final : public LimitFamily {
+ public:
+  explicit SectorFamily(std::vector<ForceLimit> sectors) : sectors_(std::move(sectors)) {}
+  std::size_t unknowns() const override { return sectors_.size(); }
+
+  ForceLimit limit(const double* x) const override {
+    ForceLimit sum;
+    for (std::size_t k = 0; k < sectors_.size(); ++k)
+      for (const auto one : kCoefficients) sum.*one += std::exp(x[k]) * sectors_[k].*one;
+    return sum;
+  }
+
+  void slopes(const double* x, const ForceLimit& by_limit, double* by_x) const override {
+    for (std::size_t k = 0; k < sectors_.size(); ++k) {
+      double sum = 0;
+      for (const auto one : kCoefficients) sum += by_limit.*one * sectors_[k].*one;
+      by_x[k] = std::exp(x[k]) * sum;
+    }
+  }
+
+ private:
+  std::vector<ForceLimit> sectors_;
+};
+
+/// Every limit of a range that ends: any coefficients, of which the constant follows, being less
+/// the least over the range's corners. That least is made smooth: -t log(sum of exp(-q / t)).
+class FreeFamily final : public LimitFamily {
+ public:
+  FreeFamily(const ForceRange& range, double curvature)
+      : corners_(corners(range)), values_(corners_.size()) {
+    // Units in which unknowns are about 1.
+    const double speed = 0.2 * range.velocity.back();
+    const double force = std::max(std::abs(range.force(speed, 1)), 1e-6);
+    const double damping = force / speed;
+    unit_ = {curvature, curvature * damping, curvature * damping * damping, curvature * force,
+             curvature * damping * force};
+    if (range.parts.empty()) return;
+    const double spring = force / (0.2 * range.travel);
+    for (const double unit : {spring, spring * damping, spring * force})
+      unit_.push_back(curvature * unit);
+  }
+
+  void set_smoothness(double smoothness) { smoothness_ = smoothness; }
+  std::size_t unknowns() const override { return unit_.size(); }
+
+  ForceLimit limit(const double* x) const override {
+    ForceLimit q = of(x);
+    q.one = -least(q, nullptr);
+    return q;
+  }
+
+  void slopes(const double* x, const ForceLimit& by_limit, double* by_x) const override {
+    const ForceLimit q = of(x);
+    ForceLimit mean;
+    least(q, &mean);
+    for (std::size_t k = 0; k < unit_.size(); ++k) {
+      const auto one = kCoefficients[k];
+      by_x[k] = (k == 0 ? q.ff : unit_[k]) * (by_limit.*one - by_limit.one * mean.*one);
+    }
+  }
+
+  std::vector<double> unknowns_of(const ForceLimit& q) const {
+    std::vector<double> x{std::log(std::max(-q.ff / unit_[0], 1e-12))};
+    for (std::size_t k = 1; k < unit_.size(); ++k) x.push_back(q.*kCoefficients[k] / unit_[k]);
+    return x;
+  }
+
+ private:
+  ForceLimit of(const double* x) const {
+    ForceLimit q{.ff = -unit_[0] * std::exp(x[0])};
+    for (std::size_t k = 1; k < unit_.size(); ++k) q.*kCoefficients[k] = unit_[k] * x[k];
+    return q;
+  }
+
+  /// And the mean of [F^2, F v, v^2, F, v, F x, v x, x] by the weights of the corners in it.
+  double least(const ForceLimit& q, ForceLimit* mean) const {
+    double least = INFINITY;
+    for (std::size_t k = 0; k < corners_.size(); ++k) {
+      values_[k] = q.at(corners_[k].displacement, corners_[k].velocity, corners_[k].force);
+      least = std::min(least, values_[k]);
+    }
+    constexpr double kNothing = 40;
+    double sum = 0;
+    for (std::size_t k = 0; k < corners_.size(); ++k) {
+      const double above = (values_[k] - least) / smoothness_;
+      if (above > kNothing) continue;
+      const double weight = std::exp(-above);
+      sum += weight;
+      if (!mean) continue;
+      const auto [x, v, f] = corners_[k];
+      mean->ff += weight * f * f;
+      mean->fv += weight * f * v;
+      mean->vv += weight * v * v;
+      mean->f += weight * f;
+      mean->v += weight * v;
+      mean->fx += weight * f * x;
+      mean->vx += weight * v * x;
+      mean->x += weight * x;
+    }
+    if (mean)
+      for (const auto one : kCoefficients) mean->*one /= sum;
+    return least - smoothness_ * std::log(sum);
+  }
+
+  std::vector<RangeCorner> corners_;
+  std::vector<double> unit_;  ///< of the coefficients, in their order
+  double smoothness_ = 1;
+  mutable std::vector<double> values_;
+};
+
+LimitCourse course_of(const LimitFamily& family, const std::vector<double>& x, std::size_t block) {
+  LimitCourse course{.block = block, .limits = {}};
+  for (std::size_t k = 0; k < x.size(); k += family.unknowns())
+    course.limits.push_back(family.limit(x.data() + k));
+  return course;
+}
+
+/// Unknowns of blocks, and the climb from them.
+struct Climb {
+  const SampledPlant& car;
+  Dual& dual;
+  double size;
+  int iterations;
+
+  std::size_t block = 1;
+  std::vector<double> x = {};
+
+  /// The same small multiplier for every sector, as small as a minimum asks for.
+  bool start(const SectorFamily& sectors, double multiplier) {
+    block = car.cells();
+    constexpr int kTries = 16;
+    for (int k = 0; k < kTries; ++k, multiplier /= 4) {
+      x.assign(sectors.unknowns(), std::log(multiplier));
+      double value;
+      if (dual.value(course_of(sectors, x, block), 0, value)) return true;
     }
     return false;
   }
 
-  bool integrate(std::size_t cell, int steps, Value5& p) const {
-    const double h = car_.step() / steps;
-    for (int k = steps; k > 0; --k) {
-      const double end = h * k;
-      Value5 slope[4];
-      if (!slope_of(p, end, cell, slope[0])) return false;
-      if (!slope_of(p + 0.5 * h * slope[0], end - 0.5 * h, cell, slope[1])) return false;
-      if (!slope_of(p + 0.5 * h * slope[1], end - 0.5 * h, cell, slope[2])) return false;
-      if (!slope_of(p + h * slope[2], end - h, cell, slope[3])) return false;
-      p = p + h / 6 * (slope[0] + 2.0 * slope[1] + 2.0 * slope[2] + slope[3]);
+  void set_block(const LimitFamily& family, std::size_t length) {
+    const std::size_t n = family.unknowns(), blocks = (car.cells() + length - 1) / length;
+    std::vector<double> finer;
+    for (std::size_t k = 0; k < blocks; ++k) {
+      const double* from = x.data() + std::min(k * length / block, x.size() / n - 1) * n;
+      finer.insert(finer.end(), from, from + n);
     }
-    return true;
+    x = std::move(finer);
+    block = length;
   }
 
-  /// -dP/dt.
-  bool slope_of(const Value5& p, double into, std::size_t cell, Value5& slope) const {
-    const AffineCar now = car_.at(cell, into);
-    Form form = integrand(now, limits_, index_, multipliers_.in(cell));
-    add_value(form, p, now.motion, false);
-    if (!(form(kForcePlace, kForcePlace) > 0)) return false;
-    slope = minimum_over_force(form).value;
-    return true;
-  }
+  /// height: of the barrier, as a share of the index.
+  void up(const LimitFamily& family, double height) {
+    const std::size_t n = family.unknowns();
+    const double barrier = height * car.step() * size,
+                 scale = size * car.step() * static_cast<double>(car.cells());
+    const std::vector<double> start = x;
+    std::vector<double> unit(x.size(), 1);
+    const auto at = [&](std::span<const double> steps) {
+      for (std::size_t k = 0; k < x.size(); ++k) x[k] = start[k] + unit[k] * steps[k];
+    };
+    const auto fall = [&](std::span<const double> steps, double& value,
+                          std::span<double> gradient) {
+      at(steps);
+      const LimitCourse course = course_of(family, x, block);
+      if (!dual.value(course, barrier, value)) return false;
+      value /= -scale;
+      if (gradient.empty()) return true;
+      const std::vector<ForceLimit> slopes = dual.slopes(course, barrier);
+      for (std::size_t k = 0; k < slopes.size(); ++k)
+        family.slopes(x.data() + k * n, slopes[k], gradient.data() + k * n);
+      for (std::size_t k = 0; k < gradient.size(); ++k) gradient[k] *= -unit[k] / scale;
+      return true;
+    };
 
-  /// The greatest entry, states counted in cm and dm/s.
-  static double size_of(const Value5& p) {
-    constexpr double kUnit[] = {0.01, 0.01, 0.1, 0.1, 1};
-    double greatest = 0;
-    for (std::size_t i = 0; i < 5; ++i)
-      for (std::size_t j = 0; j < 5; ++j) {
-        const double entry = std::abs(p(i, j)) * kUnit[i] * kUnit[j];
-        if (entry > greatest || std::isnan(entry)) greatest = entry;  // and NaN stays
-      }
-    return greatest;
-  }
+    // Unknowns with large slopes take smaller steps.
+    double value;
+    std::vector<double> none(x.size()), gradient(x.size());
+    if (!fall(none, value, gradient)) return;
+    double square = 0;
+    for (const double slope : gradient) square += slope * slope;
+    const double mean = std::sqrt(square / static_cast<double>(gradient.size()));
+    for (std::size_t k = 0; k < unit.size(); ++k)
+      unit[k] = 1 / std::sqrt(std::abs(gradient[k]) / mean + 0.01);
 
-  const SampledPlant& car_;
-  const std::vector<ForceLimit>& limits_;
-  const RideIndex& index_;
-  const Multipliers& multipliers_;
-  int steps_ = 1;
+    at(minimise(fall, none,
+                {.max_iterations = iterations, .function_tolerance = 1e-7, .on_iteration = {}})
+           .x);
+  }
 };
 
-// The search for multipliers, on cells over which the force is held. A little noise keeps it off
-// the edge, where the minimum of L falls to minus infinity: value + noise * sum of tr P falls there
-// first, smoothly.
+}  // namespace
 
-class Dual {
- public:
-  /// noise: variance that each state gains per cell.
-  Dual(const SampledPlant& car, const std::vector<ForceLimit>& limits, const RideIndex& index,
-       const std::array<double, 4>& noise)
-      : car_(car), limits_(limits), index_(index), noise_(noise), law_(car.cells()) {}
+Relaxation relax(const SampledPlant& car, const ForceRange& range, const RideIndex& index,
+                 const RelaxationOptions& options) {
+  // Units: the weight that the index itself gives a force.
+  const double by_force = car.at(0, 0).acceleration(0, kForcePlace);
+  const double curvature = index.comfort * by_force * by_force + index.holding;
+  Dual dual(car, index, !range.parts.empty());
 
-  /// Minimum of L on the cells, with the noise's; false where there is none.
-  bool value(const Multipliers& multipliers, double& out) {
-    Value5 p;
-    double shaken = 0;
-    for (std::size_t cell = car_.cells(); cell-- > 0;) {
-      for (std::size_t i = 0; i < kOnePlace; ++i) shaken += noise_[i] * p(i, i);
-
-      // One step back: the value over [q, q', 1], least by the force.
-      const AffineCar car = car_.over(cell);
-      Form form = car_.step() * integrand(car, limits_, index_, multipliers.in(cell));
-      add_value(form, p, car.motion, true);
-      if (!(form(kForcePlace, kForcePlace) > 0)) return false;
-      const Minimum least = minimum_over_force(form);
-      p = least.value;
-      law_[cell] = least.law;
-    }
-    out = p(kOnePlace, kOnePlace) + shaken;
-    return std::isfinite(out);
+  // Sectors that stay, then over shorter and shorter blocks, towards the edge.
+  const SectorFamily sectors(sector_limits(range));
+  if (sectors.unknowns() == 0) return {};
+  Climb climb{car, dual, options.size, options.iterations};
+  if (!climb.start(sectors, curvature)) return {};
+  for (const double height : {1.0, 0.1, 0.01}) climb.up(sectors, height);
+  Relaxation found{.best = {}, .constant = course_of(sectors, climb.x, climb.block)};
+  for (const std::size_t block : {16, 4}) {
+    climb.set_block(sectors, block * options.block);
+    for (const double height : {0.3, 0.1}) climb.up(sectors, height);
   }
 
-  /// Its slope by each multiplier, at the multipliers of the last value(): less the mean of each
-  /// limit under the law.
-  void slope(const Multipliers& multipliers, std::span<double> out) const {
-    std::fill(out.begin(), out.end(), 0.0);
-    Value5 moment;  // of [q, q', 1]
-    moment(kOnePlace, kOnePlace) = 1;
-    for (std::size_t cell = 0; cell < car_.cells(); ++cell) {
-      const AffineCar car = car_.over(cell);
-
-      // The mean of each limit under the law, over this cell.
-      const Form joint = with_force(moment, law_[cell]);
-      for (std::size_t j = 0; j < limits_.size(); ++j) {
-        Form limit;
-        add_limit(limit, car_.step(), limits_[j], car.speed);
-        double mean = 0;
-        for (std::size_t k = 0; k < limit.values.size(); ++k)
-          mean += limit.values[k] * joint.values[k];
-        out[cell / multipliers.block * limits_.size() + j] -= mean;
-      }
-
-      // The moments one cell later, with the noise.
-      moment = car.motion * joint * transposed(car.motion);
-      for (std::size_t i = 0; i < kOnePlace; ++i) moment(i, i) += noise_[i];
-    }
+  // Where the range has no end, sectors are all there is.
+  if (!range.ends) {
+    climb.set_block(sectors, options.block);
+    for (const double height : {0.1, 0.03, 0.01, 0.003}) climb.up(sectors, height);
+    found.best = course_of(sectors, climb.x, climb.block);
+    return found;
   }
 
-  const std::vector<SmallMatrix<1, 5>>& law() const { return law_; }
-
- private:
-  static Form with_force(const Value5& moment, const SmallMatrix<1, 5>& law) {
-    SmallMatrix<6, 5> lift;
-    for (std::size_t i = 0; i < 5; ++i) {
-      lift(i, i) = 1;
-      lift(kForcePlace, i) = law(0, i);
-    }
-    return lift * moment * transposed(lift);
+  // Any limits, from those sectors on.
+  FreeFamily free(range, curvature);
+  const LimitCourse start = course_of(sectors, climb.x, climb.block);
+  climb.x.clear();
+  for (const ForceLimit& limit : start.limits) {
+    const std::vector<double> x = free.unknowns_of(limit);
+    climb.x.insert(climb.x.end(), x.begin(), x.end());
   }
-
-  const SampledPlant& car_;
-  const std::vector<ForceLimit>& limits_;
-  const RideIndex& index_;
-  std::array<double, 4> noise_;
-  std::vector<SmallMatrix<1, 5>> law_;
-};
-
-/// Mean squares of [q, q'] under a force in proportion to the speed: how far this car moves on this
-/// road.
-std::array<double, 4> typical_motion(const SampledPlant& car, double damping) {
-  std::array<double, 4> sum{};
-  SmallMatrix<5, 1> z;
-  z(kOnePlace, 0) = 1;
-  for (std::size_t cell = 0; cell < car.cells(); ++cell) {
-    const AffineCar now = car.over(cell);
-
-    // The force that F = damping v gives, which itself slows the motion.
-    SmallMatrix<6, 1> with_force;
-    for (std::size_t i = 0; i < 5; ++i) with_force(i, 0) = z(i, 0);
-    const double free = (now.speed * with_force)(0, 0);
-    with_force(kForcePlace, 0) = damping * free / (1 - damping * now.speed(0, kForcePlace));
-    z = now.motion * with_force;
-    for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += z(i, 0) * z(i, 0);
+  const auto up = [&](double height) {
+    constexpr double kSmoothness = 1;
+    free.set_smoothness(kSmoothness * height * options.size);
+    climb.up(free, height);
+  };
+  for (const double height : {0.3, 0.1}) up(height);
+  for (const std::size_t block : {2, 1}) {
+    climb.set_block(free, block * options.block);
+    for (const double height : {0.1, 0.03}) up(height);
   }
-  for (double& value : sum) value /= static_cast<double>(car.cells());
-  return sum;
+  for (const double height : {0.01, 0.003}) up(height);
+  found.best = course_of(free, climb.x, climb.block);
+  return found;
 }
 
-/// The damping in the middle of limits q = -(F - a v)(F - b v), (a + b) / 2, in the mean over them,
-/// N*s/m.
-double middle_damping(const std::vector<ForceLimit>& limits) {
-  double sum = 0;
-  for (const ForceLimit& limit : limits) sum += limit.ff < 0 ? -0.5 * limit.fv / limit.ff : 0;
-  return sum / static_cast<double>(limits.size());
-}
-
-/// The same multipliers on blocks of another length, over cells of another plant on the same road.
-Multipliers on_blocks(const Multipliers& from, const SampledPlant& from_car,
-                      const SampledPlant& car, std::size_t block) {
-  Multipliers to{.block = block, .limits = from.limits, .values = {}};
-  const double ratio = car.step() / from_car.step();
-  for (std::size_t cell = 0; cell < car.cells(); cell += block) {
-    const auto there = static_cast<std::size_t>((static_cast<double>(cell) + 0.5) * ratio);
-    const double* values = from.in(std::min(there, from_car.cells() - 1));
-    to.values.insert(to.values.end(), values, values + from.limits);
+LimitCourse on_cells(const LimitCourse& course, std::size_t cells, double ratio) {
+  const auto block = static_cast<std::size_t>(
+      std::max(1.0, std::round(static_cast<double>(course.block) * ratio)));
+  LimitCourse to{.block = block, .limits = {}};
+  for (std::size_t cell = 0; cell < cells; cell += block) {
+    const auto there = static_cast<std::size_t>((static_cast<double>(cell) + 0.5) / ratio);
+    to.limits.push_back(course.limits[std::min(there / course.block, course.limits.size() - 1)]);
   }
   return to;
 }
 
-/// One climb, in logarithms: multipliers stay above 0 whatever their size.
-Multipliers climb(Dual& dual, Multipliers multipliers, int iterations) {
-  double scale = 0;
-  if (!dual.value(multipliers, scale)) return multipliers;
-  scale = std::abs(scale);
-
-  // L-BFGS goes down, so the function that it is given is -L over its size at the start.
-  Multipliers trial = multipliers;
-  const auto set = [&](std::span<const double> logarithms) {
-    for (std::size_t k = 0; k < trial.values.size(); ++k) trial.values[k] = std::exp(logarithms[k]);
-  };
-  const SmoothFunction fall = [&](std::span<const double> logarithms, double& value,
-                                  std::span<double> gradient) {
-    set(logarithms);
-    if (!dual.value(trial, value)) return false;
-    value /= -scale;
-    if (gradient.empty()) return true;
-    dual.slope(trial, gradient);
-    for (std::size_t k = 0; k < gradient.size(); ++k) gradient[k] *= -trial.values[k] / scale;
-    return true;
-  };
-
-  std::vector<double> start;
-  for (const double value : multipliers.values) start.push_back(std::log(value));
-  set(minimise(fall, std::move(start),
-               {.max_iterations = iterations, .function_tolerance = 1e-6, .on_iteration = {}})
-          .x);
-  return trial;
+void tame(LimitCourse& course, double factor) {
+  std::vector<double> sizes;
+  for (const ForceLimit& limit : course.limits) sizes.push_back(std::abs(limit.ff));
+  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+  std::nth_element(sizes.begin(), middle, sizes.end());
+  const double greatest = factor * *middle;
+  for (ForceLimit& limit : course.limits) {
+    const double size = std::abs(limit.ff);
+    if (!(size > greatest)) continue;
+    for (const auto one : kCoefficients) limit.*one *= greatest / size;
+  }
 }
 
-}  // namespace
-
-std::optional<double> certified_minimum(const SampledPlant& car,
-                                        const std::vector<ForceLimit>& limits,
-                                        const RideIndex& index, const Multipliers& multipliers) {
-  return Certificate(car, limits, index, multipliers).minimum();
-}
-
-Relaxation relax(const SampledPlant& car, const SampledPlant& coarse,
-                 const std::vector<ForceLimit>& limits, const RideIndex& index,
-                 const RelaxationOptions& options) {
-  // A first guess of their size: the weight that the index itself gives a force.
-  const double by_force = coarse.at(0, 0).acceleration(0, kForcePlace);
-  const double natural = index.comfort * by_force * by_force + index.holding;
-  const std::array<double, 4> motion = typical_motion(coarse, middle_damping(limits));
-
-  // Noise in proportion to how far this car moves on this road.
-  const auto shaken = [&](double per_second) {
-    std::array<double, 4> noise = motion;
-    for (double& value : noise) value *= per_second * coarse.step();
-    return Dual(coarse, limits, index, noise);
-  };
-  Dual much = shaken(1e-2), little = shaken(1e-4);
-
-  // Multipliers that stay, then over shorter and shorter blocks, at last with less noise.
-  const Multipliers constant =
-      climb(much, {coarse.cells(), limits.size(), std::vector<double>(limits.size(), natural)},
-            options.iterations);
-  Multipliers found = constant;
-  for (std::size_t block = 8 * options.block; block >= options.block; block /= 2)
-    found = climb(much, on_blocks(found, coarse, coarse, block), options.iterations);
-  found = climb(little, found, options.iterations);
-
-  // A climb may end at an edge that only its cells have: then the constants pull it back, or less
-  // of them.
-  const double duration = car.step() * static_cast<double>(car.cells());
-  const auto cells = static_cast<std::size_t>(
-      std::max(1.0, std::round(static_cast<double>(options.block) * coarse.step() / car.step())));
-  constexpr double kPulls[] = {0, 0.003, 0.01, 0.03, 0.1, 0.3, 1};
-  for (double size = 1; size > 1e-6; size /= 10)
-    for (const double pull : kPulls) {
-      Multipliers mixed = found;
-      for (std::size_t k = 0; k < mixed.values.size(); ++k)
-        mixed.values[k] += pull * (size * constant.values[k % limits.size()] - found.values[k]);
-      const Multipliers certified = on_blocks(mixed, coarse, car, cells);
-      const std::optional<double> least = certified_minimum(car, limits, index, certified);
-      if (least) return {certified, *least / duration};
-    }
-  throw Error("clairvoyant bound", "no multipliers have a certified minimum");
+LimitCourse mixed(const LimitCourse& a, const LimitCourse& b, double share_of_b, double size_of_b) {
+  LimitCourse out = a;
+  for (ForceLimit& limit : out.limits)
+    for (const auto one : kCoefficients)
+      limit.*one = (1 - share_of_b) * limit.*one + share_of_b * size_of_b * b.limits.front().*one;
+  return out;
 }
 
 }  // namespace dashpot

@@ -1,49 +1,37 @@
 #pragma once
-#include <optional>
-#include <vector>
-
-#include "dashpot/suspension/bound/force_range.h"
-#include "dashpot/suspension/bound/sampled_plant.h"
+#include "dashpot/suspension/bound/certificate.h"
 
 namespace dashpot {
 
-/// Multipliers of the force limits, 0 or more, constant over `block` cells; block by block, per
-/// limit.
-struct Multipliers {
-  std::size_t block = 1, limits = 1;
-  std::vector<double> values;
-
-  /// The multipliers of a cell, one per limit.
-  const double* in(std::size_t cell) const { return values.data() + cell / block * limits; }
-};
-
-/// The index less the limits, each times its multiplier: min over ALL forces of
-///   L(F) = integral of [ cost(x, F, t) - sum_j m_j(t) q_j(v, F) ] dt,   x' = A x + B F + w(t),
-///   x(0) = 0.
-/// L bounds from below what any F within the limits can reach, because m_j >= 0 and q_j >= 0 there.
-/// Its minimum is V(0, 0) of V(t, z) = z' P(t) z, z = [x, 1], where P solves the Riccati equation
-/// from P(T) = 0: d/dt V + (integrand of L) = R (F - F*(t, z))^2 with R > 0, so L(F) = V(0, 0) +
-/// integral of R (F - F*)^2. Nothing here where P does not stay finite or R is not above 0: then L
-/// has no minimum.
-std::optional<double> certified_minimum(const SampledPlant& car,
-                                        const std::vector<ForceLimit>& limits,
-                                        const RideIndex& index, const Multipliers& multipliers);
-
+/// The index less a course of limits has a minimum over ALL forces,
+///   L(F) = integral of [ cost(x, F, t) - q(t; v, F) ] dt,   x' = A x + B F + w(t),   x(0) = 0,
+/// which is not above what any F within the limits can reach, because q >= 0 there. The minimum is
+/// concave in the coefficients of q: climbing it is what this file does. What the result is worth
+/// certified_minimum() says.
 struct RelaxationOptions {
-  std::size_t block = 2;  ///< coarse cells that share multipliers in the end
-  int iterations = 40;    ///< of L-BFGS, at most, per climb
+  std::size_t block = 1;  ///< cells that share a limit in the end
+  int iterations = 60;    ///< of L-BFGS, at most, per climb
+  double size = 1;        ///< of the index on this road
 };
 
-/// Multipliers for which that minimum is high, and the minimum as a mean over time.
+/// A course of limits whose minimum is high, on a car whose forces are held over a cell, and one of
+/// limits that stay, whose minimum is safe from the edge where there is none. Both without the
+/// constants, which certified_minimum() finds.
 struct Relaxation {
-  Multipliers multipliers;  ///< over the cells of `car`
-  double bound = 0;
+  LimitCourse best, constant;
 };
-/// Multipliers are sought on the cells of `coarse`, where a force is held over a cell, from one for
-/// all of the time to shorter and shorter blocks; what they are worth is certified on `car`, the
-/// same road in finer cells, for forces that change as they like.
-Relaxation relax(const SampledPlant& car, const SampledPlant& coarse,
-                 const std::vector<ForceLimit>& limits, const RideIndex& index,
+Relaxation relax(const SampledPlant& car, const ForceRange& range, const RideIndex& index,
                  const RelaxationOptions& options);
+
+/// The same limits over the cells of another sampling of the ride, where `ratio` of its cells make
+/// one of before.
+LimitCourse on_cells(const LimitCourse& course, std::size_t cells, double ratio);
+
+/// Makes limits smaller, as any positive factor may, whose curvature is above so many times the
+/// middle one: a climb drives them up where they matter to nothing, as on a car that stands.
+void tame(LimitCourse& course, double factor);
+
+/// share of a, the rest of b; block by block, b having one block only.
+LimitCourse mixed(const LimitCourse& a, const LimitCourse& b, double share_of_b, double size_of_b);
 
 }  // namespace dashpot

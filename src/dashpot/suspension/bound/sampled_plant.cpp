@@ -6,22 +6,11 @@
 #include "dashpot/base/text.h"
 #include "dashpot/error.h"
 #include "dashpot/numerics/linear_algebra.h"
+#include "dashpot/suspension/plants/assemble.h"
 #include "dashpot/suspension/plants/linear.h"
 
 namespace dashpot {
 namespace {
-
-void require_quarter_car(const Plant& plant) {
-  const std::string right = "a quarter car without stops, friction and lifting tyre";
-  if (plant.size() != 2 || plant.struts.size() != 1 || plant.tyres.size() != 1 ||
-      plant.struts[0].track)
-    throw Error(plant.name, "has no clairvoyant bound", right);
-  const Strut& strut = plant.struts[0];
-  if (plant.tyres_may_lift || strut.friction > 0 || strut.extension_stop > 0 ||
-      strut.compression_stop > 0)
-    throw Error(plant.name, "is not linear but for its damper: the clairvoyant bound asks for that",
-                right);
-}
 
 template <std::size_t Rows, std::size_t Columns>
 SmallMatrix<Rows, Columns> small(const std::vector<double>& values) {
@@ -40,6 +29,18 @@ SmallMatrix<1, 6> after(const SmallMatrix<1, 6>& row, const SmallMatrix<5, 6>& m
 }
 
 }  // namespace
+
+void require_quarter_car(const Plant& plant) {
+  const std::string right = "a quarter car without stops, friction and lifting tyre";
+  if (plant.size() != 2 || plant.struts.size() != 1 || plant.tyres.size() != 1 ||
+      plant.struts[0].track)
+    throw Error(plant.name, "has no clairvoyant bound", right);
+  const Strut& strut = plant.struts[0];
+  if (plant.tyres_may_lift || strut.friction > 0 || strut.extension_stop > 0 ||
+      strut.compression_stop > 0)
+    throw Error(plant.name, "is not linear but for its damper: the clairvoyant bound asks for that",
+                right);
+}
 
 SampledPlant::SampledPlant(const Plant& plant, const GroundMotion& ground, double duration,
                            double step)
@@ -87,6 +88,7 @@ void SampledPlant::set_rates(const Plant& plant) {
     rates_.motion(i + 2, kForcePlace) = by_force(i, 0);
     by_push_(i + 2, 0) = by_push(i, 0);
     rates_.speed(0, i + 2) = strut.row[i];
+    rates_.displacement(0, i) = strut.row[i];
     rates_.tyre_force(0, i) = -tyre.stiffness * tyre.row[i];
     rates_.tyre_force(0, i + 2) = -tyre.damping * tyre.row[i];
     acceleration_by_push_ += strut.body_row[i] * by_push(i, 0);
@@ -128,6 +130,7 @@ void SampledPlant::drive(AffineCar& car, const SmallMatrix<5, 1>& change,
     car.acceleration(0, kOnePlace) += rates_.acceleration(0, i) * state(i, 0);
     car.tyre_force(0, kOnePlace) += rates_.tyre_force(0, i) * state(i, 0);
     car.speed(0, kOnePlace) += rates_.speed(0, i) * state(i, 0);
+    car.displacement(0, kOnePlace) += rates_.displacement(0, i) * state(i, 0);
   }
   car.acceleration(0, kOnePlace) += acceleration_by_push_ * push;
   car.tyre_force(0, kOnePlace) += push;
@@ -146,10 +149,16 @@ AffineCar SampledPlant::over(std::size_t cell) const noexcept {
   const double push = stiffness_ * road.height + damping_ * road.slope,
                rising = stiffness_ * road.slope;
   AffineCar car{end_.motion, after(rates_.acceleration, middle_.motion),
-                after(rates_.tyre_force, middle_.motion), after(rates_.speed, middle_.motion)};
+                after(rates_.tyre_force, middle_.motion), after(rates_.speed, middle_.motion),
+                after(rates_.displacement, middle_.motion)};
   drive(car, push * end_.constant + rising * end_.rising,
         push * middle_.constant + rising * middle_.rising, push + 0.5 * step_ * rising);
   return car;
+}
+
+Plant with_spring(Plant plant, double stiffness) {
+  add_along(plant.stiffness, plant.struts.front().row, stiffness);
+  return plant;
 }
 
 SmallMatrix<6, 6> cost_form(const AffineCar& car, const RideIndex& index) noexcept {

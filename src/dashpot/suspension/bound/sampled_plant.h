@@ -20,28 +20,29 @@ constexpr std::size_t kOnePlace = 4, kForcePlace = 5;  ///< places in [q, q', 1,
 /// function that is affine in state and force is linear in these.
 struct AffineCar {
   SmallMatrix<5, 6> motion;  ///< of [q, q', 1]: its rate, or its value one step later
-  SmallMatrix<1, 6> acceleration, tyre_force,
-      speed;  ///< of the body, beyond the static load, of the damper
+  SmallMatrix<1, 6> acceleration, tyre_force;  ///< of the body; beyond the static load
+  SmallMatrix<1, 6> speed, displacement;       ///< of the damper
 };
 
 /// A quarter car on its road, cell by cell of one step. Within a cell the road is straight.
 class SampledPlant {
  public:
-  /// Throws Error at a plant that is not linear but for its one damper: not a quarter car, a tyre
-  /// that may lift, stops, friction; and at times that make no sense.
+  /// Throws Error where require_quarter_car() does, and at times that make no sense.
   SampledPlant(const Plant& plant, const GroundMotion& ground, double duration, double step);
 
   std::size_t cells() const noexcept { return road_.size(); }
   double step() const noexcept { return step_; }
+  /// The road within a cell.
+  struct Road {
+    double height, slope;  ///< m at the start of the cell, m/s
+  };
+  const Road& road(std::size_t cell) const noexcept { return road_[cell]; }
   /// Rates and outputs at `into` s in a cell.
   AffineCar at(std::size_t cell, double into) const noexcept;
   /// One step under a force that is held, exactly, with the outputs at the middle of the step.
   AffineCar over(std::size_t cell) const noexcept;
 
  private:
-  struct Road {
-    double height, slope;  ///< m at the start of the cell, m/s
-  };
   /// After some time, by [q, q', 1, F] and by the tyre's push: 1 N that stays, and one that rises
   /// by 1 N/s.
   struct Flow {
@@ -62,6 +63,12 @@ class SampledPlant {
   Flow end_, middle_;
   std::vector<Road> road_;
 };
+
+/// Throws Error at a plant that is not linear but for its one damper: not a quarter car, a tyre
+/// that may lift, stops, friction.
+void require_quarter_car(const Plant& plant);
+/// The same plant with a spring, N/m, beside its first strut's damper.
+Plant with_spring(Plant plant, double stiffness);
 
 /// The index's form over [q, q', 1, F].
 SmallMatrix<6, 6> cost_form(const AffineCar& car, const RideIndex& index) noexcept;

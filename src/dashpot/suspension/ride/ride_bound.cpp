@@ -1,28 +1,31 @@
 #include "dashpot/suspension/ride/ride_bound.h"
 
 #include "dashpot/error.h"
-#include "dashpot/suspension/ground/deterministic.h"
 
 namespace dashpot {
 
-ForceRange possible_forces(const Vehicle& vehicle, double speed, const std::string& where) {
+ForceRange possible_forces(const Vehicle& vehicle, const StrutMotion& within,
+                           const std::string& where) {
   const MountedDamper& damper = vehicle.dampers.front();
   const auto [least, greatest] = std::pair{vehicle.limits.current_min, vehicle.limits.current_max};
   if (!(least < greatest))
     throw Error(where, "nothing drives this damper", "a damper with a range of currents");
   if (damper.model->state_size() > 0)
-    throw Error(
-        where,
-        vehicle.damper_names.front() + " has a memory: it has no range of forces by velocity alone",
-        "an ideal damper, or a model without states");
-  // Whether the plant is one of which a bound is known.
-  SampledPlant(vehicle.set.plant, *step_ground(0.01, 0), 0.01, 1e-3);
-  const double ratio = damper.motion_ratio;
-  ForceRange range = model_range(*damper.model, least, greatest, speed * ratio);
-  for (double& velocity : range.velocity) velocity /= ratio;
-  for (std::vector<double>* forces : {&range.soft, &range.hard})
-    for (double& force : *forces) force = damper.at_strut(force);
-  return range;
+    throw Error(where,
+                vehicle.damper_names.front() +
+                    " has a memory: its force has no range by velocity and displacement alone",
+                "an ideal damper, or a model without states");
+  require_quarter_car(vehicle.set.plant);
+
+  // At the strut, as the simulation mounts it.
+  return force_range(where + ": " + vehicle.damper_names.front(),
+                     [damper](const DamperInput& strut) {
+                       return damper.at_strut(damper.model->force(damper.at_damper(strut), {}));
+                     },
+                     {.current_min = least,
+                      .current_max = greatest,
+                      .velocity = within.speed,
+                      .displacement = damper.model->needs_displacement() ? within.travel : 0});
 }
 
 std::vector<ClairvoyantBound> front_of_ride(const Plant& plant, const GroundMotion& ground,

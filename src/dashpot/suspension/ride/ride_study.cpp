@@ -163,26 +163,36 @@ void require_rideable(const RideStudyOptions& options, const Vehicle& vehicle) {
     throw Error(options.vehicle.where, "its frequencies do not rise from above 0");
 }
 
-/// m/s, of the strut.
-double greatest_speed(const RideStudy& study) {
-  double greatest = 0;
+/// Of the strut, on the road.
+StrutMotion greatest_motion(const RideStudy& study) {
+  StrutMotion greatest;
   const auto look = [&](const RiddenVehicle& one) {
     const std::string& strut = one.road.vehicle->set.plant.struts.front().name;
-    for (const double v : one.road.trace.record.channel(strut + "_velocity").samples)
-      greatest = std::max(greatest, std::abs(v));
+    const Record& record = one.road.trace.record;
+    for (const double v : record.channel(strut + "_velocity").samples)
+      greatest.speed = std::max(greatest.speed, std::abs(v));
+    for (const double x : record.channel(strut + "_deflection").samples)
+      greatest.travel = std::max(greatest.travel, std::abs(x));
   };
   look(study.passive);
   for (const RiddenVehicle& one : study.controlled) look(one);
   return greatest;
 }
 
+/// The bounds are for rides that move the damper up to this many times as far and as fast as the
+/// study's own rides did.
+constexpr double kMotionFactor = 2;
+
 void add_bound(RideStudy& study, const Vehicle& vehicle, const GroundMotion& road) {
   const Plant& plant = vehicle.set.plant;
   const RideStudyOptions& options = study.options;
   options.monitor.report("bound what is possible", 0);
+  const StrutMotion ridden = greatest_motion(study);
+  const ForceRange range = possible_forces(
+      vehicle, {kMotionFactor * ridden.travel, kMotionFactor * ridden.speed}, kBound);
+  study.bounded = {range.travel, range.ends ? range.velocity.back() : INFINITY};
   study.front =
-      front_of_ride(plant, road, possible_forces(vehicle, greatest_speed(study), kBound),
-                    ride_squares(study.passive.road.trace, plant),
+      front_of_ride(plant, road, range, ride_squares(study.passive.road.trace, plant),
                     {.duration = options.road_duration, .starts = {}, .threads = options.threads});
 }
 
@@ -202,7 +212,7 @@ RideStudy study_ride(const RideStudyOptions& options) {
   const std::vector<SharedVehicle> vehicles = make_vehicles(options, study.left_out);
   require_rideable(options, *vehicles.front());
   if (options.bound)
-    possible_forces(*vehicles.back(), 1, kBound);  // throws where nothing can be proven
+    possible_forces(*vehicles.back(), {0.1, 1}, kBound);  // throws where nothing can be proven
   const std::vector<SharedVehicle> held = make_held(options, vehicles.back()->limits);
   const GroundPointer road = make_ground(options.road, options.seed, "--road");
   study.ground = road->description();

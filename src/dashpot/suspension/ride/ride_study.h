@@ -52,6 +52,7 @@ struct RideStudy {
   /// Bounds on the road, where they were asked for: from comfort alone to road holding
   /// alone.
   std::vector<ClairvoyantBound> front;
+  StrutMotion bounded;  ///< the bounds hold for rides that stay within; infinite: for all rides
 };
 
 /// Throws Error where the plant has no tyres, where its dampers cannot be driven, at unknown words,

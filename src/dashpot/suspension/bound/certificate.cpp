@@ -1,0 +1,306 @@
+#include "dashpot/suspension/bound/certificate.h"
+
+#include <cmath>
+
+namespace dashpot {
+namespace {
+
+/// A lower bound of a limit at a displacement, along the edges of a range; minus infinity where
+/// there is none. Inside the range it is not less, being concave in F.
+double proven_least(const ForceRange& range, const ForceLimit& limit,
+                    const Interval& displacement) {
+  double least = INFINITY;
+  const Interval ff = limit.ff, fv = limit.fv, vv = limit.vv;
+  const Interval f = limit.f + displacement * limit.fx, v = limit.v + displacement * limit.vx,
+                 fixed = displacement * limit.x;
+  const auto at = [&](const Interval& speed, const Interval& force) {
+    return (ff * force + fv * speed + f) * force + (vv * speed + v) * speed + fixed;
+  };
+
+  for (std::size_t k = 0; k + 1 < range.velocity.size(); ++k)
+    for (const bool upper : {false, true}) {
+      // On a straight piece a parabola in the way s from one end to the other.
+      const Interval v0 = range.velocity[k], v1 = range.velocity[k + 1];
+      const Interval f0 = upper ? range.greatest(k) : range.least(k),
+                     f1 = upper ? range.greatest(k + 1) : range.least(k + 1);
+      const Interval dv = v1 - v0, df = f1 - f0;
+      const Interval square = (ff * df + fv * dv) * df + vv * dv * dv;
+      const Interval start = at(v0, f0), end = at(v1, f1);
+      const Interval rise = (Interval(2) * ff * df + fv * dv) * f0 + fv * df * v0 + f * df +
+                            (Interval(2) * vv * v0 + v) * dv;
+
+      // Not below its lowest point, wherever that lies, nor below its Bernstein coefficients.
+      double low = -INFINITY;
+      if (square.low > 0) low = (start - rise * rise / (Interval(4) * square)).low;
+      const bool from_infinity = k == 0 && !range.ends,
+                 to_infinity = k + 2 == range.velocity.size() && !range.ends;
+      const double middle = (start + Interval(0.5) * rise).low;
+      if (!from_infinity && !to_infinity)
+        low = std::max(low, std::min({start.low, middle, end.low}));
+
+      // A half line: a parabola that opens upwards and rises all the way.
+      const Interval rise_at_end = rise + Interval(2) * square;
+      if (to_infinity && square.low >= 0 && rise.low >= 0) low = std::max(low, start.low);
+      if (from_infinity && square.low >= 0 && rise_at_end.high <= 0) low = std::max(low, end.low);
+      least = std::min(least, low);
+      if (std::isnan(low)) return -INFINITY;
+    }
+  return least;
+}
+
+/// The same at all displacements of a range: the limit is a straight line in them, so that those at
+/// the ends of each part decide.
+double proven_least(const ForceRange& range, const ForceLimit& limit) {
+  if (!(limit.ff <= 0)) return -INFINITY;
+  if (range.parts.empty()) {
+    if (limit.fx != 0 || limit.vx != 0 || limit.x != 0) return -INFINITY;
+    return proven_least(range, limit, 0);
+  }
+  double least = INFINITY;
+  for (const ForceRange& part : range.parts)
+    for (const double end : {part.from, part.to})
+      least = std::min(least, proven_least(part, limit, end));
+  return least;
+}
+
+// Polynomials in time by their Bernstein coefficients: where these are at least 0, so is the
+// polynomial, from the start of its piece to the end.
+
+template <std::size_t N>
+using Bernstein = std::array<Interval, N>;
+
+constexpr double binomial(std::size_t n, std::size_t k) {
+  double value = 1;
+  for (std::size_t i = 0; i < k; ++i)
+    value = value * static_cast<double>(n - i) / static_cast<double>(i + 1);
+  return value;
+}
+
+template <std::size_t N, std::size_t M>
+Bernstein<N + M - 1> product(const Bernstein<N>& a, const Bernstein<M>& b) {
+  Bernstein<N + M - 1> out;
+  for (std::size_t i = 0; i < N; ++i)
+    for (std::size_t j = 0; j < M; ++j)
+      out[i + j] += Interval(binomial(N - 1, i) * binomial(M - 1, j)) * a[i] * b[j];
+  for (std::size_t k = 0; k < out.size(); ++k) out[k] = out[k] / Interval(binomial(N + M - 2, k));
+  return out;
+}
+
+/// sum += factor p, p written with the higher degree of the sum.
+template <std::size_t N, std::size_t M>
+void add(Bernstein<N>& sum, const Interval& factor, const Bernstein<M>& p) {
+  static_assert(M <= N);
+  if constexpr (M == N) {
+    for (std::size_t k = 0; k < N; ++k) sum[k] += factor * p[k];
+  } else {
+    Bernstein<N - M + 1> one;
+    one.fill(1);
+    add(sum, factor, product(p, one));
+  }
+}
+
+/// Whether a symmetric form is positive definite: eliminated from the last row upwards, each pivot
+/// is above 0. Its lower triangle is read.
+template <std::size_t N>
+bool is_positive(std::array<std::array<Interval, N>, N> form) {
+  for (std::size_t k = N; k-- > 0;) {
+    if (!(form[k][k].low > 0)) return false;
+    for (std::size_t i = 0; i < k; ++i) {
+      const Interval share = form[k][i] / form[k][k];
+      for (std::size_t j = 0; j <= i; ++j) form[i][j] -= share * form[k][j];
+    }
+  }
+  return true;
+}
+
+bool is_moderate(const StateForm& form) {
+  constexpr double kGreatest = 1e60;  // products of a few of these do not overflow
+  for (const double entry : form.values)
+    if (!(std::abs(entry) < kGreatest)) return false;
+  return true;
+}
+
+}  // namespace
+
+/// V over a piece: Bernstein coefficients of each entry of P in [j][i], i <= j.
+struct Certificate::Cubic {
+  std::array<std::array<Bernstein<4>, 5>, 5> entries;
+  std::array<std::array<Bernstein<5>, 5>, 5> raised{};  // the same, written with degree 4
+
+  const Bernstein<4>& at(std::size_t i, std::size_t j) const {
+    return i <= j ? entries[j][i] : entries[i][j];
+  }
+  const Bernstein<5>& raised_at(std::size_t i, std::size_t j) const {
+    return i <= j ? raised[j][i] : raised[i][j];
+  }
+  Bernstein<3> rate(std::size_t i, std::size_t j, const Interval& duration) const {
+    const Bernstein<4>& p = at(i, j);
+    const Interval factor = Interval(3) / duration;
+    return {factor * (p[1] - p[0]), factor * (p[2] - p[1]), factor * (p[3] - p[2])};
+  }
+};
+
+Certificate::Certificate(const Plant& plant, const SampledPlant& car, const ForceRange& range,
+                         const RideIndex& index, const LimitCourse& course)
+    : car_(car), index_(index), course_(course), cell_(car.cells() - 1), into_(car.step()) {
+  for (ForceLimit limit : course.limits) {
+    const double least = proven_least(range, limit);
+    limit.one = -least;
+    limits_.push_back(std::isfinite(least) ? std::optional(limit) : std::nullopt);
+  }
+  set_car(plant);
+}
+
+void Certificate::set_car(const Plant& plant) {
+  const Tyre& tyre = plant.tyres[0];
+  const Strut& strut = plant.struts[0];
+  stiffness_ = tyre.stiffness;
+  damping_ = tyre.damping;
+
+  // M q'' = -K q - C q' - row F + tyre P, by Cramer's rule for M.
+  const auto& m = plant.mass;
+  const Interval scale = Interval(1) / (Interval(m[0]) * m[3] - Interval(m[1]) * m[2]);
+  const Interval over_mass[2][2] = {{scale * m[3], scale * -m[1]}, {scale * -m[2], scale * m[0]}};
+  for (std::size_t i = 0; i < 2; ++i) {
+    motion_[i][i + 2] = 1;
+    for (std::size_t l = 0; l < 2; ++l) {
+      for (std::size_t j = 0; j < 2; ++j) {
+        const Interval row = Interval(tyre.row[l]) * tyre.row[j];
+        motion_[i + 2][j] -=
+            over_mass[i][l] * (Interval(plant.stiffness[2 * l + j]) + row * stiffness_);
+        motion_[i + 2][j + 2] -=
+            over_mass[i][l] * (Interval(plant.damping[2 * l + j]) + row * damping_);
+      }
+      by_force_[i + 2] -= over_mass[i][l] * strut.row[l];
+      by_push_[i + 2] += over_mass[i][l] * tyre.row[l];
+    }
+    speed_[i + 2] = strut.row[i];
+    displacement_[i] = strut.row[i];
+    tyre_force_[i] = -stiffness_ * tyre.row[i];
+    tyre_force_[i + 2] = -damping_ * tyre.row[i];
+  }
+
+  // The body's acceleration is a sum of these rows.
+  for (std::size_t l = 0; l < 2; ++l) {
+    const Interval share = strut.body_row[l];
+    for (std::size_t j = 0; j < 4; ++j) acceleration_[j] += share * motion_[l + 2][j];
+    acceleration_by_force_ += share * by_force_[l + 2];
+    acceleration_by_push_ += share * by_push_[l + 2];
+  }
+}
+
+bool Certificate::back_to(double into, const StateForm& value, const StateForm& slope,
+                          const StateForm& slope_at_end) {
+  if (!limit(cell_) || !(into >= 0 && into < into_)) return false;
+  if (!is_moderate(value) || !is_moderate(slope) || !is_moderate(slope_at_end)) return false;
+
+  // Both ends are exact, which makes V continuous; what lies between may be any doubles.
+  Cubic cubic;
+  const double third = (into_ - into) / 3;
+  for (std::size_t j = 0; j < 5; ++j)
+    for (std::size_t i = 0; i <= j; ++i) {
+      cubic.entries[j][i] = {value(i, j), value(i, j) + third * slope(i, j),
+                             value_(i, j) - third * slope_at_end(i, j), value_(i, j)};
+      add(cubic.raised[j][i], 1, cubic.entries[j][i]);
+    }
+  if (!holds(cubic, into, into_)) return false;
+
+  // The place that is proven; at the start of a cell, the end of the one before.
+  value_ = value;
+  into_ = into;
+  if (into == 0 && cell_ > 0) {
+    --cell_;
+    into_ = car_.step();
+  } else if (into == 0) {
+    cell_ = car_.cells();  // all of the time
+  }
+  return true;
+}
+
+bool Certificate::holds(const Cubic& value, double from, double to) const {
+  const Interval duration = Interval(to) - Interval(from);
+  const ForceLimit& limit = *limits_[cell_ / course_.block];
+  const Interval comfort = index_.comfort, holding = index_.holding, half = 0.5;
+  const Interval &a_f = acceleration_by_force_, &a_w = acceleration_by_push_;
+
+  // The tyre's push by the road, a straight line.
+  const auto& road = car_.road(cell_);
+  const auto push_at = [&](double into) {
+    return stiffness_ * (Interval(road.height) + Interval(road.slope) * into) +
+           damping_ * road.slope;
+  };
+  const Bernstein<2> push{push_at(from), push_at(to)};
+
+  // The form's column of the force: by the state, by 1 and by itself.
+  const Interval force_force = comfort * a_f * a_f - limit.ff;
+  if (!(force_force.low > 0)) return false;
+  std::array<Bernstein<4>, 5> force{};
+  for (std::size_t i = 0; i < 5; ++i) {
+    for (std::size_t l = 2; l < 4; ++l) add(force[i], by_force_[l], value.at(i, l));
+    const Interval fixed = i < 4 ? comfort * acceleration_[i] * a_f -
+                                       half * (speed_[i] * limit.fv + displacement_[i] * limit.fx)
+                                 : -(half * Interval(limit.f));
+    add(force[i], fixed, Bernstein<1>{1});
+  }
+  add(force[4], comfort * a_w * a_f, push);
+
+  // A law that takes this column away but for what curves: any law would do.
+  std::array<Bernstein<2>, 5> law;
+  for (std::size_t i = 0; i < 5; ++i)
+    law[i] = {-force[i].front().low / force_force.low, -force[i].back().low / force_force.low};
+
+  // The form over the state and 1, with the force counted from that law, and its column then.
+  std::array<std::array<Bernstein<5>, 6>, 6> form{};
+  for (std::size_t j = 0; j < 5; ++j)
+    for (std::size_t i = 0; i <= j; ++i) {
+      Bernstein<5>& entry = form[j][i];
+      add(entry, 1, value.rate(i, j, duration));
+      for (std::size_t l = 0; l < 4; ++l) {
+        if (j < 4) add(entry, motion_[l][j], value.raised_at(i, l));
+        if (i < 4) add(entry, motion_[l][i], value.raised_at(l, j));
+        if (j == 4) add(entry, by_push_[l], product(value.at(i, l), push));
+        if (i == 4) add(entry, by_push_[l], product(value.at(l, j), push));
+      }
+
+      // The index less the limit.
+      if (j < 4) {
+        add(entry,
+            comfort * acceleration_[i] * acceleration_[j] +
+                holding * tyre_force_[i] * tyre_force_[j] - limit.vv * speed_[i] * speed_[j] -
+                half * limit.vx * (speed_[i] * displacement_[j] + displacement_[i] * speed_[j]),
+            Bernstein<1>{1});
+      } else if (i < 4) {
+        add(entry, comfort * acceleration_[i] * a_w + holding * tyre_force_[i], push);
+        add(entry, -(half * (speed_[i] * limit.v + displacement_[i] * limit.x)), Bernstein<1>{1});
+      } else {
+        add(entry, comfort * a_w * a_w + holding, product(push, push));
+        add(entry, -limit.one, Bernstein<1>{1});
+      }
+
+      // F = law z + what is left.
+      add(entry, 1, product(force[i], law[j]));
+      add(entry, 1, product(force[j], law[i]));
+      add(entry, force_force, product(law[i], law[j]));
+    }
+  for (std::size_t i = 0; i < 5; ++i) {
+    add(form[5][i], 1, force[i]);
+    add(form[5][i], force_force, law[i]);
+  }
+  add(form[5][5], force_force, Bernstein<1>{1});
+
+  // Positive definite at every coefficient.
+  for (std::size_t k = 0; k < 5; ++k) {
+    std::array<std::array<Interval, 6>, 6> at;
+    for (std::size_t i = 0; i < 6; ++i)
+      for (std::size_t j = 0; j <= i; ++j) at[i][j] = form[i][j][k];
+    if (!is_positive(at)) return false;
+  }
+  return true;
+}
+
+std::optional<double> Certificate::bound() const {
+  if (cell_ != car_.cells()) return {};
+  return value_(4, 4);
+}
+
+}  // namespace dashpot
