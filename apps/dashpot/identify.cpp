@@ -2,6 +2,7 @@
 
 #include "commands.h"
 #include "console.h"
+#include "dashpot/base/text.h"
 #include "ranking_run.h"
 
 namespace dashpot::cli {
@@ -18,14 +19,21 @@ constexpr std::string_view kIdentifyExample =
     "dashpot identify recordings/ --budget 10\n"
     "dashpot identify recordings/ --models all\n"
     "\n"
+    "# Interrupted? The same command goes on where it stopped.\n"
+    "dashpot identify recordings/ --models all\n"
+    "\n"
     "# Then read results/report.html, and use the best model:\n"
     "dashpot evaluate results/models/tanh_kwok.json more-recordings/";
 
 int run_identify(const RankingSettings& settings, Console& console) {
   const RankingData data = ranking_data(settings, console);
+  const std::unique_ptr<FitStore> store = fit_store(settings, console);
   const ChosenModels models = chosen_models(settings.fit, data.dataset, data.leave_out, console);
   Ranking ranking = rank(models.names, data.dataset, data.leave_out,
-                         identify_options(settings.fit, models.names, console));
+                         identify_options(settings.fit, models.names, console), store.get());
+  if (ranking.kept_fits > 0)
+    console.note(counted(ranking.kept_fits, "fit") +
+                 " kept from before; with --fresh they are made again");
   ranking.budget = models.budget;
   const ReportInput input = report_input(data.dataset, ranking, console);
   const Document report = ranking_document(input);
@@ -45,7 +53,8 @@ Command identify_command() {
       .description =
           "Fits each model to all training records together and judges it in free run (motion "
           "and current in, force out) on records that it has not seen. Ranks the models by "
-          "that error, saves each as a file and writes a report.",
+          "that error, saves each as a file and writes a report. Finished fits are kept in "
+          "DIR/fits.sqlite: the same command goes on where it was interrupted.",
       .options = ranking_options(*settings),
       .example = std::string(kIdentifyExample),
       .run = [settings](Console& console) { return run_identify(*settings, console); }};

@@ -8,7 +8,6 @@
 #include "console.h"
 #include "dashpot/base/file.h"
 #include "dashpot/base/parallel.h"
-#include "dashpot/identify/rank/fit_store.h"
 #include "dashpot/report/words.h"
 #include "document_text.h"
 #include "ranking_run.h"
@@ -21,7 +20,6 @@ namespace fs = std::filesystem;
 struct RankSettings {
   RankingSettings ranking;
   bool markdown = false;
-  bool fresh = false;
 };
 
 constexpr std::string_view kRankExample =
@@ -48,13 +46,10 @@ int run_rank(const RankSettings& settings, Console& console) {
   const RankingData data = ranking_data(asked, console);
   const fs::path folder = asked.results.folder;
 
-  // Finished fits are kept beside the results, so that an interrupted run goes on.
-  std::optional<FitStore> store;
-  if (!settings.fresh) store.emplace(kept_file(folder, "fits", console), program_id());
+  const std::unique_ptr<FitStore> store = fit_store(asked, console);
   const ChosenModels models = chosen_models(asked.fit, data.dataset, data.leave_out, console);
-  Ranking ranking =
-      rank(models.names, data.dataset, data.leave_out,
-           identify_options(asked.fit, models.names, console), store ? &*store : nullptr);
+  Ranking ranking = rank(models.names, data.dataset, data.leave_out,
+                         identify_options(asked.fit, models.names, console), store.get());
   ranking.budget = models.budget;
   const ReportInput input = report_input(data.dataset, ranking, console);
 
@@ -96,10 +91,7 @@ Command rank_command() {
          {budget_option(settings->ranking.fit, budget_of_groups()),
           {.names = "--markdown",
            .target = &settings->markdown,
-           .help = "print the tables as a part of a Markdown page, without a date"},
-          {.names = "--fresh",
-           .target = &settings->fresh,
-           .help = "neither use nor keep finished fits"}});
+           .help = "print the tables as a part of a Markdown page, without a date"}});
   return command;
 }
 

@@ -33,6 +33,9 @@ std::vector<Option> ranking_options(RankingSettings& settings) {
   options.push_back(leave_out_option(settings.leave_out));
   append(options, fit_options(settings.fit));
   append(options, result_options(settings.results));
+  options.push_back({.names = "--fresh",
+                     .target = &settings.fresh,
+                     .help = "neither use nor keep finished fits"});
   return options;
 }
 
@@ -43,6 +46,12 @@ RankingData ranking_data(const RankingSettings& settings, Console& console) {
   const LeaveOut leave_out = stated ? *stated : default_leave_out(dataset);
   console.talk("judged by leaving out: " + format_leave_out(leave_out) + '\n');
   return {std::move(dataset), leave_out};
+}
+
+std::unique_ptr<FitStore> fit_store(const RankingSettings& settings, Console& console) {
+  if (settings.fresh) return nullptr;
+  return std::make_unique<FitStore>(kept_file(settings.results.folder, "fits", console),
+                                    program_id());
 }
 
 }  // namespace dashpot::cli

@@ -1,9 +1,11 @@
 #pragma once
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "command.h"
+#include "dashpot/identify/rank/fit_store.h"
 #include "data.h"
 #include "identify_options.h"
 #include "results.h"
@@ -16,6 +18,7 @@ struct RankingSettings {
   FitSettings fit;
   ResultSettings results;
   std::string leave_out;
+  bool fresh = false;
 };
 
 Option leave_out_option(std::string& text);
@@ -32,5 +35,9 @@ struct RankingData {
 
 /// Reads the recordings, makes the folder of the results and settles what is left out.
 RankingData ranking_data(const RankingSettings& settings, Console& console);
+
+/// Where finished fits are kept, beside the results, so that an interrupted run goes on; nothing
+/// with --fresh.
+std::unique_ptr<FitStore> fit_store(const RankingSettings& settings, Console& console);
 
 }  // namespace dashpot::cli

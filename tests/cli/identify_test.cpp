@@ -1,6 +1,10 @@
+#include <chrono>
+#include <cstdlib>
 #include <filesystem>
 
 #include "dashpot/base/file.h"
+#include "dashpot/base/random.h"
+#include "dashpot/base/text.h"
 #include "dashpot/value.h"
 #include "program.h"
 
@@ -21,6 +25,18 @@ const fs::path& small_results() {
     return results;
   }();
   return path;
+}
+
+/// What a model file says but for its date.
+std::string fitted(const fs::path& results, const std::string& model) {
+  const std::string file = (results / "models" / (model + ".json")).string();
+  const Value document = parse_json(read_file(file), file);
+  return format_json(*document.find("model")) + format_json(*document.find("quality"));
+}
+
+int kills_of_identify() {
+  const char* stated = std::getenv("DASHPOT_KILLS");
+  return stated ? std::atoi(stated) : 3;
 }
 
 }  // namespace
@@ -164,4 +180,65 @@ TEST_CASE("evaluate: a model file with an unknown key, of another drive, or none
       run_dashpot("evaluate " + (small_results() / "models/bingham.json").string() + " " + amperes);
   CHECK(drive.exit_code == 1);
   CHECK(contains(drive.output, "driven in V"));
+}
+
+TEST_CASE("identify: killed at random moments, it goes on and fits the same to the last bit" *
+          doctest::test_suite("long")) {
+  const TemporaryFolder folder;
+  const fs::path whole = folder.path() / "whole", resumed = folder.path() / "resumed";
+  const std::string request = "identify " + small_campaign().string() +
+                              " --models bingham,modified_bouc_wen,passive_network --network "
+                              "epochs=60 --no-report --output ";
+  const auto begin = std::chrono::steady_clock::now();
+  REQUIRE(run_dashpot(request + whole.string()).exit_code == 0);
+  const double seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+
+  // Whenever a run came to its end, the next one begins anew.
+  Random random(
+      static_cast<std::uint64_t>(std::chrono::system_clock::now().time_since_epoch().count()));
+  int kills = 0, resumptions = 0;
+  for (int runs = 0; kills < kills_of_identify() && runs < 20 * kills_of_identify(); ++runs) {
+    const std::string moment = format_exact(random.uniform(0.05, 0.8) * seconds);
+    const ProgramResult run = run_program("timeout -s KILL " + moment + " " + program_path() + " " +
+                                          request + resumed.string());
+    resumptions += contains(run.output, "kept from before");
+    kills += run.exit_code == 137;
+    if (run.exit_code == 0) fs::remove_all(resumed);
+  }
+  CHECK(kills == kills_of_identify());
+  MESSAGE(kills << " kills, " << resumptions << " runs that came to an end went on from kept fits");
+
+  const ProgramResult last = run_dashpot(request + resumed.string());
+  CAPTURE(last.output);
+  CHECK(last.exit_code == 0);
+  for (const char* model : {"bingham", "modified_bouc_wen", "passive_network"})
+    CHECK_MESSAGE(fitted(resumed, model) == fitted(whole, model), model);
+}
+
+TEST_CASE("identify: a model that the records cannot serve is a row with its reason") {
+  const TemporaryFolder folder;
+  const std::string output = " --no-report --output " + folder.path().string();
+  const ProgramResult two = run_dashpot("identify " + small_campaign().string() +
+                                        " --models bingham,family_gated" + output);
+  CAPTURE(two.output);
+  CHECK(contains(two.output, "fit failed"));
+  CHECK(contains(two.output, "which a model of a family needs"));
+  CHECK(fs::exists(folder.path() / "models/bingham.json"));
+
+  // Where no model can be fitted, the reason is the error.
+  const ProgramResult none =
+      run_dashpot("identify " + small_campaign().string() + " --models family_gated" + output);
+  CHECK(none.exit_code == 1);
+  CHECK(contains(none.output, "error: "));
+  CHECK(contains(none.output, "which a model of a family needs"));
+}
+
+TEST_CASE("identify: a second call goes on from kept fits, and --fresh makes them again") {
+  const TemporaryFolder folder;
+  const std::string asked = "identify " + small_campaign().string() +
+                            " --models bingham --no-report --output " + folder.path().string();
+  CHECK(!contains(run_dashpot(asked).output, "kept from before"));
+  CHECK(contains(run_dashpot(asked).output, "kept from before; with --fresh"));
+  CHECK(!contains(run_dashpot(asked + " --fresh").output, "kept from before"));
 }

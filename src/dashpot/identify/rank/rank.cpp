@@ -144,6 +144,7 @@ class RankingRun {
       ++done;
       options_.monitor.report("fitted " + stage, share());
     });
+    if (refused_ == tasks.size()) throw Error("", ranking_.models.front().fit.message);
 
     // Then judge and sort.
     for (RankedModel& ranked : ranking_.models) judge(ranked);
@@ -179,7 +180,8 @@ class RankingRun {
     return tasks;
   }
 
-  /// As it was kept, or made now and kept.
+  /// As it was kept, or made now and kept. A model that these records cannot serve is no end of the
+  /// others: its report says why.
   FitReport fit(const std::string& model, const std::vector<Record>& training) {
     const FitStore::Request request{model, training, dataset_.drive_unit, options_};
     if (store_)
@@ -187,7 +189,14 @@ class RankingRun {
         ++kept_;
         return std::move(*kept);
       }
-    FitReport report = identify(model, training, dataset_.drive_unit, options_);
+    FitReport report;
+    try {
+      report = identify(model, training, dataset_.drive_unit, options_);
+    } catch (const Error& error) {
+      ++refused_;
+      report.message = error.what();
+      return report;
+    }
     if (store_) store_->save(request, report);
     return report;
   }
@@ -211,7 +220,7 @@ class RankingRun {
     std::vector<Evaluation> evaluations;
     for (std::size_t f = 0; f < folds_.size(); ++f) {
       const FitReport& fit = fit_of(ranked, f);
-      if (!fit.model) return fail(ranked, folds_[f].name);
+      if (!fit.model) return fail(ranked, folds_[f].name, fit.message);
       evaluations.push_back(evaluate_fit(fit, folds_[f].left_out));
       for (RecordResult& record : evaluations.back().records) {
         record.left_out = true;
@@ -224,7 +233,7 @@ class RankingRun {
 
     // The final model: errors on its own records, its interval, its behaviour beyond them, its
     // memory, its energy.
-    if (!ranked.fit.model) return fail(ranked, "all records");
+    if (!ranked.fit.model) return fail(ranked, "all records", ranked.fit.message);
     ranked.training = evaluate_fit(ranked.fit, training_);
     ranked.band = conformal_band(error_shape(ranked.training.records), errors);
     drop_curves(ranked.training);
@@ -285,10 +294,11 @@ class RankingRun {
     return others(folds.size());
   }
 
-  static void fail(RankedModel& ranked, const std::string& where) {
+  static void fail(RankedModel& ranked, const std::string& where, const std::string& why) {
     ranked.fit.status = FitReport::Status::Failed;
-    ranked.fit.warnings.push_back("the fit on '" + where +
-                                  "' failed: the model could not be judged");
+    ranked.fit.warnings.push_back("the fit on '" + where + "' failed" +
+                                  (why.empty() ? "" : " (" + why + ")") +
+                                  ": the model could not be judged");
   }
 
   static bool better(const RankedModel& a, const RankedModel& b) {
@@ -321,7 +331,7 @@ class RankingRun {
   const std::vector<Record>& training_ = divisions_.training;
   Domain domain_;
   double force_span_;
-  std::atomic<std::size_t> kept_ = 0;
+  std::atomic<std::size_t> kept_ = 0, refused_ = 0;
   Ranking ranking_;
 };
 
