@@ -371,7 +371,7 @@ std::vector<ForceLimit> sector_limits(const ForceRange& range) {
 std::vector<RangeCorner> corners(const ForceRange& range) {
   std::vector<RangeCorner> found;
   const auto add = [&](const ForceRange& part, double displacement) {
-    for (std::size_t k = 0; k < part.velocity.size(); k += 2) {
+    for (std::size_t k = 0; k < part.velocity.size(); k += 4) {
       found.push_back({displacement, part.velocity[k], part.least(k)});
       found.push_back({displacement, part.velocity[k], part.greatest(k)});
     }

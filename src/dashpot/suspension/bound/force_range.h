@@ -89,7 +89,7 @@ struct ForceLimit {
 /// millionth, which leaves room for rounding.
 std::vector<ForceLimit> sector_limits(const ForceRange& range);
 
-/// Where a range has corners, also in displacement: at every other velocity of its table, for a
+/// Where a range has corners, also in displacement: at every fourth velocity of its table, for a
 /// search.
 struct RangeCorner {
   double displacement, velocity, force;  ///< m, m/s, N
