@@ -58,7 +58,8 @@ Command identify_command() {
       .options = ranking_options(*settings),
       .example = std::string(kIdentifyExample),
       .run = [settings](Console& console) { return run_identify(*settings, console); }};
-  command.options.push_back(budget_option(settings->fit, budget_of_groups()));
+  append(command.options,
+         {budget_option(settings->fit, budget_of_groups()), fresh_option(*settings)});
   return command;
 }
 

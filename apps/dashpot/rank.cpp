@@ -89,6 +89,7 @@ Command rank_command() {
 
   append(command.options,
          {budget_option(settings->ranking.fit, budget_of_groups()),
+          fresh_option(settings->ranking),
           {.names = "--markdown",
            .target = &settings->markdown,
            .help = "print the tables as a part of a Markdown page, without a date"}});

@@ -33,10 +33,12 @@ std::vector<Option> ranking_options(RankingSettings& settings) {
   options.push_back(leave_out_option(settings.leave_out));
   append(options, fit_options(settings.fit));
   append(options, result_options(settings.results));
-  options.push_back({.names = "--fresh",
-                     .target = &settings.fresh,
-                     .help = "neither use nor keep finished fits"});
   return options;
+}
+
+Option fresh_option(RankingSettings& settings) {
+  return {
+      .names = "--fresh", .target = &settings.fresh, .help = "neither use nor keep finished fits"};
 }
 
 RankingData ranking_data(const RankingSettings& settings, Console& console) {

@@ -27,6 +27,8 @@ Option leave_out_option(std::string& text);
 std::optional<LeaveOut> stated_leave_out(const std::string& text);
 
 std::vector<Option> ranking_options(RankingSettings& settings);
+/// Of commands that use fit_store().
+Option fresh_option(RankingSettings& settings);
 
 struct RankingData {
   Dataset dataset;

@@ -296,6 +296,7 @@ class RankingRun {
 
   static void fail(RankedModel& ranked, const std::string& where, const std::string& why) {
     ranked.fit.status = FitReport::Status::Failed;
+    ranked.fit.model.reset();  // never judged, so not to be saved either
     ranked.fit.warnings.push_back("the fit on '" + where + "' failed" +
                                   (why.empty() ? "" : " (" + why + ")") +
                                   ": the model could not be judged");
