@@ -161,7 +161,8 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("any multipliers bound from below, good ones and random ones") {
+TEST_CASE("any multipliers bound from below, good ones and random ones" *
+          doctest::test_suite("long")) {
   const GroundPointer ground = road(3);
   const SampledPlant car(light_car(), *ground, 1, 1e-3);
   const ForceRange range = damping_range(300, 3900);
@@ -195,7 +196,8 @@ TEST_CASE("any multipliers bound from below, good ones and random ones") {
   CHECK_FALSE(certified_with({1e-9, 10}));
 }
 
-TEST_CASE("no controller beats the bound or the optimum, and the gap is small") {
+TEST_CASE("no controller beats the bound or the optimum, and the gap is small" *
+          doctest::test_suite("long")) {
   const ControlLimits limits;
   const ForceRange range = damping_range(limits.damping_min, limits.damping_max);
   const double duration = 1.5;
@@ -264,7 +266,7 @@ TEST_CASE("what has no clairvoyant bound says so") {
   CHECK(message_of([] { damping_range(2, 1); }) == "damping range: least 2, greatest 1");
 }
 
-TEST_CASE("a spring inside a damper: the review's counter-example") {
+TEST_CASE("a spring inside a damper: the review's counter-example" * doctest::test_suite("long")) {
   // Passive at 1500 N*s/m with a stiffness of -15 kN/m: the range at displacement 0 knows nothing
   // of it, and what is then proven is beaten by the passive damper itself.
   const auto spring = [](double stiffness) {
@@ -290,7 +292,7 @@ TEST_CASE("a spring inside a damper: the review's counter-example") {
   CHECK(right.bound > 0.5 * passive);
 }
 
-TEST_CASE("no random damper in a random car beats its bound") {
+TEST_CASE("no random damper in a random car beats its bound" * doctest::test_suite("long")) {
   // DASHPOT_BOUND_CASES=10000 for more of them.
   const char* asked = std::getenv("DASHPOT_BOUND_CASES");
   const int cases = asked ? std::atoi(asked) : 24;
