@@ -4,8 +4,8 @@
 
 #include "console.h"
 #include "dashpot/damper/parameter_set.h"
-#include "dashpot/dissipation.h"
 #include "dashpot/identify/judge/track.h"
+#include "dashpot/model_file.h"
 
 namespace dashpot::cli {
 

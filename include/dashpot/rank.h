@@ -10,7 +10,6 @@
 #include <string>
 #include <vector>
 
-#include "dashpot/dissipation.h"
 #include "dashpot/evaluate.h"
 #include "dashpot/identify.h"
 #include "dashpot/model_file.h"

@@ -2,7 +2,6 @@
 
 #include "damper/kinds/passive_network/passive_network_example.h"
 #include "dashpot/damper/parameter_set.h"
-#include "dashpot/dissipation.h"
 #include "dashpot/ground_motion.h"
 #include "dashpot/model_file.h"
 #include "dashpot/vehicle.h"

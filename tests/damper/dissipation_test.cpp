@@ -1,5 +1,3 @@
-#include "dashpot/dissipation.h"
-
 #include <cmath>
 #include <numbers>
 
@@ -7,6 +5,7 @@
 #include "dashpot/damper/file_parts.h"
 #include "dashpot/damper/kinds/law/law_model.h"
 #include "dashpot/damper/parameter_set.h"
+#include "dashpot/model_file.h"
 #include "support.h"
 
 using namespace dashpot;

@@ -1,5 +1,3 @@
-#include "dashpot/dissipation.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,6 +6,7 @@
 
 #include "dashpot/base/parallel.h"
 #include "dashpot/base/text.h"
+#include "dashpot/model_file.h"
 
 namespace dashpot {
 namespace {

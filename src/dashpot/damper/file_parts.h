@@ -3,8 +3,8 @@
 #include <string_view>
 
 #include "dashpot/damper_model.h"
-#include "dashpot/dissipation.h"
 #include "dashpot/drive.h"
+#include "dashpot/model_file.h"
 #include "dashpot/value.h"
 
 // The parts that the files of models and of inverses have in common.

@@ -3,9 +3,9 @@
 #include <cstdlib>
 
 #include "dashpot/base/text.h"
-#include "dashpot/dissipation.h"
 #include "dashpot/error.h"
 #include "dashpot/export.h"
+#include "dashpot/model_file.h"
 
 namespace dashpot {
 namespace {
