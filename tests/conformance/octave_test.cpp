@@ -26,8 +26,8 @@ TEST_CASE("Octave reads the tables and recordings that Dashpot writes as MAT") {
     write_file(folder.path() / file.name, file.content);
   const auto csv =
       folder.write("run.csv",
-                   "t[s],displacement[m],velocity[m/s],current[A],force[N]\n0,0,1,0.5,3\n"
-                   "0.1,0.1,2,0.5,5\n0.2,0.3,1,0.5,2.25\n");
+                   "t[s],displacement[m],velocity[m/s],current[A],force[N]\n0,-0.1,1,0.5,3\n"
+                   "0.1,0,2,0.5,5\n0.2,0.2,1,0.5,2.25\n");
   save_mat(load_dataset({csv}).records.front(), folder.path() / "run.mat");
   const ProgramResult result = octave(folder, R"(map = load('map.mat');
 table = csvread('map_force.csv');
@@ -38,7 +38,7 @@ inverse = csvread('map_current.csv');
 assert(map.inverse_current, inverse(2:end, 2:end));
 run = load('run.mat');
 assert(run.force(:), [3; 5; 2.25]);
-assert(run.displacement(:), [0; 0.1; 0.3]);
+assert(run.displacement(:), [-0.1; 0; 0.2]);
 )");
   CAPTURE(result.output);
   CHECK(result.exit_code == 0);
