@@ -82,6 +82,13 @@ TEST_CASE("a car swings on for ever with the published damper that does not, and
   Vehicle shaken = car("tudon_martinez2012", "vrths_mr_tanh_acceleration", 1);
   REQUIRE(shaken.warnings.size() == 1);
   CHECK(contains(shaken.warnings[0], "it feeds energy into motions of 75 to 200 Hz"));
+
+  // Another offset leaves the warning; another damper is not judged, and that is said.
+  CHECK(car("tudon_martinez2012", "vrths_mr_tanh_acceleration,f0=0", 1).warnings.size() == 1);
+  const Vehicle other = car("tudon_martinez2012", "vrths_mr_tanh_acceleration,tau=0.1ms", 1);
+  CHECK(other.warnings.empty());
+  CHECK(contains(join(other.notes, "\n"), "was not judged with these parameters"));
+
   const AfterStep left = after_step(std::move(shaken));
   CHECK_FALSE(left.comes_to_rest());
   CHECK(left.last > 1);

@@ -165,9 +165,9 @@ const std::vector<ModelColumn>& model_columns() {
 
     all.push_back({"dissipates",
                    {.title = "Dissipates",
-                    .hint = "Whether it takes energy out of every sine from 1 to 200 Hz and from "
-                            "0.1 um to the strokes and speeds of the data; or the band in which "
-                            "it feeds some in"},
+                    .hint = "Whether it took energy out of all sines that were tried, from 1 to "
+                            "200 Hz and from 0.1 um to the strokes and speeds of the data; or the "
+                            "band in which it feeds some in"},
                    [](Model m) {
                      return DocumentCell{dissipation_text(m.dissipation),
                                          m.dissipation.is_tested ? m.dissipation.share : kNoNumber};

@@ -56,22 +56,24 @@ DocumentTable road_table(const RideStudy& study) {
   return table;
 }
 
-/// Bounds and optima hold for the whole of the ride, from rest on; so do the figures here.
-/// What the bounds are said of.
+/// What the bounds are said of: the whole of the ride, from rest on, as are the figures here.
 std::string possible_note(const RideStudy& study) {
   std::string note =
       "% of possible = (passive - controller) / (passive - optimum), each aim by itself; - where "
       "the optimum is less than " +
       number_text(100 * kLeastPossible) +
       " % better than passive. Optimum: simulated, the road known in advance. Bound: no controller "
-      "gets below, checked in interval arithmetic";
+      "gets below whose damper's forces lie in the range that its model was sampled to have, "
+      "checked in interval arithmetic";
+
+  // As far as the range goes.
   std::vector<std::string> within;
   if (std::isfinite(study.bounded.travel))
     within.push_back(whole_text(1000 * study.bounded.travel) + " mm of travel");
   if (std::isfinite(study.bounded.speed))
     within.push_back(number_text(study.bounded.speed) + " m/s");
   if (!within.empty())
-    note += ", whose damper stays within " + within.front() +
+    note += "; the damper stays within " + within.front() +
             (within.size() > 1 ? " and " + within.back() : "") +
             " either way, twice what it did in these rides";
   return note + ". - : none could be proven.";

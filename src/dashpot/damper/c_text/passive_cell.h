@@ -3,14 +3,21 @@
 
 /* A damper that cannot generate energy, whatever its networks say, as C99 text that the library
  * takes in and the C export ships. Springs of fixed stiffness k hang on levers A(q) that the drive
- * q moves, and resistances r drain them; with v, x, q and the forces s and f standardised: s' = k
- * (A v - r s),   r = exp(g_a) + |A v| exp(g_b)      A = P + Q a, P, Q >= 0 f  = sum A s + c v +
- * U'(x) + m (v - w) n,   w' = n (v - w) a  = 1 - exp(-q / i),  q' = (drive - q) rate The gates g
- * and the viscous term c >= 0 are small networks of v, x, q and of memories u that may be anything;
- * g reads s, too: [h, p] = tanh(W [v, x, q, u, s, 1]),  g = G [h, 1, a],  u' = rate (p - u) c = (z
- * + sqrt(z^2 + 1)) / 2,  z = C [tanh(V [v, x, q, u, 1]), 1, a] U is convex: x^2 and an exponential
- * to each side, which go on straight outside of the data. Declared before: PASSIVE_MOST_INPUTS,
- * PASSIVE_MOST_NEURONS, PASSIVE_MOST_SPRINGS. */
+ * q moves, and resistances r drain them. With v, x, q and the forces s and f standardised:
+ *
+ *   s' = k (A v - r s),   r = exp(g_a) + |A v| exp(g_b)
+ *   A  = P + Q a,         P, Q >= 0
+ *   a  = 1 - exp(-q / i), q' = (drive - q) rate
+ *   f  = sum A s + c v + U'(x) + m (v - w) n,   w' = n (v - w)
+ *
+ * The gates g and the viscous term c >= 0 are small networks of v, x, q and of memories u that may
+ * be anything; g reads s, too:
+ *
+ *   [h, p] = tanh(W [v, x, q, u, s, 1]),  g = G [h, 1, a],  u' = rate (p - u)
+ *   z = C [tanh(V [v, x, q, u, 1]), 1, a],  c = (z + sqrt(z^2 + 1)) / 2
+ *
+ * U is convex: x^2 and an exponential to each side, which go on straight outside of the data.
+ * Declared before: PASSIVE_MOST_INPUTS, PASSIVE_MOST_NEURONS, PASSIVE_MOST_SPRINGS. */
 typedef struct PassiveCell {
   int springs, memories, neurons, viscous_neurons;
   int lags;                 /* 1: the drive acts through a lag, which is a state */

@@ -75,10 +75,16 @@ std::optional<double> certified_best(const Plant& plant, const SampledPlant& car
                                      const RideIndex& index, const Relaxation& relaxed,
                                      const MotionSquares& motion, double size) {
   if (relaxed.best.limits.empty()) return {};
+
+  // Instants at which the limit is many times its usual size make the Riccati equation stiff.
+  constexpr double kMostTimesTheMedian = 30;
   LimitCourse best = relaxed.best;
-  tame(best, 30);
+  tame(best, kMostTimesTheMedian);
+
+  // Towards the constant limits first, then ever less of all of them.
   constexpr double kPulls[] = {0, 0.003, 0.01, 0.03, 0.1, 0.3, 1};
-  for (double part = 1; part > 1e-6; part /= 10)
+  constexpr double kLeastPart = 1e-6;
+  for (double part = 1; part > kLeastPart; part /= 10)
     for (const double pull : kPulls) {
       const LimitCourse course = on_cells(mixed(best, relaxed.constant, pull, part), car.cells(),
                                           coarse.step() / car.step());

@@ -121,8 +121,10 @@ class ForceSamples {
         }
       }
     };
+
+    // At a jump, which dry friction has at rest, both of its sides.
     look(velocity);
-    if (velocity == 0) {  // both sides of a jump
+    if (velocity == 0) {
       look(-kBesideZero);
       look(kBesideZero);
     }

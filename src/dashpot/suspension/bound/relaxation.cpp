@@ -178,11 +178,14 @@ class FreeFamily final : public LimitFamily {
 
   /// And the mean of [F^2, F v, v^2, F, v, F x, v x, x] by the weights of the corners in it.
   double least(const ForceLimit& q, ForceLimit* mean) const {
+    // The sharp least, from which the weights count so that none overflows.
     double least = INFINITY;
     for (std::size_t k = 0; k < corners_.size(); ++k) {
       values_[k] = q.at(corners_[k].displacement, corners_[k].velocity, corners_[k].force);
       least = std::min(least, values_[k]);
     }
+
+    // The weights of the corners; those of exp(-40) and less change nothing.
     constexpr double kNothing = 40;
     double sum = 0;
     for (std::size_t k = 0; k < corners_.size(); ++k) {
@@ -191,6 +194,7 @@ class FreeFamily final : public LimitFamily {
       const double weight = std::exp(-above);
       sum += weight;
       if (!mean) continue;
+
       const auto [x, v, f] = corners_[k];
       mean->ff += weight * f * f;
       mean->fv += weight * f * v;
@@ -201,6 +205,7 @@ class FreeFamily final : public LimitFamily {
       mean->vx += weight * v * x;
       mean->x += weight * x;
     }
+
     if (mean)
       for (const auto one : kCoefficients) mean->*one /= sum;
     return least - smoothness_ * std::log(sum);

@@ -127,9 +127,16 @@ void take_model(ChosenDamper& damper, const DamperModel& model) {
   if (!damper.model) damper.model = std::move(bare.model);
 }
 
-/// Says where the damper feeds energy into what moves it. A law whose parameters were replaced is
-/// not judged.
-void warn_of_activity(ChosenDamper& damper, const Dissipation& result) {
+/// Says where the damper feeds energy into what moves it. The verdict is that of its file or set:
+/// another offset changes nothing of it, other parameters make a damper that nobody has judged.
+void warn_of_activity(ChosenDamper& damper, const Dissipation& result, Words settings) {
+  const auto is_offset = [](const std::string& setting) { return setting.starts_with("f0="); };
+  if (!std::ranges::all_of(settings, is_offset)) {
+    damper.notes.push_back(damper.name +
+                           ": whether it takes energy out of all motions was not judged with "
+                           "these parameters");
+    return;
+  }
   if (const std::string active = activity(result, damper.drive_unit); !active.empty())
     damper.warnings.push_back(damper.name + ": " + active + "; what swings with it may never rest");
 }
@@ -164,7 +171,7 @@ ChosenDamper from_file(const std::filesystem::path& path, Words settings,
   damper.drive_min = std::max(0.0, file.domain.current_min);
   damper.drive_max = std::max(damper.drive_min, file.domain.current_max);
   damper.domain = file.domain;
-  if (settings.empty()) warn_of_activity(damper, dissipation_of(file));
+  warn_of_activity(damper, dissipation_of(file), settings);
   return damper;
 }
 
@@ -178,7 +185,7 @@ ChosenDamper from_set(const std::string& name, Words settings, const std::string
   damper.drive_max = set.drive_max;
   if (!set.verified)
     damper.notes.push_back("the numbers of " + name + " are an example: " + set.reason);
-  if (settings.empty()) warn_of_activity(damper, set.dissipation);
+  warn_of_activity(damper, set.dissipation, settings);
   return damper;
 }
 
