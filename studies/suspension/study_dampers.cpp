@@ -19,6 +19,50 @@ std::vector<Record> recorded(const DamperModel& damper, const std::vector<BenchT
   return run_virtual_bench(damper, DriveUnit::Ampere, tests, bench).records;
 }
 
+/// A model without memory that is asked within some velocities only. Beyond them its force goes on
+/// with the mean slope of the outermost fifth, as that of open valves does, and never falls.
+class StraightOn final : public DamperModel {
+ public:
+  StraightOn(std::unique_ptr<DamperModel> inside, double fastest)
+      : inside_(std::move(inside)), fastest_(fastest) {}
+
+  ModelKind kind() const override { return ModelKind::Other; }
+  std::string name() const override { return inside_->name(); }
+  bool needs_displacement() const noexcept override { return inside_->needs_displacement(); }
+  std::size_t parameter_count() const noexcept override { return inside_->parameter_count(); }
+  std::size_t state_size() const noexcept override { return 0; }
+  void rest(const DamperInput&, std::span<double>) const noexcept override {}
+  void advance(const DamperInput&, const DamperInput&, double,
+               std::span<double>) const noexcept override {}
+  double force(const DamperInput& input, std::span<const double>) const noexcept override {
+    const auto at = [&](double velocity) {
+      DamperInput there = input;
+      there.velocity = velocity;
+      return inside_->force(there, {});
+    };
+    const double end = std::copysign(fastest_, input.velocity), before = 0.8 * end;
+    if (std::abs(input.velocity) <= fastest_) return at(input.velocity);
+    const double slope = std::max(0.0, (at(end) - at(before)) / (end - before));
+    return at(end) + slope * (input.velocity - end);
+  }
+  std::unique_ptr<DamperModel> with_offset(double newton) const override {
+    return std::make_unique<StraightOn>(inside_->with_offset(newton), fastest_);
+  }
+  Value to_json() const override { return inside_->to_json(); }
+
+ private:
+  std::shared_ptr<const DamperModel> inside_;
+  double fastest_;  // m/s
+};
+
+double fastest_of(const std::vector<Record>& records) {
+  double fastest = 0;
+  for (const Record& record : records)
+    for (const double v : record.channel("velocity").samples)
+      fastest = std::max(fastest, std::abs(v));
+  return fastest;
+}
+
 /// Fitted on the fold's training, judged on the rest.
 NetworkDamper identified(std::string name, std::string description, const Fold& fold,
                          std::uint64_t seed) {
@@ -41,9 +85,12 @@ NetworkDamper identified(std::string name, std::string description, const Fold& 
   }
 
   // The force that it shows at rest without current is taken off.
+  const double fastest = fastest_of(fold.training);
   return {.name = std::move(name),
           .description = std::move(description),
-          .model = report.model->with_offset(-report.model->force({}, {})),
+          .model = std::make_shared<StraightOn>(
+              report.model->with_offset(-report.model->force({}, {})), fastest),
+          .fastest = fastest,
           .quality = result.metrics,
           .half_span = (high - low) / 2};
 }

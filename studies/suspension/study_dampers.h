@@ -10,10 +10,12 @@
 namespace dashpot {
 
 /// A damper that was recorded on the virtual bench and identified by the paper's network: v, i, ten
-/// neurons.
+/// neurons. Beyond the bench's velocities, where a network says nothing, its force goes on
+/// straight.
 struct NetworkDamper {
   std::string name, description;
   std::shared_ptr<const DamperModel> model;  ///< without force at rest
+  double fastest = 0;                        ///< m/s, in the recordings that taught it
   Metrics quality;                           ///< on recordings that the network has not seen
   double half_span = 0;                      ///< N, of the forces there
 };

@@ -20,7 +20,6 @@ constexpr double kPassiveDamping = 1804;  // N*s/m, for the paper's gain at the 
 constexpr double kCrossoverRatio = 1.75;  // of the body's resonance
 constexpr double kStepHeight = 0.03, kLargeChirp = 0.02, kSmallChirp = 0.002;  // m
 constexpr double kBand = 0.05;         // of settling, as a share of the peak
-constexpr double kFastest = 1.5;       // m/s, on the bench
 constexpr double kAnyDamping = 20000;  // N*s/m: next to rigid here
 constexpr const char* kRoad = "iso8608,class=C,speed=20";
 constexpr double kLeastDampings[] = {600,  900,  1200, 1500, 1800, 2100, 2400,
@@ -56,10 +55,12 @@ std::string mix1(double crossover) { return "mix1,crossover=" + format_exact(cro
 void add_schemes(SuspensionStudy& study, const PlantSet& set, double lag_rate) {
   // Passive references: the identified curve and the linear damper.
   const auto add = [&](std::string key, std::string title, Vehicle vehicle, bool within) {
-    study.schemes.push_back({std::move(key), std::move(title), std::move(vehicle), within});
+    study.schemes.push_back({std::move(key), std::move(title), std::move(vehicle), within,
+                             within ? study.damper.fastest : INFINITY});
   };
   add("passive", "passive: identified curve",
       make_car(set, passive_damper(study.passive.model), {}, ""), false);
+  study.schemes.back().fastest = study.passive.fastest;
   add("linear", "passive: linear, 1804 N*s/m",
       make_car(set, mounted(damping_range(kPassiveDamping, kPassiveDamping)), {}, ""), false);
 
@@ -105,28 +106,31 @@ void read_step(SchemeRide& ride) {
   ride.comfort = step_measures(body, dt, 0, kBand * peak);
   ride.holding =
       step_measures(record.channel("tyre_deflection").samples, dt, 0, kBand * kStepHeight);
+  ride.travel = *std::ranges::max_element(record.channel("suspension_deflection").samples, {},
+                                          [](double x) { return std::abs(x); });
 }
 
 /// Shares of the paper's chirp that its model is not made for.
-void read_chirp(SchemeRide& ride, const Vehicle& vehicle, const Monitor& monitor) {
+void read_chirp(SchemeRide& ride, const SuspensionScheme& scheme, const Monitor& monitor) {
   const GroundPointer chirp = make_ground("chirp,amplitude=2cm", 1);
-  const Trace trace = run(vehicle, *chirp, chirp->duration(), monitor);
+  const Trace trace = run(scheme.vehicle, *chirp, chirp->duration(), monitor);
   const std::vector<double>& velocity = trace.record.channel("suspension_velocity").samples;
   const auto fast =
-      std::ranges::count_if(velocity, [](double v) { return std::abs(v) > kFastest; });
+      std::ranges::count_if(velocity, [&](double v) { return std::abs(v) > scheme.fastest; });
   ride.contact_lost = trace.contact_lost;
   ride.too_fast = static_cast<double>(fast) / static_cast<double>(velocity.size());
 }
 
-SchemeRide ride_of(const Vehicle& vehicle, const GroundMotion& road,
+SchemeRide ride_of(const SuspensionScheme& scheme, const GroundMotion& road,
                    const SuspensionStudyOptions& options) {
   // Gains at two amplitudes, since the damper is not linear.
+  const Vehicle& vehicle = scheme.vehicle;
   SchemeRide ride;
   ride.large = gains_by_chirp(vehicle, gain_frequencies(),
                               {.amplitude = kLargeChirp, .monitor = options.monitor});
   ride.small = gains_by_chirp(vehicle, gain_frequencies(),
                               {.amplitude = kSmallChirp, .monitor = options.monitor});
-  read_chirp(ride, vehicle, options.monitor);
+  read_chirp(ride, scheme, options.monitor);
 
   // The step, for its measures and its mean squares.
   const GroundPointer step = make_ground("step,height=3cm", 1);
@@ -173,9 +177,10 @@ std::vector<ClairvoyantBound> front_of(const SuspensionStudy& study, const Groun
 
 void add_bounds(SuspensionStudy& study, const GroundMotion& road) {
   const SchemeRide& passive = study.rides.front();
-  const ForceRange range = model_range(
-      *study.damper.model,
-      {.current_min = 0, .current_max = study.limits.current_max, .velocity = 2 * kFastest});
+  const ForceRange range =
+      model_range(*study.damper.model, {.current_min = 0,
+                                        .current_max = study.limits.current_max,
+                                        .velocity = 2 * study.damper.fastest});
   study.road_front = front_of(study, road, range, passive.on_road, study.options.road_duration);
   const GroundPointer step = make_ground("step,height=3cm", 1);
   study.step_front = front_of(study, *step, range, passive.on_step, study.options.step_duration);
@@ -244,7 +249,7 @@ SuspensionStudy study_suspension(const SuspensionStudyOptions& options) {
   std::atomic<std::size_t> done = 0;
   parallel_for(all, options.threads, [&](std::size_t k) {
     if (k < study.rides.size())
-      study.rides[k] = ride_of(study.schemes[k].vehicle, *road, options);
+      study.rides[k] = ride_of(study.schemes[k], *road, options);
     else
       study.least_damping[k - study.rides.size()] =
           with_least(kLeastDampings[k - study.rides.size()], study, set, *road);

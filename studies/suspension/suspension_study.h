@@ -1,4 +1,5 @@
 #pragma once
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -19,6 +20,7 @@ struct SuspensionScheme {
   std::string key, title;
   Vehicle vehicle;
   bool within_range = false;  ///< its damper is the identified one: the bounds below hold for it
+  double fastest = INFINITY;  ///< m/s, in the recordings of its damper
 };
 
 /// The ride of a scheme over chirp, step and road.
@@ -28,6 +30,7 @@ struct SchemeRide {
   double too_fast = 0;      ///< share of it in which the damper is faster than on the bench
   Trace step;
   StepMeasures comfort, holding;  ///< of body acceleration, m/s^2; of tyre deflection, m
+  double travel = 0;              ///< m, the damper's greatest after the step, signed
   RideSquares on_step, on_road;
 };
 

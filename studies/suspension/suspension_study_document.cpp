@@ -36,8 +36,9 @@ std::string verdict_of(const SuspensionStudy& study) {
       "Mix-1-sensor with the identified damper against the linear damper that has the paper's "
       "passive gain: at the wheel's resonance the tyre's gain {} (the paper: by 40.4 %), on the "
       "road the tyre's force {} and the body's acceleration {}. Those 40.4 % need a damper whose "
-      "least damping is {}. The 64.9 % of road holding after a step {}. MR2 here is a virtual "
-      "damper, shaped after the paper's words.",
+      "least damping is {}. The 64.9 % of road holding after a step, if the tyre's force is meant, "
+      "{}; the tyre settles in {} s instead of {} s. MR2 here is a virtual damper, shaped after "
+      "the paper's words.",
       change_words(tyre(linear), tyre(mix1)),
       change_words(std::sqrt(linear.on_road.tyre_force), std::sqrt(mix1.on_road.tyre_force)),
       change_words(std::sqrt(linear.on_road.acceleration), std::sqrt(mix1.on_road.acceleration)),
@@ -45,7 +46,8 @@ std::string verdict_of(const SuspensionStudy& study) {
       less_percent(std::sqrt(linear.on_step.tyre_force),
                    std::sqrt(holding.bound / holding.index.holding)) < paper::kHoldingRmsLess
           ? "no damper reaches from there, had it known the road: that is proven"
-          : "are not ruled out");
+          : "are not ruled out",
+      number_text(mix1.holding.settling_time, 2), number_text(linear.holding.settling_time, 2));
 }
 
 Value step_json(const StepMeasures& step) {

@@ -12,7 +12,11 @@ namespace dashpot {
 /// The figures that the paper prints of its suspension.
 namespace paper {
 inline constexpr double kWheelGain = 2.0, kWheelGainLess = 40.4;  // 1; %
+/// Read as "reduces by 2 units", those 40.4 % are 2.0 of the passive gain.
+inline constexpr double kWheelGainPassiveBy = kWheelGain / (kWheelGainLess / 100);
+inline constexpr double kWheelGainBy = kWheelGainPassiveBy - kWheelGain;
 inline constexpr double kWheelGainLimit = 2.5;
+inline constexpr double kHoldingSettlingLess = 64.7;                    // %, by its table 8
 inline constexpr double kComfortRmsLess = 7.4, kHoldingRmsLess = 64.9;  // %
 /// A row of its table 8.
 struct StepRow {

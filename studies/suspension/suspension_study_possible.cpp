@@ -184,8 +184,8 @@ DocumentSection possible_section(const SuspensionStudy& study) {
   // A reason for the gap between bound and optimum.
   section.remarks.push_back(
       "The range is the network's own, from its least to its greatest force over all currents at "
-      "each velocity up to 3 m/s, twice the fastest on the bench: the bounds are for rides that "
-      "stay within. They are checked in interval arithmetic.");
+      "each velocity up to twice the fastest on the bench, straight on beyond that: the bounds are "
+      "for rides that stay within. They are checked in interval arithmetic.");
   return section;
 }
 
@@ -222,6 +222,14 @@ DocumentSection least_damping_section(const SuspensionStudy& study) {
                   number_text(damping_for_wheel_gain(study.plant, paper::kWheelGainLimit), 4),
                   number_text(damping_for_wheel_gain(study.plant, paper::kWheelGain), 4),
                   text(limit), text(needed)));
+  section.paragraphs.push_back(fmt::format(
+      "The paper says that the gain \"reduces until 2 units\" and calls that 40.4 %, which also "
+      "reads as by 2 units: from {} to {}. Linear dampers give these with {} and {} N*s/m, "
+      "Mix-1-sensor the latter from a least damping of {} on.",
+      number_text(paper::kWheelGainPassiveBy), number_text(paper::kWheelGainBy),
+      number_text(damping_for_wheel_gain(study.plant, paper::kWheelGainPassiveBy), 4),
+      number_text(damping_for_wheel_gain(study.plant, paper::kWheelGainBy), 4),
+      text(least_damping_for(study, paper::kWheelGainBy))));
 
   // The sweep as a table and as curves: gains and mean squares against the linear damper.
   DocumentTable table{"Mix-1-sensor on ideal dampers",

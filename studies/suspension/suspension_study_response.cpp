@@ -21,13 +21,29 @@ FigurePanel gain_panel(const SuspensionStudy& study, Gain GainPoint::* signal,
   FigurePanel panel{.title = title, .x_label = "frequency, Hz", .y_label = label, .series = {}};
   for (std::size_t k = 0; k < kDrawn.size(); ++k) {
     const std::size_t place = study.place(kDrawn[k]);
-    FigureSeries series{
+    FigureSeries within{
         .label = study.schemes[place].title, .colour = colour_of(k), .x = {}, .y = {}};
     for (const GainPoint& point : study.rides[place].large) {
-      series.x.push_back(point.frequency);
-      series.y.push_back((point.*signal).fundamental);
+      within.x.push_back(point.frequency);
+      within.y.push_back((point.*signal).fundamental);
     }
-    panel.series.push_back(std::move(series));
+
+    // Where the damper is faster than in its recordings, a broken line.
+    FigureSeries beyond = within;
+    beyond.mark = FigureSeries::Mark::Dashes;
+    beyond.is_listed = beyond.is_read = false;
+    const double fastest = study.schemes[place].fastest;
+    const auto is_beyond = [&](std::size_t n) {
+      return study.rides[place].large[n].speed > fastest;
+    };
+    for (std::size_t n = 0; n < within.y.size(); ++n) {
+      if (is_beyond(n)) within.y[n] = NAN;
+      const bool joins = is_beyond(n) || (n > 0 && is_beyond(n - 1)) ||
+                         (n + 1 < within.y.size() && is_beyond(n + 1));
+      if (!joins) beyond.y[n] = NAN;
+    }
+    panel.series.push_back(std::move(within));
+    panel.series.push_back(std::move(beyond));
   }
   return panel;
 }
@@ -115,6 +131,7 @@ DocumentTable step_table(const SuspensionStudy& study) {
                        {"Tyre settles, s", true},
                        {"Decay ratio", true},
                        {"Greatest, cm", true},
+                       {"Travel, cm", true},
                        {"Body rms, m/s^2", true, 2},
                        {"less, %", true, 2},
                        {"Tyre force rms, N", true, 3},
@@ -127,7 +144,7 @@ DocumentTable step_table(const SuspensionStudy& study) {
                            const std::string& tyre_less) {
     table.rows.push_back({name, number_text(comfort.settling), number_text(comfort.decay),
                           number_text(comfort.deviation), number_text(holding.settling),
-                          number_text(holding.decay), number_text(holding.deviation), "-",
+                          number_text(holding.decay), number_text(holding.deviation), "-", "-",
                           body_less, "-", tyre_less});
   };
   printed("the paper, semi-active", paper::kComfort, paper::kHolding,
@@ -144,14 +161,14 @@ DocumentTable step_table(const SuspensionStudy& study) {
         {study.schemes[k].title, number_text(ride.comfort.settling_time),
          decay_text(ride.comfort.decay_ratio), number_text(ride.comfort.greatest_deviation),
          number_text(ride.holding.settling_time), decay_text(ride.holding.decay_ratio),
-         number_text(100 * ride.holding.greatest_deviation), number_text(body),
-         whole_text(less_percent(std::sqrt(passive.acceleration), body)), whole_text(tyre),
-         whole_text(less_percent(std::sqrt(passive.tyre_force), tyre))});
+         number_text(100 * ride.holding.greatest_deviation), number_text(100 * ride.travel),
+         number_text(body), whole_text(less_percent(std::sqrt(passive.acceleration), body)),
+         whole_text(tyre), whole_text(less_percent(std::sqrt(passive.tyre_force), tyre))});
   }
   table.note = fmt::format(
       "Settled: within 5 % of the acceleration's peak, of the step's height. Decay ratio: second "
-      "positive peak over the first. Root mean squares over {} s. The paper prints the "
-      "accelerations in m/s^0.5: they are m/s^2.",
+      "positive peak over the first. Travel: the damper's greatest. Root mean squares over {} s. "
+      "The paper prints the accelerations in m/s^0.5: they are m/s^2.",
       number_text(study.options.step_duration));
   return table;
 }
@@ -185,7 +202,9 @@ DocumentSection frequency_section(const SuspensionStudy& study) {
   DocumentFigure figure{
       .name = "figure-12",
       .title = "Figure 12: gains over the road",
-      .caption = "Chirp of 2 cm from 0.5 to 20 Hz, as the paper's; dashed its limits.",
+      .caption =
+          "Chirp of 2 cm from 0.5 to 20 Hz, as the paper's. Dashed: its limits, and curves "
+          "where the damper is faster than on the bench.",
       .panels = {gain_panel(study, &GainPoint::body_acceleration, "Comfort",
                             "body acceleration over road, 1/s^2"),
                  gain_panel(study, &GainPoint::tyre_deflection, "Road holding",
@@ -205,9 +224,9 @@ DocumentSection frequency_section(const SuspensionStudy& study) {
                   "one, let it pull. At 2 mm it stays on it.",
                   number_text(swing), number_text(rest)));
   section.remarks.push_back(
-      "The identified damper is not linear, so its gains depend on the amplitude; the bench "
-      "reached 1.5 m/s, and where the table says that a damper is faster, its network "
-      "extrapolates.");
+      "The identified dampers are not linear, so their gains depend on the amplitude. Beyond the "
+      "bench's velocities a network says nothing: there the force goes on straight, with the "
+      "slope of the outermost fifth, as that of open valves does. What hangs on it is dashed.");
   return section;
 }
 
@@ -234,10 +253,13 @@ DocumentSection step_section(const SuspensionStudy& study) {
            step_panel(study, "tyre_deflection", 100, "Road holding", "tyre deflection, cm")}});
 
   // Figures of table 8 that do not follow from the paper's model or its text.
-  section.remarks.push_back(
+  const SchemeRide &curve = study.rides.front(), &controlled = study.rides[study.place("mix1")];
+  section.remarks.push_back(fmt::format(
       "The tyre's deflection begins at -3.0 cm, the step itself, and nothing in equations 3 and 4 "
-      "takes it further: table 8's -3.8 and -4.5 cm need another step, or mean something else by "
-      "deviation.");
+      "takes it further: table 8's -3.8 and -4.5 cm, 15.6 % apart, cannot be that. They fit the "
+      "travel of the damper: here {} cm under Mix-1-sensor and {} cm passive, {} % less.",
+      number_text(100 * controlled.travel), number_text(100 * curve.travel),
+      number_text(less_percent(curve.travel, controlled.travel))));
   section.remarks.push_back(
       "The figures of table 8 themselves: settling 62.5 and 64.7 % shorter, decay ratio 53.3 % "
       "less, deviation 8.9 % less of the body and 15.6 % of the tyre, where the text says about 10 "

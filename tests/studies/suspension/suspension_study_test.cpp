@@ -1,5 +1,7 @@
 #include "studies/suspension/suspension_study.h"
 
+#include "dashpot/report/words.h"
+#include "studies/suspension/own_damper_study.h"
 #include "studies/suspension/study_dampers.h"
 #include "studies/suspension/suspension_study_document.h"
 #include "studies/suspension/suspension_study_parts.h"
@@ -68,6 +70,42 @@ TEST_CASE("the passive curve is identified by the paper's network, and has no fo
   CHECK_CLOSE(damper.model->force({}, {}), 0, 0, 1e-9);
   CHECK(damper.model->force({0, 0.5, 0}, {}) > 0);
   CHECK(damper.model->force({0, -0.5, 0}, {}) < 0);
+
+  // Faster than the bench its force goes on straight, where the bare network saturates: a car's
+  // wheel that is asked 3 m/s of it is not set free.
+  CHECK(damper.fastest > 1.3);
+  CHECK(damper.fastest < 1.7);
+  const auto force = [&](double v) { return damper.model->force({0, v, 0}, {}); };
+  const double slope = (force(3) - force(2)) / 1.0;
+  CHECK_CLOSE(force(4) - force(3), slope, 1e-9, 0);
+  CHECK(slope > 0.3 * (force(1.2) - force(0.8)) / 0.4);
+  CHECK_CLOSE(force(damper.fastest * (1 + 1e-9)), force(damper.fastest), 1e-6, 0);
+}
+
+TEST_CASE("one's own damper is asked the paper's questions" * doctest::test_suite("long")) {
+  // A damper with memory, for which no bound is known: the reason is told, the rest is there.
+  const OwnDamperStudy study = study_own_damper({.damper = "spencer1997",
+                                                 .passive = "suv_front",
+                                                 .controllers = {"mix1"},
+                                                 .road_duration = 1});
+  CHECK(contains(study.unbounded, "has a memory"));
+  CHECK(study.ride.front.empty());
+
+  // Each of the paper's figures, as the ride has it.
+  const Document document = own_damper_document(study);
+  REQUIRE(document.sections.front().name == "paper");
+  const DocumentTable& table = document.sections.front().tables.front();
+  REQUIRE(table.rows.size() == 9);
+  const RiddenVehicle &passive = study.ride.passive, &mix1 = study.ride.controlled.front();
+  CHECK(table.rows[2].back() ==
+        number_text(less_percent(measure_named(passive.step.measures, "body_acceleration"),
+                                 measure_named(mix1.step.measures, "body_acceleration"))));
+
+  // A passive damper has nothing that a controller could drive.
+  CHECK(contains(
+      message_of([] { study_own_damper({.damper = "suv_front", .controllers = {"mix1"}}); }),
+      "every damper is passive"));
+  CHECK(contains(message_of([] { study_own_damper({.damper = "spencer1997"}); }), "no controller"));
 }
 
 TEST_CASE("the least damping that a gain needs is read between the sweep's points") {

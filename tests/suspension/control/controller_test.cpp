@@ -72,6 +72,58 @@ TEST_CASE("modified skyhook, within the damper's cone, and the passive laws") {
   CHECK_CLOSE(demand("constant,place=0.25", s).value, 1200, 1e-12, 0);
 }
 
+TEST_CASE("fuzzy rules: their corners, and no leap between them") {
+  // Full velocities of 0.2 and 0.4 m/s: the rules themselves; sums by hand between them.
+  const auto damping = [](double z, double d) {
+    return demand("fuzzy", {.body_velocity = z, .deflection_velocity = d}).value;
+  };
+  CHECK(damping(0.3, 1) == 3900);
+  CHECK(damping(-0.3, -1) == 3900);
+  CHECK(damping(0.3, -1) == 300);
+  CHECK(damping(0, 0) == 300);
+  CHECK_CLOSE(damping(0.3, 0), 2100, 1e-12, 0);
+  CHECK_CLOSE(damping(0, -0.5), 2100, 1e-12, 0);
+  CHECK_CLOSE(damping(0.1, 0.3), 300 + 3600 * (0.375 + 0.5 * (0.125 + 0.375)), 1e-12, 0);
+  for (double z = -0.3; z < 0.3; z += 1e-3)
+    CHECK(std::abs(damping(z + 1e-3, 0.2) - damping(z, 0.2)) < 3600 * 1e-3 / 0.2);
+}
+
+TEST_CASE("sliding mode: the force of its surface, and a body that moves like the model's") {
+  // At rest the model does not move: F = m n sat(z' / b), m = 400 kg of this car.
+  const StrutSignals s{.body_velocity = 0.05, .deflection = 0, .deflection_velocity = 0.4};
+  CHECK_CLOSE(demand("sliding_mode,reaching=2,layer=0.1", s).value, 400 * 2 * 0.5, 1e-12, 0);
+  CHECK_CLOSE(demand("sliding_mode,reaching=2,mass=200kg", s).value, 200 * 2 * 0.5, 1e-12, 0);
+
+  // On a wheel at rest a skyhook damper is an ordinary one: once the surface is reached, after half
+  // a second, the body moves as m z'' + 300 z' + k z = 0 says.
+  const Plant plant = load_plant_set("savaresi_spelta").plant;
+  const double mass = 400, stiffness = 20000, dt = 1e-3, decay = 300 / (2 * mass);
+  const double w = std::sqrt(stiffness / mass - decay * decay);
+  const ControllerPointer law =
+      make_controller("sliding_mode,damping=300", {{0, 1e9, 0, 1, dt}, plant});
+  std::vector<double> state(law->state_size());
+  law->reset(state);
+  double z = 0, v = 0.3, z0 = 0, v0 = 0, worst = 0;
+  for (int k = 0; k < 3000; ++k) {
+    const StrutSignals signals{.body_velocity = v, .deflection = z, .deflection_velocity = v};
+    DamperDemand answer;
+    law->step(std::span(&signals, 1), {}, state, std::span(&answer, 1));
+    if (k == 500) z0 = z, v0 = v;
+    const double t = (k - 500) * dt;
+    if (t > 0) {
+      const double free =
+          std::exp(-decay * t) *
+          (v0 * std::cos(w * t) - (decay * v0 + stiffness / mass * z0) / w * std::sin(w * t));
+      worst = std::max(worst, std::abs(v - free));
+    }
+    v -= dt * (stiffness * z + answer.value) / mass;
+    z += dt * v;
+  }
+
+  // The damper's cone cuts the force where the body turns; without damping it would be 0.15.
+  CHECK(worst < 0.02);
+}
+
 TEST_CASE("linear-quadratic regulator of the one-sensor paper's quarter car: TC-7.10") {
   const Plant plant = load_plant_set("tudon_martinez2012").plant;
   const std::vector<double> k = regulator_of(plant, {.deflection = 1e3, .tyre_deflection = 1e4});

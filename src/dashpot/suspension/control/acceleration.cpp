@@ -13,18 +13,9 @@ extern const ControlLaw kAdd, kPdd, kShAdd, kMix1, kConstant;
 
 namespace {
 
-/// Without a stiffness of its own it takes that along each strut, which is the same for all of a
-/// kind.
 ControllerPointer make_pdd(std::span<const double> values, const ControlContext& context) {
   Pdd p = values_as<Pdd>(values);
-  if (p.stiffness == 0 && !context.plant.struts.empty()) {
-    const Plant& plant = context.plant;
-    const std::vector<double>& wheel = plant.struts[0].wheel_row;
-    // A unit of the wheel alone stretches the strut and the tyre by one.
-    for (std::size_t i = 0; i < wheel.size(); ++i)
-      for (std::size_t j = 0; j < wheel.size(); ++j)
-        p.stiffness += wheel[i] * plant.stiffness[i * plant.size() + j] * wheel[j];
-  }
+  if (p.stiffness == 0) p.stiffness = strut_stiffness(context.plant);
   return std::make_unique<StrutLaw<kPdd, Pdd, pdd_demand>>(p, context);
 }
 

@@ -10,15 +10,27 @@ namespace dashpot {
 
 #include "dashpot/suspension/control/c_text/selected_demand.h"
 
-extern const ControlLaw kAdd, kClippedLqr, kClippedOptimal, kConstant, kFrequencyEstimation,
-    kGroundhook, kHybrid, kMix1, kPdd, kShAdd, kSkyhook, kSkyhookLinear, kSkyhookModified;
+extern const ControlLaw kAdd, kClippedLqr, kClippedOptimal, kConstant, kFrequencyEstimation, kFuzzy,
+    kGroundhook, kHybrid, kMix1, kPdd, kShAdd, kSkyhook, kSkyhookLinear, kSkyhookModified,
+    kSlidingMode;
 
 namespace {
 
-constexpr std::array kLaws{
-    &kAdd,        &kClippedLqr,    &kClippedOptimal, &kConstant, &kFrequencyEstimation,
-    &kGroundhook, &kHybrid,        &kMix1,           &kPdd,      &kShAdd,
-    &kSkyhook,    &kSkyhookLinear, &kSkyhookModified};
+constexpr std::array kLaws{&kAdd,
+                           &kClippedLqr,
+                           &kClippedOptimal,
+                           &kConstant,
+                           &kFrequencyEstimation,
+                           &kFuzzy,
+                           &kGroundhook,
+                           &kHybrid,
+                           &kMix1,
+                           &kPdd,
+                           &kShAdd,
+                           &kSkyhook,
+                           &kSkyhookLinear,
+                           &kSkyhookModified,
+                           &kSlidingMode};
 
 constexpr std::string_view kSelector = "selector(";
 
@@ -93,6 +105,18 @@ ControllerPointer make_selector(const std::vector<std::string>& parts,
 }
 
 }  // namespace
+
+double strut_stiffness(const Plant& plant) {
+  double stiffness = 0;
+  if (plant.struts.empty()) return stiffness;
+
+  // A unit of the wheel alone stretches the strut and the tyre by one.
+  const std::vector<double>& wheel = plant.struts[0].wheel_row;
+  for (std::size_t i = 0; i < wheel.size(); ++i)
+    for (std::size_t j = 0; j < wheel.size(); ++j)
+      stiffness += wheel[i] * plant.stiffness[i * plant.size() + j] * wheel[j];
+  return stiffness;
+}
 
 std::span<const ControlLaw* const> control_laws() { return kLaws; }
 

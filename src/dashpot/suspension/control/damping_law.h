@@ -62,6 +62,10 @@ ControllerPointer make_plain(std::span<const double>, const ControlContext& cont
   return std::make_unique<StrutLaw<kLaw, NoParameters, Demand>>(NoParameters{}, context);
 }
 
+/// N/m, of the spring along the first strut, which is the same for all of a kind of plant; 0
+/// without one.
+double strut_stiffness(const Plant& plant);
+
 constexpr ParameterRow kCrossover{
     "crossover", "Hz", 1.9,
     0.01,        100,  "between low and high frequencies: 1.5 to 2 times the body's resonance"};

@@ -17,7 +17,7 @@ constexpr int kChirpPeriods = 4;
 /// The response signals of a GainPoint, in its order, and its members.
 struct Responses {
   std::array<const std::vector<double>*, 4> signals;
-  const std::vector<double>* road;
+  const std::vector<double>*road, *velocity;
 };
 constexpr std::array<Gain GainPoint::*, 4> kGains{&GainPoint::body_acceleration, &GainPoint::body,
                                                   &GainPoint::tyre_deflection, &GainPoint::travel};
@@ -27,12 +27,14 @@ Responses responses_of(const Plant& plant, const Trace& trace) {
   const std::string &body = plant.coordinates.front().name, &tyre = plant.tyres.front().name;
   return {{channel(body + "_acceleration"), channel(body), channel(tyre + "_deflection"),
            channel(plant.struts.front().name + "_deflection")},
-          channel(tyre + "_road")};
+          channel(tyre + "_road"),
+          channel(plant.struts.front().name + "_velocity")};
 }
 
 GainPoint no_gain(double frequency) {
   GainPoint point{.frequency = frequency};
   for (const auto gain : kGains) point.*gain = {kNoNumber, kNoNumber};
+  point.speed = kNoNumber;
   return point;
 }
 
@@ -60,6 +62,13 @@ Gain gain_along(const std::vector<double>& y, const std::vector<double>& u, std:
   return {std::sqrt(yy / uu), std::abs(fy) / std::abs(fu)};
 }
 
+/// Over the samples first ... last - 1.
+double greatest_speed(const std::vector<double>& velocity, std::size_t first, std::size_t last) {
+  double greatest = 0;
+  for (std::size_t k = first; k < last; ++k) greatest = std::max(greatest, std::abs(velocity[k]));
+  return greatest;
+}
+
 }  // namespace
 
 std::vector<double> usual_frequencies() {
@@ -74,10 +83,14 @@ GainPoint gain_by_sine(const Vehicle& vehicle, double f, const GainOptions& opti
       simulate_options(vehicle, options.settling + periods / f, options);
   const Trace trace = simulate(vehicle.on(*sine), settings);
   if (trace.diverged_at) return no_gain(f);
-  const auto [signals, road] = responses_of(vehicle.set.plant, trace);
+
+  // Over whole periods, after all has settled.
+  const auto [signals, road, velocity] = responses_of(vehicle.set.plant, trace);
   GainPoint point{.frequency = f};
   for (std::size_t k = 0; k < kGains.size(); ++k)
     point.*kGains[k] = gain_at(*signals[k], *road, settings.output_step, f, periods);
+  point.speed =
+      greatest_speed(*velocity, velocity->size() - velocity->size() / 4, velocity->size());
   return point;
 }
 
@@ -90,7 +103,7 @@ std::vector<GainPoint> gains_by_chirp(const Vehicle& vehicle,
   const GroundPointer chirp = chirp_ground(options.amplitude, f0, f1, duration, true);
   const SimulateOptions settings = simulate_options(vehicle, duration, options);
   const Trace trace = simulate(vehicle.on(*chirp), settings);
-  const auto [signals, road] = responses_of(vehicle.set.plant, trace);
+  const auto [signals, road, velocity] = responses_of(vehicle.set.plant, trace);
 
   // Each frequency over kChirpPeriods about the instant at which the chirp has it.
   std::vector<GainPoint> points;
@@ -105,6 +118,7 @@ std::vector<GainPoint> gains_by_chirp(const Vehicle& vehicle,
       points.back().*kGains[k] = gain_along(*signals[k], *road, first, last, [&](std::size_t i) {
         return exponential_chirp(f0, f1, duration, h * static_cast<double>(i)).phase;
       });
+    points.back().speed = greatest_speed(*velocity, first, last);
   }
   return points;
 }

@@ -12,6 +12,7 @@ namespace dashpot {
 struct GainPoint {
   double frequency = 0;                                   ///< Hz
   Gain body_acceleration, body, tyre_deflection, travel;  ///< 1/s^2, 1, 1, 1
+  double speed = 0;                                       ///< m/s, the strut's greatest
 };
 
 struct GainOptions {
