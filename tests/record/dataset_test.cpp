@@ -5,6 +5,7 @@
 #include <set>
 
 #include "dashpot/base/file.h"
+#include "dashpot/base/text.h"
 #include "dashpot/record/dataset_file.h"
 #include "dashpot/split.h"
 #include "support.h"
@@ -376,4 +377,50 @@ TEST_CASE("motions that run opposite ways and forces that drive are told") {
                "      displacement: {column: x_mm, unit: mm}\n"
                "      force: {column: F_N, sign: -1}\n");
   CHECK(has(describe(load(stated.path())), "the damper puts energy in"));
+}
+
+TEST_CASE("inertia between load cell and damper is taken off where it is stated, and told") {
+  // 2 mm at 20 Hz (31.6 m/s^2) of 500 N*s/m behind 3 kg, at 2 kHz.
+  std::string text = "t_s,x_mm,F_N\n";
+  const double w = 2 * M_PI * 20;
+  for (int k = 0; k < 2000; ++k) {
+    const double t = k / 2000.0, v = 2e-3 * w * std::cos(w * t),
+                 a = -2e-3 * w * w * std::sin(w * t);
+    text += format_exact(t) + "," + format_exact(2 * std::sin(w * t)) + "," +
+            format_exact(500 * v + 3 * a) + "\n";
+  }
+  const auto read = [&](const std::string& force) {
+    const TemporaryFolder folder;
+    folder.write("run_1A.csv", text);
+    folder.write(
+        "dataset.yaml",
+        "files:\n  - match: run*.csv\n    channels:\n      displacement: x_mm\n      force: "
+        "{column: F_N, unit: N" +
+            force + "}\n    time: {sample_rate: 2000}\n    level: 1\n");
+    return load(folder.path());
+  };
+
+  // Without a word the force stays, and what a kilogram would add is told.
+  CHECK(
+      has(describe(read("")), "each kilogram that moves between load cell and damper adds up to"));
+
+  const Dataset damper = read(", moving_mass: 3");
+  CHECK(has(describe(damper), "inertia of 3 kg between load cell and damper taken off"));
+  const Record& record = damper.records.front();
+  for (std::size_t k = 500; k < 1500; ++k) {
+    const double v = 2e-3 * w * std::cos(w * record.time[k]);
+    CHECK(std::abs(record.channel("force").samples[k] - 500 * v) < 2);  // of 126 N; 95 N before
+  }
+  CHECK(has(message_of([&] { read(", moving_mass: -1"); }), "0 or more"));
+  CHECK(has(message_of([&] { read(", moving_mass: .inf"); }), "moving_mass"));
+}
+
+TEST_CASE("slow motions say nothing of inertia; a mass belongs to the force") {
+  const TemporaryFolder folder;
+  folder.write("run_0A.csv", sine_csv());
+  CHECK_FALSE(has(describe(load(folder.path())), "each kilogram"));
+  folder.write("dataset.yaml",
+               "files:\n  - match: run*.csv\n    channels:\n      displacement: {column: x_mm, "
+               "moving_mass: 1}\n      force: F_N\n");
+  CHECK(has(message_of([&] { load(folder.path()); }), "it belongs to force"));
 }

@@ -53,6 +53,7 @@ void set_unit(ColumnUse& use, const std::string& unit_text, const ChannelStateme
   use.centre = statement.centre;
   use.placed = statement.placed;
   use.directed = statement.directed;
+  use.moving_mass = statement.moving_mass;
 }
 
 ColumnUse use_stated(const RawTable& table, const ChannelStatement& statement,

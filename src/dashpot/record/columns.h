@@ -18,6 +18,7 @@ struct ColumnUse {
   bool directed = false;  ///< 'sign' was stated
   bool placed = false;    ///< 'offset' or 'centre' was stated
   bool stated = false;
+  double moving_mass = 0;  ///< kg, between load cell and damper
   std::string basis;
 };
 

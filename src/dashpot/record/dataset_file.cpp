@@ -97,6 +97,16 @@ ChannelStatement read_channel(const std::string& channel, const Value& value) {
   statement.centre = centre == "mean";
   statement.placed = !centre.empty() || reader.optional("offset") != nullptr;
   statement.directed = reader.optional("sign") != nullptr;
+
+  // The inertia of what moves between the load cell and the damper is no part of its force.
+  statement.moving_mass = reader.number("moving_mass", 0);
+  if (statement.moving_mass != 0 && statement.channel != "force")
+    throw Error(reader.required("moving_mass").where(),
+                "'moving_mass' is stated of " + statement.channel, "it belongs to force");
+  if (!(statement.moving_mass >= 0 && std::isfinite(statement.moving_mass)))
+    throw Error(reader.required("moving_mass").where(),
+                "'moving_mass' is " + format_number(statement.moving_mass) + " kg",
+                "0 or more: what moves between load cell and damper");
   reader.finish();
   return statement;
 }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "dashpot/identify/judge/left_inertia.h"
 #include "dashpot/report/provenance.h"
 #include "dashpot/report/ranking_figures.h"
 #include "dashpot/report/ranking_tables.h"
@@ -19,6 +20,22 @@ constexpr std::string_view kLegend =
     "the data. Behind: ESR behind the first model's, 90 % interval of the paired difference; "
     "Apart: "
     "whether it excludes 0. Forgets: runs from different states meet after so long.";
+
+/// Whether the error that the best model leaves follows the acceleration.
+std::vector<std::string> inertia_remarks(const Ranking& ranking) {
+  constexpr double kTold = 0.1;  // of the error's sum of squares
+  if (ranking.models.empty()) return {};
+  const RankedModel& best = ranking.models.front();
+  const LeftInertia left = left_inertia(best.left_out);
+  if (left.share < kTold || left.mass < 0) return {};
+  return {fmt::format(
+      "{} % of the squared error that {} leaves on left-out records follows the acceleration, as "
+      "{} "
+      "kg between load cell and damper would make it, or a hysteresis that the model lacks. Where "
+      "there is such a mass, state it in a dataset file: force: {{..., moving_mass: {}}}.",
+      number_text(100 * left.share, 2), display_name(best), number_text(left.mass, 2),
+      number_text(left.mass, 2))};
+}
 
 /// Every column of the page; identify's own selection on a terminal.
 DocumentSection ranking_section(const Ranking& ranking) {
@@ -59,6 +76,7 @@ DocumentSection ranking_section(const Ranking& ranking) {
           .title = "Ranking",
           .paragraphs = untried ? std::vector{*untried} : std::vector<std::string>(),
           .tables = {std::move(table)},
+          .remarks = inertia_remarks(ranking),
           .lead =
               "Best first. Every figure is of left-out records in free run unless its column says "
               "otherwise; a click on a head sorts, a click on a row looks closer."};
