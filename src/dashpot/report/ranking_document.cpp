@@ -137,6 +137,8 @@ DocumentSection closer_section(const ReportInput& input, std::vector<SharedSampl
   if (worst != records.end()) record.chosen = static_cast<std::size_t>(worst - records.begin());
   section.choices = {std::move(model), std::move(record)};
   section.figures = record_figures(input, samples, display);
+  for (DocumentFigure& figure : energy_figures(ranking))
+    section.figures.push_back(std::move(figure));
   return section;
 }
 

@@ -12,6 +12,10 @@ std::vector<DocumentFigure> record_figures(const ReportInput& input,
                                            std::vector<SharedSamples>& samples,
                                            std::string& display);
 
+/// Where a passive network's energy goes over the widest cycle of the chosen record; no figure
+/// where no model is one.
+std::vector<DocumentFigure> energy_figures(const Ranking& ranking);
+
 /// Peak force against velocity, and the error in each band of speed.
 DocumentFigure overview_figure(const ReportInput& input);
 

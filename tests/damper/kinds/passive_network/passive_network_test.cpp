@@ -1,7 +1,9 @@
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 
 #include "damper/kinds/passive_network/passive_network_example.h"
+#include "dashpot/damper/kinds/passive_network/energy_balance.h"
 #include "support.h"
 
 using namespace dashpot;
@@ -123,4 +125,33 @@ TEST_CASE("the force does not depend on how a motion is sampled") {
   }
   CHECK(coarse_error < 1e-3 * power);
   CHECK(middle_error < 1e-3 * power);
+}
+
+TEST_CASE("what the motion puts in is stored or drained, and nothing that drains gives back") {
+  for (const std::uint64_t seed : {1, 4, 9}) {
+    const PassiveNetworkModel model(
+        "passive_network",
+        {example_passive_network(seed, 0.5), example_passive_network(seed + 20, 0.5)}, 50);
+    std::vector<double> time;
+    std::vector<DamperInput> inputs;
+    for (int k = 0; k <= 20000; ++k) {
+      const double t = k * 2e-5;
+      time.push_back(t);
+      inputs.push_back({0.01 * std::sin(30 * t), 0.3 * std::cos(30 * t), 1 + std::sin(7 * t)});
+    }
+    const EnergyBalance energy = energy_balance(model, time, inputs);
+    REQUIRE(energy.work.size() == time.size());
+    CAPTURE(seed);
+
+    const double scale = *std::ranges::max_element(energy.work);
+    double worst = 0;
+    for (std::size_t k = 0; k < time.size(); ++k)
+      worst = std::max(worst, std::abs(energy.work[k] - energy.stored[k] - energy.creep[k] -
+                                       energy.friction[k] - energy.viscous[k] - energy.inertia[k]));
+    CHECK(worst < 2e-3 * scale);
+    for (const auto* drained : {&energy.creep, &energy.friction, &energy.viscous, &energy.inertia})
+      CHECK(std::ranges::is_sorted(*drained));
+  }
+  CHECK(
+      energy_balance(PassiveNetworkModel("p", {example_passive_network(1)}), {}, {}).work.empty());
 }

@@ -127,6 +127,34 @@ double PassiveNetwork::stored_energy(const DamperInput& input,
   return force_scale * energy;
 }
 
+PassiveDrain PassiveNetwork::drain(const DamperInput& input,
+                                   std::span<const double> state) const noexcept {
+  const PassiveCell c = cell_of(*this);
+  const double velocity = input.velocity * c.velocity_gain;
+  const double displacement = passive_displacement(&c, &input);
+  const double drive = passive_drive(&c, &input, state.data()), share = passive_share(&c, drive);
+  double by_time[kMaxSprings], by_way[kMaxSprings], goals[kMaxInputs];
+  passive_gates(&c, velocity, displacement, drive, state.data(), by_time, by_way, goals);
+
+  // Each spring's resistance drains r s^2; of a mass what slips.
+  PassiveDrain drain;
+  const double* springs = &state[static_cast<std::size_t>(passive_springs_at(&c))];
+  for (std::size_t k = 0; k < sizes.springs; ++k) {
+    const double speed = passive_lever(&c, static_cast<int>(k), share) * velocity;
+    drain.creep += by_time[k] * springs[k] * springs[k];
+    drain.friction += std::abs(speed) * by_way[k] * springs[k] * springs[k];
+  }
+  drain.viscous =
+      passive_viscosity(&c, velocity, displacement, drive, state.data()) * velocity * velocity;
+  if (inert) {
+    const double slip = velocity - springs[sizes.springs];
+    drain.inertia = c.inertia * slip * slip;
+  }
+
+  const double watt = force_scale * velocity_scale;
+  return {drain.creep * watt, drain.friction * watt, drain.viscous * watt, drain.inertia * watt};
+}
+
 void PassiveNetwork::require_sound(const std::string& where) const {
   const auto require_most = [&](std::size_t count, std::size_t least, std::size_t most,
                                 const char* what) {

@@ -9,6 +9,14 @@
 
 namespace dashpot {
 
+/// What a passive network drains at an instant, W, none of it ever below 0.
+struct PassiveDrain {
+  double creep = 0;     ///< resistances that drain springs by time
+  double friction = 0;  ///< those that drain them by the way
+  double viscous = 0;   ///< the viscous term
+  double inertia = 0;   ///< the slip of the mass
+};
+
 /// A damper of springs, resistances and small networks that cannot generate energy, whatever its
 /// numbers. c_text/passive_cell.h has the equations; docs/passive-network.md the proof. Plain data.
 ///
@@ -53,6 +61,9 @@ struct PassiveNetwork {
   /// What the springs, the potential and the inertia hold, J; less than a constant never. Between
   /// two instants it grows by no more than the work that the motion has done on the damper.
   double stored_energy(const DamperInput& input, std::span<const double> state) const noexcept;
+
+  /// Where the rest of that work goes.
+  PassiveDrain drain(const DamperInput& input, std::span<const double> state) const noexcept;
 
   Value to_json() const;
   /// Throws Error(where, ...) when the parts do not fit together, or a number that must not be

@@ -1,0 +1,100 @@
+#include <algorithm>
+#include <cmath>
+
+#include "dashpot/damper/kinds/passive_network/energy_balance.h"
+#include "dashpot/report/ranking_figures.h"
+#include "dashpot/report/ranking_tables.h"
+#include "dashpot/report/series.h"
+
+namespace dashpot {
+namespace {
+
+constexpr std::size_t kPoints = 80;  // of a curve
+
+/// The samples first ... last of a record.
+struct Cycle {
+  std::size_t first = 0, last = 0;
+};
+
+/// Between two instants at which the velocity rises through 0: the cycle of the longest way. The
+/// whole record where it has none.
+Cycle widest_cycle(const RecordResult& record) {
+  const std::vector<double>&v = record.velocity, &t = record.time;
+  Cycle widest{0, t.size() - 1};
+  double longest = 0, way = 0;
+  std::size_t begin = t.size();
+  for (std::size_t k = 1; k < t.size(); ++k) {
+    way += std::abs(v[k]) * (t[k] - t[k - 1]);
+    if (!(v[k - 1] < 0 && v[k] >= 0)) continue;
+    if (begin < t.size() && way > longest) {
+      longest = way;
+      widest = {begin, k};
+    }
+    begin = k;
+    way = 0;
+  }
+  return widest;
+}
+
+/// The curves of one model on one record, from the start of its widest cycle on.
+void add_balance(FigurePanel& panel, const PassiveNetworkModel& model, const RecordResult& record,
+                 const When& here) {
+  std::vector<DamperInput> inputs;
+  for (std::size_t k = 0; k < record.time.size(); ++k)
+    inputs.push_back({record.displacement.empty() ? 0 : record.displacement[k], record.velocity[k],
+                      record.drive[k]});
+  const EnergyBalance balance = energy_balance(model, record.time, inputs);
+  const Cycle cycle = widest_cycle(record);
+
+  const std::tuple<const char*, const char*, const std::vector<double>*> curves[] = {
+      {"work done on it", "measured", &balance.work},
+      {"stored", "series-1", &balance.stored},
+      {"drained by friction", "series-2", &balance.friction},
+      {"by creep", "series-3", &balance.creep},
+      {"by the viscous term", "series-4", &balance.viscous},
+      {"by the slip of its mass", "series-5", &balance.inertia}};
+  const std::size_t step = std::max<std::size_t>(1, (cycle.last - cycle.first) / kPoints);
+  for (const auto& [label, colour, joules] : curves) {
+    if (std::ranges::all_of(*joules, [](double e) { return e == 0; })) continue;
+    FigureSeries series{.label = label, .colour = colour, .x = {}, .y = {}, .when = here};
+    for (std::size_t k = cycle.first; k <= cycle.last; k += step) {
+      series.x.push_back(record.time[k] - record.time[cycle.first]);
+      series.y.push_back((*joules)[k] - (*joules)[cycle.first]);
+    }
+    panel.series.push_back(std::move(series));
+  }
+}
+
+}  // namespace
+
+std::vector<DocumentFigure> energy_figures(const Ranking& ranking) {
+  FigurePanel panel{
+      .title = "Energy over a cycle",
+      .x_label = "Time (s)",
+      .y_label = "Energy (J)",
+      .series = {},
+      .note =
+          "Since the start of the widest cycle of the record. What is stored and what "
+          "is drained add up to the work, and nothing drained ever falls.",
+      .height = 300,
+      .empty =
+          "The energy of this model cannot be told apart: it is no passive "
+          "network."};
+  const std::vector<std::string> records = judged_records(ranking);
+  for (std::size_t m = 0; m < ranking.models.size(); ++m) {
+    const RankedModel& ranked = ranking.models[m];
+    const auto* model =
+        ranked.fit.model ? model_as<PassiveNetworkModel>(*ranked.fit.model) : nullptr;
+    if (!model) continue;
+    for (const RecordResult& record : ranked.left_out.records) {
+      const auto place = std::ranges::find(records, record.record);
+      if (place == records.end() || record.velocity.empty()) continue;
+      const auto r = static_cast<std::size_t>(place - records.begin());
+      add_balance(panel, *model, record, {{"model", {m}}, {"record", {r}}});
+    }
+  }
+  if (panel.series.empty()) return {};
+  return {{.name = "energy", .title = {}, .caption = {}, .panels = {std::move(panel)}}};
+}
+
+}  // namespace dashpot
