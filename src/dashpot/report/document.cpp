@@ -124,13 +124,15 @@ Value table_json(const DocumentTable& table) {
                               {"rows", matrix_json(table.rows, shown)},
                               {"note", table.note}});
 
-  // Parts that only some tables have: keys to sort by, shades, warnings, rows that choose.
+  // Parts that only some tables have: keys to sort by, shades, marked rows, rows that choose.
   if (!table.keys.empty()) json.add("keys", matrix_json(table.keys, shown));
   if (!table.shades.empty()) json.add("shades", matrix_json(table.shades, shown));
-  if (!table.warnings.empty()) {
-    Value warnings = Value::array();
-    for (const bool warning : table.warnings) warnings.push_back(warning);
-    json.add("warnings", std::move(warnings));
+  for (const auto& [name, marks] :
+       {std::pair{"warnings", &table.warnings}, std::pair{"leaders", &table.leaders}}) {
+    if (marks->empty()) continue;
+    Value rows = Value::array();
+    for (const bool mark : *marks) rows.push_back(mark);
+    json.add(name, std::move(rows));
   }
   if (!table.chooses.empty()) {
     Value chooses = Value::array();

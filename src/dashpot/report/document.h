@@ -37,6 +37,7 @@ struct DocumentTable {
   std::vector<std::vector<double>> keys = {};    ///< by row and column, to sort by; NaN: the text
   std::vector<std::vector<double>> shades = {};  ///< by row and column, 0 ... 1; NaN: none
   std::vector<bool> warnings = {};               ///< by row: drawn as one to beware of
+  std::vector<bool> leaders = {};                ///< by row: drawn bold
   /// By row, what a click on it chooses; and the section that the page then shows.
   std::vector<std::vector<std::pair<std::string, std::size_t>>> chooses = {};
   std::string leads_to = {};

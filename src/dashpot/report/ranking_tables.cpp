@@ -266,6 +266,7 @@ DocumentTable model_table(const Ranking& ranking, const std::vector<ColumnChoice
   }
 
   const std::vector<std::string> records = judged_records(ranking);
+  const std::vector<const RankedModel*> leaders = ranking.leaders();
   for (const RankedModel& model : ranking.models) {
     const std::size_t place = table.rows.size();
     std::vector<DocumentCell> row;
@@ -274,6 +275,7 @@ DocumentTable model_table(const Ranking& ranking, const std::vector<ColumnChoice
                                                         : column_named(choice.name).cell(model));
     add_row(table, row);
     table.warnings.push_back(!is_recommendable(model));
+    table.leaders.push_back(std::ranges::find(leaders, &model) != leaders.end());
     table.chooses.push_back({{"model", place}});
     const auto worst = std::ranges::find(records, model.left_out.worst_record);
     if (worst != records.end())

@@ -30,14 +30,14 @@ function look_at(section_name) {
 
 // Cells are words. A column sorts by its keys, else by the numbers or the words in its cells; a dash is no value.
 function document_table(table) {
-  const {title, columns, rows, note, keys, shades, warnings, chooses, leads_to} = table;
+  const {title, columns, rows, note, keys, shades, warnings, leaders, chooses, leads_to} = table;
   const number_in = (cell) => { const value = parseFloat(cell.replace("−", "-")); return Number.isNaN(value) ? null : value; };
   const value_in = (cell, numeric) => ["", "-", kMissing].includes(cell) ? null : numeric ? number_in(cell) : cell;
   const described = columns.map((column, i) => ({...column,
     text: (row) => rows[row][i], value: (row) => keys?.[row][i] ?? value_in(rows[row][i], column.numeric),
     shade: shades ? (row) => shades[row][i] : null}));
   const node = sortable_table(title, described, rows.map((_, row) => row), {
-    row_class: (row) => warnings?.[row] ? "warning" : null,
+    row_class: (row) => warnings?.[row] ? "warning" : leaders?.[row] ? "leader" : null,
     on_row: chooses ? (row) => { choose(chooses[row]); if (leads_to) look_at(leads_to); } : null});
   return folded(table, title && !table.folded ? element("h3", {}, title) : null, node, note ? element("p", {class: "note"}, note) : null);
 }
