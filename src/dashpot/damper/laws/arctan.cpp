@@ -3,11 +3,16 @@
 #include "dashpot/damper/law.h"
 
 namespace dashpot {
+namespace {
+
+double fastest_arctan(const Arctan& p) { return p.a_s / p.v_h; }
+
+}  // namespace
 
 extern const Law kArctan;
 const Law kArctan =
-    state_law<Arctan, arctan_force, arctan_derivative, arctan_rest, arctan_rate>(
-        {
+    with_fastest_rate<Arctan, fastest_arctan>(
+        state_law<Arctan, arctan_force, arctan_derivative, arctan_rest, arctan_rate>({
             .name = "arctan",
             .title = "Inverse tangent",
             .equation = "F = (2 / pi) f_y atan(kappa (v - v_h s)) + c v + f0\n"
@@ -36,6 +41,6 @@ const Law kArctan =
                      Fit::Bias},
                 },
             .needs_displacement = false,
-        });
+        }));
 
 }  // namespace dashpot

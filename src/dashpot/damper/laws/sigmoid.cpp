@@ -3,11 +3,16 @@
 #include "dashpot/damper/law.h"
 
 namespace dashpot {
+namespace {
+
+double fastest_sigmoid(const Sigmoid& p) { return p.a_s / (p.v_h * (1 + p.k_v * p.v_h)); }
+
+}  // namespace
 
 extern const Law kSigmoid;
 const Law kSigmoid =
-    state_law<Sigmoid, sigmoid_force, sigmoid_derivative, sigmoid_rest, sigmoid_rate>(
-        {
+    with_fastest_rate<Sigmoid, fastest_sigmoid>(
+        state_law<Sigmoid, sigmoid_force, sigmoid_derivative, sigmoid_rest, sigmoid_rate>({
             .name = "sigmoid",
             .title = "Sigmoid",
             .equation = "F = f_m tanh(k_a (v - v_h s) / 2) (1 + k_v |v|) + f0\n"
@@ -36,6 +41,6 @@ const Law kSigmoid =
                      Fit::Bias},
                 },
             .needs_displacement = false,
-        });
+        }));
 
 }  // namespace dashpot

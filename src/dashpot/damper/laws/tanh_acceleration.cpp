@@ -3,11 +3,19 @@
 #include "dashpot/damper/law.h"
 
 namespace dashpot {
+namespace {
+
+/// tau r <= 1: the derivation stands in the law's table, under `dissipates`.
+double fastest_tanh_acceleration(const TanhAcceleration& p) { return 1 / p.tau; }
+
+}  // namespace
 
 extern const Law kTanhAcceleration;
-const Law kTanhAcceleration = state_law<TanhAcceleration, tanh_acceleration_force,
-                                        tanh_acceleration_derivative, tanh_acceleration_rest,
-                                        tanh_acceleration_rate>({
+const Law kTanhAcceleration = with_fastest_rate<
+    TanhAcceleration,
+    fastest_tanh_acceleration>(state_law<TanhAcceleration, tanh_acceleration_force,
+                                         tanh_acceleration_derivative, tanh_acceleration_rest,
+                                         tanh_acceleration_rate>({
     .name = "tanh_acceleration",
     .title = "Hyperbolic tangent of velocity and acceleration",
     .equation = "F = f_y tanh(kappa (v - tau a)) + c v + f0\n"
@@ -35,6 +43,6 @@ const Law kTanhAcceleration = state_law<TanhAcceleration, tanh_acceleration_forc
              Fit::Bias},
         },
     .needs_displacement = false,
-});
+}));
 
 }  // namespace dashpot
