@@ -41,6 +41,13 @@ const Law kArctan =
                      Fit::Bias},
                 },
             .needs_displacement = false,
+            .dissipates =
+                "Where r v_h <= a_s, beside the bounds (f_y, c >= 0). With y = v - z, z' = r y, "
+                "the rising odd function phi has the argument w = z + psi(y). While psi(y) lies "
+                "between 0 and y, phi(w) v >= phi(z) y = (phi(z) / r) z', the rate of a stored "
+                "energy: case by case of the signs of z, y and w. Here psi(y) = y - v_h s, and s "
+                "is steepest, 1 / a_s, at a = 0. Beyond, quick and small motions meet the damping "
+                "(2 / pi) f_y kappa (1 - r v_h / a_s) + c.",
         }));
 
 }  // namespace dashpot

@@ -49,6 +49,13 @@ const Law kHystereticBiviscous =
                      "offset force", Fit::Bias},
                 },
             .needs_displacement = false,
+            .dissipates =
+                "Where C_pr > C_po and r C_pr v0 <= (C_pr - C_po) a_s, beside the bounds. F = C_po "
+                "v + phi(w), phi limited to +-F_y with the slope C_pr - C_po. With y = v - z, z' = "
+                "r y, the rising odd function phi has the argument w = z + psi(y). While psi(y) "
+                "lies between 0 and y, phi(w) v >= phi(z) y = (phi(z) / r) z', the rate of a "
+                "stored energy: case by case of the signs of z, y and w. Here psi(y) = y - s v0 "
+                "C_pr / (C_pr - C_po).",
         }));
 
 }  // namespace dashpot

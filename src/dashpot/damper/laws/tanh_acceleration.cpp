@@ -5,7 +5,6 @@
 namespace dashpot {
 namespace {
 
-/// tau r <= 1: the derivation stands in the law's table, under `dissipates`.
 double fastest_tanh_acceleration(const TanhAcceleration& p) { return 1 / p.tau; }
 
 }  // namespace
@@ -43,6 +42,11 @@ const Law kTanhAcceleration = with_fastest_rate<
              Fit::Bias},
         },
     .needs_displacement = false,
+    .dissipates = "Where r tau <= 1, beside the bounds (f_y, c >= 0). With y = v - z, z' = r y, "
+                  "the rising odd function phi has the argument w = z + psi(y). While psi(y) lies "
+                  "between 0 and y, phi(w) v >= phi(z) y = (phi(z) / r) z', the rate of a stored "
+                  "energy: case by case of the signs of z, y and w. Here psi(y) = (1 - r tau) y. "
+                  "Beyond, quick and small motions meet the damping f_y kappa (1 - r tau) + c.",
 }));
 
 }  // namespace dashpot
