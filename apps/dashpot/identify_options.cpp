@@ -77,8 +77,8 @@ std::vector<Option> fit_options(FitSettings& settings) {
        .default_text = "nothing"},
       {.names = "--allow-active",
        .target = &settings.options.allow_active,
-       .help = "keep laws as they fit best where they feed energy into some motions; without it, "
-               "such a law is fitted again within the parameters with which it dissipates"},
+       .help = "keep laws as they fit best, also those that feed energy into some motions; without "
+               "it, such a law is fitted again with parameters that dissipate"},
 
       // The design and training of networks.
       {.names = "--network",

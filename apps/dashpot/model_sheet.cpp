@@ -275,7 +275,8 @@ std::string sheet_text(const ModelSheet& sheet, int width) {
     for (const ParameterLine& p : sheet.parameters) table.row(cells(p));
     text += '\n' + table.text(columns);
   }
-  if (!sheet.dissipates.empty()) text += '\n' + paragraph("Dissipates: " + sheet.dissipates, columns);
+  if (!sheet.dissipates.empty())
+    text += '\n' + paragraph("Dissipates: " + sheet.dissipates, columns);
   text += '\n' + paragraph("Source: " + sheet.source, columns);
   if (!sheet.remarks.empty()) text += paragraph("Remarks: " + sheet.remarks, columns);
   return text;

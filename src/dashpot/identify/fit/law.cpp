@@ -61,8 +61,9 @@ std::vector<double> searched_start(const Task& task, const LeastSquaresProblem& 
                        task.options.seed);
 }
 
-/// Tries several starts on a part of the data and returns the most promising end point.
-std::vector<double> best_start(const Task& task) {
+/// The most promising end of short fits to a part of the data, from the starts given or, where
+/// there are none, from several.
+std::vector<double> best_start(const Task& task, std::vector<std::vector<double>> starts = {}) {
   constexpr double kTolerance = 1e-2, kHopeless = 2;
   constexpr int kIterations = 15, kHopelessAfter = 5;
 
@@ -72,11 +73,13 @@ std::vector<double> best_start(const Task& task) {
   const LeastSquaresProblem problem = residuals.problem(0, task.options.threads);
 
   // The starts: the expected sizes, what a global search finds, and random ones.
-  Random random(task.options.seed);
-  std::vector<std::vector<double>> starts = {task.unknowns.start()};
-  if (task.options.search > 0) starts.push_back(searched_start(task, problem));
-  while (starts.size() < static_cast<std::size_t>(task.options.starts))
-    starts.push_back(task.unknowns.start(&random));
+  if (starts.empty()) {
+    Random random(task.options.seed);
+    starts.push_back(task.unknowns.start());
+    if (task.options.search > 0) starts.push_back(searched_start(task, problem));
+    while (starts.size() < static_cast<std::size_t>(task.options.starts))
+      starts.push_back(task.unknowns.start(&random));
+  }
 
   // A short fit from each; once one has succeeded, a hopeless one is given up early.
   std::vector<double> best = starts.front();
@@ -177,17 +180,20 @@ bool may_slow_filter(const Task& task, std::string_view model) {
 /// A fit that feeds energy in is made again from its end, its filter no quicker than the law's
 /// dissipative set allows; where that set is only a guess, slower until the measured verdict holds.
 LawSolution dissipating(Task task, LawSolution active) {
+  if (status_of(active.solved) == FitReport::Status::Failed) return active;
+
+  // What dissipates as it fits best stays as it is.
   const Domain domain = domain_of(task.training, task.drive_unit);
   const auto verdict = [&](const LawSolution& fit) {
     return dissipation(fit.unknowns.model(fit.solved.x), domain, task.options.threads);
   };
-  if (status_of(active.solved) == FitReport::Status::Failed) return active;
   const Dissipation before = verdict(active);
   if (before.dissipates()) return active;
 
+  // The first fit that passes is taken; where none does, the model is flagged as what it is.
   for (const double share : {1.0, 0.5, 0.25, 0.125}) {
     task.unknowns.slow_filter(share);
-    LawSolution slowed = solve_all(task, active.solved.x);
+    LawSolution slowed = solve_all(task, best_start(task, {active.solved.x}));
     if (status_of(slowed.solved) == FitReport::Status::Failed || !verdict(slowed).dissipates())
       continue;
     slowed.restriction = "its filter is slowed to dissipate: as it fits best, " +
