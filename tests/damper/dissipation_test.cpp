@@ -51,7 +51,8 @@ class LaggingDamper : public DamperModel {
 const Domain kCar{-0.05, 0.05, -1, 1, 0, 2};
 
 /// Parameters of a law with a filter around its defaults, without a dashpot beside it that would
-/// hide what the filter does, and with the rate that its set allows times `share`.
+/// hide what the filter does: its set allows a filter of 200 1/s, and it has one of `share` times
+/// as much.
 std::vector<double> at_the_edge(const std::string& name, double share, Random& random) {
   const Law& law = find_law(name);
   std::vector<double> p;
@@ -60,7 +61,15 @@ std::vector<double> at_the_edge(const std::string& name, double share, Random& r
     for (std::size_t k = 0; k < p.size(); ++k)
       if (law.params[k].name == beside) p[k] = 0;
   p[law.index_of("f0")] = 0;
-  p[law.rate_parameter] = share * law.fastest_rate(p.data());
+
+  // The width of the loop in time sets what is allowed: tau itself, or the one over a_s.
+  constexpr double kAllowed = 200;  // 1/s
+  const double allowed = law.fastest_rate(p.data());
+  if (name == "tanh_acceleration")
+    p[law.index_of("tau")] *= allowed / kAllowed;
+  else
+    p[law.index_of("a_s")] *= kAllowed / allowed;
+  p[law.rate_parameter] = share * kAllowed;
   return p;
 }
 
