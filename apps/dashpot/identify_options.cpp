@@ -75,6 +75,10 @@ std::vector<Option> fit_options(FitSettings& settings) {
                "deviation, as k1=500+-100",
        .value = "LIST",
        .default_text = "nothing"},
+      {.names = "--allow-active",
+       .target = &settings.options.allow_active,
+       .help = "keep laws as they fit best, also those that feed energy into some motions; without "
+               "it, such a law is fitted again with parameters that dissipate"},
 
       // The design and training of networks.
       {.names = "--network",

@@ -260,6 +260,7 @@ ModelSheet model_sheet(const std::string& name) {
                    .remarks = std::string(info.remarks),
                    .inputs = info.inputs,
                    .settings = network_settings_of(name)};
+  if (is_law(name)) sheet.dissipates = find_law(name).dissipates;
   row_of<kDescriptions>(info.kind).describe(sheet);
   return sheet;
 }
@@ -274,6 +275,8 @@ std::string sheet_text(const ModelSheet& sheet, int width) {
     for (const ParameterLine& p : sheet.parameters) table.row(cells(p));
     text += '\n' + table.text(columns);
   }
+  if (!sheet.dissipates.empty())
+    text += '\n' + paragraph("Dissipates: " + sheet.dissipates, columns);
   text += '\n' + paragraph("Source: " + sheet.source, columns);
   if (!sheet.remarks.empty()) text += paragraph("Remarks: " + sheet.remarks, columns);
   return text;
@@ -287,6 +290,7 @@ std::string sheet_markdown(const ModelSheet& sheet) {
     for (const ParameterLine& p : sheet.parameters) text += markdown_row(cells(p));
     text += '\n';
   }
+  if (!sheet.dissipates.empty()) text += "Dissipates: " + sheet.dissipates + "\n\n";
   text += "Source: " + sheet.source + "\n";
   return sheet.remarks.empty() ? text : text + "\nRemarks: " + sheet.remarks + "\n";
 }
@@ -315,6 +319,7 @@ Value sheet_json(const ModelSheet& sheet) {
                         {"inverse", sheet.inverse},
                         {"network", Value::array(std::vector<std::string>(sheet.settings.begin(),
                                                                           sheet.settings.end()))},
+                        {"dissipates", sheet.dissipates},
                         {"source", sheet.source},
                         {"remarks", sheet.remarks}});
 }

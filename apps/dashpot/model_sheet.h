@@ -16,6 +16,7 @@ struct ParameterLine {
 /// A registered model as the documentation shows it, whatever its kind.
 struct ModelSheet {
   std::string name, kind, title, equation, source, remarks;
+  std::string dissipates;  ///< with which parameters; laws only
   std::vector<std::string> inputs = {};
   std::string inverse = "search";              ///< or "closed form"
   std::vector<std::string> states = {};        ///< "z, m"

@@ -1,10 +1,14 @@
+#include <array>
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 #include "damper/kinds/passive_network/passive_network_example.h"
+#include "dashpot/base/random.h"
 #include "dashpot/damper/file_parts.h"
 #include "dashpot/damper/kinds/law/law_model.h"
 #include "dashpot/damper/parameter_set.h"
+#include "dashpot/damper/registry.h"
 #include "dashpot/model_file.h"
 #include "support.h"
 
@@ -45,6 +49,58 @@ class LaggingDamper : public DamperModel {
 };
 
 const Domain kCar{-0.05, 0.05, -1, 1, 0, 2};
+
+/// Parameters of a law with a filter around its defaults, without a dashpot beside it that would
+/// hide what the filter does: its set allows a filter of 200 1/s, and it has one of `share` times
+/// as much.
+std::vector<double> at_the_edge(const std::string& name, double share, Random& random) {
+  const Law& law = find_law(name);
+  std::vector<double> p;
+  for (const ParamInfo& param : law.params) p.push_back(param.value * random.uniform(0.3, 3));
+  for (const char* beside : {"c", "C_po"})
+    for (std::size_t k = 0; k < p.size(); ++k)
+      if (law.params[k].name == beside) p[k] = 0;
+  p[law.index_of("f0")] = 0;
+
+  // The width of the loop in time sets what is allowed: tau itself, or the one over a_s.
+  constexpr double kAllowed = 200;  // 1/s
+  const double allowed = law.fastest_rate(p.data());
+  if (name == "tanh_acceleration")
+    p[law.index_of("tau")] *= allowed / kAllowed;
+  else
+    p[law.index_of("a_s")] *= kAllowed / allowed;
+  p[law.rate_parameter] = share * kAllowed;
+  return p;
+}
+
+/// Moves a model from rest by a sum of sines of random size, rate and phase, which begins slowly,
+/// and gives each step's power and length.
+void walk(const LawModel& model, Random& random,
+          const std::function<void(double power, double step)>& step_done) {
+  constexpr double kStep = 1e-4;
+  std::array<double, 6> size, rate, phase;
+  for (std::size_t k = 0; k < size.size(); ++k) {
+    rate[k] = 6 * std::exp(random.uniform(0, 5));
+    size[k] = 0.1 * random.uniform();
+    phase[k] = random.uniform(0, 6.28);
+  }
+  const auto input_at = [&](int n) {
+    const double t = n * kStep;
+    double speed = 0;
+    for (std::size_t k = 0; k < size.size(); ++k)
+      speed += size[k] * std::sin(rate[k] * t + phase[k]);
+    return DamperInput{0, speed * std::min(1.0, t / 0.05), 0};
+  };
+
+  std::vector<double> state(model.state_size());
+  model.rest({}, state);
+  for (int n = 0; n < 20000; ++n) {
+    const DamperInput from = input_at(n), to = input_at(n + 1);
+    const double before = model.force(from, state) * from.velocity;
+    model.advance(from, to, kStep, state);
+    step_done((before + model.force(to, state) * to.velocity) / 2, kStep);
+  }
+}
 
 }  // namespace
 
@@ -101,6 +157,39 @@ TEST_CASE("the lag of a tanh law beyond tau r = 1 shows as what it is") {
   };
   CHECK(dissipation(with(0.001), kCar).dissipates());
   CHECK_FALSE(dissipation(with(0.0077), kCar).dissipates());
+}
+
+TEST_CASE("a law with a filter takes energy out of any motion within its set") {
+  // From rest nothing is stored that could come back, so the work never falls below 0, whatever the
+  // motion; a sum of sines that starts at rest is as good as any.
+  Random random(7);
+  for (const std::string name : {"tanh_acceleration", "arctan", "sigmoid", "hysteretic_biviscous"})
+    for (int trial = 0; trial < 20; ++trial) {
+      CAPTURE(name);
+      CAPTURE(trial);
+      const LawModel model = LawModel::constant(find_law(name), at_the_edge(name, 1, random));
+      double work = 0, passed = 0, least = 0;
+      walk(model, random, [&](double power, double step) {
+        work += power * step;
+        passed += std::abs(power) * step;
+        least = std::min(least, work);
+      });
+      CHECK(passed > 0);
+      CHECK(least > -1e-3 * passed);
+    }
+}
+
+TEST_CASE("a law with a filter twice as quick as its set allows feeds energy in") {
+  Random random(8);
+  for (const std::string name : {"tanh_acceleration", "arctan", "sigmoid", "hysteretic_biviscous"})
+    for (int trial = 0; trial < 3; ++trial) {
+      CAPTURE(name);
+      Random same = random;
+      CHECK(dissipation(LawModel::constant(find_law(name), at_the_edge(name, 1, random)), kCar)
+                .dissipates());
+      CHECK_FALSE(dissipation(LawModel::constant(find_law(name), at_the_edge(name, 2, same)), kCar)
+                      .dissipates());
+    }
 }
 
 TEST_CASE("a passive network takes energy out, whatever its numbers are") {

@@ -23,6 +23,7 @@ def fit_options(
     free: Words = (),
     bounds: Words = (),
     prior: Words = (),
+    allow_active: bool = False,
     network: Words = (),
     starts: int = 4,
     search: int = 0,
@@ -32,7 +33,8 @@ def fit_options(
     """The options of a fit, as the C boundary takes them."""
     lists = {"form": form, "fix": fix, "free": free, "bounds": bounds, "prior": prior, "network": network}
     numbers = {"starts": starts, "search": search, "seed": seed, "threads": threads}
-    return {"force_offset": force_offset, **{key: words(given) for key, given in lists.items()}, **numbers}
+    plain = {"force_offset": force_offset, "allow_active": bool(allow_active)}
+    return {**plain, **{key: words(given) for key, given in lists.items()}, **numbers}
 
 
 class Ranking:
@@ -119,7 +121,8 @@ def identify(
     of "usual" (None: 2) and "all" (None: no limit) may take, 0: no limit; `Ranking.untried` is what was not tried.
     progress: called with (stage, fraction 0 ... 1).
     options: force_offset ("record" or "none"), form, fix, free, bounds, prior, network (lists as the command
-    line has them: ["alpha=exponential"]), starts, search, seed, threads (0: all cores).
+    line has them: ["alpha=exponential"]), allow_active (keep laws that feed energy in), starts, search, seed,
+    threads (0: all cores).
 
     Other Python threads run meanwhile; Ctrl-C stops it. Raises Error on what cannot be used.
     """

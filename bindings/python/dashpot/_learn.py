@@ -84,6 +84,7 @@ class Identifier:
         free=(),
         bounds=(),
         prior=(),
+        allow_active=False,
         network=(),
         starts=4,
         search=0,
@@ -99,6 +100,7 @@ class Identifier:
         self.free = free
         self.bounds = bounds
         self.prior = prior
+        self.allow_active = allow_active
         self.network = network
         self.starts = starts
         self.search = search

@@ -75,6 +75,13 @@ struct Law {
   int (*step)(const double* p, const double* x, const double* v, double h, double* z) = nullptr;
   /// One `step` of any length is as good as many while the parameters stay: taken wherever they do.
   bool exact_step = false;
+  /// Which of its parameters take energy out of every motion at constant drive, and why, in plain
+  /// text; beyond the table's bounds.
+  std::string_view dissipates;
+  /// For a law with a filter: the fastest rate, 1/s, with which it dissipates beside its other
+  /// parameters; infinity where any does, 0 where none. Null: the rate is not what decides.
+  double (*fastest_rate)(const double* p) = nullptr;
+  std::size_t rate_parameter = 0;  ///< the row of that rate
 
   std::size_t index_of(std::string_view param) const;  ///< throws Error naming the known ones
 };
@@ -97,6 +104,7 @@ struct LawTable {
   std::vector<Param<P>> params;
   double lag_rate = 0;
   bool needs_displacement = true;
+  std::string_view dissipates;
 };
 
 namespace detail {
@@ -152,7 +160,8 @@ Law static_law(const LawTable<P>& table) {
           .states = table.states,
           .params = std::vector<ParamInfo>(sizeof(P) / sizeof(double)),
           .lag_rate = table.lag_rate,
-          .needs_displacement = table.needs_displacement};
+          .needs_displacement = table.needs_displacement,
+          .dissipates = table.dissipates};
   for (const Param<P>& p : table.params)
     law.params[detail::position_of(p.field)] = {p.name,  p.unit, p.value, p.lower,  p.upper,
                                                 p.start, p.form, p.fit,   p.meaning};
@@ -199,6 +208,14 @@ Law with_step(Law law) {
     const P own = detail::from_array<P>(p);
     return Step(&own, x, v, h, z);
   };
+  return law;
+}
+
+/// For a law that looks at a filtered velocity: Fastest says how quick that filter may be.
+template <class P, auto Fastest>
+Law with_fastest_rate(Law law) {
+  law.rate_parameter = detail::position_of(&P::r);
+  law.fastest_rate = [](const double* p) { return Fastest(detail::from_array<P>(p)); };
   return law;
 }
 

@@ -3,11 +3,16 @@
 #include "dashpot/damper/law.h"
 
 namespace dashpot {
+namespace {
+
+double fastest_arctan(const Arctan& p) { return p.a_s / p.v_h; }
+
+}  // namespace
 
 extern const Law kArctan;
 const Law kArctan =
-    state_law<Arctan, arctan_force, arctan_derivative, arctan_rest, arctan_rate>(
-        {
+    with_fastest_rate<Arctan, fastest_arctan>(
+        state_law<Arctan, arctan_force, arctan_derivative, arctan_rest, arctan_rate>({
             .name = "arctan",
             .title = "Inverse tangent",
             .equation = "F = (2 / pi) f_y atan(kappa (v - v_h s)) + c v + f0\n"
@@ -36,6 +41,13 @@ const Law kArctan =
                      Fit::Bias},
                 },
             .needs_displacement = false,
-        });
+            .dissipates =
+                "Where r v_h <= a_s, beside the bounds (f_y, c >= 0). With y = v - z, z' = r y, "
+                "the rising odd function phi has the argument w = z + psi(y). While psi(y) lies "
+                "between 0 and y, phi(w) v >= phi(z) y = (phi(z) / r) z', the rate of a stored "
+                "energy: case by case of the signs of z, y and w. Here psi(y) = y - v_h s, and s "
+                "is steepest, 1 / a_s, at a = 0. Beyond, quick and small motions meet the damping "
+                "(2 / pi) f_y kappa (1 - r v_h / a_s) + c.",
+        }));
 
 }  // namespace dashpot

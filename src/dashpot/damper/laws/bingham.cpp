@@ -27,6 +27,7 @@ const Law kBingham = static_law<Bingham, bingham_force>({
              "speed over which friction sets in; 0: at once", Fit::Fixed},
         },
     .needs_displacement = false,
+    .dissipates = "Within the bounds: static, and against v at every speed.",
 });
 
 }  // namespace dashpot

@@ -26,6 +26,8 @@ const Law kBiviscous = static_law<Biviscous, biviscous_force>({
             {&Biviscous::f0, "f0", "N", 0, -1e6, 1e6, 0, Form::Constant, "offset force", Fit::Bias},
         },
     .needs_displacement = false,
+    .dissipates =
+        "Within the bounds: static, and against v at every speed, whether C_pr > C_po or not.",
 });
 
 }  // namespace dashpot

@@ -39,6 +39,11 @@ const Law kBoucWen = with_travel<BoucWen, bouc_wen_travel>(
                 {&BoucWen::f0, "f0", "N", 0, -1e6, 1e6, 0, Form::Constant, "offset force",
                  Fit::Bias},
             },
+        .dissipates = "With alpha, c0 >= 0, A > 0, gamma >= 0 and beta + gamma > 0, as bounded: S "
+                      "= alpha times the integral of z / (A - (beta - gamma) |z|^n) over z is "
+                      "stored; where z returns to 0 all of it comes back, and where |z| grows "
+                      "alpha z v - S' = alpha z v 2 gamma |z|^n / (A - (beta - gamma) |z|^n) >= 0 "
+                      "is lost. The spring k0 stores what it takes, whatever its sign.",
     }));
 
 }  // namespace dashpot

@@ -64,6 +64,9 @@ const Law kChebyshev = static_law<Chebyshev, chebyshev_force>({
             {&Chebyshev::v_half, "v_half", "m/s", 0.2, 1e-6, 100, 1, Form::Constant,
              "half of the span of velocity", Fit::Scale},
         },
+    .dissipates = "Where F(x, v1) >= F(x, -v2) at every x for all v1, v2 > 0: then and only then "
+                  "no closed path takes energy from a static law. An inequality of polynomials "
+                  "without a closed set of coefficients: measured.",
 });
 
 }  // namespace dashpot

@@ -35,6 +35,8 @@ const Law kCompressibleChambers = with_step<CompressibleChambers, compressible_c
                  "offset force (accumulator)", Fit::Bias},
             },
         .needs_displacement = false,
+        .dissipates = "Within the bounds: k e^2 / 2 is stored; the flow through the valve, which "
+                      "follows k e with its sign, and the friction f_f lose.",
     }));
 
 }  // namespace dashpot

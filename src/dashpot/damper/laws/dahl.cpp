@@ -26,6 +26,8 @@ const Law kDahl = with_travel<Dahl, dahl_travel>(state_law<Dahl, dahl_force, dah
             {&Dahl::f0, "f0", "N", 0, -1e6, 1e6, 0, Form::Constant, "offset force", Fit::Bias},
         },
     .needs_displacement = false,
+    .dissipates =
+        "Within the bounds: kappa_w w^2 / (2 rho) is stored, and kappa_w |v| w^2 is lost.",
 }));
 
 }  // namespace dashpot

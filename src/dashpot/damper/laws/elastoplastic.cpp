@@ -32,6 +32,7 @@ const Law kElastoplastic =
                          0, Form::Constant, "offset force (accumulator)", Fit::Bias},
                     },
                 .needs_displacement = false,
+                .dissipates = "Within the bounds: k e^2 / 2 is stored; the slider and c0 lose.",
             }));
 
 }  // namespace dashpot

@@ -38,6 +38,8 @@ const Law kExtendedBingham =
                         {&ExtendedBingham::f0, "f0", "N", -50, -1e6, 1e6, 0, Form::Constant,
                          "offset force", Fit::Bias},
                     },
+                .dissipates = "Within the bounds: springs store, dashpots and friction lose, in "
+                              "series and side by side.",
             }));
 
 }  // namespace dashpot

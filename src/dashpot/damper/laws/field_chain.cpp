@@ -48,6 +48,7 @@ const Law kFieldChain = static_law<FieldChain, field_chain_force>({
              "speed over which friction and yield stress set in; 0: at once", Fit::Fixed},
         },
     .needs_displacement = false,
+    .dissipates = "Within the bounds: static, and against v at every speed.",
 });
 
 }  // namespace dashpot

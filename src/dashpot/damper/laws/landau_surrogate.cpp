@@ -42,6 +42,9 @@ const Law kLandauSurrogate =
                          0, Form::Constant, "offset force", Fit::Bias},
                     },
                 .needs_displacement = false,
+                .dissipates = "Where k1 >= 0, beside the bounds: f_y v_r tau p^2 / 2 is stored; c "
+                              "v^2 + f_y v_r p^2 (k1 + k3 p^2 + k5 p^4) is lost. With k1 < 0, two "
+                              "wells, this says nothing: measured.",
             }));
 
 }  // namespace dashpot

@@ -49,6 +49,10 @@ const Law kLargeScaleBoucWen = with_travel<
             {&LargeScaleBoucWen::f0, "f0", "N", -2000, -1e6, 1e6, 0, Form::Constant, "offset force",
              Fit::Bias},
         },
+    .dissipates =
+        "With m, a1, alpha >= 0, A > 0, gamma >= 0 and beta + gamma > 0, as bounded. The Bouc-Wen "
+        "element as in bouc_wen; the mass, with v_f the filtered velocity and v - v_f = v_f' / r: "
+        "m a v = (m v_f^2 / 2)' + m r (v - v_f)^2; the rest is static and against v, or a spring.",
 }));
 
 }  // namespace dashpot

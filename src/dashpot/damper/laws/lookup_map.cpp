@@ -49,6 +49,9 @@ const Law kLookupMap =
                  Fit::Bias},
             },
         .needs_displacement = false,
+        .dissipates =
+            "Where F - f0 has the sign of v at every point of the map, at every drive: the bounds "
+            "see to it at some currents only, so that the measured verdict decides.",
     });
 
 }  // namespace dashpot

@@ -51,6 +51,9 @@ const Law kModifiedBoucWen =
                          "offset force", Fit::Bias},
                     },
                 .lag_rate = 190,
+                .dissipates = "Within the bounds (springs, dashpots and alpha >= 0, A > 0, gamma "
+                              ">= 0, beta + gamma > 0): springs and dashpots in series and side by "
+                              "side with a Bouc-Wen element, which dissipates as in bouc_wen.",
             }));
 
 }  // namespace dashpot

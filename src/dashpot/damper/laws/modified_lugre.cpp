@@ -35,6 +35,9 @@ const Law kModifiedLugre = with_travel<
              Fit::Bias},
         },
     .needs_displacement = false,
+    .dissipates =
+        "Within the bounds: sigma_0 z^2 / 2 is stored; sigma_0 a_0 |v| z^2 + sigma_1 v z' + "
+        "sigma_2 v^2 is lost, where v z' = v^2 - a_0 |v| v z >= 0 since |z| <= 1 / a_0.",
 }));
 
 }  // namespace dashpot

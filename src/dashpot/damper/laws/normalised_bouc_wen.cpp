@@ -36,6 +36,8 @@ const Law kNormalisedBoucWen = with_travel<NormalisedBoucWen, normalised_bouc_we
                  Fit::Bias},
             },
         .needs_displacement = false,
+        .dissipates = "With kappa_x, kappa_w >= 0, rho > 0 and sigma >= 1/2, as bounded (Ikhouane "
+                      "and Rodellar): as bouc_wen, whose gamma is then no less than beta.",
     }));
 
 }  // namespace dashpot

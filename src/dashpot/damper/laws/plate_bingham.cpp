@@ -30,6 +30,7 @@ const Law kPlateBingham = static_law<PlateBingham, plate_bingham_force>({
              "speed over which the yield stress sets in; 0: at once", Fit::Fixed},
         },
     .needs_displacement = false,
+    .dissipates = "Within the bounds: static, and against v at every speed.",
 });
 
 }  // namespace dashpot

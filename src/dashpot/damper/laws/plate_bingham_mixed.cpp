@@ -33,6 +33,7 @@ const Law kPlateBinghamMixed = static_law<PlateBinghamMixed, plate_bingham_mixed
              "speed over which the yield stress sets in; 0: at once", Fit::Fixed},
         },
     .needs_displacement = false,
+    .dissipates = "Within the bounds: static, and against v at every speed.",
 });
 
 }  // namespace dashpot

@@ -26,6 +26,7 @@ const Law kPlateBinghamShear = static_law<PlateBinghamShear, plate_bingham_shear
              "offset force (accumulator)", Fit::Bias},
         },
     .needs_displacement = false,
+    .dissipates = "Within the bounds: static, and against v at every speed.",
 });
 
 }  // namespace dashpot

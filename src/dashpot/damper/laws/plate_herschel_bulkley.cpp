@@ -34,6 +34,7 @@ const Law kPlateHerschelBulkley = static_law<PlateHerschelBulkley, plate_hersche
              "speed over which the yield stress sets in; 0: at once", Fit::Fixed},
         },
     .needs_displacement = false,
+    .dissipates = "Within the bounds: static, and against v at every speed.",
 });
 
 }  // namespace dashpot

@@ -30,6 +30,8 @@ const Law kSemiPhenomenological = static_law<SemiPhenomenological, semi_phenomen
             {&SemiPhenomenological::f0, "f0", "N", 0, -1e6, 1e6, 0, Form::Constant, "offset force",
              Fit::Bias},
         },
+    .dissipates =
+        "Within the bounds: at every x the force rises with v; what it has at v = 0 is a spring's.",
 });
 
 }  // namespace dashpot

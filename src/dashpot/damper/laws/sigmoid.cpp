@@ -3,11 +3,16 @@
 #include "dashpot/damper/law.h"
 
 namespace dashpot {
+namespace {
+
+double fastest_sigmoid(const Sigmoid& p) { return p.a_s / (p.v_h * (1 + p.k_v * p.v_h)); }
+
+}  // namespace
 
 extern const Law kSigmoid;
 const Law kSigmoid =
-    state_law<Sigmoid, sigmoid_force, sigmoid_derivative, sigmoid_rest, sigmoid_rate>(
-        {
+    with_fastest_rate<Sigmoid, fastest_sigmoid>(
+        state_law<Sigmoid, sigmoid_force, sigmoid_derivative, sigmoid_rest, sigmoid_rate>({
             .name = "sigmoid",
             .title = "Sigmoid",
             .equation = "F = f_m tanh(k_a (v - v_h s) / 2) (1 + k_v |v|) + f0\n"
@@ -36,6 +41,13 @@ const Law kSigmoid =
                      Fit::Bias},
                 },
             .needs_displacement = false,
-        });
+            .dissipates =
+                "Where r v_h (1 + k_v v_h) <= a_s, beside the bounds (f_m, k_v >= 0). With y = v - "
+                "z, z' = r y, the rising odd function phi has the argument w = z + psi(y). While "
+                "psi(y) lies between 0 and y, phi(w) v >= phi(z) y = (phi(z) / r) z', the rate of "
+                "a stored energy: case by case of the signs of z, y and w. Here psi(y) = y - v_h "
+                "s. Where v and w differ in sign, |v| <= v_h |s| <= |y| r v_h / a_s, so that the "
+                "factor 1 + k_v |v| <= 1 + k_v v_h leaves phi(w) v (1 + k_v |v|) >= phi(z) y.",
+        }));
 
 }  // namespace dashpot

@@ -3,11 +3,18 @@
 #include "dashpot/damper/law.h"
 
 namespace dashpot {
+namespace {
+
+double fastest_tanh_acceleration(const TanhAcceleration& p) { return 1 / p.tau; }
+
+}  // namespace
 
 extern const Law kTanhAcceleration;
-const Law kTanhAcceleration = state_law<TanhAcceleration, tanh_acceleration_force,
-                                        tanh_acceleration_derivative, tanh_acceleration_rest,
-                                        tanh_acceleration_rate>({
+const Law kTanhAcceleration = with_fastest_rate<
+    TanhAcceleration,
+    fastest_tanh_acceleration>(state_law<TanhAcceleration, tanh_acceleration_force,
+                                         tanh_acceleration_derivative, tanh_acceleration_rest,
+                                         tanh_acceleration_rate>({
     .name = "tanh_acceleration",
     .title = "Hyperbolic tangent of velocity and acceleration",
     .equation = "F = f_y tanh(kappa (v - tau a)) + c v + f0\n"
@@ -35,6 +42,11 @@ const Law kTanhAcceleration = state_law<TanhAcceleration, tanh_acceleration_forc
              Fit::Bias},
         },
     .needs_displacement = false,
-});
+    .dissipates = "Where r tau <= 1, beside the bounds (f_y, c >= 0). With y = v - z, z' = r y, "
+                  "the rising odd function phi has the argument w = z + psi(y). While psi(y) lies "
+                  "between 0 and y, phi(w) v >= phi(z) y = (phi(z) / r) z', the rate of a stored "
+                  "energy: case by case of the signs of z, y and w. Here psi(y) = (1 - r tau) y. "
+                  "Beyond, quick and small motions meet the damping f_y kappa (1 - r tau) + c.",
+}));
 
 }  // namespace dashpot

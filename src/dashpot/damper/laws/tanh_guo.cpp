@@ -25,6 +25,8 @@ const Law kTanhGuo = static_law<TanhGuo, tanh_guo_force>({
              "critical displacement of the hysteresis", Fit::Scale},
             {&TanhGuo::f0, "f0", "N", 40, -1e6, 1e6, 0, Form::Constant, "offset force", Fit::Bias},
         },
+    .dissipates =
+        "Within the bounds: at every x the force rises with v; what it has at v = 0 is a spring's.",
 });
 
 }  // namespace dashpot

@@ -27,6 +27,9 @@ const Law kTanhKwok = static_law<TanhKwok, tanh_kwok_force>({
              "half width of the hysteresis, in beta v"},
             {&TanhKwok::f0, "f0", "N", 39, -1e6, 1e6, 0, Form::Constant, "offset force", Fit::Bias},
         },
+    .dissipates = "Within the bounds: at every x the force rises with v; what it has at v = 0 is a "
+                  "spring's, which leaps by 2 alpha tanh(delta) at x = 0: a solver's step across "
+                  "it may do work, the law does not.",
 });
 
 }  // namespace dashpot

@@ -31,6 +31,8 @@ const Law kViscousDahl = with_travel<
              Fit::Bias},
         },
     .needs_displacement = false,
+    .dissipates = "Within the bounds: kappa_w w^2 / (2 rho) is stored, and kappa_x v^2 + kappa_w "
+                  "|v| w^2 is lost.",
 }));
 
 }  // namespace dashpot

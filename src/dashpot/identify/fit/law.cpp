@@ -7,6 +7,7 @@
 #include "dashpot/identify/fit/law_residuals.h"
 #include "dashpot/identify/fit/law_solution.h"
 #include "dashpot/identify/fit/uncertainty.h"
+#include "dashpot/model_file.h"
 #include "dashpot/numerics/global_search.h"
 
 namespace dashpot {
@@ -60,8 +61,9 @@ std::vector<double> searched_start(const Task& task, const LeastSquaresProblem& 
                        task.options.seed);
 }
 
-/// Tries several starts on a part of the data and returns the most promising end point.
-std::vector<double> best_start(const Task& task) {
+/// The most promising end of short fits to a part of the data, from the starts given or, where
+/// there are none, from several.
+std::vector<double> best_start(const Task& task, std::vector<std::vector<double>> starts = {}) {
   constexpr double kTolerance = 1e-2, kHopeless = 2;
   constexpr int kIterations = 15, kHopelessAfter = 5;
 
@@ -71,11 +73,13 @@ std::vector<double> best_start(const Task& task) {
   const LeastSquaresProblem problem = residuals.problem(0, task.options.threads);
 
   // The starts: the expected sizes, what a global search finds, and random ones.
-  Random random(task.options.seed);
-  std::vector<std::vector<double>> starts = {task.unknowns.start()};
-  if (task.options.search > 0) starts.push_back(searched_start(task, problem));
-  while (starts.size() < static_cast<std::size_t>(task.options.starts))
-    starts.push_back(task.unknowns.start(&random));
+  if (starts.empty()) {
+    Random random(task.options.seed);
+    starts.push_back(task.unknowns.start());
+    if (task.options.search > 0) starts.push_back(searched_start(task, problem));
+    while (starts.size() < static_cast<std::size_t>(task.options.starts))
+      starts.push_back(task.unknowns.start(&random));
+  }
 
   // A short fit from each; once one has succeeded, a hopeless one is given up early.
   std::vector<double> best = starts.front();
@@ -146,14 +150,13 @@ LeastSquaresReport solve_twice(const Task& task, const LeastSquaresProblem& prob
 
 /// Priors are weighed against the residuals' noise, which only the fit itself shows: so the fit is
 /// repeated until the noise stays.
-LawSolution solve_all(const Task& task) {
+LawSolution solve_all(const Task& task, std::vector<double> x) {
   constexpr int kRounds = 4;
   constexpr double kSameNoise = 0.02;
 
-  // The first noise is that at the best start, and only priors need it.
+  // The first noise is that at the start, and only priors need it.
   const LawResiduals residuals = task.residuals({});
-  LawSolution end{task.unknowns, {}, {}};
-  std::vector<double> x = best_start(task);
+  LawSolution end{task.unknowns, {}, {}, {}};
   if (!task.unknowns.priors().empty()) end.noise = noise_at(task, residuals, x);
 
   // Fit with the noise assumed, measure it again, and stop once the two agree.
@@ -165,6 +168,41 @@ LawSolution solve_all(const Task& task) {
     x = end.solved.x;
   }
   return end;
+}
+
+/// Whether the law's filter may be slowed: it has one, and the user has not set its rate.
+bool may_slow_filter(const Task& task, std::string_view model) {
+  if (!task.law.fastest_rate) return false;
+  const ParamInfo& rate = task.law.params[task.law.rate_parameter];
+  return !choice_for(task.options.choices, model, rate).fixed;
+}
+
+/// A fit that feeds energy in is made again from its end, its filter no quicker than the law's
+/// dissipative set allows; where that set is only a guess, slower until the measured verdict holds.
+LawSolution dissipating(Task task, LawSolution active) {
+  if (status_of(active.solved) == FitReport::Status::Failed) return active;
+
+  // What dissipates as it fits best stays as it is.
+  const Domain domain = domain_of(task.training, task.drive_unit);
+  const auto verdict = [&](const LawSolution& fit) {
+    return dissipation(fit.unknowns.model(fit.solved.x), domain, task.options.threads);
+  };
+  const Dissipation before = verdict(active);
+  if (before.dissipates()) return active;
+
+  // The first fit that passes is taken; where none does, the model is flagged as what it is.
+  for (const double share : {1.0, 0.5, 0.25, 0.125}) {
+    task.unknowns.slow_filter(share);
+    LawSolution slowed = solve_all(task, best_start(task, {active.solved.x}));
+    if (status_of(slowed.solved) == FitReport::Status::Failed || !verdict(slowed).dissipates())
+      continue;
+    slowed.restriction = "its filter is slowed to dissipate: as it fits best, " +
+                         activity(before, task.drive_unit) + "; the training RMSE is " +
+                         format_number(slowed.noise.rms, 3) + " N in place of " +
+                         format_number(active.noise.rms, 3) + " N (--allow-active keeps that fit)";
+    return slowed;
+  }
+  return active;
 }
 
 std::vector<FittedParameter> fitted_parameters(
@@ -242,14 +280,17 @@ FitReport::Status status_of(const LeastSquaresReport& solved) {
 
 LawSolution solve_law(const Law& law, const std::vector<Record>& training, DriveUnit drive_unit,
                       const IdentifyOptions& options, std::string_view model) {
-  return solve_all({law, training, drive_unit, options,
-                    LawUnknowns(law, data_scale(training, drive_unit), drive_unit, options.offset,
-                                options.choices, model)});
+  const Task task{law, training, drive_unit, options,
+                  LawUnknowns(law, data_scale(training, drive_unit), drive_unit, options.offset,
+                              options.choices, model)};
+  LawSolution best = solve_all(task, best_start(task));
+  if (options.allow_active || !may_slow_filter(task, model.empty() ? law.name : model)) return best;
+  return dissipating(task, std::move(best));
 }
 
 FitReport fit_law(const Law& law, const std::vector<Record>& training, DriveUnit drive_unit,
                   const IdentifyOptions& options) {
-  const auto [unknowns, solved, noise] = solve_law(law, training, drive_unit, options);
+  const auto [unknowns, solved, noise, restriction] = solve_law(law, training, drive_unit, options);
   FitReport report;
   report.status = status_of(solved);
   report.message = solved.message;
@@ -264,6 +305,7 @@ FitReport fit_law(const Law& law, const std::vector<Record>& training, DriveUnit
   const auto coefficients = unknowns.coefficients(solved.x);
   report.parameters = fitted_parameters(coefficients, spread);
   report.warnings = unknowns.warnings();
+  if (!restriction.empty()) report.warnings.push_back(restriction);
   for (std::string& warning : warnings_of(coefficients, spread))
     report.warnings.push_back(std::move(warning));
   return report;

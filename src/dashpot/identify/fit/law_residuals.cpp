@@ -22,7 +22,9 @@ void thin(std::vector<T>& samples, std::size_t first, std::size_t stride) {
 
 LawResiduals::LawResiduals(const LawUnknowns& unknowns, const std::vector<Record>& records,
                            DriveUnit drive_unit, OffsetMode offset, const Thinning& thinning)
-    : unknowns_(&unknowns), offset_(offset), constant_drive_(!unknowns.fits_lag()) {
+    : unknowns_(&unknowns),
+      offset_(offset),
+      constant_drive_(!unknowns.fits_lag() && !unknowns.slows_filter()) {
   constexpr std::size_t kFewest = 200;
   for (const Record& record : records) {
     Run run{damper_inputs(record, drive_unit), record.time, record.channel("force").samples,

@@ -50,7 +50,8 @@ class LawResiduals {
   std::vector<Run> runs_;
   std::vector<std::pair<std::size_t, std::size_t>> segments_;
   std::size_t size_ = 0;
-  bool constant_drive_;  ///< in each record
+  /// In each record, and no parameter follows from others at another drive.
+  bool constant_drive_;
 };
 
 }  // namespace dashpot

@@ -196,7 +196,27 @@ Dependence LawUnknowns::dependence(std::span<const double> unknowns) const {
   return result;
 }
 
+/// Brings the filter's rate to what the other parameters allow at the drive where they allow least.
+void LawUnknowns::slow_filter_of(Dependence& dependence) const {
+  constexpr int kDrives = 9;
+  double share = 1;
+  std::vector<double> p(law_->params.size());
+  for (int k = 0; k < kDrives; ++k) {
+    const double drive = drive_min_ + (drive_max_ - drive_min_) * k / (kDrives - 1);
+    for (std::size_t n = 0; n < p.size(); ++n) p[n] = dependence.at(n, drive);
+    share = std::min(share, filter_share_ * law_->fastest_rate(p.data()) / p[law_->rate_parameter]);
+  }
+
+  // All coefficients but an exponential's rate scale with the parameter.
+  std::vector<double>& rate = dependence.coefficients[law_->rate_parameter];
+  const bool is_exponential = dependence.forms[law_->rate_parameter] == Form::Exponential;
+  const double floor = law_->params[law_->rate_parameter].lower / rate.front();
+  for (std::size_t c = 0; c < (is_exponential ? 2 : rate.size()); ++c)
+    rate[c] *= std::max(share, floor);
+}
+
 LawModel LawUnknowns::model_of(Dependence dependence, std::span<const double> unknowns) const {
+  if (slows_filter()) slow_filter_of(dependence);
   return LawModel(*law_, std::move(dependence), drive_unit_,
                   lag_ ? values(*lag_, unknowns).front() : 0);
 }
@@ -261,10 +281,9 @@ std::vector<LawUnknowns::PriorTerm> LawUnknowns::priors() const {
 std::vector<LawUnknowns::Coefficient> LawUnknowns::coefficients(
     std::span<const double> unknowns) const {
   std::vector<Coefficient> out;
-  const auto add = [&](const Row& row) {
+  const auto add = [&](const Row& row, const std::vector<double>& fitted) {
     if (row.param.fit == Fit::Drive) return;
 
-    const std::vector<double> fitted = values(row, unknowns);
     for (std::size_t c = 0; c < coefficient_count(row.form); ++c) {
       Coefficient coefficient{.name = coefficient_name(row.param.name, row.form, c),
                               .unit = coefficient_unit(row.param.unit, row.form, c, drive_unit_),
@@ -283,8 +302,9 @@ std::vector<LawUnknowns::Coefficient> LawUnknowns::coefficients(
   };
 
   // The law's parameters in the order of its table, then the lag.
-  for (const Row& row : rows_) add(row);
-  if (lag_) add(*lag_);
+  const Dependence own = model(unknowns).parameters();
+  for (std::size_t p = 0; p < rows_.size(); ++p) add(rows_[p], own.coefficients[p]);
+  if (lag_) add(*lag_, values(*lag_, unknowns));
   return out;
 }
 

@@ -43,6 +43,11 @@ class LawUnknowns {
   std::vector<double> off_bounds(std::vector<double> unknowns) const;
   LawModel model(std::span<const double> unknowns) const;
   bool fits_lag() const { return lag_.has_value(); }
+
+  /// From now on a model's filter is no quicker than this share of the law's fastest_rate, at every
+  /// drive of the data.
+  void slow_filter(double share) { filter_share_ = share; }
+  bool slows_filter() const { return filter_share_ > 0; }
   /// Warnings, in words, of wishes that these data cannot fulfil.
   const std::vector<std::string>& warnings() const { return warnings_; }
 
@@ -100,14 +105,16 @@ class LawUnknowns {
   std::vector<double> values(const Row& row, std::span<const double> unknowns) const;
   bool at_bound(std::span<const double> unknowns, std::size_t k) const;
   Dependence dependence(std::span<const double> unknowns) const;
+  void slow_filter_of(Dependence& dependence) const;
   LawModel model_of(Dependence dependence, std::span<const double> unknowns) const;
   double drive_span() const { return drive_max_ > drive_min_ ? drive_max_ - drive_min_ : 1; }
 
   const Law* law_;
   DriveUnit drive_unit_;
   double drive_min_, drive_max_;
-  std::vector<Row> rows_;   ///< one per parameter of the law
-  std::optional<Row> lag_;  ///< when the drive varies
+  std::vector<Row> rows_;    ///< one per parameter of the law
+  std::optional<Row> lag_;   ///< when the drive varies
+  double filter_share_ = 0;  ///< 0: the filter stays as it is
   std::vector<double> lower_, upper_, start_;
   std::vector<std::string> warnings_;
 };

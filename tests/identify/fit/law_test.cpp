@@ -1,0 +1,119 @@
+#include <array>
+#include <cmath>
+
+#include "dashpot/base/text.h"
+#include "dashpot/damper/kinds/law/law_model.h"
+#include "dashpot/damper/parameter_set.h"
+#include "dashpot/damper/registry.h"
+#include "dashpot/damper/virtual_bench.h"
+#include "dashpot/error.h"
+#include "dashpot/identify.h"
+#include "dashpot/model_file.h"
+#include "support.h"
+
+using namespace dashpot;
+
+namespace {
+
+/// A damper whose hysteresis follows the path, not the acceleration: laws that look at a filtered
+/// acceleration follow it best with one that feeds energy into quick motions.
+const std::vector<Record>& records_of_a_dahl_damper() {
+  static const std::vector<Record> records = [] {
+    BenchOptions options;
+    options.motions = {{0.01, 1}, {0.005, 3}, {0.002, 6}};
+    options.drive_levels = {0, 1, 2};
+    options.sample_rate = 200;
+    options.cycles = 1;
+    return run_virtual_bench(load_parameters("labcontrol_dahl"), DriveUnit::Volt, options).records;
+  }();
+  return records;
+}
+
+Dissipation verdict(const FitReport& fit) {
+  return dissipation(*fit.model, domain_of(records_of_a_dahl_damper(), DriveUnit::Volt));
+}
+
+std::string restriction_of(const FitReport& fit) {
+  for (const std::string& warning : fit.warnings)
+    if (contains(warning, "its filter is slowed to dissipate")) return warning;
+  return "";
+}
+
+FitReport fit_of_dahl(const std::string& law, const IdentifyOptions& options = {}) {
+  FitReport fit = identify(law, records_of_a_dahl_damper(), DriveUnit::Volt, options);
+  REQUIRE(fit.model);
+  return fit;
+}
+
+constexpr std::array kLawsWithAFilter{"tanh_acceleration", "arctan", "sigmoid",
+                                      "hysteretic_biviscous", "polynomial"};
+
+}  // namespace
+
+TEST_CASE(
+    "a law that would feed energy in is fitted so that it does not, and says what that cost") {
+  for (const std::string name : kLawsWithAFilter) {
+    CAPTURE(name);
+    const FitReport active = fit_of_dahl(name, {.allow_active = true});
+    CHECK_FALSE(verdict(active).dissipates());
+    CHECK(restriction_of(active).empty());
+
+    const FitReport fit = fit_of_dahl(name);
+    CHECK(verdict(fit).dissipates());
+    CHECK(contains(restriction_of(fit), format_number(fit.training_rmse, 3) + " N in place of " +
+                                            format_number(active.training_rmse, 3) + " N"));
+    CHECK(fit.training_rmse < 1.5 * active.training_rmse);
+  }
+}
+
+TEST_CASE("the restricted fit stands within the law's set at every drive, and its table says so") {
+  for (const std::string name : kLawsWithAFilter) {
+    CAPTURE(name);
+    const FitReport fit = fit_of_dahl(name);
+    const LawModel& model = *fit.model->law_inside();
+    const Law& law = model.law();
+    std::vector<double> p(law.params.size());
+    for (const double drive : {0.0, 0.4, 1.0, 1.7, 2.0}) {
+      model.parameters_at(drive, p.data());
+      CHECK(p[law.rate_parameter] <= law.fastest_rate(p.data()) * (1 + 1e-9));
+    }
+    for (const FittedParameter& fitted : fit.parameters)
+      if (fitted.name == "r") CHECK(fitted.value == p[law.rate_parameter]);
+  }
+}
+
+TEST_CASE("a fit that dissipates as it is keeps its bits") {
+  // A damper of the kind itself, whose filter is slow enough, tells its law so.
+  BenchOptions options;
+  options.motions = {{0.01, 1}, {0.005, 3}};
+  options.drive_levels = {0, 1};
+  options.sample_rate = 200;
+  options.cycles = 1;
+  const Law& law = find_law("tanh_acceleration");
+  std::vector<double> p;
+  for (const ParamInfo& param : law.params) p.push_back(param.value);
+  p[law.index_of("tau")] = 0.8 / p[law.rate_parameter];
+  const std::vector<Record> records =
+      run_virtual_bench(LawModel::constant(law, p), DriveUnit::Ampere, options).records;
+
+  const FitReport fit = identify("tanh_acceleration", records, DriveUnit::Ampere, {});
+  const FitReport free =
+      identify("tanh_acceleration", records, DriveUnit::Ampere, {.allow_active = true});
+  CHECK(restriction_of(fit).empty());
+  CHECK(fit.training_rmse == free.training_rmse);
+  CHECK(format_json(fit.model->to_json()) == format_json(free.model->to_json()));
+}
+
+TEST_CASE("a filter whose rate the user has fixed is left alone") {
+  const IdentifyOptions options{.choices = {{.parameter = "r", .fixed = 200}}};
+  const FitReport fit = fit_of_dahl("tanh_acceleration", options);
+  CHECK_FALSE(verdict(fit).dissipates());
+  CHECK(restriction_of(fit).empty());
+}
+
+TEST_CASE("a filter's rate that is fitted, or follows the drive, is slowed too") {
+  for (const std::optional<Form> form : {std::optional<Form>(), std::optional(Form::Linear)}) {
+    const IdentifyOptions options{.choices = {{.parameter = "r", .form = form, .free = true}}};
+    CHECK(verdict(fit_of_dahl("tanh_acceleration", options)).dissipates());
+  }
+}
