@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "dashpot/report/foreseen_section.h"
 #include "dashpot/report/provenance.h"
 #include "dashpot/report/ranking_figures.h"
 #include "dashpot/report/ranking_tables.h"
@@ -207,6 +208,8 @@ Document ranking_document(const ReportInput& input) {
   // A ranking without models has only its protocol.
   std::string display;
   if (!ranking.models.empty()) {
+    for (DocumentSection& section : foreseen_sections(ranking))
+      document.sections.push_back(std::move(section));
     document.sections.push_back(ranking_section(ranking));
     for (DocumentSection& section : interval_sections(ranking))
       document.sections.push_back(std::move(section));
@@ -259,8 +262,8 @@ Document leaderboard_document(const ReportInput& input) {
                                         {"dissipates", 1},
                                         {"status"}}),
                   breakdown_table(ranking, input.dataset.drive_unit)}});
-  for (DocumentSection& section : interval_sections(ranking))
-    document.sections.push_back(std::move(section));
+  for (auto sections : {foreseen_sections(ranking), interval_sections(ranking)})
+    for (DocumentSection& section : sections) document.sections.push_back(std::move(section));
 
   if (const std::optional<std::string> untried = budget_note(ranking))
     document.sections.front().paragraphs.push_back(*untried);
