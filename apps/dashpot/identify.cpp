@@ -4,9 +4,15 @@
 #include "console.h"
 #include "dashpot/base/text.h"
 #include "ranking_run.h"
+#include "ride_rank_options.h"
 
 namespace dashpot::cli {
 namespace {
+
+struct IdentifySettings {
+  RankingSettings ranking;
+  RideRankSettings ride;
+};
 
 constexpr std::string_view kIdentifyExample =
     "# Each condition in turn is left out to judge the models:\n"
@@ -25,7 +31,9 @@ constexpr std::string_view kIdentifyExample =
     "# Then read results/report.html, and use the best model:\n"
     "dashpot evaluate results/models/tanh_kwok.json more-recordings/";
 
-int run_identify(const RankingSettings& settings, Console& console) {
+int run_identify(const IdentifySettings& asked, Console& console) {
+  const RankingSettings& settings = asked.ranking;
+  const std::optional<RideRankOptions> ride = stated_ride(asked.ride, settings, console);
   const RankingData data = ranking_data(settings, console);
   const std::unique_ptr<FitStore> store = fit_store(settings, console);
   const ChosenModels models = chosen_models(settings.fit, data.dataset, data.leave_out, console);
@@ -35,6 +43,7 @@ int run_identify(const RankingSettings& settings, Console& console) {
     console.note(counted(ranking.kept_fits, "fit") +
                  " kept from before; with --fresh they are made again");
   ranking.budget = models.budget;
+  ride_models(ranking, data.dataset, ride, console);
   const ReportInput input = report_input(data.dataset, ranking, console);
   const Document report = ranking_document(input);
   print_results(report, ranking, console);
@@ -46,7 +55,7 @@ int run_identify(const RankingSettings& settings, Console& console) {
 }  // namespace
 
 Command identify_command() {
-  auto settings = std::make_shared<RankingSettings>();
+  auto settings = std::make_shared<IdentifySettings>();
   Command command{
       .name = "identify",
       .title = "Turn recordings into ranked damper models and a report",
@@ -55,11 +64,12 @@ Command identify_command() {
           "and current in, force out) on records that it has not seen. Ranks the models by "
           "that error, saves each as a file and writes a report. Finished fits are kept in "
           "DIR/fits.sqlite: the same command goes on where it was interrupted.",
-      .options = ranking_options(*settings),
+      .options = ranking_options(settings->ranking),
       .example = std::string(kIdentifyExample),
       .run = [settings](Console& console) { return run_identify(*settings, console); }};
-  append(command.options,
-         {budget_option(settings->fit, budget_of_groups()), fresh_option(*settings)});
+  append(command.options, {budget_option(settings->ranking.fit, budget_of_groups()),
+                           fresh_option(settings->ranking)});
+  append(command.options, ride_rank_options(settings->ride));
   return command;
 }
 

@@ -11,6 +11,7 @@
 #include "dashpot/report/words.h"
 #include "document_text.h"
 #include "ranking_run.h"
+#include "ride_rank_options.h"
 
 namespace dashpot::cli {
 namespace {
@@ -19,6 +20,7 @@ namespace fs = std::filesystem;
 
 struct RankSettings {
   RankingSettings ranking;
+  RideRankSettings ride;
   bool markdown = false;
 };
 
@@ -27,7 +29,11 @@ constexpr std::string_view kRankExample =
     "dashpot rank recordings/ --output ranking\n"
     "\n"
     "# Interrupted? The same command goes on where it stopped. Two laws only, for a page:\n"
-    "dashpot rank recordings/ --models bingham,tanh_kwok --output ranking --markdown";
+    "dashpot rank recordings/ --models bingham,tanh_kwok --output ranking --markdown\n"
+    "\n"
+    "# By what their errors are worth in a car, on a rough road under skyhook control:\n"
+    "dashpot rank recordings/ --plant savaresi_spelta --road iso8608,class=D \\\n"
+    "    --controller skyhook --output ranking";
 
 std::string time_line(const Ranking& ranking, int threads) {
   double fits = 0;
@@ -43,6 +49,7 @@ std::string time_line(const Ranking& ranking, int threads) {
 
 int run_rank(const RankSettings& settings, Console& console) {
   const RankingSettings& asked = settings.ranking;
+  const std::optional<RideRankOptions> ride = stated_ride(settings.ride, asked, console);
   const RankingData data = ranking_data(asked, console);
   const fs::path folder = asked.results.folder;
 
@@ -51,6 +58,7 @@ int run_rank(const RankSettings& settings, Console& console) {
   Ranking ranking = rank(models.names, data.dataset, data.leave_out,
                          identify_options(asked.fit, models.names, console), store.get());
   ranking.budget = models.budget;
+  ride_models(ranking, data.dataset, ride, console);
   const ReportInput input = report_input(data.dataset, ranking, console);
 
   // The leaderboard is printed; the report that is written has each model in full.
@@ -82,7 +90,9 @@ Command rank_command() {
                       "error on left-out records beside the error on those of the fit, by record, "
                       "speed and drive; number of parameters, cost per step, CPU time of the fit, "
                       "and whether the force stays bounded beyond the data. Finished fits are kept "
-                      "in DIR/fits.sqlite: the same command goes on where it was interrupted.",
+                      "in DIR/fits.sqlite: the same command goes on where it was interrupted. With "
+                      "--plant the models are also ridden, and ranked by how far their ride will "
+                      "lie from that of the damper.",
                   .options = ranking_options(settings->ranking),
                   .example = std::string(kRankExample),
                   .run = [settings](Console& console) { return run_rank(*settings, console); }};
@@ -93,6 +103,7 @@ Command rank_command() {
           {.names = "--markdown",
            .target = &settings->markdown,
            .help = "print the tables as a part of a Markdown page, without a date"}});
+  append(command.options, ride_rank_options(settings->ride));
   return command;
 }
 

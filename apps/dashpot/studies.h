@@ -5,6 +5,7 @@
 namespace dashpot::cli {
 
 Command recovery_study();
+Command ride_rank_study();
 Command one_sensor_study();
 Command family_study();
 Command suspension_study();

@@ -26,7 +26,8 @@ Command study_command() {
       .run = {}};
 
   // Each study is a command of its own, with its own options.
-  command.subcommands = {family_study(), one_sensor_study(), recovery_study(), suspension_study()};
+  command.subcommands = {family_study(), one_sensor_study(), recovery_study(), ride_rank_study(),
+                         suspension_study()};
   return command;
 }
 

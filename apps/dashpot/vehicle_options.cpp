@@ -46,7 +46,7 @@ std::vector<Option> vehicle_options(VehicleChoice& choice) {
       {.names = "--force-loop",
        .target = &choice.force_loop,
        .help = "a PID controller that adds its correction of the force error to the force wanted "
-               "of the inverse: proportional=0.5,integral=20,derivative=0",
+               "of the inverse: proportional=0.5,integral=20 (or derivative)",
        .value = "WORDS",
        .default_text = "none"},
 

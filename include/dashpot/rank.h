@@ -27,6 +27,38 @@ struct PairedDifference {
   bool holds_zero() const { return low <= 0 && high >= 0; }
 };
 
+/// A figure, the median of what it may be, with its 90 % interval.
+struct Estimate {
+  double value = 0, low = 0, high = 0;
+};
+
+/// How far the ride of a model will lie from that of the damper, as far as the recordings tell
+/// (machine/ride_rank.h). Worst tyre, worst strut.
+struct ForeseenRide {
+  std::string refusal;  ///< why nothing is foreseen; the figures then say nothing
+
+  /// %, root mean square of the three that follow, each over its rms in the damper's ride: what
+  /// models are ranked by.
+  Estimate error;
+  /// rms over time of the difference between the two rides: of the body's acceleration weighted by
+  /// Wk, m/s^2; of the tyre load over the static one, %; of the strut's travel, mm.
+  Estimate acceleration, tyre_load, travel;
+  /// By how much the rms of these is greater in the model's ride.
+  Estimate acceleration_excess, tyre_load_excess, travel_excess;
+  std::vector<std::string> warnings = {};  ///< of the model's own ride
+};
+
+/// The ride that all models of a ranking went through.
+struct RiddenThrough {
+  std::string vehicle, road, controller;  ///< no controller: "1 A"
+  double duration = 0;                    ///< s
+  /// The model that, with its errors on left-out records, stood for the damper, and what these
+  /// leave unexplained, N.
+  std::string known_by;
+  double unexplained = 0;
+  std::size_t draws = 0;  ///< of such errors
+};
+
 /// One model, fitted on all records and judged on those that its fits had not seen.
 struct RankedModel {
   std::string name, title;
@@ -45,6 +77,8 @@ struct RankedModel {
   /// %, what each unit (Ranking::unit) adds to the pooled ESR; empty where a record diverged.
   std::vector<double> esr_parts;
   std::optional<PairedDifference> behind;  ///< to the first model; none for itself
+  /// Where the models were ridden: whoever rode them states it here.
+  std::optional<ForeseenRide> ride;
 };
 /// Fitted, and finite on every left-out record.
 bool is_usable(const RankedModel& model);
@@ -78,12 +112,15 @@ struct Ranking {
   std::optional<std::size_t> seen;
   /// Where models were chosen within a budget: whoever chose them states it here.
   std::optional<FitBudget> budget;
-  std::size_t kept_fits = 0;  ///< found in the store
-  double wall_seconds = 0;    ///< from the first fit to the last figure
+  std::optional<RiddenThrough> ridden;  ///< where the models were ridden, likewise
+  std::size_t kept_fits = 0;            ///< found in the store
+  double wall_seconds = 0;              ///< from the first fit to the last figure
 
   /// The models that may be called best: the first, and those whose difference to it cannot be told
   /// from 0, in their order. One: the winner. None: no model can be recommended.
   std::vector<const RankedModel*> leaders() const;
+  /// The models whose ride is foreseen, the least error first.
+  std::vector<const RankedModel*> by_ride() const;
 };
 
 /// Cross-validates each model over the folds of the split and ranks them. Without training roles,

@@ -67,5 +67,7 @@ PlantSet load_plant(const VehicleWords& words);
 /// ...) at a word that names nothing, at a value outside its bounds, at parts that do not fit
 /// together.
 Vehicle make_vehicle(const VehicleWords& words);
+/// The same with the damper of this model in every strut, in place of the words' dampers.
+Vehicle make_vehicle(const VehicleWords& words, const ModelFile& damper);
 
 }  // namespace dashpot

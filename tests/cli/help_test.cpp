@@ -97,7 +97,8 @@ TEST_CASE("a wrong command line exits with 2 and says what would be right") {
       {"rank data --leave-out moon", "moon"},
       {"rank data --fresher", "unknown option '--fresher'; did you mean '--fresh'?"},
       {"study",
-       "study: the subcommand is missing; known: family, one-sensor, recovery, suspension"},
+       "study: the subcommand is missing; known: family, one-sensor, recovery, "
+       "ride-rank, suspension"},
       {"study recoveri", "unknown command 'recoveri'; did you mean 'recovery'?"},
       {"study one-sensor --repetitions 3", "unknown option '--repetitions'"},
       {"study one-sensor data --leave-out moon", "moon"},

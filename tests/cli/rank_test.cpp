@@ -117,3 +117,40 @@ TEST_CASE("identify fits the usual models unless it is told otherwise; rank fits
                             "passive_network", "hysteresis_network"})
     CHECK_MESSAGE(fs::exists(folder.path() / "models" / (std::string(model) + ".json")), model);
 }
+
+TEST_CASE("rank --plant: a second order, by the ride, on the screen, in JSON and in CSV") {
+  const TemporaryFolder folder;
+  const ProgramResult result =
+      stdout_of_dashpot(rank_of("bingham,viscous_dahl", folder.path()) +
+                        " --plant savaresi_spelta --controller skyhook --duration 2 --draws 2");
+  REQUIRE(result.exit_code == 0);
+  for (const char* part : {"Ranking by the ride", "Ride error %", "stands for the damper"})
+    CHECK_MESSAGE(contains(result.output, part), part);
+  const Value report = parse_json(read_file(folder.path() / "report.json"), "report.json");
+  CHECK(report.find("ride")->find("controller")->as_string() == "skyhook");
+  CHECK(report.find("ride")->find("order")->items().size() == 2);
+  const Value& error =
+      *report.find("models")->items().front().find("ride")->find("ride_error_percent");
+  CHECK(error.find("low")->as_number() <= error.find("high")->as_number());
+  const std::string csv = read_file(folder.path() / "leaderboard.csv");
+  const std::vector<std::string> lines = split(csv, '\n');
+  CHECK(contains(lines[0], ",ride_error_percent,ride_error_percent_low,"));
+  CHECK(split(lines[0], ',').size() == split(lines[1], ',').size());
+}
+
+TEST_CASE("rank --plant: what cannot be ridden is refused before the first fit") {
+  const TemporaryFolder folder;
+  const auto refused = [&](const std::string& options, int code, const std::string& message) {
+    const ProgramResult result = run_dashpot(rank_of("bingham", folder.path()) + " " + options);
+    CAPTURE(result.output);
+    CHECK(result.exit_code == code);
+    CHECK(contains(result.output, message));
+    CHECK(!contains(result.output, "fitted bingham"));
+  };
+  refused("--road iso8608", 2, "there is no vehicle to ride in; name one with --plant");
+  refused("--controller skyhook", 2, "there is no vehicle to ride in");
+  refused("--plant dyke_spencer1996", 1, "has no tyres, so that it does not ride");
+  refused("--plant savaresi", 1, "did you mean 'savaresi_spelta'?");
+  refused("--plant savaresi_spelta --controller skyhok", 1, "skyhook");
+  refused("--plant savaresi_spelta --road iso8608,class=Z", 1, "class");
+}

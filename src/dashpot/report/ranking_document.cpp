@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "dashpot/identify/judge/left_inertia.h"
+#include "dashpot/report/foreseen_section.h"
 #include "dashpot/report/provenance.h"
 #include "dashpot/report/ranking_figures.h"
 #include "dashpot/report/ranking_tables.h"
@@ -30,9 +31,8 @@ std::vector<std::string> inertia_remarks(const Ranking& ranking) {
   if (left.share < kTold || left.mass < 0) return {};
   return {fmt::format(
       "{} % of the squared error that {} leaves on left-out records follows the acceleration, as "
-      "{} "
-      "kg between load cell and damper would make it, or a hysteresis that the model lacks. Where "
-      "there is such a mass, state it in a dataset file: force: {{..., moving_mass: {}}}.",
+      "{} kg between load cell and damper would make it, or a hysteresis that the model lacks. "
+      "Where there is such a mass, state it in a dataset file: force: {{..., moving_mass: {}}}.",
       number_text(100 * left.share, 2), display_name(best), number_text(left.mass, 2),
       number_text(left.mass, 2))};
 }
@@ -227,6 +227,8 @@ Document ranking_document(const ReportInput& input) {
   // A ranking without models has only its protocol.
   std::string display;
   if (!ranking.models.empty()) {
+    for (DocumentSection& section : foreseen_sections(ranking))
+      document.sections.push_back(std::move(section));
     document.sections.push_back(ranking_section(ranking));
     for (DocumentSection& section : interval_sections(ranking))
       document.sections.push_back(std::move(section));
@@ -279,8 +281,8 @@ Document leaderboard_document(const ReportInput& input) {
                                         {"dissipates", 1},
                                         {"status"}}),
                   breakdown_table(ranking, input.dataset.drive_unit)}});
-  for (DocumentSection& section : interval_sections(ranking))
-    document.sections.push_back(std::move(section));
+  for (auto sections : {foreseen_sections(ranking), interval_sections(ranking)})
+    for (DocumentSection& section : sections) document.sections.push_back(std::move(section));
 
   if (const std::optional<std::string> untried = budget_note(ranking))
     document.sections.front().paragraphs.push_back(*untried);

@@ -7,6 +7,7 @@
 #include "dashpot/damper/force_band.h"
 #include "dashpot/identify/judge/stress.h"
 #include "dashpot/identify/rank/paired_difference.h"
+#include "dashpot/report/foreseen_section.h"
 #include "dashpot/report/safe_text.h"
 #include "dashpot/report/words.h"
 
@@ -93,22 +94,25 @@ Value model_json(const RankedModel& model, const std::vector<std::string>& folds
 
   // A failed fit has neither kind nor parameters.
   const auto& fitted = model.fit.model;
-  return Value::object({{"name", model.name},
-                        {"title", display_name(model)},
-                        {"kind", fitted ? Value(name_of(fitted->kind())) : Value()},
-                        {"parameter_count", fitted ? Value(fitted->parameter_count()) : Value()},
-                        {"nanoseconds_per_step", model.nanoseconds_per_step},
-                        {"seconds", model.seconds},
-                        {"interval", band_json(model.band)},
-                        {"behind", behind_json(model.behind)},
-                        {"esr_parts_percent", Value::array(model.esr_parts)},
-                        {"forgetting", forgetting_json(model.forgetting)},
-                        {"dissipation", to_json(model.dissipation)},
-                        {"stress", stress_json(model.stress)},
-                        {"fit", fit_json(model.fit)},
-                        {"fold_fits", std::move(fold_fits)},
-                        {"left_out", evaluation_json(model.left_out)},
-                        {"training", evaluation_json(model.training)}});
+  Value object =
+      Value::object({{"name", model.name},
+                     {"title", display_name(model)},
+                     {"kind", fitted ? Value(name_of(fitted->kind())) : Value()},
+                     {"parameter_count", fitted ? Value(fitted->parameter_count()) : Value()},
+                     {"nanoseconds_per_step", model.nanoseconds_per_step},
+                     {"seconds", model.seconds},
+                     {"interval", band_json(model.band)},
+                     {"behind", behind_json(model.behind)},
+                     {"esr_parts_percent", Value::array(model.esr_parts)},
+                     {"forgetting", forgetting_json(model.forgetting)},
+                     {"dissipation", to_json(model.dissipation)},
+                     {"stress", stress_json(model.stress)},
+                     {"fit", fit_json(model.fit)},
+                     {"fold_fits", std::move(fold_fits)},
+                     {"left_out", evaluation_json(model.left_out)},
+                     {"training", evaluation_json(model.training)}});
+  if (model.ride) object.add("ride", foreseen_json(model));
+  return object;
 }
 
 }  // namespace
@@ -231,6 +235,7 @@ Value json_report(const ReportInput& input) {
 
   // Only a ranking whose models Dashpot chose has a budget.
   if (ranking.budget) report.add("budget", budget_json(ranking));
+  if (ranking.ridden) report.add("ride", ridden_json(ranking));
   return presentable(std::move(report));
 }
 

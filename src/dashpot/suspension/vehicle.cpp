@@ -230,14 +230,17 @@ SimulateOptions Vehicle::options(double duration) const {
           .limits = limits};
 }
 
-Vehicle make_vehicle(const VehicleWords& words) {
-  Vehicle vehicle{.set = load_plant(words), .sensors = words.sensors};
+namespace {
+
+/// The vehicle with these dampers, one per strut.
+Vehicle vehicle_with(const std::vector<ChosenDamper>& named, PlantSet set,
+                     const VehicleWords& words) {
+  Vehicle vehicle{.set = std::move(set), .sensors = words.sensors};
   if (!vehicle.set.verified)
     vehicle.notes.push_back("the numbers of " + vehicle.set.name +
                             " are an example: " + vehicle.set.reason);
 
   // Dampers, and the range over which all that are driven are driven.
-  const std::vector<ChosenDamper> named = choose_dampers(words, vehicle.set);
   const DriveRange drive = drive_range(named, words);
   std::vector<ChosenDamper> chosen;
   for (const ChosenDamper& damper : named)
@@ -263,6 +266,20 @@ Vehicle make_vehicle(const VehicleWords& words) {
   vehicle.limits = control_limits(named, drive, words, vehicle.notes);
   add_controller(vehicle, drive, words);
   return vehicle;
+}
+
+}  // namespace
+
+Vehicle make_vehicle(const VehicleWords& words) {
+  PlantSet set = load_plant(words);
+  const std::vector<ChosenDamper> dampers = choose_dampers(words, set);
+  return vehicle_with(dampers, std::move(set), words);
+}
+
+Vehicle make_vehicle(const VehicleWords& words, const ModelFile& damper) {
+  PlantSet set = load_plant(words);
+  const std::vector<ChosenDamper> dampers(set.plant.struts.size(), choose_damper(damper));
+  return vehicle_with(dampers, std::move(set), words);
 }
 
 }  // namespace dashpot

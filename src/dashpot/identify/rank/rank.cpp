@@ -355,6 +355,15 @@ std::vector<const RankedModel*> Ranking::leaders() const {
   return leaders;
 }
 
+std::vector<const RankedModel*> Ranking::by_ride() const {
+  std::vector<const RankedModel*> ridden_models;
+  for (const RankedModel& model : models)
+    if (model.ride && model.ride->refusal.empty()) ridden_models.push_back(&model);
+  std::ranges::stable_sort(ridden_models, {},
+                           [](const RankedModel* model) { return model->ride->error.value; });
+  return ridden_models;
+}
+
 Ranking rank(const std::vector<std::string>& models, const Dataset& dataset,
              const LeaveOut& leave_out, const IdentifyOptions& options, FitStore* store) {
   return RankingRun(models, dataset, leave_out, options, store).run();

@@ -141,6 +141,14 @@ void warn_of_activity(ChosenDamper& damper, const Dissipation& result, Words set
     damper.warnings.push_back(damper.name + ": " + active + "; what swings with it may never rest");
 }
 
+/// Where the model's data were, and what drove them.
+void take_data(ChosenDamper& damper, const ModelFile& file) {
+  damper.drive_unit = file.drive_unit;
+  damper.drive_min = std::max(0.0, file.domain.current_min);
+  damper.drive_max = std::max(damper.drive_min, file.domain.current_max);
+  damper.domain = file.domain;
+}
+
 void require_nothing(Words settings, const std::string& name, const std::string& where) {
   if (!settings.empty())
     throw Error(where, "'" + settings.front() + "' says nothing to " + name,
@@ -160,6 +168,7 @@ ChosenDamper from_file(const std::filesystem::path& path, Words settings,
   }
 
   const ModelFile file = load_model(path);
+  take_data(damper, file);
   if (const auto* law = model_as<LawModel>(*file.model); law && !settings.empty()) {
     take_model(damper, with_settings(*law, settings, where));
     for (const std::string& setting : settings) damper.name += ", " + setting;
@@ -167,10 +176,6 @@ ChosenDamper from_file(const std::filesystem::path& path, Words settings,
     require_nothing(settings, path.string(), where);
     take_model(damper, *file.model);
   }
-  damper.drive_unit = file.drive_unit;
-  damper.drive_min = std::max(0.0, file.domain.current_min);
-  damper.drive_max = std::max(damper.drive_min, file.domain.current_max);
-  damper.domain = file.domain;
   warn_of_activity(damper, dissipation_of(file), settings);
   return damper;
 }
@@ -221,6 +226,20 @@ std::array<double, kMounting.size()> take_mounting(std::vector<std::string>& par
   return values;
 }
 
+/// Integrators need forces without jumps.
+void take_jumps_off(ChosenDamper& damper) {
+  if (jumps_at_rest(*damper.model, damper.drive_min, damper.drive_max)) {
+    damper.notes.push_back(friction_note(*damper.model));
+    damper.model = with_soft_friction(damper.model);
+  }
+  if (jumps_in_middle(*damper.model, damper.drive_min, damper.drive_max)) {
+    damper.notes.push_back("the force of " + damper.model->name() +
+                           " jumps in the middle of the stroke; it changes over " +
+                           format_number(1000 * kSideWay) + " mm to both sides here");
+    damper.model = with_soft_sides(damper.model);
+  }
+}
+
 }  // namespace
 
 std::span<const SimpleDamper> simple_dampers() { return kSimple; }
@@ -239,17 +258,7 @@ ChosenDamper choose_damper(const std::string& text, const std::string& where) {
   const bool is_file = name.find_first_of("./") != std::string::npos;
   ChosenDamper damper = is_file ? from_file(name, settings, where) : by_name(name, settings, where);
 
-  // Integrators need forces without jumps.
-  if (jumps_at_rest(*damper.model, damper.drive_min, damper.drive_max)) {
-    damper.notes.push_back(friction_note(*damper.model));
-    damper.model = with_soft_friction(damper.model);
-  }
-  if (jumps_in_middle(*damper.model, damper.drive_min, damper.drive_max)) {
-    damper.notes.push_back("the force of " + damper.model->name() +
-                           " jumps in the middle of the stroke; it changes over " +
-                           format_number(1000 * kSideWay) + " mm to both sides here");
-    damper.model = with_soft_sides(damper.model);
-  }
+  take_jumps_off(damper);
 
   // How it is mounted.
   damper.motion_ratio = mounting[kMotionRatio];
@@ -258,6 +267,15 @@ ChosenDamper choose_damper(const std::string& text, const std::string& where) {
     damper.name += ", motion ratio " + format_number(damper.motion_ratio);
   if (damper.force_factor != 1)
     damper.name += ", force factor " + format_number(damper.force_factor);
+  return damper;
+}
+
+ChosenDamper choose_damper(const ModelFile& file) {
+  ChosenDamper damper{.name = file.model->name()};
+  take_data(damper, file);
+  take_model(damper, *file.model);
+  warn_of_activity(damper, dissipation_of(file), {});
+  take_jumps_off(damper);
   return damper;
 }
 

@@ -7,6 +7,7 @@
 
 #include "dashpot/damper_model.h"
 #include "dashpot/drive.h"
+#include "dashpot/model_file.h"
 #include "dashpot/parameter_table.h"
 #include "dashpot/plant.h"
 
@@ -47,6 +48,9 @@ struct ChosenDamper {
 /// damping in between, the drive from 0 to 1 being the place; a passive curve by name or as a file
 /// with velocity and force. Each takes mounting_settings(). Throws Error(where, ...).
 ChosenDamper choose_damper(const std::string& text, const std::string& where = "damper");
+
+/// The damper of a model that is at hand.
+ChosenDamper choose_damper(const ModelFile& file);
 
 /// The linear damping that takes the same energy from a sine: energy per cycle / (pi w A^2), N*s/m,
 /// of the damper's third cycle. amplitude A, m; speed: the sine's greatest, w A, m/s.

@@ -1,0 +1,219 @@
+#include "dashpot/report/foreseen_section.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+
+#include <fmt/format.h>
+
+#include "dashpot/base/text.h"
+#include "dashpot/report/words.h"
+
+namespace dashpot {
+namespace {
+
+/// A figure of the ride: its names, and how people see it.
+struct ForeseenFigure {
+  const char *key, *title, *hint;
+  Estimate ForeseenRide::* figure;
+  int priority;
+};
+constexpr std::array kForeseenFigures{
+    ForeseenFigure{"ride_error_percent", "Ride error %",
+                   "Root mean square of the next three, each over its rms in the damper's ride",
+                   &ForeseenRide::error, 0},
+    ForeseenFigure{"weighted_acceleration", "a_w m/s^2",
+                   "rms over time of the error of the body's acceleration, weighted by Wk",
+                   &ForeseenRide::acceleration, 0},
+    ForeseenFigure{"tyre_load_percent", "Tyre load %",
+                   "rms error of the worst tyre's load, of its static load",
+                   &ForeseenRide::tyre_load, 1},
+    ForeseenFigure{"travel_mm", "Travel mm", "rms error of the worst strut's travel",
+                   &ForeseenRide::travel, 1},
+    ForeseenFigure{"weighted_acceleration_excess", "a_w m/s^2",
+                   "Above 0, the damper rides better than the model says",
+                   &ForeseenRide::acceleration_excess, 0},
+    ForeseenFigure{"tyre_load_excess_percent", "Tyre load %", "Of the static load",
+                   &ForeseenRide::tyre_load_excess, 0},
+    ForeseenFigure{"travel_excess_mm", "Travel mm", "Of the worst strut",
+                   &ForeseenRide::travel_excess, 0}};
+constexpr std::size_t kTraces = 4;  // of them are errors over time, the first ones
+
+/// "13.5 (9 ... 121)".
+std::string interval_text(const Estimate& figure) {
+  const auto end = [](double value) { return number_text(value, std::abs(value) < 99.5 ? 2 : 3); };
+  return fmt::format("{} ({} ... {})", number_text(figure.value, 3), end(figure.low),
+                     end(figure.high));
+}
+
+std::size_t place_of(const Ranking& ranking, const RankedModel& model) {
+  return static_cast<std::size_t>(&model - ranking.models.data());
+}
+
+std::string setting_of(const Ranking& ranking) {
+  const RiddenThrough& ride = *ranking.ridden;
+  return fmt::format(
+      "{}, {}, {}, {} s. The damper is known by {}, whose errors on left-out records leave least "
+      "unexplained ({} N): with one of its errors, drawn {} times, it stands for the damper.",
+      ride.vehicle, ride.road, ride.controller, number_text(ride.duration), ride.known_by,
+      number_text(ride.unexplained), ride.draws);
+}
+
+/// The two orders in a sentence.
+std::string orders_of(const Ranking& ranking) {
+  const std::vector<const RankedModel*> ridden = ranking.by_ride();
+  const auto on_bench = std::ranges::min_element(
+      ridden, {}, [](const RankedModel* m) { return m->left_out.pooled.esr; });
+  const RankedModel &first = *ridden.front(), &bench = **on_bench;
+  if (&first == &bench)
+    return fmt::format("{} is best on the bench and in the ride, where its error is {} %.",
+                       display_name(first), interval_text(first.ride->error));
+  return fmt::format("In the ride {} is best, error {} %; {}, best on the bench, has {} %.",
+                     display_name(first), interval_text(first.ride->error), display_name(bench),
+                     interval_text(bench.ride->error));
+}
+
+/// One row per ridden model, with these of the figures.
+DocumentTable foreseen_table(const Ranking& ranking, std::string title,
+                             std::span<const ForeseenFigure> figures) {
+  DocumentTable table{.title = std::move(title),
+                      .columns = {{.title = "Model", .elastic = true}},
+                      .rows = {},
+                      .leads_to = "closer"};
+  for (const ForeseenFigure& figure : figures)
+    table.columns.push_back(
+        {.title = figure.title, .numeric = true, .priority = figure.priority, .hint = figure.hint});
+  table.columns.push_back({.title = "ESR %", .numeric = true});
+  table.columns.push_back(
+      {.title = "On the bench", .numeric = true, .hint = "The place in the ranking by ESR"});
+
+  for (const RankedModel* model : ranking.by_ride()) {
+    const std::size_t place = place_of(ranking, *model);
+    std::vector<DocumentCell> row{{model->name}};
+    for (const ForeseenFigure& column : figures) {
+      const Estimate& figure = (*model->ride).*column.figure;
+      row.push_back({interval_text(figure), figure.value});
+    }
+    row.push_back({percent_text(model->left_out.pooled.esr), model->left_out.pooled.esr});
+    row.push_back({std::to_string(place + 1)});
+    add_row(table, row);
+    table.chooses.push_back({{"model", place}});
+  }
+  return table;
+}
+
+/// Error in the ride over error on the bench.
+DocumentFigure bench_and_ride_figure(const Ranking& ranking) {
+  FigurePanel panel{.title = "Error in the ride over error on the bench",
+                    .x_label = "ESR on the bench, %",
+                    .y_label = "error in the ride, %",
+                    .series = {},
+                    .x_log = true};
+  FigureSeries dots{.label = "median",
+                    .colour = "series-1",
+                    .x = {},
+                    .y = {},
+                    .mark = FigureSeries::Mark::Dots,
+                    .width = 4};
+  for (const RankedModel* model : ranking.by_ride()) {
+    const double esr = model->left_out.pooled.esr;
+    const Estimate& error = model->ride->error;
+    panel.series.push_back({.label = "90 % interval",
+                            .colour = "series-1",
+                            .x = {esr, esr},
+                            .y = {error.low, error.high},
+                            .is_read = false,
+                            .opacity = 0.5});
+    dots.x.push_back(esr);
+    dots.y.push_back(error.value);
+    dots.names.push_back(model->name);
+  }
+  panel.series.push_back(std::move(dots));
+  return {"bench-and-ride",
+          "On the bench and in the ride",
+          "Each model once: where the order from left to right is not that from below upwards, the "
+          "bench misleads.",
+          {std::move(panel)}};
+}
+
+Value estimate_json(const Estimate& figure) {
+  return Value::object({{"value", figure.value}, {"low", figure.low}, {"high", figure.high}});
+}
+
+}  // namespace
+
+std::vector<DocumentSection> foreseen_sections(const Ranking& ranking) {
+  DocumentSection section{.name = "ride",
+                          .title = "Ranking by the ride",
+                          .paragraphs = {},
+                          .lead =
+                              "How far the ride of each model will lie from that of the damper, "
+                              "as far as the recordings tell."};
+  if (ranking.ridden) {
+    section.paragraphs = {orders_of(ranking), setting_of(ranking)};
+    const std::span all(kForeseenFigures);
+    section.tables = {foreseen_table(ranking, "Error over time", all.first(kTraces)),
+                      foreseen_table(ranking, "Error of the rms itself, above 0: too high",
+                                     all.subspan(kTraces))};
+    section.tables.front().note = "Medians with 90 % intervals.";
+    section.tables.back().audience = Audience::Files;
+    section.figures.push_back(bench_and_ride_figure(ranking));
+  }
+
+  // Models without a ride, and what went wrong on the way.
+  for (const RankedModel& model : ranking.models) {
+    if (!model.ride) continue;
+    if (!model.ride->refusal.empty())
+      section.remarks.push_back(model.name + " is not ridden: " + model.ride->refusal);
+    for (const std::string& warning : model.ride->warnings)
+      section.remarks.push_back(model.name + ": " + warning);
+  }
+  if (!ranking.ridden && section.remarks.empty()) return {};
+  return {std::move(section)};
+}
+
+Value foreseen_json(const RankedModel& model) {
+  if (!model.ride) return {};
+  if (!model.ride->refusal.empty()) return Value::object({{"refusal", model.ride->refusal}});
+  Value ride = Value::object();
+  for (const ForeseenFigure& column : kForeseenFigures)
+    ride.add(column.key, estimate_json((*model.ride).*column.figure));
+  ride.add("warnings", Value::array(model.ride->warnings));
+  return ride;
+}
+
+Value ridden_json(const Ranking& ranking) {
+  if (!ranking.ridden) return {};
+  Value order = Value::array();
+  for (const RankedModel* model : ranking.by_ride()) order.push_back(model->name);
+  const RiddenThrough& ride = *ranking.ridden;
+  return Value::object({{"vehicle", ride.vehicle},
+                        {"road", ride.road},
+                        {"controller", ride.controller},
+                        {"duration", ride.duration},
+                        {"known_by", ride.known_by},
+                        {"unexplained_N", ride.unexplained},
+                        {"draws", ride.draws},
+                        {"order", std::move(order)}});
+}
+
+std::string foreseen_csv_titles(const Ranking& ranking) {
+  std::string text;
+  if (!ranking.ridden) return text;
+  for (const ForeseenFigure& column : kForeseenFigures)
+    for (const char* end : {"", "_low", "_high"}) text += std::string(",") + column.key + end;
+  return text;
+}
+
+std::string foreseen_csv(const Ranking& ranking, const RankedModel& model) {
+  std::string text;
+  if (!ranking.ridden) return text;
+  const bool is_ridden = model.ride && model.ride->refusal.empty();
+  for (const ForeseenFigure& column : kForeseenFigures)
+    for (double Estimate::* part : {&Estimate::value, &Estimate::low, &Estimate::high})
+      text += ',' + (is_ridden ? format_exact((*model.ride).*column.figure.*part) : std::string());
+  return text;
+}
+
+}  // namespace dashpot
