@@ -117,3 +117,22 @@ TEST_CASE("a filter's rate that is fitted, or follows the drive, is slowed too")
     CHECK(verdict(fit_of_dahl("tanh_acceleration", options)).dissipates());
   }
 }
+
+TEST_CASE("a best fit whose sign is all but sharp is left by the usual start") {
+  // Beside the modified Bouc-Wen damper `sigmoid` ends with the least a_s there is, where no rate
+  // of its filter dissipates and no step shows the way out.
+  BenchOptions options;
+  options.motions = {{0.015, 1}, {0.01, 2}, {0.005, 3}};
+  options.drive_levels = {0, 1, 2};
+  options.sample_rate = 200;
+  options.cycles = 2;
+  const std::vector<Record> records =
+      run_virtual_bench(load_parameters("spencer1997"), DriveUnit::Volt, options).records;
+  const Domain domain = domain_of(records, DriveUnit::Volt);
+
+  const FitReport active = identify("sigmoid", records, DriveUnit::Volt, {.allow_active = true});
+  CHECK_FALSE(dissipation(*active.model, domain).dissipates());
+  const FitReport fit = identify("sigmoid", records, DriveUnit::Volt, {});
+  CHECK(dissipation(*fit.model, domain).dissipates());
+  CHECK(fit.training_rmse < 1.1 * active.training_rmse);
+}

@@ -190,18 +190,22 @@ LawSolution dissipating(Task task, LawSolution active) {
   const Dissipation before = verdict(active);
   if (before.dissipates()) return active;
 
-  // The first fit that passes is taken; where none does, the model is flagged as what it is.
-  for (const double share : {1.0, 0.5, 0.25, 0.125}) {
-    task.unknowns.slow_filter(share);
-    LawSolution slowed = solve_all(task, best_start(task, {active.solved.x}));
-    if (status_of(slowed.solved) == FitReport::Status::Failed || !verdict(slowed).dissipates())
-      continue;
-    slowed.restriction = "its filter is slowed to dissipate: as it fits best, " +
-                         activity(before, task.drive_unit) + "; the training RMSE is " +
-                         format_number(slowed.noise.rms, 3) + " N in place of " +
-                         format_number(active.noise.rms, 3) + " N (--allow-active keeps that fit)";
-    return slowed;
-  }
+  // From its end, or from the usual start where that end is a corner without a way out: a sign that
+  // is all but sharp allows no rate at all. The first fit that passes is taken; where none does,
+  // the model is flagged as what it is.
+  for (const std::vector<double>& start : {active.solved.x, task.unknowns.start()})
+    for (const double share : {1.0, 0.5, 0.25, 0.125}) {
+      task.unknowns.slow_filter(share);
+      LawSolution slowed = solve_all(task, best_start(task, {start}));
+      if (status_of(slowed.solved) == FitReport::Status::Failed || !verdict(slowed).dissipates())
+        continue;
+      slowed.restriction = "its filter is slowed to dissipate: as it fits best, " +
+                           activity(before, task.drive_unit) + "; the training RMSE is " +
+                           format_number(slowed.noise.rms, 3) + " N in place of " +
+                           format_number(active.noise.rms, 3) +
+                           " N (--allow-active keeps that fit)";
+      return slowed;
+    }
   return active;
 }
 
