@@ -41,9 +41,11 @@ std::vector<Option> ride_rank_options(RideRankSettings& settings) {
 std::optional<RideRankOptions> stated_ride(const RideRankSettings& settings,
                                            const RankingSettings& ranking, Console& console) {
   if (settings.vehicle.plant.empty()) {
-    if (!settings.road.road.empty() || !settings.vehicle.controller.empty())
-      throw UsageError(settings.road.road.empty() ? "--controller" : "--road",
-                       "there is no vehicle to ride in", "name one with --plant");
+    const RideRankSettings unasked;
+    if (settings.vehicle != unasked.vehicle || settings.road != unasked.road ||
+        settings.draws != unasked.draws)
+      throw UsageError("--plant", "how to ride is stated, and there is no vehicle to ride in",
+                       "name one with --plant");
     return std::nullopt;
   }
 

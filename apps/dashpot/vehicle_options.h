@@ -17,12 +17,14 @@ struct VehicleChoice {
   double sample_time = 1, delay = 0;  ///< ms
   bool in_car = false;                ///< sensors as a car has them
   std::uint64_t seed = 1;             ///< of the road and of the sensors' noise
+  bool operator==(const VehicleChoice&) const = default;
 };
 
 /// The ground that the vehicle drives over, and for how long.
 struct RoadChoice {
   std::string road = "iso8608,class=C";
   double duration = 0;  ///< s; 0: as the ground has it, 20 s at most
+  bool operator==(const RoadChoice&) const = default;
 };
 
 /// --plant, --set, --damper, --controller, --inverse, --force-loop, --current, --current-max,

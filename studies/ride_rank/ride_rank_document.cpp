@@ -73,6 +73,8 @@ DocumentTable ride_table(std::span<const RideRankCase> cases) {
                                   {"true %", true}},
                       .rows = {},
                       .audience = Audience::Page};
+
+  // A row for each model in each ride.
   for (const RideRankCase& one : cases)
     for (const ForeseenAndTrue& m : one.models)
       table.rows.push_back({one.truth, one.road, one.controller, m.model, percent_text(m.esr),
@@ -81,25 +83,30 @@ DocumentTable ride_table(std::span<const RideRankCase> cases) {
   return table;
 }
 
+std::string verdict_of(const RideRankQuality& all) {
+  if (all.cases == 0)
+    return "No ride had three models that can be ridden: there is no order to tell.";
+  return fmt::format(
+      "Rank correlation with the true error of the ride: {:.2f} of the foreseen error, {:.2f} "
+      "of the ESR on the bench. The model that is foreseen to be best has {:.2f} times the "
+      "error of the best there is, the one of least ESR {:.2f} times. {} % of the true errors "
+      "lie within the foreseen 90 % intervals.",
+      all.foreseen.correlation, all.esr.correlation, all.foreseen.regret, all.esr.regret,
+      percent_text(100 * all.covered));
+}
+
 }  // namespace
 
 Document ride_rank_document(std::span<const RideRankCase> cases,
                             const RideRankStudyOptions& options) {
   const RideRankQuality all = quality_of(cases);
-  Document document{
-      .title = "Ranking by the ride, where the damper is known",
-      .subtitle = counted(cases.size(), "ride") + " of " + options.plant,
-      .verdict = fmt::format(
-          "Rank correlation with the true error of the ride: {:.2f} of the foreseen error, {:.2f} "
-          "of the ESR on the bench. The model that is foreseen to be best has {:.2f} times the "
-          "error of the best there is, the one of least ESR {:.2f} times. {} % of the true errors "
-          "lie within the foreseen 90 % intervals.",
-          all.foreseen.correlation, all.esr.correlation, all.foreseen.regret, all.esr.regret,
-          percent_text(100 * all.covered)),
-      .sections = {},
-      .command = {},
-      .version = {},
-      .date = {}};
+  Document document{.title = "Ranking by the ride, where the damper is known",
+                    .subtitle = counted(cases.size(), "ride") + " of " + options.plant,
+                    .verdict = verdict_of(all),
+                    .sections = {},
+                    .command = {},
+                    .version = {},
+                    .date = {}};
 
   // Dampers that the method was chosen on, and those that judge it.
   DocumentTable parts = quality_table("", "dampers");
@@ -132,6 +139,7 @@ Document ride_rank_document(std::span<const RideRankCase> cases,
 }
 
 Value ride_rank_json(std::span<const RideRankCase> cases) {
+  // Each ride with its models, then how well the orders were told over all of them.
   Value list = Value::array();
   for (const RideRankCase& one : cases) {
     Value models = Value::array();
@@ -147,6 +155,7 @@ Value ride_rank_json(std::span<const RideRankCase> cases) {
                                   {"controller", one.controller},
                                   {"models", std::move(models)}}));
   }
+
   const RideRankQuality all = quality_of(cases);
   return Value::object({{"foreseen_correlation", all.foreseen.correlation},
                         {"esr_correlation", all.esr.correlation},

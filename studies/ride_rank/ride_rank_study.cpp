@@ -2,18 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "dashpot/base/parallel.h"
 #include "dashpot/base/text.h"
 #include "dashpot/damper/virtual_bench.h"
 #include "dashpot/error.h"
 #include "dashpot/machine/ride_rank.h"
+#include "dashpot/suspension/sweep/statistics.h"
 
 namespace dashpot {
 namespace {
 
 constexpr double kCurrentMax = 2;  // A
+constexpr std::size_t kFewestModels = 3;
 
 /// What a dyno of a damper workshop does: sines from slow and long to quick and short at three
 /// currents, and one sweep under switching current.
@@ -32,33 +33,10 @@ Dataset recorded(const DamperModel& truth, std::uint64_t seed) {
   return run_virtual_bench(truth, DriveUnit::Ampere, tests, bench);
 }
 
-/// Places in ascending order, those of equal values shared.
-std::vector<double> places(const std::vector<double>& values) {
-  std::vector<double> places;
-  for (const double value : values)
-    places.push_back(static_cast<double>(std::ranges::count_if(
-                         values, [&](double other) { return other < value; })) +
-                     static_cast<double>(std::ranges::count(values, value)) / 2);
-  return places;
-}
-
-double correlation(const std::vector<double>& a, const std::vector<double>& b) {
-  const auto n = static_cast<double>(a.size());
-  const double mean_a = std::accumulate(a.begin(), a.end(), 0.0) / n;
-  const double mean_b = std::accumulate(b.begin(), b.end(), 0.0) / n;
-  double ab = 0, aa = 0, bb = 0;
-  for (std::size_t k = 0; k < a.size(); ++k) {
-    ab += (a[k] - mean_a) * (b[k] - mean_b);
-    aa += (a[k] - mean_a) * (a[k] - mean_a);
-    bb += (b[k] - mean_b) * (b[k] - mean_b);
-  }
-  return ab / std::sqrt(aa * bb);
-}
-
 /// Adds how well these figures tell the order of the true ones.
 void add_order(OrderQuality& quality, const std::vector<double>& figures,
                const std::vector<double>& truth) {
-  quality.correlation += correlation(places(figures), places(truth));
+  quality.correlation += rank_correlation(figures, truth).value_or(0);
   const auto first = std::ranges::min_element(figures) - figures.begin();
   quality.regret += truth[static_cast<std::size_t>(first)] / std::ranges::min(truth);
 }
@@ -116,8 +94,9 @@ RideRankQuality quality_of(std::span<const RideRankCase> cases) {
   RideRankQuality quality;
   double inside = 0, all = 0;
   for (const RideRankCase& one : cases) {
-    if (one.models.size() < 2) continue;
+    if (one.models.size() < kFewestModels) continue;
     ++quality.cases;
+
     std::vector<double> foreseen, esr, truth;
     for (const ForeseenAndTrue& m : one.models) {
       foreseen.push_back(m.foreseen.value);
@@ -130,6 +109,7 @@ RideRankQuality quality_of(std::span<const RideRankCase> cases) {
     add_order(quality.esr, esr, truth);
   }
 
+  if (quality.cases == 0) return quality;
   const auto n = static_cast<double>(quality.cases);
   for (OrderQuality* order : {&quality.foreseen, &quality.esr})
     order->correlation /= n, order->regret /= n;
@@ -139,6 +119,9 @@ RideRankQuality quality_of(std::span<const RideRankCase> cases) {
 
 std::vector<RideRankCase> study_ride_rank(const RideRankStudyOptions& options, FitStore* store) {
   // Every name is looked up before the first fit.
+  if (options.models.size() < kFewestModels)
+    throw Error("--models", "names " + counted(options.models.size(), "model"),
+                "three at least, or there is no order to tell");
   std::vector<std::string> names;
   for (const TrueDamperParts& parts : true_dampers()) names.emplace_back(parts.name);
   const std::vector<std::string>& asked = options.truths.empty() ? names : options.truths;

@@ -90,6 +90,8 @@ class TrueDamper final : public DamperModel {
                         (parts_.friction > 0 ? speed / parts_.bristle : 0) + 500;
     const int steps = std::max(1, static_cast<int>(std::ceil(4 * rate * dt)));
     const double h = dt / steps;
+
+    // The motion is a straight line over the step.
     const auto at = [&](double share) {
       return DamperInput{std::lerp(from.displacement, to.displacement, share),
                          std::lerp(from.velocity, to.velocity, share),

@@ -39,6 +39,7 @@ std::vector<OwnClaim> own_claims() {
     return
         [measure](const RiddenVehicle& one) { return measure_named(one.step.measures, measure); };
   };
+  // Gains by sines, then the step: comfort, road holding, and what table 8 has.
   return {{"body's greatest gain up to 2 Hz", "less",
            [](const RiddenVehicle& one) {
              return greatest_gain(one, &GainPoint::body_acceleration, kPaperComfortTo);

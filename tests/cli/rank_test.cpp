@@ -147,8 +147,9 @@ TEST_CASE("rank --plant: what cannot be ridden is refused before the first fit")
     CHECK(contains(result.output, message));
     CHECK(!contains(result.output, "fitted bingham"));
   };
-  refused("--road iso8608", 2, "there is no vehicle to ride in; name one with --plant");
-  refused("--controller skyhook", 2, "there is no vehicle to ride in");
+  for (const char* ride : {"--road iso8608", "--controller skyhook", "--draws 5", "--current 1",
+                           "--duration 5", "--in-car", "--set sprung_mass=300kg"})
+    refused(ride, 2, "there is no vehicle to ride in; name one with --plant");
   refused("--plant dyke_spencer1996", 1, "has no tyres, so that it does not ride");
   refused("--plant savaresi", 1, "did you mean 'savaresi_spelta'?");
   refused("--plant savaresi_spelta --controller skyhok", 1, "skyhook");

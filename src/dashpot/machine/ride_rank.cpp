@@ -10,6 +10,7 @@
 #include "dashpot/suspension/ride/ride.h"
 #include "dashpot/suspension/ride/ride_measures.h"
 #include "dashpot/suspension/ride/weighting.h"
+#include "dashpot/suspension/sweep/statistics.h"
 
 namespace dashpot {
 namespace {
@@ -30,12 +31,7 @@ double greatest_rms(const std::vector<std::vector<double>>& signals) {
 /// The median, and the interval between the quantiles of 5 % and 95 %.
 Estimate estimate_of(std::vector<double> values) {
   std::ranges::sort(values);
-  const auto quantile = [&](double share) {
-    const double at = share * static_cast<double>(values.size() - 1);
-    const auto below = static_cast<std::size_t>(at);
-    const std::size_t above = std::min(below + 1, values.size() - 1);
-    return std::lerp(values[below], values[above], at - static_cast<double>(below));
-  };
+  const auto quantile = [&](double share) { return quantile_of(values, share).value; };
   return {quantile(0.5), quantile(0.05), quantile(0.95)};
 }
 
@@ -152,10 +148,7 @@ std::optional<RideDifference> RiddenModel::against(const OtherDamper& damper) co
   // The springs bear what the damper has at rest.
   std::vector<MountedDamper> dampers = vehicle_.dampers;
   for (MountedDamper& mounted : dampers) {
-    std::vector<double> state(damper.model->state_size());
-    const DamperInput at_rest{0, 0, mounted.current};
-    damper.model->rest(at_rest, state);
-    mounted.model = damper.model->with_offset(-damper.model->force(at_rest, state));
+    mounted.model = damper.model->with_offset(-force_at_rest(*damper.model, mounted.current));
     if (options_.vehicle.lag_rate < 0) mounted.driver.lag_rate = damper.lag_rate;
   }
 
@@ -224,6 +217,8 @@ void foresee_rides(Ranking& ranking, const Dataset& dataset, const RideRankOptio
       model.ride->refusal = error.what();
     }
   });
+
+  // What they all went through.
   const VehicleWords& words = options.vehicle;
   ranking.ridden = {.vehicle = load_plant(words).plant.title,
                     .road = ground->description(),

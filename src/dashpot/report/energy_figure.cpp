@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "dashpot/damper/kinds/passive_network/energy_balance.h"
+#include "dashpot/record/cycles.h"
 #include "dashpot/report/ranking_figures.h"
 #include "dashpot/report/ranking_tables.h"
 #include "dashpot/report/series.h"
@@ -11,29 +12,17 @@ namespace {
 
 constexpr std::size_t kPoints = 80;  // of a curve
 
-/// The samples first ... last of a record.
-struct Cycle {
-  std::size_t first = 0, last = 0;
-};
-
-/// Between two instants at which the velocity rises through 0: the cycle of the longest way. The
-/// whole record where it has none.
+/// The cycle of the longest way; the whole record where it has none.
 Cycle widest_cycle(const RecordResult& record) {
-  const std::vector<double>&v = record.velocity, &t = record.time;
-  Cycle widest{0, t.size() - 1};
-  double longest = 0, way = 0;
-  std::size_t begin = t.size();
-  for (std::size_t k = 1; k < t.size(); ++k) {
-    way += std::abs(v[k]) * (t[k] - t[k - 1]);
-    if (!(v[k - 1] < 0 && v[k] >= 0)) continue;
-    if (begin < t.size() && way > longest) {
-      longest = way;
-      widest = {begin, k};
-    }
-    begin = k;
-    way = 0;
-  }
-  return widest;
+  const auto way = [&](const Cycle& cycle) {
+    double sum = 0;
+    for (std::size_t k = cycle.first; k < cycle.first + cycle.count; ++k)
+      sum += std::abs(record.velocity[k]);
+    return sum;
+  };
+  const std::vector<Cycle> cycles = find_cycles(record.velocity);
+  return cycles.empty() ? Cycle{0, record.velocity.size()}
+                        : *std::ranges::max_element(cycles, {}, way);
 }
 
 /// The curves of one model on one record, from the start of its widest cycle on.
@@ -45,7 +34,9 @@ void add_balance(FigurePanel& panel, const PassiveNetworkModel& model, const Rec
                       record.drive[k]});
   const EnergyBalance balance = energy_balance(model, record.time, inputs);
   const Cycle cycle = widest_cycle(record);
+  const std::size_t end = std::min(cycle.first + cycle.count + 1, record.time.size());
 
+  // Each part that this network has, from the start of the cycle on.
   const std::tuple<const char*, const char*, const std::vector<double>*> curves[] = {
       {"work done on it", "measured", &balance.work},
       {"stored", "series-1", &balance.stored},
@@ -53,11 +44,11 @@ void add_balance(FigurePanel& panel, const PassiveNetworkModel& model, const Rec
       {"by creep", "series-3", &balance.creep},
       {"by the viscous term", "series-4", &balance.viscous},
       {"by the slip of its mass", "series-5", &balance.inertia}};
-  const std::size_t step = std::max<std::size_t>(1, (cycle.last - cycle.first) / kPoints);
+  const std::size_t step = std::max<std::size_t>(1, cycle.count / kPoints);
   for (const auto& [label, colour, joules] : curves) {
     if (std::ranges::all_of(*joules, [](double e) { return e == 0; })) continue;
     FigureSeries series{.label = label, .colour = colour, .x = {}, .y = {}, .when = here};
-    for (std::size_t k = cycle.first; k <= cycle.last; k += step) {
+    for (std::size_t k = cycle.first; k < end; k += step) {
       series.x.push_back(record.time[k] - record.time[cycle.first]);
       series.y.push_back((*joules)[k] - (*joules)[cycle.first]);
     }

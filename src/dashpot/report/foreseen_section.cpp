@@ -116,6 +116,8 @@ DocumentFigure bench_and_ride_figure(const Ranking& ranking) {
                     .y = {},
                     .mark = FigureSeries::Mark::Dots,
                     .width = 4};
+
+  // An interval for each model, and all medians as one series above them.
   for (const RankedModel* model : ranking.by_ride()) {
     const double esr = model->left_out.pooled.esr;
     const Estimate& error = model->ride->error;

@@ -164,10 +164,7 @@ double starting_current(const ChosenDamper& damper, const DriveRange& drive,
 /// coordinates count from where the vehicle stands with its dampers in, so the springs bear that
 /// force already, and nothing moves before the road does.
 ChosenDamper in_equilibrium(ChosenDamper damper, double current) {
-  std::vector<double> state(damper.model->state_size());
-  const DamperInput at_rest{0, 0, current};
-  damper.model->rest(at_rest, state);
-  const double force = damper.model->force(at_rest, state);
+  const double force = force_at_rest(*damper.model, current);
   if (force == 0 || !std::isfinite(force)) return damper;
   damper.model = damper.model->with_offset(-force);
 

@@ -70,6 +70,11 @@ TEST_CASE("wrong names are refused before the first fit") {
   CHECK(contains(message_of([&] { study_ride_rank(options, nullptr); }),
                  "--truths: unknown true damper 'soft_bushing'; did you mean 'soft_bushings'?"));
   options = {};
+  options.models = {"bingham", "tanh_kwok"};
+  CHECK(contains(message_of([&] { study_ride_rank(options, nullptr); }),
+                 "--models: names 2 models; three at least"));
+  CHECK(contains(ride_rank_document({}, options).verdict, "there is no order to tell"));
+  options = {};
   options.controllers = {"skyhok"};
   CHECK(contains(message_of([&] { study_ride_rank(options, nullptr); }), "skyhook"));
 }

@@ -279,6 +279,13 @@ ChosenDamper choose_damper(const ModelFile& file) {
   return damper;
 }
 
+double force_at_rest(const DamperModel& model, double drive) {
+  std::vector<double> state(model.state_size());
+  const DamperInput at_rest{0, 0, drive};
+  model.rest(at_rest, state);
+  return model.force(at_rest, state);
+}
+
 double equivalent_damping(const DamperModel& model, double current, double amplitude,
                           double speed) {
   constexpr int kSteps = 1000, kCycles = 3;

@@ -52,6 +52,10 @@ ChosenDamper choose_damper(const std::string& text, const std::string& where = "
 /// The damper of a model that is at hand.
 ChosenDamper choose_damper(const ModelFile& file);
 
+/// N, in the middle of its stroke at that drive, A or V: gas and offset, which a vehicle's springs
+/// bear.
+double force_at_rest(const DamperModel& model, double drive);
+
 /// The linear damping that takes the same energy from a sine: energy per cycle / (pi w A^2), N*s/m,
 /// of the damper's third cycle. amplitude A, m; speed: the sine's greatest, w A, m/s.
 double equivalent_damping(const DamperModel& model, double current, double amplitude, double speed);
