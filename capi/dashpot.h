@@ -217,10 +217,10 @@ typedef struct dashpot_monitor {
 /// identify`:
 /// {"models": ["bingham"], "force_offset": "record", "form": ["alpha=exponential"], "fix": [...],
 /// "free":
-/// [...], "bounds": [...], "prior": [...], "allow_active": false, "network": [...], "starts": 4,
-/// "search": 0, "seed": 1, "threads": 0, "command": "TEXT that the model file keeps"}; "models" has
-/// one here, the others may be absent. The report (null: not wanted) has status, parameters with 95
-/// % intervals, offsets and warnings.
+/// [...], "bounds": [...], "prior": [...], "allow_active": false, "symmetric": false, "network":
+/// [...], "starts": 4, "search": 0, "seed": 1, "threads": 0, "command": "TEXT that the model file
+/// keeps"}; "models" has one here, the others may be absent. The report (null: not wanted) has
+/// status, parameters with 95 % intervals, offsets and warnings.
 DASHPOT_API dashpot_status dashpot_fit(const dashpot_recordings* recordings, const char* options,
                                        const dashpot_monitor* monitor, dashpot_model** model,
                                        char** report);

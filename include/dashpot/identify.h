@@ -22,6 +22,7 @@ struct IdentifyOptions {
   OffsetMode offset = OffsetMode::Record;
   std::vector<ParameterChoice> choices;  ///< laws only
   bool allow_active = false;             ///< laws only: keep a fit that feeds energy into motions
+  bool symmetric = false;                ///< laws only: never take rebound and compression apart
   NetworkDesign network;                 ///< networks only
   int starts = 4;                        ///< of which the best is taken
   int search = 0;  ///< evaluations of a global search that gives one more start; 0: none

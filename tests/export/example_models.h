@@ -12,6 +12,7 @@
 #include "dashpot/damper/kinds/fuzzy/fuzzy_model.h"
 #include "dashpot/damper/kinds/law/law_model.h"
 #include "dashpot/damper/kinds/network/network_model.h"
+#include "dashpot/damper/law_side.h"
 #include "dashpot/damper/registry.h"
 #include "dashpot/drive.h"
 #include "dashpot/export.h"
@@ -68,6 +69,8 @@ inline std::vector<ExampleModel> example_models() {
     models.push_back({name, std::make_shared<const decltype(model)>(std::move(model))});
   };
   for (const Law* law : laws()) add(std::string(law->name), example_law(*law));
+  for (const char* law : {"bingham", "bouc_wen"})
+    add(std::string(law) + "_apart", example_law(with_side(find_law(law))));
   const std::vector<std::string> inputs{"velocity", "current"};
   add("mlp", NetworkModel("mlp_one_sensor", inputs, {example_mlp(1)}));
   add("mlp_ensemble", NetworkModel("mlp_one_sensor", inputs, {example_mlp(1), example_mlp(2)}, 3));

@@ -85,6 +85,7 @@ class Identifier:
         bounds=(),
         prior=(),
         allow_active=False,
+        symmetric=False,
         network=(),
         starts=4,
         search=0,
@@ -101,6 +102,7 @@ class Identifier:
         self.bounds = bounds
         self.prior = prior
         self.allow_active = allow_active
+        self.symmetric = symmetric
         self.network = network
         self.starts = starts
         self.search = search

@@ -82,6 +82,9 @@ struct Law {
   /// parameters; infinity where any does, 0 where none. Null: the rate is not what decides.
   double (*fastest_rate)(const double* p) = nullptr;
   std::size_t rate_parameter = 0;  ///< the row of that rate
+  /// First row of the valve that makes rebound and compression differ (law_side.h), which the
+  /// functions above know nothing of; 0: the law is as its table has it.
+  std::size_t side_row = 0;
 
   std::size_t index_of(std::string_view param) const;  ///< throws Error naming the known ones
 };

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "dashpot/damper/kinds/law/law_model.h"
+#include "dashpot/damper/law_side.h"
 #include "dashpot/error.h"
 #include "dashpot/export/c/c_model.h"
 #include "dashpot/export/c/c_text.h"
@@ -59,8 +60,10 @@ std::string constants(const LawModel& model, bool settable) {
 }
 
 std::string parameter_function(const LawModel& model, bool settable) {
+  const std::size_t own =
+      model.law().side_row > 0 ? model.law().side_row : model.law().params.size();
   std::string lines;
-  for (std::size_t k = 0; k < model.law().params.size(); ++k) {
+  for (std::size_t k = 0; k < own; ++k) {
     const ParamInfo& info = model.law().params[k];
     lines += "  p->" + std::string(info.name) + " = " + expression(model, k, settable) + "; /* " +
              std::string(info.unit) + ", " + std::string(info.meaning) + " */\n";
@@ -69,7 +72,22 @@ std::string parameter_function(const LawModel& model, bool settable) {
          "static inline void law_parameters(const LawModel* m, double current, LawParameters* p) "
          "{\n"
          "  (void)m;\n" +
-         std::string(model.follows_current() ? "" : "  (void)current;\n") + lines + "}\n\n";
+         std::string(model.follows_current() && own == model.law().params.size()
+                         ? ""
+                         : "  (void)current;\n") +
+         lines + "}\n\n";
+}
+
+/// What the damper gives more in one direction, where rebound and compression differ.
+std::string side_function(const LawModel& model, bool settable) {
+  const std::size_t first = model.law().side_row;
+  if (first == 0) return "";
+  const auto row = [&](std::size_t k) { return expression(model, first + k, settable); };
+  return "#include \"law_side.h\"\n"
+         "static inline double law_side_at(const LawModel* m, double current, double v) {\n"
+         "  (void)m;\n" +
+         std::string(model.follows_current() ? "" : "  (void)current;\n") + "  return law_side(" +
+         row(0) + ", " + row(1) + ", " + row(2) + ", v);\n}\n\n";
 }
 
 /// The functions that the text of the integrator calls.
@@ -183,13 +201,17 @@ std::string rest_function(const LawModel& model) {
 }
 
 std::string force_function(const LawModel& model) {
+  const std::string current = model.lag_rate() > 0 ? "state[@states@]" : "input->current";
+  const std::string side = model.law().side_row > 0 ? " +\n         law_side_at(@law_model@, " +
+                                                          current + ", input->velocity)"
+                                                    : "";
   return "static double @stem@_force(const DamperInput* input, const double* state) {\n"
          "  LawParameters p;\n"
          "  law_parameters(@law_model@, " +
-         std::string(model.lag_rate() > 0 ? "state[@states@]" : "input->current") +
+         current +
          ", &p);\n"
-         "  return @law@_force(&p, input->displacement, input->velocity, state);\n"
-         "}\n\n";
+         "  return @law@_force(&p, input->displacement, input->velocity, state)" +
+         side + ";\n}\n\n";
 }
 
 std::string derivative_function(const LawModel& model) {
@@ -245,7 +267,8 @@ CModel c_law(const LawModel& model, const std::string& stem, bool settable) {
   if (!has_c_text(name + ".h")) throw Error(name, "its law has no C text in this build of Dashpot");
   std::string code = (settable ? "#include <string.h>\n\n#include \"" : "#include \"") + name +
                      ".h\"\n" + "typedef " + pascal_case(name) + " LawParameters;\n\n" +
-                     constants(model, settable) + parameter_function(model, settable);
+                     constants(model, settable) + parameter_function(model, settable) +
+                     side_function(model, settable);
 
   // The integrator of the states, where there are any.
   if (model.state_size() > 0)

@@ -3,9 +3,9 @@
 #include <numeric>
 
 #include "dashpot/base/text.h"
+#include "dashpot/damper/law_side.h"
 #include "dashpot/identify/fit/fit.h"
-#include "dashpot/identify/fit/law_residuals.h"
-#include "dashpot/identify/fit/law_solution.h"
+#include "dashpot/identify/fit/law_task.h"
 #include "dashpot/identify/fit/uncertainty.h"
 #include "dashpot/model_file.h"
 #include "dashpot/numerics/global_search.h"
@@ -15,32 +15,8 @@ namespace {
 
 constexpr double kNormal95 = 1.959963984540054;  // two-sided 95 % point of the normal distribution
 
-/// How much of each record the starts are tried on. A law without a memory needs no samples in a
-/// row, one with a memory gets the first part: all of small data, a fifth of large ones.
-Thinning trial_thinning(const Law& law, const std::vector<Record>& training, bool lags) {
-  constexpr double kEnoughSamples = 8000, kLeastShare = 0.2;
-  double samples = 0;
-  for (const Record& record : training) samples += static_cast<double>(record.size());
-  if (law.states.empty() && !lags)
-    return {.stride = static_cast<std::size_t>(std::max(1.0, samples / kEnoughSamples))};
-  return {.share = std::clamp(kEnoughSamples / samples, kLeastShare, 1.0)};
-}
-
-/// The fit of one law: its unknowns, the records and what was asked for.
-struct Task {
-  const Law& law;
-  const std::vector<Record>& training;
-  DriveUnit drive_unit;
-  const IdentifyOptions& options;
-  LawUnknowns unknowns;
-
-  LawResiduals residuals(const Thinning& thinning) const {
-    return {unknowns, training, drive_unit, options.offset, thinning};
-  }
-};
-
 /// The best point that a global search finds within some times the expected size of each unknown.
-std::vector<double> searched_start(const Task& task, const LeastSquaresProblem& problem) {
+std::vector<double> searched_start(const LawTask& task, const LeastSquaresProblem& problem) {
   constexpr double kWidest = 5;
 
   // Search within some times the expected size, on the start's side of 0.
@@ -63,13 +39,12 @@ std::vector<double> searched_start(const Task& task, const LeastSquaresProblem& 
 
 /// The most promising end of short fits to a part of the data, from the starts given or, where
 /// there are none, from several.
-std::vector<double> best_start(const Task& task, std::vector<std::vector<double>> starts = {}) {
+std::vector<double> best_start(const LawTask& task, std::vector<std::vector<double>> starts = {}) {
   constexpr double kTolerance = 1e-2, kHopeless = 2;
   constexpr int kIterations = 15, kHopelessAfter = 5;
 
   // A part of the data is enough to tell good starts from bad ones.
-  const LawResiduals residuals =
-      task.residuals(trial_thinning(task.law, task.training, task.unknowns.fits_lag()));
+  const LawResiduals residuals = task.residuals(task.trial_thinning());
   const LeastSquaresProblem problem = residuals.problem(0, task.options.threads);
 
   // The starts: the expected sizes, what a global search finds, and random ones.
@@ -99,7 +74,7 @@ std::vector<double> best_start(const Task& task, std::vector<std::vector<double>
   return best;
 }
 
-Noise noise_at(const Task& task, const LawResiduals& residuals, std::span<const double> x) {
+Noise noise_at(const LawTask& task, const LawResiduals& residuals, std::span<const double> x) {
   std::vector<double> errors(residuals.size());
   if (!residuals.evaluate(x, errors)) return {};
   double squares = 0;
@@ -114,7 +89,7 @@ Noise noise_at(const Task& task, const LawResiduals& residuals, std::span<const 
 
 /// The end of a fit, with those unknowns moved off their bounds that nothing holds there: by the
 /// slope of the cost, moving back would hardly change it.
-std::vector<double> off_slack_bounds(const Task& task, const LeastSquaresReport& end) {
+std::vector<double> off_slack_bounds(const LawTask& task, const LeastSquaresReport& end) {
   constexpr double kSlack = 1e-3;
   std::vector<double> x = task.unknowns.off_bounds(end.x);
   for (std::size_t k = 0; k < end.gradient.size(); ++k)
@@ -124,7 +99,7 @@ std::vector<double> off_slack_bounds(const Task& task, const LeastSquaresReport&
 
 /// Fits all data from x on. An early step too long may have thrown an unknown against a bound where
 /// nothing pulls it back: such unknowns get one more chance from inside.
-LeastSquaresReport solve_twice(const Task& task, const LeastSquaresProblem& problem,
+LeastSquaresReport solve_twice(const LawTask& task, const LeastSquaresProblem& problem,
                                std::vector<double> x) {
   constexpr int kIterations = 100, kSecondIterations = 20, kHopelessAfter = 3;
   constexpr double kTolerance = 1e-6, kHopeless = 1.02;
@@ -148,30 +123,8 @@ LeastSquaresReport solve_twice(const Task& task, const LeastSquaresProblem& prob
              : solve(problem, second.x, solver_options(task.options, kIterations, kTolerance));
 }
 
-/// Priors are weighed against the residuals' noise, which only the fit itself shows: so the fit is
-/// repeated until the noise stays.
-LawSolution solve_all(const Task& task, std::vector<double> x) {
-  constexpr int kRounds = 4;
-  constexpr double kSameNoise = 0.02;
-
-  // The first noise is that at the start, and only priors need it.
-  const LawResiduals residuals = task.residuals({});
-  LawSolution end{task.unknowns, {}, {}, {}};
-  if (!task.unknowns.priors().empty()) end.noise = noise_at(task, residuals, x);
-
-  // Fit with the noise assumed, measure it again, and stop once the two agree.
-  for (int round = 0; round < kRounds; ++round) {
-    const double assumed = end.noise.independent;
-    end.solved = solve_twice(task, residuals.problem(assumed, task.options.threads), std::move(x));
-    end.noise = noise_at(task, residuals, end.solved.x);
-    if (assumed == 0 || std::abs(end.noise.independent - assumed) <= kSameNoise * assumed) break;
-    x = end.solved.x;
-  }
-  return end;
-}
-
 /// Whether the law's filter may be slowed: it has one, and the user has not set its rate.
-bool may_slow_filter(const Task& task, std::string_view model) {
+bool may_slow_filter(const LawTask& task, std::string_view model) {
   if (!task.law.fastest_rate) return false;
   const ParamInfo& rate = task.law.params[task.law.rate_parameter];
   return !choice_for(task.options.choices, model, rate).fixed;
@@ -179,7 +132,7 @@ bool may_slow_filter(const Task& task, std::string_view model) {
 
 /// A fit that feeds energy in is made again from its end, its filter no quicker than the law's
 /// dissipative set allows; where that set is only a guess, slower until the measured verdict holds.
-LawSolution dissipating(Task task, LawSolution active) {
+LawSolution dissipating(LawTask task, LawSolution active) {
   if (status_of(active.solved) == FitReport::Status::Failed) return active;
 
   // What dissipates as it fits best stays as it is.
@@ -199,6 +152,7 @@ LawSolution dissipating(Task task, LawSolution active) {
       LawSolution slowed = solve_all(task, best_start(task, {start}));
       if (status_of(slowed.solved) == FitReport::Status::Failed || !verdict(slowed).dissipates())
         continue;
+      slowed.sides = active.sides;
       slowed.restriction = "its filter is slowed to dissipate: as it fits best, " +
                            activity(before, task.drive_unit) + "; the training RMSE is " +
                            format_number(slowed.noise.rms, 3) + " N in place of " +
@@ -267,6 +221,35 @@ std::vector<std::string> warnings_of(const std::vector<LawUnknowns::Coefficient>
 
 }  // namespace
 
+Thinning LawTask::trial_thinning() const {
+  constexpr double kEnoughSamples = 8000, kLeastShare = 0.2;
+  double samples = 0;
+  for (const Record& record : training) samples += static_cast<double>(record.size());
+  if (law.states.empty() && !unknowns.fits_lag())
+    return {.stride = static_cast<std::size_t>(std::max(1.0, samples / kEnoughSamples))};
+  return {.share = std::clamp(kEnoughSamples / samples, kLeastShare, 1.0)};
+}
+
+LawSolution solve_all(const LawTask& task, std::vector<double> x) {
+  constexpr int kRounds = 4;
+  constexpr double kSameNoise = 0.02;
+
+  // The first noise is that at the start, and only priors need it.
+  const LawResiduals residuals = task.residuals({});
+  LawSolution end{task.unknowns, {}, {}, {}, {}};
+  if (!task.unknowns.priors().empty()) end.noise = noise_at(task, residuals, x);
+
+  // Fit with the noise assumed, measure it again, and stop once the two agree.
+  for (int round = 0; round < kRounds; ++round) {
+    const double assumed = end.noise.independent;
+    end.solved = solve_twice(task, residuals.problem(assumed, task.options.threads), std::move(x));
+    end.noise = noise_at(task, residuals, end.solved.x);
+    if (assumed == 0 || std::abs(end.noise.independent - assumed) <= kSameNoise * assumed) break;
+    x = end.solved.x;
+  }
+  return end;
+}
+
 LeastSquaresOptions solver_options(const IdentifyOptions& options, int iterations,
                                    double tolerance) {
   LeastSquaresOptions solver;
@@ -284,17 +267,22 @@ FitReport::Status status_of(const LeastSquaresReport& solved) {
 
 LawSolution solve_law(const Law& law, const std::vector<Record>& training, DriveUnit drive_unit,
                       const IdentifyOptions& options, std::string_view model) {
-  const Task task{law, training, drive_unit, options,
-                  LawUnknowns(law, data_scale(training, drive_unit), drive_unit, options.offset,
-                              options.choices, model)};
-  LawSolution best = solve_all(task, best_start(task));
-  if (options.allow_active || !may_slow_filter(task, model.empty() ? law.name : model)) return best;
+  if (model.empty()) model = law.name;
+  const LawTask alike(law, training, drive_unit, options, model);
+  LawSolution best = solve_all(alike, best_start(alike));
+
+  // Both sides alike, unless the data or the user want them apart.
+  const LawTask apart(with_side(law), training, drive_unit, options, model);
+  const bool differs = take_side_apart(alike, apart, best);
+  const LawTask& task = differs ? apart : alike;
+  if (options.allow_active || !may_slow_filter(task, model)) return best;
   return dissipating(task, std::move(best));
 }
 
 FitReport fit_law(const Law& law, const std::vector<Record>& training, DriveUnit drive_unit,
                   const IdentifyOptions& options) {
-  const auto [unknowns, solved, noise, restriction] = solve_law(law, training, drive_unit, options);
+  const auto [unknowns, solved, noise, sides, restriction] =
+      solve_law(law, training, drive_unit, options);
   FitReport report;
   report.status = status_of(solved);
   report.message = solved.message;
@@ -309,7 +297,8 @@ FitReport fit_law(const Law& law, const std::vector<Record>& training, DriveUnit
   const auto coefficients = unknowns.coefficients(solved.x);
   report.parameters = fitted_parameters(coefficients, spread);
   report.warnings = unknowns.warnings();
-  if (!restriction.empty()) report.warnings.push_back(restriction);
+  for (const std::string& said : {sides, restriction})
+    if (!said.empty()) report.warnings.push_back(said);
   for (std::string& warning : warnings_of(coefficients, spread))
     report.warnings.push_back(std::move(warning));
   return report;

@@ -225,6 +225,30 @@ LawModel LawUnknowns::model(std::span<const double> unknowns) const {
   return model_of(dependence(unknowns), unknowns);
 }
 
+std::vector<double> LawUnknowns::of(const LawModel& model) const {
+  std::vector<double> unknowns = start_;
+  for (std::size_t p = 0; p < rows_.size(); ++p) {
+    const Row& row = rows_[p];
+    const std::vector<double>& c = model.parameters().coefficients[p];
+
+    // An exponential by its ends and rate, a polynomial by its values at the nodes.
+    for (std::size_t k = 0; k < row.count; ++k) {
+      const double node = row.count == 1 ? drive_min_
+                                         : drive_min_ + drive_span() * static_cast<double>(k) /
+                                                            static_cast<double>(row.count - 1);
+      unknowns[row.first + k] = row.form != Form::Exponential
+                                    ? model.parameters().at(p, node) / row.size
+                                : k < 2 ? c[k] / row.size
+                                        : c[k] * drive_span();
+    }
+  }
+  if (lag_ && lag_->count > 0) unknowns[lag_->first] = model.lag_rate() / lag_->size;
+
+  for (std::size_t k = 0; k < unknowns.size(); ++k)
+    unknowns[k] = std::clamp(unknowns[k], lower_[k], upper_[k]);
+  return unknowns;
+}
+
 std::vector<LawUnknowns::Group> LawUnknowns::groups() const {
   std::vector<Group> out;
   for (std::size_t p = 0; p < rows_.size(); ++p)

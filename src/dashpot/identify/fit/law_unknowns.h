@@ -42,6 +42,10 @@ class LawUnknowns {
   /// The unknowns, with those that stand at a bound back inside.
   std::vector<double> off_bounds(std::vector<double> unknowns) const;
   LawModel model(std::span<const double> unknowns) const;
+  /// The unknowns of a model of this law and of these forms.
+  std::vector<double> of(const LawModel& model) const;
+  /// The form in which these unknowns describe a parameter.
+  Form form_of(std::size_t parameter) const { return rows_[parameter].form; }
   bool fits_lag() const { return lag_.has_value(); }
 
   /// From now on a model's filter is no quicker than this share of the law's fastest_rate, at every

@@ -5,6 +5,7 @@
 
 #include "dashpot/base/text.h"
 #include "dashpot/base/units.h"
+#include "dashpot/damper/law_side.h"
 #include "dashpot/damper/model_info.h"
 #include "dashpot/damper/registry.h"
 #include "dashpot/error.h"
@@ -30,6 +31,14 @@ std::vector<const Law*> laws_meant(const std::string& named, const ModelNames& m
   return meant;
 }
 
+/// All that may be chosen in a law's fit: its table, the valve of one direction, the coil's lag.
+std::vector<const ParamInfo*> rows_of(const Law& law) {
+  std::vector<const ParamInfo*> rows;
+  for (const ParamInfo& param : with_side(law).params) rows.push_back(&param);
+  rows.push_back(&kLagParameter);
+  return rows;
+}
+
 std::string in_quotes(std::string_view text) { return "'" + std::string(text) + "'"; }
 
 /// The rows that may be meant by `parameter`: those of the law named, else of the laws among
@@ -37,17 +46,15 @@ std::string in_quotes(std::string_view text) { return "'" + std::string(text) + 
 std::vector<const ParamInfo*> rows_named(const ParameterChoice& choice, const ModelNames& models) {
   std::vector<const ParamInfo*> rows;
   for (const Law* law : laws_meant(choice.law, models))
-    for (const ParamInfo& param : law->params)
-      if (param.name == choice.parameter) rows.push_back(&param);
-  if (choice.parameter == kLagParameter.name) rows.push_back(&kLagParameter);
+    for (const ParamInfo* row : rows_of(*law))
+      if (row->name == choice.parameter) rows.push_back(row);
   return rows;
 }
 
 std::vector<std::string> known_parameters(const std::string& law, const ModelNames& models) {
   std::vector<std::string> known;
   for (const Law* each : laws_meant(law, models))
-    for (const ParamInfo& param : each->params) known.emplace_back(param.name);
-  known.emplace_back(kLagParameter.name);
+    for (const ParamInfo* row : rows_of(*each)) known.emplace_back(row->name);
   std::sort(known.begin(), known.end());
   known.erase(std::unique(known.begin(), known.end()), known.end());
   return known;
@@ -201,14 +208,11 @@ void require_choices(const std::vector<ParameterChoice>& choices, const ModelNam
     for (const std::string& model : models) {
       const Law* law = law_inside(model);
       if (!law || (!choice.law.empty() && choice.law != model)) continue;
-      meant |= choice.parameter == kLagParameter.name;
-      for (const ParamInfo& param : law->params) {
-        if (param.name != choice.parameter) continue;
+      for (const ParamInfo* row : rows_of(*law)) {
+        if (row->name != choice.parameter) continue;
         meant = true;
-        require_consistent(param, choice_for(choices, model, param));
+        require_consistent(*row, choice_for(choices, model, *row));
       }
-      if (choice.parameter == kLagParameter.name)
-        require_consistent(kLagParameter, choice_for(choices, model, kLagParameter));
     }
 
     // A choice that no model has a use for is a mistake.

@@ -32,6 +32,7 @@ std::string against_network(const NetworkModel& model) {
 std::string against_law(const LawModel& model) {
   if (std::ranges::find(kLaneLaws, model.law().name) == std::end(kLaneLaws))
     return "the law " + model.name() + " has no lanes";
+  if (model.law().side_row > 0) return "its rebound and compression differ";
   for (const Form form : model.parameters().forms)
     if (!is_polynomial(form)) return "a parameter follows the current exponentially";
   return "";

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "dashpot/base/text.h"
+#include "dashpot/damper/law_side.h"
 #include "dashpot/error.h"
 
 namespace dashpot {
@@ -92,7 +93,8 @@ void LawModel::rest(const DamperInput& input, std::span<double> state) const noe
 double LawModel::force(const DamperInput& input, std::span<const double> state) const noexcept {
   Params p;
   parameters_at(coil_current(input, state), p.data());
-  return law_->force(p.data(), input.displacement, input.velocity, state.data());
+  const double force = law_->force(p.data(), input.displacement, input.velocity, state.data());
+  return law_->side_row > 0 ? force + side_force(*law_, p.data(), input.velocity) : force;
 }
 
 std::size_t LawModel::run(std::span<const DamperInput> inputs, Steps steps, std::span<double> state,
@@ -110,6 +112,8 @@ std::size_t LawModel::run(std::span<const DamperInput> inputs, Steps steps, std:
       ++end;
     parameters_at(current, p.data());
     law_->forces(p.data(), inputs.subspan(first, end - first), to.force + first);
+    for (std::size_t k = first; law_->side_row > 0 && k < end; ++k)
+      to.force[k] += side_force(*law_, p.data(), inputs[k].velocity);
     for (std::size_t k = first; k < end; ++k)
       if (!std::isfinite(to.force[k])) return k;
   }
@@ -123,7 +127,9 @@ double LawModel::flow(const DamperInput& input, std::span<const double> state,
   if (!law_->flow) return force(input, state);
   Params p;
   parameters_at(coil_current(input, state), p.data());
-  return law_->flow(p.data(), input.displacement, input.velocity, state.data(), rates.data());
+  const double force =
+      law_->flow(p.data(), input.displacement, input.velocity, state.data(), rates.data());
+  return law_->side_row > 0 ? force + side_force(*law_, p.data(), input.velocity) : force;
 }
 
 std::unique_ptr<DamperModel> LawModel::with_offset(double newton) const {

@@ -2,6 +2,7 @@
 #include "dashpot/damper/file_parts.h"
 #include "dashpot/damper/kinds/law/law_model.h"
 #include "dashpot/damper/law_list.h"
+#include "dashpot/damper/law_side.h"
 #include "dashpot/error.h"
 
 namespace dashpot {
@@ -56,12 +57,14 @@ Value LawModel::to_json() const {
 std::unique_ptr<LawModel> law_model_from_json(const Value& value) {
   ObjectReader reader(value, "a law model");
   const Value& name = reader.required("law");
-  const Law& law = find_law(name.as_string(), name.where());
+  const Law& own = find_law(name.as_string(), name.where());
   const DriveUnit drive_unit = read_drive_unit(reader);
   const double lag_rate = reader.number("lag_rate");
   const Value& parameters = reader.required("parameters");
   reader.finish();
 
+  // A law with rebound and compression apart is told by its rows.
+  const Law& law = parameters.find(kSideFriction) ? with_side(own) : own;
   ObjectReader rows(parameters, "the parameters of " + std::string(law.name));
   Dependence dependence;
   for (const ParamInfo& info : law.params)
