@@ -246,7 +246,7 @@ struct InputFile::State {
   }
 
   [[noreturn]] void damaged(const std::string& why) const {
-    throw Error(path, "damaged gzip file: " + why, "copy it again from its source");
+    throw Error(path, "cannot be read: damaged gzip file: " + why, "copy it again from its source");
   }
 
   ~State() {
@@ -334,7 +334,8 @@ void write_file(const fs::path& path, std::string_view content) {
   std::error_code none;
   const fs::file_status there = fs::symlink_status(path, none);
   if (fs::exists(there) && !fs::is_regular_file(there) && !fs::is_symlink(there))
-    throw Error(path.string(), "is no regular file", "name a file that may be replaced");
+    throw Error(path.string(), "cannot be written: it is no regular file",
+                "name a file that may be replaced");
 
   TemporaryFile file(path);
   file.write(content);

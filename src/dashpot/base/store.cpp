@@ -224,16 +224,22 @@ struct Store::Connection {
   }
 
   void drop_damaged() {
+    // Again and again: a key that was changed may now be that of two results.
+    const auto damaged = [this] {
+      return keys_without(
+          [](std::string_view key, std::string_view bytes, std::string_view checksum) {
+            return checksum == checksum_of(key, bytes);
+          });
+    };
     SQLite::Statement drop(database, "DELETE FROM result WHERE key = ?");
-    for (const std::string& key :
-         keys_without([](std::string_view name, std::string_view bytes, std::string_view checksum) {
-           return checksum == checksum_of(name, bytes);
-         })) {
-      drop.bindNoCopy(1, key);
-      drop.exec();
-      drop.reset();
-      ++dropped;
-    }
+    for (auto keys = damaged(); !keys.empty(); keys = damaged())
+      for (const std::string& key : keys) {
+        drop.bindNoCopy(1, key);
+        if (drop.exec() == 0)
+          throw Error(file, "is damaged: a result cannot be removed", std::string(format.renewal));
+        drop.reset();
+        ++dropped;
+      }
   }
 
   std::string another_or_anew() const {

@@ -133,7 +133,6 @@ std::size_t element_size(std::uint32_t type) {
 
 void check_numbers(Cursor& cursor, std::size_t count, const char* what) {
   if (count == 0 && cursor.at_end()) return;
-  cursor.walk().hold(count);
   const Cursor::Part part = cursor.element(what);
   const std::size_t size = element_size(part.type);
   if (size == 0) damaged(cursor.file(), std::string(what) + " is of no known number type");
@@ -141,6 +140,7 @@ void check_numbers(Cursor& cursor, std::size_t count, const char* what) {
     damaged(cursor.file(), std::string(what) + " should hold " + std::to_string(count) +
                                " numbers, " + std::to_string(part.data.size() / size) +
                                " are there");
+  cursor.walk().hold(count);
 }
 
 void check_matrix(std::string_view bytes, const Cursor& outer, int depth);
