@@ -1,9 +1,9 @@
 #include <algorithm>
 
 #include "dashpot/base/date.h"
+#include "dashpot/base/escape.h"
 #include "dashpot/identify/rank/model_choice.h"
 #include "dashpot/report/report_json.h"
-#include "dashpot/report/safe_text.h"
 #include "dashpot/report/words.h"
 #include "handles.h"
 #include "recordings.h"

@@ -1,7 +1,7 @@
 #include <algorithm>
 
+#include "dashpot/base/escape.h"
 #include "dashpot/base/text.h"
-#include "dashpot/report/safe_text.h"
 #include "dashpot/suspension/ground/ground_sequences.h"
 #include "dashpot/suspension/ride/domain_use.h"
 #include "dashpot/suspension/ride/ride_measures.h"

@@ -1,8 +1,11 @@
+#include <algorithm>
+#include <cmath>
 #include <memory>
 
 #include "campaign.h"
 #include "commands.h"
 #include "console.h"
+#include "dashpot/base/text.h"
 #include "dashpot/report/provenance.h"
 #include "data.h"
 #include "sequence_sheet.h"
@@ -36,6 +39,15 @@ int list_sequences(Console& console) {
   return kDone;
 }
 
+/// The name of the first record with a sample that is not finite; empty: none.
+std::string first_infinite(const Dataset& campaign) {
+  for (const Record& record : campaign.records)
+    for (const Channel& channel : record.channels)
+      if (!std::ranges::all_of(channel.samples, [](double x) { return std::isfinite(x); }))
+        return record.name;
+  return {};
+}
+
 int run_bench(const BenchSettings& settings, Console& console) {
   if (settings.list_sequences) return list_sequences(console);
 
@@ -43,6 +55,12 @@ int run_bench(const BenchSettings& settings, Console& console) {
   const ParameterSet damper = load_parameter_set(settings.campaign.damper);
   const Dataset campaign = run_campaign(settings.campaign, damper);
   console.check_stop();
+  if (const std::string where = first_infinite(campaign); !where.empty()) {
+    console.error("the damper gives no finite force in " + where +
+                  ": nothing is written. Its levels go from " + format_number(damper.drive_min) +
+                  " to " + format_number(damper.drive_max));
+    return kNotUsable;
+  }
   const std::filesystem::path statement =
       write_campaign(campaign, damper, settings.folder, console.command_line());
 

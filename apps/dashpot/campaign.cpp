@@ -4,6 +4,7 @@
 
 #include <fmt/core.h>
 
+#include "dashpot/base/escape.h"
 #include "dashpot/base/file.h"
 #include "dashpot/base/text.h"
 #include "dashpot/damper/bench_experiments.h"
@@ -79,9 +80,6 @@ std::string csv_of(const Record& record, const Dataset& campaign) {
   return text;
 }
 
-/// JSON text is YAML too, and quotes what has to be quoted.
-std::string json_text(const std::string& text) { return format_json(Value(text), false); }
-
 /// The notes that a real bench would have of its tests, as YAML; the true offsets stay in comments.
 std::string public_notes(const Dataset& campaign) {
   std::vector<std::string> notes{"simulated, not measured"};
@@ -91,21 +89,22 @@ std::string public_notes(const Dataset& campaign) {
         notes.push_back(note);
   if (notes.size() == 1) return notes.front();
   std::string list;
-  for (const std::string& note : notes) list += "\n  - " + json_text(note);
+  for (const std::string& note : notes) list += "\n  - " + yaml_string(note);
   return list;
 }
 
 std::string dataset_yaml(const Dataset& campaign, const ParameterSet& damper,
                          const std::string& command) {
   std::string text =
-      "# Written by " + json_text(command) + "\n# True model (" + damper.source + "):\n#   " +
-      format_json(damper.model.to_json(), false) + "\nname: " + json_text(campaign.name) +
-      "\ncitation: " + json_text(campaign.citation) + "\ndrive: " + to_string(campaign.drive_unit) +
-      "\nnotes: " + public_notes(campaign) + "\nfiles:\n";
+      "# Written by " + yaml_string(command) + "\n# True model (" + yaml_comment(damper.source) +
+      "):\n#   " + format_json(damper.model.to_json(), false) +
+      "\nname: " + yaml_string(campaign.name) + "\ncitation: " + yaml_string(campaign.citation) +
+      "\ndrive: " + to_string(campaign.drive_unit) + "\nnotes: " + public_notes(campaign) +
+      "\nfiles:\n";
   for (const Record& record : campaign.records) {
     text += fmt::format("  - match: {}  # {}\n    name: {}\n    condition: {}\n",
-                        json_text(file_name(record)), record.notes.front(), json_text(record.name),
-                        json_text(record.condition));
+                        yaml_string(file_name(record)), yaml_comment(record.notes.front()),
+                        yaml_string(record.name), yaml_string(record.condition));
     if (record.drive_level) text += "    level: " + format_exact(*record.drive_level) + '\n';
   }
   return text;

@@ -8,9 +8,9 @@
 #include <fmt/core.h>
 #include <sys/ioctl.h>
 
+#include "dashpot/base/escape.h"
 #include "dashpot/base/text.h"
 #include "dashpot/error.h"
-#include "dashpot/report/safe_text.h"
 #include "layout.h"
 
 namespace dashpot::cli {

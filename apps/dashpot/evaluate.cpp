@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <memory>
 
 #include <fmt/core.h>
@@ -76,6 +77,11 @@ int run_evaluate(const EvaluateSettings& settings, Console& console) {
   const Ranking ranking = as_ranking(settings.model, std::move(file), dataset, evaluation);
   Document document = evaluation_document(report_input(dataset, ranking, console));
   document.data = std::move(data);
+  const bool is_infinite = evaluation.diverged == 0 && !std::isfinite(evaluation.pooled.rmse);
+  if (is_infinite)
+    document.verdict =
+        "The error is not finite: nothing below can be used. Are the model and the "
+        "recordings of the same damper, in the same units?";
   print_document(document, console);
   for (const Extrapolation& e : outside) console.warn(describe(e));
   if (const std::string active = activity(ranking.models.front().dissipation, dataset.drive_unit);
@@ -92,6 +98,7 @@ int run_evaluate(const EvaluateSettings& settings, Console& console) {
     write_file(settings.report, html_document(document));
     console.print("\nReport  " + settings.report + '\n');
   }
+  if (is_infinite) return kNotUsable;
   if (evaluation.diverged == 0) return kDone;
   console.error(fmt::format("the model diverged on {} of {} records", evaluation.diverged,
                             evaluation.records.size()));

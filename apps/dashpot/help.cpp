@@ -6,8 +6,8 @@
 #include <fmt/core.h>
 
 #include "console.h"
+#include "dashpot/base/escape.h"
 #include "dashpot/base/text.h"
-#include "dashpot/report/safe_text.h"
 #include "layout.h"
 
 namespace dashpot::cli {

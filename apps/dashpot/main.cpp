@@ -1,11 +1,12 @@
 #include <algorithm>
 #include <atomic>
 #include <csignal>
-#include <ctime>
 #include <fcntl.h>
 #include <iterator>
 #include <new>
 #include <unistd.h>
+
+#include <sys/time.h>
 
 #include "arguments.h"
 #include "commands.h"
@@ -20,28 +21,34 @@ std::atomic<bool> stop_asked = false;
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler writes it");
 std::atomic<int> stop_signal = 0;
 
-/// The first signal asks long work to end in order, a later one ends the program. Those within a
-/// moment of the first are the first: `timeout` and shells send one to the program and one to its
-/// group.
+constexpr std::string_view kInterrupted =
+    "interrupted; files that were being written stand as they were before";
+
+/// The first signal asks work to end in order. Where it has not within a moment, the program ends:
+/// files are renamed when they are whole, and what is kept is kept piece by piece. Other signals
+/// within that moment are the first again: `timeout` and shells send one to the program and one to
+/// its group.
 void on_signal(int number) {
-  constexpr double kMoment = 0.3;  // s
-  static timespec first;
-  timespec now;
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  if (!stop_asked.exchange(true)) {
-    stop_signal = number;
-    first = now;
-  } else if (static_cast<double>(now.tv_sec - first.tv_sec) +
-                 1e-9 * static_cast<double>(now.tv_nsec - first.tv_nsec) >
-             kMoment) {
-    _exit(128 + number);
-  }
+  constexpr suseconds_t kMoment = 250'000;  // us
+  if (stop_asked.exchange(true)) return;
+  stop_signal = number;
+  const itimerval moment{.it_interval = {}, .it_value = {.tv_sec = 0, .tv_usec = kMoment}};
+  setitimer(ITIMER_REAL, &moment, nullptr);
+}
+
+void on_moment_over(int) {
+  constexpr std::string_view kBegin = "\nerror: ", kEnd = "\n";
+  for (const std::string_view part : {kBegin, kInterrupted, kEnd})
+    if (write(STDERR_FILENO, part.data(), part.size()) < 0) break;
+  _exit(128 + stop_signal);
 }
 
 void catch_signals() {
   struct sigaction action{};
   action.sa_handler = on_signal;
   for (const int number : {SIGINT, SIGTERM}) sigaction(number, &action, nullptr);
+  action.sa_handler = on_moment_over;
+  sigaction(SIGALRM, &action, nullptr);
   std::signal(SIGXFSZ, SIG_IGN);  // a limit on file size is then an error with a message
   std::signal(SIGPIPE, SIG_IGN);  // results are written although nobody reads the table
 }
@@ -125,7 +132,7 @@ int run_and_explain(const std::vector<std::string>& words, Console& console) {
     // Nothing went wrong with the work: its reader has left, or below, the user stopped it.
     return 128 + SIGPIPE;
   } catch (const Interrupted&) {
-    console.error("interrupted; files that were being written stand as they were before");
+    console.error(kInterrupted);
     return 128 + stop_signal;
   } catch (const UsageError& error) {
     // A UsageError is an Error too, but one that the help can answer.

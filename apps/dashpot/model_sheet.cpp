@@ -5,6 +5,7 @@
 
 #include <fmt/core.h>
 
+#include "dashpot/base/escape.h"
 #include "dashpot/base/text.h"
 #include "dashpot/damper/inverse/polynomial.h"
 #include "dashpot/damper/kinds/family/family_force.h"
@@ -25,7 +26,6 @@
 #include "dashpot/damper/registry.h"
 #include "dashpot/error.h"
 #include "dashpot/identify/fit/fit.h"
-#include "dashpot/report/safe_text.h"
 #include "layout.h"
 
 namespace dashpot::cli {

@@ -52,8 +52,7 @@ RankingData ranking_data(const RankingSettings& settings, Console& console) {
 
 std::unique_ptr<FitStore> fit_store(const RankingSettings& settings, Console& console) {
   if (settings.fresh) return nullptr;
-  return std::make_unique<FitStore>(kept_file(settings.results.folder, "fits", console),
-                                    program_id());
+  return kept_fits(settings.results.folder, console);
 }
 
 }  // namespace dashpot::cli

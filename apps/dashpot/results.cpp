@@ -51,6 +51,21 @@ fs::path kept_file(const fs::path& folder, const std::string& what, Console& con
   return file;
 }
 
+std::unique_ptr<FitStore> kept_fits(const fs::path& folder, Console& console) {
+  const fs::path file = kept_file(folder, "fits", console);
+  auto store = std::make_unique<FitStore>(file, program_id());
+  tell_dropped(store->dropped(), file, console);
+  return store;
+}
+
+void tell_dropped(std::size_t count, const fs::path& file, Console& console) {
+  if (count == 0) return;
+  console.warn(
+      file.string() + ": " + counted(count, "kept result") +
+      (count == 1 ? " was damaged and is made again" : " were damaged and are made again") +
+      "; is the disk sound?");
+}
+
 ReportInput report_input(const Dataset& dataset, const Ranking& ranking, const Console& console) {
   return {.dataset = dataset,
           .ranking = ranking,

@@ -1,11 +1,13 @@
 #pragma once
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "command.h"
 #include "dashpot/base/date.h"
 #include "dashpot/identify.h"
+#include "dashpot/identify/rank/fit_store.h"
 #include "dashpot/rank.h"
 #include "dashpot/report/report.h"
 
@@ -45,6 +47,11 @@ std::string program_id();
 /// read.
 std::filesystem::path kept_file(const std::filesystem::path& folder, const std::string& what,
                                 Console& console);
+/// The fits that are kept there; says where some of them are damaged.
+std::unique_ptr<FitStore> kept_fits(const std::filesystem::path& folder, Console& console);
+
+/// Says, where there are any, that kept results were damaged and are made again.
+void tell_dropped(std::size_t count, const std::filesystem::path& file, Console& console);
 
 /// Input of a report, with the command line and today as its date.
 ReportInput report_input(const Dataset& dataset, const Ranking& ranking, const Console& console);

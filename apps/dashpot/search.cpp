@@ -102,6 +102,7 @@ SearchOptions search_options(const SearchSettings& settings, Console& console) {
 SearchReport run_search(const RankingData& data, const SearchOptions& options, const fs::path& file,
                         Console& console) {
   TrialStore store(file, describe_search(data.dataset, data.leave_out, options, program_id()));
+  tell_dropped(store.dropped(), file, console);
   if (store.size() > 0)
     console.talk(counted(store.size(), "fit") + " kept from before in " + file.string() + '\n');
 
@@ -126,7 +127,7 @@ SearchReport run_search(const RankingData& data, const SearchOptions& options, c
 /// files.
 void write_choices(const RankingData& data, const SearchReport& report, const fs::path& folder,
                    Console& console) {
-  FitStore fits(kept_file(folder, "fits", console), program_id());
+  const std::unique_ptr<FitStore> fits = kept_fits(folder, console);
 
   // The smallest is often the best itself; its file from an earlier search would mislead then.
   std::vector<std::pair<std::string, const Trial*>> choices{{"best", report.best()}};
@@ -138,7 +139,7 @@ void write_choices(const RankingData& data, const SearchReport& report, const fs
     console.talk(fmt::format("fitting the {}, {}, on all training records\n", name,
                              searched_settings(*trial, report)));
     const Ranking ranking = rank({report.options.model}, data.dataset, data.leave_out,
-                                 options_of(trial->design, report.options), &fits);
+                                 options_of(trial->design, report.options), fits.get());
     ModelFile file = to_model_file(ranking.models.front(), data.dataset, console.command_line());
     file.provenance.created = date_now();
     save_model(file, folder / "models" / (name + ".json"));

@@ -3,8 +3,8 @@
 
 #include "commands.h"
 #include "console.h"
+#include "dashpot/base/escape.h"
 #include "dashpot/record/record_file.h"
-#include "dashpot/report/safe_text.h"
 #include "dashpot/report/simulation_document.h"
 #include "document_text.h"
 #include "study_results.h"
@@ -94,7 +94,7 @@ int run_simulate(const SimulateSettings& settings, Console& console) {
     if (simulation.against) write_trace(settings, *simulation.against, "against", console);
   }
 
-  return simulation.run.trace.diverged_at ? kNotUsable : kDone;
+  return unusable(simulation.run).empty() ? kDone : kNotUsable;
 }
 
 }  // namespace

@@ -35,9 +35,11 @@ int run_study_family(const StudyFamilySettings& settings, Console& console) {
 
   // Finished trainings are kept, so that an interrupted study goes on.
   std::optional<TrainingStore> store;
-  if (!settings.results.fresh)
-    store.emplace(kept_file(settings.results.folder, "trainings", console), program_id(),
-                  family.cycles);
+  if (!settings.results.fresh) {
+    const std::filesystem::path file = kept_file(settings.results.folder, "trainings", console);
+    store.emplace(file, program_id(), family.cycles);
+    tell_dropped(store->dropped(), file, console);
+  }
 
   // Beside the paper's networks stand Dashpot's own models of a family.
   FamilyStudyOptions options = settings.options;

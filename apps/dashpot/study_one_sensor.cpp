@@ -53,10 +53,10 @@ int run_study_one_sensor(const StudyOneSensorSettings& settings, Console& consol
   options.monitor = console.monitor();
 
   // Finished fits are kept, so that an interrupted study goes on.
-  std::optional<FitStore> store;
+  std::unique_ptr<FitStore> store;
   if (!settings.results.fresh) {
-    store.emplace(kept_file(settings.results.folder, "fits", console), program_id());
-    options.store = &*store;
+    store = kept_fits(settings.results.folder, console);
+    options.store = store.get();
   }
 
   const OneSensorStudy study = study_one_sensor(studied_dampers(settings, console), options);

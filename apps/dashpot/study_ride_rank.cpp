@@ -35,9 +35,7 @@ int run_study_ride_rank(const StudyRideRankSettings& settings, Console& console)
   options.controllers = words_between(settings.controllers);
   options.monitor = console.monitor();
   std::unique_ptr<FitStore> store;
-  if (!settings.results.fresh)
-    store = std::make_unique<FitStore>(kept_file(settings.results.folder, "fits", console),
-                                       program_id());
+  if (!settings.results.fresh) store = kept_fits(settings.results.folder, console);
   const std::vector<RideRankCase> cases = study_ride_rank(options, store.get());
   write_study(ride_rank_document(cases, options), ride_rank_json(cases), settings.results, console);
   return kDone;

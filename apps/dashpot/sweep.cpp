@@ -79,6 +79,7 @@ Sweep run_sweep(const SweepRequest& request, const SweepSettings& settings, Cons
   const fs::path file = fs::path(settings.results.folder) / "sweep.sqlite";
   if (settings.results.fresh) Store::remove(file);
   SweepStore store(file, request, program_id());
+  tell_dropped(store.dropped(), file, console);
   console.talk(fmt::format("sweep: {}, {} each, {} s\n", counted(request.vehicles(), "vehicle"),
                            counted(request.controllers.size(), "controller"),
                            format_number(request.duration)));

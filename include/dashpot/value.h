@@ -5,10 +5,12 @@
 // key. Values own their contents.
 
 #include <initializer_list>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <variant>
 #include <vector>
 
 namespace dashpot {
@@ -21,11 +23,11 @@ class Value {
 
   Value() = default;
   // Written like JSON, so converting: NOLINTBEGIN(google-explicit-constructor)
-  Value(bool value) : kind_(Kind::Bool), bool_(value) {}
-  Value(double value) : kind_(Kind::Number), number_(value) {}
+  Value(bool value) : content_(value) {}
+  Value(double value) : content_(value) {}
   Value(int value) : Value(static_cast<double>(value)) {}
   Value(std::size_t value) : Value(static_cast<double>(value)) {}
-  Value(std::string value) : kind_(Kind::String), string_(std::move(value)) {}
+  Value(std::string value) : content_(std::move(value)) {}
   Value(std::string_view value) : Value(std::string(value)) {}
   Value(const char* value) : Value(std::string(value)) {}
   // NOLINTEND(google-explicit-constructor)
@@ -35,8 +37,8 @@ class Value {
   static Value array(const std::vector<std::string>& strings);
   static Value object(std::vector<Member> members = {});
 
-  Kind kind() const { return kind_; }
-  bool is_null() const { return kind_ == Kind::Null; }
+  Kind kind() const { return static_cast<Kind>(content_.index()); }
+  bool is_null() const { return kind() == Kind::Null; }
 
   /// Typed access; throws Error(where(), "is a string, not a number") when the kind is another.
   bool as_bool() const;
@@ -50,18 +52,23 @@ class Value {
   void add(std::string key, Value value);         ///< appends to an object
   void push_back(Value value);                    ///< appends to an array
 
+  /// Where a value was read: a step from the place of what holds it. Values share the places above
+  /// theirs, so that a long key over many values is kept once.
+  struct Place {
+    std::shared_ptr<const Place> above = nullptr;  ///< null: `name` is all, as "file.yaml:12"
+    std::string name = {};                         ///< the key in an object
+    std::optional<std::size_t> item = {};          ///< in place of a key: which of a list
+  };
+
   /// "file.yaml:12" or "model.json, parameters.c0"; empty for a value that was not read.
-  const std::string& where() const { return where_; }
-  void set_where(std::string where) { where_ = std::move(where); }
+  std::string where() const;
+  void set_place(std::shared_ptr<const Place> place) { place_ = std::move(place); }
 
  private:
-  Kind kind_ = Kind::Null;
-  bool bool_ = false;
-  double number_ = 0;
-  std::string string_;
-  std::vector<Value> items_;
-  std::vector<Member> members_;
-  std::string where_;
+  /// In the order of Kind.
+  std::variant<std::monostate, bool, double, std::string, std::vector<Value>, std::vector<Member>>
+      content_;
+  std::shared_ptr<const Place> place_;
 };
 
 /// Reads an object key by key and, in finish(), refuses the keys that nobody asked for.
@@ -88,7 +95,9 @@ class ObjectReader {
 };
 
 /// JSON and YAML text to a Value and back. `source` (a file name) stands in messages and in
-/// where(). Numbers keep all their digits; NaN and infinities cannot be written and throw.
+/// where(). Numbers keep all their digits; NaN and infinities cannot be written and throw. A text
+/// of more values or of deeper nesting than any file of Dashpot's, and a key that stands twice in
+/// an object, throw Error.
 Value parse_json(std::string_view text, const std::string& source);
 Value parse_yaml(std::string_view text, const std::string& source);
 std::string format_json(const Value& value, bool pretty = true);

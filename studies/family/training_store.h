@@ -25,6 +25,7 @@ class TrainingStore {
   bool load(const std::string& key, StudiedNetwork& network) const;
   /// Throws Error when the disk cannot take it.
   void save(const std::string& key, const StudiedNetwork& network);
+  std::size_t dropped() const { return store_.dropped(); }  ///< as Store has it
 
  private:
   std::string basis_;  ///< of all keys: a hash of program and data

@@ -198,3 +198,69 @@ TEST_CASE("a damaged file is reported as damaged, and can be removed") {
   run_sql(emptied, "DROP TABLE store");
   CHECK(refusal(emptied).find("is damaged") != std::string::npos);
 }
+
+TEST_CASE("a result that was changed behind the store is dropped, the others stay") {
+  const TemporaryFolder folder;
+  const fs::path file = folder.path() / "search.sqlite";
+  {
+    Store store(file, kFormat, kBasis);
+    for (std::size_t k = 0; k < 4; ++k) store.save(key_of(k), "0.25 and more");
+    CHECK(store.dropped() == 0);
+  }
+  run_sql(file,
+          "UPDATE result SET bytes = CAST('0.26 and more' AS BLOB) WHERE key = 'row 1';"
+          "UPDATE result SET key = 'row 9' WHERE key = 'row 2';"
+          "UPDATE result SET checksum = '' WHERE key = 'row 3'");
+  {
+    const Store store(file, kFormat, kBasis);
+    CHECK(store.dropped() == 3);
+    CHECK(store.size() == 1);
+    CHECK(store.load(key_of(0)) == "0.25 and more");
+    for (const std::size_t k : {1, 2, 3, 9}) CHECK(!store.load(key_of(k)));
+  }
+  CHECK(Store(file, kFormat, kBasis).dropped() == 0);
+}
+
+TEST_CASE("single bits that flip in the file cost results, and never change one") {
+  const TemporaryFolder folder;
+  const fs::path file = folder.path() / "search.sqlite";
+  {
+    Store store(file, kFormat, kBasis);
+    for (std::size_t k = 0; k < 40; ++k) store.save(key_of(k), bytes_of(k).substr(0, 300));
+  }
+  const std::string whole = read_file(file);
+  Random random(3);
+  int changed = 0;
+  for (int trial = 0; trial < 400; ++trial) {
+    std::string flipped = whole;
+    flipped[random.next() % whole.size()] ^= static_cast<char>(1 << random.next() % 8);
+    write_file(file, flipped);
+    message_of([&] {
+      const Store store(file, kFormat, kBasis);
+      for (std::size_t k = 0; k < 40; ++k)
+        if (const auto bytes = store.load(key_of(k)))
+          changed += *bytes != bytes_of(k).substr(0, 300);
+    });
+    for (const char* end : {"-wal", "-journal"}) fs::remove(file.string() + end);
+  }
+  CHECK(changed == 0);
+}
+
+TEST_CASE("a file of before the checksums is taken as it is, and guarded from then on") {
+  const TemporaryFolder folder;
+  const fs::path file = folder.path() / "search.sqlite";
+  {
+    Store store(file, kFormat, kBasis);
+    store.save("a", "one");
+    store.save("b", "two");
+  }
+  run_sql(file, "ALTER TABLE result DROP COLUMN checksum; PRAGMA user_version = 2");
+  {
+    const Store store(file, kFormat, kBasis);
+    CHECK(store.dropped() == 0);
+    CHECK(store.load("a") == "one");
+    CHECK(store.load("b") == "two");
+  }
+  run_sql(file, "UPDATE result SET bytes = CAST('ane' AS BLOB) WHERE key = 'a'");
+  CHECK(Store(file, kFormat, kBasis).dropped() == 1);
+}

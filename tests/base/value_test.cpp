@@ -1,6 +1,9 @@
 #include "dashpot/value.h"
 
+#include <chrono>
 #include <limits>
+
+#include <sys/resource.h>
 
 #include "support.h"
 
@@ -68,4 +71,54 @@ TEST_CASE("YAML aliases cannot fill the memory") {
   }
   CHECK(message_of([&] { parse_yaml(bomb, "bomb.yaml"); }) ==
         "bomb.yaml: has more than 100000 entries");
+}
+
+namespace {
+
+/// What `code` throws, which must not take longer than a second.
+template <class Code>
+std::string soon(Code code) {
+  const auto begin = std::chrono::steady_clock::now();
+  std::string message = message_of(code);
+  CHECK(std::chrono::steady_clock::now() - begin < std::chrono::seconds(5));
+  return message;
+}
+
+/// MiB, the most that this process has had.
+long peak_memory() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return usage.ru_maxrss / 1024;
+}
+
+}  // namespace
+
+TEST_CASE("objects of very many keys are read in linear time") {
+  std::string json = "{", yaml;
+  for (int k = 0; k < 200000; ++k)
+    json += (k > 0 ? ",\"key" : "\"key") + std::to_string(k) + "\":1";
+  for (int k = 0; k < 90000; ++k) yaml += "key" + std::to_string(k) + ": 1\n";
+  CHECK(soon([&] { CHECK(parse_json(json + "}", "a").members().size() == 200000); }).empty());
+  CHECK(soon([&] { CHECK(parse_yaml(yaml, "a").members().size() == 90000); }).empty());
+}
+
+TEST_CASE("a long key over many values is kept once, and stands in their places") {
+  const std::string key(1'000'000, 'k');
+  std::string json = "{\"" + key + "\":[";
+  for (int k = 0; k < 20000; ++k) json += k > 0 ? ",1" : "1";
+  const long before = peak_memory();
+  const Value value = parse_json(json + "]}", "long.json");
+  CHECK(peak_memory() - before < 100);
+  CHECK(value.members()[0].second.items()[19999].where() == "long.json, " + key + "[19999]");
+}
+
+TEST_CASE("a key that stands twice, and more values than any file has, are refused") {
+  CHECK(message_of([] { parse_json(R"({"a":{"b":1,"c":2,"b":3}})", "m.json"); }) ==
+        "m.json, a: the key 'b' stands twice");
+  std::string many = "[1";
+  for (int k = 0; k < 2'100'000; ++k) many += ",1";
+  CHECK(contains(soon([&] { parse_json(many + "]", "many.json"); }),
+                 "many.json: has more than 2000000 values"));
+  CHECK(contains(soon([&] { parse_yaml(many + "]", "many.yaml"); }),
+                 "many.yaml: has more than 100000 entries"));
 }

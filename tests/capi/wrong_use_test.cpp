@@ -1,8 +1,13 @@
 #include <algorithm>
+#include <fstream>
 #include <functional>
 #include <limits>
 #include <map>
 #include <set>
+#include <unistd.h>
+
+#include <sys/resource.h>
+#include <sys/wait.h>
 
 #include "dashpot/base/file.h"
 #include "handles.h"
@@ -222,3 +227,32 @@ TEST_CASE("a model file that was cut off anywhere is refused") {
     CHECK(none == nullptr);
   }
 }
+
+#ifndef __SANITIZE_ADDRESS__  // which needs more memory than is left here
+TEST_CASE("a text that takes more memory than there is gives a status, and its host lives on") {
+  std::string text = "[0";
+  for (int k = 0; k < 1'900'000; ++k) text += ",0";
+  text += ']';
+
+  // In a child, whose room is what it has by now and 60 MB.
+  const pid_t child = fork();
+  if (child == 0) {
+    std::ifstream sizes("/proc/self/statm");
+    rlim_t pages = 0;
+    sizes >> pages;
+    const rlim_t room = pages * static_cast<rlim_t>(sysconf(_SC_PAGESIZE)) + 60'000'000;
+    const rlimit limit{room, room};
+    if (setrlimit(RLIMIT_AS, &limit) != 0) _exit(90);
+    dashpot_model* model = nullptr;
+    const dashpot_status status = dashpot_model_parse(text.c_str(), &model);
+    _exit(status == DASHPOT_FAILED && !model &&
+                  std::string(dashpot_last_error()) == "there is not enough memory"
+              ? 0
+              : 1 + static_cast<int>(status));
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  REQUIRE(WIFEXITED(status));
+  CHECK(WEXITSTATUS(status) == 0);
+}
+#endif

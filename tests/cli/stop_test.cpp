@@ -9,14 +9,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::size_t files_in(const fs::path& folder) {
-  std::size_t count = 0;
-  if (!fs::exists(folder)) return 0;
-  for (const auto& entry : fs::recursive_directory_iterator(folder))
-    count += entry.is_regular_file();
-  return count;
-}
-
 /// A results folder with an old report in it, on a file system with almost no room left. Without
 /// the right to mount one, a limit on file sizes has the same effect.
 std::string on_full_disk(const fs::path& folder, const std::string& command) {
@@ -43,10 +35,11 @@ TEST_CASE("an interruption ends identify soon, with 130 and without half-written
   CAPTURE(result.output);
   CHECK(result.exit_code == 130);
   CHECK(contains(result.output, "interrupted"));
-  CHECK(taken.count() <
-        10);  // one evaluation of all residuals after the signal, even under sanitizers
-  CHECK(files_in(results) == 1);  // the store of finished fits
+  CHECK(taken.count() < 3);  // a second of work, a quarter of one to end, and the start
+  // The store of finished fits, with its log where the work did not end in order.
   CHECK(fs::exists(fs::path(results) / "fits.sqlite"));
+  for (const auto& entry : fs::recursive_directory_iterator(results))
+    if (entry.is_regular_file()) CHECK(entry.path().filename().string().starts_with("fits.sqlite"));
 }
 
 TEST_CASE("a signal that comes twice at once, as `timeout` may send it, is one signal") {

@@ -122,10 +122,10 @@ void write_controllers(const TemporaryFolder& folder, Board& board) {
 @next@  @prefix@_step(model, &input, commands);
   return commands[0];
 )",
-                       {{"prefix", prefix},
-                        {"real", precision == CPrecision::Single ? "float" : "double"},
-                        {"struts", std::to_string(vehicle.dampers.size())},
-                        {"next", next}}));
+                       {{"prefix", CText::own(prefix)},
+                        {"real", CText::own(precision == CPrecision::Single ? "float" : "double")},
+                        {"struts", CText::own(std::to_string(vehicle.dampers.size()))},
+                        {"next", CText::own(next)}}));
     }
   }
 }
@@ -151,7 +151,7 @@ void write_models(const TemporaryFolder& folder) {
   @prefix@_reset(model, &input);
   return @prefix@_force(&input, model->state);
 )",
-                 {{"prefix", prefix}}));
+                 {{"prefix", CText::own(prefix)}}));
     }
   }
   std::string inputs;

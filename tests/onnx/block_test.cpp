@@ -4,7 +4,7 @@
 
 #include "conformance/c_compile.h"
 #include "conformance/control_cases.h"
-#include "dashpot/export/c/c_model.h"
+#include "dashpot/base/escape.h"
 #include "dashpot/export/c/c_text.h"
 #include "dashpot/export/c_subset/c_rewrite.h"
 #include "dashpot/export/onnx/onnx.h"
@@ -92,12 +92,12 @@ int main(void) {
   return 0;
 }
 )",
-                                {{"width", std::to_string(inputs[0].size())},
-                                 {"rows", rows},
-                                 {"reads", c_block_reads(block)},
-                                 {"commands", std::to_string(commands)},
-                                 {"steps", std::to_string(inputs.size())},
-                                 {"step", std::string(with_prefix(block.step, "x"))}}));
+                                {{"width", CText::own(std::to_string(inputs[0].size()))},
+                                 {"rows", CText::own(rows)},
+                                 {"reads", CText::own(c_block_reads(block))},
+                                 {"commands", CText::own(std::to_string(commands))},
+                                 {"steps", CText::own(std::to_string(inputs.size()))},
+                                 {"step", CText::own(with_prefix(block.step, "x"))}}));
   const ProgramResult result = run_program("cd '" + folder.path().string() +
                                            "' && cc -std=c99 -w main.c x.c -lm -o x && ./x");
   CAPTURE(result.output);

@@ -1,9 +1,11 @@
 #include "dashpot/report/column_table.h"
 
 #include <cmath>
+#include <csignal>
 #include <limits>
 
 #include <hdf5.h>
+#include <sys/resource.h>
 
 #include "dashpot/base/file.h"
 #include "support.h"
@@ -95,4 +97,26 @@ TEST_CASE("an empty table is written, a folder in place of the file is told") {
       message_of([&] { write_hdf5(folder.path() / "taken", {example()}, {}); });
   CHECK(message.find("cannot be written") != std::string::npos);
   CHECK(!fs::exists(folder.path() / "taken.partial"));
+}
+
+TEST_CASE("a disk that fills up under HDF5 leaves the old file, and nothing to crash on at exit") {
+  const TemporaryFolder folder;
+  const fs::path file = folder.path() / "sweep.h5";
+  write_hdf5(file, {example()}, {});
+  const std::string before = read_file(file);
+  ColumnTable large = example();
+  for (DataColumn& column : large.columns)
+    if (!column.is_text()) column.numbers.resize(50000);
+  std::erase_if(large.columns, [](const DataColumn& column) { return column.is_text(); });
+
+  rlimit limit{};
+  getrlimit(RLIMIT_FSIZE, &limit);
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  const rlimit small{100'000, limit.rlim_max};
+  setrlimit(RLIMIT_FSIZE, &small);
+  const std::string message = message_of([&] { write_hdf5(file, {large}, {}); });
+  setrlimit(RLIMIT_FSIZE, &limit);
+  std::signal(SIGXFSZ, handler);
+  CHECK(contains(message, "cannot be written: File too large"));
+  CHECK(read_file(file) == before);
 }

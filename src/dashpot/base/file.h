@@ -1,16 +1,58 @@
 #pragma once
+#include <cstddef>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <string_view>
 
 namespace dashpot {
 
-/// The whole file, gunzipped when its content is gzip. Throws Error when it cannot be read.
+/// A file that is read block by block, gunzipped on the way when its content is gzip. Only a
+/// regular file is one: a pipe or a device, which might never end, is refused at once.
+class InputFile {
+ public:
+  /// Throws Error when it cannot be opened.
+  explicit InputFile(const std::filesystem::path& path);
+  ~InputFile();
+  InputFile(const InputFile&) = delete;
+  InputFile& operator=(const InputFile&) = delete;
+
+  /// Fills `to` with up to `room` bytes and returns how many; 0 at the end. Throws Error where the
+  /// file cannot be read, is damaged or unpacks to far more than any recording of its size.
+  std::size_t read(char* to, std::size_t room);
+  std::size_t size() const;  ///< bytes on the disk
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// The whole file, gunzipped when its content is gzip. Throws Error when it cannot be read or
+/// holds more than any file that is read at once.
 std::string read_file(const std::filesystem::path& path);
 
-/// Writes to a temporary name beside `path` and renames it: on any failure (disk full, no right to
-/// write) throws Error and the old file stands unchanged. Makes missing folders.
+/// The one way in which Dashpot writes files: to a private temporary name beside `path`, to the
+/// disk, and renamed. On any failure (disk full, no right to write) throws Error and the old file
+/// stands unchanged; a link at `path` is replaced, never followed. Makes missing folders, and
+/// removes what a writer that was killed has left in this one.
 void write_file(const std::filesystem::path& path, std::string_view content);
+
+/// A file in memory, for libraries that write to names only: what they made is then checked and
+/// goes through write_file. Throws Error when there is none.
+class MemoryFile {
+ public:
+  MemoryFile();
+  ~MemoryFile();
+  MemoryFile(const MemoryFile&) = delete;
+  MemoryFile& operator=(const MemoryFile&) = delete;
+
+  std::string name() const;  ///< for this process and the programs that it starts
+  std::string content() const;
+  void write(std::string_view content) const;  ///< for a program that reads it
+
+ private:
+  int descriptor_;
+};
 
 /// With all its parents; nothing happens when it is there. Throws Error when it cannot be made.
 void make_folder(const std::filesystem::path& path);

@@ -6,6 +6,7 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <sqlite3.h>
 
+#include "dashpot/base/file.h"
 #include "dashpot/base/text.h"
 #include "dashpot/error.h"
 
@@ -13,20 +14,34 @@ namespace dashpot {
 namespace {
 
 constexpr int kApplication = 0x44505348;  // "DPSH": tells our files from other programs'
-constexpr int kLayout = 2;                // of the tables below; 1: a table of its own per command
-constexpr std::size_t kShownText = 60;    // longer texts are not printed when they differ
+constexpr int kLayout = 3;                // of the tables below
+constexpr int kWithoutChecksums = 2;    // the same but for them; 1: a table of its own per command
+constexpr std::size_t kShownText = 60;  // longer texts are not printed when they differ
 
 // Keys of a sweep come in ascending order, so that its rows are appended: hence no row numbers.
 constexpr const char* kTables =
     "CREATE TABLE store (format TEXT NOT NULL, version INTEGER NOT NULL) STRICT;"
     "CREATE TABLE basis (name TEXT PRIMARY KEY, value TEXT NOT NULL) STRICT;"
-    "CREATE TABLE result (key TEXT PRIMARY KEY, bytes BLOB NOT NULL) STRICT, WITHOUT ROWID;";
+    "CREATE TABLE result (key TEXT PRIMARY KEY, bytes BLOB NOT NULL, checksum TEXT NOT NULL "
+    "DEFAULT "
+    "'') STRICT, WITHOUT ROWID;";
 
 // A write-ahead log takes a result in microseconds and needs no waiting for the disk: a kill loses
 // nothing, a power cut the last moments and never the file. At rest the log is gone and the file is
 // all there is. The lock is held until then, so that the log needs no index file beside it.
 constexpr const char* kLock = "PRAGMA locking_mode = EXCLUSIVE";
 constexpr const char* kLog = "PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL;";
+
+/// Of a key and its bytes: what changes either is found.
+std::string checksum_of(std::string_view key, std::string_view bytes) {
+  constexpr std::size_t kDigits = 16;
+  return sha256(std::to_string(key.size()) + ' ' + std::string(key) + std::string(bytes))
+      .substr(0, kDigits);
+}
+
+std::string_view text_in(const SQLite::Column& column) {
+  return {static_cast<const char*>(column.getBlob()), static_cast<std::size_t>(column.size())};
+}
 
 Error in_use(const std::string& file) {
   return {file, "is in use by another process",
@@ -91,12 +106,14 @@ struct Store::Connection {
     } else {
       require_same_format();
       require_same_basis(basis);
+      if (pragma("user_version") == kWithoutChecksums) add_checksums();
+      drop_damaged();
     }
     transaction.commit();
     database.exec(kLog);
 
     select.emplace(database, "SELECT bytes FROM result WHERE key = ?");
-    insert.emplace(database, "INSERT OR REPLACE INTO result VALUES (?, ?)");
+    insert.emplace(database, "INSERT OR REPLACE INTO result VALUES (?, ?, ?)");
   }
 
   /// Runs one thread at a time; a failure of SQLite becomes an Error that says what to do.
@@ -114,6 +131,7 @@ struct Store::Connection {
     insert->tryReset();
     insert->bindNoCopy(1, key);
     insert->bindNoCopy(2, bytes.data(), static_cast<int>(bytes.size()));
+    insert->bind(3, checksum_of(key, bytes));
     insert->exec();
     insert->reset();
   }
@@ -146,7 +164,8 @@ struct Store::Connection {
   void require_same_format() {
     if (pragma("application_id") != kApplication)
       throw Error(file, "is a database of another program", "give another --output");
-    if (pragma("user_version") != kLayout) refuse_version(pragma("user_version") < kLayout);
+    const int layout = pragma("user_version");
+    if (layout != kLayout && layout != kWithoutChecksums) refuse_version(layout < kLayout);
 
     SQLite::Statement mark(database, "SELECT format, version FROM store");
     if (!mark.executeStep())
@@ -176,6 +195,53 @@ struct Store::Connection {
                   another_or_anew());
   }
 
+  /// The keys of all results whose checksum, or what it says of them, is not `right`.
+  template <class Right>
+  std::vector<std::string> keys_without(Right right) {
+    std::vector<std::string> keys;
+    SQLite::Statement row(database, "SELECT key, bytes, checksum FROM result");
+    while (row.executeStep()) {
+      const std::string_view key = text_in(row.getColumn(0));
+      if (!right(key, text_in(row.getColumn(1)), text_in(row.getColumn(2)))) keys.emplace_back(key);
+    }
+    return keys;
+  }
+
+  /// Results of a version that kept none are taken as they are, and guarded from here on.
+  void add_checksums() {
+    database.exec("ALTER TABLE result ADD COLUMN checksum TEXT NOT NULL DEFAULT ''");
+    database.exec("PRAGMA user_version = " + std::to_string(kLayout));
+    SQLite::Statement read(database, "SELECT bytes FROM result WHERE key = ?"),
+        mark(database, "UPDATE result SET checksum = ? WHERE key = ?");
+    for (const std::string& key : keys_without([](auto, auto, auto) { return false; })) {
+      read.bindNoCopy(1, key);
+      if (read.executeStep()) mark.bind(1, checksum_of(key, text_in(read.getColumn(0))));
+      read.reset();
+      mark.bindNoCopy(2, key);
+      mark.exec();
+      mark.reset();
+    }
+  }
+
+  void drop_damaged() {
+    // Again and again: a key that was changed may now be that of two results.
+    const auto damaged = [this] {
+      return keys_without(
+          [](std::string_view key, std::string_view bytes, std::string_view checksum) {
+            return checksum == checksum_of(key, bytes);
+          });
+    };
+    SQLite::Statement drop(database, "DELETE FROM result WHERE key = ?");
+    for (auto keys = damaged(); !keys.empty(); keys = damaged())
+      for (const std::string& key : keys) {
+        drop.bindNoCopy(1, key);
+        if (drop.exec() == 0)
+          throw Error(file, "is damaged: a result cannot be removed", std::string(format.renewal));
+        drop.reset();
+        ++dropped;
+      }
+  }
+
   std::string another_or_anew() const {
     return "give another --output, or " + std::string(format.renewal);
   }
@@ -184,6 +250,7 @@ struct Store::Connection {
   StoreFormat format;
   SQLite::Database database;
   std::optional<SQLite::Statement> select, insert;
+  std::size_t dropped = 0;
   std::mutex guard;
 };
 
@@ -261,5 +328,7 @@ std::size_t Store::size() const {
         open.database.execAndGet("SELECT count(*) FROM result").getInt64());
   });
 }
+
+std::size_t Store::dropped() const { return connection_->dropped; }
 
 }  // namespace dashpot

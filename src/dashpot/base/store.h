@@ -31,8 +31,12 @@ struct StoreFormat {
 /// is not there at all; a power cut can cost the last moments, never the file. One process at a
 /// time has the file open; its threads may all use the store at once.
 ///
+/// Each result carries a checksum of its key and bytes. Results that a disk or a hand has changed
+/// are found when the file is opened, and dropped: to the caller they are not there, so that they
+/// are made again.
+///
 /// The file is an SQLite database, at rest a single file: `store` holds the format and its version,
-/// `basis` the basis, `result` the keys and bytes.
+/// `basis` the basis, `result` the keys, bytes and checksums.
 class Store {
  public:
   struct Result {
@@ -64,7 +68,8 @@ class Store {
   using Use = std::function<void(std::string_view key, std::string_view bytes)>;
   void for_each(const Use& use, const std::optional<std::string>& end = std::nullopt) const;
 
-  std::size_t size() const;  ///< results
+  std::size_t size() const;     ///< results
+  std::size_t dropped() const;  ///< results that were damaged when the file was opened
 
  private:
   struct Connection;

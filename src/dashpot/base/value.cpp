@@ -47,10 +47,24 @@ std::string string_of(const Value& value, std::string_view key) {
 
 }  // namespace
 
+std::string Value::where() const {
+  // From the value up to the file, then the other way round.
+  std::vector<const Place*> steps;
+  for (const Place* step = place_.get(); step; step = step->above.get()) steps.push_back(step);
+  if (steps.empty()) return "";
+
+  std::string path;
+  for (std::size_t k = steps.size() - 1; k-- > 0;) {
+    const auto& [above, name, item] = *steps[k];
+    path += item ? '[' + std::to_string(*item) + ']' : path.empty() ? name : '.' + name;
+  }
+  const std::string& source = steps.back()->name;
+  return path.empty() ? source : source + ", " + path;
+}
+
 Value Value::array(std::vector<Value> items) {
   Value value;
-  value.kind_ = Kind::Array;
-  value.items_ = std::move(items);
+  value.content_ = std::move(items);
   return value;
 }
 
@@ -64,17 +78,22 @@ Value Value::array(const std::vector<std::string>& strings) {
 
 Value Value::object(std::vector<Member> members) {
   Value value;
-  value.kind_ = Kind::Object;
-  value.members_ = std::move(members);
+  value.content_ = std::move(members);
   return value;
 }
 
-bool Value::as_bool() const { return require_kind(*this, Kind::Bool), bool_; }
-double Value::as_number() const { return require_kind(*this, Kind::Number), number_; }
-const std::string& Value::as_string() const { return require_kind(*this, Kind::String), string_; }
-const std::vector<Value>& Value::items() const { return require_kind(*this, Kind::Array), items_; }
+bool Value::as_bool() const { return require_kind(*this, Kind::Bool), std::get<bool>(content_); }
+double Value::as_number() const {
+  return require_kind(*this, Kind::Number), std::get<double>(content_);
+}
+const std::string& Value::as_string() const {
+  return require_kind(*this, Kind::String), std::get<std::string>(content_);
+}
+const std::vector<Value>& Value::items() const {
+  return require_kind(*this, Kind::Array), std::get<std::vector<Value>>(content_);
+}
 const std::vector<Value::Member>& Value::members() const {
-  return require_kind(*this, Kind::Object), members_;
+  return require_kind(*this, Kind::Object), std::get<std::vector<Member>>(content_);
 }
 
 std::vector<double> Value::as_numbers() const {
@@ -91,12 +110,12 @@ const Value* Value::find(std::string_view key) const {
 
 void Value::add(std::string key, Value value) {
   require_kind(*this, Kind::Object);
-  members_.emplace_back(std::move(key), std::move(value));
+  std::get<std::vector<Member>>(content_).emplace_back(std::move(key), std::move(value));
 }
 
 void Value::push_back(Value value) {
   require_kind(*this, Kind::Array);
-  items_.push_back(std::move(value));
+  std::get<std::vector<Value>>(content_).push_back(std::move(value));
 }
 
 ObjectReader::ObjectReader(const Value& value, std::string what)

@@ -1,4 +1,6 @@
 #include <cmath>
+#include <string_view>
+#include <unordered_set>
 
 #include <nlohmann/json.hpp>
 
@@ -11,33 +13,108 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string place(const std::string& source, const std::string& path) {
-  return path.empty() ? source : source + ", " + path;
+constexpr int kDeepestJson = 200;
+constexpr std::size_t kMostJsonValues = 2'000'000;
+
+/// Throws Error where a key stands twice; in linear time, as the reading of the keys.
+void require_different_keys(const Value& object) {
+  std::unordered_set<std::string_view> keys;
+  for (const auto& [key, item] : object.members())
+    if (!keys.insert(key).second) throw Error(object.where(), "the key '" + key + "' stands twice");
 }
 
-Value from_json(const Json& json, const std::string& source, const std::string& path) {
-  Value value;
-  if (json.is_boolean()) {
-    value = Value(json.get<bool>());
-  } else if (json.is_number()) {
-    value = Value(json.get<double>());
-  } else if (json.is_string()) {
-    value = Value(json.get<std::string>());
-  } else if (json.is_array()) {
-    std::vector<Value> items;
-    for (const Json& item : json)
-      items.push_back(from_json(item, source, path + "[" + std::to_string(items.size()) + "]"));
-    value = Value::array(std::move(items));
-  } else if (json.is_object()) {
-    value = Value::object();
-    for (const auto& [key, item] : json.items())
-      value.add(key, from_json(item, source, path.empty() ? key : path + "." + key));
+/// Builds a Value while nlohmann reads the text, so that there is no second tree.
+class Builder : public nlohmann::json_sax<Json> {
+ public:
+  explicit Builder(const std::string& source)
+      : source_(std::make_shared<Value::Place>(Value::Place{.name = source})) {}
+
+  bool null() override { return add(Value()); }
+  bool boolean(bool value) override { return add(Value(value)); }
+  bool number_integer(number_integer_t value) override { return number(value); }
+  bool number_unsigned(number_unsigned_t value) override { return number(value); }
+  bool number_float(number_float_t value, const string_t&) override { return number(value); }
+  bool string(string_t& value) override { return add(Value(std::move(value))); }
+  bool binary(binary_t&) override { return false; }
+  bool key(string_t& name) override {
+    open_.back().key = std::move(name);
+    return true;
+  }
+  bool start_object(std::size_t) override { return start(Value::object()); }
+  bool start_array(std::size_t) override { return start(Value::array()); }
+  bool end_object() override {
+    require_different_keys(open_.back().value);
+    return end();
+  }
+  bool end_array() override { return end(); }
+  bool parse_error(std::size_t byte, const std::string&, const Json::exception& error) override {
+    const std::string message = error.what();
+    const std::size_t detail = message.find("syntax error");
+    failed_at = byte;
+    failure = detail == std::string::npos ? message : message.substr(detail);
+    return false;
   }
 
-  // Later messages name the file and the way to this value.
-  value.set_where(place(source, path));
-  return value;
-}
+  Value result;
+  std::size_t failed_at = 0;  ///< byte
+  std::string failure;        ///< empty: none
+
+ private:
+  /// A list or an object that is being read, with the key of its next member.
+  struct Open {
+    Value value;
+    std::shared_ptr<const Value::Place> place;
+    std::string key;
+  };
+
+  /// Of the value that comes next.
+  std::shared_ptr<const Value::Place> place() const {
+    if (open_.empty()) return source_;
+    const Open& in = open_.back();
+    Value::Place place{.above = in.place};
+    if (in.value.kind() == Value::Kind::Array)
+      place.item = in.value.items().size();
+    else
+      place.name = in.key;
+    return std::make_shared<Value::Place>(std::move(place));
+  }
+
+  template <class Number>
+  bool number(Number value) {
+    return add(Value(static_cast<double>(value)));
+  }
+
+  bool add(Value value) {
+    value.set_place(place());
+    return put(std::move(value));
+  }
+
+  bool put(Value value) {
+    if (open_.empty())
+      result = std::move(value);
+    else if (Open& in = open_.back(); in.value.kind() == Value::Kind::Array)
+      in.value.push_back(std::move(value));
+    else
+      in.value.add(std::move(in.key), std::move(value));
+    return true;
+  }
+
+  bool start(Value value) {
+    std::shared_ptr<const Value::Place> here = place();
+    value.set_place(here);
+    open_.push_back({std::move(value), std::move(here), {}});
+    return true;
+  }
+
+  bool end() {
+    Value finished = std::move(open_.back().value);
+    open_.pop_back();
+    return put(std::move(finished));
+  }
+
+  std::shared_ptr<const Value::Place> source_;
+  std::vector<Open> open_;
+};
 
 Json to_json(const Value& value) {
   switch (value.kind()) {
@@ -79,15 +156,15 @@ std::size_t line_at(std::string_view text, std::size_t byte) {
   return 1 + static_cast<std::size_t>(std::count(before.begin(), before.end(), '\n'));
 }
 
-/// Refuses what would overflow the stack of any recursive reader.
-void require_shallow(std::string_view text, const std::string& source) {
-  constexpr int kDeepest = 200;
+/// Refuses, before anything is kept, a text of too many values or levels.
+void require_within_budget(std::string_view text, const std::string& source) {
   int depth = 0;
+  std::size_t values = 1;
   bool in_string = false;
   for (std::size_t k = 0; k < text.size(); ++k) {
     const char c = text[k];
 
-    // Brackets inside a string do not count; a backslash hides the sign behind it.
+    // Signs inside a string do not count; a backslash hides the sign behind it.
     if (in_string) {
       if (c == '\\')
         ++k;
@@ -96,28 +173,29 @@ void require_shallow(std::string_view text, const std::string& source) {
     } else if (c == '"') {
       in_string = true;
     } else if (c == '[' || c == '{') {
-      if (++depth > kDeepest) throw Error(source, "is nested more than 200 levels deep");
+      ++values;
+      if (++depth > kDeepestJson)
+        throw Error(source, "is nested more than " + std::to_string(kDeepestJson) + " levels deep");
     } else if (c == ']' || c == '}') {
       --depth;
+    } else if (c == ',') {
+      ++values;
     }
   }
+  if (values > kMostJsonValues)
+    throw Error(source, "has more than " + std::to_string(kMostJsonValues) + " values",
+                "divide it into several files");
 }
 
 }  // namespace
 
 Value parse_json(std::string_view text, const std::string& source) {
-  require_shallow(text, source);
-  try {
-    return from_json(Json::parse(text), source, "");
-  } catch (const Json::parse_error& error) {
-    const std::string message = error.what();
-    const std::size_t detail = message.find("syntax error");
-    throw Error(
-        source + ":" + std::to_string(line_at(text, error.byte)),
-        "is not valid JSON: " + (detail == std::string::npos ? message : message.substr(detail)));
-  } catch (const Json::exception& error) {
-    throw Error(source, std::string("is not valid JSON: ") + error.what());
-  }
+  require_within_budget(text, source);
+  Builder builder(source);
+  if (!Json::sax_parse(text, &builder))
+    throw Error(source + ":" + std::to_string(line_at(text, builder.failed_at)),
+                "is not valid JSON: " + builder.failure);
+  return std::move(builder.result);
 }
 
 std::string format_json(const Value& value, bool pretty) {

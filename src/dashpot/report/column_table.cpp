@@ -2,8 +2,8 @@
 
 #include <cmath>
 
+#include "dashpot/base/escape.h"
 #include "dashpot/base/text.h"
-#include "dashpot/report/safe_text.h"
 
 namespace dashpot {
 

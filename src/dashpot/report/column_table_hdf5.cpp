@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <hdf5.h>
 
 #include "dashpot/base/file.h"
@@ -87,30 +89,37 @@ void add_table(hid_t file, const ColumnTable& table) {
   for (const DataColumn& column : table.columns) add_column(group, column);
 }
 
-void write_tables(const std::filesystem::path& path, const std::vector<ColumnTable>& tables,
-                  const std::vector<std::pair<std::string, std::string>>& attributes) {
-  const Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose,
-                    path.string());
+/// The bytes of the file, made in memory: a disk that fills up under HDF5 leaves a file that it
+/// tries to finish when the program ends, and crashes.
+std::string hdf5_bytes(const std::vector<ColumnTable>& tables,
+                       const std::vector<std::pair<std::string, std::string>>& attributes) {
+  constexpr std::size_t kGrowth = std::size_t{1} << 20;
+  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "options");
+  require_done(H5Pset_fapl_core(access, kGrowth, false), "to memory");
+  const Handle file(H5Fcreate("memory", H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose, "a file");
   for (const auto& [name, text] : attributes) add_attribute(file, name, text);
   for (const ColumnTable& table : tables) add_table(file, table);
-  require_done(H5Fflush(file, H5F_SCOPE_LOCAL), path.string());
+  require_done(H5Fflush(file, H5F_SCOPE_LOCAL), "the file");
+
+  const ssize_t size = H5Fget_file_image(file, nullptr, 0);
+  std::string bytes(static_cast<std::size_t>(std::max<ssize_t>(size, 0)), '\0');
+  if (size <= 0 || H5Fget_file_image(file, bytes.data(), bytes.size()) != size)
+    throw Error("HDF5", "could not give the file");
+  return bytes;
 }
 
 }  // namespace
 
 void write_hdf5(const std::filesystem::path& path, const std::vector<ColumnTable>& tables,
                 const std::vector<std::pair<std::string, std::string>>& attributes) {
-  if (path.has_parent_path()) make_folder(path.parent_path());
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // failures are thrown as an Error, not printed
-  const std::filesystem::path partial = path.string() + ".partial";
+  std::string bytes;
   try {
-    write_tables(partial, tables, attributes);
-    std::filesystem::rename(partial, path);
-  } catch (const std::exception& failure) {
-    std::error_code none;
-    std::filesystem::remove(partial, none);
+    bytes = hdf5_bytes(tables, attributes);
+  } catch (const Error& failure) {
     throw Error(path.string(), std::string("cannot be written: ") + failure.what());
   }
+  write_file(path, bytes);
 }
 
 }  // namespace dashpot

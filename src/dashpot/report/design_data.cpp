@@ -1,9 +1,9 @@
 // A design run for programs: JSON and CSV.
 #include <cmath>
 
+#include "dashpot/base/escape.h"
 #include "dashpot/base/text.h"
 #include "dashpot/report/design_report.h"
-#include "dashpot/report/safe_text.h"
 
 namespace dashpot {
 namespace {

@@ -1,8 +1,8 @@
 // A document as JSON: for programs, and for the page's own program.
 #include "dashpot/report/document.h"
 
+#include "dashpot/base/escape.h"
 #include "dashpot/report/page.h"
-#include "dashpot/report/safe_text.h"
 #include "dashpot/report/series.h"
 
 namespace dashpot {

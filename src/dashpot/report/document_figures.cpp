@@ -35,18 +35,19 @@ std::string colour_code(const std::string& name) {
   return "#1c2127";
 }
 
-std::string style_of(const FigureSeries& series) {
-  const std::string colour = "lc rgb '" + colour_code(series.colour) + "'";
+GnuplotText style_of(const FigureSeries& series) {
+  const GnuplotText colour = "lc rgb " + gnuplot_string(colour_code(series.colour));
   if (series.mark == FigureSeries::Mark::Dots)
-    return fmt::format("points pt 7 ps {} {}", 0.1 * series.width, colour);
-  return fmt::format("lines lw {}{} {}", series.width,
-                     series.mark == FigureSeries::Mark::Dashes ? " dt (8,5)" : "", colour);
+    return gnuplot("points pt 7 ps {} {}", 0.1 * series.width, colour);
+  return gnuplot(
+      "lines lw {}{} {}", series.width,
+      series.mark == FigureSeries::Mark::Dashes ? GnuplotText(" dt (8,5)") : GnuplotText(), colour);
 }
 
 /// The unbroken pieces of a curve, each a plot of its own: gnuplot would draw a line across what is
 /// missing.
 void add_curves(GnuplotFigure& figure, const FigureSeries& series, bool is_listed,
-                std::vector<std::string>& curves) {
+                std::vector<GnuplotText>& curves) {
   const auto is_there = [&](std::size_t i) {
     return std::isfinite(series.x[i]) && std::isfinite(series.y[i]);
   };
@@ -54,7 +55,7 @@ void add_curves(GnuplotFigure& figure, const FigureSeries& series, bool is_liste
     std::size_t last = first;
     while (last < series.x.size() && is_there(last)) ++last;
     if (last > first) {
-      const std::string title = is_listed ? " title " + gnuplot_quoted(series.label) : " notitle";
+      const GnuplotText title = is_listed ? " title " + gnuplot_string(series.label) : " notitle";
       curves.push_back(figure.data({std::span(series.x).subspan(first, last - first),
                                     std::span(series.y).subspan(first, last - first)}) +
                        " using 1:2 with " + style_of(series) + title);
@@ -65,21 +66,21 @@ void add_curves(GnuplotFigure& figure, const FigureSeries& series, bool is_liste
 }
 
 void draw(GnuplotFigure& figure, const FigurePanel& panel) {
-  figure.command("set title " + gnuplot_quoted(panel.title) + " noenhanced");
-  figure.command("set xlabel " + gnuplot_quoted(panel.x_label) + " noenhanced\nset ylabel " +
-                 gnuplot_quoted(panel.y_label) + " offset 1,0 noenhanced");
+  figure.command("set title " + gnuplot_string(panel.title) + " noenhanced");
+  figure.command("set xlabel " + gnuplot_string(panel.x_label) + " noenhanced\nset ylabel " +
+                 gnuplot_string(panel.y_label) + " offset 1,0 noenhanced");
 
   // Words at whole places, or numbers.
-  std::vector<std::string> tics;
+  std::vector<GnuplotText> tics;
   for (std::size_t k = 0; k < panel.places.size(); ++k)
-    tics.push_back(fmt::format("{} {}", gnuplot_quoted(panel.places[k]), k));
-  figure.command(tics.empty()
-                     ? "set xtics auto norotate\nset autoscale x"
-                     : fmt::format("set xtics ({}) norotate\nset xrange [-0.6:{}]",
-                                   join(tics, ", "), static_cast<double>(tics.size()) - 0.4));
+    tics.push_back(gnuplot("{} {}", gnuplot_label(panel.places[k]), k));
+  figure.command(tics.empty() ? GnuplotText("set xtics auto norotate\nset autoscale x")
+                              : gnuplot("set xtics ({}) norotate\nset xrange [-0.6:{}]",
+                                        listed(tics), static_cast<double>(tics.size()) - 0.4));
 
   // Each label once in the legend.
-  std::vector<std::string> curves, labels;
+  std::vector<GnuplotText> curves;
+  std::vector<std::string> labels;
   for (const FigureSeries& series : panel.series) {
     if (series.x.empty()) continue;
     const bool is_listed = !series.label.empty() &&
@@ -87,7 +88,7 @@ void draw(GnuplotFigure& figure, const FigurePanel& panel) {
     if (is_listed) labels.push_back(series.label);
     add_curves(figure, series, is_listed, curves);
   }
-  if (!curves.empty()) figure.command("plot " + join(curves, ", "));
+  if (!curves.empty()) figure.command("plot " + listed(curves));
 }
 
 }  // namespace
@@ -100,7 +101,7 @@ std::vector<fs::path> write_document_figures(const Document& document, const fs:
       GnuplotFigure drawing(
           figure.columns == 1 ? kWholeWidth : kPanelWidth * static_cast<double>(figure.columns),
           kPanelHeight * static_cast<double>(rows));
-      drawing.command(fmt::format("set multiplot layout {},{}", rows, figure.columns));
+      drawing.command(gnuplot("set multiplot layout {},{}", rows, figure.columns));
       for (const FigurePanel& panel : figure.panels) draw(drawing, panel);
       drawing.command("unset multiplot");
       for (fs::path& path : drawing.write(folder, figure.name)) paths.push_back(std::move(path));

@@ -1,8 +1,8 @@
 // A document as Markdown.
 #include <algorithm>
 
+#include "dashpot/base/escape.h"
 #include "dashpot/report/document.h"
-#include "dashpot/report/safe_text.h"
 
 namespace dashpot {
 namespace {
@@ -15,12 +15,12 @@ class Writer {
   std::string text() {
     text_ = heading_ + " " + markdown_cell(document_.title) + "\n";
     for (const std::string* words : {&document_.subtitle, &document_.verdict})
-      if (!words->empty()) text_ += "\n" + valid_utf8(*words) + "\n";
+      if (!words->empty()) text_ += "\n" + markdown_prose(*words) + "\n";
     for (const DocumentSection& part : document_.sections)
       if (reaches(part.audience, Audience::Markdown)) section(part);
     if (const DocumentSection& last = document_.provenance; has_words(last)) section(last);
     if (!document_.command.empty())
-      text_ += "\nMade by `" + valid_utf8(document_.command) + "` (Dashpot " + document_.version +
+      text_ += "\nMade by " + markdown_code(document_.command) + " (Dashpot " + document_.version +
                ").\n";
     return std::move(text_);
   }
@@ -33,13 +33,13 @@ class Writer {
   void section(const DocumentSection& section) {
     text_ += "\n" + heading_ + "# " + markdown_cell(section.title) + "\n";
     for (const std::string& paragraph : section.paragraphs)
-      text_ += "\n" + valid_utf8(paragraph) + "\n";
-    if (!section.plain.empty()) text_ += "\n```\n" + valid_utf8(section.plain) + "```\n";
+      text_ += "\n" + markdown_prose(paragraph) + "\n";
+    if (!section.plain.empty()) text_ += "\n" + markdown_block(section.plain);
     parts(section, {});
     for (const DocumentFigure& one : section.figures)
       if (reaches(one.audience, Audience::Markdown)) figure(one);
     if (!section.remarks.empty()) text_ += "\n";
-    for (const std::string& remark : section.remarks) text_ += "* " + valid_utf8(remark) + "\n";
+    for (const std::string& remark : section.remarks) text_ += "* " + markdown_prose(remark) + "\n";
 
     // Parts that depend on a choice follow, option by option.
     for (const DocumentSection& other : document_.sections)
@@ -48,7 +48,8 @@ class Writer {
 
     if (!section.facts.empty()) text_ += "\n";
     for (const auto& [name, meaning] : section.facts)
-      if (!meaning.empty()) text_ += "* " + markdown_cell(name) + ": " + valid_utf8(meaning) + "\n";
+      if (!meaning.empty())
+        text_ += "* " + markdown_cell(name) + ": " + markdown_prose(meaning) + "\n";
   }
 
   void option(const DocumentSection& section, const DocumentChoice& choice, std::size_t k) {
@@ -76,11 +77,11 @@ class Writer {
   void table(const DocumentTable& table) {
     if (!table.title.empty()) text_ += "\n**" + markdown_cell(table.title) + "**\n";
     text_ += "\n" + markdown_table(table.columns, table.rows);
-    if (!table.note.empty()) text_ += "\n" + valid_utf8(table.note) + "\n";
+    if (!table.note.empty()) text_ += "\n" + markdown_prose(table.note) + "\n";
   }
 
   void figure(const DocumentFigure& figure) {
-    const std::string words = markdown_cell(figure.title) + ". " + valid_utf8(figure.caption);
+    const std::string words = markdown_cell(figure.title) + ". " + markdown_prose(figure.caption);
     text_ += figures_.empty() ? "\n*" + words + "*\n"
                               : "\n![" + markdown_cell(figure.title) + "](" + figures_ + "/" +
                                     figure.name + ".svg)\n\n" + words + "\n";

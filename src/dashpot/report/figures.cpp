@@ -19,13 +19,13 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kPointsPerCurve = 3000;
-constexpr const char* kMeasured = "#8b949e";
-constexpr const char* kModelled = "#0b5cad";
+constexpr char kMeasured[] = "#8b949e";
+constexpr char kModelled[] = "#0b5cad";
 constexpr std::array kLevels = {"#26468a", "#18808a", "#3ca05f", "#d69614", "#be481e"};
 
 /// The colour of one of `count` drive levels: as far apart as the five allow.
-std::string level_colour(std::size_t index, std::size_t count) {
-  return kLevels[count > 1 ? index * (kLevels.size() - 1) / (count - 1) : 0];
+GnuplotText level_colour(std::size_t index, std::size_t count) {
+  return gnuplot_string(kLevels[count > 1 ? index * (kLevels.size() - 1) / (count - 1) : 0]);
 }
 
 std::vector<double> taken(const std::vector<double>& samples,
@@ -36,7 +36,7 @@ std::vector<double> taken(const std::vector<double>& samples,
 }
 
 /// Columns x, measured, modelled from the end of the warm-up on, thinned for print.
-std::string add_curves(GnuplotFigure& figure, const RecordResult& record,
+GnuplotText add_curves(GnuplotFigure& figure, const RecordResult& record,
                        const std::vector<double>& x) {
   std::vector<std::size_t> chosen =
       thinned_indices({record.measured, record.modelled}, kPointsPerCurve);
@@ -64,8 +64,8 @@ double tic_step(double span) {
 /// One panel: loops of the records of one condition; lines are measured, dashes modelled.
 void loop_panel(GnuplotFigure& figure, const std::vector<const RecordResult*>& records,
                 const std::string& unit, Series axis) {
-  const std::string x =
-      axis == &RecordResult::displacement ? "(1000*$1)" : "1";  // mm are shorter in print
+  const GnuplotText x = axis == &RecordResult::displacement ? GnuplotText("(1000*$1)")
+                                                            : "1";  // mm are shorter in print
 
   // Tics follow the extent of the panel.
   double low = 0, high = 0;
@@ -73,19 +73,19 @@ void loop_panel(GnuplotFigure& figure, const std::vector<const RecordResult*>& r
     for (const double value : record->*axis)
       low = std::min(low, value), high = std::max(high, value);
   const double scale = axis == &RecordResult::displacement ? 1000 : 1;
-  figure.command(fmt::format("set xtics {}", tic_step(scale * (high - low))));
+  figure.command(gnuplot("set xtics {}", tic_step(scale * (high - low))));
 
   // Measured loops by level of the drive, the model in one dark dash above.
-  std::vector<std::string> measured, modelled;
+  std::vector<GnuplotText> measured, modelled;
   for (std::size_t i = 0; i < records.size(); ++i) {
-    const std::string data = add_curves(figure, *records[i], records[i]->*axis);
-    measured.push_back(fmt::format("{} using {}:2 with lines lw 1.8 lc rgb '{}' title {}", data, x,
-                                   level_colour(i, records.size()),
-                                   gnuplot_quoted(drive_label(*records[i], unit))));
-    modelled.push_back(fmt::format("{} using {}:3 with lines lw 0.9 dt (8,5) lc rgb '#1c2127' {}",
-                                   data, x, i == 0 ? "title 'model'" : "notitle"));
+    const GnuplotText data = add_curves(figure, *records[i], records[i]->*axis);
+    measured.push_back(gnuplot("{} using {}:2 with lines lw 1.8 lc rgb {} title {}", data, x,
+                               level_colour(i, records.size()),
+                               gnuplot_string(drive_label(*records[i], unit))));
+    modelled.push_back(gnuplot("{} using {}:3 with lines lw 0.9 dt (8,5) lc rgb '#1c2127' {}", data,
+                               x, i == 0 ? GnuplotText("title 'model'") : GnuplotText("notitle")));
   }
-  figure.command("plot " + join(measured, ", ") + ", " + join(modelled, ", "));
+  figure.command("plot " + listed(measured) + ", " + listed(modelled));
 }
 
 std::vector<std::vector<const RecordResult*>> by_condition(const Evaluation& evaluation) {
@@ -119,15 +119,16 @@ std::vector<fs::path> loops(const RankedModel& model, const std::string& unit, S
   const std::size_t rows = (groups.size() + columns - 1) / columns;
   const bool is_velocity = axis == &RecordResult::velocity;
   GnuplotFigure figure(6.5 * static_cast<double>(columns) + 1, 6.2 * static_cast<double>(rows));
-  figure.command(fmt::format("set multiplot layout {},{}", rows, columns));
+  figure.command(gnuplot("set multiplot layout {},{}", rows, columns));
   figure.command("set ylabel 'Force (N)' offset 1,0");
-  figure.command(is_velocity ? "set xlabel 'Velocity (m/s)'" : "set xlabel 'Displacement (mm)'");
+  figure.command("set xlabel " +
+                 gnuplot_string(is_velocity ? "Velocity (m/s)" : "Displacement (mm)"));
 
   // One panel per condition.
   for (const auto& group : groups) {
     const RecordResult& first = *group.front();
     figure.command("set title " +
-                   gnuplot_quoted(first.condition.empty() ? first.record : first.condition) +
+                   gnuplot_string(first.condition.empty() ? first.record : first.condition) +
                    " noenhanced");
     loop_panel(figure, group, unit, axis);
   }
@@ -138,26 +139,25 @@ std::vector<fs::path> loops(const RankedModel& model, const std::string& unit, S
 std::vector<fs::path> force_trace(const RankedModel& model, const RecordResult& record,
                                   const fs::path& folder) {
   GnuplotFigure figure(16, 7);
-  const std::string data = add_curves(figure, record, record.time);
+  const GnuplotText data = add_curves(figure, record, record.time);
   figure.command("set xrange [] noextend\nset xlabel 'Time (s)'\nset ylabel 'Force (N)'");
-  figure.command("set title " + gnuplot_quoted(record.record) + " noenhanced");
+  figure.command("set title " + gnuplot_string(record.record) + " noenhanced");
   figure.command(
-      fmt::format("plot {0} using 1:2 with lines lw 2 lc rgb '{1}' title 'measured', {0} using 1:3 "
-                  "with lines lw 1.2 lc rgb '{2}' title {3}",
-                  data, kMeasured, kModelled,
-                  gnuplot_quoted(fmt::format("{}, fit {} %", display_name(model),
-                                             percent_text(record.metrics.fit)))));
+      gnuplot("plot {0} using 1:2 with lines lw 2 lc rgb '{1}' title 'measured', {0} using 1:3 "
+              "with lines lw 1.2 lc rgb '{2}' title {3}",
+              data, GnuplotText(kMeasured), GnuplotText(kModelled),
+              gnuplot_string(fmt::format("{}, fit {} %", display_name(model),
+                                         percent_text(record.metrics.fit)))));
   return figure.write(folder, "force-time");
 }
 
 std::vector<fs::path> ranking_bars(const Ranking& ranking, const fs::path& folder) {
   std::vector<double> places, errors;
-  std::string tics;
+  std::vector<GnuplotText> tics;
   for (const RankedModel& model : ranking.models) {
     const double esr = model.left_out.pooled.esr;
     if (!std::isfinite(esr) || esr <= 0) continue;
-    tics += fmt::format("{}{} {}", tics.empty() ? "" : ", ", gnuplot_quoted(display_name(model)),
-                        places.size());
+    tics.push_back(gnuplot("{} {}", gnuplot_label(display_name(model)), places.size()));
     places.push_back(static_cast<double>(places.size()));
     errors.push_back(esr);
   }
@@ -165,16 +165,16 @@ std::vector<fs::path> ranking_bars(const Ranking& ranking, const fs::path& folde
 
   // Horizontal bars, so that long names have room.
   GnuplotFigure figure(12, 1.6 + 0.85 * static_cast<double>(places.size()));
-  const std::string data = figure.data({places, errors});
-  figure.command("set ytics (" + tics + ") scale 0 noenhanced\nset yrange [" +
-                 fmt::format("{}:-0.6]", static_cast<double>(places.size()) - 0.4));
+  const GnuplotText data = figure.data({places, errors});
+  figure.command("set ytics (" + listed(tics) + ") scale 0 noenhanced\nset yrange [" +
+                 gnuplot("{}:-0.6]", static_cast<double>(places.size()) - 0.4));
   figure.command(
       "unset key\nset grid noytics\nset xlabel 'Left-out error, ESR (%)'\nset rmargin 8\nset "
       "bmargin 3.2");
   figure.command(
-      fmt::format("set xrange [0:*]\nplot {0} using (0.5*$2):1:(0.5*$2):(0.34) with boxxyerror lc "
-                  "rgb '{1}', {0} using 2:1:(sprintf('%.3g',$2)) with labels left offset 0.5,0",
-                  data, kModelled));
+      gnuplot("set xrange [0:*]\nplot {0} using (0.5*$2):1:(0.5*$2):(0.34) with boxxyerror lc "
+              "rgb '{1}', {0} using 2:1:(sprintf('%.3g',$2)) with labels left offset 0.5,0",
+              data, GnuplotText(kModelled)));
   return figure.write(folder, "ranking");
 }
 

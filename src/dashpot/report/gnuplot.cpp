@@ -15,16 +15,17 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Runs the script. Returns the text that gnuplot printed; throws Error when it cannot be run.
-std::string run_gnuplot(const fs::path& script) {
+/// Runs a script, which is called `name` in messages. Returns the text that gnuplot printed; throws
+/// Error when it cannot be run.
+std::string run_gnuplot(const std::string& script, const std::string& name) {
   ChildResult result;
   try {
-    result = run_child({"gnuplot", script.string()});
+    result = run_child({"gnuplot", script});
   } catch (const Error& error) {
     throw Error("gnuplot", error.what(), "install gnuplot-nox, or leave the figures out");
   }
   if (!result.succeeded)
-    throw Error(script.string(), "gnuplot cannot draw it: " + std::string(trim(result.printed)));
+    throw Error(name, "gnuplot cannot draw it: " + std::string(trim(result.printed)));
   return result.printed;
 }
 
@@ -43,16 +44,13 @@ set minussign
 
 }  // namespace
 
-std::string gnuplot_quoted(const std::string& text) {
-  std::string result = "'";
-  for (const char c : text) {
-    if (c == '\'') result += '\'';
-    result += c == '\n' || c == '\r' ? ' ' : c;
-  }
-  return result + "'";
+GnuplotText listed(const std::vector<GnuplotText>& parts) {
+  GnuplotText result;
+  for (std::size_t k = 0; k < parts.size(); ++k) result += k == 0 ? parts[k] : ", " + parts[k];
+  return result;
 }
 
-std::string GnuplotFigure::data(const std::vector<std::span<const double>>& columns) {
+GnuplotText GnuplotFigure::data(const std::vector<std::span<const double>>& columns) {
   const std::string name = fmt::format("$d{}", ++blocks_);
   data_ += name + " << EOD\n";
   for (std::size_t row = 0; row < columns.front().size(); ++row) {
@@ -61,29 +59,40 @@ std::string GnuplotFigure::data(const std::vector<std::span<const double>>& colu
     data_ += "\n";
   }
   data_ += "EOD\n";
-  return name;
+  return GnuplotText::own(name);
 }
 
-std::vector<fs::path> GnuplotFigure::write(const fs::path& folder, const std::string& name) const {
-  const fs::path script = folder / (name + ".gp"), svg = folder / (name + ".svg"),
-                 pdf = folder / (name + ".pdf");
+std::string GnuplotFigure::script(const std::string& svg, const std::string& pdf) const {
   // Multiplots cannot be replayed on another terminal, hence the loop over terminals in the script
   // itself.
-  std::string text = kStyle + data_;
-  text += fmt::format(
+  const GnuplotText loop = gnuplot(
       "do for [kind in \"svg pdf\"] {{\nif (kind eq \"svg\") {{\n"
       "set terminal svg size {:.0f},{:.0f} font 'FreeSans,11' background rgb 'white'\nset output "
       "{}\n}} else {{\n"
       "set terminal pdfcairo size {:.2f}cm,{:.2f}cm font 'FreeSans,8' linewidth 1\nset output "
       "{}\n}}\n",
-      width_ * 46, height_ * 46, gnuplot_quoted(svg.string()), width_, height_,
-      gnuplot_quoted(pdf.string()));
-  text += commands_ + "unset output\n}\n";
-  write_file(script, text);
-  const std::string printed = run_gnuplot(script);
-  for (const fs::path& figure : {svg, pdf})
-    if (!fs::exists(figure) || fs::file_size(figure) == 0)
-      throw Error(figure.string(), "gnuplot wrote nothing: " + std::string(trim(printed)));
+      width_ * 46, height_ * 46, gnuplot_string(svg), width_, height_, gnuplot_string(pdf));
+  return kStyle + data_ + loop.text() + commands_.text() + "unset output\n}\n";
+}
+
+std::vector<fs::path> GnuplotFigure::write(const fs::path& folder, const std::string& name) const {
+  const fs::path kept = folder / (name + ".gp"), svg = folder / (name + ".svg"),
+                 pdf = folder / (name + ".pdf");
+  write_file(kept, script(svg.string(), pdf.string()));
+
+  // Gnuplot writes to names only and does not say when a disk is full: it draws into memory, and
+  // what is whole goes the way of every file.
+  const MemoryFile drawn_svg, drawn_pdf, drawing;
+  drawing.write(script(drawn_svg.name(), drawn_pdf.name()));
+  const std::string printed = run_gnuplot(drawing.name(), kept.string());
+  const auto finish = [&](const MemoryFile& drawn, const fs::path& path, std::string_view end) {
+    const std::string content = drawn.content();
+    if (!std::string_view(content).substr(0, content.find_last_not_of("\r\n") + 1).ends_with(end))
+      throw Error(path.string(), "gnuplot left it unfinished: " + std::string(trim(printed)));
+    write_file(path, content);
+  };
+  finish(drawn_svg, svg, "</svg>");
+  finish(drawn_pdf, pdf, "%%EOF");
   return {svg, pdf};
 }
 

@@ -3,13 +3,11 @@
 #include <algorithm>
 
 #include "dashpot/error.h"
-#include "dashpot/report/safe_text.h"
 
 namespace dashpot {
 
-std::string fill_template(
-    std::string_view text,
-    const std::vector<std::pair<std::string_view, std::string_view>>& values) {
+std::string fill_template(std::string_view text,
+                          const std::vector<std::pair<std::string_view, HtmlText>>& values) {
   std::string result;
   std::size_t at = 0;
   for (std::size_t open; (open = text.find("{{", at)) != std::string_view::npos;) {
@@ -18,23 +16,23 @@ std::string fill_template(
     if (close == std::string_view::npos) break;
     const std::string_view name = text.substr(open + 2, close - open - 2);
     const auto value =
-        std::ranges::find(values, name, &std::pair<std::string_view, std::string_view>::first);
+        std::ranges::find(values, name, &std::pair<std::string_view, HtmlText>::first);
     if (value == values.end())
       throw Error("page template", "nothing is known as '" + std::string(name) + "'");
-    result.append(text.substr(at, open - at)).append(value->second);
+    result.append(text.substr(at, open - at)).append(value->second.text());
     at = close + 2;
   }
   return result.append(text.substr(at));
 }
 
 std::string make_page(const std::string& title, const std::string& summary, const Value& data) {
-  auto values = page_assets();
-  const std::string safe_title = escape_html(title), safe_summary = escape_html(summary);
-  const std::string safe_data = script_json(data);
-  values.insert(values.end(),
-                {{"title", safe_title}, {"summary", safe_summary}, {"data", safe_data}});
+  std::vector<std::pair<std::string_view, HtmlText>> values{
+      {"title", html_text(title)}, {"summary", html_text(summary)}, {"data", script_json(data)}};
+  const auto assets = page_assets();
+  for (const auto& [name, text] : assets)
+    values.emplace_back(name, HtmlText::own(std::string(text)));
   const auto page =
-      std::ranges::find(values, "page.html", &std::pair<std::string_view, std::string_view>::first);
+      std::ranges::find(assets, "page.html", &std::pair<std::string_view, std::string_view>::first);
   return fill_template(page->second, values);
 }
 

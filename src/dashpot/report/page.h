@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "dashpot/base/escape.h"
 #include "dashpot/value.h"
 
 namespace dashpot {
@@ -18,6 +19,6 @@ std::string make_page(const std::string& title, const std::string& summary, cons
 /// Replaces every {{name}} of the template once; what is filled in is not looked at again.
 /// Throws Error on a name that is not among `values`.
 std::string fill_template(std::string_view text,
-                          const std::vector<std::pair<std::string_view, std::string_view>>& values);
+                          const std::vector<std::pair<std::string_view, HtmlText>>& values);
 
 }  // namespace dashpot

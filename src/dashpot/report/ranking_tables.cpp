@@ -8,12 +8,12 @@
 
 #include <fmt/format.h>
 
+#include "dashpot/base/escape.h"
 #include "dashpot/base/text.h"
 #include "dashpot/identify/judge/conformal.h"
 #include "dashpot/identify/judge/stress.h"
 #include "dashpot/numerics/constants.h"
 #include "dashpot/report/foreseen_section.h"
-#include "dashpot/report/safe_text.h"
 #include "dashpot/report/words.h"
 
 namespace dashpot {

@@ -3,12 +3,12 @@
 #include <algorithm>
 
 #include "dashpot/base/any_number.h"
+#include "dashpot/base/escape.h"
 #include "dashpot/damper/file_parts.h"
 #include "dashpot/damper/force_band.h"
 #include "dashpot/identify/judge/stress.h"
 #include "dashpot/identify/rank/paired_difference.h"
 #include "dashpot/report/foreseen_section.h"
-#include "dashpot/report/safe_text.h"
 #include "dashpot/report/words.h"
 
 namespace dashpot {

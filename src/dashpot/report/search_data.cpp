@@ -1,9 +1,9 @@
 // A search for programs: JSON and CSV.
 #include <cmath>
 
+#include "dashpot/base/escape.h"
 #include "dashpot/base/text.h"
 #include "dashpot/report/report_json.h"
-#include "dashpot/report/safe_text.h"
 #include "dashpot/report/search_report.h"
 #include "dashpot/report/words.h"
 

@@ -21,30 +21,30 @@ struct Points {
 };
 
 /// A logarithmic axis that holds these values with some room.
-std::string log_range(const std::vector<double>& values) {
+GnuplotText log_range(const std::vector<double>& values) {
   constexpr double kRoom = 1.25;
   const auto [low, high] = std::ranges::minmax(values);
-  return fmt::format("[{:.4g}:{:.4g}]", low / kRoom, high * kRoom);
+  return gnuplot("[{:.4g}:{:.4g}]", low / kRoom, high * kRoom);
 }
 
 /// "(2, 5, 10, 20)": round numbers over the values, for a logarithmic axis has labels at powers of
 /// ten only.
-std::string log_tics(const std::vector<double>& values) {
+GnuplotText log_tics(const std::vector<double>& values) {
   const auto [low, high] = std::ranges::minmax(values);
   const std::vector<double> digits = high < 6 * low
                                          ? std::vector<double>{1, 1.5, 2, 3, 4, 5, 6, 7, 8, 9}
                                          : std::vector<double>{1, 2, 5};
-  std::vector<std::string> tics;
+  std::vector<GnuplotText> tics;
   for (int power = static_cast<int>(std::floor(std::log10(low))); power <= std::log10(high);
        ++power)
     for (const double digit : digits)
-      tics.push_back(fmt::format("{:.4g}", digit * std::pow(10, power)));
-  return "(" + join(tics, ", ") + ")";
+      tics.push_back(gnuplot("{:.4g}", digit * std::pow(10, power)));
+  return "(" + listed(tics) + ")";
 }
 
 /// A curve of the plot; nothing without points.
-void add_curve(GnuplotFigure& figure, std::vector<std::string>& curves, const Points& points,
-               const std::string& style) {
+void add_curve(GnuplotFigure& figure, std::vector<GnuplotText>& curves, const Points& points,
+               const GnuplotText& style) {
   if (points.parameters.empty()) return;
   curves.push_back(figure.data({points.parameters, points.errors}) + " using 1:2 with " + style);
 }
@@ -71,7 +71,7 @@ std::vector<std::filesystem::path> write_search_figure(const SearchReport& searc
   figure.command("set xtics " + log_tics(all.parameters) + "\nset ytics " + log_tics(all.errors));
 
   // Dropped trials below, the choice on top.
-  std::vector<std::string> curves;
+  std::vector<GnuplotText> curves;
   add_curve(figure, curves, dropped,
             "points pt 6 ps 0.5 lc rgb '#8b949e' title 'dropped on the way'");
   add_curve(figure, curves, finalists, "points pt 7 ps 0.5 lc rgb '#0b5cad' title 'trials'");
@@ -79,7 +79,7 @@ std::vector<std::filesystem::path> write_search_figure(const SearchReport& searc
   add_curve(
       figure, curves, smallest,
       "points pt 6 ps 1.4 lw 1.5 lc rgb '#be481e' title 'smallest within one standard error'");
-  figure.command("plot " + join(curves, ", "));
+  figure.command("plot " + listed(curves));
   return figure.write(folder, "search");
 }
 

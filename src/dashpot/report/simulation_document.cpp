@@ -130,9 +130,7 @@ DocumentFigure work_figure(const Simulation& s) {
 }
 
 std::string verdict_of(const Simulation& s) {
-  if (s.run.trace.diverged_at)
-    return "It diverged at " + format_number(*s.run.trace.diverged_at) +
-           " s: nothing below can be used.";
+  if (std::string why = unusable(s.run); !why.empty()) return why;
   if (s.run.vehicle->set.plant.tyres.empty() || !s.against) {
     const double a = measure_named(s.run.measures, "weighted_acceleration");
     if (!std::isfinite(a)) return "";

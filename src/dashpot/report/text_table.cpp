@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "dashpot/report/safe_text.h"
+#include "dashpot/base/escape.h"
 #include "dashpot/report/wrap.h"
 
 namespace dashpot {

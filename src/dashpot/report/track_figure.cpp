@@ -15,10 +15,10 @@ namespace {
 constexpr double kShown = 2;  // s: more would hide how the force follows
 constexpr std::array kColours = {"#0b5cad", "#be481e", "#3ca05f", "#d69614"};
 
-std::string curve(const std::string& data, const std::string& columns, const std::string& style,
+GnuplotText curve(const GnuplotText& data, const GnuplotText& columns, const GnuplotText& style,
                   const std::string& title) {
   return data + " using " + columns + " with " + style +
-         (title.empty() ? " notitle" : " title " + gnuplot_quoted(title));
+         (title.empty() ? GnuplotText(" notitle") : " title " + gnuplot_string(title));
 }
 
 }  // namespace
@@ -34,28 +34,28 @@ std::vector<std::filesystem::path> write_track_figure(const std::vector<TrackedS
     return std::span(values).first(samples);
   };
 
-  const std::string wanted = figure.data(
+  const GnuplotText wanted = figure.data(
       {shown(first.time), shown(first.wanted), shown(first.least), shown(first.greatest)});
-  std::vector<std::string> forces{
+  std::vector<GnuplotText> forces{
       curve(wanted, "1:3:4", "filledcurves fs solid 0.2 noborder lc rgb '#8b949e'",
             "in reach of " + schemes.front().name),
       curve(wanted, "1:2", "lines lw 3 lc rgb '#8b949e'", "wanted")};
-  std::vector<std::string> currents;
+  std::vector<GnuplotText> currents;
   for (std::size_t k = std::min(schemes.size(), kColours.size()); k-- > 0;) {  // the first on top
     const auto& [name, report] = schemes[k];
-    const std::string data =
+    const GnuplotText data =
         figure.data({shown(report.time), shown(report.obtained), shown(report.current)});
-    const std::string style = fmt::format("lines lw 1.2 lc rgb '{}'", kColours[k]);
+    const GnuplotText style = "lines lw 1.2 lc rgb " + gnuplot_string(kColours[k]);
     forces.push_back(curve(data, "1:2", style,
                            fmt::format("{}, {} %", name, percent_text(report.all.rms_span))));
     currents.push_back(curve(data, "1:3", style, {}));
   }
   figure.command("set multiplot layout 2,1\nset xrange [] noextend\nset lmargin 10\nset rmargin 2");
-  figure.command("set ylabel 'Force (N)' offset 1,0\nplot " + join(forces, ", "));
+  figure.command("set ylabel 'Force (N)' offset 1,0\nplot " + listed(forces));
   figure.command(
-      "unset key\nset bmargin 3.2\nset ylabel '" +
-      std::string(drive_unit == DriveUnit::Volt ? "Coil voltage (V)" : "Coil current (A)") +
-      "'\nset xlabel 'Time (s)'\nplot " + join(currents, ", ") + "\nunset multiplot");
+      "unset key\nset bmargin 3.2\nset ylabel " +
+      gnuplot_string(drive_unit == DriveUnit::Volt ? "Coil voltage (V)" : "Coil current (A)") +
+      "\nset xlabel 'Time (s)'\nplot " + listed(currents) + "\nunset multiplot");
   return figure.write(folder, "track");
 }
 

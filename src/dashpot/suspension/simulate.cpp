@@ -12,6 +12,11 @@
 namespace dashpot {
 namespace {
 
+double output_step_of(const Setting& setting, const SimulateOptions& options) {
+  if (options.output_step > 0) return options.output_step;
+  return setting.controller ? options.limits.sample_time : 1e-3;
+}
+
 /// Instants k dt, without the sum of their rounding.
 class Clock {
  public:
@@ -78,8 +83,7 @@ class Simulation {
  private:
   static double output_step(const Setting& setting, const SimulateOptions& options) {
     require_fitting(setting, options);
-    if (options.output_step > 0) return options.output_step;
-    return setting.controller ? options.limits.sample_time : 1e-3;
+    return output_step_of(setting, options);
   }
 
   double next_jump() const { return jump_ < jumps_.size() ? jumps_[jump_] : INFINITY; }
@@ -179,6 +183,21 @@ class Simulation {
   std::size_t jump_ = 0;
 };
 
+/// Refuses before it begins what would take hours, or more memory than there is.
+void require_affordable(const Setting& setting, const SimulateOptions& options) {
+  constexpr double kMostSteps = 1e8, kMostSamples = 2e7;
+  const double samples = options.duration / output_step_of(setting, options);
+  if (!(samples <= kMostSamples))
+    throw Error("simulation",
+                "would keep " + format_number(samples, 2) + " samples, more than a memory holds",
+                "a duration of at most " +
+                    format_number(options.duration * (kMostSamples / samples)) + " s");
+  const double steps = options.step ? options.duration / *options.step : 0;
+  if (!(steps <= kMostSteps))
+    throw Error("simulation", "would take " + format_number(steps, 2) + " steps, hours of work",
+                "a step of at least " + format_number(options.duration / kMostSteps) + " s");
+}
+
 }  // namespace
 
 void require_fitting(const Setting& setting, const SimulateOptions& options) {
@@ -193,11 +212,14 @@ void require_fitting(const Setting& setting, const SimulateOptions& options) {
   if (!(options.duration > 0))
     throw Error("simulation", "a duration of " + format_number(options.duration) + " s", "above 0");
   if (options.step && !(*options.step > 0)) throw Error("simulation", "its step is not above 0");
+  require_affordable(setting, options);
   if (options.step && setting.controller && *options.step > options.limits.sample_time * (1 + 1e-9))
     throw Error("simulation", "its step is longer than the controller's sample time",
                 "at most " + format_number(options.limits.sample_time) + " s");
-  if (!(options.relative_tolerance > 0 && options.absolute_tolerance > 0))
-    throw Error("simulation", "a tolerance is not above 0");
+  constexpr double kLeastTolerance = 1e-14;  // rounding alone is near it
+  if (!(options.relative_tolerance >= kLeastTolerance && options.absolute_tolerance > 0))
+    throw Error("simulation", "a tolerance is not above 0",
+                "a relative one of at least " + format_number(kLeastTolerance));
 }
 
 Trace simulate(const Setting& setting, const SimulateOptions& options) {

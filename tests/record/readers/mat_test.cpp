@@ -2,6 +2,8 @@
 
 #include <matio.h>
 
+#include <hdf5.h>
+
 #include "dashpot/base/file.h"
 #include "dashpot/base/random.h"
 #include "dashpot/error.h"
@@ -137,4 +139,80 @@ TEST_CASE("a file of version 7.3 that was cut off says so at every length") {
     CHECK(message_of([&] {
             read_mat(folder.write("cut.mat", whole.substr(0, left)));
           }).find("cut off") != std::string::npos);
+}
+
+namespace {
+
+/// A file of version 7.3 whose only variable is made by `make` in an open file of HDF5.
+template <class Make>
+std::filesystem::path mat73(const TemporaryFolder& folder, Make make) {
+  const auto path = folder.path() / "made.mat";
+  std::filesystem::remove(path);
+  Mat_Close(Mat_CreateVer(path.c_str(), nullptr, MAT_FT_MAT73));
+  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+  REQUIRE(file >= 0);
+  make(file);
+  H5Fclose(file);
+  return path;
+}
+
+/// A column of so many numbers, laid out as `creation` says.
+void add_dataset(hid_t file, hsize_t count, hid_t creation) {
+  const hid_t space = H5Screate_simple(1, &count, nullptr);
+  const hid_t set =
+      H5Dcreate2(file, "x", H5T_IEEE_F64LE, space, H5P_DEFAULT, creation, H5P_DEFAULT);
+  REQUIRE(set >= 0);
+  H5Dclose(set);
+  H5Sclose(space);
+}
+
+}  // namespace
+
+TEST_CASE("version 7.3: datasets far larger than their file are refused") {
+  const TemporaryFolder folder;
+  const auto path = mat73(folder, [](hid_t file) {
+    const hid_t creation = H5Pcreate(H5P_DATASET_CREATE);
+    const hsize_t chunk = 1000;
+    H5Pset_chunk(creation, 1, &chunk);
+    add_dataset(file, 400'000'000, creation);
+    H5Pclose(creation);
+  });
+  CHECK(std::filesystem::file_size(path) < 20000);
+  CHECK(contains(message_of([&] { read_mat(path); }),
+                 "unpacks to far more than a recording of its size"));
+}
+
+TEST_CASE("version 7.3: numbers in other files are not followed") {
+  const TemporaryFolder folder;
+  const auto secret = folder.write("secret", std::string(80, 's'));
+  const auto stored = mat73(folder, [&](hid_t file) {
+    const hid_t creation = H5Pcreate(H5P_DATASET_CREATE);
+    H5Pset_external(creation, secret.c_str(), 0, 80);
+    add_dataset(file, 10, creation);
+    H5Pclose(creation);
+  });
+  CHECK(contains(message_of([&] { read_mat(stored); }), "takes numbers from other files"));
+  const auto linked = mat73(folder, [](hid_t file) {
+    REQUIRE(H5Lcreate_external("other.mat", "/x", file, "x", H5P_DEFAULT, H5P_DEFAULT) >= 0);
+  });
+  CHECK(contains(message_of([&] { read_mat(linked); }), "takes numbers from other files"));
+}
+
+TEST_CASE("version 5: packed variables count together") {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "many.mat";
+  mat_t* file = Mat_CreateVer(path.c_str(), nullptr, MAT_FT_MAT5);
+  REQUIRE(file);
+  std::vector<double> zeros(2'000'000);
+  std::size_t dims[] = {zeros.size(), 1};
+  for (int k = 0; k < 8; ++k) {
+    const std::string name = "x" + std::to_string(k);
+    matvar_t* variable = Mat_VarCreate(name.c_str(), MAT_C_DOUBLE, MAT_T_DOUBLE, 2, dims,
+                                       zeros.data(), MAT_F_DONT_COPY_DATA);
+    Mat_VarWrite(file, variable, MAT_COMPRESSION_ZLIB);
+    Mat_VarFree(variable);
+  }
+  Mat_Close(file);
+  CHECK(contains(message_of([&] { read_mat(path); }),
+                 "unpacks to far more than a recording of its size"));
 }

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "dashpot/base/data_folder.h"
+#include "dashpot/base/escape.h"
 #include "dashpot/base/file.h"
 #include "dashpot/base/read_quantity.h"
 #include "dashpot/base/text.h"
@@ -201,9 +202,7 @@ DamperDescription named_description(const std::string& name) {
 std::vector<std::string> description_names() { return data_names("dampers", ".yaml"); }
 
 std::string format_description(const DamperDescription& d) {
-  // YAML reads texts that are quoted as in JSON.
-  std::string text = "name: " + format_json(Value(d.name), false) +
-                     "\nfluid: " + std::string(d.fluid->name) +
+  std::string text = "name: " + yaml_string(d.name) + "\nfluid: " + std::string(d.fluid->name) +
                      "\nyield: " + std::string(word_of(kYieldLaws, d.yield_law)) +
                      "\ncircuit: " + std::string(word_of(kCircuitLaws, d.circuit_law)) +
                      "\nflow: " + std::string(word_of(kFlowLaws, d.flow_law)) + '\n';

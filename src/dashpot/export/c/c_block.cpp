@@ -1,5 +1,6 @@
 #include "dashpot/export/c/c_block.h"
 
+#include "dashpot/base/escape.h"
 #include "dashpot/export/c/c_model.h"
 #include "dashpot/export/c/c_text.h"
 #include "dashpot/export/c_subset/c_rewrite.h"
@@ -65,8 +66,10 @@ std::string rows_of(const CBlock& block) {
 
 std::string finished(const CBlock& block, const std::string& text, const std::string& name,
                      const std::string& command) {
-  return filled(with_prefix(in_precision(filled(text, {{"prefix", name}}), block.precision), name),
-                {{"command", in_comment(command)}});
+  return filled(
+      with_prefix(in_precision(filled(text, {{"prefix", CText::own(name)}}), block.precision),
+                  name),
+      {{"command", c_comment(command)}});
 }
 
 }  // namespace
@@ -95,16 +98,16 @@ std::vector<ExportedFile> c_block_sources(const CBlock& block, const std::string
 
 std::vector<ExportedFile> write_c_block(const CBlock& block, const std::string& command) {
   std::vector<ExportedFile> files = c_block_sources(block, block.name, command);
-  const std::string test =
-      filled(kBlockTest, {{"version", block.version},
-                          {"steps", std::to_string(block.samples.size())},
-                          {"inputs", std::to_string(block.samples.front().inputs.size())},
-                          {"commands", std::to_string(block.samples.front().commands.size())},
-                          {"reads", c_block_reads(block)},
-                          {"step", block.step},
-                          {"range", c_number(block.range)},
-                          {"tolerance", c_number(block.tolerance)},
-                          {"rows", rows_of(block)}});
+  const std::string test = filled(
+      kBlockTest, {{"version", c_comment(block.version)},
+                   {"steps", CText::own(std::to_string(block.samples.size()))},
+                   {"inputs", CText::own(std::to_string(block.samples.front().inputs.size()))},
+                   {"commands", CText::own(std::to_string(block.samples.front().commands.size()))},
+                   {"reads", CText::own(c_block_reads(block))},
+                   {"step", CText::own(block.step)},
+                   {"range", CText::own(c_number(block.range))},
+                   {"tolerance", CText::own(c_number(block.tolerance))},
+                   {"rows", CText::own(rows_of(block))}});
   files.push_back({block.name + "_test.c", finished(block, test, block.name, command)});
   return files;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "dashpot/base/escape.h"
 #include "dashpot/damper/inverse/inverse.h"
 #include "dashpot/error.h"
 #include "dashpot/export/c/c_inverse.h"
@@ -105,36 +106,38 @@ std::string command_code(const MountedDamper& damper, const CControlLaw& law, co
   std::string texts, otherwise;
   if (!only_current && !damper.inverse) {
     texts = "#include \"straight_current.h\"\n";
-    otherwise = filled(kStraight, {{"velocity", law.gives_force ? "s->deflection_velocity" : "0"}});
+    otherwise = filled(
+        kStraight, {{"velocity", CText::own(law.gives_force ? "s->deflection_velocity" : "0")}});
   } else if (!only_current) {
     texts = kInverseTypes + c_inverse(*damper.inverse).code + "#include \"demanded_force.h\"\n";
 
     // The loop corrects the wanted force before the inverse, and learns of the limits behind it.
     const ForceLoop& loop = damper.loop;
     if (loops)
-      texts += filled(
-          kLoop,
-          {{"gains", c_numbers(std::vector{loop.proportional, loop.integral, loop.derivative})}});
+      texts += filled(kLoop, {{"gains", CText::own(c_numbers(std::vector{
+                                            loop.proportional, loop.integral, loop.derivative}))}});
     otherwise = filled(
         kInverse,
-        {{"ratio", c_number(damper.motion_ratio)},
-         {"loop", loops ? "    wanted = force_loop_step(&kLoop, wanted, s->force, "
-                          "DAMPER_SAMPLE_TIME, &state[" +
-                              std::to_string(at.loop) + "]);\n"
-                        : ""},
-         {"limit", loops ? "    force_loop_limit(command, " + c_number(damper.driver.current_min) +
-                               ", " + c_number(damper.driver.current_max) + ", &state[" +
-                               std::to_string(at.loop) + "]);\n"
-                         : ""},
-         {"measured", c_inverse(*damper.inverse).needs_force ? "s->force / ratio" : "0"},
-         {"inverse", std::to_string(at.inverse)}});
+        {{"ratio", CText::own(c_number(damper.motion_ratio))},
+         {"loop", CText::own(loops ? "    wanted = force_loop_step(&kLoop, wanted, s->force, "
+                                     "DAMPER_SAMPLE_TIME, &state[" +
+                                         std::to_string(at.loop) + "]);\n"
+                                   : "")},
+         {"limit", CText::own(loops ? "    force_loop_limit(command, " +
+                                          c_number(damper.driver.current_min) + ", " +
+                                          c_number(damper.driver.current_max) + ", &state[" +
+                                          std::to_string(at.loop) + "]);\n"
+                                    : "")},
+         {"measured",
+          CText::own(c_inverse(*damper.inverse).needs_force ? "s->force / ratio" : "0")},
+         {"inverse", CText::own(std::to_string(at.inverse))}});
   }
 
   // A parameter that the function does without is named, as compilers ask for it.
   const bool sees = has_c(otherwise, "s->"), keeps = has_c(otherwise, "state");
-  return texts + filled(kCommand, {{"unused", std::string(sees ? "" : "  (void)s;\n") +
-                                                  (keeps ? "" : "  (void)state;\n")},
-                                   {"otherwise", otherwise}});
+  return texts + filled(kCommand, {{"unused", CText::own(std::string(sees ? "" : "  (void)s;\n") +
+                                                         (keeps ? "" : "  (void)state;\n"))},
+                                   {"otherwise", CText::own(otherwise)}});
 }
 
 std::string demand_function(const CControlLaw& law) {
@@ -251,9 +254,10 @@ CControlPath c_control_path(const Vehicle& vehicle) {
   at.end = at.inverse + (inverts ? damper.inverse->state_size() : 0);
 
   const ControlLimits& limits = vehicle.limits;
-  const std::string types =
-      filled(kTypes, {{"limits", c_numbers(std::vector{limits.damping_min, limits.damping_max,
-                                                       limits.current_min, limits.current_max})}});
+  const std::string types = filled(
+      kTypes,
+      {{"limits", CText::own(c_numbers(std::vector{limits.damping_min, limits.damping_max,
+                                                   limits.current_min, limits.current_max}))}});
   return {types + (in_car ? filters_function(vehicle, used, at) : kMeasured) + law.code +
               command_code(damper, law, at) + rest_function(damper, at, inverts) +
               demand_function(law),

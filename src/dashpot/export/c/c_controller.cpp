@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "dashpot/base/escape.h"
 #include "dashpot/base/text.h"
 #include "dashpot/damper/inverse/inverse.h"
 #include "dashpot/error.h"
@@ -77,7 +78,7 @@ std::string sensors_text(const Vehicle& vehicle, const CControlPath& path) {
 std::string inverse_text(const MountedDamper& damper) {
   std::string text;
   if (damper.inverse)
-    text = "\nA wanted force becomes a current by the inverse '" + damper.inverse->name() + "'";
+    text = "A wanted force becomes a current by the inverse '" + damper.inverse->name() + "'";
   const ForceLoop& loop = damper.loop;
   if (damper.inverse && loop.is_closed())
     text += ", corrected by " + format_number(loop.proportional) + ", " +
@@ -101,34 +102,35 @@ double tolerance_of(const Vehicle& vehicle, const CControlPath& path, CPrecision
   return path.has_slopes ? std::max(1e-5, 2e-7 / vehicle.limits.sample_time) : 1e-5;
 }
 
-std::vector<std::pair<std::string, std::string>> facts(const Vehicle& vehicle,
-                                                       const CControlPath& path,
-                                                       const ExportOptions& options) {
+std::vector<std::pair<std::string, CText>> facts(const Vehicle& vehicle, const CControlPath& path,
+                                                 const ExportOptions& options) {
   const ControlLimits& limits = vehicle.limits;
   const std::size_t struts = vehicle.dampers.size(), size = struts * path.strut_state;
   std::vector<std::string> dampers = vehicle.damper_names;
   dampers.erase(std::unique(dampers.begin(), dampers.end()), dampers.end());
   const bool states = path.plant_states > 0;
+  const std::string inverse = inverse_text(vehicle.dampers.front());
 
-  return {
-      {"title", vehicle.controller_name},
-      {"plant", vehicle.set.name},
-      {"dampers", join(dampers, "; ")},
-      {"damping_min", format_number(limits.damping_min)},
-      {"damping_max", format_number(limits.damping_max)},
-      {"low", format_number(limits.current_min)},
-      {"high", format_number(limits.current_max)},
-      {"unit", vehicle.drive_unit == DriveUnit::None ? "" : " " + to_string(vehicle.drive_unit)},
-      {"inverse", inverse_text(vehicle.dampers.front())},
-      {"sensors", sensors_text(vehicle, path)},
-      {"deviations", std::string(c_deviations())},
-      {"version", options.version},
-      {"struts", std::to_string(struts)},
-      {"plant_states",
-       states ? "#define DAMPER_PLANT_STATES " + std::to_string(path.plant_states) + "\n"
-              : std::string()},
-      {"size", std::to_string(size)},
-      {"sample_time", c_number(limits.sample_time)}};
+  return {{"title", c_comment(vehicle.controller_name)},
+          {"plant", c_comment(vehicle.set.name)},
+          {"dampers", c_comment(join(dampers, "; "))},
+          {"damping_min", CText::own(format_number(limits.damping_min))},
+          {"damping_max", CText::own(format_number(limits.damping_max))},
+          {"low", CText::own(format_number(limits.current_min))},
+          {"high", CText::own(format_number(limits.current_max))},
+          {"unit",
+           CText::own(vehicle.drive_unit == DriveUnit::None ? ""
+                                                            : " " + to_string(vehicle.drive_unit))},
+          {"inverse", inverse.empty() ? CText() : "\n" + c_comment(inverse)},
+          {"sensors", CText::own(sensors_text(vehicle, path))},
+          {"deviations", CText::own(std::string(c_deviations()))},
+          {"version", c_comment(options.version)},
+          {"struts", CText::own(std::to_string(struts))},
+          {"plant_states", CText::own(states ? "#define DAMPER_PLANT_STATES " +
+                                                   std::to_string(path.plant_states) + "\n"
+                                             : std::string())},
+          {"size", CText::own(std::to_string(size))},
+          {"sample_time", CText::own(c_number(limits.sample_time))}};
 }
 
 /// A part of a port for each strut, with this unit.
@@ -173,9 +175,9 @@ CBlock c_controller_block(const Vehicle& vehicle, const ExportOptions& options) 
   const CControlPath path = c_control_path(vehicle);
   auto values = facts(vehicle, path, options);
 
-  // The facts that the header states, and its struct of signals.
+  // The facts that the header states, each escaped where it came in, and its struct of signals.
   const std::vector<std::string> about = split(filled(kControllerAbout, values), '\n');
-  values.emplace_back("about", join(about, "\n * "));
+  values.emplace_back("about", CText::own(join(about, "\n * ")));
   const std::string interface =
       with_lines(with_lines(std::string(c_text("control_api.h")), "signals", fields_of(path)),
                  "plant_state", path.plant_states > 0 ? kPlantState : "");

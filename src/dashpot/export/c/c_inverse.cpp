@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dashpot/base/escape.h"
 #include "dashpot/base/text.h"
 #include "dashpot/damper/inverse/switching.h"
 #include "dashpot/export/c/c_model.h"
@@ -125,17 +126,18 @@ CBlock c_inverse_block(const ExportedInverse& inverse, const ExportOptions& opti
   const std::size_t size = std::max<std::size_t>(1, inverse.model.state_size());
 
   // The facts that the header states.
-  const std::string about = filled(kInverseAbout, {{"unit", unit},
-                                                   {"low", format_number(limits.current_min)},
-                                                   {"high", format_number(limits.current_max)}});
-  const std::vector<std::pair<std::string, std::string>> values{
-      {"title", inverse.title},
-      {"about", about},
-      {"version", options.version},
-      {"size", std::to_string(size)},
-      {"deviations", std::string(c_deviations())},
-      {"unused", inverse.model.state_size() == 0 ? ": one that is not used" : ""},
-      {"sample_time", c_number(limits.sample_time)}};
+  const std::string about =
+      filled(kInverseAbout, {{"unit", CText::own(unit)},
+                             {"low", CText::own(format_number(limits.current_min))},
+                             {"high", CText::own(format_number(limits.current_max))}});
+  const std::vector<std::pair<std::string, CText>> values{
+      {"title", c_comment(inverse.title)},
+      {"about", c_comment(about)},
+      {"version", c_comment(options.version)},
+      {"size", CText::own(std::to_string(size))},
+      {"deviations", CText::own(std::string(c_deviations()))},
+      {"unused", CText::own(inverse.model.state_size() == 0 ? ": one that is not used" : "")},
+      {"sample_time", CText::own(c_number(limits.sample_time))}};
 
   // The texts, the interface port by port, and the run that checks them.
   return {

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dashpot/base/escape.h"
 #include "dashpot/damper/inverse/history_network.h"
 #include "dashpot/damper/inverse/numeric.h"
 #include "dashpot/damper/inverse/polynomial.h"
@@ -52,7 +53,8 @@ static inline double inverse_wanted(const InverseModel* m, const InverseInput* i
 }
 
 )",
-                 {{"name", model.name()}, {"force_max", c_number(model.force_max())}}),
+                 {{"name", CText::own(model.name())},
+                  {"force_max", CText::own(c_number(model.force_max()))}}),
           0, has_c(c_text("inverse_" + model.name() + ".h"), "missing_force")};
 }
 
@@ -72,11 +74,11 @@ std::string observer_code(const Observer& observer) {
 #include "observed.h"
 #include "inverse_observer.h"
 )",
-                {{"stem", stem},
-                 {"states", std::to_string(observer.model().state_size())},
-                 {"step", c_number(observer.limits().sample_time)},
-                 {"lags", observer.limits().lag_rate > 0 ? "1" : "0"},
-                 {"horizon", std::to_string(observer.steps())}});
+                {{"stem", CText::own(stem)},
+                 {"states", CText::own(std::to_string(observer.model().state_size()))},
+                 {"step", CText::own(c_number(observer.limits().sample_time))},
+                 {"lags", CText::own(observer.limits().lag_rate > 0 ? "1" : "0")},
+                 {"horizon", CText::own(std::to_string(observer.steps()))}});
 }
 
 CInverse polynomial_code(const PolynomialInverse& model) {
@@ -108,10 +110,10 @@ static inline double inverse_wanted(const InverseModel* m, const InverseInput* i
 }
 
 )",
-                     {{"degree", std::to_string(model.degree())},
-                      {"least", c_number(model.limits().current_min)},
-                      {"most", c_number(model.limits().current_max)},
-                      {"negligible", c_number(model.negligible())}}),
+                     {{"degree", CText::own(std::to_string(model.degree()))},
+                      {"least", CText::own(c_number(model.limits().current_min))},
+                      {"most", CText::own(c_number(model.limits().current_max))},
+                      {"negligible", CText::own(c_number(model.negligible()))}}),
           model.state_size()};
 }
 
@@ -146,11 +148,11 @@ static inline double inverse_wanted(const InverseModel* m, const InverseInput* i
 }
 
 )",
-                     {{"least", c_number(model.limits().current_min)},
-                      {"most", c_number(model.limits().current_max)},
-                      {"negligible", c_number(model.negligible())},
-                      {"own", std::to_string(model.observer().state_size())},
-                      {"trend", std::to_string(model.observer().state_size() + 1)}}),
+                     {{"least", CText::own(c_number(model.limits().current_min))},
+                      {"most", CText::own(c_number(model.limits().current_max))},
+                      {"negligible", CText::own(c_number(model.negligible()))},
+                      {"own", CText::own(std::to_string(model.observer().state_size()))},
+                      {"trend", CText::own(std::to_string(model.observer().state_size() + 1))}}),
           model.state_size()};
 }
 

@@ -85,8 +85,4 @@ std::string c_members(const std::string& part, const std::string& array, std::si
 /// The functions of a model without a state.
 std::string c_stateless(const std::string& stem);
 
-/// `text` with each @name@ replaced.
-std::string filled(std::string text,
-                   const std::vector<std::pair<std::string, std::string>>& values);
-
 }  // namespace dashpot

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "dashpot/base/escape.h"
 #include "dashpot/damper/nets/gated_network.h"
 #include "dashpot/damper/nets/hysteresis_bank.h"
 #include "dashpot/damper/nets/mlp.h"
@@ -140,10 +141,10 @@ static double model_force(const DamperInput* input, const double* state) {
 }
 
 )",
-      {{"part", part},
-       {"array", array},
-       {"count", std::to_string(count)},
-       {"offset", c_number(offset)}});
+      {{"part", CText::own(part)},
+       {"array", CText::own(array)},
+       {"count", CText::own(std::to_string(count))},
+       {"offset", CText::own(c_number(offset))}});
 }
 
 std::string c_stateless(const std::string& stem) {
@@ -161,17 +162,7 @@ static void @stem@_advance(const DamperInput* from, const DamperInput* to, doubl
 }
 
 )",
-                {{"stem", stem}});
-}
-
-std::string filled(std::string text,
-                   const std::vector<std::pair<std::string, std::string>>& values) {
-  for (const auto& [name, value] : values) {
-    const std::string place = '@' + name + '@';
-    for (std::size_t at = 0; (at = text.find(place, at)) != std::string::npos; at += value.size())
-      text.replace(at, place.size(), value);
-  }
-  return text;
+                {{"stem", CText::own(stem)}});
 }
 
 }  // namespace dashpot

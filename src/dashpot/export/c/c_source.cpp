@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "dashpot/base/escape.h"
 #include "dashpot/base/text.h"
 #include "dashpot/damper/kinds/law/law_model.h"
 #include "dashpot/damper/registry.h"
@@ -120,15 +121,16 @@ std::string rows_of(const ExportedModel& model, double sample_time) {
 /// The places that only the C files have, besides common_facts.
 Facts facts_of(const ExportedModel& model, const ExportOptions& options, const CSource& source) {
   Facts facts = common_facts(model, options, source);
-  facts.insert(facts.end(),
-               {{"title", title_of(model.model)},
-                {"unit", unit_of(model.drive_unit)},
-                {"prefix", source.prefix},
-                {"deviations", std::string(c_deviations())},
-                {"size", std::to_string(std::max<std::size_t>(1, source.state_size))},
-                {"unused", source.state_size == 0 ? ": one that is not used" : ""},
-                {"steps", std::to_string(kDamperTestSteps)},
-                {"tolerance", options.c_precision() == CPrecision::Single ? "1e-5" : "1e-12"}});
+  facts.insert(
+      facts.end(),
+      {{"title", c_comment(title_of(model.model))},
+       {"unit", CText::own(unit_of(model.drive_unit))},
+       {"prefix", CText::own(source.prefix)},
+       {"deviations", CText::own(std::string(c_deviations()))},
+       {"size", CText::own(std::to_string(std::max<std::size_t>(1, source.state_size)))},
+       {"unused", CText::own(source.state_size == 0 ? ": one that is not used" : "")},
+       {"steps", CText::own(std::to_string(kDamperTestSteps))},
+       {"tolerance", CText::own(options.c_precision() == CPrecision::Single ? "1e-5" : "1e-12")}});
   return facts;
 }
 
@@ -156,11 +158,14 @@ std::string title_of(const DamperModel& model) {
 Facts common_facts(const ExportedModel& model, const ExportOptions& options,
                    const CSource& source) {
   const Domain& d = model.domain;
-  return {
-      {"x_min", format_number(d.displacement_min)},  {"x_max", format_number(d.displacement_max)},
-      {"v_min", format_number(d.velocity_min)},      {"v_max", format_number(d.velocity_max)},
-      {"i_min", format_number(d.current_min)},       {"i_max", format_number(d.current_max)},
-      {"sample_time", c_number(source.sample_time)}, {"version", options.version}};
+  return {{"x_min", CText::own(format_number(d.displacement_min))},
+          {"x_max", CText::own(format_number(d.displacement_max))},
+          {"v_min", CText::own(format_number(d.velocity_min))},
+          {"v_max", CText::own(format_number(d.velocity_max))},
+          {"i_min", CText::own(format_number(d.current_min))},
+          {"i_max", CText::own(format_number(d.current_max))},
+          {"sample_time", CText::own(c_number(source.sample_time))},
+          {"version", c_comment(options.version)}};
 }
 
 CSource c_source(const ExportedModel& model, const ExportOptions& options) {
@@ -193,7 +198,7 @@ CSource c_source(const ExportedModel& model, const ExportOptions& options) {
   source.header = filled(
       finished(filled(kDamperHeader, facts) + std::string(c_text("damper_api.h")) +
                (code.has_derivatives ? kDerivatives : "") + (law ? kDefaults : "") + kCHeaderEnd),
-      {{"what", in_comment(model.origin)}, {"command", in_comment(options.command)}});
+      {{"what", c_comment(model.origin)}, {"command", c_comment(options.command)}});
 
   // The source: the model's own functions, then those of the interface, which call them.
   const std::string own = with_texts(code.code);
@@ -203,7 +208,7 @@ CSource c_source(const ExportedModel& model, const ExportOptions& options) {
                            (code.has_derivatives ? kDerivativesFunction : ""));
 
   // The test: a run with the forces that the library gives.
-  facts.emplace_back("rows", rows_of(model, source.sample_time));
+  facts.emplace_back("rows", CText::own(rows_of(model, source.sample_time)));
   source.test = finished(filled(kDamperTest, facts));
   return source;
 }

@@ -1,4 +1,5 @@
 #pragma once
+#include "dashpot/base/escape.h"
 #include "dashpot/export.h"
 #include "dashpot/export/c/c_model.h"
 
@@ -33,7 +34,7 @@ struct CSource {
 };
 
 /// Pairs of a place's name and what stands there, for filled().
-using Facts = std::vector<std::pair<std::string, std::string>>;
+using Facts = std::vector<std::pair<std::string, CText>>;
 /// The facts that every text made of a model holds: x_min, x_max, v_min, v_max, i_min, i_max (the
 /// domain), sample_time (s) and version.
 Facts common_facts(const ExportedModel& model, const ExportOptions& options, const CSource& source);

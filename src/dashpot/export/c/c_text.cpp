@@ -81,12 +81,6 @@ std::string_view c_deviations() {
  * 17.8 (in laws: early returns, single statements without braces, arguments that change).)";
 }
 
-std::string in_comment(std::string text) {
-  for (std::size_t at = 0; (at = text.find("*/", at)) != std::string::npos;)
-    text.insert(at + 1, " ");
-  return text;
-}
-
 std::string c_number(double value) {
   const std::string text = format_exact(value);
   return text.find_first_of(".e") == std::string::npos ? text + ".0" : text;

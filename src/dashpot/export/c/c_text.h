@@ -21,8 +21,6 @@ std::string with_texts(std::string_view code);
 
 /// The rules of MISRA C:2012 from which exported C deviates, for a comment of its header.
 std::string_view c_deviations();
-/// Text that can stand in a comment of C without ending it.
-std::string in_comment(std::string text);
 
 /// A number as C writes it in double precision: 1.0, 0.25, 1e-07.
 std::string c_number(double value);

@@ -1,9 +1,6 @@
 #include "dashpot/export/c/c_wrappers.h"
 
-#include <algorithm>
-#include <array>
-
-#include "dashpot/base/text.h"
+#include "dashpot/base/escape.h"
 #include "dashpot/export/c/c_model.h"
 #include "dashpot/export/c/c_source.h"
 #include "dashpot/export/c/c_text.h"
@@ -90,37 +87,17 @@ ar rcs Resources/Library/linux64/lib@name@.a @name@.o</pre>
 end @name@;
 )";
 
-struct Escape {
-  char character;
-  std::string_view markup;
-};
-constexpr std::array<Escape, 5> kEscapes{
-    {{'&', "&amp;"}, {'<', "&lt;"}, {'>', "&gt;"}, {'"', "&quot;"}, {'\\', "&#92;"}}};
-
-/// Text for Modelica's documentation: HTML within a string.
-std::string in_markup(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    const auto escape = std::ranges::find(kEscapes, c, &Escape::character);
-    out += escape == kEscapes.end() ? std::string(1, c) : std::string(escape->markup);
-  }
-  return out;
-}
-
-/// Text for a comment that ends with its line.
-std::string in_line(std::string text) {
-  std::ranges::replace(text, '\n', ' ');
-  return text;
-}
-
-Facts package_facts(const ExportedModel& model, const ExportOptions& options,
-                    const CSource& source) {
-  Facts facts = common_facts(model, options, source);
-  facts.insert(facts.end(), {{"name", source.prefix},
-                             {"title", in_markup(title_of(model.model))},
-                             {"unit", unit_of(model.drive_unit)},
-                             {"origin", in_line(model.origin)},
-                             {"command", in_markup(options.command)}});
+std::vector<std::pair<std::string, ModelicaText>> package_facts(const ExportedModel& model,
+                                                                const ExportOptions& options,
+                                                                const CSource& source) {
+  std::vector<std::pair<std::string, ModelicaText>> facts{
+      {"name", ModelicaText::own(source.prefix)},
+      {"title", modelica_markup(title_of(model.model))},
+      {"unit", ModelicaText::own(unit_of(model.drive_unit))},
+      {"origin", modelica_comment(model.origin)},
+      {"command", modelica_markup(options.command)}};
+  for (const auto& [name, number] : common_facts(model, options, source))
+    facts.emplace_back(name, ModelicaText::own(number.text()));
   return facts;
 }
 

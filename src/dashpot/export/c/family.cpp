@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "dashpot/base/escape.h"
 #include "dashpot/damper/kinds/family/family_model.h"
 #include "dashpot/damper/physics/plate_flow.h"
 #include "dashpot/error.h"
@@ -63,7 +64,7 @@ std::string network_code(const FamilyModel& model, const FamilyNetwork& network)
   // Inputs beside the motion are numbers of this member.
   for (std::size_t k = 0; k < network.inputs().size(); ++k) {
     const std::string& name = network.inputs()[k];
-    std::string value = "input->" + name;
+    std::string value = "input->" + c_name(name);
     if (name == kYieldStress)
       value = yield_stress();
     else if (name != "displacement" && name != "velocity" && name != "current")
@@ -131,10 +132,10 @@ std::string gates_code(const FamilyModel& model, const FamilyGates& gates) {
   return c_banks({&gates.bank}) + "#define FAMILY_TERMS " + std::to_string(gates.term_count()) +
          "\n\n/* Per term: powers 0 to 3 of the field's share. */\n" +
          c_table("kWeights", by_power_of_field(gates, model.member())) + "\n" +
-         filled(kGates, {{"half_current", c_number(gates.half_current)},
-                         {"mean", c_number(gates.mean[0])},
-                         {"scale", c_number(gates.scale[0])},
-                         {"soft", soft}});
+         filled(kGates, {{"half_current", CText::own(c_number(gates.half_current))},
+                         {"mean", CText::own(c_number(gates.mean[0]))},
+                         {"scale", CText::own(c_number(gates.scale[0]))},
+                         {"soft", CText::own(soft)}});
 }
 
 }  // namespace

@@ -81,7 +81,7 @@ std::string force_function(const FuzzyModel& model, const std::vector<Lag>& lags
       "  double raw[SUGENO_MOST_INPUTS];\n";
   const std::vector<std::string>& names = model.inputs().names();
   for (std::size_t k = 0; k < names.size(); ++k) {
-    std::string value = "input->" + names[k];
+    std::string value = "input->" + c_name(names[k]);
     if (names[k] == "velocity_change") value = "input->velocity - state[0]";
     if (names[k] == "current" && !lags.empty() && lags.back().input == "current")
       value = "state[" + lags.back().place + "]";

@@ -1,3 +1,4 @@
+#include "dashpot/base/escape.h"
 #include "dashpot/damper/kinds/hybrid/hybrid_model.h"
 #include "dashpot/export/c/c_model.h"
 #include "dashpot/export/c/c_text.h"
@@ -63,11 +64,11 @@ static double model_force(const DamperInput* input, const double* state) {
 }
 
 )",
-                        {{"law_states", std::to_string(source.law.state_size())},
-                         {"read", read_signals(source)},
-                         {"motions", std::to_string(source.motions())},
-                         {"signals", std::to_string(model.network().signals.size())},
-                         {"offset", c_number(model.offset())}})};
+                        {{"law_states", CText::own(std::to_string(source.law.state_size()))},
+                         {"read", CText::own(read_signals(source))},
+                         {"motions", CText::own(std::to_string(source.motions()))},
+                         {"signals", CText::own(std::to_string(model.network().signals.size()))},
+                         {"offset", CText::own(c_number(model.offset()))}})};
 }
 
 }  // namespace dashpot

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "dashpot/base/escape.h"
 #include "dashpot/damper/kinds/law/law_model.h"
 #include "dashpot/damper/law_side.h"
 #include "dashpot/error.h"
@@ -56,7 +57,7 @@ std::string constants(const LawModel& model, bool settable) {
         "  return (const LawModel*)(const void*)(state + @size@);\n}\n\n"
         "static void @stem@_defaults(double* state) { memcpy(state + @size@, &kLaw, sizeof kLaw); "
         "}\n\n";
-  return filled(code, {{"size", std::to_string(model.state_size())}});
+  return filled(code, {{"size", CText::own(std::to_string(model.state_size()))}});
 }
 
 std::string parameter_function(const LawModel& model, bool settable) {
@@ -147,11 +148,11 @@ std::string integration(const Law& law) {
     code +=
         "static inline double law_travel(const LawParameters* p, double z, double s) {\n  return " +
         name + "_travel(p, z, s);\n}\n\n" + "#include \"law_travel.h\"\n";
-  code += filled(kSteps, {{"states", states},
-                          {"law", name},
-                          {"has_step", law.step ? "1" : "0"},
-                          {"exact", law.exact_step ? "1" : "0"},
-                          {"own_step", own_step(law)}});
+  code += filled(kSteps, {{"states", CText::own(states)},
+                          {"law", CText::own(name)},
+                          {"has_step", CText::own(law.step ? "1" : "0")},
+                          {"exact", CText::own(law.exact_step ? "1" : "0")},
+                          {"own_step", CText::own(own_step(law))}});
   return code + "#include \"law_path.h\"\n#include \"law_integrate.h\"\n";
 }
 
@@ -285,10 +286,10 @@ CModel c_law(const LawModel& model, const std::string& stem, bool settable) {
   const bool has_derivatives = model.state_size() > 0 && stem == "model";
   code = filled(code + rest_function(model) + advance_function(model) + force_function(model) +
                     (has_derivatives ? derivative_function(model) : ""),
-                {{"law_model", settable ? "law_behind(state)" : "&kLaw"},
-                 {"stem", stem},
-                 {"law", name},
-                 {"states", std::to_string(law.states.size())}});
+                {{"law_model", CText::own(settable ? "law_behind(state)" : "&kLaw")},
+                 {"stem", CText::own(stem)},
+                 {"law", CText::own(name)},
+                 {"states", CText::own(std::to_string(law.states.size()))}});
   return {code, has_derivatives};
 }
 

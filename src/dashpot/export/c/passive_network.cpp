@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 
+#include "dashpot/base/escape.h"
 #include "dashpot/damper/kinds/passive_network/passive_network_model.h"
 #include "dashpot/export/c/c_model.h"
 #include "dashpot/export/c/c_text.h"
@@ -95,8 +96,9 @@ CModel c_passive_network(const PassiveNetworkModel& model) {
   return {define("PASSIVE_MOST_INPUTS", inputs) + define("PASSIVE_MOST_NEURONS", neurons) +
           define("PASSIVE_MOST_SPRINGS", springs) + "\n#include \"passive_cell.h\"\n" + tables +
           "static const PassiveCell kPassiveCells[] = {\n" + rows + "};\n" +
-          filled(std::string(kFunctions), {{"count", std::to_string(model.members().size())},
-                                           {"offset", c_number(model.offset())}})};
+          filled(std::string(kFunctions),
+                 {{"count", CText::own(std::to_string(model.members().size()))},
+                  {"offset", CText::own(c_number(model.offset()))}})};
 }
 
 }  // namespace dashpot

@@ -1,3 +1,4 @@
+#include "dashpot/base/escape.h"
 #include "dashpot/base/text.h"
 #include "dashpot/export/c/c_model.h"
 #include "dashpot/export/fmu/fmu.h"
@@ -44,17 +45,17 @@ void add_variables(const std::vector<CPort>& ports, FmuRole role, Fmu& fmu) {
 }  // namespace
 
 Fmu block_fmu(const CBlock& block, const ExportOptions& options) {
-  Fmu fmu{
-      .name = block.name,
-      .code = c_block_sources(block, "damper", options.command),
-      .interface = "fmu_block.h",
-      .definitions = filled(kDefinitions, {{"reads", c_block_reads(block)}, {"step", block.step}}),
-      .sampled = true,
-      .sample_time = block.sample_time,
-      .grid = block.sample_time,
-      .title = block.title,
-      .origin = block.about,
-      .steps = {filled(kSteps, {{"time", format_number(block.sample_time)}})}};
+  Fmu fmu{.name = block.name,
+          .code = c_block_sources(block, "damper", options.command),
+          .interface = "fmu_block.h",
+          .definitions = filled(kDefinitions, {{"reads", CText::own(c_block_reads(block))},
+                                               {"step", CText::own(block.step)}}),
+          .sampled = true,
+          .sample_time = block.sample_time,
+          .grid = block.sample_time,
+          .title = block.title,
+          .origin = block.about,
+          .steps = {filled(kSteps, {{"time", CText::own(format_number(block.sample_time))}})}};
 
   // Its variables, and the run that a test of the FMU can repeat.
   add_variables(block.inputs, FmuRole::Input, fmu);

@@ -3,6 +3,7 @@
 
 #include <pugixml.hpp>
 
+#include "dashpot/base/escape.h"
 #include "dashpot/base/text.h"
 #include "dashpot/base/units.h"
 #include "dashpot/export/fmu/fmu.h"
@@ -13,7 +14,7 @@ namespace {
 using Node = pugi::xml_node;
 
 void set(Node node, const char* name, const std::string& value) {
-  node.append_attribute(name) = value.c_str();
+  node.append_attribute(name) = xml_text(value).c_str();
 }
 
 std::string text_of(const pugi::xml_document& document) {

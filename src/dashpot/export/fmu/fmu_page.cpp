@@ -2,6 +2,7 @@
 
 #include <pugixml.hpp>
 
+#include "dashpot/base/escape.h"
 #include "dashpot/base/text.h"
 #include "dashpot/export/fmu/fmu.h"
 
@@ -20,7 +21,7 @@ constexpr const char* kStyle =
 
 Node add(Node parent, const char* element, const std::string& text) {
   Node node = parent.append_child(element);
-  node.append_child(pugi::node_pcdata).set_value(text.c_str());
+  node.append_child(pugi::node_pcdata).set_value(xml_text(text).c_str());
   return node;
 }
 
@@ -76,7 +77,8 @@ std::string fmu_page(const Fmu& fmu) {
 
 std::string fmu_reference_run(const Fmu& fmu) {
   std::string rows = "time";
-  for (std::size_t k = 1; k <= fmu.run[0].size(); ++k) rows += ',' + fmu.variables[k].name;
+  for (std::size_t k = 1; k <= fmu.run[0].size(); ++k)
+    rows += ',' + csv_field(fmu.variables[k].name);
   rows += '\n';
   for (std::size_t k = 0; k < fmu.run.size(); ++k) {
     rows += format_exact(static_cast<double>(k) * fmu.sample_time);

@@ -1,3 +1,4 @@
+#include "dashpot/base/escape.h"
 #include "dashpot/export/c/c_model.h"
 #include "dashpot/export/c/c_text.h"
 #include "dashpot/export/fmu/fmu.h"
@@ -47,28 +48,28 @@ std::string model_header(const Fmu& fmu) {
   std::string names, ranges;
   std::vector<double> nominals;
   for (const FmuVariable& variable : fmu.variables) {
-    names += "    \"" + variable.name + "\",\n";
+    names += "    " + c_string(variable.name).text() + ",\n";
     nominals.push_back(variable.nominal);
     if (variable.role == FmuRole::Parameter)
       ranges += "    {" + bound(variable.lower) + ", " + bound(variable.upper) + "},\n";
   }
 
   const auto count = [&](FmuRole role) { return std::to_string(fmu.count(role)); };
-  return filled(kHeader, {{"tool", fmu.tool},
-                          {"token", fmu.token},
-                          {"exchanges", fmu.exchanges ? "1" : "0"},
-                          {"differentiable", fmu.sampled ? "0" : "1"},
-                          {"inputs", count(FmuRole::Input)},
-                          {"outputs", count(FmuRole::Output)},
-                          {"states", count(FmuRole::State)},
-                          {"parameters", count(FmuRole::Parameter)},
-                          {"first_parameter", std::to_string(fmu.first_parameter)},
-                          {"sample_time", c_number(fmu.sample_time)},
-                          {"names", names},
-                          {"nominals", c_numbers(nominals)},
-                          {"ranges", ranges},
-                          {"definitions", fmu.definitions},
-                          {"interface", fmu.interface}});
+  return filled(kHeader, {{"tool", c_comment(fmu.tool)},
+                          {"token", CText::own(fmu.token)},
+                          {"exchanges", CText::own(fmu.exchanges ? "1" : "0")},
+                          {"differentiable", CText::own(fmu.sampled ? "0" : "1")},
+                          {"inputs", CText::own(count(FmuRole::Input))},
+                          {"outputs", CText::own(count(FmuRole::Output))},
+                          {"states", CText::own(count(FmuRole::State))},
+                          {"parameters", CText::own(count(FmuRole::Parameter))},
+                          {"first_parameter", CText::own(std::to_string(fmu.first_parameter))},
+                          {"sample_time", CText::own(c_number(fmu.sample_time))},
+                          {"names", CText::own(names)},
+                          {"nominals", CText::own(c_numbers(nominals))},
+                          {"ranges", CText::own(ranges)},
+                          {"definitions", CText::own(fmu.definitions)},
+                          {"interface", CText::own(fmu.interface)}});
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "dashpot/base/escape.h"
 #include "dashpot/export/c/c_model.h"
 #include "dashpot/export/onnx/c_trace.h"
 #include "dashpot/export/onnx/live_nodes.h"
@@ -29,7 +30,7 @@ std::string code_of(const CBlock& block, const std::string& first) {
        {std::pair<std::string, std::string>{"reset_call", "damper_reset(&model, &input);"},
         {"first_call", first},
         {"step_call", block.step}})
-    code += filled(kCall, {{"name", name}, {"statement", statement}});
+    code += filled(kCall, {{"name", CText::own(name)}, {"statement", CText::own(statement)}});
   return code;
 }
 

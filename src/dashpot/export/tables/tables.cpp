@@ -1,16 +1,8 @@
-#include <cstdio>
-#include <cstdlib>
-#include <filesystem>
-#include <matio.h>
-#include <memory>
-#include <unistd.h>
-
 #include <fmt/core.h>
 
-#include "dashpot/base/file.h"
 #include "dashpot/base/text.h"
-#include "dashpot/error.h"
 #include "dashpot/export/tables/force_map.h"
+#include "dashpot/record/mat_bytes.h"
 
 namespace dashpot {
 namespace {
@@ -30,45 +22,17 @@ std::string csv(const std::string& corner, const std::vector<double>& rows,
   return text;
 }
 
-/// A matrix by name, row by row.
-struct Matrix {
-  std::string name;
-  std::size_t rows, columns;
-  std::vector<double> values;
-};
-
-void add(mat_t* file, const Matrix& matrix) {
-  std::vector<double> by_column;
-  for (std::size_t c = 0; c < matrix.columns; ++c)
-    for (std::size_t r = 0; r < matrix.rows; ++r)
-      by_column.push_back(matrix.values[r * matrix.columns + c]);
-  std::size_t sizes[] = {matrix.rows, matrix.columns};
-  const std::unique_ptr<matvar_t, decltype(&Mat_VarFree)> variable(
-      Mat_VarCreate(matrix.name.c_str(), MAT_C_DOUBLE, MAT_T_DOUBLE, 2, sizes, by_column.data(), 0),
-      &Mat_VarFree);
-  if (!variable || Mat_VarWrite(file, variable.get(), MAT_COMPRESSION_NONE) != 0)
-    throw Error("MAT file", "matio cannot write " + matrix.name);
+/// A matrix whose values lie row by row.
+MatVariable matrix(const std::string& name, std::size_t rows, std::size_t columns,
+                   const std::vector<double>& values) {
+  MatVariable made{.name = name, .rows = rows, .columns = columns};
+  for (std::size_t c = 0; c < columns; ++c)
+    for (std::size_t r = 0; r < rows; ++r) made.values.push_back(values[r * columns + c]);
+  return made;
 }
 
-/// The bytes of a MAT file of version 5; matio writes to a file only.
-std::string mat_file(const std::vector<Matrix>& matrices, const std::string& what) {
-  std::string path = (std::filesystem::temp_directory_path() / "dashpot-XXXXXX").string();
-  const int handle = mkstemp(path.data());
-  if (handle < 0) throw Error(path, "no temporary file can be made there");
-  close(handle);
-  const std::unique_ptr<const std::string, void (*)(const std::string*)> removed(
-      &path, [](const std::string* name) { std::remove(name->c_str()); });
-  {
-    const std::unique_ptr<mat_t, decltype(&Mat_Close)> file(
-        Mat_CreateVer(path.c_str(), what.c_str(), MAT_FT_MAT5), &Mat_Close);
-    if (!file) throw Error(path, "matio cannot write there");
-    for (const Matrix& matrix : matrices) add(file.get(), matrix);
-  }
-  return read_file(path);
-}
-
-Matrix column(const std::string& name, const std::vector<double>& values) {
-  return {name, values.size(), 1, values};
+MatVariable column(const std::string& name, const std::vector<double>& values) {
+  return matrix(name, values.size(), 1, values);
 }
 
 std::string dpr(const ForceMap& map, std::size_t i, const std::string& title) {
@@ -92,17 +56,16 @@ std::vector<ExportedFile> write_tables(const ExportedModel& model, const ExportO
   const CurrentMap inverse = inverse_of(map);
 
   // The same numbers for spreadsheets and for MATLAB.
-  const std::vector<Matrix> matrices{
-      column("velocity", map.velocity),
-      column("current", map.current),
-      {"force", map.velocity.size(), map.current.size(), map.force},
+  const std::vector<MatVariable> matrices{
+      column("velocity", map.velocity), column("current", map.current),
+      matrix("force", map.velocity.size(), map.current.size(), map.force),
       column("wanted_force", inverse.force),
-      {"inverse_current", inverse.velocity.size(), inverse.force.size(), inverse.current}};
+      matrix("inverse_current", inverse.velocity.size(), inverse.force.size(), inverse.current)};
   return {{name + "_force.csv", csv("force[N]: velocity[m/s] \\ current[" + unit + "]",
                                     map.velocity, map.current, map.force)},
           {name + "_current.csv", csv("current[" + unit + "]: velocity[m/s] \\ force[N]",
                                       inverse.velocity, inverse.force, inverse.current)},
-          {name + ".mat", mat_file(matrices, "Dashpot " + options.version + ": " + name)}};
+          {name + ".mat", mat_bytes(matrices, "Dashpot " + options.version + ": " + name)}};
 }
 
 std::vector<ExportedFile> write_dpr(const ExportedModel& model, const ExportOptions& options) {

@@ -31,6 +31,7 @@ class FitStore {
   std::optional<FitReport> load(const Request& request) const;
   /// Throws Error when the disk cannot take it. A fit without a model is not kept.
   void save(const Request& request, const FitReport& fit);
+  std::size_t dropped() const { return store_.dropped(); }  ///< as Store has it
 
  private:
   std::string key_of(const Request& request) const;

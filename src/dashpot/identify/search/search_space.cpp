@@ -182,6 +182,10 @@ void require_space(const SearchSpace& space, const std::string& model) {
 }
 
 std::vector<NetworkDesign> grid_designs(const SearchSpace& space, std::size_t steps) {
+  if (steps > kMostDesigns)
+    throw Error("grid", std::to_string(steps) + " values of a range are as many fits at least",
+                "give at most " + std::to_string(kMostDesigns));
+
   // Combine what there is so far with each value of the next axis.
   std::vector<std::vector<Setting>> combinations{{}};
   for (const SearchAxis& axis : space.axes) {

@@ -39,7 +39,8 @@ class TrialStore {
   std::optional<FoldResult> load(const Key& key) const;
   /// Throws Error when the disk cannot take it.
   void save(const Key& key, const FoldResult& result);
-  std::size_t size() const { return store_.size(); }  ///< results
+  std::size_t size() const { return store_.size(); }        ///< results
+  std::size_t dropped() const { return store_.dropped(); }  ///< as Store has it
 
  private:
   Store store_;

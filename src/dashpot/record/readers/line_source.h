@@ -1,12 +1,11 @@
 #pragma once
 #include <filesystem>
-#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-struct gzFile_s;
+#include "dashpot/base/file.h"
 
 namespace dashpot {
 
@@ -15,9 +14,6 @@ namespace dashpot {
 class LineSource {
  public:
   explicit LineSource(const std::filesystem::path& path);
-  ~LineSource();
-  LineSource(const LineSource&) = delete;
-  LineSource& operator=(const LineSource&) = delete;
 
   /// The next line without its end (LF, CRLF or both mixed; CR in a file without LF), or nothing at
   /// the end. Valid until the next call. Throws Error on a damaged file, and on a line too long for
@@ -25,17 +21,16 @@ class LineSource {
   std::optional<std::string_view> next();
   std::size_t line() const { return line_; }  ///< number of the line that next() gave, from 1
   double bytes_per_line() const;              ///< mean so far
-  double bytes_in_file() const { return file_size_; }
+  double bytes_in_file() const { return static_cast<double>(file_.size()); }
 
  private:
   bool fill();
 
   std::string path_;
-  std::unique_ptr<gzFile_s, int (*)(gzFile_s*)> file_;
+  InputFile file_;
   std::vector<char> buffer_;
   std::size_t begin_ = 0, end_ = 0;
   std::size_t line_ = 0, consumed_ = 0;
-  double file_size_ = 0;
   char line_end_ = '\n';
   bool at_end_ = false;
 };

@@ -93,9 +93,6 @@ class Collector {
     if (!is_numeric(variable)) return pass_over(name, "not a real number array");
     if (rows == 0 || columns == 0) return pass_over(name, "empty");
 
-    // Read what is left, after a look at the size that it states.
-    if (columns > kLargestMat / 8 / rows)
-      throw Error(path_, "variable '" + name + "' states more than 512 MiB");
     if (!variable.data && Mat_VarReadDataAll(file_, &variable) != 0) fail(name);
     if (!variable.data) fail(name);
     arrays.push_back({name, rows, columns, numbers_of(variable, rows * columns)});
@@ -195,10 +192,12 @@ std::vector<RawTable> read_mat(const fs::path& path) {
 
   // Check sizes before the MAT library sees the file, since it believes them.
   const std::string head = read_head(path, kMat73Head);
-  if (head.starts_with("MATLAB 7.3"))
+  if (head.starts_with("MATLAB 7.3")) {
     check_mat73(head, fs::file_size(path), file);
-  else
+    check_mat73_content(file, fs::file_size(path));
+  } else {
     check_mat(read_file(path), file);
+  }
 
   static std::once_flag quiet;  // the MAT library prints otherwise
   std::call_once(quiet, [] { Mat_LogInitFunc("dashpot", [](int, char*) {}); });

@@ -6,6 +6,8 @@
 #include <vector>
 #include <zlib.h>
 
+#include <hdf5.h>
+
 #include "dashpot/error.h"
 
 namespace dashpot {
@@ -13,6 +15,7 @@ namespace {
 
 constexpr std::size_t kHeader = 128;
 constexpr int kDeepestStructure = 8;
+constexpr std::size_t kMostElements = std::size_t{1} << 40;  // so that no product overflows
 
 // Types of elements and classes of arrays in the version 5 format.
 enum Element : std::uint32_t { kInt8 = 1, kInt32 = 5, kUint32 = 6, kMatrix = 14, kCompressed = 15 };
@@ -24,25 +27,52 @@ enum Class : std::uint32_t {
   kLastNumeric = 15
 };
 
+[[noreturn]] void refuse_bomb(const std::string& file) {
+  throw Error(file, "unpacks to far more than a recording of its size",
+              "save it without compression (-v6), or its recordings one by one");
+}
+
+/// Bytes of all variables of a file as numbers of double precision.
+std::size_t largest_unpacked(std::size_t file_size) {
+  constexpr std::size_t kAlways = std::size_t{64} << 20, kPerByte = 12;
+  return std::max(kAlways, kPerByte * file_size);
+}
+
 [[noreturn]] void damaged(const std::string& file, const std::string& what) {
   throw Error(file, "damaged or cut off MAT file: " + what, "copy it again from its source");
 }
 
+/// What holds for a whole file while its parts are looked at.
+struct Walk {
+  const std::string& file;
+  bool swap;               ///< the bytes of a number stand the other way round
+  std::size_t bytes_left;  ///< that variables may still unpack to
+  std::size_t values_left = bytes_left / sizeof(double);
+
+  void unpack(std::size_t bytes) {
+    if (bytes > bytes_left) refuse_bomb(file);
+    bytes_left -= bytes;
+  }
+  void hold(std::size_t values) {
+    if (values > values_left) refuse_bomb(file);
+    values_left -= values;
+  }
+};
+
 /// Reads forward through bytes and never past their end.
 class Cursor {
  public:
-  Cursor(std::string_view bytes, bool swap, const std::string& file)
-      : bytes_(bytes), swap_(swap), file_(file) {}
+  Cursor(std::string_view bytes, Walk& walk) : bytes_(bytes), walk_(walk) {}
 
   bool at_end() const { return bytes_.empty(); }
   std::size_t left() const { return bytes_.size(); }
-  bool swap() const { return swap_; }
-  const std::string& file() const { return file_; }
+  Walk& walk() const { return walk_; }
+  const std::string& file() const { return walk_.file; }
 
   std::string_view take(std::size_t n, const char* what) {
     if (n > bytes_.size())
-      damaged(file_, std::string(what) + " should have " + std::to_string(n) + " bytes, " +
-                         std::to_string(bytes_.size()) + " are left");
+      damaged(file(), std::string(what) + " should have " + std::to_string(n) + " bytes, " +
+                          std::to_string(bytes_.size()) + " are left");
     const std::string_view part = bytes_.substr(0, n);
     bytes_.remove_prefix(n);
     return part;
@@ -50,7 +80,7 @@ class Cursor {
   std::uint32_t u32(const char* what) {
     std::uint32_t value;
     std::memcpy(&value, take(4, what).data(), 4);
-    return swap_ ? __builtin_bswap32(value) : value;
+    return walk_.swap ? __builtin_bswap32(value) : value;
   }
 
   struct Part {
@@ -62,7 +92,7 @@ class Cursor {
     const std::uint32_t word = u32(what);
     if (const std::uint32_t size = word >> 16; size != 0) {
       const std::string_view data = take(4, what);
-      if (size > 4) damaged(file_, std::string(what) + " has a short tag of more than 4 bytes");
+      if (size > 4) damaged(file(), std::string(what) + " has a short tag of more than 4 bytes");
       return {word & 0xffff, data.substr(0, size)};
     }
     const std::uint32_t size = u32(what);
@@ -74,8 +104,7 @@ class Cursor {
 
  private:
   std::string_view bytes_;
-  bool swap_;
-  const std::string& file_;
+  Walk& walk_;
 };
 
 std::size_t element_size(std::uint32_t type) {
@@ -111,6 +140,7 @@ void check_numbers(Cursor& cursor, std::size_t count, const char* what) {
     damaged(cursor.file(), std::string(what) + " should hold " + std::to_string(count) +
                                " numbers, " + std::to_string(part.data.size() / size) +
                                " are there");
+  cursor.walk().hold(count);
 }
 
 void check_matrix(std::string_view bytes, const Cursor& outer, int depth);
@@ -130,7 +160,7 @@ std::size_t count_elements(Cursor& cursor) {
   const std::size_t rank = dimensions.data.size() / 4;
   if (dimensions.type != kInt32 || rank < 2 || rank > 16)
     damaged(cursor.file(), "an array has impossible dimensions");
-  Cursor sizes(dimensions.data, cursor.swap(), cursor.file());
+  Cursor sizes(dimensions.data, cursor.walk());
 
   // Multiply with care: the product of sizes that a damaged file states may overflow.
   std::size_t count = 1;
@@ -138,7 +168,7 @@ std::size_t count_elements(Cursor& cursor) {
   for (std::size_t k = 0; k < rank; ++k) {
     const std::uint32_t size = sizes.u32("a dimension");
     empty = empty || size == 0;
-    if (size != 0 && count > kLargestMat / size)
+    if (size != 0 && count > kMostElements / size)
       damaged(cursor.file(), "an array states more elements than the file holds");
     if (size != 0) count *= size;
   }
@@ -150,8 +180,7 @@ void check_structure(Cursor& cursor, std::size_t count, int depth) {
   const Cursor::Part length_part = cursor.element("the length of field names");
   if (length_part.type != kInt32 || length_part.data.size() < 4)
     damaged(cursor.file(), "a structure without the length of its field names");
-  const std::uint32_t length =
-      Cursor(length_part.data, cursor.swap(), cursor.file()).u32("a length");
+  const std::uint32_t length = Cursor(length_part.data, cursor.walk()).u32("a length");
 
   const Cursor::Part names = cursor.element("the field names");
   if (length == 0 || length > 4096 || names.data.size() % length != 0)
@@ -170,11 +199,11 @@ void check_matrix(std::string_view bytes, const Cursor& outer, int depth) {
             "structures nested more than " + std::to_string(kDeepestStructure) + " deep");
 
   // The flags tell the class; classes that are never opened need no check.
-  Cursor cursor(bytes, outer.swap(), outer.file());
+  Cursor cursor(bytes, outer.walk());
   const Cursor::Part flags = cursor.element("the flags of an array");
   if (flags.type != kUint32 || flags.data.size() != 8)
     damaged(cursor.file(), "an array without flags");
-  const std::uint32_t word = Cursor(flags.data, cursor.swap(), cursor.file()).u32("flags");
+  const std::uint32_t word = Cursor(flags.data, cursor.walk()).u32("flags");
   const std::uint32_t array_class = word & 0xff;
   const bool numeric =
       array_class == kChar || (array_class >= kFirstNumeric && array_class <= kLastNumeric);
@@ -197,8 +226,9 @@ void check_matrix(std::string_view bytes, const Cursor& outer, int depth) {
   if (word & 0x800) check_numbers(cursor, count, "the imaginary part of an array");
 }
 
-/// Unpacks a compressed variable, up to the limit.
-std::string inflate_bytes(std::string_view packed, const std::string& file) {
+/// Unpacks a compressed variable, as far as the file may.
+std::string inflate_bytes(std::string_view packed, Walk& walk) {
+  const std::string& file = walk.file;
   z_stream stream{};
   if (inflateInit(&stream) != Z_OK) damaged(file, "it cannot be unpacked");
   stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(packed.data()));
@@ -207,7 +237,7 @@ std::string inflate_bytes(std::string_view packed, const std::string& file) {
   std::string out;
   std::vector<char> block(1 << 16);
   int code = Z_OK;
-  while (code == Z_OK && out.size() <= kLargestMat) {
+  while (code == Z_OK && out.size() <= walk.bytes_left) {
     stream.next_out = reinterpret_cast<Bytef*>(block.data());
     stream.avail_out = static_cast<uInt>(block.size());
     code = inflate(&stream, Z_NO_FLUSH);
@@ -215,32 +245,86 @@ std::string inflate_bytes(std::string_view packed, const std::string& file) {
   }
 
   inflateEnd(&stream);
-  if (code == Z_OK) damaged(file, "a variable unpacks to more than 512 MiB");
+  if (code == Z_OK) refuse_bomb(file);
   if (code != Z_STREAM_END) damaged(file, "a packed variable cannot be unpacked");
+  walk.unpack(out.size());
   return out;
 }
 
 void check_version5(std::string_view bytes, const std::string& file) {
-  const bool swap = bytes.substr(126, 2) == "MI";
-  Cursor cursor(bytes.substr(kHeader), swap, file);
+  Walk walk{.file = file,
+            .swap = bytes.substr(126, 2) == "MI",
+            .bytes_left = largest_unpacked(bytes.size())};
+  Cursor cursor(bytes.substr(kHeader), walk);
   if (cursor.at_end()) damaged(file, "it holds no variables");
   while (!cursor.at_end()) {
     Cursor::Part part = cursor.element("a variable");
     std::string unpacked;
     if (part.type == kCompressed) {
-      unpacked = inflate_bytes(part.data, file);
-      part = Cursor(unpacked, swap, file).element("a packed variable");
+      unpacked = inflate_bytes(part.data, walk);
+      part = Cursor(unpacked, walk).element("a packed variable");
     }
     if (part.type != kMatrix) damaged(file, "a variable is no array");
     check_matrix(part.data, cursor, 0);
   }
 }
 
+/// A handle of HDF5, closed at its end.
+class Opened {
+ public:
+  Opened(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {}
+  ~Opened() {
+    if (id_ >= 0) close_(id_);
+  }
+  Opened(const Opened&) = delete;
+  Opened& operator=(const Opened&) = delete;
+  operator hid_t() const { return id_; }  // NOLINT(google-explicit-constructor)
+
+ private:
+  hid_t id_;
+  herr_t (*close_)(hid_t);
+};
+
+/// What is wrong with a file of HDF5, found link by link; an exception must not pass through it.
+struct Links {
+  std::size_t values_left;
+  std::size_t links_left = 100000;
+  enum class Fault { None, Outside, Bomb } fault = Fault::None;
+
+  herr_t stop(Fault found) {
+    fault = found;
+    return 1;
+  }
+};
+
+herr_t look_at_link(hid_t group, const char* name, const H5L_info_t* link, void* data) {
+  Links& links = *static_cast<Links*>(data);
+  if (links.links_left-- == 0) return links.stop(Links::Fault::Bomb);
+  if (link->type == H5L_TYPE_SOFT) return 0;
+  if (link->type != H5L_TYPE_HARD) return links.stop(Links::Fault::Outside);
+  const Opened object(H5Oopen(group, name, H5P_DEFAULT), H5Oclose);
+  if (object < 0 || H5Iget_type(object) != H5I_DATASET) return 0;
+
+  // A dataset can take its numbers from other files, or state more of them than the file has.
+  const Opened creation(H5Dget_create_plist(object), H5Pclose);
+  if (creation >= 0 &&
+      (H5Pget_external_count(creation) > 0 || H5Pget_layout(creation) == H5D_VIRTUAL))
+    return links.stop(Links::Fault::Outside);
+  const Opened space(H5Dget_space(object), H5Sclose), type(H5Dget_type(object), H5Tclose);
+  const hssize_t count = space < 0 ? 0 : H5Sget_simple_extent_npoints(space);
+  const std::size_t width = type < 0 ? 1 : std::max<std::size_t>(H5Tget_size(type) / 8, 1);
+  const auto values = static_cast<std::size_t>(std::max<hssize_t>(count, 0));
+  if (values > links.values_left / width) return links.stop(Links::Fault::Bomb);
+  links.values_left -= values * width;
+  return 0;
+}
+
 /// Version 4: a header of five integers before each matrix, and no signature.
 void check_version4(std::string_view bytes, const std::string& file) {
   if (bytes.size() < 20) damaged(file, "it ends inside its header");
-  const bool swap = Cursor(bytes, false, file).u32("the type") > 9999;
-  Cursor cursor(bytes, swap, file);
+  Walk walk{.file = file, .swap = false, .bytes_left = largest_unpacked(bytes.size())};
+  walk.swap = Cursor(bytes, walk).u32("the type") > 9999;
+  Cursor cursor(bytes, walk);
 
   // Bytes of one number, by the precision's digit in the type.
   constexpr std::size_t kSizes[] = {8, 4, 4, 2, 2, 1};
@@ -258,6 +342,7 @@ void check_version4(std::string_view bytes, const std::string& file) {
     const std::size_t size = kSizes[precision] * (complex + 1);
     if (columns != 0 && rows > cursor.left() / size / columns)
       damaged(file, "a matrix states more elements than the file holds");
+    walk.hold(std::size_t{rows} * columns);
     cursor.take(size * rows * columns, "a matrix");
   }
 }
@@ -285,6 +370,19 @@ void check_mat73(std::string_view head, std::uintmax_t file_size, const std::str
   if (length > file_size)
     damaged(file, "it should have " + std::to_string(length) + " bytes and has " +
                       std::to_string(file_size));
+}
+
+void check_mat73_content(const std::string& file, std::uintmax_t file_size) {
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // HDF5 prints otherwise
+  const Opened opened(H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
+  if (opened < 0) damaged(file, "HDF5 cannot open it");
+  Links links{.values_left = largest_unpacked(file_size) / sizeof(double)};
+  const herr_t end = H5Lvisit(opened, H5_INDEX_NAME, H5_ITER_NATIVE, look_at_link, &links);
+  if (links.fault == Links::Fault::Bomb) refuse_bomb(file);
+  if (links.fault == Links::Fault::Outside)
+    throw Error(file, "takes numbers from other files, which Dashpot does not follow",
+                "save it as one file");
+  if (end < 0) damaged(file, "HDF5 cannot list what it holds");
 }
 
 }  // namespace dashpot

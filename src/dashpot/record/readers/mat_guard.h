@@ -5,12 +5,10 @@
 
 namespace dashpot {
 
-/// The most that one MAT file may unpack to.
-inline constexpr std::size_t kLargestMat = std::size_t{1} << 29;
-
 /// Walks the sizes and dimensions that a MAT file of version 4 or 5 states and compares them with
 /// the bytes that are there, since the MAT library believes them. `bytes`: the whole file. Throws
-/// Error(file, ...) on a file that is cut off, damaged or unpacks to more than kLargestMat.
+/// Error(file, ...) on a file that is cut off, damaged or unpacks, all variables together, to far
+/// more than a recording of its size.
 void check_mat(std::string_view bytes, const std::string& file);
 
 /// Bytes at the start of a version 7.3 file that hold its length.
@@ -19,5 +17,9 @@ inline constexpr std::size_t kMat73Head = 512 + 64;
 /// Version 7.3 is HDF5, which checks its own structure, but a file that was cut off reads as an
 /// empty one: compares the length that its superblock states with the bytes that are there.
 void check_mat73(std::string_view head, std::uintmax_t file_size, const std::string& file);
+
+/// The rest of version 7.3, before the MAT library opens it: throws Error on numbers that lie in
+/// other files, and on datasets that state far more numbers than a file of this size has.
+void check_mat73_content(const std::string& file, std::uintmax_t file_size);
 
 }  // namespace dashpot

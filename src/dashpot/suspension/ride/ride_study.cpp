@@ -161,6 +161,20 @@ void require_rideable(const RideStudyOptions& options, const Vehicle& vehicle) {
   if (options.frequencies.empty() || !std::ranges::is_sorted(options.frequencies) ||
       !(options.frequencies.front() > 0))
     throw Error(options.vehicle.where, "its frequencies do not rise from above 0");
+
+  // What would not end in a day is refused before it begins.
+  constexpr double kLeastFrequency = 1e-3, kMostFrequency = 1e3;  // Hz
+  constexpr std::size_t kMostHeld = 1000;
+  if (options.frequencies.front() < kLeastFrequency || options.frequencies.back() > kMostFrequency)
+    throw Error(options.vehicle.where,
+                "its frequencies go from " + format_number(options.frequencies.front()) + " to " +
+                    format_number(options.frequencies.back()) + " Hz",
+                "vehicles answer between " + format_number(kLeastFrequency) + " and " +
+                    format_number(kMostFrequency) + " Hz");
+  if (options.held > kMostHeld)
+    throw Error(options.vehicle.where,
+                std::to_string(options.held) + " held currents are as many rides",
+                "at most " + std::to_string(kMostHeld));
 }
 
 /// Of the strut, on the road.

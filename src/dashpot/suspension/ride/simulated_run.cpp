@@ -1,12 +1,26 @@
 #include "dashpot/suspension/ride/simulated_run.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "dashpot/base/text.h"
 #include "dashpot/error.h"
 #include "dashpot/suspension/ride/domain_use.h"
 
 namespace dashpot {
+
+std::string unusable(const SimulatedRun& run) {
+  constexpr double kMost = 1e4;  // m/s^2, a thousand times gravity
+  if (run.trace.diverged_at)
+    return "It diverged at " + format_number(*run.trace.diverged_at) +
+           " s: nothing below can be used.";
+  for (const RideMeasure& measure : run.measures)
+    if (std::isinf(measure.value) || (measure.unit == "m/s^2" && std::abs(measure.value) > kMost))
+      return "It moves as no vehicle does (" + std::string(measure.name) + " " +
+             format_number(measure.value, 3) + " " + std::string(measure.unit) +
+             "): nothing below can be used. Are the plant's numbers in SI units?";
+  return {};
+}
 
 std::string name_of(const Vehicle& vehicle) {
   if (vehicle.controller) return vehicle.controller_name;

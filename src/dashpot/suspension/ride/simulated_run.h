@@ -30,6 +30,10 @@ struct RunOptions {
 SimulatedRun run_vehicle(const std::shared_ptr<const Vehicle>& vehicle, const GroundMotion& ground,
                          const RunOptions& options);
 
+/// Why nothing of a run can be used, as a sentence: it diverged, or it moves as no vehicle does.
+/// Empty: it can be used.
+std::string unusable(const SimulatedRun& run);
+
 /// The name of a run: the controller, or the dampers and the current that drives them.
 std::string name_of(const Vehicle& vehicle);
 
