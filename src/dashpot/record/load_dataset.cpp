@@ -42,6 +42,14 @@ std::string fill_template(const std::string& text, const std::map<std::string, s
   return out;
 }
 
+/// The name of the folder that was pointed at, or that holds the file which was.
+std::string pointed_folder(const SourcePath& file) {
+  fs::path folder = fs::absolute(file.path).lexically_normal().parent_path();
+  const fs::path below = fs::path(file.relative).parent_path();
+  for (auto part = below.begin(); part != below.end(); ++part) folder = folder.parent_path();
+  return folder.filename().string();
+}
+
 /// Loads file after file into one dataset.
 class Loader {
  public:
@@ -68,6 +76,7 @@ class Loader {
     sort_by_level();
     make_names_unique();
     settle_drive();
+    note_drives();
     if (!centred_.empty()) note_centres();
     note_displacements();
     return std::move(dataset_);
@@ -141,6 +150,7 @@ class Loader {
     }
 
     if (built.centred) centred_.push_back(*built.centred);
+    if (!built.drive_note.empty()) drive_notes_.push_back(file.relative + ": " + built.drive_note);
     built.record.condition = condition.empty() ? group : condition;
     dataset_.readings.insert(dataset_.readings.end(), built.readings.begin(), built.readings.end());
     add_records(std::move(built.record), statement, name.rest);
@@ -222,7 +232,12 @@ class Loader {
     if (const auto column = manifest_.level_column(); column && manifest_.lists(file_name))
       return KnownLevel{manifest_.number(file_name, column->first), column->second,
                         "manifest.csv, " + column->first};
-    return name.level;
+
+    // The names: the file's and those of its folders, then that of the folder that was pointed at.
+    std::optional<KnownLevel> level = name.level;
+    if (!level) level = level_of_folder(pointed_folder(file));
+    if (level && sources_.stated.drive_unit == DriveUnit::None) level->doubt.clear();
+    return level;
   }
 
   void pass_over(const SourcePath& file, const std::string& why) {
@@ -308,6 +323,19 @@ class Loader {
                       "(run_0.5A.csv), in manifest.csv or in a dataset file"));
   }
 
+  /// How drives were read where names and columns left a choice: first among the notes, since a
+  /// wrong current is the costliest mistake.
+  void note_drives() {
+    constexpr std::size_t kShown = 2;
+    std::vector<std::string> shown(
+        drive_notes_.begin(),
+        drive_notes_.begin() + static_cast<std::ptrdiff_t>(std::min(kShown, drive_notes_.size())));
+    if (drive_notes_.size() > kShown)
+      shown.back() += "; likewise " + std::to_string(drive_notes_.size() - kShown) +
+                      " more ('dashpot inspect' lists them)";
+    dataset_.notes.insert(dataset_.notes.begin(), shown.begin(), shown.end());
+  }
+
   /// By how much absolute strokes were centred. Different centres lose where the records lie to
   /// each other.
   void note_centres() {
@@ -349,7 +377,8 @@ class Loader {
   Manifest manifest_;
   std::string stated_in_;
   Dataset dataset_;
-  std::vector<double> centred_;          ///< m, by which absolute strokes were moved
+  std::vector<double> centred_;  ///< m, by which absolute strokes were moved
+  std::vector<std::string> drive_notes_;
   std::vector<std::string> name_rests_;  ///< of each record: its name without the drive level
 };
 

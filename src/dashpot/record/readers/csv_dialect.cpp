@@ -6,6 +6,7 @@
 
 #include "dashpot/base/text.h"
 #include "dashpot/base/units.h"
+#include "dashpot/record/channel_names.h"
 #include "dashpot/record/readers/table.h"
 
 namespace dashpot {
@@ -102,6 +103,18 @@ bool is_units_row(const Cells& cells) {
   return any;
 }
 
+/// A row of units of which one or some are unknown: most are known, and the line above names them.
+bool is_doubtful_units_row(const Cells& cells, const Cells& above) {
+  std::size_t known = 0, filled = 0, named = 0;
+  for (const std::string_view cell : cells) {
+    const std::string unit = bare_unit(cell);
+    filled += !unit.empty();
+    known += !unit.empty() && parse_unit(unit);
+  }
+  for (const std::string_view cell : above) named += !recognise_channel(cell, "").channel.empty();
+  return known >= 1 && 2 * known >= filled && named >= 2;
+}
+
 /// The cells of the last line before `before` that can head `columns` columns; its index or npos.
 std::size_t find_header(const std::vector<std::string>& lines, const CsvDialect& dialect,
                         std::size_t before, std::size_t columns, Cells& cells) {
@@ -129,14 +142,13 @@ void read_header(const std::vector<std::string>& lines, std::size_t columns, Csv
   std::size_t at = find_header(lines, dialect, dialect.first_data_line, columns, cells);
   if (at == std::string::npos) return;
 
-  if (is_units_row(cells)) {
-    Cells above;
-    const std::size_t name_line = find_header(lines, dialect, at, columns, above);
-    if (name_line != std::string::npos) {
-      for (std::size_t k = 0; k < std::min(columns, cells.size()); ++k)
-        dialect.units[k] = bare_unit(cells[k]);
-      cells = above;
-    }
+  const bool units = is_units_row(cells);
+  Cells above;
+  const std::size_t name_line = find_header(lines, dialect, at, columns, above);
+  if (name_line != std::string::npos && (units || is_doubtful_units_row(cells, above))) {
+    for (std::size_t k = 0; k < std::min(columns, cells.size()); ++k)
+      dialect.units[k] = bare_unit(cells[k]);
+    cells = above;
   }
 
   for (std::size_t k = 0; k < std::min(columns, cells.size()); ++k)
