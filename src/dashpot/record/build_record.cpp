@@ -56,7 +56,7 @@ void require_numbers(const RawTable& table, const ColumnUse& use) {
   throw Error(table.where(column.bad->row),
               what + (column.bad->text.empty() ? "empty"
                                                : "'" + column.bad->text + "', not a finite number"),
-              "write it as 12.5, or leave the row out");
+              "write it as 12.5, or leave the row out ('on_bad_row: drop' in a dataset file)");
 }
 
 /// Sample time in s from a single number beside the columns whose name says that it is a sample
@@ -73,6 +73,21 @@ std::optional<double> sample_time_of_scalars(const RawTable& table, std::string&
   return std::nullopt;
 }
 
+/// A time without a unit whose steps are no seconds of any test: a logger's ms, most likely.
+void require_plausible_step(const std::vector<double>& stamps, const RawTable& table,
+                            const ColumnUse& use) {
+  constexpr double kLongest = 0.5;  // s
+  if (use.basis.find("assumed SI") == std::string::npos || stamps.size() < 2) return;
+  const double step = (stamps.back() - stamps.front()) / static_cast<double>(stamps.size() - 1);
+  if (step < kLongest) return;
+  const std::string name = label(table.columns[use.column], use.column);
+  throw Error(table.file,
+              "time (" + name + ") has no unit and steps of " + format_number(step, 3) +
+                  ", which are no seconds in a test of a damper",
+              "name it " + name + "_ms, or state its unit in a dataset file: 'time: {column: " +
+                  name + ", unit: ms}'");
+}
+
 /// Takes the time column or makes the time stamps. Returns in words how time was understood. A
 /// stated sample time goes before a time column, a time column before the file's own interval.
 std::string set_time(Record& record, RawTable& table, const ColumnUses& uses,
@@ -85,6 +100,7 @@ std::string set_time(Record& record, RawTable& table, const ColumnUses& uses,
   if (const ColumnUse* use = find_use(uses, "time"); use && !step) {
     record.time = std::move(table.columns[use->column].values);
     require_increasing(record.time, table);
+    require_plausible_step(record.time, table, *use);
     record.sample_time = uniform_step(record.time) * use->factor;
     for (double& stamp : record.time) stamp = use->factor * (stamp - use->raw_offset);
     if (!(record.sample_time > 0)) return "not uniform: kept as it is";

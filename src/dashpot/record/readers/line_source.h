@@ -11,7 +11,7 @@ struct gzFile_s;
 namespace dashpot {
 
 /// The lines of a text file (plain or gzip), read block by block: memory does not grow with the
-/// file.
+/// file. UTF-16 with a byte order mark is given as UTF-8.
 class LineSource {
  public:
   explicit LineSource(const std::filesystem::path& path);
@@ -28,7 +28,10 @@ class LineSource {
   double bytes_in_file() const { return file_size_; }
 
  private:
+  enum class Encoding { Bytes, Utf16Little, Utf16Big };
+
   bool fill();
+  bool fill_from_utf16();
 
   std::string path_;
   std::unique_ptr<gzFile_s, int (*)(gzFile_s*)> file_;
@@ -38,6 +41,8 @@ class LineSource {
   double file_size_ = 0;
   char line_end_ = '\n';
   bool at_end_ = false;
+  Encoding encoding_ = Encoding::Bytes;
+  std::string undecoded_;  ///< bytes of UTF-16 that have been read and not been decoded
 };
 
 /// The first bytes of a file, gunzipped. Throws Error when it cannot be opened.
