@@ -13,7 +13,7 @@ namespace dashpot::cli {
 class Console;
 
 /// Exit codes of the program; 128 + signal when it was stopped.
-enum ExitCode { kDone = 0, kUnusableInput = 1, kUsage = 2, kNotUsable = 3 };
+enum ExitCode { kDone = 0, kUnusableInput = 1, kUsage = 2, kNotUsable = 3, kFilesUnread = 4 };
 
 /// A command line that cannot be understood.
 class UsageError : public Error {

@@ -22,6 +22,9 @@ class Console {
 
   bool quiet = false;  ///< neither progress nor notes
   bool json = false;   ///< results for programs
+  /// Recordings of a folder could not be read: the work was done on the others, and the exit code
+  /// says so.
+  bool files_unread = false;
 
   /// A result for people: stdout, or stderr beside JSON (nothing then when quiet).
   void print(std::string_view text);

@@ -63,6 +63,7 @@ Dataset load_recordings(const DataSettings& settings, Console& console) {
   LoadOptions options = settings.load;
   options.monitor = console.monitor();
   Dataset dataset = load_dataset({settings.paths.begin(), settings.paths.end()}, options);
+  console.files_unread = !dataset.unread.empty();
   if (settings.verbose) {
     console.talk(describe(dataset));
   } else {

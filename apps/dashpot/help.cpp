@@ -156,7 +156,8 @@ std::string help_markdown(const std::vector<Command>& commands, const std::vecto
       "# The command line\n\n"
       "Made by `dashpot --help-markdown`; `dashpot COMMAND --help` says the same on a terminal.\n\n"
       "Exit codes: 0 done; 1 unusable input; 2 the command line cannot be understood; 3 it ran, "
-      "but the result is not usable; 130 interrupted.\n";
+      "but the result is not usable; 4 done, but without files of a folder that could not be "
+      "read; 130 interrupted.\n";
   for (const Command& command : commands) {
     text += markdown_command(command, "## ");
     for (const Command& one : command.subcommands) text += markdown_command(one, "### ");

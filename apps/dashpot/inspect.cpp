@@ -31,6 +31,7 @@ int run_inspect(const InspectSettings& settings, Console& console) {
   options.monitor = console.monitor();
   const Dataset dataset =
       load_dataset({settings.data.paths.begin(), settings.data.paths.end()}, options);
+  console.files_unread = !dataset.unread.empty();
 
   // A measured velocity is compared with the derived one: a wrong sign or unit shows there.
   const std::vector<VelocityCheck> checks = check_velocities(dataset, options.velocity_cutoff_hz);

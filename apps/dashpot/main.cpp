@@ -127,7 +127,7 @@ int run_and_explain(const std::vector<std::string>& words, Console& console) {
   try {
     const int code = run_words(words, console);
     console.finish();
-    return code;
+    return code == kDone && console.files_unread ? static_cast<int>(kFilesUnread) : code;
   } catch (const ReaderGone&) {
     // Nothing went wrong with the work: its reader has left, or below, the user stopped it.
     return 128 + SIGPIPE;

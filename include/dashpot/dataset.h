@@ -77,6 +77,9 @@ struct Dataset {
   std::vector<SourceFile> files;
   std::vector<ColumnReading> readings;
   std::vector<PassedOver> passed_over;
+  /// Files of a folder that are recordings by their format and could not be used: each with its
+  /// error. Results are those of the others.
+  std::vector<PassedOver> unread;
   std::vector<std::string> notes;     ///< inferences and assumptions, in words
   std::optional<LeaveOut> leave_out;  ///< stated in the dataset file
 };
@@ -94,9 +97,11 @@ struct LoadOptions {
 /// MAT) or a dataset file (.yaml) into one dataset, in SI and Dashpot's signs, with a velocity
 /// channel on every record that has displacement or velocity.
 ///
-/// A file that the caller named itself, or that a dataset file states, is read or refused; other
-/// files of a folder may be passed over and then stand in `passed_over` with the reason. Throws
-/// Error on anything that cannot be used. The same files give the same dataset, to the bit.
+/// A file that the caller named itself is read or refused; other
+/// files of a folder may be passed over and then stand in `passed_over` with the reason, or cannot
+/// be used and stand in `unread`. Several folders keep their own dataset.yaml. Throws Error on a
+/// named file and on a statement that cannot be used, and where no file gave a record. The same
+/// files give the same dataset, to the bit.
 Dataset load_dataset(const std::vector<std::filesystem::path>& paths,
                      const LoadOptions& options = {});
 

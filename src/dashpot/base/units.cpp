@@ -50,6 +50,8 @@ constexpr Named kUnits[] = {
     {"kp", kForce, kStandardGravity},
     {"lbf", kForce, 4.4482216152605},
     {"lb", kForce, 4.4482216152605},
+    {"lbs", kForce, 4.4482216152605},
+    {"daN", kForce, 10},
     {"g0", {0, 1, -2}, kStandardGravity},
     {"Pa", kPressure, 1},
     {"bar", kPressure, 1e5},
@@ -67,7 +69,9 @@ constexpr Named kUnits[] = {
     {"K", kTemperature, 1},
     {"degC", kTemperature, 1, 273.15},
     {"C", kTemperature, 1, 273.15},
+    {"celsius", kTemperature, 1, 273.15},
     {"degF", kTemperature, 5.0 / 9.0, 273.15 - 32 * 5.0 / 9.0},
+    {"fahrenheit", kTemperature, 5.0 / 9.0, 273.15 - 32 * 5.0 / 9.0},
 };
 
 struct Prefix {
@@ -133,9 +137,9 @@ std::optional<Unit> parse_factor(std::string_view text) {
 /// Spells superscripts, dots and blanks between factors as ^ and *.
 std::string normalise(std::string_view text) {
   static constexpr std::pair<std::string_view, std::string_view> kSpellings[] = {
-      {"\u00b2", "^2"}, {"\u00b3", "^3"}, {"\u207b\u00b9", "^-1"},
-      {"\u00b7", "*"},  {"\u22c5", "*"},  {"\u00b0", "deg"},
-      {"**", "^"}};
+      {"\u00b2", "^2"}, {"\u00b3", "^3"},  {"\u207b\u00b9", "^-1"},
+      {"\u00b7", "*"},  {"\u22c5", "*"},   {"\u00b0", "deg"},
+      {"**", "^"},      {"deg C", "degC"}, {"deg F", "degF"}};
   std::string out(trim(text));
   for (const auto& [from, to] : kSpellings)
     for (std::size_t at; (at = out.find(from)) != std::string::npos;)

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <numeric>
 
 #include "dashpot/base/text.h"
@@ -26,6 +27,7 @@ const ColumnUse* find_use(const ColumnUses& uses, std::string_view channel) {
 /// Empty when the table is a recording of a damper, that is when it has a motion and a force; else
 /// why not, and what to state in a dataset file.
 std::string refusal(const RawTable& table, const ColumnUses& uses) {
+  constexpr std::size_t kToldColumns = 3;
   const bool motion = find_use(uses, "displacement") || find_use(uses, "velocity");
   const bool force = find_use(uses, "force");
   if (motion && force) return {};
@@ -37,7 +39,14 @@ std::string refusal(const RawTable& table, const ColumnUses& uses) {
                                           "{force: {column: NAME, unit: N}}'"
                                         : "no line names the columns: state them by number in a "
                                           "dataset file: 'channels: {force: {column: 2, unit: N}}'";
-  return "no column is " + missing + " by its name (it has " + table.column_list() + "); " + how;
+  // Familiar names that were refused tell more than the list of all names.
+  std::string refused;
+  std::size_t told = 0;
+  for (const auto& [column, why] : uses.unused)
+    if (why.find("unit") != std::string::npos && told++ < kToldColumns)
+      refused += ", '" + label(table.columns[column], column) + "' " + why;
+  return "no column is " + missing + " by its name (it has " + table.column_list() + refused +
+         "); " + how;
 }
 
 void require_numbers(const RawTable& table, const ColumnUse& use) {
@@ -47,7 +56,7 @@ void require_numbers(const RawTable& table, const ColumnUse& use) {
   throw Error(table.where(column.bad->row),
               what + (column.bad->text.empty() ? "empty"
                                                : "'" + column.bad->text + "', not a finite number"),
-              "write it as 12.5, or leave the row out");
+              "write it as 12.5, or leave the row out ('on_bad_row: drop' in a dataset file)");
 }
 
 /// Sample time in s from a single number beside the columns whose name says that it is a sample
@@ -64,6 +73,21 @@ std::optional<double> sample_time_of_scalars(const RawTable& table, std::string&
   return std::nullopt;
 }
 
+/// A time without a unit whose steps are no seconds of any test: a logger's ms, most likely.
+void require_plausible_step(const std::vector<double>& stamps, const RawTable& table,
+                            const ColumnUse& use) {
+  constexpr double kLongest = 0.5;  // s
+  if (use.basis.find("assumed SI") == std::string::npos || stamps.size() < 2) return;
+  const double step = (stamps.back() - stamps.front()) / static_cast<double>(stamps.size() - 1);
+  if (step < kLongest) return;
+  const std::string name = label(table.columns[use.column], use.column);
+  throw Error(table.file,
+              "time (" + name + ") has no unit and steps of " + format_number(step, 3) +
+                  ", which are no seconds in a test of a damper",
+              "name it " + name + "_ms, or state its unit in a dataset file: 'time: {column: " +
+                  name + ", unit: ms}'");
+}
+
 /// Takes the time column or makes the time stamps. Returns in words how time was understood. A
 /// stated sample time goes before a time column, a time column before the file's own interval.
 std::string set_time(Record& record, RawTable& table, const ColumnUses& uses,
@@ -76,6 +100,7 @@ std::string set_time(Record& record, RawTable& table, const ColumnUses& uses,
   if (const ColumnUse* use = find_use(uses, "time"); use && !step) {
     record.time = std::move(table.columns[use->column].values);
     require_increasing(record.time, table);
+    require_plausible_step(record.time, table, *use);
     record.sample_time = uniform_step(record.time) * use->factor;
     for (double& stamp : record.time) stamp = use->factor * (stamp - use->raw_offset);
     if (!(record.sample_time > 0)) return "not uniform: kept as it is";
@@ -423,9 +448,58 @@ void doubt_units(Record& record, const ColumnUses& uses) {
   }
 }
 
+double mean_of(const Channel& channel) {
+  return std::accumulate(channel.samples.begin(), channel.samples.end(), 0.0) /
+         static_cast<double>(channel.samples.size());
+}
+
+/// Whether a recorded drive is not the level that somebody wrote down, sensors and their zeros
+/// aside.
+bool contradicts(const Channel& drive, double level) {
+  constexpr double kZero = 0.05, kShare = 0.1;
+  return std::abs(mean_of(drive) - level) > std::max(kZero, kShare * std::abs(level));
+}
+
+/// The level that is known from beside the table, after the recorded drive has been heard: a column
+/// goes before a name. `note` gets what people should know of it. Throws Error where a name may
+/// mean two levels and no column tells.
+std::optional<KnownLevel> heard_level(const Record& record, const std::optional<KnownLevel>& level,
+                                      std::string& note) {
+  if (!level) return std::nullopt;
+  const Channel* drive = record.find(drive_channel(level->unit));
+
+  // No column to ask.
+  if (!drive) {
+    const bool other = record.find("current") || record.find("voltage");
+    if (!level->doubt.empty() && !other)
+      throw Error(record.source, "the drive is in doubt: " + level->doubt,
+                  "state it in dataset.yaml beside the recordings, 'files: [{match: \"" +
+                      std::filesystem::path(record.source).filename().string() +
+                      "\", level: NUMBER}]', or write the name as run_0.5A");
+    if (!level->doubt.empty()) return std::nullopt;
+    note = level->note;
+    return level;
+  }
+
+  if (!level->doubt.empty()) {
+    note = "the recorded " + drive->name + " counts, not the name: " + level->doubt;
+    return std::nullopt;
+  }
+  if (!contradicts(*drive, level->value)) return level;
+  const std::string differ = "the recorded " + drive->name + " is " +
+                             format_number(mean_of(*drive), 3) + " " + drive->unit +
+                             " in the mean, the " + level->basis + " says " +
+                             format_number(level->value) + " " + drive->unit + ": ";
+  note = differ + (level->of_name ? "the column counts"
+                                  : "the level is as stated, the samples are the column's");
+  return level->of_name ? std::nullopt : level;
+}
+
 /// Adds the drive as a channel where it is known from beside the table, and finds the level of a
 /// drive that is constant.
-void add_drive(Record& record, const std::optional<KnownLevel>& level) {
+void add_drive(Record& record, const std::optional<KnownLevel>& known, std::string& note) {
+  const std::optional<KnownLevel> level = heard_level(record, known, note);
+  if (!note.empty()) record.notes.push_back(note);
   if (level) {
     const std::string& name = drive_channel(level->unit);
     record.drive_level = level->value;
@@ -441,8 +515,7 @@ void add_drive(Record& record, const std::optional<KnownLevel>& level) {
     const Channel* drive = record.find(name);
     if (!drive) continue;
     const auto [low, high] = std::minmax_element(drive->samples.begin(), drive->samples.end());
-    const double mean = std::accumulate(drive->samples.begin(), drive->samples.end(), 0.0) /
-                        static_cast<double>(record.size());
+    const double mean = mean_of(*drive);
     // Sensor noise on a constant level: levels are set in steps of hundredths at the finest.
     if (*high - *low <= std::max(0.02, 0.05 * std::abs(mean)))
       record.drive_level = std::round(mean * 100) / 100;
@@ -514,7 +587,7 @@ BuiltRecord build_record(RawTable table, const BuildContext& context) {
   take_off_inertia(record, uses);
   if (!context.as_given) note_direction(record, table, uses);
   doubt_units(record, uses);
-  add_drive(record, context.level);
+  add_drive(record, context.level, built.drive_note);
   return built;
 }
 

@@ -14,7 +14,10 @@ namespace dashpot {
 struct KnownLevel {
   double value = 0;
   DriveUnit unit = DriveUnit::Ampere;
-  std::string basis;  ///< "manifest.csv", "file name"
+  std::string basis;     ///< "manifest.csv", "file name"
+  bool of_name = false;  ///< a name's: a recorded drive goes before it
+  std::string doubt;     ///< not empty: the name may mean two levels, so this one may not be used
+  std::string note;      ///< how the name was read, where that is not plain
 };
 
 /// Everything that is known beside the table when it becomes a record.
@@ -33,6 +36,7 @@ struct BuiltRecord {
   Record record;
   std::vector<ColumnReading> readings;
   std::optional<double> centred;  ///< m, subtracted from an absolute stroke
+  std::string drive_note;         ///< how the drive was found, where sources do not agree
   std::string refusal;            ///< not empty: why this table is not a recording of a damper
 };
 

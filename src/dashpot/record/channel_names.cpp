@@ -103,7 +103,9 @@ std::vector<Parts> possible_parts(std::string_view column) {
   std::vector<Parts> parts;
   const auto add = [&](std::string_view name, std::string unit) {
     unit = std::string(trim(unit));
-    if (!trim(name).empty() && parse_unit(unit)) parts.push_back({std::string(trim(name)), unit});
+    const bool fahrenheit = unit == "F" && channel_of(trim(name)) == "temperature";
+    if (!trim(name).empty() && (parse_unit(unit) || fahrenheit))
+      parts.push_back({std::string(trim(name)), unit});
   };
 
   // In brackets.
@@ -134,7 +136,9 @@ std::vector<Parts> possible_parts(std::string_view column) {
 
 /// Channel of a name and its unit, which may be empty. The problem says why a familiar name is not
 /// used.
-NamedChannel resolve(const std::string& name, const std::string& unit) {
+NamedChannel resolve(const std::string& name, const std::string& given) {
+  // "F" is a unit of temperature only, and no farad.
+  const std::string unit = given == "F" && channel_of(name) == "temperature" ? "degF" : given;
   const auto parsed = unit.empty() ? std::nullopt : parse_unit(unit);
   for (const Ambiguous& word : kAmbiguous) {
     if (word.name != name) continue;
@@ -156,6 +160,95 @@ NamedChannel resolve(const std::string& name, const std::string& unit) {
   const bool letters_only = std::none_of(name.begin(), name.end(),
                                          [](char c) { return (c >= '0' && c <= '9') || c == '('; });
   return {channel, unit, {}, letters_only && words_of(name).size() == 1};
+}
+
+/// Words behind a name that say how it was measured and are no unit: "Force (filtered)".
+constexpr std::string_view kRemarks =
+    "measured meas actual filtered filt raw abs absolute rel relative lvdt cell load sensor "
+    "channel "
+    "ch ai top bottom left right front rear upper lower piston rod damper coil rms nominal signal "
+    "input output in out total dynamic static axial hh mm ss hhmmss iso date datetime clock local "
+    "utc x y z no nr";
+
+bool is_remark(std::string_view text) {
+  const std::vector<std::string> words = words_of(text);
+  return std::all_of(words.begin(), words.end(),
+                     [](const std::string& w) { return contains_word(kRemarks, w); });
+}
+
+/// The units that people write for a channel, the commonest first.
+std::string_view usual_units(std::string_view channel) {
+  static constexpr std::pair<std::string_view, std::string_view> kUsual[] = {
+      {"time", "s ms us min h"},
+      {"displacement", "mm m cm um in ft"},
+      {"velocity", "m/s mm/s cm/s in/s ft/s"},
+      {"acceleration", "m/s^2 mm/s^2 g0 in/s^2"},
+      {"force", "N kN daN kgf kp lbf lbs"},
+      {"current", "A mA"},
+      {"voltage", "V mV"},
+      {"temperature", "degC K degF C F"}};
+  for (const auto& [name, units] : kUsual)
+    if (name == channel) return units;
+  return {};
+}
+
+/// "the unknown unit 'lbx' of force; nearest: 'lbf', 'N' ..."
+std::string unknown_unit(const std::string& unit, std::string_view channel) {
+  std::vector<std::string> known = split(std::string(usual_units(channel)), ' ');
+  const auto near = closest(lower(unit), known);
+  const auto same = std::find_if(known.begin(), known.end(),
+                                 [&](const std::string& k) { return lower(k) == lower(unit); });
+  const std::string first = same != known.end() ? *same : near.value_or("");
+  std::erase(known, first);
+  if (!first.empty()) known.insert(known.begin(), first);
+  for (std::string& k : known) k = "'" + k + "'";
+  return "the unknown unit '" + unit + "' of " + std::string(channel) +
+         "; nearest: " + join(known, ", ");
+}
+
+/// Whether the last word of a name was meant as a unit: it is one but for its capitals, or a unit
+/// that Dashpot does not know.
+bool meant_as_unit(std::string_view text, std::string_view channel) {
+  constexpr std::string_view kForeign =
+      "tonf tf ton kip kips pdl dyn ozf ips fps mph kmh kph knots mil mils thou pt cts counts "
+      "count "
+      "bits bit adc lsb digits klbf klb klbs kg kgs lbsf nt kgforce mas hrs rankine degr r";
+  const std::vector<std::string> usual = split(std::string(usual_units(channel)), ' ');
+  return contains_word(kForeign, lower(text)) ||
+         std::any_of(usual.begin(), usual.end(),
+                     [&](const std::string& unit) { return lower(unit) == lower(text); });
+}
+
+/// A familiar name with a unit that nobody knows, wherever people write it. The channel is empty
+/// where there is none: such a column may not be taken as SI.
+NamedChannel with_unknown_unit(std::string_view column) {
+  const auto refuse = [](std::string_view name, std::string_view unit) -> NamedChannel {
+    const std::string channel = channel_of(trim(name));
+    if (channel.empty() || is_wish(name)) return {};
+    return {channel, {}, unknown_unit(std::string(trim(unit)), channel), false};
+  };
+
+  // In brackets everything but a remark is a unit.
+  for (const auto& [open, close] :
+       {std::pair{'[', ']'}, std::pair{'(', ')'}, std::pair{'{', '}'}}) {
+    const std::size_t from = column.find(open), to = column.rfind(close);
+    if (from == std::string_view::npos || to == std::string_view::npos || to < from) continue;
+    const std::string_view inside = trim(column.substr(from + 1, to - from - 1));
+    if (inside.empty() || is_remark(inside)) return {};
+    return refuse(column.substr(0, from), inside);
+  }
+
+  // Behind a comma or a slash as well; behind a blank or an underscore only what looks like one.
+  for (const char mark : {',', '/', '_', ' '}) {
+    const std::size_t at = column.rfind(mark);
+    if (at == std::string_view::npos || at == 0) continue;
+    const std::string_view behind = trim(column.substr(at + 1)), name = column.substr(0, at);
+    const std::string channel = channel_of(trim(name));
+    if (behind.empty() || channel.empty()) continue;
+    const bool surely = mark == ',' && !is_remark(behind);
+    if (surely || meant_as_unit(behind, channel)) return refuse(name, behind);
+  }
+  return {};
 }
 
 /// "x(2)": one column of a matrix in a MAT file.
@@ -195,8 +288,16 @@ NamedChannel recognise_channel(std::string_view column, std::string_view row_uni
 
   // No unit in the name: it is the whole name, with the unit of the row below.
   if (!refused.problem.empty()) return refused;
-  if (!row.empty() && !parse_unit(row)) return {{}, {}, "unit '" + row + "' is unknown", false};
-  return resolve(whole, row);
+  NamedChannel found = resolve(whole, row);
+  const bool known = row.empty() || parse_unit(row) || found.unit == "degF";
+  if (!known && !found.channel.empty()) found.problem = unknown_unit(row, found.channel);
+  if (!known && found.channel.empty()) found.problem = "unit '" + row + "' is unknown";
+  if (!known) found.unit.clear();
+  if (!row.empty()) return found;
+
+  // A name that holds a unit which nobody knows is not taken as SI.
+  const NamedChannel unknown = with_unknown_unit(whole);
+  return unknown.channel.empty() ? found : unknown;
 }
 
 }  // namespace dashpot

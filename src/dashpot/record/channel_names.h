@@ -18,7 +18,8 @@ struct NamedChannel {
 
 /// `row_unit`: from a units row; "" when there is none. Conservative: a name that may mean two
 /// things ("V", "A" without a unit) or a wish instead of a measurement ("target force") is not
-/// used, since a wrong channel costs more than a question. Never throws.
+/// used, since a wrong channel costs more than a question. A unit that is there and unknown comes
+/// as the `problem` of a channel: whoever uses the column must refuse it. Never throws.
 NamedChannel recognise_channel(std::string_view column, std::string_view row_unit);
 
 /// SI unit text of a channel or "time"; "" for a channel that is not standard.

@@ -70,6 +70,10 @@ ColumnUse use_stated(const RawTable& table, const ChannelStatement& statement,
     const RawColumn& column = table.columns[use.column];
     const NamedChannel named = recognise_channel(column.name, column.unit);
     unit = !column.unit.empty() ? column.unit : named.channel == use.channel ? named.unit : "";
+    if (column.unit.empty() && named.channel == use.channel && !named.problem.empty())
+      throw Error(
+          statement.where, "column '" + column.name + "' has " + named.problem,
+          "state its unit: '" + use.channel + ": {column: " + column.name + ", unit: UNIT}'");
     use.basis += unit.empty() ? ", assumed SI: no unit given" : ", unit from the file";
   }
   set_unit(use, unit, statement);
@@ -124,7 +128,9 @@ void use_claims(const std::vector<Claim>& claims, const RawTable& table, ColumnU
   if (!chosen->named.problem.empty())
     throw Error(table.where(0),
                 "column '" + column_name(table, chosen->column) + "' has " + chosen->named.problem,
-                "state the right one in a dataset file, or correct the header");
+                "correct the header, or state it in a dataset file: 'channels: {" +
+                    chosen->named.channel + ": {column: " + column_name(table, chosen->column) +
+                    ", unit: UNIT}}'");
 
   ColumnUse use;
   use.column = chosen->column;

@@ -12,7 +12,7 @@ bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
 
 std::string strip_separators(std::string text) {
-  constexpr std::string_view kSeparators = " _-.,=";
+  constexpr std::string_view kSeparators = " _-.,=/";
   const std::size_t first = text.find_first_not_of(kSeparators);
   if (first == std::string::npos) return {};
   return text.substr(first, text.find_last_not_of(kSeparators) - first + 1);
@@ -69,37 +69,159 @@ bool states_motion(const std::string& name) {
   return text.find("hz") != std::string::npos || text.find("mm") != std::string::npos;
 }
 
+/// A drive level in a name, and where it stands there.
+struct NamedLevel {
+  KnownLevel level;
+  std::size_t begin = 0, end = 0;
+};
+
+/// The digits of a number from k on, at most one point between them.
+std::size_t end_of_number(std::string_view text, std::size_t k) {
+  while (k < text.size() &&
+         (is_digit(text[k]) || (text[k] == '.' && k + 1 < text.size() && is_digit(text[k + 1]))))
+    ++k;
+  return k;
+}
+
+/// Where the run of digits begins that ends in front of `end`.
+std::size_t start_of_digits(std::string_view text, std::size_t end) {
+  while (end > 0 && is_digit(text[end - 1])) --end;
+  return end;
+}
+
+std::string two_readings(std::string_view text, double one, double other, std::string_view unit) {
+  return "'" + std::string(text) + "' may be " + format_number(one) + " " + std::string(unit) +
+         " or " + format_number(other) + " " + std::string(unit);
+}
+
+/// What else the digits of a level may mean: what stands in front of them may belong to them.
+/// `at` is where its number begins in `name`.
+void doubt_digits(NamedLevel& found, std::string_view name, std::size_t at, std::size_t end,
+                  std::size_t unit_end, double scale) {
+  const std::string_view digits = name.substr(at, end - at),
+                         unit = name.substr(end, unit_end - end);
+  const bool whole = digits.find('.') == std::string_view::npos;
+  const std::size_t start = at > 1 ? start_of_digits(name, at - 1) : at;
+  const std::string_view before = at > 1 ? name.substr(start, at - 1 - start) : std::string_view();
+  const char mark = at > 0 ? name[at - 1] : ' ';
+
+  // "0,5A" and "0p5A": a decimal sign that file names allow.
+  if (whole && !before.empty() && (mark == ',' || mark == 'p')) {
+    const auto value = parse_number(std::string(before) + "." + std::string(digits));
+    found.level.value = *value * scale;
+    found.begin = start;
+    found.level.note = "'" + std::string(name.substr(start, unit_end - start)) + "' is read as " +
+                       format_number(*value) + " " + std::string(unit) + ", '" + mark +
+                       "' as the decimal sign";
+    return;
+  }
+
+  // "05A": the point may have been left out. Levels in mA are often filled up with zeros.
+  if (whole && digits.size() > 1 && digits[0] == '0' && scale == 1 && found.level.value != 0) {
+    const auto other = parse_number("0." + std::string(digits.substr(1)));
+    found.level.doubt =
+        two_readings(name.substr(at, unit_end - at), found.level.value, *other, unit);
+    return;
+  }
+
+  // "0_5A": the mark may stand for the point, and surely may behind a 0. Behind another number it
+  // is more often a counter ("run_3_2A").
+  const bool alone = start == 0 || !(is_letter(name[start - 1]) || name[start - 1] == '.');
+  if (!whole || before.empty() || !alone || (mark != '_' && mark != '-' && mark != ' ')) return;
+  const bool zero = before == "0";
+  if (!zero && (before.size() > 2 || before[0] == '0')) return;
+  const auto other = parse_number(std::string(before) + "." + std::string(digits));
+  const std::string both =
+      two_readings(name.substr(start, unit_end - start), *other, found.level.value / scale, unit);
+  if (zero) {
+    found.level.doubt = both;
+  } else {
+    found.level.note = both + ": read as " + format_number(found.level.value / scale) + " " +
+                       std::string(unit) + "; 'level: " + format_number(*other * scale) +
+                       "' in a dataset file states the other";
+  }
+}
+
+/// The drive levels in the name of a file or folder, which begins at `offset` of the whole path. A
+/// level is a number followed by A, mA, V or mV as a word of its own; in the name of a folder the
+/// number begins a word.
+std::vector<NamedLevel> levels_in(std::string_view name, std::size_t offset,
+                                  const std::string& basis) {
+  std::vector<NamedLevel> all;
+  for (std::size_t k = 0; k < name.size(); ++k) {
+    if (!is_digit(name[k]) || (k > 0 && (is_digit(name[k - 1]) || name[k - 1] == '.'))) continue;
+    if (basis == "folder name" && k > 0 && is_letter(name[k - 1]) && name[k - 1] != 'p') continue;
+
+    const std::size_t end = end_of_number(name, k);
+    const auto value = parse_number(name.substr(k, end - k));
+    const bool milli = end < name.size() && name[end] == 'm';
+    const std::size_t unit = end + (milli ? 1 : 0);
+    const bool is_level =
+        value && unit < name.size() && (name[unit] == 'A' || name[unit] == 'V') &&
+        (unit + 1 == name.size() || !(is_letter(name[unit + 1]) || is_digit(name[unit + 1])));
+    if (!is_level) continue;
+
+    NamedLevel found{{milli ? *value / 1000 : *value,
+                      parse_drive_unit(name.substr(unit, 1), basis),
+                      basis,
+                      true,
+                      {},
+                      {}},
+                     k,
+                     unit + 1};
+    doubt_digits(found, name, k, end, unit + 1, milli ? 1e-3 : 1);
+    found.begin += offset;
+    found.end += offset;
+    all.push_back(std::move(found));
+  }
+  return all;
+}
+
+std::string words_of_level(const KnownLevel& level) {
+  return format_number(level.value) + " " + to_string(level.unit) + " (" + level.basis + ")";
+}
+
+/// The first of them, in doubt where another one differs.
+KnownLevel settled(const std::vector<NamedLevel>& found) {
+  KnownLevel level = found.front().level;
+  for (const NamedLevel& other : found)
+    if (level.doubt.empty() && (other.level.value != level.value || other.level.unit != level.unit))
+      level.doubt = "both " + words_of_level(level) + " and " + words_of_level(other.level) +
+                    " are stated by names";
+  return level;
+}
+
 }  // namespace
 
 NameParts split_name(std::string_view stem) {
-  for (std::size_t k = 0; k < stem.size(); ++k) {
-    if (!is_digit(stem[k]) || (k > 0 && (is_digit(stem[k - 1]) || stem[k - 1] == '.'))) continue;
+  const std::size_t slash = stem.rfind('/');
+  const std::size_t name_at = slash == std::string_view::npos ? 0 : slash + 1;
+  std::vector<NamedLevel> found = levels_in(stem.substr(name_at), name_at, "file name");
 
-    // The digits of a number, at most one point between them.
-    std::size_t end = k;
-    while (end < stem.size() &&
-           (is_digit(stem[end]) ||
-            (stem[end] == '.' && end + 1 < stem.size() && is_digit(stem[end + 1]))))
-      ++end;
-
-    // A drive level is a number followed by A, mA, V or mV as a word of its own.
-    const auto value = parse_number(stem.substr(k, end - k));
-    const bool milli = end < stem.size() && stem[end] == 'm';
-    const std::size_t unit = end + (milli ? 1 : 0);
-    const bool is_level =
-        value && unit < stem.size() && (stem[unit] == 'A' || stem[unit] == 'V') &&
-        (unit + 1 == stem.size() || !(is_letter(stem[unit + 1]) || is_digit(stem[unit + 1])));
-    if (!is_level) continue;
-
-    // The name without it, as one word.
-    std::string rest = strip_separators(std::string(stem.substr(0, k))),
-                tail = strip_separators(std::string(stem.substr(unit + 1)));
-    if (!rest.empty() && !tail.empty()) rest += "_";
-    return {KnownLevel{milli ? *value / 1000 : *value,
-                       parse_drive_unit(stem.substr(unit, 1), "file name"), "file name"},
-            rest + tail};
+  // The folders speak where the name does not, the innermost first; both may not differ.
+  for (std::size_t end = name_at; end > 0;) {
+    const std::size_t last = end - 1;
+    const std::size_t before = last == 0 ? std::string_view::npos : stem.rfind('/', last - 1);
+    const std::size_t begin = before == std::string_view::npos ? 0 : before + 1;
+    const std::vector<NamedLevel> outer =
+        levels_in(stem.substr(begin, last - begin), begin, "folder name");
+    found.insert(found.end(), outer.begin(), outer.end());
+    end = begin;
   }
-  return {std::nullopt, std::string(stem)};
+  if (found.empty()) return {std::nullopt, std::string(stem)};
+
+  // The name without the level, as one word.
+  const NamedLevel& first = found.front();
+  std::string rest = strip_separators(std::string(stem.substr(0, first.begin))),
+              tail = strip_separators(std::string(stem.substr(first.end)));
+  if (!rest.empty() && !tail.empty()) rest += "_";
+  return {settled(found), rest + tail};
+}
+
+std::optional<KnownLevel> level_of_folder(std::string_view name) {
+  const std::vector<NamedLevel> found = levels_in(name, 0, "folder name");
+  if (found.empty()) return std::nullopt;
+  return settled(found);
 }
 
 void infer_conditions(std::vector<Record>& records, const std::vector<std::string>& name_rests) {

@@ -9,12 +9,16 @@
 namespace dashpot {
 
 /// A file's name taken apart: "sine_5mm_3Hz_0.25A" -> 0.25 A and "sine_5mm_3Hz". No level when no
-/// number has the unit A, mA, V or mV.
+/// number has the unit A, mA, V or mV. "0,25A" and "0p25A" are 0.25 A. A level whose text may mean
+/// two numbers ("0_5A", "05A") has a doubt. The folders of the path speak where the name is silent.
 struct NameParts {
   std::optional<KnownLevel> level;
   std::string rest;
 };
 NameParts split_name(std::string_view stem);
+
+/// The level that the name of a folder states, with the words "folder name" as its basis.
+std::optional<KnownLevel> level_of_folder(std::string_view name);
 
 /// Gives every record without a condition one: the rest of its name when that states a motion (mm,
 /// Hz), else amplitude and frequency; records within 5 % of each other share one.

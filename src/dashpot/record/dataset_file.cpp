@@ -205,7 +205,12 @@ FileStatement read_files(const Value& value) {
     out.only_stated = true;
   }
 
-  // Cuts and filters of the samples.
+  // Rows that hold no numbers, cuts and filters of the samples.
+  const std::string bad_row = reader.string("on_bad_row", "error");
+  if (bad_row != "error" && bad_row != "drop")
+    throw Error(reader.required("on_bad_row").where(), "'on_bad_row' is '" + bad_row + "'",
+                "it can be 'error' or 'drop'");
+  out.drop_bad_rows = bad_row == "drop";
   if (const Value* cut = reader.optional("cut")) read_cut(*cut, out);
   out.resample_hz = positive_number(reader, "resample");
   out.velocity_cutoff_hz = positive_number(reader, "velocity_cutoff").value_or(0);
@@ -256,6 +261,13 @@ DatasetFile load_dataset_file(const fs::path& path) {
   if (const Value* recognise = reader.optional("recognise")) read_recognise(*recognise, out);
   for (const Value& files : reader.required("files").items())
     out.files.push_back(read_files(files));
+
+  // Roles are themselves a way to leave out: where no other is stated it is theirs.
+  const bool roles = std::any_of(out.files.begin(), out.files.end(), [](const FileStatement& f) {
+    return std::any_of(f.roles.begin(), f.roles.end(),
+                       [](const RoleStatement& r) { return r.role == Role::LeftOut; });
+  });
+  if (roles && !out.leave_out) out.leave_out = LeaveOut{.by = LeaveOut::By::Roles, .values = {}};
   if (const Value* notes = reader.optional("notes")) out.notes = texts(*notes);
   reader.finish();
   return out;

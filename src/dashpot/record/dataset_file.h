@@ -45,6 +45,7 @@ struct FileStatement {
   std::optional<double> cut_from, cut_to;  ///< s
   bool cut_rest = false;                   ///< drop what comes before the motion starts
   std::optional<double> resample_hz;
+  bool drop_bad_rows = false;     ///< 'on_bad_row: drop'
   double velocity_cutoff_hz = 0;  ///< 0: not stated
   std::string name;               ///< template of the record's name; "" : from the file's
   std::string condition;          ///< template; "" : inferred

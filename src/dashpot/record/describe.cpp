@@ -174,8 +174,10 @@ std::string note_list(const Dataset& dataset) {
 }  // namespace
 
 std::string describe(const Dataset& dataset) {
-  std::string out = dataset.name + ": " + std::to_string(dataset.records.size()) +
-                    " records from " + std::to_string(dataset.files.size()) + " files\n";
+  const std::size_t records = dataset.records.size(), files = dataset.files.size();
+  std::string out = dataset.name + ": " + std::to_string(records) +
+                    (records == 1 ? " record from " : " records from ") + std::to_string(files) +
+                    (files == 1 ? " file\n" : " files\n");
   if (!dataset.citation.empty()) out += "  cite: " + dataset.citation + "\n";
 
   for (const Understood& group : group_readings(dataset.readings)) {

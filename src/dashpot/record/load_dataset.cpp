@@ -12,6 +12,7 @@
 #include "dashpot/record/readers/reader.h"
 #include "dashpot/record/source_files.h"
 #include "dashpot/record/sources.h"
+#include "dashpot/record/stretches.h"
 
 namespace fs = std::filesystem;
 
@@ -42,25 +43,30 @@ std::string fill_template(const std::string& text, const std::map<std::string, s
   return out;
 }
 
+/// The name of the folder that was pointed at, or that holds the file which was.
+std::string pointed_folder(const SourcePath& file) {
+  fs::path folder = fs::absolute(file.path).lexically_normal().parent_path();
+  const fs::path below = fs::path(file.relative).parent_path();
+  for (auto part = below.begin(); part != below.end(); ++part) folder = folder.parent_path();
+  return folder.filename().string();
+}
+
 /// Loads file after file into one dataset.
 class Loader {
  public:
-  Loader(Sources sources, const LoadOptions& options)
-      : sources_(std::move(sources)), options_(options), manifest_(find_manifest(sources_)) {
-    if (!sources_.stated.path.empty())
-      stated_in_ = fs::path(sources_.stated.path).filename().string();
-    dataset_.name = sources_.stated.name;
-    dataset_.citation = sources_.stated.citation;
-    dataset_.leave_out = sources_.stated.leave_out;
-    dataset_.notes = sources_.stated.notes;
-  }
+  explicit Loader(const LoadOptions& options) : options_(options) {}
 
   /// In the order of the files; what needs all records at once comes after the last.
-  Dataset load() {
-    for (std::size_t k = 0; k < sources_.files.size(); ++k) {
-      options_.monitor.report("read " + sources_.files[k].relative,
-                              static_cast<double>(k) / static_cast<double>(sources_.files.size()));
-      load_file(sources_.files[k]);
+  Dataset load(std::vector<Sources> all) {
+    for (const Sources& sources : all) file_count_ += sources.files.size();
+    std::size_t done = 0;
+    for (Sources& sources : all) {
+      enter(std::move(sources));
+      for (const SourcePath& file : sources_.files) {
+        options_.monitor.report("read " + file.relative,
+                                static_cast<double>(done++) / static_cast<double>(file_count_));
+        load_file(file);
+      }
     }
 
     if (dataset_.records.empty()) refuse_nothing();
@@ -68,18 +74,83 @@ class Loader {
     sort_by_level();
     make_names_unique();
     settle_drive();
+    note_drives();
+    note_unread();
     if (!centred_.empty()) note_centres();
     note_displacements();
     return std::move(dataset_);
   }
 
  private:
+  /// Goes on to the next folder: its files, and what is stated about them.
+  void enter(Sources sources) {
+    const bool first = sources_.files.empty() && sources_.pointed_at.empty();
+    sources_ = std::move(sources);
+    manifest_ = find_manifest(sources_);
+    refuse_ambiguous_names();
+    const DatasetFile& stated = sources_.stated;
+    stated_in_ = stated.path.empty() ? "" : fs::path(stated.path).filename().string();
+
+    dataset_.name += (first ? "" : " + ") + stated.name;
+    if (!dataset_.citation.empty() && !stated.citation.empty()) dataset_.citation += "; ";
+    dataset_.citation += stated.citation;
+    dataset_.notes.insert(dataset_.notes.end(), stated.notes.begin(), stated.notes.end());
+
+    // What holds for all records together may be stated once.
+    if (drive_unit_ && stated.drive_unit && *drive_unit_ != *stated.drive_unit)
+      throw Error(stated.path, "'drive' differs from that of the folders before",
+                  "records that are judged together have one kind of drive");
+    if (!drive_unit_) drive_unit_ = stated.drive_unit;
+    const bool differs =
+        dataset_.leave_out && stated.leave_out &&
+        format_leave_out(*dataset_.leave_out) != format_leave_out(*stated.leave_out);
+    if (differs)
+      dataset_.notes.push_back("'leave_out: " + format_leave_out(*stated.leave_out) + "' of " +
+                               stated.path + " is not used: the folder before states '" +
+                               format_leave_out(*dataset_.leave_out) + "'");
+    if (!dataset_.leave_out) dataset_.leave_out = stated.leave_out;
+  }
+
+  /// A bare name of the manifest may not stand for two files.
+  void refuse_ambiguous_names() const {
+    std::map<std::size_t, const SourcePath*> seen;
+    for (const SourcePath& file : sources_.files) {
+      const auto row = manifest_.row_of(file);
+      if (!row) continue;
+      const auto [at, is_new] = seen.emplace(*row, &file);
+      if (!is_new)
+        throw Error(manifest_.path(),
+                    "one row may be " + at->second->relative + " or " + file.relative,
+                    "write the path in the column 'file', as " + file.relative);
+    }
+  }
+
+  /// Reads one file. One of a folder that cannot be used is remembered with its error and leaves
+  /// nothing behind; a file that was named, or a statement that is wrong, stops everything.
+  void load_file(const SourcePath& file) {
+    const std::size_t records = dataset_.records.size(), readings = dataset_.readings.size(),
+                      centred = centred_.size(), drives = drive_notes_.size();
+    try {
+      load_sound_file(file);
+    } catch (const Error& error) {
+      const std::string why = error.what();
+      const bool of_statement =
+          (!sources_.stated.path.empty() && why.starts_with(sources_.stated.path + ":")) ||
+          (!manifest_.empty() && why.starts_with(manifest_.path()));
+      if (file.named || of_statement) throw;
+      dataset_.records.resize(records);
+      name_rests_.resize(records);
+      dataset_.readings.resize(readings);
+      centred_.resize(centred);
+      drive_notes_.resize(drives);
+      dataset_.unread.push_back({file.relative, why});
+    }
+  }
+
   /// Reads one file into records, or passes it over with a reason. A file that the caller named
   /// itself may not be passed over: pass_over() throws for it.
-  void load_file(const SourcePath& file) {
+  void load_sound_file(const SourcePath& file) {
     const FileStatement* statement = statement_for(sources_.stated, file);
-    const std::string name = file.path.filename().string();
-
     // Files beside the recordings that are none.
     const bool is_manifest = !manifest_.empty() && fs::equivalent(file.path, manifest_.path());
     if (is_manifest) return dataset_.notes.push_back(file.relative + ": the manifest");
@@ -91,7 +162,7 @@ class Loader {
     // folder.
     if (!statement) return pass_over(file, "no 'match' in " + stated_in_ + " fits it");
     const bool stated = !stated_in_.empty();
-    if (!stated && !file.named && !manifest_.empty() && !manifest_.lists(name))
+    if (!stated && !file.named && !manifest_.empty() && !manifest_.lists(file))
       return pass_over(file, "not in manifest.csv");
     if (!stated && !file.named && fs::file_size(file.path) > 0 && !find_reader(file.path))
       return pass_over(file, "not a recording by its format");
@@ -106,14 +177,21 @@ class Loader {
 
     const std::size_t parts = tables.size();
     bool used = false;
-    for (RawTable& table : tables)
-      used = load_table(file, *statement, std::move(table), parts) || used;
+    for (RawTable& table : tables) {
+      std::vector<RawTable> stretches = usable_stretches(std::move(table), *statement, stated_in_);
+      const bool split = stretches.size() > 1;
+      for (std::size_t k = 0; k < stretches.size(); ++k)
+        used = load_table(file, *statement, std::move(stretches[k]), parts,
+                          split ? ", stretch " + std::to_string(k + 1) : "") ||
+               used;
+    }
     if (used) dataset_.files.push_back({file.path.string(), sha256_of_file(file.path)});
   }
 
-  /// Makes a record of one table; false when the table was passed over.
+  /// Makes a record of one table; false when the table was passed over. `stretch` ends the names of
+  /// records of a table that has gaps; "" for a whole one.
   bool load_table(const SourcePath& file, const FileStatement& statement, RawTable table,
-                  std::size_t parts) {
+                  std::size_t parts, const std::string& stretch) {
     const NameParts name =
         split_name(without_gz(fs::path(file.relative)).replace_extension().string());
 
@@ -131,6 +209,7 @@ class Loader {
     context.name = !group.empty() ? table.part : parts > 1 ? stem + ", part " + part : stem;
     if (!statement.name.empty())
       context.name = fill_template(statement.name, words, statement.where);
+    context.name += stretch;
     const std::string condition = fill_template(statement.condition, words, statement.where);
 
     BuiltRecord built = build_record(std::move(table), context);
@@ -141,14 +220,17 @@ class Loader {
     }
 
     if (built.centred) centred_.push_back(*built.centred);
+    if (!built.drive_note.empty()) drive_notes_.push_back(file.relative + ": " + built.drive_note);
     built.record.condition = condition.empty() ? group : condition;
     dataset_.readings.insert(dataset_.readings.end(), built.readings.begin(), built.readings.end());
-    add_records(std::move(built.record), statement, name.rest);
+    add_records(std::move(built.record), statement, name.rest, !stretch.empty());
     return true;
   }
 
-  /// One record, or one per role that the statement gives to a part of it.
-  void add_records(Record record, const FileStatement& statement, const std::string& rest) {
+  /// One record, or one per role that the statement gives to a part of it. A stretch of a recording
+  /// with gaps has the roles that reach it.
+  void add_records(Record record, const FileStatement& statement, const std::string& rest,
+                   bool is_stretch) {
     const auto at_time = [&](const std::optional<double>& t, std::size_t otherwise) {
       if (!t) return otherwise;
       return static_cast<std::size_t>(std::lower_bound(record.time.begin(), record.time.end(), *t) -
@@ -165,6 +247,7 @@ class Loader {
     for (const RoleStatement& role : statement.roles) {
       const std::size_t first = at_time(role.from, 0), last = at_time(role.to, record.size());
       const std::size_t scored = std::max(first, at_time(role.score_from, first));
+      if (last < scored + 2 && is_stretch) continue;
       if (last < scored + 2)
         throw Error(statement.where, "a role leaves nothing of " + record.name,
                     "the record runs to " + format_number(record.time.back()) + " s");
@@ -186,13 +269,13 @@ class Loader {
                                                     const std::string& part,
                                                     const std::string& group,
                                                     const std::optional<KnownLevel>& level) const {
-    std::map<std::string, std::string> words{{"stem", stem},
+    std::map<std::string, std::string> words{{"stem", fs::path(stem).filename().string()},
+                                             {"folder", fs::path(stem).parent_path().string()},
                                              {"part", part},
                                              {"group", group},
                                              {"level", level ? format_number(level->value) : ""}};
     for (const std::string& column : manifest_.columns())
-      if (const auto cell = manifest_.cell(file.path.filename().string(), column))
-        words[column] = *cell;
+      if (const auto cell = manifest_.cell(file, column)) words[column] = *cell;
     return words;
   }
 
@@ -201,11 +284,10 @@ class Loader {
   std::optional<KnownLevel> known_level(const SourcePath& file, const FileStatement& statement,
                                         const RawTable& table, const NameParts& name) const {
     const DriveUnit unit = sources_.stated.drive_unit.value_or(DriveUnit::Ampere);
-    const std::string file_name = file.path.filename().string();
     if (const auto* level = std::get_if<double>(&statement.level))
       return KnownLevel{*level, unit, stated_in_};
     if (const auto* column = std::get_if<std::string>(&statement.level))
-      return KnownLevel{manifest_.number(file_name, *column), unit, "manifest, " + *column};
+      return KnownLevel{manifest_.number(file, *column), unit, "manifest, " + *column};
     if (const auto* levels = std::get_if<std::vector<double>>(&statement.level)) {
       if (table.part_index < levels->size())
         return KnownLevel{(*levels)[table.part_index], unit, stated_in_};
@@ -219,10 +301,15 @@ class Loader {
         statement.channels.begin(), statement.channels.end(),
         [](const ChannelStatement& c) { return c.channel == "current" || c.channel == "voltage"; });
     if (drive_stated) return std::nullopt;
-    if (const auto column = manifest_.level_column(); column && manifest_.lists(file_name))
-      return KnownLevel{manifest_.number(file_name, column->first), column->second,
+    if (const auto column = manifest_.level_column(); column && manifest_.lists(file))
+      return KnownLevel{manifest_.number(file, column->first), column->second,
                         "manifest.csv, " + column->first};
-    return name.level;
+
+    // The names: the file's and those of its folders, then that of the folder that was pointed at.
+    std::optional<KnownLevel> level = name.level;
+    if (!level) level = level_of_folder(pointed_folder(file));
+    if (level && sources_.stated.drive_unit == DriveUnit::None) level->doubt.clear();
+    return level;
   }
 
   void pass_over(const SourcePath& file, const std::string& why) {
@@ -235,12 +322,20 @@ class Loader {
                                   ? sources_.pointed_at
                                   : sources_.files.front().path.parent_path().string();
 
-    std::string what =
-        sources_.files.empty()
-            ? "the folder holds no files"
-            : "no recording among " + std::to_string(sources_.files.size()) + " files";
-    for (std::size_t k = 0; k < std::min<std::size_t>(dataset_.notes.size(), 3); ++k)
-      what += "\n  " + dataset_.notes[k];
+    std::string what = sources_.files.empty()
+                           ? "the folder holds no files"
+                           : "no recording among " + std::to_string(file_count_) +
+                                 (file_count_ == 1 ? " file" : " files");
+    // The reasons, the errors first.
+    constexpr std::size_t kReasons = 3;
+    std::vector<std::string> reasons;
+    for (const PassedOver& file : dataset_.unread) reasons.push_back(file.why);
+    for (const PassedOver& file : dataset_.passed_over)
+      reasons.push_back(file.file + ": " + file.why);
+    for (std::size_t k = 0; k < std::min(reasons.size(), kReasons); ++k)
+      what += "\n  " + reasons[k];
+    if (reasons.size() > kReasons)
+      what += "\n  and " + std::to_string(reasons.size() - kReasons) + " more";
 
     throw Error(where, what,
                 "Dashpot looks for " + known_formats() +
@@ -279,7 +374,7 @@ class Loader {
     const DriveUnit told = current == 0 && voltage == 0 ? DriveUnit::None
                            : current >= voltage         ? DriveUnit::Ampere
                                                         : DriveUnit::Volt;
-    dataset_.drive_unit = sources_.stated.drive_unit.value_or(told);
+    dataset_.drive_unit = drive_unit_.value_or(told);
     if (dataset_.drive_unit == DriveUnit::None) return take_as_one_drive(current + voltage > 0);
 
     const std::size_t count = dataset_.records.size();
@@ -306,6 +401,32 @@ class Loader {
                       "no drive channel: taken as one constant, unknown drive, as of a passive "
                       "damper; if the current differs between records, give it in the file names "
                       "(run_0.5A.csv), in manifest.csv or in a dataset file"));
+  }
+
+  /// How drives were read where names and columns left a choice: first among the notes, since a
+  /// wrong current is the costliest mistake.
+  void note_drives() {
+    constexpr std::size_t kShown = 2;
+    std::vector<std::string> shown(
+        drive_notes_.begin(),
+        drive_notes_.begin() + static_cast<std::ptrdiff_t>(std::min(kShown, drive_notes_.size())));
+    if (drive_notes_.size() > kShown)
+      shown.back() += "; likewise " + std::to_string(drive_notes_.size() - kShown) +
+                      " more ('dashpot inspect' lists them)";
+    dataset_.notes.insert(dataset_.notes.begin(), shown.begin(), shown.end());
+  }
+
+  /// Which files could not be used, and why, before all other notes.
+  void note_unread() {
+    constexpr std::size_t kShown = 3;
+    std::vector<std::string> notes;
+    for (const PassedOver& file : dataset_.unread)
+      if (notes.size() < kShown) notes.push_back("not read: " + file.why);
+    if (dataset_.unread.size() > kShown)
+      notes.push_back("not read: " + std::to_string(dataset_.unread.size() - kShown) +
+                      " more files, " + std::to_string(dataset_.unread.size()) + " of " +
+                      std::to_string(file_count_) + " in all");
+    dataset_.notes.insert(dataset_.notes.begin(), notes.begin(), notes.end());
   }
 
   /// By how much absolute strokes were centred. Different centres lose where the records lie to
@@ -344,19 +465,22 @@ class Loader {
                                "velocity; 'dashpot inspect' says why");
   }
 
-  Sources sources_;
   const LoadOptions& options_;
+  Sources sources_;  ///< of the folder that is being read
   Manifest manifest_;
   std::string stated_in_;
   Dataset dataset_;
+  std::size_t file_count_ = 0;           ///< of all folders
+  std::optional<DriveUnit> drive_unit_;  ///< as stated by any folder
   std::vector<double> centred_;          ///< m, by which absolute strokes were moved
+  std::vector<std::string> drive_notes_;
   std::vector<std::string> name_rests_;  ///< of each record: its name without the drive level
 };
 
 }  // namespace
 
 Dataset load_dataset(const std::vector<fs::path>& paths, const LoadOptions& options) {
-  return Loader(find_sources(paths, options), options).load();
+  return Loader(options).load(find_all_sources(paths, options));
 }
 
 }  // namespace dashpot

@@ -113,28 +113,38 @@ Manifest::Manifest(const fs::path& path) : path_(path.string()) {
   file_column_ = static_cast<std::size_t>(at - names_.begin());
 }
 
-const std::vector<std::string>* Manifest::row_of(const std::string& file) const {
-  for (const auto& row : rows_)
-    if (row[file_column_] == file) return &row;
-  return nullptr;
+std::optional<std::size_t> Manifest::row_of(const SourcePath& file) const {
+  if (rows_.empty()) return std::nullopt;
+  const fs::path here = fs::absolute(path_).lexically_normal().parent_path();
+  const std::string below = fs::absolute(file.path).lexically_normal().lexically_relative(here);
+  const std::string name = file.path.filename().string();
+  std::optional<std::size_t> by_name;
+  for (std::size_t k = 0; k < rows_.size(); ++k) {
+    std::string listed = rows_[k][file_column_];
+    std::replace(listed.begin(), listed.end(), '\\', '/');
+    listed = fs::path(listed).lexically_normal().string();
+    if (listed == below || listed == file.relative) return k;
+    if (listed == name && !by_name) by_name = k;
+  }
+  return by_name;
 }
 
-std::optional<std::string> Manifest::cell(const std::string& file,
-                                          const std::string& column) const {
-  const auto* row = row_of(file);
+std::optional<std::string> Manifest::cell(const SourcePath& file, const std::string& column) const {
+  const auto row = row_of(file);
   const auto at = std::find(names_.begin(), names_.end(), column);
   if (!row || at == names_.end()) return std::nullopt;
-  return (*row)[static_cast<std::size_t>(at - names_.begin())];
+  return rows_[*row][static_cast<std::size_t>(at - names_.begin())];
 }
 
-double Manifest::number(const std::string& file, const std::string& column) const {
+double Manifest::number(const SourcePath& file, const std::string& column) const {
   const auto text = cell(file, column);
   if (!text)
-    throw Error(path_, "has no '" + column + "' for " + file,
+    throw Error(path_, "has no '" + column + "' for " + file.relative,
                 "its columns are " + join(names_, ", "));
   const auto value = parse_number(*text);
   if (!value)
-    throw Error(path_, "'" + column + "' of " + file + " is '" + *text + "', not a number");
+    throw Error(path_,
+                "'" + column + "' of " + file.relative + " is '" + *text + "', not a number");
   return *value;
 }
 

@@ -24,8 +24,8 @@ std::vector<SourcePath> list_files(const std::vector<std::filesystem::path>& pat
 /// Whether a pattern with * ? [...] fits the relative path or the file's name.
 bool matches(const std::string& pattern, const SourcePath& file);
 
-/// A table of the files of a folder (manifest.csv), with a column "file": it selects them and
-/// states their conditions. All cells are texts until number() is asked.
+/// A table of the files of a folder (manifest.csv), with a column "file" of names or of paths: it
+/// selects them and states their conditions. All cells are texts until number() is asked.
 class Manifest {
  public:
   Manifest() = default;
@@ -34,18 +34,19 @@ class Manifest {
 
   bool empty() const { return rows_.empty(); }
   const std::string& path() const { return path_; }
-  bool lists(const std::string& file) const { return row_of(file) != nullptr; }
+  bool lists(const SourcePath& file) const { return row_of(file).has_value(); }
+  /// The row of a file, by its path below the manifest's folder or below the folder that was
+  /// pointed at, else by its bare name.
+  std::optional<std::size_t> row_of(const SourcePath& file) const;
   /// The cell of a file; nothing when the file or the column is not there.
-  std::optional<std::string> cell(const std::string& file, const std::string& column) const;
+  std::optional<std::string> cell(const SourcePath& file, const std::string& column) const;
   /// The cell as a number; throws Error naming the manifest when it is none.
-  double number(const std::string& file, const std::string& column) const;
+  double number(const SourcePath& file, const std::string& column) const;
   /// The first column that is a current (A) or a voltage (V) by its name, with its unit.
   std::optional<std::pair<std::string, DriveUnit>> level_column() const;
   const std::vector<std::string>& columns() const { return names_; }
 
  private:
-  const std::vector<std::string>* row_of(const std::string& file) const;
-
   std::string path_;
   std::vector<std::string> names_;
   std::vector<std::vector<std::string>> rows_;

@@ -125,6 +125,26 @@ Sources find_sources(std::vector<fs::path> paths, const LoadOptions& options) {
   return sources;
 }
 
+std::vector<Sources> find_all_sources(const std::vector<fs::path>& paths,
+                                      const LoadOptions& options) {
+  const bool stated = !options.dataset_file.empty() ||
+                      std::any_of(paths.begin(), paths.end(), [](const fs::path& path) {
+                        return is_dataset_file(path) && is_file(path);
+                      });
+  const bool own = std::any_of(paths.begin(), paths.end(),
+                               [](const fs::path& path) { return is_file(path / "dataset.yaml"); });
+  std::vector<Sources> all;
+  if (stated || !own || paths.size() < 2) {
+    all.push_back(find_sources(paths, options));
+    return all;
+  }
+
+  // Each by itself, once all are known to be different files.
+  list_files(paths);
+  for (const fs::path& path : paths) all.push_back(find_sources({path}, options));
+  return all;
+}
+
 Manifest find_manifest(const Sources& sources) {
   const std::string name =
       sources.stated.manifest.empty() ? "manifest.csv" : sources.stated.manifest;

@@ -21,6 +21,11 @@ struct Sources {
 /// recordings. Throws Error on paths that cannot be read and on more than one dataset file.
 Sources find_sources(std::vector<std::filesystem::path> paths, const LoadOptions& options);
 
+/// The same for each path by itself where several are given and one of them has a dataset.yaml of
+/// its own; else all paths together.
+std::vector<Sources> find_all_sources(const std::vector<std::filesystem::path>& paths,
+                                      const LoadOptions& options);
+
 /// The manifest beside the recordings; an empty one when there is none and none is stated. Throws
 /// Error when the stated one is missing.
 Manifest find_manifest(const Sources& sources);

@@ -1,5 +1,6 @@
 #include "dashpot/report/provenance.h"
 
+#include <algorithm>
 #include <set>
 
 #include <fmt/format.h>
@@ -15,8 +16,11 @@ std::string drive_levels(const Dataset& dataset) {
   std::set<double> levels;
   for (const Record& record : dataset.records)
     if (record.drive_level) levels.insert(*record.drive_level);
-  if (levels.empty()) return "the drive varies within the records";
   const std::string noun = drive_channel(dataset.drive_unit);
+  const bool recorded = std::any_of(dataset.records.begin(), dataset.records.end(),
+                                    [&](const Record& record) { return record.find(noun); });
+  if (levels.empty())
+    return recorded ? "the drive varies within the records" : "the drive is not known";
   if (levels.size() == 1)
     return fmt::format("1 {}, {} {}", noun, format_number(*levels.begin()),
                        to_string(dataset.drive_unit));

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <charconv>
+#include <chrono>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "dashpot/base/text.h"
 #include "dashpot/error.h"
@@ -18,14 +20,15 @@ namespace {
 constexpr std::size_t kSniffedLines = 300;
 
 /// The common case (a plain number with a point) without the checks that parse_number adds.
-double number_or_nan(std::string_view cell, char decimal) {
-  if (decimal == '.') {
+double number_or_nan(std::string_view cell, const CsvDialect& dialect) {
+  if (dialect.decimal == '.') {
     double value;
     const char* end = cell.data() + cell.size();
     const auto result = std::from_chars(cell.data(), end, value);
     if (result.ec == std::errc{} && result.ptr == end) return value;
   }
-  return parse_number(cell, decimal).value_or(std::numeric_limits<double>::quiet_NaN());
+  return number_of_cell(cell, dialect.decimal, dialect.thousands)
+      .value_or(std::numeric_limits<double>::quiet_NaN());
 }
 
 RawTable empty_table(const CsvDialect& dialect, const std::string& file) {
@@ -36,10 +39,97 @@ RawTable empty_table(const CsvDialect& dialect, const std::string& file) {
   return table;
 }
 
+/// Takes a number of so many digits, at least `least`, off the front; nothing where they are not
+/// there.
+std::optional<int> take_digits(std::string_view& text, std::size_t least, std::size_t most) {
+  int value = 0;
+  std::size_t count = 0;
+  while (count < most && count < text.size() && text[count] >= '0' && text[count] <= '9')
+    value = 10 * value + (text[count++] - '0');
+  if (count < least) return std::nullopt;
+  text.remove_prefix(count);
+  return value;
+}
+
+bool take(std::string_view& text, std::string_view any_of) {
+  if (text.empty() || any_of.find(text.front()) == std::string_view::npos) return false;
+  text.remove_prefix(1);
+  return true;
+}
+
+struct ClockTime {
+  double seconds = 0;   ///< whole ones since midnight, or since 1970 with a date
+  double fraction = 0;  ///< of a second: apart, since 1.8e9 s leave it seven digits
+  bool dated = false;
+};
+
+/// "2026-11-23T10:05:07.25", "23.11.2026 10:05:07,25", "10:05:07". Two numbers alone ("10:05") may
+/// be hours or minutes, and 5/6/2026 a day of May or of June: they are none.
+std::optional<ClockTime> clock_time(std::string_view text) {
+  ClockTime out;
+  double days = 0;
+
+  // The date: the year first, or the day with points.
+  if (std::string_view rest = text; const auto first = take_digits(rest, 2, 4)) {
+    const bool iso = text.size() - rest.size() == 4 && take(rest, "-/");
+    const bool german = !iso && text.size() - rest.size() == 2 && take(rest, ".");
+    if (iso || german) {
+      const auto month = take_digits(rest, 2, 2);
+      if (!month || !take(rest, iso ? "-/" : ".")) return std::nullopt;
+      const auto last = take_digits(rest, iso ? 2 : 4, iso ? 2 : 4);
+      if (!last || !take(rest, "T ")) return std::nullopt;
+      const std::chrono::year_month_day day{std::chrono::year(iso ? *first : *last),
+                                            std::chrono::month(unsigned(*month)),
+                                            std::chrono::day(unsigned(iso ? *last : *first))};
+      if (!day.ok()) return std::nullopt;
+      days = double(std::chrono::sys_days(day).time_since_epoch().count());
+      out.dated = true;
+      text = rest;
+    }
+  }
+
+  // The time of the day.
+  const auto hours = take_digits(text, 1, 2);
+  if (!hours || !take(text, ":")) return std::nullopt;
+  const auto minutes = take_digits(text, 2, 2);
+  if (!minutes || !take(text, ":")) return std::nullopt;
+  const auto seconds = take_digits(text, 2, 2);
+  if (!seconds || *hours > 23 || *minutes > 59 || *seconds > 60) return std::nullopt;
+  if (take(text, ".,")) {
+    std::size_t end = 0;
+    while (end < text.size() && text[end] >= '0' && text[end] <= '9') ++end;
+    const auto part = parse_number("0." + std::string(text.substr(0, end)));
+    if (end == 0 || !part) return std::nullopt;
+    out.fraction = *part;
+    text.remove_prefix(end);
+  }
+  take(text, "Z");
+  if (!text.empty()) return std::nullopt;
+  out.seconds = 86400 * days + 3600 * *hours + 60 * *minutes + *seconds;
+  return out;
+}
+
 /// Appends rows to a table, one line at a time.
 class RowAppender {
  public:
   RowAppender(RawTable& table, const CsvDialect& dialect) : table_(table), dialect_(dialect) {}
+
+  /// Clock times are counted in s from the first; a column that also holds plain numbers is none.
+  void settle_clocks() {
+    for (const auto& [k, clock] : clocks_) {
+      RawColumn& column = table_.columns[k];
+      const auto empty = static_cast<std::size_t>(
+          std::ranges::count_if(column.values, [](double v) { return std::isnan(v); }));
+      if (clock.count + empty != column.values.size()) {
+        column.bad = BadCell{0, "a mix of clock times and numbers"};
+        continue;
+      }
+      column.unit = "s";
+      table_.notes.push_back(
+          "'" + column.name + "' holds times of a clock: counted in s from the " +
+          "whole second of the first" + (clock.midnights > 0 ? ", on behind midnight" : ""));
+    }
+  }
 
   void append(std::string_view text, std::size_t line) {
     if (is_comment(text)) return;
@@ -54,12 +144,35 @@ class RowAppender {
  private:
   void append_cell(RawColumn& column, std::size_t k, std::size_t row) {
     const std::string_view cell = k < cells_.size() ? cells_[k] : std::string_view();
-    double value = number_or_nan(cell, dialect_.decimal);
+    double value = number_or_nan(cell, dialect_);
     if (!std::isfinite(value)) {
+      if (const auto clock = clock_time(cell)) return append_clock(column, clocks_[k], *clock);
       if (!column.bad) column.bad = BadCell{row, std::string(cell.substr(0, 40))};
       value = std::numeric_limits<double>::quiet_NaN();
     }
     column.values.push_back(value);
+  }
+
+  /// What is known of a column of clock times.
+  struct Clock {
+    std::size_t count = 0, midnights = 0;
+    double whole_seconds = 0;  ///< of the first, from which the others are counted
+    double last = 0;
+  };
+
+  void append_clock(RawColumn& column, Clock& clock, const ClockTime& time) {
+    constexpr double kDay = 86400;
+    if (clock.count++ == 0) clock.whole_seconds = time.seconds;
+    double seconds = time.seconds - clock.whole_seconds + time.fraction;
+    // Behind midnight a time without a date starts again.
+    if (!time.dated) {
+      seconds += kDay * static_cast<double>(clock.midnights);
+      if (seconds < clock.last - kDay / 2) ++clock.midnights, seconds += kDay;
+    }
+    // To the nanosecond: the stamps are printed decimals, their differences are not.
+    seconds = std::round(1e9 * seconds) / 1e9;
+    clock.last = seconds;
+    column.values.push_back(seconds);
   }
 
   /// Empty cells at the end may be missing or too many (trailing separators); filled ones may not.
@@ -77,6 +190,7 @@ class RowAppender {
   const CsvDialect& dialect_;
   std::vector<std::string_view> cells_;
   std::size_t next_line_ = 0;
+  std::map<std::size_t, Clock> clocks_;  ///< by column
 };
 
 /// Room for the rest of the file at once, so that growing does not hold every column twice.
@@ -96,6 +210,18 @@ void drop_empty_columns(RawTable& table) {
   while (table.columns.size() > 1 && empty(table.columns.back())) table.columns.pop_back();
 }
 
+/// A comma that separates columns and stands within numbers as well moves every later column by
+/// one: the lines then hold one number more than there are names.
+void refuse_moved_columns(const RawTable& table, const CsvDialect& dialect) {
+  const RawColumn& last = table.columns.back();
+  if (dialect.separator != ',' || !table.named() || !last.name.empty() || last.values.empty())
+    return;
+  throw Error(table.file + ":" + std::to_string(table.lines.empty() ? 1 : table.lines[0].second),
+              "its lines hold " + std::to_string(table.columns.size()) +
+                  " numbers, and there are names for one fewer: a comma within the numbers?",
+              "separate the columns by semicolons or tabs, or quote numbers like \"1,093.60\"");
+}
+
 bool is_utf16(std::string_view head) {
   return head.starts_with("\xFF\xFE") || head.starts_with("\xFE\xFF");
 }
@@ -110,8 +236,6 @@ bool is_csv(const fs::path&, std::string_view extension, std::string_view head) 
 }
 
 std::vector<RawTable> read_csv(const fs::path& path) {
-  if (is_utf16(read_head(path, 2)))
-    throw Error(path.string(), "is UTF-16 text", "save it as UTF-8");
   LineSource source(path);
 
   // Understand the dialect from the first lines.
@@ -130,8 +254,13 @@ std::vector<RawTable> read_csv(const fs::path& path) {
   for (std::size_t k = dialect.first_data_line; k < head.size(); ++k)
     appender.append(head[k], k + 1);
   while (const auto line = source.next()) appender.append(*line, source.line());
+  appender.settle_clocks();
 
   drop_empty_columns(table);
+  refuse_moved_columns(table, dialect);
+  if (dialect.thousands)
+    table.notes.push_back(std::string("numbers are read with '") + dialect.thousands +
+                          "' between thousands and '" + dialect.decimal + "' as decimal sign");
   std::vector<RawTable> tables;
   tables.push_back(std::move(table));
   return tables;

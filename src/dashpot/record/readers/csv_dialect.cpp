@@ -6,6 +6,7 @@
 
 #include "dashpot/base/text.h"
 #include "dashpot/base/units.h"
+#include "dashpot/record/channel_names.h"
 #include "dashpot/record/readers/table.h"
 
 namespace dashpot {
@@ -24,13 +25,37 @@ void drop_trailing_empty(Cells& cells) {
   while (!cells.empty() && cells.back().empty()) cells.pop_back();
 }
 
+/// "-12.093,60" without its marks between thousands; nothing where the groups are not of three
+/// digits, or where there is no mark.
+std::optional<std::string> without_thousands(std::string_view cell, char decimal, char thousands) {
+  const std::size_t end = std::min(cell.find(decimal), cell.size());
+  if (cell.find(thousands) >= end) return std::nullopt;
+  std::string plain;
+  std::size_t group = 0;
+  bool first = true;
+  for (std::size_t k = 0; k < end; ++k) {
+    if (cell[k] == thousands) {
+      if (group == 0 || group > 3 || (!first && group != 3)) return std::nullopt;
+      group = 0;
+      first = false;
+      continue;
+    }
+    group += cell[k] >= '0' && cell[k] <= '9';
+    plain += cell[k];
+  }
+  if (group != 3) return std::nullopt;
+  return plain + std::string(cell.substr(end));
+}
+
+char other_sign(char decimal) { return decimal == '.' ? ',' : '.'; }
+
 /// At least half of the cells that hold something are numbers: dates and events may stand beside
 /// them.
 bool holds_numbers(const Cells& cells, char decimal) {
   std::size_t numbers = 0, filled = 0;
   for (const std::string_view cell : cells) {
     filled += !cell.empty();
-    numbers += parse_number(cell, decimal).has_value();
+    numbers += number_of_cell(cell, decimal, 0).has_value();
   }
   return numbers > 0 && 2 * numbers >= filled;
 }
@@ -69,7 +94,7 @@ Guess try_dialect(const std::vector<std::string>& lines, char separator, char de
     split_cells(lines[k], separator, cells);
     if (!holds_numbers(cells, decimal)) continue;
     for (const std::string_view cell : cells) {
-      guess.numbers += parse_number(cell, decimal).has_value();
+      guess.numbers += number_of_cell(cell, decimal, 0).has_value();
       guess.filled += !cell.empty();
     }
     ++tally[counts[k] = cells.size()];
@@ -102,6 +127,18 @@ bool is_units_row(const Cells& cells) {
   return any;
 }
 
+/// A row of units of which one or some are unknown: most are known, and the line above names them.
+bool is_doubtful_units_row(const Cells& cells, const Cells& above) {
+  std::size_t known = 0, filled = 0, named = 0;
+  for (const std::string_view cell : cells) {
+    const std::string unit = bare_unit(cell);
+    filled += !unit.empty();
+    known += !unit.empty() && parse_unit(unit);
+  }
+  for (const std::string_view cell : above) named += !recognise_channel(cell, "").channel.empty();
+  return known >= 1 && 2 * known >= filled && named >= 2;
+}
+
 /// The cells of the last line before `before` that can head `columns` columns; its index or npos.
 std::size_t find_header(const std::vector<std::string>& lines, const CsvDialect& dialect,
                         std::size_t before, std::size_t columns, Cells& cells) {
@@ -129,14 +166,13 @@ void read_header(const std::vector<std::string>& lines, std::size_t columns, Csv
   std::size_t at = find_header(lines, dialect, dialect.first_data_line, columns, cells);
   if (at == std::string::npos) return;
 
-  if (is_units_row(cells)) {
-    Cells above;
-    const std::size_t name_line = find_header(lines, dialect, at, columns, above);
-    if (name_line != std::string::npos) {
-      for (std::size_t k = 0; k < std::min(columns, cells.size()); ++k)
-        dialect.units[k] = bare_unit(cells[k]);
-      cells = above;
-    }
+  const bool units = is_units_row(cells);
+  Cells above;
+  const std::size_t name_line = find_header(lines, dialect, at, columns, above);
+  if (name_line != std::string::npos && (units || is_doubtful_units_row(cells, above))) {
+    for (std::size_t k = 0; k < std::min(columns, cells.size()); ++k)
+      dialect.units[k] = bare_unit(cells[k]);
+    cells = above;
   }
 
   for (std::size_t k = 0; k < std::min(columns, cells.size()); ++k)
@@ -150,6 +186,14 @@ bool is_comment(std::string_view line) {
   line = trim(line);
   return line.empty() || line.front() == '#' || line.front() == '%' || line.front() == '!' ||
          line.substr(0, 2) == "//";
+}
+
+std::optional<double> number_of_cell(std::string_view cell, char decimal, char thousands) {
+  if (const auto plain = parse_number(cell, decimal)) return plain;
+  const bool both = cell.find(decimal) != std::string_view::npos;
+  if (!both && thousands == 0) return std::nullopt;
+  const auto joined = without_thousands(trim(cell), decimal, other_sign(decimal));
+  return joined ? parse_number(*joined, decimal) : std::nullopt;
 }
 
 void split_cells(std::string_view line, char separator, std::vector<std::string_view>& cells) {
@@ -189,6 +233,15 @@ CsvDialect sniff_dialect(const std::vector<std::string>& lines, const std::strin
   if (best.data_lines == 0)
     throw NoTable(file, "no line holds numbers in columns",
                   "give a table: a line of names, then one line per sample");
+  // One number with both signs shows that groups are used, so that "1.093" is one too.
+  Cells cells;
+  for (std::size_t k = best.dialect.first_data_line; k < lines.size(); ++k) {
+    split_cells(lines[k], best.dialect.separator, cells);
+    for (const std::string_view cell : cells)
+      if (!parse_number(cell, best.dialect.decimal) &&
+          number_of_cell(cell, best.dialect.decimal, 0))
+        best.dialect.thousands = other_sign(best.dialect.decimal);
+  }
   read_header(lines, best.columns, best.dialect);
   return best.dialect;
 }

@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -9,6 +10,7 @@ namespace dashpot {
 struct CsvDialect {
   char separator = ',';  ///< ' ' stands for any run of blanks
   char decimal = '.';
+  char thousands = 0;               ///< the other of '.' and ',' where numbers are grouped by it
   std::size_t first_data_line = 0;  ///< index into the sample of lines
   std::vector<std::string> names;   ///< one per column; all "" when no line names them
   std::vector<std::string> units;   ///< from a row of units; "" where there is none
@@ -18,6 +20,10 @@ struct CsvDialect {
 /// valid as long as it is; `cells` is cleared first, and reused to save allocations. A quoted cell
 /// ends at its next quote: no number and no sensible name contains one.
 void split_cells(std::string_view line, char separator, std::vector<std::string_view>& cells);
+
+/// The number in a cell. "1.093,60" is one by itself, since it holds both signs; "1.093" is 1093
+/// only where `thousands` says that such groups are used.
+std::optional<double> number_of_cell(std::string_view cell, char decimal, char thousands);
 
 /// A comment or an empty line holds no sample.
 bool is_comment(std::string_view line);

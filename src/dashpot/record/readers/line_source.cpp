@@ -1,5 +1,6 @@
 #include "dashpot/record/readers/line_source.h"
 
+#include <algorithm>
 #include <cstring>
 
 #include "dashpot/error.h"
@@ -15,6 +16,14 @@ constexpr std::size_t kBlock = std::size_t{1} << 20;
 
 LineSource::LineSource(const fs::path& path) : path_(path.string()), file_(path), buffer_(kBlock) {
   fill();
+  // UTF-16 tells itself by its byte order mark: what was read is decoded, and all that follows.
+  const std::string_view mark(buffer_.data(), std::min<std::size_t>(end_, 2));
+  if (mark == "\xFF\xFE" || mark == "\xFE\xFF") {
+    encoding_ = mark[0] == '\xFF' ? Encoding::Utf16Little : Encoding::Utf16Big;
+    undecoded_.assign(buffer_.data() + 2, end_ - 2);
+    end_ = 0;
+    fill();
+  }
   // A byte order mark is not part of the first name.
   if (end_ >= 3 && std::string_view(buffer_.data(), 3) == "\xEF\xBB\xBF") begin_ = 3;
   const std::string_view head(buffer_.data(), end_);
@@ -57,10 +66,62 @@ bool LineSource::fill() {
     throw Error(path_ + ":" + std::to_string(line_ + 1),
                 "a line of more than 1 MiB is not a table of numbers",
                 "give a text file with one sample per line");
+  if (encoding_ != Encoding::Bytes) return fill_from_utf16();
   const std::size_t n = file_.read(buffer_.data() + end_, buffer_.size() - end_);
   end_ += n;
   at_end_ = n == 0;
   return n > 0;
+}
+
+/// Decodes as much as there is room for, and reads on where nothing is left to decode.
+bool LineSource::fill_from_utf16() {
+  const std::size_t before = end_;
+  const auto unit_at = [&](std::size_t k) {
+    const auto first = static_cast<unsigned char>(undecoded_[k]),
+               second = static_cast<unsigned char>(undecoded_[k + 1]);
+    return encoding_ == Encoding::Utf16Little ? first | second << 8 : first << 8 | second;
+  };
+
+  // A surrogate needs two units, so fewer than four bytes may have to wait for more.
+  if (undecoded_.size() < 4) {
+    std::string more(kBlock / 4, '\0');
+    more.resize(file_.read(more.data(), more.size()));
+    at_end_ = more.empty();
+    undecoded_ += more;
+  }
+
+  std::size_t k = 0;
+  while (k + 1 < undecoded_.size() && end_ + 4 <= buffer_.size()) {
+    unsigned code = static_cast<unsigned>(unit_at(k));
+    const bool high = code >= 0xD800 && code < 0xDC00;
+    if (high && k + 3 >= undecoded_.size() && !at_end_) break;
+    k += 2;
+    if (high && k + 1 < undecoded_.size()) {
+      code = 0x10000 + ((code - 0xD800) << 10) +
+             ((static_cast<unsigned>(unit_at(k)) - 0xDC00) & 0x3FF);
+      k += 2;
+    }
+    const auto put = [&](unsigned byte) { buffer_[end_++] = static_cast<char>(byte); };
+    if (code < 0x80) {
+      put(code);
+    } else if (code < 0x800) {
+      put(0xC0 | code >> 6), put(0x80 | (code & 0x3F));
+    } else if (code < 0x10000) {
+      put(0xE0 | code >> 12), put(0x80 | (code >> 6 & 0x3F)), put(0x80 | (code & 0x3F));
+    } else {
+      put(0xF0 | (code >> 18 & 0x07)), put(0x80 | (code >> 12 & 0x3F));
+      put(0x80 | (code >> 6 & 0x3F)), put(0x80 | (code & 0x3F));
+    }
+  }
+  undecoded_.erase(0, k);
+  if (end_ == before && !at_end_) {
+    if (end_ + 4 > buffer_.size())
+      throw Error(path_ + ":" + std::to_string(line_ + 1),
+                  "a line of more than 1 MiB is not a table of numbers",
+                  "give a text file with one sample per line");
+    return fill_from_utf16();
+  }
+  return end_ > before;
 }
 
 std::string read_head(const fs::path& path, std::size_t bytes) {

@@ -10,7 +10,7 @@
 namespace dashpot {
 
 /// The lines of a text file (plain or gzip), read block by block: memory does not grow with the
-/// file.
+/// file. UTF-16 with a byte order mark is given as UTF-8.
 class LineSource {
  public:
   explicit LineSource(const std::filesystem::path& path);
@@ -24,7 +24,10 @@ class LineSource {
   double bytes_in_file() const { return static_cast<double>(file_.size()); }
 
  private:
+  enum class Encoding { Bytes, Utf16Little, Utf16Big };
+
   bool fill();
+  bool fill_from_utf16();
 
   std::string path_;
   InputFile file_;
@@ -33,6 +36,8 @@ class LineSource {
   std::size_t line_ = 0, consumed_ = 0;
   char line_end_ = '\n';
   bool at_end_ = false;
+  Encoding encoding_ = Encoding::Bytes;
+  std::string undecoded_;  ///< bytes of UTF-16 that have been read and not been decoded
 };
 
 /// The first bytes of a file, gunzipped. Throws Error when it cannot be opened.
