@@ -154,7 +154,10 @@ std::string note_list(const Dataset& dataset) {
   for (const auto& [file, why] : dataset.passed_over)
     add_note(of_files, "passed over: " + why, file);
   for (const Record& record : dataset.records) {
-    for (const std::string& note : record.notes) add_note(of_records, note, record.name);
+    for (const std::string& note : record.notes)
+      if (std::ranges::none_of(
+              dataset.notes, [&](const std::string& told) { return told.ends_with(": " + note); }))
+        add_note(of_records, note, record.name);
 
     std::vector<std::string> conditions;
     for (const auto& [name, value] : record.conditions)

@@ -89,3 +89,23 @@ TEST_CASE("every law starts inside its bounds, whatever the size of the damper")
         }
     }
 }
+
+TEST_CASE("a drive that varies little tells as little as one level, and the fit says so") {
+  DataScale scale = example_scale(0);
+  scale.drive = {.low = 1.12, .high = 1.21, .varies = true, .levels = 0};
+  const LawUnknowns narrow(find_law("bingham"), scale, DriveUnit::Volt, OffsetMode::Record);
+  CHECK(narrow.size() == 3);  // c0, f_c, the lag
+  REQUIRE(narrow.warnings().size() == 1);
+  CHECK(narrow.warnings()[0] ==
+        "the drive goes from 1.12 to 1.21 V only: the force is taken to follow it not at all");
+
+  scale.drive.low = 1;
+  const LawUnknowns wider(find_law("bingham"), scale, DriveUnit::Volt, OffsetMode::Record);
+  CHECK(wider.size() == 5);
+  CHECK(contains(wider.warnings()[0], "by a straight line at most"));
+
+  scale.drive.low = 0;
+  CHECK(LawUnknowns(find_law("bingham"), scale, DriveUnit::Volt, OffsetMode::Record)
+            .warnings()
+            .empty());
+}

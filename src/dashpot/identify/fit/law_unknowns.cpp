@@ -14,10 +14,20 @@ namespace {
 constexpr double kSlowestRate = 0.05,
                  kFastestRate = 50;  // rates of an exponential, per range of the drive
 
+/// How many levels the drive of these data stands for: one that varies little tells as little as a
+/// single level, since whatever it says of others is blown up on the way to them.
+std::size_t levels_told(const DriveRange& drive) {
+  constexpr double kOneLevel = 0.1, kTwoLevels = 0.3;  // of the greatest
+  if (!drive.varies) return std::clamp<std::size_t>(drive.levels, 1, 4);
+  const double span = drive.high - drive.low;
+  const double share = span / std::max(std::abs(drive.low), std::abs(drive.high));
+  return share < kOneLevel ? 1 : share < kTwoLevels ? 2 : 4;
+}
+
 /// The form as far as these currents determine it: two levels allow a line at most, and with one
 /// nothing depends on current.
 Form simplest(Form form, const DriveRange& drive) {
-  const std::size_t levels = drive.varies ? 4 : std::clamp<std::size_t>(drive.levels, 1, 4);
+  const std::size_t levels = levels_told(drive);
   if (coefficient_count(form) <= levels) return form;
   return static_cast<Form>(levels - 1);
 }
@@ -89,6 +99,12 @@ LawUnknowns::LawUnknowns(const Law& law, const DataScale& scale, DriveUnit drive
   if (model.empty()) model = law.name;
   for (const ParamInfo& param : law.params)
     rows_.push_back(make_row(param, choice_for(choices, model, param), scale, offset));
+  if (scale.drive.varies && levels_told(scale.drive) < 4)
+    warnings_.push_back(
+        "the drive goes from " + format_number(scale.drive.low, 3) + " to " +
+        format_number(scale.drive.high, 3) + " " + to_string(drive_unit) +
+        " only: the force is taken to follow it " +
+        (levels_told(scale.drive) < 2 ? "not at all" : "by a straight line at most"));
   if (scale.drive.varies)
     lag_ = make_row(kLagParameter, choice_for(choices, model, kLagParameter), scale, offset);
 }
