@@ -65,7 +65,7 @@ std::unique_ptr<LawModel> law_model_from_json(const Value& value) {
 
   // A law with rebound and compression apart is told by its rows.
   const Law& law = parameters.find(kSideFriction) ? with_side(own) : own;
-  ObjectReader rows(parameters, "the parameters of " + std::string(law.name));
+  ObjectReader rows(parameters, "the parameter table of " + std::string(law.name));
   Dependence dependence;
   for (const ParamInfo& info : law.params)
     read_parameter(rows.required(info.name), info, dependence);
