@@ -168,6 +168,47 @@ TEST_CASE("units are converted, or refused with the nearest ones") {
   for (const Wrong& wrong : table) check(wrong);
 }
 
+TEST_CASE("units that workshops use are converted") {
+  const Wrong table[] = {
+      {"feet, kiloponds and milliamperes",
+       {{"r.csv", csv({}, 300, "t (s),x (ft),F (kp),I (mA)\n")}},
+       "inspect DIR",
+       0,
+       {"x 0.3048", "x 9.80665", "x 0.001"}},
+      {"inches, decanewtons and millivolts",
+       {{"r.csv", csv({}, 300, "t (s),x (in),F (daN),U (mV)\n")}},
+       "inspect DIR",
+       0,
+       {"x 0.0254", "x 10 ", "voltage", "x 0.001"}},
+      {"minutes and micrometres",
+       {{"r.csv", csv({}, 300, "t (min),x (um),F (lbf),I (A)\n")}},
+       "inspect DIR",
+       0,
+       {"x 60", "x 1e-06", "x 4.44822"}},
+  };
+  for (const Wrong& wrong : table) check(wrong);
+}
+
+TEST_CASE("roles hold by themselves, and a drive that nothing tells is called unknown") {
+  const Wrong table[] = {
+      {"roles without leave_out",
+       {{"run_0A.csv", passive()},
+        {"run_1A.csv", passive()},
+        {"dataset.yaml",
+         "files:\n  - {match: '*0A.csv', roles: [{role: training}]}\n"
+         "  - {match: '*1A.csv', roles: [{role: left_out}]}\n"}},
+       "identify DIR --models bingham --no-report -o DIR/out",
+       0,
+       {"judged by leaving out: roles"}},
+      {"no drive at all",
+       {{"r.csv", passive()}},
+       "inspect DIR",
+       0,
+       {"one constant, unknown drive", "give it in the file names"}},
+  };
+  for (const Wrong& wrong : table) check(wrong);
+}
+
 TEST_CASE("gaps in time split a record and are never bridged") {
   const Wrong table[] = {
       {"a gap",
