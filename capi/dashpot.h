@@ -217,7 +217,7 @@ typedef struct dashpot_monitor {
 /// identify`:
 /// {"models": ["bingham"], "force_offset": "record", "form": ["alpha=exponential"], "fix": [...],
 /// "free":
-/// [...], "bounds": [...], "prior": [...], "allow_active": false, "symmetric": false, "network":
+/// [...], "bounds": [...], "prior": [...], "allow_active": false, "asymmetric": false, "network":
 /// [...], "starts": 4, "search": 0, "seed": 1, "threads": 0, "command": "TEXT that the model file
 /// keeps"}; "models" has one here, the others may be absent. The report (null: not wanted) has
 /// status, parameters with 95 % intervals, offsets and warnings.

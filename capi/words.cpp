@@ -55,7 +55,7 @@ FitOptions read_fit_options(const char* text) {
   words.bounds = texts(reader, "bounds");
   words.priors = texts(reader, "prior");
   words.options.allow_active = reader.boolean("allow_active", words.options.allow_active);
-  words.options.symmetric = reader.boolean("symmetric", words.options.symmetric);
+  words.options.asymmetric = reader.boolean("asymmetric", words.options.asymmetric);
   words.network = texts(reader, "network");
 
   // The effort of the fits, and their random numbers.

@@ -80,10 +80,10 @@ std::vector<Option> fit_options(FitSettings& settings) {
        .help = "keep laws as they fit best, also those that feed energy into some motions; without "
                "it, such a law is fitted again with parameters that dissipate"},
 
-      {.names = "--symmetric",
-       .target = &settings.options.symmetric,
-       .help = "keep laws alike in rebound and compression; without it, they are taken apart where "
-               "training records that are held back ask for it"},
+      {.names = "--asymmetric",
+       .target = &settings.options.asymmetric,
+       .help = "take rebound and compression of laws apart where training records that are held "
+               "back ask for it"},
 
       // The design and training of networks.
       {.names = "--network",

@@ -37,7 +37,8 @@ void on_signal(int number) {
 }
 
 void on_moment_over(int) {
-  constexpr std::string_view kBegin = "\nerror: ", kEnd = "\n";
+  constexpr std::string_view kBegin = "\nerror: ",
+                             kEnd = "; where work is kept, the same command goes on from there\n";
   for (const std::string_view part : {kBegin, kInterrupted, kEnd})
     if (write(STDERR_FILENO, part.data(), part.size()) < 0) break;
   _exit(128 + stop_signal);

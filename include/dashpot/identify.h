@@ -22,10 +22,10 @@ struct IdentifyOptions {
   OffsetMode offset = OffsetMode::Record;
   std::vector<ParameterChoice> choices;  ///< laws only
   bool allow_active = false;             ///< laws only: keep a fit that feeds energy into motions
-  bool symmetric = false;                ///< laws only: never take rebound and compression apart
-  NetworkDesign network;                 ///< networks only
-  int starts = 4;                        ///< of which the best is taken
-  int search = 0;  ///< evaluations of a global search that gives one more start; 0: none
+  bool asymmetric = false;  ///< laws only: take rebound and compression apart where that pays
+  NetworkDesign network;    ///< networks only
+  int starts = 4;           ///< of which the best is taken
+  int search = 0;           ///< evaluations of a global search that gives one more start; 0: none
   std::uint64_t seed = 1;
   int threads = 0;  ///< 0: as many as the machine has
   Monitor monitor;

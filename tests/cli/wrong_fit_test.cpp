@@ -20,7 +20,7 @@ TEST_CASE("recordings that no model can be fitted to") {
       {"no displacement, and none to be had",
        {{"a.csv", csv(
                       [](int k, auto& row) {
-                        if (k > 99) row[0] = format_number(k * 0.005 + 1, 9);
+                        if (k > 99) row[0] = format_number(k * 0.005 + 0.015, 9);
                       },
                       300, "t_s,v_mm_s,F_N,i_A\n")}},
        "identify DIR --models tanh_kwok --quiet --leave-out blocks=2 --output DIR/results",

@@ -119,8 +119,8 @@ TEST_CASE("a record without displacement has one integrated, and it is said") {
 TEST_CASE("a record that cannot be integrated stays without, with the reason") {
   const TemporaryFolder folder;
   folder.write("short_1A.csv", velocity_csv(2, 0.95, as_measured));
-  folder.write("gap_1A.csv", velocity_csv(2, 3, [](double t, double v) {
-                 return as_measured(t > 1 ? t + 0.5 : t, v);
+  folder.write("slip_1A.csv", velocity_csv(2, 3, [](double t, double v) {
+                 return as_measured(t > 1 ? t + 0.004 : t, v);
                }));
   const Dataset dataset = load_dataset({folder.path()});
   for (const Record& record : dataset.records) CHECK(record.find("displacement") == nullptr);

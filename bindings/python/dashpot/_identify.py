@@ -24,7 +24,7 @@ def fit_options(
     bounds: Words = (),
     prior: Words = (),
     allow_active: bool = False,
-    symmetric: bool = False,
+    asymmetric: bool = False,
     network: Words = (),
     starts: int = 4,
     search: int = 0,
@@ -34,7 +34,7 @@ def fit_options(
     """The options of a fit, as the C boundary takes them."""
     lists = {"form": form, "fix": fix, "free": free, "bounds": bounds, "prior": prior, "network": network}
     numbers = {"starts": starts, "search": search, "seed": seed, "threads": threads}
-    plain = {"force_offset": force_offset, "allow_active": bool(allow_active), "symmetric": bool(symmetric)}
+    plain = {"force_offset": force_offset, "allow_active": bool(allow_active), "asymmetric": bool(asymmetric)}
     return {**plain, **{key: words(given) for key, given in lists.items()}, **numbers}
 
 
@@ -122,8 +122,8 @@ def identify(
     of "usual" (None: 2) and "all" (None: no limit) may take, 0: no limit; `Ranking.untried` is what was not tried.
     progress: called with (stage, fraction 0 ... 1).
     options: force_offset ("record" or "none"), form, fix, free, bounds, prior, network (lists as the command
-    line has them: ["alpha=exponential"]), allow_active (keep laws that feed energy in), symmetric (keep laws alike in
-    rebound and compression), starts, search, seed, threads (0: all cores).
+    line has them: ["alpha=exponential"]), allow_active (keep laws that feed energy in), asymmetric (take rebound and
+    compression of laws apart where it pays), starts, search, seed, threads (0: all cores).
 
     Other Python threads run meanwhile; Ctrl-C stops it. Raises Error on what cannot be used.
     """

@@ -85,7 +85,7 @@ class Identifier:
         bounds=(),
         prior=(),
         allow_active=False,
-        symmetric=False,
+        asymmetric=False,
         network=(),
         starts=4,
         search=0,
@@ -102,7 +102,7 @@ class Identifier:
         self.bounds = bounds
         self.prior = prior
         self.allow_active = allow_active
-        self.symmetric = symmetric
+        self.asymmetric = asymmetric
         self.network = network
         self.starts = starts
         self.search = search

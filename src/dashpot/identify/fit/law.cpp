@@ -271,7 +271,7 @@ LawSolution solve_law(const Law& law, const std::vector<Record>& training, Drive
   const LawTask alike(law, training, drive_unit, options, model);
   LawSolution best = solve_all(alike, best_start(alike));
 
-  // Both sides alike, unless the data or the user want them apart.
+  // Both sides alike, unless the user wants them apart and the data agree.
   const LawTask apart(with_side(law), training, drive_unit, options, model);
   const bool differs = take_side_apart(alike, apart, best);
   const LawTask& task = differs ? apart : alike;

@@ -29,49 +29,72 @@ struct Lack {
   double share = 0;
 };
 
-/// What a valve of this speed adds to the force's even part, half of what it gives: friction, that
-/// per unit of the drive, viscous damping.
-std::array<double, 3> even_part(double velocity, double drive, double speed) {
-  const double friction = std::abs(std::tanh(velocity / speed)) / 2;
-  return {friction, drive * friction, std::abs(velocity) / 2};
-}
-
-/// Least squares of the residuals on what valves of this speed would add, record by record.
-Lack lack_at(const LawTask& task, const LawResiduals& residuals, std::span<const double> errors,
-             double speed) {
-  constexpr std::size_t kColumns = 3;
-  constexpr double kRidge = 1e-9;  // one level of the drive cannot tell the slope
-  std::array<double, kColumns * kColumns> matrix{};
-  std::array<double, kColumns> right{}, x{};
-  double squares = 0;
-
-  // The sums over all records, each about its mean.
-  for (std::size_t r = 0; r < task.training.size(); ++r) {
-    const auto [first, count] = residuals.segments()[r];
-    const std::vector<DamperInput> inputs = damper_inputs(task.training[r], task.drive_unit);
-    std::vector<std::array<double, kColumns>> rows;
-    std::array<double, kColumns> mean{};
-    for (std::size_t k = inputs.size() - count; k < inputs.size(); ++k) {
-      rows.push_back(even_part(inputs[k].velocity, inputs[k].current, speed));
+/// Sums of squares and products over all samples, for the regression of residuals on what alters
+/// both directions alike and on what a valve of one direction adds to their even part.
+class SideRegression {
+ public:
+  /// The residuals of one record, and its motion; `speed`: that over which friction sets in.
+  void add(std::span<const double> errors, std::span<const DamperInput> inputs, double speed) {
+    // Each function of the motion about its mean over the record, as its offset is free.
+    std::vector<Row> rows;
+    Row mean{};
+    for (const DamperInput& input : inputs) {
+      const double friction = std::tanh(input.velocity / speed) / 2, v = input.velocity / 2;
+      rows.push_back({friction, input.current * friction, v, std::abs(friction),
+                      input.current * std::abs(friction), std::abs(v)});
       for (std::size_t c = 0; c < kColumns; ++c)
-        mean[c] += rows.back()[c] / static_cast<double>(count);
+        mean[c] += rows.back()[c] / static_cast<double>(inputs.size());
     }
 
-    for (std::size_t k = 0; k < count; ++k) {
-      const double error = errors[first + k];
-      squares += error * error;
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      squares_ += errors[k] * errors[k];
       for (std::size_t a = 0; a < kColumns; ++a) {
-        right[a] += (rows[k][a] - mean[a]) * error;
+        right_[a] += (rows[k][a] - mean[a]) * errors[k];
         for (std::size_t b = 0; b < kColumns; ++b)
-          matrix[a * kColumns + b] += (rows[k][a] - mean[a]) * (rows[k][b] - mean[b]);
+          matrix_[a * kColumns + b] += (rows[k][a] - mean[a]) * (rows[k][b] - mean[b]);
       }
     }
   }
-  for (std::size_t c = 0; c < kColumns; ++c) matrix[c * (kColumns + 1)] *= 1 + kRidge;
 
-  if (!(squares > 0) || !solve_positive_definite(matrix, right, x)) return {};
-  return {{x[0], x[1], x[2], speed},
-          std::inner_product(x.begin(), x.end(), right.begin(), 0.0) / squares};
+  /// What the even part explains beyond what the odd one does.
+  Lack lack(double speed) const {
+    Row x{};
+    const double by_odd = explained(kColumns / 2, x), by_both = explained(kColumns, x);
+    if (!(squares_ > 0) || !std::isfinite(by_both - by_odd)) return {};
+    return {{x[3], x[4], x[5], speed}, (by_both - by_odd) / squares_};
+  }
+
+ private:
+  static constexpr std::size_t kColumns = 6;  // odd: friction, that per drive, viscous; even: same
+  using Row = std::array<double, kColumns>;
+
+  /// The sum of squares that the first `count` columns explain, x being their coefficients.
+  double explained(std::size_t count, Row& x) const {
+    constexpr double kRidge = 1e-9;  // one level of the drive cannot tell the slope
+    std::vector<double> matrix(count * count);
+    for (std::size_t a = 0; a < count; ++a)
+      for (std::size_t b = 0; b < count; ++b)
+        matrix[a * count + b] = matrix_[a * kColumns + b] * (a == b ? 1 + kRidge : 1);
+    const std::span<double> found = std::span(x).first(count);
+    if (!solve_positive_definite(matrix, std::span(right_).first(count), found)) return NAN;
+    return std::inner_product(found.begin(), found.end(), right_.begin(), 0.0);
+  }
+
+  std::array<double, kColumns * kColumns> matrix_{};
+  Row right_{};
+  double squares_ = 0;
+};
+
+/// For valves of this speed.
+Lack lack_at(const LawTask& task, const LawResiduals& residuals, std::span<const double> errors,
+             double speed) {
+  SideRegression regression;
+  for (std::size_t r = 0; r < task.training.size(); ++r) {
+    const auto [first, count] = residuals.segments()[r];
+    const std::vector<DamperInput> inputs = damper_inputs(task.training[r], task.drive_unit);
+    regression.add(errors.subspan(first, count), std::span(inputs).last(count), speed);
+  }
+  return regression.lack(speed);
 }
 
 /// Over a few speeds at which friction may set in.
@@ -135,10 +158,11 @@ double held_back_squares(const LawTask& task, const Fold& fold, const std::vecto
 }  // namespace
 
 bool take_side_apart(const LawTask& alike, const LawTask& apart, LawSolution& best) {
-  if (alike.options.symmetric || status_of(best.solved) == FitReport::Status::Failed) return false;
+  const bool asked = is_asked_for(apart);
+  if (!alike.options.asymmetric && !asked) return false;
+  if (status_of(best.solved) == FitReport::Status::Failed) return false;
 
   // Nothing to gain where the errors differ between the directions.
-  const bool asked = is_asked_for(apart);
   const Lack lack = greatest_lack(alike, best.solved.x);
   if (!asked && lack.share < kWorthATrial) return false;
 
@@ -166,7 +190,7 @@ bool take_side_apart(const LawTask& alike, const LawTask& apart, LawSolution& be
   best = std::move(fitted);
   best.sides = "rebound and compression are apart: on training records held back, the RMSE is " +
                format_number(std::sqrt(with / samples), 3) + " N in place of " +
-               format_number(std::sqrt(without / samples), 3) + " N (--symmetric keeps them alike)";
+               format_number(std::sqrt(without / samples), 3) + " N";
   return true;
 }
 

@@ -37,9 +37,9 @@ struct LawTask {
 /// the fit itself shows: so it is repeated until the noise stays.
 LawSolution solve_all(const LawTask& task, std::vector<double> x);
 
-/// Takes rebound and compression apart where that is asked for or pays on records held back: puts
-/// the fit of `apart`, the task of the law with_side(), in the place of `best`, that of `alike`.
-/// Returns whether it did.
+/// Takes rebound and compression apart where a parameter of the valve is chosen, or the options ask
+/// for it and it pays on records held back: puts the fit of `apart`, the task of the law
+/// with_side(), in the place of `best`, that of `alike`. Returns whether it did.
 bool take_side_apart(const LawTask& alike, const LawTask& apart, LawSolution& best);
 
 }  // namespace dashpot
