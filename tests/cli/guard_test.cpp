@@ -126,7 +126,9 @@ TEST_CASE("results that cannot be meant are said first, and exit 3") {
   CHECK(!fs::exists(out));
 }
 
-TEST_CASE("too little memory is an error of the input, not an abort") {
+// Sanitizers need memory of their own.
+TEST_CASE("too little memory is an error of the input, not an abort" *
+          doctest::test_suite("long")) {
   const TemporaryFolder folder;
   std::string json = "[0";
   for (int k = 0; k < 1'900'000; ++k) json += ",0";
@@ -138,7 +140,9 @@ TEST_CASE("too little memory is an error of the input, not an abort") {
   CHECK(contains(result.output, "out of memory"));
 }
 
-TEST_CASE("an interruption ends any work within a moment, reading included") {
+// With sanitizers that moment is longer.
+TEST_CASE("an interruption ends any work within a moment, reading included" *
+          doctest::test_suite("long")) {
   const TemporaryFolder folder;
   std::string rows = "t [s],x [mm],F [N]\n";
   for (int k = 0; k < 400'000; ++k) rows += std::to_string(0.001 * k) + ",1,2\n";
