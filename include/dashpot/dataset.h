@@ -38,6 +38,11 @@ struct PassedOver {
   std::string file, why;
 };
 
+/// A record that something speaks against, and what, with its place: a channel that sticks, say.
+struct Suspect {
+  std::string record, why;
+};
+
 /// How records are left out to judge a model: always whole stretches of time, never samples picked
 /// at random, since neighbouring samples of a recording are nearly the same.
 struct LeaveOut {
@@ -80,6 +85,8 @@ struct Dataset {
   /// Files of a folder that are recordings by their format and could not be used: each with its
   /// error. Results are those of the others.
   std::vector<PassedOver> unread;
+  /// Records that look damaged. They are used; whoever names a result names them, too.
+  std::vector<Suspect> suspects;
   std::vector<std::string> notes;     ///< inferences and assumptions, in words
   std::optional<LeaveOut> leave_out;  ///< stated in the dataset file
 };

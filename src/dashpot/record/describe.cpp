@@ -4,6 +4,7 @@
 
 #include "dashpot/base/text.h"
 #include "dashpot/dataset.h"
+#include "dashpot/record/doubts.h"
 
 namespace dashpot {
 namespace {
@@ -150,7 +151,10 @@ std::string format_note(const SharedNote& note, std::string_view plural) {
 
 std::string note_list(const Dataset& dataset) {
   std::vector<SharedNote> of_files, of_records;
-  for (const std::string& note : dataset.notes) of_files.push_back({note, note, {""}, false});
+  for (const std::string& note : dataset.notes)
+    if (!note.starts_with(kSuspectNote)) of_files.push_back({note, note, {""}, false});
+  for (const auto& [record, why] : dataset.suspects)
+    of_records.push_back({why, std::string(kSuspectNote) + why, {record}, false});
   for (const auto& [file, why] : dataset.passed_over)
     add_note(of_files, "passed over: " + why, file);
   for (const Record& record : dataset.records) {

@@ -9,6 +9,7 @@
 #include "dashpot/record/build_record.h"
 #include "dashpot/record/conditions.h"
 #include "dashpot/record/dataset_file.h"
+#include "dashpot/record/doubts.h"
 #include "dashpot/record/readers/reader.h"
 #include "dashpot/record/source_files.h"
 #include "dashpot/record/sources.h"
@@ -75,6 +76,7 @@ class Loader {
     make_names_unique();
     settle_drive();
     note_drives();
+    note_suspects();
     note_unread();
     if (!centred_.empty()) note_centres();
     note_displacements();
@@ -414,6 +416,22 @@ class Loader {
       shown.back() += "; likewise " + std::to_string(drive_notes_.size() - kShown) +
                       " more ('dashpot inspect' lists them)";
     dataset_.notes.insert(dataset_.notes.begin(), shown.begin(), shown.end());
+  }
+
+  /// Which records look damaged, and how.
+  void note_suspects() {
+    constexpr std::size_t kShown = 2;
+    std::vector<std::string> notes;
+    for (const Record& record : dataset_.records)
+      for (const std::string& why : doubts_about(record)) {
+        dataset_.suspects.push_back({record.name, why});
+        if (notes.size() < kShown)
+          notes.push_back(std::string(kSuspectNote) + record.name + ": " + why);
+      }
+    if (dataset_.suspects.size() > kShown)
+      notes.back() += "; " + std::to_string(dataset_.suspects.size() - kShown) +
+                      " more doubts ('dashpot inspect' lists them)";
+    dataset_.notes.insert(dataset_.notes.begin(), notes.begin(), notes.end());
   }
 
   /// Which files could not be used, and why, before all other notes.

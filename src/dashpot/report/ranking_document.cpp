@@ -215,7 +215,7 @@ Document ranking_document(const ReportInput& input) {
                     .subtitle = counted(input.dataset.records.size(), "record") + " · " +
                                 counted(ranking.models.size(), "model") + " · " +
                                 protocol_title(ranking),
-                    .verdict = verdict(ranking),
+                    .verdict = verdict(ranking, input.dataset),
                     .sections = {},
                     .command = input.command,
                     .version = input.version,
@@ -251,7 +251,7 @@ Document leaderboard_document(const ReportInput& input) {
   const Ranking& ranking = input.ranking;
   Document document{.title = input.dataset.name,
                     .subtitle = {},
-                    .verdict = verdict(ranking),
+                    .verdict = verdict(ranking, input.dataset),
                     .sections = {},
                     .command = {},
                     .version = input.version,

@@ -226,7 +226,7 @@ Value json_report(const ReportInput& input) {
                                 {"protocol_title", protocol_title(ranking)},
                                 {"protocol", protocol(ranking)},
                                 {"folds", Value::array(ranking.folds)},
-                                {"verdict", verdict(ranking)},
+                                {"verdict", verdict(ranking, input.dataset)},
                                 {"leaders", std::move(leaders)},
                                 {"unit", ranking.unit},
                                 {"one_step", one_step ? Value(*one_step) : Value()},

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -162,6 +163,18 @@ std::string verdict(const Ranking& ranking) {
       std::ranges::count_if(models, [](const RankedModel& m) { return m.left_out.diverged > 0; });
   if (diverged) text += fmt::format(" {} diverged.", counted(diverged, "model"));
   return text;
+}
+
+std::string verdict(const Ranking& ranking, const Dataset& dataset) {
+  if (dataset.suspects.empty()) return verdict(ranking);
+  std::set<std::string> records;
+  for (const Suspect& suspect : dataset.suspects) records.insert(suspect.record);
+  const auto& [first, why] = dataset.suspects.front();
+  const std::size_t others = records.size() - 1;
+  return verdict(ranking) +
+         fmt::format(" Look at the recordings first: {} suspect; {}: {}.",
+                     others == 0 ? "one record is" : fmt::format("{} records are", records.size()),
+                     first, why);
 }
 
 std::string protocol_title(const LeaveOut& leave_out) {

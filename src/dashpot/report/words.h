@@ -25,6 +25,8 @@ bool is_judged(const RankedModel& model);
 /// A few sentences: which model is best, or which ones cannot be told apart; how good it is on what
 /// it has not seen; what is next; and which ones cannot be recommended.
 std::string verdict(const Ranking& ranking);
+/// The same, and which of the dataset's records are suspect.
+std::string verdict(const Ranking& ranking, const Dataset& dataset);
 /// How records were left out: a few words, and in full.
 std::string protocol_title(const LeaveOut& leave_out);
 std::string protocol(const LeaveOut& leave_out, std::size_t folds);

@@ -1,0 +1,215 @@
+#include "dashpot/record/doubts.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <string_view>
+
+#include "dashpot/base/text.h"
+
+namespace dashpot {
+namespace {
+
+using Samples = std::vector<double>;
+
+/// Samples first ... end - 1.
+struct Run {
+  std::size_t first = 0, end = 0;
+  std::size_t count() const { return end - first; }
+};
+
+/// The runs of equal values that hold at least `least` samples.
+std::vector<Run> equal_runs(const Samples& values, std::size_t least) {
+  std::vector<Run> runs;
+  for (Run run; run.first < values.size(); run.first = run.end) {
+    run.end = run.first + 1;
+    while (run.end < values.size() && values[run.end] == values[run.first]) ++run.end;
+    if (run.count() >= least) runs.push_back(run);
+  }
+  return runs;
+}
+
+/// The span between the first and the last percent of the values.
+double usual_span(Samples values) {
+  const auto place = [&](double share) {
+    return static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  };
+  const auto value_at = [&](double share) {
+    const auto at = values.begin() + place(share);
+    std::nth_element(values.begin(), at, values.end());
+    return *at;
+  };
+  constexpr double kLow = 0.01, kHigh = 0.99;
+  const double low = value_at(kLow);
+  return value_at(kHigh) - low;
+}
+
+std::string seconds(double time) { return format_number(time, 5) + " s"; }
+
+std::string between(const Record& record, const Run& run) {
+  return "from " + seconds(record.time[run.first]) + " to " + seconds(record.time[run.end - 1]);
+}
+
+/// How far the damper goes within a run, as a share of the stroke.
+double way_within(const Samples& displacement, const Run& run, double stroke) {
+  double way = 0;
+  for (std::size_t k = run.first + 1; k < run.end; ++k)
+    way += std::abs(displacement[k] - displacement[k - 1]);
+  return way / stroke;
+}
+
+/// A force that does not change at all while the damper goes on.
+std::optional<std::string> stuck_force(const Record& record, const Samples& force,
+                                       const Samples& displacement, double stroke) {
+  constexpr std::size_t kLeast = 10;
+  constexpr double kShareOfStroke = 0.4;
+  Run worst;
+  double longest = kShareOfStroke;
+  for (const Run& run : equal_runs(force, kLeast))
+    if (const double way = way_within(displacement, run, stroke); way > longest) {
+      longest = way;
+      worst = run;
+    }
+  if (worst.count() == 0) return std::nullopt;
+  return "the force stands at " + format_number(force[worst.first], 6) + " N " +
+         between(record, worst) + " while the damper moves: the sensor stuck, or was not recorded";
+}
+
+/// A displacement that stands still and then leaps by more than any of its other steps.
+std::optional<std::string> stuck_displacement(const Record& record, const Samples& displacement) {
+  constexpr std::size_t kLeast = 5;
+  constexpr double kLeap = 3, kUsual = 0.95;
+  Samples steps;
+  for (std::size_t k = 1; k < displacement.size(); ++k)
+    steps.push_back(std::abs(displacement[k] - displacement[k - 1]));
+  Samples sorted = steps;
+  const auto usual =
+      sorted.begin() + static_cast<std::ptrdiff_t>(kUsual * static_cast<double>(sorted.size() - 1));
+  std::nth_element(sorted.begin(), usual, sorted.end());
+  for (const Run& run : equal_runs(displacement, kLeast))
+    if (run.end < displacement.size() && steps[run.end - 1] > kLeap * *usual && *usual > 0)
+      return "the displacement stands still " + between(record, run) +
+             " and leaps then: the sensor stuck, or samples were lost";
+  return std::nullopt;
+}
+
+/// An extreme at which the force stays, sample for sample, whenever it gets there, and which it
+/// reaches by a step far above its resolution.
+std::optional<std::string> clipped_force(const Samples& force, const Samples& displacement,
+                                         double stroke) {
+  constexpr std::size_t kLeast = 4, kRuns = 2;
+  constexpr double kEntry = 5, kMoving = 0.002;
+  double resolution = INFINITY;
+  for (std::size_t k = 1; k < force.size(); ++k)
+    if (const double step = std::abs(force[k] - force[k - 1]); step > 0)
+      resolution = std::min(resolution, step);
+
+  const auto [lowest, highest] = std::ranges::minmax(force);
+  for (const double limit : {highest, lowest}) {
+    std::size_t runs = 0, samples = 0;
+    for (const Run& run : equal_runs(force, kLeast)) {
+      if (force[run.first] != limit || run.first == 0) continue;
+      if (std::abs(force[run.first - 1] - limit) < kEntry * resolution) continue;
+      if (way_within(displacement, run, stroke) < kMoving) continue;
+      ++runs;
+      samples += run.count();
+    }
+    if (runs >= kRuns)
+      return "the force is clipped at " + format_number(limit, 6) + " N, in " +
+             std::to_string(samples) + " samples of " + std::to_string(runs) +
+             " peaks: the range of the sensor or of its amplifier was too small";
+  }
+  return std::nullopt;
+}
+
+/// Single samples that stand out from two neighbours that agree.
+std::optional<std::string> spikes(const Record& record, const Samples& values, double span,
+                                  std::string_view name) {
+  constexpr double kHeight = 0.3, kAgree = 0.25, kMostOften = 0.01;
+  std::size_t count = 0, first = 0;
+  for (std::size_t k = 1; k + 1 < values.size(); ++k) {
+    const double before = values[k] - values[k - 1], after = values[k] - values[k + 1];
+    const double height = std::min(std::abs(before), std::abs(after));
+    if (before * after <= 0 || height < kHeight * span) continue;
+    if (std::abs(values[k - 1] - values[k + 1]) > kAgree * height) continue;
+    if (count++ == 0) first = k;
+  }
+  if (count == 0 || static_cast<double>(count) > kMostOften * static_cast<double>(values.size()))
+    return std::nullopt;
+  return "the " + std::string(name) + " has " +
+         (count == 1 ? "a spike of one sample at "
+                     : std::to_string(count) + " spikes of one sample, the first at ") +
+         seconds(record.time[first]);
+}
+
+/// A last step far above all others, as where the digits of a last number are missing.
+std::optional<std::string> leap_at_end(const Samples& values, std::string_view name) {
+  constexpr double kLeap = 10;
+  double largest = 0;
+  for (std::size_t k = 1; k + 1 < values.size(); ++k)
+    largest = std::max(largest, std::abs(values[k] - values[k - 1]));
+  const double last = std::abs(values.back() - values[values.size() - 2]);
+  if (largest == 0 || last <= kLeap * largest) return std::nullopt;
+  return "the " + std::string(name) + " leaps at the last sample: the file may have been cut off";
+}
+
+/// A value that no test of a damper has.
+std::optional<std::string> implausible(const Record& record) {
+  struct Limit {
+    std::string_view channel;
+    double most;
+    std::string_view unit;
+  };
+  constexpr std::array kLimits{Limit{"displacement", 10, "m"}, Limit{"velocity", 100, "m/s"},
+                               Limit{"force", 1e8, "N"}, Limit{"current", 1e3, "A"},
+                               Limit{"voltage", 1e5, "V"}};
+  for (const auto& [name, most, unit] : kLimits) {
+    const Channel* channel = record.find(name);
+    if (!channel) continue;
+    const auto worst = std::ranges::max_element(channel->samples, {},
+                                                [](double value) { return std::abs(value); });
+    if (std::abs(*worst) > most)
+      return "a " + std::string(name) + " of " + format_number(*worst, 4) + " " +
+             std::string(unit) + " at " +
+             seconds(record.time[static_cast<std::size_t>(worst - channel->samples.begin())]) +
+             " is none of a damper: the unit or the column may be wrong";
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::vector<std::string> doubts_about(const Record& record) {
+  std::vector<std::string> doubts;
+  const auto add = [&](const std::optional<std::string>& doubt) {
+    if (doubt) doubts.push_back(*doubt);
+  };
+  constexpr std::size_t kFewest = 20;  // samples that tell a pattern
+  if (record.size() < kFewest) return doubts;
+  add(implausible(record));
+
+  // What the channels show by themselves.
+  const Channel* const force = record.find("force");
+  const Channel* const displacement = record.find("displacement");
+  for (const Channel* channel : {displacement, force})
+    if (channel) {
+      const double span = usual_span(channel->samples);
+      if (span > 0) add(spikes(record, channel->samples, span, channel->name));
+      add(leap_at_end(channel->samples, channel->name));
+    }
+
+  // What the motion makes implausible.
+  if (!displacement) return doubts;
+  add(stuck_displacement(record, displacement->samples));
+  const auto [low, high] = std::ranges::minmax(displacement->samples);
+  if (!force || high <= low) return doubts;
+  // A clipped force stands still, too.
+  const double stroke = high - low;
+  const std::optional<std::string> clipped =
+      clipped_force(force->samples, displacement->samples, stroke);
+  add(clipped ? clipped : stuck_force(record, force->samples, displacement->samples, stroke));
+  return doubts;
+}
+
+}  // namespace dashpot

@@ -1,0 +1,111 @@
+#include "dashpot/record/doubts.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "dashpot/dataset.h"
+#include "support.h"
+
+using namespace dashpot;
+
+namespace {
+
+/// A sine of 20 mm and 1 Hz against friction, a spring and a little noise, at the resolution of a
+/// sensor of 14 bits: nothing speaks against it.
+Record sound_record() {
+  Record record;
+  record.name = "sine";
+  record.sample_time = 0.002;
+  Channel x{"displacement", "m"}, f{"force", "N"};
+  unsigned noise = 1;
+  for (int k = 0; k < 2000; ++k) {
+    noise = noise * 1664525u + 1013904223u;
+    const double t = 0.002 * k, angle = 2 * std::numbers::pi * t;
+    const double v = std::cos(angle);
+    record.time.push_back(t);
+    x.samples.push_back(std::round(0.02 * std::sin(angle) / 5e-6) * 5e-6);
+    const double force = 400 * std::tanh(8 * v) + 300 * v + 5e3 * 0.02 * std::sin(angle) +
+                         2e-9 * static_cast<double>(noise);
+    f.samples.push_back(std::round(force / 0.25) * 0.25);
+  }
+  record.channels = {x, f};
+  return record;
+}
+
+std::vector<double>& samples(Record& record, std::string_view name) {
+  return record.find(name)->samples;
+}
+
+std::string only_doubt(const Record& record) {
+  const std::vector<std::string> doubts = doubts_about(record);
+  REQUIRE(doubts.size() == 1);
+  return doubts.front();
+}
+
+}  // namespace
+
+TEST_CASE("nothing speaks against a sound record, nor against one that rests") {
+  CHECK(doubts_about(sound_record()).empty());
+  Record at_rest = sound_record();
+  for (const char* name : {"displacement", "force"})
+    std::ranges::fill(samples(at_rest, name), 1.25);
+  CHECK(doubts_about(at_rest).empty());
+}
+
+TEST_CASE("a force that sticks while the damper moves is told with its time") {
+  Record record = sound_record();
+  std::fill_n(samples(record, "force").begin() + 600, 200, 123.5);
+  CHECK(contains(only_doubt(record), "the force stands at 123.5 N from 1.2 s to 1.598 s"));
+}
+
+TEST_CASE("a displacement that sticks and leaps is told; one that dwells is not") {
+  Record record = sound_record();
+  std::vector<double>& x = samples(record, "displacement");
+  std::fill_n(x.begin() + 480, 40, x[480]);
+  CHECK(contains(only_doubt(record), "the displacement stands still from 0.96 s to 1.038 s"));
+
+  Record dwelling = sound_record();
+  for (double& value : samples(dwelling, "displacement")) value = std::clamp(value, -0.012, 0.012);
+  CHECK(doubts_about(dwelling).empty());
+}
+
+TEST_CASE("a clipped force is told with its limit") {
+  Record record = sound_record();
+  for (double& value : samples(record, "force")) value = std::min(value, 600.0);
+  CHECK(contains(only_doubt(record), "the force is clipped at 600 N"));
+}
+
+TEST_CASE("spikes of one sample are told with their number; a step is none") {
+  Record record = sound_record();
+  for (const std::size_t k : {300u, 900u, 1700u}) samples(record, "force")[k] += 2000;
+  CHECK(contains(only_doubt(record), "the force has 3 spikes of one sample, the first at 0.6 s"));
+
+  Record step = sound_record();
+  for (std::size_t k = 1000; k < step.size(); ++k) samples(step, "force")[k] += 2000;
+  CHECK(doubts_about(step).empty());
+}
+
+TEST_CASE("a last number that was cut and values of no damper are told") {
+  Record cut = sound_record();
+  samples(cut, "force").back() *= 100;
+  CHECK(contains(only_doubt(cut), "the force leaps at the last sample"));
+
+  Record unit = sound_record();
+  for (double& value : samples(unit, "displacement")) value *= 1000;
+  CHECK(contains(only_doubt(unit), "is none of a damper: the unit or the column may be wrong"));
+}
+
+TEST_CASE("a suspect record of a folder is used, and told first") {
+  const TemporaryFolder folder;
+  std::string rows = "t [s],x [mm],F [N]\n";
+  const Record record = sound_record();
+  for (std::size_t k = 0; k < record.size(); ++k)
+    rows += std::to_string(record.time[k]) + "," +
+            std::to_string(1e3 * record.channel("displacement").samples[k]) + "," +
+            std::to_string(std::min(record.channel("force").samples[k], 600.0)) + "\n";
+  const Dataset dataset = load_dataset({folder.write("run_0.5A.csv", rows)});
+  REQUIRE(dataset.suspects.size() == 1);
+  CHECK(contains(dataset.suspects[0].why, "clipped"));
+  CHECK(dataset.notes.front().starts_with("suspect: "));
+  CHECK(contains(describe(dataset), "suspect: the force is clipped at 600 N"));
+}
