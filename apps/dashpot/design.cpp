@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <set>
 
 #include <fmt/core.h>
 
@@ -61,12 +62,12 @@ std::string quantities_text(int width) {
 }
 
 /// Removes the designs of an earlier run, which must not stand among those of this one.
-void clear_designs(const fs::path& folder) {
+void remove_designs_but(const std::set<fs::path>& written, const fs::path& folder) {
   for (const auto& [part, ending] : {std::pair{"designs", ".yaml"}, std::pair{"models", ".json"}}) {
     std::error_code none;
     for (const auto& entry : fs::directory_iterator(folder / part, none))
       if (entry.path().filename().string().starts_with("design_") &&
-          entry.path().extension() == ending)
+          entry.path().extension() == ending && !written.contains(entry.path()))
         fs::remove(entry.path());
   }
 }
@@ -81,13 +82,18 @@ class ModelWriter {
     if (!report.options.second.empty()) add(report.options.second, "--second", "_second");
   }
 
-  void write(const Design& design, const fs::path& folder) {
+  /// Returns the files that it has written.
+  std::set<fs::path> write(const Design& design, const fs::path& folder) {
+    std::set<fs::path> written;
     for (const Assessor& one : models_) {
       ModelFile file = file_of(design, *one.model);
       file.provenance.command = console_.command_line();
       file.provenance.created = date_now();
-      save_model(file, folder / (design.name + one.ending + ".json"));
+      const fs::path path = folder / (design.name + one.ending + ".json");
+      save_model(file, path);
+      written.insert(path);
     }
+    return written;
   }
   /// "laws, within 1.2 % RMS of the largest force"
   std::string text() const {
@@ -128,12 +134,15 @@ class ModelWriter {
 /// Descriptions and models; says of which kind these are.
 std::string write_designs(const DesignReport& report, const fs::path& folder,
                           const Console& console) {
-  clear_designs(folder);
   ModelWriter models(report, console);
+  std::set<fs::path> written;
   for (const Design& design : report.designs) {
-    write_file(folder / "designs" / (design.name + ".yaml"), format_description(design.damper));
-    models.write(design, folder / "models");
+    const fs::path path = folder / "designs" / (design.name + ".yaml");
+    write_file(path, format_description(design.damper));
+    written.insert(path);
+    written.merge(models.write(design, folder / "models"));
   }
+  remove_designs_but(written, folder);
   return models.text();
 }
 

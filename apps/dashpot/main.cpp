@@ -1,7 +1,10 @@
 #include <algorithm>
 #include <atomic>
 #include <csignal>
+#include <cstdlib>
+#include <exception>
 #include <fcntl.h>
+#include <initializer_list>
 #include <iterator>
 #include <new>
 #include <unistd.h>
@@ -21,8 +24,15 @@ std::atomic<bool> stop_asked = false;
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler writes it");
 std::atomic<int> stop_signal = 0;
 
+constexpr std::string_view kOutOfMemory = "error: out of memory\n";
 constexpr std::string_view kInterrupted =
     "interrupted; files that were being written stand as they were before";
+
+/// Without memory or locks, for where neither may be had.
+void write_to_stderr(std::initializer_list<std::string_view> parts) noexcept {
+  for (const std::string_view part : parts)
+    if (write(STDERR_FILENO, part.data(), part.size()) < 0) return;
+}
 
 /// The first signal asks work to end in order. Where it has not within a moment, the program ends:
 /// files are renamed when they are whole, and what is kept is kept piece by piece. Other signals
@@ -43,8 +53,7 @@ void on_signal(int number) {
 void on_moment_over(int) {
   constexpr std::string_view kBegin = "\nerror: ",
                              kEnd = "; where work is kept, the same command goes on from there\n";
-  for (const std::string_view part : {kBegin, kInterrupted, kEnd})
-    if (write(STDERR_FILENO, part.data(), part.size()) < 0) break;
+  write_to_stderr({kBegin, kInterrupted, kEnd});
   _exit(128 + stop_signal);
 }
 
@@ -56,6 +65,22 @@ void catch_signals() {
   sigaction(SIGALRM, &action, nullptr);
   std::signal(SIGXFSZ, SIG_IGN);  // a limit on file size is then an error with a message
   std::signal(SIGPIPE, SIG_IGN);  // results are written although nobody reads the table
+}
+
+/// Where memory runs out within a library that promised not to throw, the program ends as it does
+/// elsewhere: files are whole, since each is renamed when it is. All else is a fault of ours.
+[[noreturn]] void on_terminate() noexcept {
+  try {
+    if (const std::exception_ptr thrown = std::current_exception()) std::rethrow_exception(thrown);
+  } catch (const std::bad_alloc&) {
+    write_to_stderr({kOutOfMemory});
+    _exit(kUnusableInput);
+  } catch (const std::exception& error) {
+    write_to_stderr({"error: unexpected: ", error.what(), "\n"});
+  } catch (...) {
+    write_to_stderr({"error: unexpected\n"});
+  }
+  std::abort();
 }
 
 /// A file opened later must not become a closed standard stream: the table would end up in the
@@ -162,9 +187,16 @@ int main(int argc, char** argv) {
   using namespace dashpot::cli;
   hold_standard_streams();
   catch_signals();
-  const std::vector<std::string> words(argv + 1, argv + argc);
-  std::string line = "dashpot";
-  for (const std::string& word : words) line += ' ' + shell_quoted(word);
-  Console console(line, stop_asked);
-  return run_and_explain(words, console);
+  std::set_terminate(on_terminate);
+  try {
+    const std::vector<std::string> words(argv + 1, argv + argc);
+    std::string line = "dashpot";
+    for (const std::string& word : words) line += ' ' + shell_quoted(word);
+    Console console(line, stop_asked);
+    return run_and_explain(words, console);
+  } catch (const std::bad_alloc&) {
+    // Not even the message of an error has room.
+    write_to_stderr({kOutOfMemory});
+    return kUnusableInput;
+  }
 }

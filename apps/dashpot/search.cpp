@@ -144,6 +144,7 @@ void write_choices(const RankingData& data, const SearchReport& report, const fs
     file.provenance.created = date_now();
     save_model(file, folder / "models" / (name + ".json"));
   }
+  if (choices.size() == 1) fs::remove(folder / "models" / "smallest.json");
 }
 
 void write_report(const Document& report, const SearchInput& input, const ResultSettings& settings,

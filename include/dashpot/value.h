@@ -22,6 +22,13 @@ class Value {
   using Member = std::pair<std::string, Value>;
 
   Value() = default;
+  /// By assignment: g++ 12 destroys a variant whose copy construction threw although nothing was
+  /// constructed in it.
+  Value(const Value& other) : place_(other.place_) { content_ = other.content_; }
+  Value(Value&&) noexcept = default;
+  Value& operator=(const Value&) = default;
+  Value& operator=(Value&&) noexcept = default;
+  ~Value() = default;
   // Written like JSON, so converting: NOLINTBEGIN(google-explicit-constructor)
   Value(bool value) : content_(value) {}
   Value(double value) : content_(value) {}

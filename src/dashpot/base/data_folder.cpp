@@ -1,7 +1,9 @@
 #include "dashpot/base/data_folder.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdlib>
+#include <dirent.h>
 #include <dlfcn.h>
 
 namespace fs = std::filesystem;
@@ -43,10 +45,13 @@ fs::path data_folder(std::string_view kind) {
 }
 
 std::vector<std::string> data_names(std::string_view kind, std::string_view extension) {
+  // Every command comes here, and std::filesystem's iterator ends the program without memory.
+  const std::unique_ptr<DIR, int (*)(DIR*)> folder(opendir(data_folder(kind).c_str()), closedir);
+  if (!folder && errno == ENOMEM) throw std::bad_alloc();
   std::vector<std::string> names;
-  std::error_code missing;
-  for (const fs::directory_entry& entry : fs::directory_iterator(data_folder(kind), missing))
-    if (entry.path().extension() == extension) names.push_back(entry.path().stem().string());
+  while (const dirent* const entry = folder ? readdir(folder.get()) : nullptr)
+    if (const fs::path name = entry->d_name; name.extension() == extension)
+      names.push_back(name.stem().string());
   std::sort(names.begin(), names.end());
   return names;
 }

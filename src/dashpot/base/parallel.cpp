@@ -93,11 +93,15 @@ void parallel_for(std::size_t count, int threads, const std::function<void(std::
   std::vector<double> spent(workers);
   {
     std::vector<std::jthread> pool;
-    for (std::size_t k = 1; k < workers; ++k)
-      pool.emplace_back([&work, &seconds = spent[k]] {
-        work();
-        seconds = cpu_seconds();
-      });
+    try {
+      for (std::size_t k = 1; k < workers; ++k)
+        pool.emplace_back([&work, &seconds = spent[k]] {
+          work();
+          seconds = cpu_seconds();
+        });
+    } catch (const std::exception&) {
+      // The machine gives no more threads; those that there are do all of the work.
+    }
     work();
   }
   for (const double seconds : spent) seconds_of_others += seconds;
