@@ -138,6 +138,7 @@ struct Evaluation {
   Metrics pooled_without_offset;
   /// Of a model that feeds its force back, with measured forces fed back: no measure of its worth.
   std::optional<Metrics> one_step;
+  // These leave records out whose force hardly changes: a share of next to nothing tells nothing.
   double worst_esr = 0;  ///< %, worst record
   std::string worst_record;
   double mean_esr = 0;             ///< %, mean over the records

@@ -52,6 +52,17 @@ TEST_CASE("a known offset is used, and none is looked for when told so") {
       40, 1e-12, 0);
 }
 
+TEST_CASE("a record of a damper at rest is neither the worst nor in the mean") {
+  Record resting = viscous_record("rest", 0);
+  for (const char* name : {"displacement", "velocity", "force"})
+    for (double& value : resting.find(name)->samples) value *= 1e-9;
+  const Evaluation e =
+      evaluate(viscous_model(1100), {viscous_record("moves", 0), resting}, DriveUnit::Ampere);
+  CHECK(e.worst_record == "moves");
+  CHECK_CLOSE(e.mean_esr, e.records[0].metrics.esr, 1e-12, 0);
+  CHECK(e.pooled.samples == 400);
+}
+
 TEST_CASE("energy: a damper that is 10 % too strong dissipates 10 % too much") {
   const Evaluation e = evaluate(viscous_model(1100), {viscous_record("a", 0)}, DriveUnit::Ampere);
   CHECK_CLOSE(e.records[0].energy_error, 10, 1e-9, 0);

@@ -251,12 +251,20 @@ std::vector<DriveResult> by_drive(const std::vector<RecordResult>& records) {
   return results;
 }
 
+/// The force changes as much as a share of its power needs to mean anything: a damper that rests
+/// leaves noise over nothing.
+bool tells_a_share(const ErrorSums& record, const ErrorSums& all) {
+  constexpr double kLeast = 1e-6;  // of the mean power of all records
+  return record.force_variation() * static_cast<double>(all.n) >=
+         kLeast * all.force_variation() * static_cast<double>(record.n);
+}
+
 /// The figures over all records; those that diverged are counted, never averaged.
 Evaluation summarise(std::vector<RecordResult> records) {
   Evaluation evaluation;
   evaluation.records = std::move(records);
 
-  // Add up the records, and find the worst.
+  // Add up the records.
   ErrorSums sums, without, one_step;
   for (RecordResult& r : evaluation.records) {
     if (r.diverged_at) {
@@ -268,6 +276,13 @@ Evaluation summarise(std::vector<RecordResult> records) {
     sums.add(r.sums);
     without.add(r.sums_without_offset);
     one_step.add(r.one_step);
+  }
+
+  // Means over the records, and the worst of them.
+  double judged = 0;
+  for (const RecordResult& r : evaluation.records) {
+    if (r.diverged_at || !tells_a_share(r.sums, sums)) continue;
+    ++judged;
     evaluation.mean_esr += r.metrics.esr;
     evaluation.mean_energy_error += std::abs(r.energy_error);
     if (r.metrics.esr >= evaluation.worst_esr) {
@@ -275,11 +290,10 @@ Evaluation summarise(std::vector<RecordResult> records) {
       evaluation.worst_record = r.record;
     }
   }
-
-  // Means over the records, then figures over all samples together.
-  const auto judged = static_cast<double>(evaluation.records.size() - evaluation.diverged);
   evaluation.mean_esr /= judged;
   evaluation.mean_energy_error /= judged;
+
+  // Figures over all samples together.
   evaluation.pooled = metrics(sums);
   evaluation.pooled_without_offset = metrics(without);
   if (one_step.n > 0) evaluation.one_step = metrics(one_step);
