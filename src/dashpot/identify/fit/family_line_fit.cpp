@@ -15,48 +15,58 @@ namespace {
 constexpr double kLineRidge = 1e-2;  // keeps a feature that never changes at 0
 constexpr double kSlowShare = 0.05;  // of the mean speed: below it the force goes to 0
 
-/// A record as a spring and a dashpot, and the motion that it went through.
-struct Ellipse {
-  double size = 0, phase = 0, offset = 0;    // N peak, rad, N
-  double speed = 0, stroke = 0, centre = 0;  // standard deviations, m/s and m; mean, m
+/// Standard deviations of a record's motion, m/s and m, and the middle of its stroke.
+struct LineMotion {
+  double speed = 0, stroke = 0, centre = 0;
 };
 
-Ellipse ellipse_of(const FamilyRecord& record) {
-  // The motion's mean and spread.
-  Ellipse ellipse;
+LineMotion motion_of(const FamilyRecord& record) {
+  LineMotion motion;
   const auto n = static_cast<double>(record.force.size() - record.first);
   double v_mean = 0;
   for (std::size_t k = record.first; k < record.force.size(); ++k) {
     v_mean += record.inputs[k].velocity / n;
-    ellipse.centre += record.inputs[k].displacement / n;
+    motion.centre += record.inputs[k].displacement / n;
   }
   for (std::size_t k = record.first; k < record.force.size(); ++k) {
-    ellipse.speed += std::pow(record.inputs[k].velocity - v_mean, 2) / n;
-    ellipse.stroke += std::pow(record.inputs[k].displacement - ellipse.centre, 2) / n;
+    motion.speed += std::pow(record.inputs[k].velocity - v_mean, 2) / n;
+    motion.stroke += std::pow(record.inputs[k].displacement - motion.centre, 2) / n;
   }
-  ellipse.speed = std::sqrt(ellipse.speed);
-  ellipse.stroke = std::sqrt(ellipse.stroke);
-  if (!(ellipse.speed > 0 && ellipse.stroke > 0))
+  motion.speed = std::sqrt(motion.speed);
+  motion.stroke = std::sqrt(motion.stroke);
+  if (!(motion.speed > 0 && motion.stroke > 0))
     throw Error("family_line", "a record does not move", "recordings of a motion");
+  return motion;
+}
 
-  // The force as a dashpot, a spring and an offset, each of a term of scale 1.
+/// A record as a dashpot, a spring and an offset.
+struct Ellipse {
+  double size = 0, phase = 0, offset = 0;  // N, rad, N
+};
+
+Ellipse ellipse_of(const FamilyLine& line, const FamilyRecord& record) {
+  // The normal equations of the line's terms, the amplitude remembered from the record's start.
   std::vector<double> square(9), right(3), found(3);
-  for (std::size_t k = record.first; k < record.force.size(); ++k) {
-    const std::array<double, 3> term{
-        record.inputs[k].velocity / ellipse.speed,
-        (record.inputs[k].displacement - ellipse.centre) / ellipse.stroke, 1};
+  double remembered = 0;
+  for (std::size_t k = 0; k < record.force.size(); ++k) {
+    const DamperInput& input = record.inputs[k];
+    if (k > 0)
+      remembered = line.remember(remembered, record.inputs[k - 1].velocity, input.velocity,
+                                 record.time[k] - record.time[k - 1]);
+    if (k < record.first) continue;
+    const double r = line.amplitude(input, remembered);
+    const std::array<double, 3> term{input.velocity / r,
+                                     line.frequency * (input.displacement - line.centre) / r, 1};
     for (std::size_t i = 0; i < 3; ++i) {
       right[i] += term[i] * record.force[k];
       for (std::size_t j = 0; j < 3; ++j) square[i * 3 + j] += term[i] * term[j];
     }
   }
+
   if (!solve_positive_definite(square, right, found))
     throw Error("family_line", "a record does not tell its spring from its dashpot",
                 "half a cycle of motion, or more");
-  ellipse.size = std::numbers::sqrt2 * std::hypot(found[0], found[1]);
-  ellipse.phase = std::atan2(found[1], found[0]);
-  ellipse.offset = found[2];
-  return ellipse;
+  return {std::hypot(found[0], found[1]), std::atan2(found[1], found[0]), found[2]};
 }
 
 /// The middle of a positive number over all records: e to the mean of its logarithm.
@@ -101,24 +111,28 @@ FamilyLine fit_family_line(const std::vector<FamilyRecord>& records) {
   line.gap = middle(records, [](const auto& r) { return r.member.gap; });
   line.viscosity = middle(records, [](const auto& r) { return r.member.viscosity; });
 
-  // Each record's ellipse, and the motion that all went through.
-  std::vector<FamilyLine::Features> rows;
-  std::vector<double> sizes, phases;
+  // The motion that all records went through.
   double speed = 0, stroke = 0;
   const auto n = static_cast<double>(records.size());
   for (const FamilyRecord& record : records) {
-    const Ellipse ellipse = ellipse_of(record);
-    rows.push_back(line.features(record.member, record.inputs[record.first].current));
-    sizes.push_back(std::log(std::max(ellipse.size, 1e-6)));
-    phases.push_back(ellipse.phase);
-    line.offset += ellipse.offset / n;
-    line.centre += ellipse.centre / n;
-    speed += ellipse.speed / n;
-    stroke += ellipse.stroke / n;
+    const LineMotion motion = motion_of(record);
+    speed += motion.speed / n;
+    stroke += motion.stroke / n;
+    line.centre += motion.centre / n;
   }
   line.frequency = speed / stroke;
   line.slow = kSlowShare * speed;
 
+  // Each record's ellipse, then the lines through all of them.
+  std::vector<FamilyLine::Features> rows;
+  std::vector<double> sizes, phases;
+  for (const FamilyRecord& record : records) {
+    const Ellipse ellipse = ellipse_of(line, record);
+    rows.push_back(line.features(record.member, record.inputs[record.first].current));
+    sizes.push_back(std::log(std::max(ellipse.size, 1e-6)));
+    phases.push_back(ellipse.phase);
+    line.offset += ellipse.offset / n;
+  }
   line.size = ridge_line(rows, line.feature_count(), sizes);
   line.phase = ridge_line(rows, line.feature_count(), phases);
   return line;

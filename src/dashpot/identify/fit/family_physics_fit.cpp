@@ -27,6 +27,7 @@ struct Ridges {
 /// Normal equations of a part of the records.
 struct Normal {
   std::vector<double> matrix, right;  // J'J, J'r
+  double squares = 0;                 // r'r
 };
 
 void add(Normal& to, const Normal& part, double sign) {
@@ -162,8 +163,8 @@ class PhysicsProblem {
       return true;
     };
     LeastSquaresOptions options;
-    options.max_iterations = 60;
-    options.function_tolerance = 1e-6;
+    options.max_iterations = 40;
+    options.function_tolerance = 1e-5;
     options.threads = 1;
     options.on_iteration = [&](int, double) { monitor_.check(); };
     return solve(problem, std::move(x), options);
@@ -182,6 +183,7 @@ class PhysicsProblem {
                               {std::vector<double>(n * n), std::vector<double>(n)});
     for (std::size_t k = 0; k < records_.size(); ++k) {
       Normal& part = parts[groups_.damper[k]];
+      for (std::size_t s = first_[k]; s < first_[k + 1]; ++s) part.squares += r[s] * r[s];
       for (std::size_t i = 0; i < n; ++i)
         for (std::size_t s = first_[k]; s < first_[k + 1]; ++s) {
           part.right[i] += columns[i][s] * r[s];
@@ -308,13 +310,18 @@ class LeftOutDesigns {
     return sum;
   }
 
-  /// Deviations that bring each damper, predicted without its design, nearest to its records:
-  /// in the order of FamilyPhysics::Deviation.
-  std::vector<FamilyPhysics::Deviation> deviations(const Ridges& ridges) const {
+  /// Deviations that bring each damper, predicted without its design, nearest to its records, in
+  /// the order of FamilyPhysics::Deviation; and what they leave of its weighted squares.
+  struct Deviated {
+    std::vector<FamilyPhysics::Deviation> deviations;
+    double squares_left = 0;  // of all dampers
+  };
+  Deviated deviations(const Ridges& ridges) const {
     constexpr std::size_t kCount = FamilyPhysics::kDeviations;
     constexpr double kBelief = 1e-5;  // where a damper's records do not tell one
     const std::size_t n = problem_.unknowns();
-    std::vector<FamilyPhysics::Deviation> found(dampers_.size());
+    Deviated found;
+    found.deviations.resize(dampers_.size());
     for (std::size_t d = 0; d < dampers_.size(); ++d) {
       const std::vector<double> step = step_without(design_of_[d], ridges);
       if (step.empty()) return {};
@@ -337,7 +344,14 @@ class LeftOutDesigns {
             square[i * kCount + j] += select[u * kCount + i] * across[u * kCount + j];
         }
       for (std::size_t i = 0; i < kCount; ++i) square[i * kCount + i] += kBelief;
-      if (!solve_positive_definite(square, right, found[d])) return {};
+      FamilyPhysics::Deviation& own = found.deviations[d];
+      if (!solve_positive_definite(square, right, own)) return {};
+
+      // At the deviations found, the squares fall by half of what their linear part tells.
+      found.squares_left += dampers_[d].squares;
+      for (std::size_t u = 0; u < n; ++u)
+        found.squares_left += step[u] * (2 * dampers_[d].right[u] + moved[u]);
+      for (std::size_t i = 0; i < kCount; ++i) found.squares_left -= own[i] * right[i];
     }
     return found;
   }
@@ -385,14 +399,18 @@ void add_builds(const LeftOutDesigns& left_out, const Ridges& ridges, FamilyPhys
     square += strength * strength / static_cast<double>(strengths.size());
   fit.build_spread = std::sqrt(square);
 
-  const std::vector<FamilyPhysics::Deviation> deviations = left_out.deviations(ridges);
+  // The residuals are weighted so that the squares of all records sum to a mean square share.
+  constexpr double kLeastRecordError = 0.005;
+  const LeftOutDesigns::Deviated deviated = left_out.deviations(ridges);
+  if (deviated.deviations.empty()) return;
   constexpr std::size_t n = FamilyPhysics::kDeviations;
-  for (const FamilyPhysics::Deviation& deviation : deviations)
+  for (const FamilyPhysics::Deviation& deviation : deviated.deviations)
     for (std::size_t i = 0; i < n; ++i)
       for (std::size_t j = 0; j < n; ++j)
         fit.physics.covariance[i * n + j] +=
-            deviation[i] * deviation[j] / static_cast<double>(deviations.size());
-  fit.physics.record_error = kRecordError;
+            deviation[i] * deviation[j] / static_cast<double>(deviated.deviations.size());
+  fit.physics.record_error =
+      std::max(kLeastRecordError, std::sqrt(std::max(0., deviated.squares_left)));
 }
 
 }  // namespace

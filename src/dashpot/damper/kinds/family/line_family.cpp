@@ -37,10 +37,19 @@ LineFamily::LineFamily(FamilyLine line, const std::string& where) : line_(std::m
 
 double FamilyLine::period() const noexcept { return 2 * std::numbers::pi / frequency; }
 
+double FamilyLine::amplitude(const DamperInput& input, double remembered) const noexcept {
+  const double v = input.velocity, u = frequency * (input.displacement - centre);
+  return std::sqrt(std::max(2 * remembered, 0.5 * (v * v + u * u)) + slow * slow);
+}
+
+double FamilyLine::remember(double before, double from, double to, double dt) const noexcept {
+  const double keep = std::exp(-dt / period());
+  return before * keep + (from * from + from * to + to * to) / 3 * (1 - keep);
+}
+
 void LineFamily::advance(const FamilyMember&, const DamperInput& from, const DamperInput& to,
                          double dt, std::span<double> state) const noexcept {
-  const double keep = std::exp(-dt / line_.period()), v = from.velocity, w = to.velocity;
-  state[0] = state[0] * keep + (v * v + v * w + w * w) / 3 * (1 - keep);
+  state[0] = line_.remember(state[0], from.velocity, to.velocity, dt);
 }
 
 void LineFamily::flow(const DamperInput& input, std::span<const double> state,
@@ -58,10 +67,9 @@ double LineFamily::force(const FamilyMember& member, const DamperInput& input,
     phase += line_.phase[k] * f[k];
   }
 
-  const double v = input.velocity, u = line_.frequency * (input.displacement - line_.centre);
-  const double way = std::sqrt(2 * std::max(0., state[0]) + line_.slow * line_.slow);
-  return std::exp(std::min(log_size, kMostLog)) * (std::cos(phase) * v + std::sin(phase) * u) /
-             way +
+  const double turned = std::cos(phase) * input.velocity +
+                        std::sin(phase) * line_.frequency * (input.displacement - line_.centre);
+  return std::exp(std::min(log_size, kMostLog)) * turned / line_.amplitude(input, state[0]) +
          line_.offset;
 }
 

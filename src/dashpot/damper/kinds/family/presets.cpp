@@ -64,8 +64,8 @@ std::array<FamilyPreset, 6> make_presets() {
 
       {.name = "family_line",
        .title = "The simplest family: a size and a phase that are lines",
-       .equation = "F = A (cos p v + sin p w x') / sqrt(2 q + s^2) + F_0,  x' = x - x_0,\n"
-                   "q' = (v^2 - q) / t,  "
+       .equation = "F = A (cos p v + sin p w x') / r + F_0,  x' = x - x_0,\n"
+                   "r^2 = max(2 q, (v^2 + (w x')^2) / 2) + s^2,  q' = (v^2 - q) / t,\n"
                    "ln A and p: a line in i, i^2, ln eta, ln L, ln h, or in T_y, ln L, ln h",
        .source = "Dashpot's own: the blind row that every other family has to beat",
        .remarks =
