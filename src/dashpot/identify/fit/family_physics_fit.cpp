@@ -18,6 +18,8 @@ constexpr double kBuildSpread = 0.08, kRecordError = 0.05;
 // Ridges of what geometry does to the whole force, and to the flow beyond physics.
 constexpr std::array kAllRidges{1e-4, 1e-3, 1e-2, 1e-1}, kYieldRidges{1e-3, 1e-2, 1e-1, 1.0};
 constexpr double kOffsetRidge = 1e-5;
+// Of the first solution, and of the last one, which begins where that has ended.
+constexpr int kIterations = 30, kLastIterations = 10;
 constexpr double kStep = 1e-5;  // of the differences
 
 struct Ridges {
@@ -145,7 +147,7 @@ class PhysicsProblem {
     return physics_.reference.force * x[kOffset];
   }
 
-  LeastSquaresReport solve_with(const Ridges& ridges, std::vector<double> x) const {
+  LeastSquaresReport solve_with(const Ridges& ridges, std::vector<double> x, int iterations) const {
     LeastSquaresProblem problem;
     problem.residuals = samples_ + unknowns();
     for (std::size_t k = 0; k < unknowns(); ++k) {
@@ -163,8 +165,8 @@ class PhysicsProblem {
       return true;
     };
     LeastSquaresOptions options;
-    options.max_iterations = 40;
-    options.function_tolerance = 1e-5;
+    options.max_iterations = iterations;
+    options.function_tolerance = 1e-4;
     options.threads = 1;
     options.on_iteration = [&](int, double) { monitor_.check(); };
     return solve(problem, std::move(x), options);
@@ -439,11 +441,11 @@ FamilyPhysicsFit fit_family_physics(const std::vector<FamilyRecord>& records, in
   // Fit with ridges from the middle, then with those that leaving designs out would choose there.
   const PhysicsProblem problem(records, threads, monitor);
   Ridges ridges;
-  LeastSquaresReport report = problem.solve_with(ridges, problem.start());
+  LeastSquaresReport report = problem.solve_with(ridges, problem.start(), kIterations);
   const bool several = problem.groups().designs > 1;
   if (several) {
     ridges = best_ridges(LeftOutDesigns(problem, report.x));
-    report = problem.solve_with(ridges, report.x);
+    report = problem.solve_with(ridges, report.x, kLastIterations);
   }
 
   FamilyPhysicsFit fit;

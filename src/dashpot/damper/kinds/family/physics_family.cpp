@@ -51,8 +51,15 @@ constexpr std::array<PhysicsNumber, kPhysicsNumbers> kTable{{
 /// A friction or a plate flow: the force it has at a speed, over that speed.
 struct Resistance {
   double yielding, viscous;  // N, N s/m; a seal has no viscous part
-  double at(double speed) const noexcept {
-    return (viscous > 0 ? plate_bingham_pressure(viscous * speed, yielding) : yielding) / speed;
+  struct Value {
+    double value, slope;  // N s/m, and its derivative by the speed
+  };
+  Value at(double speed) const noexcept {
+    if (!(viscous > 0)) return {yielding / speed, -yielding / (speed * speed)};
+    // The slope of the pressure p follows from its cubic, p^3 - (N + 3/2 Y) p^2 + Y^3 / 2 = 0.
+    const double newtonian = viscous * speed, p = plate_bingham_pressure(newtonian, yielding);
+    const double slope = p / (3 * p - 2 * (newtonian + 1.5 * yielding));
+    return {p / speed, (viscous * slope - p / speed) / speed};
   }
 };
 
@@ -61,22 +68,25 @@ struct Resistance {
 double balanced_force(const Resistance& resistance, double pull, double spring, double rest,
                       double own) noexcept {
   constexpr int kSteps = 50;
-  constexpr double kTolerance = 1e-9, kShift = 1e-6;
+  constexpr double kTolerance = 1e-9;
   double low = 0, high = pull / spring;
-  double u = pull / (spring + resistance.at(std::sqrt(rest)));
-  if (!(own > 0)) return u * resistance.at(std::sqrt(rest));
+  double u = pull / (spring + resistance.at(std::sqrt(rest)).value);
+  if (!(own > 0)) return u * resistance.at(std::sqrt(rest)).value;
+
+  // A resistance that has yielded leaves the rest of the pull to spring and viscous flow.
+  u = std::max(u, (pull - resistance.yielding / std::sqrt(own)) / (spring + resistance.viscous));
   for (int k = 0; k < kSteps; ++k) {
-    const double s = std::sqrt(rest + own * u * u), r = resistance.at(s);
-    const double excess = u * r + spring * u - pull;
+    const double s = std::sqrt(rest + own * u * u);
+    const Resistance::Value r = resistance.at(s);
+    const double excess = u * r.value + spring * u - pull;
     (excess > 0 ? high : low) = u;
-    const double bend = (resistance.at(s * (1 + kShift)) - r) / (s * kShift);
-    double next = u - excess / (r + u * bend * own * u / s + spring);
+    double next = u - excess / (r.value + u * r.slope * own * u / s + spring);
     if (!(next > low && next < high)) next = 0.5 * (low + high);
     const double step = std::abs(next - u);
     u = next;
     if (step <= kTolerance * u) break;
   }
-  return u * resistance.at(std::sqrt(rest + own * u * u));
+  return u * resistance.at(std::sqrt(rest + own * u * u)).value;
 }
 
 void require_physics(const FamilyPhysics& physics, const std::string& where) {
