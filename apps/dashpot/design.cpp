@@ -25,7 +25,7 @@ struct DesignSettings {
   std::string request, folder = "dashpot-design", method = "nsga2", outside_family = "mark";
   DesignOptions options;
   std::uint64_t points = DesignOptions().points;
-  bool quantities = false, report = true;
+  bool quantities = false, report = true, insist = false;
 };
 
 constexpr std::string_view kDesignExample =
@@ -173,6 +173,7 @@ int run_design(DesignSettings settings, Console& console) {
   settings.options.points = static_cast<std::size_t>(settings.points);
   settings.options.method = settings.method == "moead" ? FrontMethod::Moead : FrontMethod::Nsga2;
   settings.options.refuse_outside = settings.outside_family == "refuse";
+  settings.options.insist = settings.insist;
   settings.options.monitor = console.monitor();
 
   // A folder that cannot be written is found out before the search, not after it.
@@ -254,6 +255,11 @@ std::vector<Option> options_of(DesignSettings& settings) {
                "refuse them",
        .value = "MODE",
        .choices = {"mark", "refuse"}},
+      {.names = "--insist",
+       .target = &settings.insist,
+       .help = fmt::format("keep designs at which a family's force lies {} times further from the "
+                           "plate flow's than at a damper of its fit; they are refused otherwise",
+                           kMostLeap)},
 
       // The run itself, and what it prints or leaves out.
       seed_option(settings.options.seed),

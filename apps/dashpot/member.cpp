@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <memory>
 
 #include <fmt/core.h>
@@ -9,6 +10,8 @@
 #include "dashpot/base/units.h"
 #include "dashpot/damper/kinds/family/family_model.h"
 #include "dashpot/damper/physics/damper_description.h"
+#include "dashpot/dataset.h"
+#include "dashpot/identify/fit/family_build.h"
 #include "dashpot/model_file.h"
 #include "layout.h"
 
@@ -16,7 +19,7 @@ namespace dashpot::cli {
 namespace {
 
 struct MemberSettings {
-  std::string model, damper, outside_family = "mark", output;
+  std::string model, damper, recording, outside_family = "mark", output;
   std::vector<std::string> changes;
 };
 
@@ -28,7 +31,11 @@ constexpr std::string_view kMemberExample =
     "# The same as a strong build of it, and as a drawing, a coil and a fluid say:\n"
     "dashpot member results/models/family_gated.json --set build=1.64 -o strong.json\n"
     "dashpot member results/models/family_gated.json --damper my_damper.yaml --outside-family "
-    "refuse";
+    "refuse\n"
+    "\n"
+    "# A build that was recorded: a few cycles at one current make the rest its own:\n"
+    "dashpot member results/models/family_physics.json --damper my_damper.yaml --recording "
+    "short_test.csv -o build.json";
 
 DamperDescription description_of(const std::string& damper) {
   const std::vector<std::string> known = description_names();
@@ -80,6 +87,32 @@ std::string table_of(const FamilyModel& model, int width) {
   return table.text(static_cast<std::size_t>(width));
 }
 
+/// The member as its recordings say that it was built.
+BuildReport measured(const FamilyModel& member, const MemberSettings& settings, Console& console) {
+  const Dataset data = load_dataset({settings.recording});
+  BuildReport report = measure_build(member, data.records, data.drive_unit);
+
+  Table table({"this build", ">from its drawing", ">builds differ by", ">known to"});
+  for (const BuildReport::Deviation& one : report.deviations) {
+    const bool newtons = &one == &report.deviations.back();
+    const auto text = [&](double value) {
+      return newtons ? format_number(value, 3) + " N" : format_number(100 * value, 3) + " %";
+    };
+    table.row({one.name, text(one.value), text(one.spread), text(one.left)});
+  }
+  console.print('\n' + table.text(static_cast<std::size_t>(console.width())) +
+                fmt::format("On its recording the family leaves {} % of the force's power, this "
+                            "build {} %.\n",
+                            format_number(report.esr_before, 3),
+                            format_number(report.esr_after, 3)));
+  if (!report.is_likely())
+    console.warn(fmt::format(
+        "{}: not one build in a hundred lies so far from its drawing ({} standard deviations): a "
+        "recording of another damper, or a drawing that is not this damper's",
+        settings.recording, format_number(std::sqrt(report.distance), 3)));
+  return report;
+}
+
 int run_member(const MemberSettings& settings, Console& console) {
   ModelFile file = load_model(settings.model);
   const auto* family = model_as<FamilyModel>(*file.model);
@@ -95,16 +128,30 @@ int run_member(const MemberSettings& settings, Console& console) {
   const FamilyMember drawn = settings.damper.empty()
                                  ? family->member()
                                  : member_of(description_of(settings.damper), largest);
-  const auto member =
+  std::shared_ptr<const FamilyModel> member =
       asked->with_member(with_conditions(drawn, changes_of(settings), settings.model));
 
   const std::vector<std::string> outside = member->extrapolations();
   console.print(table_of(*member, console.width()));
   for (const std::string& what : outside) console.warn(what + ": it extrapolates there");
-  if (console.json)
-    console.print_json(Value::object({{"member", to_json(member->member())},
-                                      {"outside_family", Value::array(outside)},
-                                      {"output", settings.output}}));
+
+  // A recording makes the member the build that was recorded.
+  Value json = Value::object({{"member", to_json(member->member())},
+                              {"outside_family", Value::array(outside)},
+                              {"output", settings.output}});
+  if (!settings.recording.empty()) {
+    const BuildReport report = measured(*member, settings, console);
+    member = report.model;
+    Value build = Value::object();
+    for (const BuildReport::Deviation& one : report.deviations)
+      build.add(one.name,
+                Value::object({{"value", one.value}, {"spread", one.spread}, {"left", one.left}}));
+    json.add("build", std::move(build));
+    json.add("esr_before", report.esr_before);
+    json.add("esr_after", report.esr_after);
+    json.add("likely", report.is_likely());
+  }
+  if (console.json) console.print_json(json);
 
   // The file keeps the family's provenance; only its model becomes the member's.
   if (settings.output.empty()) return kDone;
@@ -142,6 +189,12 @@ Command member_command() {
                    .target = &settings->changes,
                    .help = "the damper's numbers, as gap=1.25mm,yield_stress=20kPa,build=1",
                    .value = "LIST"},
+                  {.names = "--recording",
+                   .target = &settings->recording,
+                   .help = "a short recording of this build, of family_physics: the member is made "
+                           "what it says, as far as builds differ",
+                   .value = "FILE",
+                   .takes = Takes::File},
 
                   // The limits of the family, and where the model goes.
                   {.names = "--outside-family",

@@ -9,6 +9,8 @@
 #include "dashpot/base/text.h"
 #include "dashpot/damper/inverse/polynomial.h"
 #include "dashpot/damper/kinds/family/family_force.h"
+#include "dashpot/damper/kinds/family/line_family.h"
+#include "dashpot/damper/kinds/family/physics_family.h"
 #include "dashpot/damper/kinds/family/presets.h"
 #include "dashpot/damper/kinds/fuzzy/presets.h"
 #include "dashpot/damper/kinds/hybrid/hybrid_model.h"
@@ -166,12 +168,23 @@ void describe(ModelSheet& sheet, const HysteresisNetworkPreset& preset) {
 }
 
 void describe(ModelSheet& sheet, const FamilyPreset& preset) {
-  if (!preset.inputs.empty()) {
+  if (preset.form == FamilyForm::Network) {
     sheet.numbers = weights(preset.inputs.size(), preset.hidden);
     return;
   }
+  if (preset.form == FamilyForm::Line) {
+    sheet.numbers = 2 * FamilyLine::kMostFeatures + 1;
+    add_states(sheet, 1, "q, m^2/s^2");
+    return;
+  }
+  if (preset.form == FamilyForm::Physics) {
+    sheet.numbers = kPhysicsNumbers + 1;
+    add_states(sheet, 2, "f, N");
+    add_states(sheet, 1, "q, m^2/s^2");
+    return;
+  }
 
-  // Without inputs it has gates over a bank of states.
+  // Gates stand over a bank of states.
   FamilyGates gates;
   gates.bank.path_rates.resize(preset.path_states);
   gates.bank.velocity_rates.resize(preset.velocity_lags);

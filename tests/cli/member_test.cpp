@@ -25,4 +25,14 @@ TEST_CASE("a member of a family becomes a model of its own, marked or refused ou
   CHECK(contains(run_dashpot("member " + family + " --set gape=9mm").output, "did you mean 'gap'"));
   CHECK(contains(run_dashpot("member " + family + " --damper family_prototype").output,
                  "yield_stress"));
+
+  // Only a family that knows how builds differ can take a recording of one.
+  const std::string recording =
+      folder
+          .write("r.csv",
+                 "time [s],displacement [m],velocity [m/s],current [A],force [N]\n"
+                 "0,0,0.01,0,5\n0.01,0.0001,0.01,0,5\n0.02,0.0002,0.01,0,5\n"
+                 "0.03,0.0003,0.01,0,5\n")
+          .string();
+  CHECK(run_dashpot("member " + family + " --recording " + recording).exit_code == 1);
 }

@@ -20,12 +20,12 @@ TEST_CASE("laws stand in alphabetical order, the other kinds follow in theirs") 
   const auto others = names.begin() + static_cast<std::ptrdiff_t>(laws().size());
   CHECK(std::is_sorted(names.begin(), others));
   CHECK(std::vector<std::string>(others, names.end()) ==
-        std::vector<std::string>{"mlp_one_sensor", "mlp_two_sensors", "narx_one_sensor",
-                                 "narx_two_sensors", "hysteresis_network", "neural_state_space",
-                                 "passive_network", "passive_network_one_sensor", "anfis",
-                                 "takagi_sugeno", "large_scale_bouc_wen+network",
-                                 "modified_bouc_wen+network", "family_gated", "family_h3x15",
-                                 "family_h3x15_residual", "family_h3x15_total"});
+        std::vector<std::string>{
+            "mlp_one_sensor", "mlp_two_sensors", "narx_one_sensor", "narx_two_sensors",
+            "hysteresis_network", "neural_state_space", "passive_network",
+            "passive_network_one_sensor", "anfis", "takagi_sugeno", "large_scale_bouc_wen+network",
+            "modified_bouc_wen+network", "family_gated", "family_h3x15", "family_h3x15_residual",
+            "family_h3x15_total", "family_line", "family_physics"});
   for (const Law* law : laws()) {
     CHECK(&find_law(law->name) == law);
     CHECK(is_law(law->name));
@@ -106,7 +106,8 @@ TEST_CASE("families say their kind and inputs; the paper's network has its eight
   for (const FamilyPreset& preset : family_presets()) {
     const ModelInfo info = model_info(preset.name);
     CHECK(info.kind == ModelKind::Family);
-    CHECK(info.needs_displacement() == !preset.inputs.empty());
+    CHECK(info.needs_displacement() ==
+          (preset.form == FamilyForm::Network || preset.form == FamilyForm::Line));
     CHECK(&find_preset(family_presets(), preset.name) == &preset);
     for (const std::string& input : preset.inputs) CHECK_NOTHROW(family_input_named(input, ""));
   }

@@ -2,6 +2,7 @@
 #include <filesystem>
 
 #include "damper/kinds/family/example_family.h"
+#include "dashpot/damper/kinds/family/line_family.h"
 #include "dashpot/design/design.h"
 #include "dashpot/error.h"
 #include "dashpot/report/design_report.h"
@@ -126,7 +127,7 @@ TEST_CASE("design by a family: what it cannot know is told") {
   const std::string request = std::string(kRequest).substr(0, std::string(kRequest).find("goals")) +
                               "goals: [{maximise: force, current: 3 A}]";
   const DesignReport report = designed_by_family(request, {.model = file});
-  REQUIRE(report.notes.size() == 2);
+  REQUIRE(report.notes.size() >= 2);
   CHECK(report.notes[0] == "family_gated knows a current up to 1 A, not of 3 A");
   CHECK(report.notes[1].find("does not see turns:") != std::string::npos);  // it reads the current
   CHECK(message_of([&] {
@@ -152,4 +153,59 @@ TEST_CASE("a design by a family is a member of it, as a file that reads back") {
   CHECK(member.force({0, 0.02, 0.5}, state) ==
         example_family().specialised({{"gap", 1.7e-3}})->force({0, 0.02, 0.5}, state));
   CHECK(!make_design_model("physics", "")->model_of(drawn));
+}
+
+TEST_CASE("design by a family: a force that does not resist, or leaps from physics, is refused") {
+  // A line whose force falls by a power of the gap that physics has not: to nothing at 2 mm.
+  const TemporaryFolder folder;
+  FamilyLine line;
+  line.gap = 1e-3;
+  line.pole_length = 6e-3;
+  line.viscosity = 0.28;
+  line.slow = 1e-3;
+  line.size = {3, 0.2, 0, 0, 0, -12};
+  line.phase.assign(6, 0.);
+  Family family = family_of(std::make_shared<LineFamily>(line));
+  const FamilyModel model(std::make_shared<Family>(family), example_member());
+  const std::string file = family_file(folder, model);
+  DamperDescription drawn = named_description("family_prototype");
+  const DamperOperation at{0.5, 0.02};
+  CHECK(std::isfinite(make_design_model(file, "--model")->evaluate(drawn, at).force));
+  drawn.gap *= 2;
+  drawn.gap_area *= 2;
+  const auto judge = make_design_model(file, "--model");
+  CHECK_FALSE(judge->has_refused());
+  CHECK(std::isnan(judge->evaluate(drawn, at).force));
+  CHECK(judge->has_refused());
+  CHECK(std::isfinite(make_design_model(file, "--model", true)->evaluate(drawn, at).force));
+
+  // A force that helps the motion is refused, whoever insists.
+  line.phase[0] = 3;
+  family.force = std::make_shared<LineFamily>(line);
+  const std::string wrong =
+      family_file(folder, FamilyModel(std::make_shared<Family>(family), example_member()));
+  CHECK(std::isnan(make_design_model(wrong, "--model", true)->evaluate(drawn, at).force));
+}
+
+TEST_CASE("design by a family: what cannot be reached is said without the robust search") {
+  const TemporaryFolder folder;
+  FamilyLine line;
+  line.gap = 1e-3;
+  line.pole_length = 6e-3;
+  line.viscosity = 0.28;
+  line.slow = 1e-3;
+  line.size = {2, 0.2, 0, 0, 0, -0.5};
+  line.phase.assign(6, 0.);
+  const FamilyModel model(std::make_shared<Family>(family_of(std::make_shared<LineFamily>(line))),
+                          example_member());
+  const std::string file = family_file(folder, model);
+  DesignOptions options{.model = file, .second = "physics", .refuse_outside = true};
+  const DesignReport report = design(named_request("family_prototype"), options);
+  CHECK(report.designs.empty());
+  REQUIRE(report.conflict);
+  CHECK(contains(describe(*report.conflict, report.request), "force at least 50 N"));
+  CHECK(report.wall_seconds < 30);
+  CHECK(std::ranges::any_of(report.notes, [](const std::string& note) {
+    return contains(note, "judged by the drawn damper alone");
+  }));
 }

@@ -22,6 +22,9 @@ struct DesignOptions {
   std::string second;             ///< a model whose figures stand beside; empty: none
   /// Refuses designs beyond the dampers of a family's model; else they are marked.
   bool refuse_outside = false;
+  /// Keeps designs at which a family's model leaps beyond physics (kMostLeap); else they are
+  /// refused.
+  bool insist = false;
   Monitor monitor;
 };
 

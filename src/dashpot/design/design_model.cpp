@@ -43,10 +43,11 @@ std::vector<std::string> design_model_names() {
   return names;
 }
 
-std::unique_ptr<DesignModel> make_design_model(const std::string& name, const std::string& where) {
+std::unique_ptr<DesignModel> make_design_model(const std::string& name, const std::string& where,
+                                               bool insist) {
   for (const NamedModel& model : kModels)
     if (model.name == name) return std::make_unique<PhysicsModel>(name, model.flow);
-  if (name.find_first_of("./") != std::string::npos) return load_family_design_model(name);
+  if (name.find_first_of("./") != std::string::npos) return load_family_design_model(name, insist);
   throw Error(where, "unknown model '" + name + "'",
               suggest(name, design_model_names()) + ", or the file of a family's model");
 }

@@ -29,6 +29,8 @@ class DesignModel {
   virtual std::vector<std::string> extrapolations(const DamperDescription&) const { return {}; }
   /// The current or speed that lies beyond those that it was fitted on, in words; else empty.
   virtual std::vector<std::string> extrapolations(const DamperOperation&) const { return {}; }
+  /// Whether it has refused a force, as one of 0 or less or beyond physics is.
+  virtual bool has_refused() const { return false; }
   /// The model of this damper for other commands; none where a law has to be fitted to the forces
   /// (law_of_design).
   virtual std::optional<ModelFile> model_of(const DamperDescription&) const { return std::nullopt; }
@@ -36,13 +38,21 @@ class DesignModel {
 
 /// "physics" is what the description asks for; "physics:plate", "physics:moving_wall" and
 /// "physics:paper" take that law of the flow. A word with a dot or a slash is the file of a
-/// family's model. Throws Error(where, ...) on another name, or where the file holds something
-/// else.
-std::unique_ptr<DesignModel> make_design_model(const std::string& name, const std::string& where);
+/// family's model; `insist` as load_family_design_model() has it. Throws Error(where, ...) on
+/// another name, or where the file holds something else.
+std::unique_ptr<DesignModel> make_design_model(const std::string& name, const std::string& where,
+                                               bool insist = false);
 std::vector<std::string> design_model_names();  ///< those that are no files
 
+/// How many times further from the plate flow's force a design's may lie than that of a damper of
+/// the family's fit does: beyond it a fitted model leaps, as one does whose force goes to 0.
+constexpr double kMostLeap = 10;
+
 /// A fitted family's force in place of that of first principles, from which all other figures
-/// come. Throws Error where the file holds no family, or one that is not driven by a current in A.
-std::unique_ptr<DesignModel> load_family_design_model(const std::filesystem::path& path);
+/// come. A force that does not resist the motion, with the current or without, is not known (NaN),
+/// nor is one that lies beyond kMostLeap unless the caller insists. Throws Error where the file
+/// holds no family, or one that is not driven by a current in A.
+std::unique_ptr<DesignModel> load_family_design_model(const std::filesystem::path& path,
+                                                      bool insist = false);
 
 }  // namespace dashpot

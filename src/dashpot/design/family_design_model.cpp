@@ -1,11 +1,13 @@
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
 #include "dashpot/base/text.h"
 #include "dashpot/damper/kinds/family/family_model.h"
+#include "dashpot/damper/physics/plate_flow.h"
 #include "dashpot/design/design_model.h"
 #include "dashpot/error.h"
 
@@ -42,9 +44,20 @@ double force_in_sine(const DamperModel& model, const DamperOperation& at, double
   return model.force(now, state);
 }
 
+/// Plate flow of a member and the friction of a seal, N, at an instant: what every member's force
+/// is held against. The seal is in both, so that a fluid without yield stress leaves no 0.
+double force_of_plate_flow(const FamilyMember& m, double velocity, double current, double seal) {
+  const PlateGap gap{m.pole_length, m.gap_area / m.gap, m.gap};
+  const double newtonian =
+      m.piston_area *
+      plate_newtonian_pressure(&gap, m.viscosity, m.piston_area * std::abs(velocity));
+  const double yielding = m.piston_area * plate_yield_pressure(&gap, m.yield.at(current));
+  return seal + plate_bingham_pressure(newtonian, yielding);
+}
+
 class FamilyDesignModel final : public DesignModel {
  public:
-  explicit FamilyDesignModel(ModelFile file) : file_(std::move(file)) {
+  FamilyDesignModel(ModelFile file, bool insist) : file_(std::move(file)), insist_(insist) {
     family_ = model_as<FamilyModel>(*file_.model)->with_outside(OutsideFamily::Mark);
     const Domain& d = file_.domain;
     half_stroke_ = 0.5 * (d.displacement_max - d.displacement_min);
@@ -78,8 +91,18 @@ class FamilyDesignModel final : public DesignModel {
     physics.force = force + spring;
     physics.off_force = off + spring;
     physics.dynamic_range = off != 0 ? force / off : std::numeric_limits<double>::infinity();
+
+    // A damper resists its motion; and a fitted model may not leap where physics does not.
+    if (!resists(force, operation.velocity) || !resists(off, operation.velocity) ||
+        (!insist_ && (leaps(*damper, force, operation, operation.current, half_stroke) ||
+                      leaps(*damper, off, operation, 0, half_stroke)))) {
+      refused_ = true;
+      physics.force = physics.off_force = physics.dynamic_range =
+          std::numeric_limits<double>::quiet_NaN();
+    }
     return physics;
   }
+  bool has_refused() const override { return refused_; }
 
   bool is_fitted() const override { return true; }
   double outside(const DamperDescription& description) const override {
@@ -115,6 +138,26 @@ class FamilyDesignModel final : public DesignModel {
   }
 
  private:
+  static bool resists(double force, double velocity) {
+    return velocity == 0 || (std::isfinite(force) && force * velocity > 0);
+  }
+
+  /// Whether this force lies kMostLeap times further from the plate flow's than that of the damper
+  /// with which the family's file stands, at the same place.
+  bool leaps(const FamilyModel& damper, double force, const DamperOperation& at, double current,
+             double half_stroke) const {
+    if (at.velocity == 0) return false;
+    const double known = std::clamp(at.velocity, -speed_, speed_);
+    const double own = force_in_sine(*family_, {current, known, at.displacement}, half_stroke);
+    if (!resists(own, known)) return false;
+    const double seal = 0.1 * std::abs(own);
+    const double share =
+        std::abs(force) / force_of_plate_flow(damper.member(), at.velocity, current, seal);
+    const double usual =
+        std::abs(own) / force_of_plate_flow(family_->member(), known, current, seal);
+    return share > kMostLeap * usual || share * kMostLeap < usual;
+  }
+
   std::shared_ptr<const FamilyModel> drawn(const DamperDescription& description) const {
     constexpr std::array<double, 1> kNoCurrent{0};
     return family_->with_member(member_of(description, kNoCurrent));
@@ -123,11 +166,14 @@ class FamilyDesignModel final : public DesignModel {
   ModelFile file_;
   std::unique_ptr<FamilyModel> family_;
   double half_stroke_ = 0, current_ = 0, speed_ = 0;
+  bool insist_ = false;
+  mutable std::atomic<bool> refused_ = false;
 };
 
 }  // namespace
 
-std::unique_ptr<DesignModel> load_family_design_model(const std::filesystem::path& path) {
+std::unique_ptr<DesignModel> load_family_design_model(const std::filesystem::path& path,
+                                                      bool insist) {
   ModelFile file = load_model(path);
   if (!model_as<FamilyModel>(*file.model))
     throw Error(path.string(), "is a model of one damper, not of a family",
@@ -135,7 +181,7 @@ std::unique_ptr<DesignModel> load_family_design_model(const std::filesystem::pat
   if (file.drive_unit != DriveUnit::Ampere)
     throw Error(path.string(), "is driven by " + to_string(file.drive_unit),
                 "a family of coils whose current is known");
-  return std::make_unique<FamilyDesignModel>(std::move(file));
+  return std::make_unique<FamilyDesignModel>(std::move(file), insist);
 }
 
 }  // namespace dashpot

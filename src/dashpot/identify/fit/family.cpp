@@ -2,10 +2,13 @@
 #include <cmath>
 #include <tuple>
 
+#include "dashpot/base/text.h"
 #include "dashpot/damper/kinds/family/family_model.h"
 #include "dashpot/damper/kinds/family/presets.h"
 #include "dashpot/error.h"
 #include "dashpot/identify/fit/family_gates_fit.h"
+#include "dashpot/identify/fit/family_line_fit.h"
+#include "dashpot/identify/fit/family_physics_fit.h"
 #include "dashpot/identify/fit/fit.h"
 #include "dashpot/identify/fit/network_trainer.h"
 #include "dashpot/identify/fit/training_samples.h"
@@ -122,6 +125,7 @@ Mlp standardised(const FamilyPreset& preset, const NetworkDesign& design,
 struct LearnedForce {
   std::shared_ptr<const FamilyForce> force;  ///< none where the training failed
   double build_spread = 0;
+  double offset = 0;  ///< N, of every damper
 };
 
 /// The design with what it leaves open as the family's networks learn.
@@ -167,6 +171,52 @@ LearnedForce fit_gates(const FamilyPreset& preset, const std::vector<FamilyRecor
   return {std::make_shared<GatedFamily>(std::move(fit.gates)), fit.build_spread};
 }
 
+LearnedForce fit_line(const std::vector<FamilyRecord>& records, FitReport& report) {
+  report.status = FitReport::Status::Converged;
+  report.message = "solved";
+  report.iterations = 1;
+  return {std::make_shared<LineFamily>(fit_family_line(records))};
+}
+
+LearnedForce fit_physics(const std::vector<FamilyRecord>& records, const IdentifyOptions& options,
+                         FitReport& report) {
+  const FamilyPhysicsFit fit = fit_family_physics(records, options.threads, options.monitor);
+
+  // The numbers as they are, each with what it means; their intervals are not known.
+  for (std::size_t k = 0; k < kPhysicsNumbers; ++k) {
+    const PhysicsNumber& number = FamilyPhysics::table()[k];
+    report.parameters.push_back({std::string(number.name), "1", std::string(number.meaning),
+                                 fit.physics.numbers[k], fit.physics.numbers[k],
+                                 fit.physics.numbers[k]});
+  }
+  report.parameters.push_back(
+      {"build_spread", "1",
+       "standard deviation of a new damper's force from its design's, as a share",
+       fit.build_spread});
+  report.status = fit.converged ? FitReport::Status::Converged : FitReport::Status::IterationLimit;
+  report.message = "geometry's ridges " + format_number(fit.all_ridge) + " and " +
+                   format_number(fit.yield_ridge) + ", chosen by leaving designs out";
+  report.iterations = fit.iterations;
+  return {std::make_shared<PhysicsFamily>(fit.physics), fit.build_spread, fit.offset};
+}
+
+LearnedForce fit_force(const FamilyPreset& preset, const FamilyBaseline& baseline,
+                       const std::vector<FamilyRecord>& records,
+                       const std::vector<Record>& training, DriveUnit drive_unit,
+                       const IdentifyOptions& options, FitReport& report) {
+  switch (preset.form) {
+    case FamilyForm::Gates:
+      return fit_gates(preset, records, options, report);
+    case FamilyForm::Line:
+      return fit_line(records, report);
+    case FamilyForm::Physics:
+      return fit_physics(records, options, report);
+    case FamilyForm::Network:
+      break;
+  }
+  return fit_networks(preset, baseline, training, drive_unit, options, report);
+}
+
 double rmse_of(const FamilyModel& model, const std::vector<Record>& training, DriveUnit drive_unit,
                const IdentifyOptions& options) {
   return evaluate(model, training, drive_unit,
@@ -188,11 +238,8 @@ FitReport fit_family(const FamilyPreset& preset, const std::vector<Record>& trai
   family.domain = domain_of(records);
   family.baseline = fitted_baseline(preset.target, records);
 
-  // Learn the force: gates where the preset has no inputs, else networks.
   const LearnedForce learned =
-      preset.inputs.empty()
-          ? fit_gates(preset, records, options, report)
-          : fit_networks(preset, family.baseline, training, drive_unit, options, report);
+      fit_force(preset, family.baseline, records, training, drive_unit, options, report);
   if (!learned.force) return report;
   family.force = learned.force;
   family.build_spread = learned.build_spread;
@@ -200,8 +247,8 @@ FitReport fit_family(const FamilyPreset& preset, const std::vector<Record>& trai
   // The model stands at the first record's damper, with the yield curve of its fluid.
   FamilyMember member = records.front().member;
   member.yield = yield_of(records, member.viscosity);
-  const auto model =
-      std::make_shared<FamilyModel>(std::make_shared<Family>(std::move(family)), member);
+  const auto model = std::make_shared<FamilyModel>(std::make_shared<Family>(std::move(family)),
+                                                   member, learned.offset);
   report.training_rmse = rmse_of(*model, training, drive_unit, options);
   report.model = model;
   return report;

@@ -3,17 +3,10 @@
 
 #include "dashpot/damper/kinds/family/family_force.h"
 #include "dashpot/damper/kinds/family/presets.h"
+#include "dashpot/identify/fit/family_record.h"
 #include "dashpot/monitor.h"
 
 namespace dashpot {
-
-/// One record of a member of a family.
-struct FamilyRecord {
-  FamilyMember member;
-  std::vector<DamperInput> inputs;
-  std::vector<double> time, force;
-  std::size_t first = 0;  ///< scored from here on
-};
 
 /// The fitted gates with the spread of dampers that their fit found.
 struct FamilyGatesFit {

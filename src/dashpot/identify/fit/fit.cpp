@@ -48,9 +48,10 @@ Settings always(std::string_view) {
   return settings;
 }
 
-/// A family without inputs has gates, which are no network.
+/// Of the families, those with networks alone follow settings of networks.
 Settings settings_of_family(std::string_view model) {
-  return find_preset(family_presets(), model).inputs.empty() ? Settings{} : kOfStaticNetworks;
+  return find_preset(family_presets(), model).form == FamilyForm::Network ? kOfStaticNetworks
+                                                                          : Settings{};
 }
 
 constexpr std::array kFits{

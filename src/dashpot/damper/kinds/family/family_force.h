@@ -21,11 +21,12 @@ class FamilyForce {
   virtual std::size_t parameter_count() const noexcept = 0;
   virtual std::size_t state_size() const noexcept { return 0; }
   virtual void rest(const DamperInput&, std::span<double>) const noexcept {}
-  virtual void advance(const DamperInput&, const DamperInput&, double,
+  virtual void advance(const FamilyMember&, const DamperInput&, const DamperInput&, double,
                        std::span<double>) const noexcept {}
   virtual double force(const FamilyMember& member, const DamperInput& input,
                        std::span<const double> state) const noexcept = 0;
-  /// The states' derivatives by time.
+  /// Whether an integrator may step the states by flow(), their derivatives by time.
+  virtual bool flows() const noexcept { return true; }
   virtual void flow(const DamperInput&, std::span<const double>, std::span<double>) const noexcept {
   }
   /// These four do what those of DamperModel do.
@@ -106,8 +107,8 @@ class GatedFamily final : public FamilyForce {
   std::size_t parameter_count() const noexcept override;
   std::size_t state_size() const noexcept override { return gates_.bank.size(); }
   void rest(const DamperInput& input, std::span<double> state) const noexcept override;
-  void advance(const DamperInput& from, const DamperInput& to, double dt,
-               std::span<double> state) const noexcept override;
+  void advance(const FamilyMember& member, const DamperInput& from, const DamperInput& to,
+               double dt, std::span<double> state) const noexcept override;
   double force(const FamilyMember& member, const DamperInput& input,
                std::span<const double> state) const noexcept override;
   Value to_json() const override;

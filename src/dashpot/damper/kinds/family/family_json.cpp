@@ -1,5 +1,7 @@
 #include "dashpot/base/text.h"
 #include "dashpot/damper/kinds/family/family_model.h"
+#include "dashpot/damper/kinds/family/line_family.h"
+#include "dashpot/damper/kinds/family/physics_family.h"
 #include "dashpot/damper/nets/mlp_json.h"
 #include "dashpot/error.h"
 
@@ -94,7 +96,10 @@ std::unique_ptr<FamilyForce> family_force_from_json(const Value& value) {
   const Value& kind = reader.required("kind");
   if (kind.as_string() == "network") return read_network(value, reader);
   if (kind.as_string() == "gates") return read_gates(value, reader);
-  throw Error(kind.where(), "unknown kind '" + kind.as_string() + "'", "network or gates");
+  if (kind.as_string() == kLineFamily) return read_line_family(value, reader);
+  if (kind.as_string() == kPhysicsFamily) return read_physics_family(value, reader);
+  throw Error(kind.where(), "unknown kind '" + kind.as_string() + "'",
+              "network, gates, line or physics");
 }
 
 Value FamilyModel::to_json() const {

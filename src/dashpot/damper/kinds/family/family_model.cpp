@@ -25,7 +25,7 @@ void FamilyModel::rest(const DamperInput& input, std::span<double> state) const 
 
 void FamilyModel::advance(const DamperInput& from, const DamperInput& to, double dt,
                           std::span<double> state) const noexcept {
-  family_->force->advance(from, to, dt, state);
+  family_->force->advance(member_, from, to, dt, state);
 }
 
 double FamilyModel::force(const DamperInput& input, std::span<const double> state) const noexcept {

@@ -46,7 +46,7 @@ class FamilyModel final : public DamperModel {
   void advance(const DamperInput& from, const DamperInput& to, double dt,
                std::span<double> state) const noexcept override;
   double force(const DamperInput& input, std::span<const double> state) const noexcept override;
-  bool flows() const noexcept override { return true; }
+  bool flows() const noexcept override { return family_->force->flows(); }
   double flow(const DamperInput& input, std::span<const double> state,
               std::span<double> rates) const noexcept override;
   /// The spread is that of new dampers of this design, and of the networks about their mean.

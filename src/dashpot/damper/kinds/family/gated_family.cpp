@@ -103,8 +103,8 @@ void GatedFamily::rest(const DamperInput& input, std::span<double> state) const 
   gates_.bank.rest(input, state);
 }
 
-void GatedFamily::advance(const DamperInput& from, const DamperInput& to, double dt,
-                          std::span<double> state) const noexcept {
+void GatedFamily::advance(const FamilyMember&, const DamperInput& from, const DamperInput& to,
+                          double dt, std::span<double> state) const noexcept {
   gates_.bank.advance(from, to, dt, state);
 }
 

@@ -10,12 +10,15 @@
 
 namespace dashpot {
 
-/// A model of a family of dampers, known by name: static networks of its inputs, or gates where it
-/// has none.
+/// What learns the force of a family.
+enum class FamilyForm { Gates, Network, Line, Physics };
+
+/// A model of a family of dampers, known by name.
 struct FamilyPreset {
   std::string_view name, title, equation, source;
   std::string remarks;
-  std::vector<std::string> inputs;  ///< as family_input_named() has them
+  FamilyForm form = FamilyForm::Network;
+  std::vector<std::string> inputs;  ///< of networks, as family_input_named() has them
   FamilyTarget target = FamilyTarget::Total;
   std::vector<std::size_t> hidden;  ///< rectified linear units per hidden layer
   std::size_t path_states = 0, velocity_lags = 0;

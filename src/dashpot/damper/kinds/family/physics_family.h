@@ -1,0 +1,122 @@
+#pragma once
+#include <array>
+#include <memory>
+#include <span>
+#include <string_view>
+
+#include "dashpot/damper/kinds/family/family_force.h"
+#include "dashpot/value.h"
+
+namespace dashpot {
+
+constexpr std::string_view kPhysicsFamily = "physics";  ///< its kind in a model file
+
+/// One row of the table of what a fit learns; `numbers` of FamilyPhysics are in its order.
+struct PhysicsNumber {
+  std::string_view name, meaning;
+  double prior;      ///< what it is without data: that of physics, where there is one
+  double belief;     ///< in that: the ridge, where geometry has no part in it
+  double low, high;  ///< ends of its search
+  bool is_geometry;  ///< a correction whose ridge a fit chooses
+};
+
+/// Where each number stands.
+enum PhysicsIndex : std::size_t {
+  kYieldShare,
+  kViscousShare,
+  kSealForce,
+  kSealGive,
+  kStiffness,
+  kFieldExponent,
+  kFieldGain,
+  kFieldHalf,
+  kAsymmetry,
+  kMemory,
+  kOnset,
+  kGeometryShare,
+  kGapOfAll,
+  kLengthOfAll,
+  kFluidOfAll,
+  kGapOfYield,
+  kLengthOfYield,
+  kAreaOfYield,
+  kFluidOfYield,
+  kPhysicsNumbers
+};
+
+/// Plate flow and seal friction, each in series with a spring, times corrections that are positive
+/// and smooth:
+///   F = g (f_1 + f_2) + F_0,  f_k' = K_k (v - u_k),  f_k = u_k D_k(s_k) / s_k,
+///   s_k^2 = b q + (1 - b) u_k^2 + s_0^2,  q' = (v^2 - q) / t.
+/// D_1 is the seal's force, D_2 the force of the plate flow at a speed s_k. With b = 0 this is
+/// plate flow and friction as they stand in books; with b > 0 a part of the speed that sets the
+/// resistance is that of the motion just past, which rounds the loop. Whatever sets the resistances
+/// D_k / s_k, they are positive, and the springs do not change with the current: over any closed
+/// cycle the damper takes energy out.
+struct FamilyPhysics {
+  using Numbers = std::array<double, kPhysicsNumbers>;
+
+  /// The middle of the dampers and motions of the fit: numbers are shares and exponents over it.
+  struct Reference {
+    double piston_area = 1, gap_area = 1, gap = 1, pole_length = 1, viscosity = 1;
+    double yield_stress = 1, current = 1, force = 1, speed = 1, stroke = 1;
+  };
+  /// How one build differs from its drawing: logarithms of its whole force, of the flow and of the
+  /// springs beyond that, and its offset over the reference force.
+  static constexpr std::size_t kDeviations = 4;
+  using Deviation = std::array<double, kDeviations>;
+
+  Reference reference;
+  Numbers numbers{};
+  Deviation deviation{};  ///< of this build
+  /// Covariance of the deviations of dampers left out of the fit, row by row, and what then remains
+  /// of a record's force, as a share. 0: not known.
+  std::array<double, kDeviations * kDeviations> covariance{};
+  double record_error = 0;
+
+  /// What one damper at one current comes to.
+  struct Element {
+    double seal = 0, seal_stiffness = 0;              ///< N, N/m
+    double yielding = 0, viscous = 0, stiffness = 0;  ///< N, N s/m, N/m
+    double asymmetry = 0, memory = 0, slow = 0, time = 1;
+    double offset = 0;  ///< N, of this build
+  };
+  Element element(const FamilyMember& member, double current) const noexcept;
+  /// The numbers without data.
+  static Numbers priors() noexcept;
+  static std::span<const PhysicsNumber, kPhysicsNumbers> table();
+};
+
+/// State: the seal's force and that of the flow, N, and the remembered square of the speed.
+constexpr std::size_t kPhysicsStates = 3;
+
+/// Steps the state from one velocity to the next, by a method of order two that holds for springs
+/// of any stiffness (two stages of implicit Runge-Kutta, L-stable).
+void advance_element(const FamilyPhysics::Element& element, double from, double to, double dt,
+                     double* state) noexcept;
+
+class PhysicsFamily final : public FamilyForce {
+ public:
+  explicit PhysicsFamily(FamilyPhysics physics, const std::string& where = {});
+
+  bool needs_displacement() const noexcept override { return false; }
+  std::size_t parameter_count() const noexcept override { return kPhysicsNumbers + 1; }
+  std::size_t state_size() const noexcept override { return kPhysicsStates; }
+  void rest(const DamperInput& input, std::span<double> state) const noexcept override;
+  void advance(const FamilyMember& member, const DamperInput& from, const DamperInput& to,
+               double dt, std::span<double> state) const noexcept override;
+  double force(const FamilyMember& member, const DamperInput& input,
+               std::span<const double> state) const noexcept override;
+  /// Its springs may be too stiff for the integrator of a vehicle: it steps itself.
+  bool flows() const noexcept override { return false; }
+  Value to_json() const override;
+  const FamilyPhysics& physics() const { return physics_; }
+  static constexpr std::string_view kDeviationNames[] = {"force", "flow", "stiffness", "offset"};
+
+ private:
+  FamilyPhysics physics_;
+};
+
+std::unique_ptr<FamilyForce> read_physics_family(const Value& value, ObjectReader& reader);
+
+}  // namespace dashpot

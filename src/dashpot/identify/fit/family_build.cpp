@@ -1,0 +1,145 @@
+#include "dashpot/identify/fit/family_build.h"
+
+#include <array>
+#include <cmath>
+
+#include "dashpot/base/text.h"
+#include "dashpot/damper/kinds/family/physics_family.h"
+#include "dashpot/error.h"
+#include "dashpot/evaluate.h"
+#include "dashpot/identify/fit/family_physics_fit.h"
+#include "dashpot/numerics/least_squares.h"
+#include "dashpot/numerics/linear_algebra.h"
+
+namespace dashpot {
+namespace {
+
+constexpr std::size_t kBuildNumbers = FamilyPhysics::kDeviations;
+using BuildMatrix = std::array<double, kBuildNumbers * kBuildNumbers>;
+
+/// Factor L of a positive definite matrix = L L', row by row.
+BuildMatrix lower_factor(const BuildMatrix& matrix) {
+  BuildMatrix factor{};
+  for (std::size_t i = 0; i < kBuildNumbers; ++i)
+    for (std::size_t j = 0; j <= i; ++j) {
+      double rest = matrix[i * kBuildNumbers + j];
+      for (std::size_t k = 0; k < j; ++k)
+        rest -= factor[i * kBuildNumbers + k] * factor[j * kBuildNumbers + k];
+      factor[i * kBuildNumbers + j] =
+          i == j ? std::sqrt(rest) : rest / factor[j * kBuildNumbers + j];
+    }
+  return factor;
+}
+
+/// The recordings as records of this member, whose conditions they may state again.
+std::vector<FamilyRecord> records_of_build(const FamilyModel& member,
+                                           const std::vector<Record>& recordings,
+                                           DriveUnit drive_unit) {
+  std::vector<FamilyRecord> records;
+  for (const Record& recording : recordings) {
+    FamilyRecord record{with_conditions(member.member(), recording.conditions, recording.name),
+                        damper_inputs(recording, drive_unit), recording.time,
+                        recording.channel("force").samples, recording.warm_up};
+    for (const MemberField& field : member_fields()) {
+      const double own = record.member.*field.field, asked = member.member().*field.field;
+      if (field.required && std::abs(own - asked) > 1e-6 * std::abs(asked))
+        throw Error(recording.name,
+                    "is of a damper whose " + std::string(field.name) + " is " +
+                        format_number(own) + " " + std::string(field.unit) + ", not " +
+                        format_number(asked),
+                    "recordings of one build of this drawing");
+    }
+    records.push_back(std::move(record));
+  }
+  if (records.empty()) throw Error(member.name(), "has no recording", "one at least");
+  return records;
+}
+
+}  // namespace
+
+BuildReport measure_build(const FamilyModel& member, const std::vector<Record>& recordings,
+                          DriveUnit drive_unit) {
+  const auto* force = dynamic_cast<const PhysicsFamily*>(member.family().force.get());
+  if (!force || !(force->physics().record_error > 0))
+    throw Error(member.name(), "does not know how builds of a drawing differ",
+                "a family_physics of two designs or more");
+  const std::vector<FamilyRecord> records = records_of_build(member, recordings, drive_unit);
+
+  // What is expected of a build: the inverse covariance, of which no direction is known exactly.
+  constexpr double kLeast = 1e-6;
+  FamilyPhysics physics = force->physics();
+  std::vector<double> covariance(physics.covariance.begin(), physics.covariance.end());
+  for (std::size_t k = 0; k < kBuildNumbers; ++k) covariance[k * kBuildNumbers + k] += kLeast;
+  const std::vector<double> precise = inverse(covariance, kBuildNumbers);
+  BuildMatrix precision;
+  std::ranges::copy(precise, precision.begin());
+  const BuildMatrix factor = lower_factor(precision);
+
+  // Residuals: every record as one observation with the record's error, then the prior.
+  LeastSquaresProblem problem;
+  std::vector<double> weight;
+  for (const FamilyRecord& record : records) {
+    double square = 0;
+    const std::size_t count = record.force.size() - record.first;
+    for (std::size_t k = record.first; k < record.force.size(); ++k)
+      square += record.force[k] * record.force[k];
+    weight.push_back(
+        1 / (physics.record_error * std::max(std::sqrt(square), 1e-3 * physics.reference.force)));
+    problem.residuals += count;
+  }
+  const std::size_t samples = problem.residuals;
+  problem.residuals += kBuildNumbers;
+  problem.lower.assign(kBuildNumbers, -3);
+  problem.upper.assign(kBuildNumbers, 3);
+  problem.residual = [&](std::span<const double> x, std::span<double> r) {
+    FamilyPhysics built = physics;
+    std::ranges::copy(x, built.deviation.begin());
+    std::size_t at = 0;
+    for (std::size_t n = 0; n < records.size(); ++n) {
+      const std::vector<double> modelled = run_family_physics(built, records[n]);
+      for (std::size_t k = records[n].first; k < modelled.size(); ++k)
+        r[at++] = weight[n] * (modelled[k] + member.offset() - records[n].force[k]);
+    }
+    for (std::size_t i = 0; i < kBuildNumbers; ++i) {
+      double whitened = 0;
+      for (std::size_t k = i; k < kBuildNumbers; ++k)
+        whitened += factor[k * kBuildNumbers + i] * x[k];
+      r[samples + i] = whitened;
+    }
+    return true;
+  };
+  const LeastSquaresReport solved =
+      solve(problem, std::vector<double>(kBuildNumbers), {.threads = 1});
+  std::ranges::copy(solved.x, physics.deviation.begin());
+
+  // How far the build lies from its drawing, in the spread that left-out dampers had.
+  constexpr double kOneInHundred = 13.277;  // of chi squared with four degrees of freedom
+  BuildReport report;
+  report.unlikely = kOneInHundred;
+  const std::vector<double> left =
+      solved.normal_matrix.empty() ? covariance : inverse(solved.normal_matrix, kBuildNumbers);
+  for (std::size_t i = 0; i < kBuildNumbers; ++i) {
+    const std::size_t ii = i * kBuildNumbers + i;
+    for (std::size_t k = 0; k < kBuildNumbers; ++k)
+      report.distance += solved.x[i] * precision[i * kBuildNumbers + k] * solved.x[k];
+    const bool newtons = i == kBuildNumbers - 1;
+    const double unit = newtons ? physics.reference.force : 1;
+    report.deviations.push_back({std::string(PhysicsFamily::kDeviationNames[i]),
+                                 newtons ? unit * solved.x[i] : std::expm1(solved.x[i]),
+                                 unit * std::sqrt(covariance[ii]), unit * std::sqrt(left[ii])});
+  }
+
+  // The family with this build in it: what is left of its spread is what this build is known by.
+  auto family = std::make_shared<Family>(member.family());
+  family->force = std::make_shared<PhysicsFamily>(physics);
+  family->build_spread = std::sqrt(left.front());
+  report.model = std::make_shared<FamilyModel>(family, member.member(), member.offset());
+  const auto esr = [&](const FamilyModel& model) {
+    return evaluate(model, recordings, drive_unit, {.offset = OffsetMode::None}).pooled.esr;
+  };
+  report.esr_before = esr(member);
+  report.esr_after = esr(*report.model);
+  return report;
+}
+
+}  // namespace dashpot

@@ -1,0 +1,27 @@
+#pragma once
+#include "dashpot/damper/kinds/family/physics_family.h"
+#include "dashpot/identify/fit/family_record.h"
+#include "dashpot/monitor.h"
+
+namespace dashpot {
+
+/// The fitted family with the offset of its force and the spread of its builds.
+struct FamilyPhysicsFit {
+  FamilyPhysics physics;
+  double offset = 0;                      ///< N
+  double build_spread = 0;                ///< from designs that were left out; 0 where there is one
+  double all_ridge = 0, yield_ridge = 0;  ///< that leaving designs out has chosen
+  bool converged = false;
+  int iterations = 0;
+};
+
+/// Least squares in free run, all records alike; each damper's build is drawn around its design
+/// (ridge), and geometry's corrections shrink to physics by ridges that leaving designs out of
+/// these records chooses, with the fit linearised. Throws Error where nothing moves.
+FamilyPhysicsFit fit_family_physics(const std::vector<FamilyRecord>& records, int threads,
+                                    const Monitor& monitor);
+
+/// Force of the family in free run at every sample of a record, without the family's offset.
+std::vector<double> run_family_physics(const FamilyPhysics& physics, const FamilyRecord& record);
+
+}  // namespace dashpot

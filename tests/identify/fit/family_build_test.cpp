@@ -1,0 +1,73 @@
+#include "dashpot/identify/fit/family_build.h"
+
+#include "damper/kinds/family/example_family.h"
+#include "dashpot/identify.h"
+#include "support.h"
+#include "virtual_family.h"
+
+using namespace dashpot;
+
+namespace {
+
+/// A build that is this much stronger than its drawing, at all currents and both motions.
+std::vector<Record> recorded_build(double strength) {
+  Random random(3);
+  std::vector<Record> records;
+  for (const double current : {0., 0.5, 1.5})
+    for (const int motion : {0, 1})
+      records.push_back(
+          virtual_record({}, 1, 1.2e-3, 8e-3, 0.09, current, motion, strength, random));
+  return records;
+}
+
+std::shared_ptr<const FamilyModel> fitted_family() {
+  VirtualFamily small;
+  small.gaps = {1e-3, 1.4e-3};
+  small.lengths = {6e-3, 10e-3};
+  small.viscosities = {0.09};
+  small.currents = {0, 0.5, 1.5};
+  small.samples = 120;
+  small.scatter = 0.06;
+  static const FitReport kReport = identify("family_physics", virtual_family(small).records,
+                                            DriveUnit::Ampere, {.offset = OffsetMode::None});
+  return std::dynamic_pointer_cast<const FamilyModel>(kReport.model);
+}
+
+}  // namespace
+
+TEST_CASE("one recording without current makes a build's other currents and speeds its own") {
+  const auto family = fitted_family();
+  const std::vector<Record> records = recorded_build(1.12);
+  const auto member =
+      std::dynamic_pointer_cast<const FamilyModel>(family->specialised(records.front().conditions));
+  const BuildReport report = measure_build(*member, {records.front()}, DriveUnit::Ampere);
+  CHECK(report.is_likely());
+  CHECK(report.esr_after < report.esr_before);
+  CHECK(report.deviations.at(0).value > 0.05);
+  CHECK(report.deviations.at(0).left < report.deviations.at(0).spread);
+
+  const std::vector<Record> others(records.begin() + 1, records.end());
+  const auto esr = [&](const FamilyModel& model) {
+    return evaluate(model, others, DriveUnit::Ampere, {.offset = OffsetMode::None}).pooled.esr;
+  };
+  CHECK(esr(*report.model) < 0.5 * esr(*member));
+}
+
+TEST_CASE("a recording of another damper is told from one of a build") {
+  const auto family = fitted_family();
+  const std::vector<Record> twice = recorded_build(2);
+  const auto member =
+      std::dynamic_pointer_cast<const FamilyModel>(family->specialised(twice.front().conditions));
+  CHECK_FALSE(measure_build(*member, twice, DriveUnit::Ampere).is_likely());
+
+  const auto other =
+      std::dynamic_pointer_cast<const FamilyModel>(member->specialised({{"gap", 1.3e-3}}));
+  CHECK(contains(message_of([&] { measure_build(*other, twice, DriveUnit::Ampere); }),
+                 "is of a damper whose gap is 0.0012 m, not 0.0013"));
+}
+
+TEST_CASE("a family that knows no builds takes no recording of one") {
+  CHECK(contains(
+      message_of([] { measure_build(example_family(), recorded_build(1), DriveUnit::Ampere); }),
+      "does not know how builds"));
+}
