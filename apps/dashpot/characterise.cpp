@@ -6,11 +6,11 @@
 #include "commands.h"
 #include "console.h"
 #include "dashpot/base/file.h"
-#include "dashpot/base/text.h"
 #include "dashpot/report/characterisation_document.h"
 #include "data.h"
 #include "document_text.h"
 #include "results.h"
+#include "speeds.h"
 
 namespace dashpot::cli {
 namespace {
@@ -27,21 +27,6 @@ constexpr std::string_view kCharacteriseExample =
     "# At the speeds of the house, every cycle as a table, and a page with its loops:\n"
     "dashpot characterise recordings/ --speeds 52,131,262,524 --csv cycles.csv \\\n"
     "    --report sheet.html";
-
-/// "50,100,200" in mm/s: m/s, ascending.
-std::vector<double> parse_speeds(const std::string& text) {
-  std::vector<double> speeds;
-  if (text.empty()) return speeds;
-  for (const std::string& word : split(text, ',')) {
-    const std::optional<double> speed = parse_number(trim(word));
-    if (!speed || !std::isfinite(*speed) || *speed <= 0)
-      throw UsageError("--speeds", "'" + word + "' is not a speed",
-                       "positive numbers in mm/s with commas between them: 50,100,200");
-    speeds.push_back(*speed / 1000);
-  }
-  std::ranges::sort(speeds);
-  return speeds;
-}
 
 int run_characterise(const CharacteriseSettings& settings, Console& console) {
   const CharacteriseOptions options{parse_speeds(settings.speeds)};
@@ -86,11 +71,7 @@ Command characterise_command() {
       .example = std::string(kCharacteriseExample),
       .run = [settings](Console& console) { return run_characterise(*settings, console); }};
 
-  append(command.options, {{.names = "--speeds",
-                            .target = &settings->speeds,
-                            .help = "speeds at which forces are stated, between those measured",
-                            .value = "MM/S,...",
-                            .default_text = "those that were measured"},
+  append(command.options, {speeds_option(settings->speeds),
                            {.names = "--csv",
                             .target = &settings->csv,
                             .help = "also write every cycle with all its figures, in SI",

@@ -13,6 +13,7 @@ Command member_command();
 Command models_command();
 Command inspect_command();
 Command characterise_command();
+Command compare_command();
 Command track_command();
 Command export_command();
 Command invert_command();
