@@ -102,6 +102,16 @@ ComparedThing run_model(const std::string& path, const Dataset& dataset, bool is
   return thing;
 }
 
+/// Short names where they stay apart: a model file's without folder and ending.
+void shorten_names(std::vector<ComparedThing>& things) {
+  std::vector<std::string> names;
+  for (const ComparedThing& thing : things)
+    names.push_back(thing.is_model ? std::filesystem::path(thing.name).stem().string()
+                                   : thing.name);
+  for (std::size_t k = 0; k < things.size(); ++k)
+    if (std::ranges::count(names, names[k]) == 1) things[k].name = names[k];
+}
+
 /// Everything, characterised: recordings first as they are read, then models over the first of
 /// them, or over sines where there are none; in the order of the command line.
 std::vector<ComparedThing> gather(const CompareSettings& settings, Console& console) {
@@ -136,6 +146,7 @@ std::vector<ComparedThing> gather(const CompareSettings& settings, Console& cons
     things[k].figures = characterise(things[k].dataset, {parse_speeds(settings.speeds)});
     console.check_stop();
   }
+  shorten_names(things);
   return things;
 }
 

@@ -310,13 +310,14 @@ Value differences_json(const std::vector<LevelDifference>& levels) {
 /// How many forces differ clearly, and where by the most.
 std::string difference_sentence(const std::string& name, const std::vector<LevelDifference>& levels,
                                 DriveUnit unit) {
-  std::size_t count = 0, clear = 0, known = 0;
+  std::size_t count = 0, clear = 0, known = 0, quiet = 0;
   const SpeedDifference* most = nullptr;
   std::optional<double> where;
   for (const LevelDifference& level : levels)
     for (const SpeedDifference& s : level.speeds) {
       ++count;
       known += s.damping_force.is_clear().has_value() ? 1 : 0;
+      quiet += s.damping_force.noise < 1e-3 * std::abs(s.damping_force.first) ? 1 : 0;
       clear += s.damping_force.is_clear().value_or(false) ? 1 : 0;
       if (most && std::abs(s.damping_force.percent()) <= std::abs(most->damping_force.percent()))
         continue;
@@ -324,7 +325,8 @@ std::string difference_sentence(const std::string& name, const std::vector<Level
       where = level.drive;
     }
   if (!most) return name + " has no speed and drive in common with the first.";
-  const std::string told = known == 0
+  const std::string told = quiet == count ? "computed, with hardly any noise"
+                           : known == 0
                                ? "with no repeated cycles to say how much of it is noise"
                                : fmt::format("{} of them by more than twice the noise", clear);
   return fmt::format("{}: {} compared, {}; the most is {:+.1f} % at {} mm/s and {}.", name,
@@ -347,6 +349,10 @@ Document comparison_document(const ComparisonInput& input) {
                     .date = input.date,
                     .kind = "comparison"};
 
+  if (things.size() > 2)
+    document.verdict =
+        fmt::format("{} beside {}.", counted(things.size() - 1, "thing"), first.name);
+
   // Models by their errors on the recordings, and which of these taught them.
   Value others = Value::array();
   DocumentSection fits{.name = "fits",
@@ -365,7 +371,8 @@ Document comparison_document(const ComparisonInput& input) {
   for (std::size_t k = 1; k < things.size(); ++k) {
     const std::vector<LevelDifference> levels =
         differences(first.figures, things[k].figures, input.speeds);
-    document.verdict += (k > 1 ? "\n* " : "* ") + difference_sentence(things[k].name, levels, unit);
+    const std::string sentence = difference_sentence(things[k].name, levels, unit);
+    document.verdict += things.size() == 2 ? sentence : "\n* " + sentence;
     DocumentSection section{.name = fmt::format("differences-{}", k),
                             .title = things[k].name + " (second) against " + first.name,
                             .paragraphs = {}};

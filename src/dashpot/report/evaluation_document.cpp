@@ -31,14 +31,14 @@ std::vector<std::string> pooled_row(const std::string& name, const Metrics& m) {
 
 DocumentTable error_table(const Evaluation& evaluation, const std::string& drive_unit) {
   DocumentTable table{.title = {},
-                      .columns = {{"record"},
+                      .columns = {{"record", false, 0, true},
                                   {drive_unit.empty() ? "drive" : drive_unit, true},
                                   {"RMSE N", true},
-                                  {"rms/half-span %", true},
+                                  {"rms/half-span %", true, 3},
                                   {"ESR %", true},
                                   {"fit %", true},
-                                  {"energy error %", true},
-                                  {"offset N", true}},
+                                  {"energy error %", true, 2},
+                                  {"offset N", true, 1}},
                       .rows = {}};
 
   // Records, then all samples together.
@@ -52,11 +52,11 @@ DocumentTable error_table(const Evaluation& evaluation, const std::string& drive
 
 DocumentTable band_table(const Evaluation& evaluation) {
   DocumentTable table{.title = {},
-                      .columns = {{"velocity band"},
+                      .columns = {{"velocity band", false, 0, true},
                                   {"|v| m/s", true},
-                                  {"samples", true},
+                                  {"samples", true, 2},
                                   {"RMSE N", true},
-                                  {"MAE N", true},
+                                  {"MAE N", true, 1},
                                   {"max |e| N", true}},
                       .rows = {}};
 
