@@ -12,6 +12,8 @@ Command evaluate_command();
 Command member_command();
 Command models_command();
 Command inspect_command();
+Command characterise_command();
+Command compare_command();
 Command track_command();
 Command export_command();
 Command invert_command();

@@ -16,7 +16,7 @@
 namespace dashpot::cli {
 namespace {
 
-constexpr int kDefaultColumns = 100;
+constexpr int kDefaultColumns = 80;
 constexpr int kLeastColumns = 40;
 constexpr int kMostColumns = 160;  // longer lines are hard to read
 

@@ -131,7 +131,7 @@ Command demo_command() {
   settings->fit.budget = kDemoBudget;
   settings->fit.options.starts = 2;  // enough for data this clean, in half the time
   Command command{.name = "demo",
-                  .title = "See everything at work: a virtual damper, measured and identified",
+                  .title = "See it at work: a virtual damper, measured and identified",
                   .description =
                       "Records a virtual damper with known parameters, identifies models from the "
                       "files as from a real campaign, checks that the known parameters are found "

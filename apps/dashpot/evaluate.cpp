@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <filesystem>
 #include <memory>
 
 #include <fmt/core.h>
@@ -11,6 +13,7 @@
 #include "dashpot/identify/fit/fit_words.h"
 #include "dashpot/identify/judge/extrapolation.h"
 #include "dashpot/rank.h"
+#include "dashpot/record/record_file.h"
 #include "dashpot/report/report_json.h"
 #include "dashpot/report/words.h"
 #include "data.h"
@@ -26,6 +29,8 @@ struct EvaluateSettings {
   std::string force_offset = "record";
   std::string outside_family = "mark";
   std::string report;
+  std::string traces;
+  std::string folder = "dashpot-traces";
   int threads = 0;
 };
 
@@ -56,6 +61,44 @@ Ranking as_ranking(const std::string& name, ModelFile file, const Dataset& datas
   return ranking;
 }
 
+/// A record's name as that of a file.
+std::string file_name(std::string name) {
+  for (char& c : name)
+    if (!std::isalnum(static_cast<unsigned char>(c)) && c != '.' && c != '-') c = '_';
+  return name;
+}
+
+/// Motion, drive, and the forces measured, modelled and between them, record by record.
+void write_traces(const EvaluateSettings& settings, const Evaluation& evaluation,
+                  DriveUnit drive_unit, Console& console) {
+  for (std::size_t k = 0; k < evaluation.records.size(); ++k) {
+    const RecordResult& r = evaluation.records[k];
+    Record trace;
+    trace.name = r.record;
+    trace.time = r.time;
+    const auto add = [&](const std::string& name, const std::string& unit,
+                         const std::vector<double>& samples) {
+      if (samples.size() == r.time.size()) trace.channels.push_back({name, unit, samples, ""});
+    };
+    add("displacement", "m", r.displacement);
+    add("velocity", "m/s", r.velocity);
+    add(drive_channel(drive_unit), unit_of(drive_unit), r.drive);
+    add("measured", "N", r.measured);
+    add("modelled", "N", r.modelled);
+    std::vector<double> residual;
+    for (std::size_t i = 0; i < r.measured.size(); ++i)
+      residual.push_back(r.measured[i] - r.modelled[i]);
+    add("residual", "N", residual);
+
+    // The place among the records keeps names apart that files cannot tell apart.
+    const auto file = std::filesystem::path(settings.folder) /
+                      fmt::format("{:03}_{}.{}", k + 1, file_name(r.record), settings.traces);
+    (settings.traces == "mat" ? save_mat : save_csv)(trace, file);
+  }
+  console.print(fmt::format("\nTraces  {}/ ({})\n", settings.folder,
+                            counted(evaluation.records.size(), "file")));
+}
+
 int run_evaluate(const EvaluateSettings& settings, Console& console) {
   ModelFile file = load_model(settings.model);
   if (const auto* family = model_as<FamilyModel>(*file.model);
@@ -74,6 +117,7 @@ int run_evaluate(const EvaluateSettings& settings, Console& console) {
   const std::vector<Extrapolation> outside = extrapolations(file, dataset);
 
   Value data = evaluation_json(file, evaluation, outside);
+  data.add("records_seen", seen_records(file.provenance, dataset));
   const Ranking ranking = as_ranking(settings.model, std::move(file), dataset, evaluation);
   Document document = evaluation_document(report_input(dataset, ranking, console));
   document.data = std::move(data);
@@ -98,6 +142,7 @@ int run_evaluate(const EvaluateSettings& settings, Console& console) {
     write_file(settings.report, html_document(document));
     console.print("\nReport  " + settings.report + '\n');
   }
+  if (!settings.traces.empty()) write_traces(settings, evaluation, dataset.drive_unit, console);
   if (is_infinite) return kNotUsable;
   if (evaluation.diverged == 0) return kDone;
   console.error(fmt::format("the model diverged on {} of {} records", evaluation.diverged,
@@ -145,6 +190,16 @@ Command evaluate_command() {
         .help = "also write a report page",
         .value = "FILE",
         .takes = Takes::File},
+       {.names = "--traces",
+        .target = &settings->traces,
+        .help = "also write measured, modelled and residual force of every record",
+        .value = "FORMAT",
+        .choices = {"csv", "mat"}},
+       {.names = "-o,--output",
+        .target = &settings->folder,
+        .help = "folder of the traces",
+        .value = "DIR",
+        .takes = Takes::Folder},
        threads_option(settings->threads)});
   return command;
 }

@@ -127,14 +127,14 @@ std::string overview(const std::vector<Command>& commands, const Console& consol
   // Three commands for someone who has never used the program.
   text += '\n' + console.bold("Start here") +
           "\n"
-          "  dashpot demo                 a virtual damper, measured and identified, in seconds\n"
+          "  dashpot demo                 a virtual damper, measured and identified\n"
           "  dashpot inspect recordings/  what Dashpot understands of your files\n"
           "  dashpot identify recordings/ models, ranked, and a report to read\n"
           "\n" +
           console.bold("Commands") + '\n';
 
   for (const Command& command : commands)
-    text += fmt::format("  {:<12}{}\n", command.name, command.title);
+    text += fmt::format("  {:<14}{}\n", command.name, command.title);
 
   return text + '\n' +
          paragraph("Each one explains itself, with an example: 'dashpot COMMAND --help'.", width);

@@ -6,7 +6,7 @@ namespace dashpot::cli {
 namespace {
 
 constexpr std::size_t kGap = 2;
-constexpr std::size_t kNarrowest = 24;  // the last column gets at least this
+constexpr std::size_t kNarrowest = 18;  // the last column gets at least this
 
 std::string without_trailing_space(std::string line) {
   line.erase(line.find_last_not_of(' ') + 1);

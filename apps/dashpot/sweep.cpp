@@ -163,7 +163,7 @@ Command sweep_command() {
   auto settings = std::make_shared<SweepSettings>();
   return {
       .name = "sweep",
-      .title = "Thousands of vehicles over roads: how far controllers and dampers can be trusted",
+      .title = "Thousands of vehicles over roads: how far dampers can be trusted",
       .description =
           "Draws vehicles from the distributions of a request - masses, stiffnesses, dampers as "
           "built, speeds, roads - and drives each of them under every controller over the same "

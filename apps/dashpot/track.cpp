@@ -207,8 +207,11 @@ int run_track(const TrackSettings& settings, Console& console) {
                 " ... " + format_number(options.current_max) + ' ' + to_string(damper.drive_unit) +
                 ", coil lag " +
                 (options.lag_rate > 0 ? format_number(1000 / options.lag_rate) + " ms" : "none") +
-                "\nWanted force: " + task.description + ", span " +
-                format_number(tracked.front().report.span) + " N\n\n");
+                '\n' +
+                paragraph("Wanted force: " + task.description + ", span " +
+                              format_number(tracked.front().report.span) + " N",
+                          static_cast<std::size_t>(console.width())) +
+                '\n');
   console.print(table_of(tracked, console.width()));
 
   if (!settings.folder.empty())

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include <boost/math/distributions/binomial.hpp>
+#include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/students_t.hpp>
 #include <boost/math/special_functions/erf.hpp>
 
@@ -25,6 +26,10 @@ double normal_quantile(double p) {
 
 double students_t_quantile(double degrees, double p) {
   return quantile(boost::math::students_t_distribution<double, InDouble>(degrees), p);
+}
+
+double chi_squared_quantile(double degrees, double p) {
+  return quantile(boost::math::chi_squared_distribution<double, InDouble>(degrees), p);
 }
 
 double Binomial::quantile(double p) const { return boost::math::quantile(boosts(*this), p); }

@@ -6,7 +6,8 @@ namespace dashpot {
 // double precision alone, so that they are the same on every processor and under valgrind.
 
 double normal_quantile(double p);
-double students_t_quantile(double degrees, double p);  ///< degrees > 0, of freedom
+double students_t_quantile(double degrees, double p);   ///< degrees > 0, of freedom
+double chi_squared_quantile(double degrees, double p);  ///< likewise
 
 /// How many of `trials` succeed, each with the probability `success`.
 struct Binomial {

@@ -25,12 +25,39 @@ std::string table_text(const DocumentTable& table, int width) {
   return table.note.empty() ? text : text + paragraph(table.note, columns);
 }
 
+/// Text with lines of its own: those that are too long go on below, further in than they began.
+std::string plain_text_within(const std::string& text, std::size_t width) {
+  constexpr std::size_t kFurtherIn = 4, kLeast = 20;
+  std::string result;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find('\n', at), text.size());
+    const std::string line = text.substr(at, end - at);
+    at = end + 1;
+    const std::size_t indent = std::min(line.find_first_not_of(' '), line.size());
+    if (columns_of(line) <= width || indent + kFurtherIn + kLeast > width) {
+      result += line + '\n';
+      continue;
+    }
+
+    // Up to the last space that fits, with the spaces between the columns of a table kept.
+    const std::string head = first_columns(line, width + 1);
+    const std::size_t space = head.find_last_of(' ');
+    if (space == std::string::npos || space <= indent) {
+      result += line + '\n';
+      continue;
+    }
+    result += line.substr(0, line.find_last_not_of(' ', space) + 1) + '\n' +
+              paragraph(line.substr(space + 1), width, indent + kFurtherIn);
+  }
+  return result;
+}
+
 /// Nothing where only words would stand: these are left to Markdown and page.
 std::string section_text(const Document& document, const DocumentSection& section, int width) {
   const auto is_shown = [&](const auto& part) {
     return reaches(part.audience, Audience::Terminal) && is_open(document, part.when);
   };
-  std::string text = section.plain;
+  std::string text = plain_text_within(section.plain, static_cast<std::size_t>(width));
   for (const DocumentTable& table : section.tables)
     if (is_shown(table)) text += (text.empty() ? "" : "\n") + table_text(table, width);
   if (text.empty()) return text;
@@ -59,7 +86,12 @@ bool is_open(const Document& document, const When& when) {
 
 std::string document_text(const Document& document, int width,
                           const std::function<std::string(std::string_view)>& bold) {
-  const auto title = [&](const std::string& text) { return (bold ? bold(text) : text) + '\n'; };
+  const auto title = [&](const std::string& text) {
+    std::string lines;
+    for (const std::string& line : wrap(text, static_cast<std::size_t>(width)))
+      lines += (bold ? bold(line) : line) + '\n';
+    return lines;
+  };
   std::string text =
       '\n' + title(document.title) + paragraph(document.verdict, static_cast<std::size_t>(width));
   for (const DocumentSection& section : document.sections) {

@@ -1,6 +1,9 @@
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "dashpot/base/text.h"
+#include "dashpot/identify/judge/residual_test.h"
 #include "dashpot/report/ranking_tables.h"
 #include "dashpot/report/report.h"
 
@@ -28,14 +31,14 @@ std::vector<std::string> pooled_row(const std::string& name, const Metrics& m) {
 
 DocumentTable error_table(const Evaluation& evaluation, const std::string& drive_unit) {
   DocumentTable table{.title = {},
-                      .columns = {{"record"},
+                      .columns = {{"record", false, 0, true},
                                   {drive_unit.empty() ? "drive" : drive_unit, true},
                                   {"RMSE N", true},
-                                  {"rms/half-span %", true},
+                                  {"rms/half-span %", true, 3},
                                   {"ESR %", true},
                                   {"fit %", true},
-                                  {"energy error %", true},
-                                  {"offset N", true}},
+                                  {"energy error %", true, 2},
+                                  {"offset N", true, 1}},
                       .rows = {}};
 
   // Records, then all samples together.
@@ -49,11 +52,11 @@ DocumentTable error_table(const Evaluation& evaluation, const std::string& drive
 
 DocumentTable band_table(const Evaluation& evaluation) {
   DocumentTable table{.title = {},
-                      .columns = {{"velocity band"},
+                      .columns = {{"velocity band", false, 0, true},
                                   {"|v| m/s", true},
-                                  {"samples", true},
+                                  {"samples", true, 2},
                                   {"RMSE N", true},
-                                  {"MAE N", true},
+                                  {"MAE N", true, 1},
                                   {"max |e| N", true}},
                       .rows = {}};
 
@@ -64,6 +67,38 @@ DocumentTable band_table(const Evaluation& evaluation) {
                           std::to_string(band.metrics.samples), format_number(band.metrics.rmse),
                           format_number(band.metrics.mae), format_number(band.metrics.max_error)});
   return table;
+}
+
+/// What the model leaves over, record by record; a page has room for it, a terminal for the
+/// verdict.
+DocumentSection residual_section(const std::vector<ResidualTest>& tests) {
+  DocumentTable table{.title = {},
+                      .columns = {{"Record"}, {"White"}, {"Q / limit", true}, {"Memory ms", true}},
+                      .rows = {}};
+  for (const std::string input : {"displacement", "velocity", "drive"})
+    table.columns.push_back({"With " + input, true});
+  for (const ResidualTest& test : tests) {
+    if (!test.is_tested()) continue;
+    std::vector<std::string> row{test.record, test.is_white() ? "yes" : "no",
+                                 format_number(test.portmanteau / test.limit, 3),
+                                 format_number(1000 * test.memory, 3)};
+    for (const std::string input : {"displacement", "velocity", "drive"}) {
+      const auto with = std::ranges::find(test.inputs, input, &InputCorrelation::input);
+      row.push_back(with == test.inputs.end() ? "-"
+                                              : fmt::format("{:+.2f}{}", with->largest,
+                                                            with->is_independent() ? "" : " *"));
+    }
+    table.rows.push_back(std::move(row));
+  }
+  table.note =
+      "White: the Ljung-Box test over 20 samples. Memory: until the autocorrelation falls below "
+      "0.5. With an input: the largest correlation up to a hundredth of the record later; * where "
+      "the means of ten blocks tell it from 0.";
+  return {.name = "residual-tests",
+          .title = "What the model leaves over",
+          .paragraphs = {residual_verdict(tests)},
+          .tables = {std::move(table)},
+          .audience = Audience::Page};
 }
 
 }  // namespace
@@ -94,6 +129,12 @@ Document evaluation_document(const ReportInput& input) {
         " %.");
   if (const std::string sentence = interval_sentence(evaluation); !sentence.empty())
     errors.remarks.push_back(sentence);
+  std::vector<ResidualTest> tests;
+  for (const RecordResult& r : evaluation.records) tests.push_back(test_residual(r));
+  if (const std::string words = residual_verdict(tests); !words.empty()) {
+    errors.remarks.push_back(words);
+    document.sections.push_back(residual_section(tests));
+  }
   document.sections.insert(document.sections.begin(), std::move(errors));
   return document;
 }

@@ -160,7 +160,36 @@ Value evaluation_json(const ModelFile& file, const Evaluation& evaluation,
   value.add("model", file.model->name());
   value.add("outside_domain", to_json(outside));
   value.add("outside_family", Value::array(outside_family(evaluation)));
+  std::vector<ResidualTest> tests;
+  for (const RecordResult& record : evaluation.records) tests.push_back(test_residual(record));
+  value.add("residual_tests", residual_tests_json(tests));
   return value;
+}
+
+Value residual_tests_json(const std::vector<ResidualTest>& tests) {
+  Value list = Value::array();
+  for (const ResidualTest& test : tests) {
+    if (!test.is_tested()) continue;
+    Value inputs = Value::array();
+    for (const InputCorrelation& with : test.inputs)
+      inputs.push_back(Value::object({{"input", with.input},
+                                      {"largest", with.largest},
+                                      {"delay", with.delay},
+                                      {"t", with.statistic},
+                                      {"limit", with.limit},
+                                      {"independent", with.is_independent()}}));
+    list.push_back(Value::object({{"record", test.record},
+                                  {"samples", test.samples},
+                                  {"lags", test.lags},
+                                  {"ljung_box", test.portmanteau},
+                                  {"limit", test.limit},
+                                  {"white", test.is_white()},
+                                  {"memory", test.memory},
+                                  {"inputs", std::move(inputs)}}));
+  }
+  return Value::object({{"confidence", kResidualConfidence},
+                        {"verdict", residual_verdict(tests)},
+                        {"records", std::move(list)}});
 }
 
 Value fit_json(const FitReport& fit) {

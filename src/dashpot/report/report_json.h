@@ -1,5 +1,6 @@
 #pragma once
 #include "dashpot/identify/judge/extrapolation.h"
+#include "dashpot/identify/judge/residual_test.h"
 #include "dashpot/report/report.h"
 
 namespace dashpot {
@@ -12,6 +13,9 @@ Value evaluation_json(const Evaluation& evaluation);
 /// And the model's name, and where it extrapolates: what `dashpot evaluate --json` prints.
 Value evaluation_json(const ModelFile& file, const Evaluation& evaluation,
                       const std::vector<Extrapolation>& outside);
+
+/// Tests of the residuals with their statistics, limits and verdicts, record by record.
+Value residual_tests_json(const std::vector<ResidualTest>& tests);
 
 /// Status, parameters with their intervals, offsets and warnings of a fit.
 Value fit_json(const FitReport& fit);

@@ -235,12 +235,22 @@ std::string verdict_of(const RideStudy& study) {
            " dynamic tyre load than passive.";
   };
 
-  // One sentence where the same controller is best in both.
+  // One sentence where the same controller is best in both, the passive damper among them: the
+  // best of the controllers may still be worse than it.
   const RiddenVehicle &comfort = least("weighted_acceleration"), &holding = least("tyre_load");
   if (study.controlled.size() == 1) return sentence(comfort, "");
-  if (&comfort == &holding) return sentence(comfort, "Best in comfort and in road holding is ");
-  return sentence(comfort, "Most comfortable is ") + ' ' +
-         sentence(holding, "Best on the road is ");
+  const auto beats_passive = [&](const RiddenVehicle& one, const char* measure) {
+    return on_road(one, measure) < on_road(study.passive, measure);
+  };
+  const bool comforts = beats_passive(comfort, "weighted_acceleration"),
+             holds = beats_passive(holding, "tyre_load");
+  if (&comfort == &holding && comforts && holds)
+    return sentence(comfort, "Best in comfort and in road holding is ");
+  return sentence(comfort, comforts ? "Most comfortable is "
+                                    : "None is more comfortable than passive; the nearest is ") +
+         ' ' +
+         sentence(holding, holds ? "Best on the road is "
+                                 : "None holds the road better than passive; the nearest is ");
 }
 
 Value gains_json(const std::vector<GainPoint>& points) {

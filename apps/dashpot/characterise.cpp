@@ -1,0 +1,88 @@
+#include "dashpot/record/characterise.h"
+
+#include <algorithm>
+#include <memory>
+
+#include "commands.h"
+#include "console.h"
+#include "dashpot/base/file.h"
+#include "dashpot/report/characterisation_document.h"
+#include "data.h"
+#include "document_text.h"
+#include "results.h"
+#include "speeds.h"
+
+namespace dashpot::cli {
+namespace {
+
+struct CharacteriseSettings {
+  DataSettings data;
+  std::string speeds, csv, report;
+};
+
+constexpr std::string_view kCharacteriseExample =
+    "# The dyno sheet of a damper: forces over speed, knee, friction, gas force:\n"
+    "dashpot characterise recordings/\n"
+    "\n"
+    "# At the speeds of the house, every cycle as a table, and a page with its loops:\n"
+    "dashpot characterise recordings/ --speeds 52,131,262,524 --csv cycles.csv \\\n"
+    "    --report sheet.html";
+
+int run_characterise(const CharacteriseSettings& settings, Console& console) {
+  const CharacteriseOptions options{parse_speeds(settings.speeds)};
+  const Dataset dataset = load_recordings(settings.data, console);
+  const Characterisation figures = characterise(dataset, options);
+  console.check_stop();
+  const Document document = characterisation_document(
+      {dataset, figures, console.command_line(), DASHPOT_VERSION, date_now()});
+
+  // The sheet, then the files that were asked for.
+  print_document(document, console);
+  if (console.json) console.print_json(document_json(document));
+  if (!settings.csv.empty()) {
+    write_file(settings.csv, cycles_csv(figures));
+    console.print("\nCycles  " + settings.csv + '\n');
+  }
+  if (!settings.report.empty()) {
+    write_file(settings.report, html_document(document));
+    console.print("\nReport  " + settings.report + '\n');
+  }
+
+  const bool has_cycles = std::ranges::any_of(figures.records, &RecordFigures::is_cyclic);
+  if (has_cycles) return kDone;
+  console.error("no record holds a cycle that can be characterised");
+  return kNotUsable;
+}
+
+}  // namespace
+
+Command characterise_command() {
+  auto settings = std::make_shared<CharacteriseSettings>();
+  Command command{
+      .name = "characterise",
+      .title = "Print the dyno sheet of a damper, without any model",
+      .description =
+          "Splits cyclic recordings at their reversals and prints what they say by themselves: "
+          "force at mid stroke and its peaks in rebound and compression over speed, knee, "
+          "low-speed friction, gas force and its rate, hysteresis, energy, equivalent damping, "
+          "dynamic range over the drive, how cycles repeat and drift. docs/characterise.md has "
+          "every definition.",
+      .options = data_options(settings->data),
+      .example = std::string(kCharacteriseExample),
+      .run = [settings](Console& console) { return run_characterise(*settings, console); }};
+
+  append(command.options, {speeds_option(settings->speeds),
+                           {.names = "--csv",
+                            .target = &settings->csv,
+                            .help = "also write every cycle with all its figures, in SI",
+                            .value = "FILE",
+                            .takes = Takes::File},
+                           {.names = "--report",
+                            .target = &settings->report,
+                            .help = "also write a page with the loops",
+                            .value = "FILE",
+                            .takes = Takes::File}});
+  return command;
+}
+
+}  // namespace dashpot::cli

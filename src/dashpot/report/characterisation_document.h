@@ -1,0 +1,25 @@
+#pragma once
+#include <string>
+
+#include "dashpot/record/characterise.h"
+#include "dashpot/report/document.h"
+
+namespace dashpot {
+
+struct CharacterisationInput {
+  const Dataset& dataset;
+  const Characterisation& figures;  ///< of that dataset
+  std::string command, version, date;
+};
+
+/// The dyno sheet of a damper: what each level of the drive says, forces over speed, loops, what
+/// changes over time. People see mm, mm/s and N; its data are in SI.
+Document characterisation_document(const CharacterisationInput& input);
+
+/// One line per cycle with every figure, in SI.
+std::string cycles_csv(const Characterisation& figures);
+
+/// "0.5 A", "every drive" where it is not known.
+std::string level_name(const LevelFigures& level, DriveUnit unit);
+
+}  // namespace dashpot
