@@ -76,7 +76,7 @@ Candidate best_start(const Law& law, const InPlantSetup& setup, const PlantCases
       const PlantResiduals residuals(setup, cases, one.unknowns, start.plant, start.scale);
 
       // A delay waits for the fit of all.
-      LeastSquaresProblem trial = residuals.problem(horizon);
+      LeastSquaresProblem trial = residuals.problem(horizon, 1);
       for (std::size_t d = residuals.first_delay(); d < one.x.size(); ++d)
         trial.lower[d] = trial.upper[d] = one.x[d];
       const LeastSquaresReport solved =
@@ -104,7 +104,8 @@ std::vector<std::string> names_of(const PlantResiduals& residuals,
 Knowable knowable_at(const PlantResiduals& residuals, const std::vector<double>& x,
                      const InPlantOptions& options) {
   // The sensitivities at that point, as normal matrices per recording and sensor.
-  const LeastSquaresReport at = solve(residuals.problem(), x, solver_options(options, 0, 1e-8));
+  const LeastSquaresReport at =
+      solve(residuals.problem(0, options.threads), x, solver_options(options, 0, 1e-8));
   Knowable known;
   const std::size_t n = x.size();
   if (at.normal_matrix.size() != n * n) return known;
@@ -189,6 +190,30 @@ void add_warnings(const Covariance& spread, const PlantResiduals& residuals,
                               " cannot be told apart by these sensors; --fix one of them");
 }
 
+/// A current that never changes tells nothing of what the law does at others: asking for that is an
+/// error, and a law that could tell it is kept to this one.
+void require_drive(const Law& law, const InPlantSetup& setup, const PlantCases& cases,
+                   const InPlantOptions& options, std::vector<std::string>& warnings) {
+  double low = INFINITY, high = -INFINITY;
+  for (const PlantCase& one : cases.all) {
+    const auto [least, greatest] = std::ranges::minmax(one.driving.current);
+    low = std::min(low, least);
+    high = std::max(high, greatest);
+  }
+  if (high > low) return;
+  const std::string level = format_number(low) + " " + to_string(setup.drive_unit);
+  for (const ParameterChoice& choice : options.choices)
+    if (choice.form && *choice.form != Form::Constant)
+      throw Error("form of " + choice.parameter,
+                  "cannot be told: the drive is " + level + " all along",
+                  "record at several levels, or leave the form out");
+  const bool follows =
+      std::ranges::any_of(law.params, [](const ParamInfo& p) { return p.form != Form::Constant; });
+  if (follows && setup.drive_unit != DriveUnit::None)
+    warnings.push_back("the drive is " + level +
+                       " all along: the damper is identified there and nowhere else");
+}
+
 /// Solves with each sensor's scale, takes the rms that is left as the new one, and solves again
 /// until the scales stay. A single sensor needs no second round.
 LeastSquaresReport solve_weighed(PlantResiduals& residuals, std::vector<double> x,
@@ -198,7 +223,7 @@ LeastSquaresReport solve_weighed(PlantResiduals& residuals, std::vector<double> 
   LeastSquaresReport solved;
   for (int round = 0; round < kRounds; ++round) {
     options.monitor.report("fit, round " + std::to_string(round + 1), 0.4 + 0.1 * round);
-    solved = solve(residuals.problem(), std::move(x),
+    solved = solve(residuals.problem(0, options.threads), std::move(x),
                    solver_options(options, options.iterations, kTolerance));
     if (!std::isfinite(solved.cost) || residuals.reweigh(solved.x) <= kSame) break;
     x = solved.x;
@@ -218,8 +243,9 @@ InPlantReport identify_in_plant(const Law& law, const InPlantSetup& setup,
   // Where the plant's numbers start, and how large the damper's motion and force are: from a fit
   // with a spring and a dashpot in the damper's place.
   PlantCases cases = make_cases(setup, recordings, options.steps);
+  require_drive(law, setup, cases, options, report.warnings);
   const PlantStart start = plant_start(setup, recordings, cases, options);
-  report.warnings = start.warnings;
+  report.warnings.insert(report.warnings.end(), start.warnings.begin(), start.warnings.end());
 
   // The law's unknowns in the size of these data, and a start from which the fit gets on.
   const auto [unknowns, x, cost] = best_start(law, setup, cases, start, options);
@@ -231,7 +257,7 @@ InPlantReport identify_in_plant(const Law& law, const InPlantSetup& setup,
 
   // The fit; where the integrator's step is too long for its error, once more with half of it.
   constexpr double kStepShare = 0.05;
-  constexpr std::size_t kMostSteps = 64;
+  constexpr std::size_t kMostSteps = 16;
   LeastSquaresReport solved = solve_weighed(residuals, x, options);
   report.iterations = solved.iterations;
   while (std::isfinite(solved.cost)) {
@@ -241,6 +267,10 @@ InPlantReport identify_in_plant(const Law& law, const InPlantSetup& setup,
     solved = solve_weighed(residuals, solved.x, options);
     report.iterations += solved.iterations;
   }
+  if (report.step_error > kStepShare)
+    report.warnings.push_back("the integrator's step changes a sensor by " +
+                              format_number(100 * report.step_error, 2) +
+                              " % of its error: the law is too sharp for it");
   report.steps = cases.steps;
   report.message = solved.message;
   report.seconds = cpu_seconds() - started;
@@ -271,6 +301,24 @@ InPlantReport identify_in_plant(const Law& law, const InPlantSetup& setup,
   }
   report.seconds = cpu_seconds() - started;
   return report;
+}
+
+std::vector<double> plant_response(const Plant& plant, const DamperModel& damper,
+                                   const InPlantSetup& setup, const PlantRecording& recording,
+                                   std::size_t steps) {
+  std::vector<PlantInputPlace> inputs;
+  for (const PlantInputChannel& input : setup.inputs) inputs.push_back(input.place);
+  const PlantEquations equations(plant, setup.strut, inputs);
+  const PlantCases cases = make_cases(setup, {recording}, steps);
+  const PlantDriving& driving = cases.all.front().driving;
+
+  std::vector<double> state(2 * plant.size() + damper.state_size());
+  damper.rest({0, 0, driving.current.front()}, std::span(state).subspan(2 * plant.size()));
+  std::vector<std::vector<double>> shown;
+  if (!equations.run(damper, driving, driving.samples, {&setup.sensors.front().place, 1}, state,
+                     shown))
+    throw Error(recording.name, "the plant diverges with this damper");
+  return shown.front();
 }
 
 }  // namespace dashpot

@@ -59,4 +59,11 @@ InPlantReport identify_in_plant(const Law& law, const InPlantSetup& setup,
                                 const std::vector<PlantRecording>& recordings,
                                 const InPlantOptions& options);
 
+/// What the first sensor of the setup would show of this plant and damper over a recording, from
+/// rest, without offset and delay; `steps` of the integrator per sample. Throws Error where it
+/// diverges.
+std::vector<double> plant_response(const Plant& plant, const DamperModel& damper,
+                                   const InPlantSetup& setup, const PlantRecording& recording,
+                                   std::size_t steps = 8);
+
 }  // namespace dashpot

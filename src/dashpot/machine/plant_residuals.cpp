@@ -1,10 +1,12 @@
 #include "dashpot/machine/plant_residuals.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <numeric>
 
+#include "dashpot/base/parallel.h"
 #include "dashpot/base/text.h"
 #include "dashpot/error.h"
 #include "dashpot/machine/between_samples.h"
@@ -85,6 +87,9 @@ PlantCases make_cases(const InPlantSetup& setup, const std::vector<PlantRecordin
                               : straight_lines(recording.channel(setup.drive).samples,
                                                recording.sample_time, 2 * cases.steps)
                                     .value;
+
+    one.steady = std::ranges::minmax(one.driving.current).min ==
+                 std::ranges::minmax(one.driving.current).max;
 
     // What the sensors showed.
     for (const PlantSensor& sensor : setup.sensors) {
@@ -280,29 +285,88 @@ std::size_t PlantResiduals::end_of(const PlantCase& one, std::size_t samples) co
   return samples > 0 ? std::min(one.training, one.first + samples) : one.training;
 }
 
-bool PlantResiduals::evaluate(std::span<const double> x, std::size_t samples,
-                              std::span<double> r) const {
-  const PlantEquations plant = equations(x);
-  const LawModel model = damper(x);
+/// First residual of a recording.
+std::size_t PlantResiduals::part_of(std::size_t place, std::size_t samples) const {
   std::size_t at = 0;
+  for (std::size_t c = 0; c < place; ++c)
+    at += sensors_.size() * (end_of(cases_->all[c], samples) - cases_->all[c].first);
+  return at;
+}
+
+/// The residuals of one recording, which begin at r[0].
+bool PlantResiduals::evaluate_one(std::span<const double> x, std::size_t place, std::size_t samples,
+                                  std::span<double> r) const {
+  const PlantCase& one = cases_->all[place];
+  const std::size_t end = end_of(one, samples), length = end - one.first;
+
+  // A current that never changes leaves constant parameters, which are quicker.
+  LawModel model = damper(x);
+  if (one.steady) {
+    std::vector<double> parameters(model.law().params.size());
+    model.parameters_at(one.driving.current.front(), parameters.data());
+    model = LawModel::constant(model.law(), parameters);
+  }
   Shown shown;
-  for (std::size_t c = 0; c < cases_->all.size(); ++c) {
-    const PlantCase& one = cases_->all[c];
-    const std::size_t end = end_of(one, samples);
-    if (!run(x, plant, model, one, c, end, sensors_, shown)) return false;
-    for (std::size_t s = 0; s < sensors_.size(); ++s) {
-      const std::span<double> out = r.subspan(at, end - one.first);
-      for (std::size_t k = 0; k < out.size(); ++k)
-        out[k] = (shown[s][one.first + k] - one.measured[s][one.first + k]) / scale_[s];
-      const double offset = mean_of(out);
-      for (double& value : out) value -= offset;
-      at += out.size();
-    }
+  if (!run(x, equations(x), model, one, place, end, sensors_, shown)) return false;
+  for (std::size_t s = 0; s < sensors_.size(); ++s) {
+    const std::span<double> out = r.subspan(s * length, length);
+    for (std::size_t k = 0; k < length; ++k)
+      out[k] = (shown[s][one.first + k] - one.measured[s][one.first + k]) / scale_[s];
+    const double offset = mean_of(out);
+    for (double& value : out) value -= offset;
   }
   return true;
 }
 
-LeastSquaresProblem PlantResiduals::problem(std::size_t samples) const {
+bool PlantResiduals::evaluate(std::span<const double> x, std::size_t samples,
+                              std::span<double> r) const {
+  for (std::size_t c = 0; c < cases_->all.size(); ++c)
+    if (!evaluate_one(x, c, samples, r.subspan(part_of(c, samples)))) return false;
+  return true;
+}
+
+/// One column by a forward difference. A state at the beginning acts on its recording alone.
+bool PlantResiduals::difference(std::span<const double> x, std::size_t samples,
+                                std::span<const double> r, std::size_t k,
+                                std::span<double> column) const {
+  constexpr double kStep = 1e-6;
+  const bool of_one = k >= first_state_ && k < first_delay_;
+  const std::size_t own = of_one ? (k - first_state_) / states() : 0;
+  const double length = kStep * std::max(1.0, std::abs(x[k]));
+  std::vector<double> moved(x.begin(), x.end());
+
+  // Up where the bounds leave room, and the other way where the plant diverges there.
+  const bool upward = x[k] + length <= upper_[k];
+  for (const double step : {upward ? length : -length, upward ? -length : length}) {
+    moved[k] = x[k] + step;
+    if (moved[k] < lower_[k] || moved[k] > upper_[k]) continue;
+    bool finite = true;
+    for (std::size_t c = 0; c < cases_->all.size() && finite; ++c) {
+      const std::size_t first = part_of(c, samples), end = part_of(c + 1, samples);
+      if (of_one && c != own) {
+        std::fill(column.begin() + static_cast<std::ptrdiff_t>(first),
+                  column.begin() + static_cast<std::ptrdiff_t>(end), 0.0);
+        continue;
+      }
+      finite = evaluate_one(moved, c, samples, column.subspan(first));
+      for (std::size_t i = first; i < end; ++i) column[i] = (column[i] - r[i]) / step;
+    }
+    if (finite) return true;
+  }
+  return false;
+}
+
+bool PlantResiduals::jacobian(std::span<const double> x, std::size_t samples, std::span<double> r,
+                              std::span<double* const> columns, int threads) const {
+  if (!evaluate(x, samples, r)) return false;
+  std::atomic<bool> complete = true;
+  parallel_for(x.size(), threads, [&](std::size_t k) {
+    if (columns[k] && !difference(x, samples, r, k, {columns[k], r.size()})) complete = false;
+  });
+  return complete;
+}
+
+LeastSquaresProblem PlantResiduals::problem(std::size_t samples, int threads) const {
   LeastSquaresProblem problem;
   problem.parts.clear();
   for (const PlantCase& one : cases_->all)
@@ -314,6 +378,10 @@ LeastSquaresProblem PlantResiduals::problem(std::size_t samples) const {
   problem.upper = upper_;
   problem.residual = [this, samples](std::span<const double> x, std::span<double> r) {
     return evaluate(x, samples, r);
+  };
+  problem.jacobian = [this, samples, threads](std::span<const double> x, std::span<double> r,
+                                              std::span<double* const> columns) {
+    return jacobian(x, samples, r, columns, threads);
   };
   return problem;
 }

@@ -19,6 +19,7 @@ struct PlantCase {
   std::vector<std::vector<double>> measured;  ///< per sensor
   std::size_t first = 0;                      ///< sample that is compared first
   std::size_t training = 0;                   ///< samples up to the end of what is fitted
+  bool steady = false;                        ///< the current never changes
 };
 
 struct PlantCases {
@@ -47,7 +48,7 @@ class PlantResiduals {
   /// What start() takes as `states`, of these unknowns.
   std::vector<double> states_of(std::span<const double> x) const;
   /// At most so many samples of each recording (0: all that may be fitted).
-  LeastSquaresProblem problem(std::size_t samples = 0) const;
+  LeastSquaresProblem problem(std::size_t samples = 0, int threads = 0) const;
   /// Takes the rms that is left at each sensor as its scale where no noise was stated; returns the
   /// largest relative change, 0 where there is only one sensor.
   double reweigh(std::span<const double> x);
@@ -78,6 +79,13 @@ class PlantResiduals {
            std::span<const PlantSensorPlace> sensors, Shown& shown) const;
   std::size_t end_of(const PlantCase& one, std::size_t samples) const;
   bool evaluate(std::span<const double> x, std::size_t samples, std::span<double> r) const;
+  bool evaluate_one(std::span<const double> x, std::size_t place, std::size_t samples,
+                    std::span<double> r) const;
+  bool jacobian(std::span<const double> x, std::size_t samples, std::span<double> r,
+                std::span<double* const> columns, int threads) const;
+  bool difference(std::span<const double> x, std::size_t samples, std::span<const double> r,
+                  std::size_t k, std::span<double> column) const;
+  std::size_t part_of(std::size_t place, std::size_t samples) const;
   std::size_t states() const { return state_size_.size(); }
 
   const InPlantSetup* setup_;

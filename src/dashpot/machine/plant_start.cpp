@@ -122,7 +122,7 @@ void choose_steps(const InPlantSetup& setup, const std::vector<PlantRecording>& 
                   PlantCases& cases, const PlantResiduals& residuals,
                   const std::vector<double>& x) {
   constexpr double kSmall = 1e-3;
-  constexpr std::size_t kMost = 32;
+  constexpr std::size_t kMost = 8;
   while (cases.steps < kMost) {
     std::vector<SensorFigures> figures;
     std::vector<InPlantTrace> traces;
@@ -199,7 +199,7 @@ PlantStart plant_start(const InPlantSetup& setup, const std::vector<PlantRecordi
   solver.threads = options.threads;
   solver.on_iteration = [&options](int, double) { options.monitor.check(); };
   const LeastSquaresReport solved =
-      solve(residuals.problem(), residuals.start(start.plant), solver);
+      solve(residuals.problem(0, options.threads), residuals.start(start.plant), solver);
   if (std::isfinite(solved.cost)) {
     if (options.steps == 0) choose_steps(setup, recordings, cases, residuals, solved.x);
     figures.clear();
