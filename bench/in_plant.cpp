@@ -2,7 +2,7 @@
 //
 //   bench_in_plant grey train.csv     Noel and Schoukens' benchmark, its structure known
 //   bench_in_plant black train.csv    the same, no law named
-//   bench_in_plant car                a virtual quarter car whose damper is of another structure
+//   bench_in_plant car LAW...         a virtual quarter car whose damper is of another structure
 
 #include "dashpot/machine/in_plant.h"
 
@@ -205,7 +205,7 @@ double force_error(const InPlantReport& report) {
   return 100 * std::sqrt(squares / count) / (high - low);
 }
 
-void run_car() {
+void run_car(const std::vector<std::string>& laws) {
   // Three rides at three voltages; road, two accelerations and the deflection are measured.
   std::vector<PlantRecording> recordings;
   for (std::size_t k = 0; k < kVoltages.size(); ++k) {
@@ -230,7 +230,7 @@ void run_car() {
   setup.drive = "suspension_current";
   setup.drive_unit = DriveUnit::Volt;
   setup.skip = 0.2;
-  for (const char* law : {"bouc_wen", "modified_bouc_wen", "tanh_kwok"}) {
+  for (const std::string& law : laws) {
     const InPlantReport report =
         identify_in_plant(find_law(law), setup, recordings, quiet_options());
     fmt::print("\n{}\n", law);
@@ -244,12 +244,13 @@ void run_car() {
 
 int main(int count, char** arguments) {
   const std::vector<std::string> words(arguments + 1, arguments + count);
-  if (words.size() == 1 && words[0] == "car") {
-    run_car();
+  if (words.size() > 1 && words[0] == "car") {
+    run_car({words.begin() + 1, words.end()});
   } else if (words.size() == 2 && (words[0] == "grey" || words[0] == "black")) {
     run_benchmark(words[0] == "grey", words[1]);
   } else {
-    fmt::print(stderr, "usage: bench_in_plant grey|black train.csv, or bench_in_plant car\n");
+    fmt::print(stderr,
+               "usage: bench_in_plant grey|black train.csv, or bench_in_plant car LAW...\n");
     return 2;
   }
   return 0;

@@ -21,7 +21,7 @@ namespace {
 /// The truth of the tests: a mass on a spring and a Bouc-Wen hysteresis, integrated by Heun's
 /// method in steps of 10 us, which shares nothing with the library's integrator.
 struct TrueOscillator {
-  double mass = 2, stiffness = 4000, damping = 12, alpha = 50, A = 120, gamma = 3e6, beta = 1e6;
+  double mass = 2, stiffness = 4000, damping = 12, alpha = 150, A = 120, gamma = 3e4, beta = 1e4;
 
   void rates(double force, double w, const double* y, double* dy) const {
     const double x = y[0] - w, v = y[1], z = y[2];
@@ -104,19 +104,20 @@ TEST_CASE("between samples: a sine at a fifth of the rate and its derivative; st
   for (std::size_t k = 8 * 40; k < 8 * 160; ++k) {
     const double t = kDt / 8 * static_cast<double>(k);
     CHECK_CLOSE(finer.value[k], 1 + std::sin(kOmega * t), 0, 2e-5);
-    CHECK_CLOSE(finer.rate[k], kOmega * std::cos(kOmega * t), 0, 2e-4 * kOmega);
+    CHECK_CLOSE(finer.rate[k], kOmega * std::cos(kOmega * t), 0, 1e-3 * kOmega);
   }
   const FinerSignal lines = straight_lines(std::vector<double>{0, 1, -1}, 0.5, 4);
   CHECK(lines.value[2] == 0.5);
   CHECK(lines.value[8] == -1);
   CHECK(lines.rate[5] == -4);
   const std::vector<double> late = delayed(samples, kDt, 0.004);
-  CHECK_CLOSE(late[100], 1 + std::sin(kOmega * (kDt * 100 - 0.004)), 0, 0.03);
+  CHECK_CLOSE(late[100], 1 + std::sin(kOmega * (kDt * 100 - 0.004)), 0, 2e-5);
 }
 
 TEST_CASE("in plant: mass and Bouc-Wen of an oscillator from its displacement, within intervals") {
   const InPlantReport report =
       identify_in_plant(find_law("bouc_wen"), oscillator_setup(), {short_recording()}, {});
+  CAPTURE(report.message);
   REQUIRE(report.status == FitReport::Status::Converged);
   const TrueOscillator truth;
   check_covers(named(report.plant, "mass"), truth.mass);
@@ -162,7 +163,7 @@ TEST_CASE("in plant: an acceleration that is late and a displacement, weighed by
 
 TEST_CASE("in plant: a hysteresis without a name does as well as the law itself") {
   const InPlantReport report =
-      identify_in_plant(duhem_law(), oscillator_setup(), {short_recording()}, {});
+      identify_in_plant(duhem_law(), oscillator_setup(), {short_recording()}, {.starts = 6});
   REQUIRE(report.model);
   CHECK(report.sensors[0].held_back < 3e-5);
 }

@@ -102,18 +102,14 @@ FinerSignal straight_lines(std::span<const double> samples, double sample_time, 
 }
 
 std::vector<double> delayed(std::span<const double> samples, double sample_time, double delay) {
-  const auto last = static_cast<double>(samples.size()) - 1;
+  // All samples lie at the same place between two of the others: one set of weights serves.
+  const double place = -delay / sample_time, whole = std::floor(place);
+  const Weights w = weights_at(place - whole);
+  const auto shift = static_cast<std::ptrdiff_t>(whole) - kReach + 1;
   std::vector<double> late(samples.size());
-  for (std::size_t k = 0; k < samples.size(); ++k) {
-    const double place = std::clamp(static_cast<double>(k) - delay / sample_time, 0.0, last);
-    const auto at = static_cast<std::size_t>(std::min(std::floor(place), last - 1));
-    const double s = place - static_cast<double>(at);
-    const double before = samples[at > 0 ? at - 1 : 0], here = samples[at], next = samples[at + 1],
-                 after = samples[std::min(at + 2, samples.size() - 1)];
-    late[k] =
-        here + s * ((next - before) / 2 + s * (before - 2.5 * here + 2 * next - after / 2 +
-                                               s * ((after - before) / 2 + 1.5 * (here - next))));
-  }
+  for (std::size_t k = 0; k < samples.size(); ++k)
+    for (std::size_t j = 0; j < w.value.size(); ++j)
+      late[k] += w.value[j] * continued(samples, static_cast<std::ptrdiff_t>(k + j) + shift);
   return late;
 }
 

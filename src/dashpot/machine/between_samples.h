@@ -14,16 +14,16 @@ struct FinerSignal {
 };
 
 /// The band-limited signal through the samples: sinc interpolation under a Kaiser window of 24
-/// samples to either side, exact to 1e-5 of the amplitude up to 0.43 of the sample rate. Before the
-/// first and behind the last sample the signal is continued by odd reflection, so that within 24
-/// samples of either end less is known. Needs two samples or more.
+/// samples to either side, exact to 1e-5 of the amplitude (its rate to 1e-3) up to 0.4 of the
+/// sample rate. Before the first and behind the last sample the signal is continued by odd
+/// reflection, so that within 24 samples of either end less is known. Needs two samples or more.
 FinerSignal band_limited(std::span<const double> samples, double sample_time, std::size_t times);
 
 /// Straight lines between the samples, for what jumps: a current that is switched.
 FinerSignal straight_lines(std::span<const double> samples, double sample_time, std::size_t times);
 
-/// The signal `delay` seconds earlier at each sample: what a sensor shows that is late. Cubic
-/// between samples (Catmull-Rom); the first sample stands before the beginning.
+/// The signal `delay` seconds earlier at each sample, what a sensor shows that is late, by the same
+/// interpolation; a delay below 0 looks ahead.
 std::vector<double> delayed(std::span<const double> samples, double sample_time, double delay);
 
 }  // namespace dashpot

@@ -16,6 +16,7 @@
 namespace dashpot {
 namespace {
 
+constexpr std::size_t kMostSteps = 16;           // of the integrator per sample, unasked
 constexpr double kNormal95 = 1.959963984540054;  // two-sided 95 % point of the normal distribution
 
 LeastSquaresOptions solver_options(const InPlantOptions& options, int iterations,
@@ -64,7 +65,7 @@ std::vector<Candidate> candidates(const Law& law, const InPlantSetup& setup,
 Candidate best_start(const Law& law, const InPlantSetup& setup, const PlantCases& cases,
                      const PlantStart& start, const InPlantOptions& options) {
   constexpr int kIterations = 25;
-  constexpr double kTolerance = 1e-4;
+  constexpr double kTolerance = 1e-4, kFirstRadius = 10;
   constexpr std::size_t kHorizons[] = {250, 700, 2500};
   std::vector<Candidate> left = candidates(law, setup, cases, start, options);
   double done = 0;
@@ -79,8 +80,9 @@ Candidate best_start(const Law& law, const InPlantSetup& setup, const PlantCases
       LeastSquaresProblem trial = residuals.problem(horizon, 1);
       for (std::size_t d = residuals.first_delay(); d < one.x.size(); ++d)
         trial.lower[d] = trial.upper[d] = one.x[d];
-      const LeastSquaresReport solved =
-          solve(trial, one.x, solver_options(options, kIterations, kTolerance));
+      LeastSquaresOptions solver = solver_options(options, kIterations, kTolerance);
+      solver.first_radius = kFirstRadius;
+      const LeastSquaresReport solved = solve(trial, residuals.off_bounds(one.x), solver);
       one.cost = solved.cost;
       if (std::isfinite(solved.cost)) one.x = solved.x;
     });
@@ -88,6 +90,22 @@ Candidate best_start(const Law& law, const InPlantSetup& setup, const PlantCases
     left.erase(left.begin() + static_cast<std::ptrdiff_t>((left.size() + 1) / 2), left.end());
   }
   return left.front();
+}
+
+/// So many steps per sample that an explicit method stays stable with the law as it starts: its
+/// fastest rate times the step below 1.
+std::size_t stable_steps(const Law& law, const InPlantSetup& setup, const PlantCases& cases,
+                         const PlantStart& start, const InPlantOptions& options) {
+  if (!law.rate) return cases.steps;
+  const LawUnknowns unknowns(law, start.scale, setup.drive_unit, OffsetMode::Record,
+                             options.choices);
+  std::vector<double> parameters(law.params.size());
+  unknowns.model(unknowns.start()).parameters_at(start.scale.drive.high, parameters.data());
+  const double rate = law.rate(parameters.data(), start.scale.speed);
+  std::size_t steps = cases.steps;
+  const double sample_time = cases.all.front().driving.sample_time;
+  while (steps < kMostSteps && rate * sample_time > static_cast<double>(steps)) steps *= 2;
+  return steps;
 }
 
 /// Names of plant and law unknowns among these; the rest are states at the beginning and delays.
@@ -248,7 +266,14 @@ InPlantReport identify_in_plant(const Law& law, const InPlantSetup& setup,
   report.warnings.insert(report.warnings.end(), start.warnings.begin(), start.warnings.end());
 
   // The law's unknowns in the size of these data, and a start from which the fit gets on.
-  const auto [unknowns, x, cost] = best_start(law, setup, cases, start, options);
+  if (options.steps == 0)
+    cases = make_cases(setup, recordings, stable_steps(law, setup, cases, start, options));
+  Candidate best = best_start(law, setup, cases, start, options);
+  while (!std::isfinite(best.cost) && options.steps == 0 && cases.steps < kMostSteps) {
+    cases = make_cases(setup, recordings, 2 * cases.steps);
+    best = best_start(law, setup, cases, start, options);
+  }
+  const auto& [unknowns, x, cost] = best;
   for (const std::string& warning : unknowns.warnings()) report.warnings.push_back(warning);
   PlantResiduals residuals(setup, cases, unknowns, start.plant, start.scale);
 
@@ -257,7 +282,6 @@ InPlantReport identify_in_plant(const Law& law, const InPlantSetup& setup,
 
   // The fit; where the integrator's step is too long for its error, once more with half of it.
   constexpr double kStepShare = 0.05;
-  constexpr std::size_t kMostSteps = 16;
   LeastSquaresReport solved = solve_weighed(residuals, x, options);
   report.iterations = solved.iterations;
   while (std::isfinite(solved.cost)) {

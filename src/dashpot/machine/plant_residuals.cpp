@@ -185,6 +185,13 @@ std::vector<double> PlantResiduals::start(const std::vector<double>& plant,
   return x;
 }
 
+std::vector<double> PlantResiduals::off_bounds(std::vector<double> x) const {
+  const auto first = x.begin() + static_cast<std::ptrdiff_t>(plant_unknowns());
+  const auto end = x.begin() + static_cast<std::ptrdiff_t>(first_state_);
+  std::ranges::copy(law_->off_bounds({first, end}), first);
+  return x;
+}
+
 bool PlantResiduals::is_of_law(std::size_t k) const {
   return k >= plant_unknowns() && k < first_state_;
 }

@@ -45,6 +45,8 @@ class PlantResiduals {
   /// beginning (SI; empty: at rest), the law's start or, with `random`, one beside it.
   std::vector<double> start(const std::vector<double>& plant,
                             const std::vector<double>& states = {}, Random* random = nullptr) const;
+  /// The unknowns with those of the law that stand at a bound back inside.
+  std::vector<double> off_bounds(std::vector<double> x) const;
   /// What start() takes as `states`, of these unknowns.
   std::vector<double> states_of(std::span<const double> x) const;
   /// At most so many samples of each recording (0: all that may be fitted).
