@@ -3,6 +3,7 @@
 #include "commands.h"
 #include "console.h"
 #include "dashpot/base/text.h"
+#include "identify_in_plant.h"
 #include "ranking_run.h"
 #include "ride_rank_options.h"
 
@@ -12,6 +13,7 @@ namespace {
 struct IdentifySettings {
   RankingSettings ranking;
   RideRankSettings ride;
+  std::string plant;  ///< in which the damper works; empty: on a bench
 };
 
 constexpr std::string_view kIdentifyExample =
@@ -28,11 +30,15 @@ constexpr std::string_view kIdentifyExample =
     "# Interrupted? The same command goes on where it stopped.\n"
     "dashpot identify recordings/ --models all\n"
     "\n"
+    "# Nobody measured the damper's force, but the car's road, accelerations and deflection:\n"
+    "dashpot identify drive.csv --in car.yaml --models modified_bouc_wen\n"
+    "\n"
     "# Then read results/report.html, and use the best model:\n"
     "dashpot evaluate results/models/tanh_kwok.json more-recordings/";
 
 int run_identify(const IdentifySettings& asked, Console& console) {
   const RankingSettings& settings = asked.ranking;
+  if (!asked.plant.empty()) return run_in_plant(asked.plant, settings, console);
   const std::optional<RideRankOptions> ride = stated_ride(asked.ride, settings, console);
   const RankingData data = ranking_data(settings, console);
   const std::unique_ptr<FitStore> store = fit_store(settings, console);
@@ -70,6 +76,16 @@ Command identify_command() {
   append(command.options, {budget_option(settings->ranking.fit, budget_of_groups()),
                            fresh_option(settings->ranking)});
   append(command.options, ride_rank_options(settings->ride));
+  append(command.options,
+         {{.names = "--in",
+           .target = &settings->plant,
+           .help = "the plant in which the damper worked when DATA were recorded, and its sensors: "
+                   "a YAML file, or as oscillator,mass=unknown,stiffness=5e4,force=CHANNEL,"
+                   "displacement=CHANNEL; the laws of --models are identified as part of it, with "
+                   "its unknown numbers (docs/in-plant.md)",
+           .value = "PLANT",
+           .takes = Takes::File,
+           .default_text = "a bench that measures the damper's force"}});
   return command;
 }
 

@@ -144,6 +144,7 @@ ceres::Solver::Options ceres_options(const LeastSquaresOptions& options,
   result.linear_solver_type =
       options.normal_equations ? ceres::DENSE_NORMAL_CHOLESKY : ceres::DENSE_QR;
   result.max_num_iterations = options.max_iterations;
+  result.initial_trust_region_radius = options.first_radius;
   result.function_tolerance = options.function_tolerance;
   result.max_num_consecutive_invalid_steps = 50;  // residuals may fail in a large part of the space
   result.update_state_every_iteration = true;     // so that x is the best one also after a failure

@@ -29,6 +29,7 @@ struct LeastSquaresOptions {
   int max_iterations = 100;
   double function_tolerance = 1e-8;  ///< stop when the cost falls by less than this share
   double difference_step = 1e-6;     ///< relative to max(|x|, 1)
+  double first_radius = 1e4;         ///< of the trust region; small ones hold the first steps back
   int threads = 0;                   ///< results do not depend on it
   bool normal_equations = false;     ///< quicker with many unknowns, at half the digits
   int hopeless_after = 0;            ///< gives up when after so many iterations (0: never) ...

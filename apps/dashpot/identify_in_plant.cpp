@@ -1,0 +1,321 @@
+#include "identify_in_plant.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "console.h"
+#include "dashpot/base/file.h"
+#include "dashpot/base/text.h"
+#include "dashpot/damper/law_list.h"
+#include "dashpot/machine/in_plant.h"
+#include "dashpot/machine/in_plant_words.h"
+#include "document_text.h"
+
+namespace dashpot::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A law that was fitted in the plant.
+struct InPlantFit {
+  std::string law;
+  InPlantReport report;
+
+  /// Error on the time held back over what the sensor showed, %: the worst sensor; the training
+  /// time's where nothing was held back.
+  double worst() const {
+    double share = 0;
+    for (const SensorFigures& s : report.sensors)
+      share = std::max(share, 100 * (std::isnan(s.held_back) ? s.training : s.held_back) / s.rms);
+    return report.model && std::isfinite(share) ? share : static_cast<double>(INFINITY);
+  }
+};
+
+/// What has a meaning on the bench alone is refused, before any work.
+void require_meaning(const RankingSettings& settings) {
+  const auto refuse = [](bool stated, const std::string& option, const std::string& right) {
+    if (stated) throw UsageError(option, "has no meaning with --in", right);
+  };
+  const FitSettings& fit = settings.fit;
+  refuse(!settings.leave_out.empty(), "--leave-out",
+         "'held_back' of the plant says which share of each recording judges the fit");
+  refuse(!fit.network.empty(), "--network", "laws alone are identified inside a plant");
+  refuse(!fit.priors.empty(), "--prior", "state --bounds, or a range of the plant's parameters");
+  refuse(fit.options.search > 0, "--search", "--starts says how many starts are tried");
+  refuse(fit.options.asymmetric, "--asymmetric", "both sides of the damper are alike there");
+  refuse(!settings.data.load.dataset_file.empty(), "--dataset",
+         "the plant says which channel is which");
+  refuse(settings.results.figures, "--figures", "the page has its figures");
+  if (fit.models == std::vector<std::string>{"usual"})
+    throw UsageError("--models", "is not stated",
+                     "with --in, name the laws that are to be fitted: --models modified_bouc_wen");
+  for (const std::string& name : fit.models) find_law(name, "--models");
+}
+
+std::string value_text(const FittedParameter& p) { return format_number(p.value, 5); }
+
+std::string interval_text(const FittedParameter& p) {
+  if (p.fixed) return "fixed";
+  return format_number(p.low, 5) + " ... " + format_number(p.high, 5);
+}
+
+DocumentTable parameter_table(const std::string& title,
+                              const std::vector<FittedParameter>& parameters) {
+  DocumentTable table{.title = title,
+                      .columns = {{"parameter"},
+                                  {"value", true},
+                                  {"95 % interval", true},
+                                  {"unit"},
+                                  {"remark", false, 1}},
+                      .rows = {}};
+  for (const FittedParameter& p : parameters) {
+    std::string remark = p.meaning;
+    if (p.at_bound) remark = "at a bound of its range";
+    if (p.weak) remark = "cannot be told from these sensors";
+    table.rows.push_back({p.name, value_text(p), interval_text(p), p.unit, remark});
+  }
+  return table;
+}
+
+DocumentTable sensor_table(const InPlantReport& report) {
+  DocumentTable table{.title = "Sensors, in free run of the whole plant",
+                      .columns = {{"recording"},
+                                  {"sensor"},
+                                  {"unit"},
+                                  {"rms of signal", true},
+                                  {"error, fitted", true},
+                                  {"error, held back", true},
+                                  {"held back %", true},
+                                  {"offset", true, 1}},
+                      .rows = {}};
+  for (const SensorFigures& s : report.sensors)
+    table.rows.push_back({s.recording, s.channel, s.unit, format_number(s.rms),
+                          format_number(s.training), format_number(s.held_back),
+                          format_number(100 * s.held_back / s.rms, 3), format_number(s.offset, 3)});
+  table.note =
+      "Errors are rms, after the sensor's offset in the part that was fitted; the time held back "
+      "was seen by no fit, and the plant runs free from the first sample on.";
+  return table;
+}
+
+/// What can be told, and what the fit rests on, in words.
+std::vector<std::string> knowable_lines(const InPlantReport& report) {
+  std::vector<std::string> lines;
+  const Knowable& known = report.knowable;
+  if (!known.singular_values.empty())
+    lines.push_back(fmt::format(
+        "Before the fit: {} unknowns, singular values of their sensitivities from {} to {}.",
+        known.singular_values.size(), format_number(known.singular_values.front(), 3),
+        format_number(known.singular_values.back(), 3)));
+  if (!known.without_effect.empty())
+    lines.push_back("No sensor shows an effect of " + join(known.without_effect, ", ") + '.');
+  for (const auto& group : known.confounded)
+    lines.push_back("These can be traded against each other: " + join(group, ", ") + '.');
+  lines.push_back(fmt::format(
+      "Integrated by the classical Runge-Kutta method, {} steps per sample; half the step changes "
+      "the worst sensor by {} % of its error.",
+      report.steps, format_number(100 * report.step_error, 2)));
+  return lines;
+}
+
+DocumentFigure sensor_figure(const InPlantReport& report, const InPlantSetup& setup) {
+  constexpr std::size_t kMostShown = 1500;
+  DocumentFigure figure{.name = "sensors",
+                        .title = "Sensors",
+                        .caption = "Measured and modelled, at the end of the first recording.",
+                        .panels = {}};
+  const InPlantTrace& trace = report.traces.front();
+  const std::size_t count = trace.force.size();
+  const std::size_t first = count > kMostShown ? count - kMostShown : 0;
+  for (std::size_t s = 0; s < setup.sensors.size(); ++s) {
+    FigurePanel panel{.title = setup.sensors[s].channel,
+                      .x_label = "time, s",
+                      .y_label = setup.sensors[s].channel + ", " + report.sensors[s].unit,
+                      .series = {},
+                      .reads_along_x = true};
+    FigureSeries measured{.label = "measured", .colour = "measured"};
+    FigureSeries modelled{.label = "modelled", .colour = "modelled"};
+    for (std::size_t k = first; k < count; ++k) {
+      measured.x.push_back(trace.sample_time * static_cast<double>(k));
+      measured.y.push_back(trace.measured[s][k]);
+      modelled.y.push_back(trace.modelled[s][k]);
+    }
+    modelled.x = measured.x;
+    panel.series = {std::move(measured), std::move(modelled)};
+    figure.panels.push_back(std::move(panel));
+  }
+
+  // The virtual load cell: what no sensor measures.
+  FigurePanel panel{.title = "force of the damper, modelled",
+                    .x_label = "deflection, m",
+                    .y_label = "force, N",
+                    .series = {}};
+  FigureSeries loop{.label = "modelled", .colour = "modelled"};
+  for (std::size_t k = first; k < count; ++k) {
+    loop.x.push_back(trace.deflection[k]);
+    loop.y.push_back(trace.force[k]);
+  }
+  panel.series = {std::move(loop)};
+  figure.panels.push_back(std::move(panel));
+  return figure;
+}
+
+Value json_of(const FittedParameter& p) {
+  return Value::object({{"name", p.name},
+                        {"unit", p.unit},
+                        {"value", p.value},
+                        {"low", p.low},
+                        {"high", p.high},
+                        {"fixed", p.fixed},
+                        {"at_bound", p.at_bound},
+                        {"weak", p.weak}});
+}
+
+Value json_of(const InPlantFit& fit) {
+  const InPlantReport& r = fit.report;
+  const auto list = [](const std::vector<FittedParameter>& parameters) {
+    Value values = Value::array();
+    for (const FittedParameter& p : parameters) values.push_back(json_of(p));
+    return values;
+  };
+  Value sensors = Value::array(), confounded = Value::array();
+  for (const SensorFigures& s : r.sensors)
+    sensors.push_back(Value::object({{"recording", s.recording},
+                                     {"sensor", s.channel},
+                                     {"unit", s.unit},
+                                     {"rms", s.rms},
+                                     {"error_fitted", s.training},
+                                     {"error_held_back", s.held_back},
+                                     {"offset", s.offset}}));
+  for (const auto& group : r.knowable.confounded) confounded.push_back(Value::array(group));
+  return Value::object({{"law", fit.law},
+                        {"converged", r.status == FitReport::Status::Converged},
+                        {"message", r.message},
+                        {"iterations", r.iterations},
+                        {"cpu_seconds", r.seconds},
+                        {"steps_per_sample", r.steps},
+                        {"step_error", r.step_error},
+                        {"plant", list(r.plant)},
+                        {"damper", list(r.damper)},
+                        {"nuisances", list(r.nuisances)},
+                        {"singular_values", Value::array(r.knowable.singular_values)},
+                        {"without_effect", Value::array(r.knowable.without_effect)},
+                        {"confounded", std::move(confounded)},
+                        {"sensors", std::move(sensors)},
+                        {"warnings", Value::array(r.warnings)}});
+}
+
+Document in_plant_document(const std::vector<InPlantFit>& fits, const InPlantSetup& setup,
+                           const Console& console) {
+  const InPlantFit& best = fits.front();
+  Document document{.title = "A damper identified in its plant",
+                    .subtitle = std::string(setup.model->title),
+                    .verdict = {},
+                    .sections = {},
+                    .command = console.command_line(),
+                    .version = DASHPOT_VERSION,
+                    .date = date_now(),
+                    .kind = "identification"};
+  document.verdict =
+      best.report.model
+          ? fmt::format(
+                "{} in the {}: {} % of the worst sensor's rms is left on the time held "
+                "back, in free run.",
+                best.law, setup.model->name, format_number(best.worst(), 3))
+          : "No law could be fitted: " + best.report.message;
+
+  // The laws beside each other, where there are several.
+  if (fits.size() > 1) {
+    DocumentTable laws{.title = "Laws, by the worst sensor on the time held back",
+                       .columns = {{"law"}, {"error %", true}, {"CPU s", true}, {"remark"}},
+                       .rows = {}};
+    for (const InPlantFit& fit : fits)
+      laws.rows.push_back(
+          {fit.law, format_number(fit.worst(), 3), format_number(fit.report.seconds, 3),
+           fit.report.status == FitReport::Status::Converged ? "" : fit.report.message});
+    document.sections.push_back(
+        {.name = "laws", .title = "Laws", .paragraphs = {}, .tables = {std::move(laws)}});
+  }
+
+  // The best of them in full.
+  if (best.report.model) {
+    DocumentSection section{.name = "fit", .title = best.law, .paragraphs = {}};
+    section.tables = {sensor_table(best.report)};
+    if (!best.report.plant.empty())
+      section.tables.push_back(parameter_table("Plant", best.report.plant));
+    section.tables.push_back(parameter_table("Damper", best.report.damper));
+    if (!best.report.nuisances.empty())
+      section.tables.push_back(parameter_table("Nuisances", best.report.nuisances));
+    section.tables.back().audience = Audience::Files;
+    section.figures = {sensor_figure(best.report, setup)};
+    section.remarks = knowable_lines(best.report);
+    document.sections.push_back(std::move(section));
+  }
+  Value all = Value::array();
+  for (const InPlantFit& fit : fits) all.push_back(json_of(fit));
+  document.data = Value::object({{"plant", setup.model->name}, {"fits", std::move(all)}});
+  return document;
+}
+
+/// The damper as a file that every other command reads.
+void save_damper(const InPlantFit& fit, const InPlantSetup& setup,
+                 const std::vector<std::string>& paths, double sample_time, const fs::path& folder,
+                 Console& console) {
+  ModelFile file;
+  file.model = fit.report.model->with_offset(0);
+  file.drive_unit = setup.drive_unit;
+  file.sample_time = sample_time;
+  file.domain = fit.report.domain;
+  file.provenance.created = date_now();
+  file.provenance.command = console.command_line();
+  file.provenance.dataset = "identified in a plant: " + std::string(setup.model->name);
+  for (const std::string& path : paths) {
+    file.provenance.files.push_back({path, sha256_of_file(path)});
+    file.provenance.training_records.push_back(fs::path(path).filename().string());
+  }
+  file.dissipation = dissipation(*file.model, file.domain);
+  if (!file.dissipation->dissipates())
+    console.warn(fit.law + ": " + activity(*file.dissipation, file.drive_unit));
+  save_model(file, folder / (fit.law + ".json"));
+}
+
+}  // namespace
+
+int run_in_plant(const std::string& words, const RankingSettings& settings, Console& console) {
+  // All that can be wrong is found before the work.
+  require_meaning(settings);
+  const InPlantSetup setup = read_in_plant_setup(words);
+  const IdentifyOptions fit = identify_options(settings.fit, settings.fit.models, console);
+  std::vector<PlantRecording> recordings;
+  for (const std::string& path : settings.data.paths)
+    recordings.push_back(read_plant_recording(path, setup.channels()));
+  prepare_results(settings.results);
+
+  // Each law in turn, the best first.
+  InPlantOptions options{
+      .choices = fit.choices, .seed = fit.seed, .threads = fit.threads, .monitor = fit.monitor};
+  options.starts = std::max(options.starts, fit.starts);
+  std::vector<InPlantFit> fits;
+  for (const std::string& name : settings.fit.models)
+    fits.push_back({name, identify_in_plant(find_law(name), setup, recordings, options)});
+  std::ranges::stable_sort(fits, {}, &InPlantFit::worst);
+
+  // What came out of it.
+  const Document document = in_plant_document(fits, setup, console);
+  print_document(document, console);
+  for (const InPlantFit& one : fits)
+    for (const std::string& warning : one.report.warnings) console.warn(one.law + ": " + warning);
+  const fs::path folder = settings.results.folder, models = folder / "models";
+  for (const InPlantFit& one : fits)
+    if (one.report.model)
+      save_damper(one, setup, settings.data.paths, recordings.front().sample_time, models, console);
+  std::string where = "\n";
+  if (settings.results.report) where += write_document(document, folder, "report");
+  console.print(where + "Models   " + models.string() + "/\n");
+  if (console.json) console.print_json(document_json(document));
+  return std::isfinite(fits.front().worst()) ? kDone : kNotUsable;
+}
+
+}  // namespace dashpot::cli

@@ -1,0 +1,85 @@
+#include "dashpot/machine/in_plant_setup.h"
+
+#include <algorithm>
+
+#include "dashpot/base/text.h"
+#include "dashpot/error.h"
+
+namespace dashpot {
+
+std::vector<std::string> InPlantSetup::channels() const {
+  std::vector<std::string> names;
+  const auto add = [&](const std::string& name) {
+    if (!name.empty() && std::ranges::find(names, name) == names.end()) names.push_back(name);
+  };
+  for (const PlantInputChannel& input : inputs) add(input.channel);
+  for (const PlantSensor& sensor : sensors) add(sensor.channel);
+  add(drive);
+  return names;
+}
+
+void require_setup(const InPlantSetup& setup) {
+  const std::string where = "plant";
+  if (!setup.model)
+    throw Error(where, "no kind is stated", "plant: one of " + join(machine_names(), ", "));
+  const auto& rows = setup.model->parameters;
+  const std::string owner(setup.model->name);
+
+  // Every parameter once, by a name that the plant has.
+  std::vector<std::string> seen;
+  const auto note = [&](const std::string& name) {
+    row_named(rows, name, owner, where);
+    if (std::ranges::find(seen, name) != seen.end())
+      throw Error(where + ", " + name, "is stated twice", "known or unknown, once");
+    seen.push_back(name);
+  };
+  for (const auto& [name, value] : setup.known) {
+    note(name);
+    checked(rows[row_named(rows, name, owner, where)], value, where);
+  }
+  for (const PlantUnknown& unknown : setup.unknown) {
+    note(unknown.name);
+    const ParameterRow& row = rows[row_named(rows, unknown.name, owner, where)];
+    if (row.whole)
+      throw Error(where + ", " + unknown.name, "is a count, which cannot be found by a fit",
+                  "state it");
+    if (!(unknown.lower < unknown.upper) || unknown.lower < row.lower || unknown.upper > row.upper)
+      throw Error(where + ", " + unknown.name,
+                  "its range " + format_number(unknown.lower) + " ... " +
+                      format_number(unknown.upper) + " is none",
+                  "from less to more, within " + format_number(row.lower) + " ... " +
+                      format_number(row.upper) + " " + std::string(row.unit));
+    if (unknown.about && (*unknown.about < unknown.lower || *unknown.about > unknown.upper))
+      throw Error(where + ", " + unknown.name, "'about' lies outside its range");
+  }
+
+  // Something must move it, something must show that, and a damper must have a place.
+  const Plant plant = make_plant(*setup.model, setup.known, where);
+  if (setup.strut >= plant.struts.size())
+    throw Error(where, owner + " has no place for a damper", "one of the plants with a strut");
+  if (setup.inputs.empty())
+    throw Error(where, "no input is stated", "a channel of a force, a ground or its acceleration");
+  if (setup.sensors.empty())
+    throw Error(where, "no sensor is stated", "at least one channel that shows the motion");
+  std::vector<PlantInputPlace> inputs;
+  for (const PlantInputChannel& input : setup.inputs) {
+    inputs.push_back(input.place);
+    if (input.place.kind == PlantInput::Force && input.place.coordinate >= plant.size())
+      throw Error(where + ", " + input.channel, "pushes a coordinate that is not there");
+    for (const PlantSensor& sensor : setup.sensors)
+      if (sensor.channel == input.channel)
+        throw Error(where + ", " + input.channel, "is both an input and a sensor",
+                    "what moves the plant cannot judge the fit");
+  }
+  for (const PlantSensor& sensor : setup.sensors)
+    if (sensor.place.coordinate >= plant.size())
+      throw Error(where + ", " + sensor.channel, "stands on a coordinate that is not there");
+  const PlantEquations equations(plant, setup.strut, inputs);
+  if (!(setup.held_back >= 0 && setup.held_back < 0.9))
+    throw Error(where + ", held_back", "is " + format_number(setup.held_back),
+                "a share of the time from 0 to below 0.9");
+  if (!(setup.skip >= 0))
+    throw Error(where + ", skip", "is " + format_number(setup.skip), "0 s or more");
+}
+
+}  // namespace dashpot

@@ -1,0 +1,95 @@
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "dashpot/drive.h"
+#include "dashpot/fit_choices.h"
+#include "dashpot/machine/plant_run.h"
+#include "dashpot/monitor.h"
+#include "dashpot/plant.h"
+
+namespace dashpot {
+
+// A plant with a damper that is to be identified in it: what is known of the plant, what moves it,
+// what was measured on it, and what is said of a fit in the end.
+
+/// A single mass on a spring and a dashpot, beside which the damper stands on ground that may move:
+///   m q'' + c (q' - w') + k (q - w) = force - F(q - w, q' - w')
+/// Beside the plants of find_plant_model(), "oscillator" is one.
+const PlantModel& find_machine(const std::string& name, const std::string& where);
+std::vector<std::string> machine_names();
+
+/// One number of the plant that is to be found, by its row in the plant's table.
+struct PlantUnknown {
+  std::string name;
+  double lower = 0, upper = 0;  ///< SI
+  std::optional<double> about;  ///< where the search starts; nothing: from the data or the table
+};
+
+struct PlantInputChannel {
+  std::string channel;
+  PlantInputPlace place;
+};
+
+struct PlantSensor {
+  std::string channel;
+  PlantSensorPlace place;
+  double noise = 0;          ///< its standard deviation, SI; 0: unknown
+  bool finds_delay = false;  ///< its delay is an unknown
+  double delay = 0;          ///< s, known or where the search starts
+};
+
+/// What is known of a plant, and what was measured on it.
+struct InPlantSetup {
+  const PlantModel* model = nullptr;
+  NamedValues known;  ///< SI; what is neither known nor unknown is as in the table
+  std::vector<PlantUnknown> unknown;
+  std::size_t strut = 0;  ///< where the damper is
+  std::vector<PlantInputChannel> inputs;
+  std::vector<PlantSensor> sensors;
+  std::string drive;  ///< channel of the current or voltage; empty: `level` all along
+  double level = 0;   ///< A or V
+  DriveUnit drive_unit = DriveUnit::None;
+  bool from_rest = false;   ///< each recording begins at rest
+  double held_back = 0.25;  ///< share of each recording, its end, that judges the result
+  double skip = 0;          ///< s at the beginning that are run and not compared
+
+  /// Names of the channels that it speaks of.
+  std::vector<std::string> channels() const;
+};
+
+/// Throws Error where a setup contradicts itself or its plant: a name that is not there, an input
+/// or a sensor that is missing.
+void require_setup(const InPlantSetup& setup);
+
+struct InPlantOptions {
+  std::vector<ParameterChoice> choices;  ///< of the law, as on the bench
+  int starts = 12;
+  int iterations = 100;
+  std::uint64_t seed = 1;
+  int threads = 0;
+  std::size_t steps = 0;  ///< of the integrator per sample; 0: as many as its error asks for
+  Monitor monitor;
+};
+
+/// How well a sensor was met, in free run from the first sample on.
+struct SensorFigures {
+  std::string recording, channel, unit;
+  double rms = 0;        ///< of what it showed, without its mean
+  double training = 0;   ///< rms error
+  double held_back = 0;  ///< rms error over the time that no setting has seen; NaN: none
+  double offset = 0;     ///< found, and taken off
+};
+
+/// The sensors over one recording, as measured and in free run.
+struct InPlantTrace {
+  std::string recording;
+  double sample_time = 0;
+  std::size_t training = 0;                                  ///< samples that were fitted
+  std::vector<std::vector<double>> measured, modelled;       ///< per sensor; offsets put on
+  std::vector<double> deflection, velocity, force, current;  ///< of the damper, modelled
+};
+
+}  // namespace dashpot

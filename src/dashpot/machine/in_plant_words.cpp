@@ -1,0 +1,303 @@
+#include "dashpot/machine/in_plant_words.h"
+
+#include <algorithm>
+#include <array>
+
+#include "dashpot/base/file.h"
+#include "dashpot/base/read_quantity.h"
+#include "dashpot/base/text.h"
+#include "dashpot/base/units.h"
+#include "dashpot/error.h"
+#include "dashpot/value.h"
+
+namespace dashpot {
+namespace {
+
+/// The words for what moves a plant and for what a sensor shows, with the unit of its noise.
+constexpr std::array kInputWords = {
+    std::pair{"force", PlantInput::Force}, std::pair{"ground", PlantInput::Ground},
+    std::pair{"ground_acceleration", PlantInput::GroundAcceleration}};
+
+struct QuantityWord {
+  std::string_view word;
+  PlantQuantity quantity;
+  std::string_view unit;
+  bool of_coordinate;
+};
+constexpr std::array kQuantityWords = {
+    QuantityWord{"displacement", PlantQuantity::Displacement, "m", true},
+    QuantityWord{"velocity", PlantQuantity::Velocity, "m/s", true},
+    QuantityWord{"acceleration", PlantQuantity::Acceleration, "m/s^2", true},
+    QuantityWord{"deflection", PlantQuantity::Deflection, "m", false},
+    QuantityWord{"deflection_velocity", PlantQuantity::DeflectionVelocity, "m/s", false},
+    QuantityWord{"damper_force", PlantQuantity::DamperForce, "N", false}};
+
+const PlantInput* find_input(const std::string& word) {
+  for (const auto& [known, kind] : kInputWords)
+    if (word == known) return &kind;
+  return nullptr;
+}
+const QuantityWord* find_quantity(const std::string& word) {
+  for (const QuantityWord& known : kQuantityWords)
+    if (word == known.word) return &known;
+  return nullptr;
+}
+std::vector<std::string> input_words() {
+  std::vector<std::string> words;
+  for (const auto& [word, kind] : kInputWords) words.emplace_back(word);
+  return words;
+}
+std::vector<std::string> quantity_words() {
+  std::vector<std::string> words;
+  for (const QuantityWord& known : kQuantityWords) words.emplace_back(known.word);
+  return words;
+}
+
+/// The row of a plant's parameter.
+const ParameterRow& row_of(const PlantModel& model, const std::string& name,
+                           const std::string& where) {
+  return model.parameters[row_named(model.parameters, name, model.name, where)];
+}
+
+PlantUnknown unknown_within(const ParameterRow& row) {
+  return {std::string(row.name), row.lower, row.upper, {}};
+}
+
+/// "unknown", "300..500 kg" or "2 kg" goes to what is unknown or to what is known.
+void read_number(InPlantSetup& setup, const std::string& name, const std::string& text,
+                 const std::string& where) {
+  const ParameterRow& row = row_of(*setup.model, name, where);
+  const std::string at = where + ", " + name;
+  if (text == "unknown") {
+    setup.unknown.push_back(unknown_within(row));
+  } else if (const std::size_t dots = text.find(".."); dots != std::string::npos) {
+    // The unit behind the upper end holds for both.
+    const std::string high = text.substr(dots + 2);
+    const std::size_t unit = high.find_first_not_of("0123456789.eE+- ");
+    const std::string low =
+        text.substr(0, dots) + (unit == std::string::npos ? "" : high.substr(unit));
+    PlantUnknown unknown = unknown_within(row);
+    unknown.lower = parse_quantity(low, row.unit, at);
+    unknown.upper = parse_quantity(high, row.unit, at);
+    setup.unknown.push_back(unknown);
+  } else {
+    setup.known.emplace_back(name, parse_value(row, text, at));
+  }
+}
+
+std::size_t coordinate_named(const Plant& plant, const std::string& name,
+                             const std::string& where) {
+  std::vector<std::string> known;
+  for (std::size_t k = 0; k < plant.size(); ++k) {
+    if (plant.coordinates[k].name == name) return k;
+    known.push_back(plant.coordinates[k].name);
+  }
+  if (name.empty() && plant.size() == 1) return 0;
+  if (name.empty()) throw Error(where, "says not where", "at: one of " + join(known, ", "));
+  throw Error(where, "the plant has no coordinate '" + name + "'", suggest(name, known));
+}
+
+/// What a plant cannot do without: a number that its table does not have at 0. Stops are none
+/// unless they are stated, so that their stiffness does not matter.
+void require_stated(const InPlantSetup& setup, const std::string& where) {
+  for (const ParameterRow& row : setup.model->parameters) {
+    const std::string name(row.name);
+    if (row.value == 0 || name.starts_with("stop_")) continue;
+    const bool known =
+        std::ranges::any_of(setup.known, [&](const auto& one) { return one.first == name; });
+    if (!known &&
+        std::ranges::find(setup.unknown, name, &PlantUnknown::name) == setup.unknown.end())
+      throw Error(where, "says nothing of " + name + " (" + std::string(row.meaning) + ")",
+                  "its value in " + std::string(row.unit) + ", or 'unknown'");
+  }
+}
+
+/// A drive: the name of a channel, or a constant level with its unit.
+void read_drive(InPlantSetup& setup, const std::string& text, DriveUnit unit,
+                const std::string& where) {
+  setup.drive_unit = unit;
+  const bool is_level = !text.empty() && text.find_first_of("0123456789.-+") == 0;
+  if (is_level)
+    setup.level = parse_quantity(text, to_string(unit), where);
+  else
+    setup.drive = text;
+}
+
+/// "CHANNEL@body"
+std::pair<std::string, std::string> channel_and_place(const std::string& text) {
+  const std::size_t at = text.find('@');
+  return {text.substr(0, at), at == std::string::npos ? "" : text.substr(at + 1)};
+}
+
+InPlantSetup from_words(const std::string& words) {
+  const std::string where = "--in";
+  std::vector<std::string> parts = split(words, ',');
+  InPlantSetup setup;
+  setup.model = &find_machine(std::string(trim(parts.front())), where);
+  std::vector<std::pair<std::string, std::string>> channels;
+
+  // The plant's numbers first: they say which coordinates it has.
+  for (std::size_t k = 1; k < parts.size(); ++k) {
+    const std::size_t equals = parts[k].find('=');
+    if (equals == std::string::npos)
+      throw Error(where, "'" + parts[k] + "' has no '='", "name=value, as mass=2kg");
+    const std::string key(trim(parts[k].substr(0, equals)));
+    const std::string value(trim(parts[k].substr(equals + 1)));
+    const std::string at = where + ", " + key;
+    if (find_input(key) || find_quantity(key)) {
+      channels.emplace_back(key, value);
+    } else if (key == "current" || key == "voltage") {
+      read_drive(setup, value, key == "current" ? DriveUnit::Ampere : DriveUnit::Volt, at);
+    } else if (key == "held_back") {
+      setup.held_back = parse_quantity(value, "1", at);
+    } else if (key == "skip") {
+      setup.skip = parse_quantity(value, "s", at);
+    } else if (key == "start") {
+      if (value != "rest" && value != "unknown")
+        throw Error(at, "is '" + value + "'", "rest or unknown");
+      setup.from_rest = value == "rest";
+    } else {
+      std::vector<std::string> known = input_words();
+      for (const std::string& word : quantity_words()) known.push_back(word);
+      for (const char* word : {"current", "voltage", "held_back", "skip", "start"})
+        known.emplace_back(word);
+      for (const ParameterRow& row : setup.model->parameters) known.emplace_back(row.name);
+      if (std::ranges::find(known, key) == known.end())
+        throw Error(where, "unknown key '" + key + "'", suggest(key, known));
+      read_number(setup, key, value, where);
+    }
+  }
+
+  // Then where its inputs and sensors stand.
+  const Plant plant = make_plant(*setup.model, setup.known, where);
+  for (const auto& [key, value] : channels) {
+    const auto [channel, place] = channel_and_place(value);
+    const std::string at = where + ", " + key;
+    if (const PlantInput* kind = find_input(key)) {
+      const bool pushes = *kind == PlantInput::Force;
+      setup.inputs.push_back({channel, {*kind, pushes ? coordinate_named(plant, place, at) : 0}});
+      continue;
+    }
+    const QuantityWord& quantity = *find_quantity(key);
+    setup.sensors.push_back(
+        {.channel = channel,
+         .place = {quantity.quantity,
+                   quantity.of_coordinate ? coordinate_named(plant, place, at) : 0}});
+  }
+  return setup;
+}
+
+void read_parameters(InPlantSetup& setup, const Value& parameters) {
+  for (const auto& [name, value] : parameters.members()) {
+    const ParameterRow& row = row_of(*setup.model, name, value.where());
+    if (value.kind() == Value::Kind::Object) {
+      // A range, and where in it the search starts.
+      ObjectReader reader(value, "an unknown parameter");
+      PlantUnknown unknown = unknown_within(row);
+      if (const Value* from = reader.optional("from"))
+        unknown.lower = read_quantity(*from, row.unit);
+      if (const Value* to = reader.optional("to")) unknown.upper = read_quantity(*to, row.unit);
+      if (const Value* about = reader.optional("about"))
+        unknown.about = read_quantity(*about, row.unit);
+      reader.finish();
+      setup.unknown.push_back(unknown);
+    } else if (value.kind() == Value::Kind::Number) {
+      setup.known.emplace_back(name, checked(row, value.as_number(), value.where()));
+    } else {
+      read_number(setup, name, value.as_string(), value.where());
+    }
+  }
+}
+
+PlantInputChannel read_input(const Value& value, const Plant& plant) {
+  ObjectReader reader(value, "an input");
+  PlantInputChannel input{.channel = reader.string("channel"), .place = {}};
+  const std::string kind = reader.string("kind"), at = reader.string("at", "");
+  reader.finish();
+  const PlantInput* known = find_input(kind);
+  if (!known)
+    throw Error(value.where(), "unknown kind of input '" + kind + "'",
+                suggest(kind, input_words()));
+  input.place.kind = *known;
+  if (*known == PlantInput::Force)
+    input.place.coordinate = coordinate_named(plant, at, value.where());
+  else if (!at.empty())
+    throw Error(value.where(), "the ground is under all of the plant", "leave out 'at'");
+  return input;
+}
+
+PlantSensor read_sensor(const Value& value, const Plant& plant) {
+  ObjectReader reader(value, "a sensor");
+  PlantSensor sensor{.channel = reader.string("channel"), .place = {}};
+  const std::string word = reader.string("quantity"), at = reader.string("at", "");
+  const QuantityWord* known = find_quantity(word);
+  if (!known)
+    throw Error(value.where(), "unknown quantity '" + word + "'", suggest(word, quantity_words()));
+  sensor.place.quantity = known->quantity;
+  if (known->of_coordinate)
+    sensor.place.coordinate = coordinate_named(plant, at, value.where());
+  else if (!at.empty())
+    throw Error(value.where(), word + " is the damper's", "leave out 'at'");
+  if (const Value* noise = reader.optional("noise")) {
+    sensor.noise = read_quantity(*noise, known->unit);
+    if (sensor.noise <= 0) throw Error(noise->where(), "is not above 0", "leave it out if unknown");
+  }
+  if (const Value* delay = reader.optional("delay")) {
+    sensor.finds_delay = delay->kind() == Value::Kind::String && delay->as_string() == "unknown";
+    if (!sensor.finds_delay) sensor.delay = read_quantity(*delay, "s");
+  }
+  reader.finish();
+  return sensor;
+}
+
+}  // namespace
+
+InPlantSetup parse_in_plant_setup(std::string_view text, const std::string& source) {
+  const Value value = parse_yaml(text, source);
+  ObjectReader reader(value, "a plant with its sensors");
+  InPlantSetup setup;
+  setup.model = &find_machine(reader.string("plant"), source + ", plant");
+  if (const Value* parameters = reader.optional("parameters")) read_parameters(setup, *parameters);
+  const Plant plant = make_plant(*setup.model, setup.known, source);
+  for (const Value& input : reader.required("inputs").items())
+    setup.inputs.push_back(read_input(input, plant));
+  for (const Value& sensor : reader.required("sensors").items())
+    setup.sensors.push_back(read_sensor(sensor, plant));
+
+  // What drives the damper: a channel or a level, of one unit.
+  for (const auto& [key, unit] :
+       {std::pair{"current", DriveUnit::Ampere}, std::pair{"voltage", DriveUnit::Volt}}) {
+    const Value* drive = reader.optional(key);
+    if (!drive) continue;
+    if (setup.drive_unit != DriveUnit::None)
+      throw Error(drive->where(), "a damper is driven by a current or a voltage, not by both");
+    if (drive->kind() == Value::Kind::Number) {
+      setup.level = drive->as_number();
+      setup.drive_unit = unit;
+    } else {
+      read_drive(setup, drive->as_string(), unit, drive->where());
+    }
+  }
+  const std::string start = reader.string("start", "unknown");
+  if (start != "rest" && start != "unknown")
+    throw Error(source + ", start", "is '" + start + "'", "rest or unknown");
+  setup.from_rest = start == "rest";
+  setup.held_back = reader.number("held_back", setup.held_back);
+  if (const Value* skip = reader.optional("skip")) setup.skip = read_quantity(*skip, "s");
+  reader.finish();
+  require_stated(setup, source);
+  require_setup(setup);
+  return setup;
+}
+
+InPlantSetup read_in_plant_setup(const std::string& words) {
+  const std::string first = words.substr(0, words.find(','));
+  if (first.find_first_of("./") != std::string::npos)
+    return parse_in_plant_setup(read_file(words), words);
+  InPlantSetup setup = from_words(words);
+  require_stated(setup, "--in");
+  require_setup(setup);
+  return setup;
+}
+
+}  // namespace dashpot

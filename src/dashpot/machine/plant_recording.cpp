@@ -1,0 +1,125 @@
+#include "dashpot/machine/plant_recording.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "dashpot/base/text.h"
+#include "dashpot/base/units.h"
+#include "dashpot/error.h"
+#include "dashpot/record/readers/reader.h"
+
+namespace dashpot {
+namespace {
+
+/// A column's name and the unit that stands in it.
+struct NameAndUnit {
+  std::string name, unit;
+};
+
+NameAndUnit name_and_unit(const RawColumn& column) {
+  const std::string_view text = trim(column.name);
+  const std::size_t open = text.find_first_of("[(");
+  if (open == std::string_view::npos || (text.back() != ']' && text.back() != ')'))
+    return {std::string(text), column.unit};
+  return {std::string(trim(text.substr(0, open))),
+          std::string(trim(text.substr(open + 1, text.size() - open - 2)))};
+}
+
+bool is_time(std::string_view name) {
+  const std::string word = lower(name);
+  return word == "time" || word == "t" || word == "t_s" || word == "time_s";
+}
+
+/// The unit in which a quantity of this dimension is kept.
+std::string si_text(const std::string& unit, const std::string& where) {
+  static constexpr std::string_view kSi[] = {"1",   "m",     "m/s", "m/s^2", "N",
+                                             "rad", "rad/s", "A",   "V",     "s"};
+  const Dimension wanted = require_unit(unit, where).dimension;
+  for (const std::string_view si : kSi)
+    if (const auto known = parse_unit(si); known && known->dimension == wanted)
+      return std::string(si);
+  return "SI";
+}
+
+/// The step of stamps that lie on a uniform grid to a hundredth of it, as logs of few digits do; 0
+/// where they do not. A step that is a whole rate to a millionth is exactly that.
+double mean_step(std::span<const double> stamps) {
+  constexpr double kJitter = 0.01, kSame = 1e-6;
+  if (stamps.size() < 2) return 0;
+  const double step = (stamps.back() - stamps.front()) / static_cast<double>(stamps.size() - 1);
+  for (std::size_t k = 0; k < stamps.size(); ++k)
+    if (!(std::abs(stamps[k] - stamps.front() - step * static_cast<double>(k)) <= kJitter * step))
+      return 0;
+  const double rate = std::round(1 / step);
+  return rate >= 1 && std::abs(rate * step - 1) < kSame ? 1 / rate : step;
+}
+
+void require_numbers(const RawTable& table, const RawColumn& column) {
+  if (!column.bad) return;
+  throw Error(table.where(column.bad->row),
+              "'" + column.name + "' is '" + column.bad->text + "', not a number",
+              "write it as 12.5, or leave such rows out");
+}
+
+}  // namespace
+
+const Channel& PlantRecording::channel(std::string_view wanted) const {
+  std::vector<std::string> known;
+  for (const Channel& channel : channels) {
+    if (channel.name == wanted) return channel;
+    known.push_back(channel.name);
+  }
+  throw Error(name, "has no channel '" + std::string(wanted) + "'", suggest(wanted, known));
+}
+
+PlantRecording read_plant_recording(const std::filesystem::path& path,
+                                    const std::vector<std::string>& wanted) {
+  // One table per file.
+  std::vector<RawTable> tables = read_tables(path);
+  if (tables.size() != 1)
+    throw Error(path.string(), "holds " + std::to_string(tables.size()) + " tables",
+                "one recording of the plant per file");
+  RawTable& table = tables.front();
+  PlantRecording recording{.name = path.filename().string(), .samples = table.rows()};
+
+  // Its time base: stated by the format, or by a column of time.
+  if (table.sample_time) recording.sample_time = *table.sample_time;
+  for (const RawColumn& column : table.columns) {
+    const auto [name, unit] = name_and_unit(column);
+    if (!is_time(name) || recording.sample_time > 0) continue;
+    require_numbers(table, column);
+    const double factor = unit.empty() ? 1 : require_unit(unit, table.file + ", time").factor;
+    recording.sample_time = factor * mean_step(column.values);
+    if (recording.sample_time <= 0)
+      throw Error(table.file, "its time stamps are not uniform",
+                  "sample the plant at one rate, or resample the recording");
+  }
+  if (recording.sample_time <= 0)
+    throw Error(table.file, "has no column of time (it has " + table.column_list() + ")",
+                "name one 'time [s]'");
+
+  // The channels that are asked for, in SI.
+  for (RawColumn& column : table.columns) {
+    const auto [name, unit] = name_and_unit(column);
+    if (std::ranges::find(wanted, name) == wanted.end()) continue;
+    require_numbers(table, column);
+    const std::string where = table.file + ", column '" + column.name + "'";
+    Channel channel{.name = name, .unit = "SI", .samples = std::move(column.values), .origin = {}};
+    if (unit.empty()) {
+      channel.origin = "column " + name + ", taken as SI: no unit given";
+    } else {
+      const Unit of = require_unit(unit, where);
+      for (double& value : channel.samples) value = of.factor * value + of.offset;
+      channel.unit = si_text(unit, where);
+      channel.origin = "column " + name + ", " + unit;
+    }
+    recording.channels.push_back(std::move(channel));
+  }
+  for (const std::string& name : wanted)
+    if (std::ranges::find(recording.channels, name, &Channel::name) == recording.channels.end())
+      throw Error(table.file, "has no column '" + name + "'", "it has " + table.column_list());
+  return recording;
+}
+
+}  // namespace dashpot

@@ -1,0 +1,31 @@
+#pragma once
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "dashpot/record.h"
+
+namespace dashpot {
+
+/// What was measured on a plant: channels of any name on one uniform time base, in SI. Unlike a
+/// bench's Record it need hold neither a force nor a motion of the damper.
+struct PlantRecording {
+  std::string name;         ///< of its file
+  double sample_time = 0;   ///< s
+  std::size_t samples = 0;  ///< of each channel
+  std::vector<Channel> channels;
+
+  /// Throws Error that names the channels there are.
+  const Channel& channel(std::string_view wanted) const;
+};
+
+/// Reads one table of any format that recordings come in. Column names hold their units:
+/// "excitation [N]" or "excitation (N)"; one without a unit is taken as SI and says so in its
+/// origin. Time comes from a column "time" or "t", in s unless it says else. Throws Error on a file
+/// of several tables, on stamps that are not uniform, and, where a column is used (`wanted`), on
+/// a cell that is no number or a column that is not there.
+PlantRecording read_plant_recording(const std::filesystem::path& path,
+                                    const std::vector<std::string>& wanted);
+
+}  // namespace dashpot

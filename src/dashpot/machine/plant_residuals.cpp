@@ -1,0 +1,511 @@
+#include "dashpot/machine/plant_residuals.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "dashpot/base/parallel.h"
+#include "dashpot/base/text.h"
+#include "dashpot/error.h"
+#include "dashpot/machine/between_samples.h"
+
+namespace dashpot {
+namespace {
+
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
+
+double mean_of(std::span<const double> samples) {
+  return std::accumulate(samples.begin(), samples.end(), 0.0) / static_cast<double>(samples.size());
+}
+
+double rms_about(std::span<const double> samples, double centre) {
+  double sum = 0;
+  for (const double sample : samples) sum += (sample - centre) * (sample - centre);
+  return std::sqrt(sum / static_cast<double>(samples.size()));
+}
+
+bool is_constant(std::span<const double> samples) {
+  const auto [low, high] = std::ranges::minmax(samples);
+  return high - low <= 1e-12 * std::max(std::abs(low), std::abs(high));
+}
+
+/// The unit of what a sensor of this quantity shows.
+std::string unit_of(PlantQuantity quantity) {
+  switch (quantity) {
+    case PlantQuantity::Displacement:
+    case PlantQuantity::Deflection:
+      return "m";
+    case PlantQuantity::Velocity:
+    case PlantQuantity::DeflectionVelocity:
+      return "m/s";
+    case PlantQuantity::Acceleration:
+      return "m/s^2";
+    case PlantQuantity::DamperForce:
+      break;
+  }
+  return "N";
+}
+
+}  // namespace
+
+PlantCases make_cases(const InPlantSetup& setup, const std::vector<PlantRecording>& recordings,
+                      std::size_t steps) {
+  constexpr std::size_t kFirstGuess = 2, kFewest = 200;
+  PlantCases cases{.all = {}, .steps = steps > 0 ? steps : kFirstGuess};
+  for (const PlantRecording& recording : recordings) {
+    PlantCase one{.name = recording.name};
+    one.driving = {.sample_time = recording.sample_time,
+                   .samples = recording.samples,
+                   .steps = cases.steps,
+                   .value = {},
+                   .rate = {},
+                   .current = {}};
+
+    // The part that is fitted.
+    one.first = static_cast<std::size_t>(setup.skip / recording.sample_time);
+    one.training =
+        static_cast<std::size_t>((1 - setup.held_back) * static_cast<double>(recording.samples));
+    if (one.training < one.first + kFewest)
+      throw Error(recording.name, "leaves " + std::to_string(one.training) + " samples to fit",
+                  "at least " + std::to_string(kFewest) + " behind those that are skipped");
+
+    // The inputs between the samples.
+    for (const PlantInputChannel& input : setup.inputs) {
+      const std::vector<double>& samples = recording.channel(input.channel).samples;
+      if (is_constant(samples))
+        throw Error(recording.name + ", " + input.channel,
+                    "is constant: nothing moves the plant, so that nothing can be told of it",
+                    "record while the plant is shaken, pushed or driven over a road");
+      FinerSignal finer = band_limited(samples, recording.sample_time, 2 * cases.steps);
+      one.driving.value.push_back(std::move(finer.value));
+      one.driving.rate.push_back(std::move(finer.rate));
+    }
+    one.driving.current = setup.drive.empty()
+                              ? std::vector<double>(one.driving.points(), setup.level)
+                              : straight_lines(recording.channel(setup.drive).samples,
+                                               recording.sample_time, 2 * cases.steps)
+                                    .value;
+
+    one.steady = std::ranges::minmax(one.driving.current).min ==
+                 std::ranges::minmax(one.driving.current).max;
+
+    // What the sensors showed.
+    for (const PlantSensor& sensor : setup.sensors) {
+      one.measured.push_back(recording.channel(sensor.channel).samples);
+      if (is_constant(one.measured.back()))
+        throw Error(recording.name + ", " + sensor.channel, "is constant",
+                    "a sensor that shows the plant's motion");
+    }
+    cases.all.push_back(std::move(one));
+  }
+  if (cases.all.empty()) throw Error("recordings", "there are none", "name at least one");
+  return cases;
+}
+
+PlantResiduals::PlantResiduals(const InPlantSetup& setup, const PlantCases& cases,
+                               const LawUnknowns& law, const std::vector<double>& plant,
+                               const DataScale& scale)
+    : setup_(&setup), cases_(&cases), law_(&law) {
+  for (const PlantInputChannel& input : setup.inputs) inputs_.push_back(input.place);
+  for (const PlantSensor& sensor : setup.sensors) sensors_.push_back(sensor.place);
+  const auto add = [&](double size, double lower, double upper) {
+    size_.push_back(size);
+    lower_.push_back(lower / size);
+    upper_.push_back(upper / size);
+  };
+
+  // The plant's numbers, each in the size at which it starts.
+  for (std::size_t k = 0; k < setup.unknown.size(); ++k)
+    add(plant[k] != 0 ? std::abs(plant[k]) : 1, setup.unknown[k].lower, setup.unknown[k].upper);
+
+  // The law's, which have sizes and bounds of their own.
+  lower_.insert(lower_.end(), law.lower().begin(), law.lower().end());
+  upper_.insert(upper_.end(), law.upper().begin(), law.upper().end());
+  size_.resize(lower_.size(), 1.0);
+
+  // The state at the beginning of each recording, in the size of the damper's motion.
+  first_state_ = size_.size();
+  const LawModel example = law.model(law.start());
+  coordinates_ = make_plant(*setup.model, setup.known).size();
+  if (!setup.from_rest) {
+    state_size_.assign(coordinates_, scale.stroke);
+    state_size_.insert(state_size_.end(), coordinates_, scale.speed);
+    for (const StateInfo& state : example.law().states)
+      state_size_.push_back(scale.of_unit(state.unit));
+  }
+  for (std::size_t c = 0; c < cases.all.size(); ++c)
+    for (const double size : state_size_) add(size, -kUnbounded, kUnbounded);
+
+  // Delays, in samples.
+  first_delay_ = size_.size();
+  const PlantCase& first = cases.all.front();
+  constexpr double kMostDelay = 20;  // samples
+  for (std::size_t s = 0; s < setup.sensors.size(); ++s) {
+    if (!setup.sensors[s].finds_delay) continue;
+    delays_.push_back(s);
+    const double sample = first.driving.sample_time;
+    add(sample, -kMostDelay * sample, kMostDelay * sample);
+  }
+
+  // Each sensor's scale: its noise, or at first a hundredth of what it showed.
+  constexpr double kFirstShare = 0.01;
+  for (std::size_t s = 0; s < setup.sensors.size(); ++s) {
+    const std::vector<double>& shown = first.measured[s];
+    scale_.push_back(setup.sensors[s].noise > 0 ? setup.sensors[s].noise
+                                                : kFirstShare * rms_about(shown, mean_of(shown)));
+  }
+}
+
+std::vector<double> PlantResiduals::states_of(std::span<const double> x) const {
+  std::vector<double> of;
+  for (std::size_t c = 0; c < cases_->all.size() && states() > 0; ++c)
+    for (std::size_t k = 0; k < 2 * coordinates_; ++k) {
+      const std::size_t unknown = first_state_ + c * states() + k;
+      of.push_back(size_[unknown] * x[unknown]);
+    }
+  return of;
+}
+
+std::vector<double> PlantResiduals::start(const std::vector<double>& plant,
+                                          const std::vector<double>& beginnings,
+                                          Random* random) const {
+  std::vector<double> x(size_.size(), 0.0);
+  for (std::size_t k = 0; k < plant.size(); ++k) x[k] = plant[k] / size_[k];
+  const std::vector<double> law = law_->start(random);
+  std::ranges::copy(law, x.begin() + static_cast<std::ptrdiff_t>(plant.size()));
+  for (std::size_t k = 0; k < beginnings.size(); ++k) {
+    const std::size_t unknown =
+        first_state_ + k / (2 * coordinates_) * states() + k % (2 * coordinates_);
+    x[unknown] = beginnings[k] / size_[unknown];
+  }
+  for (std::size_t d = 0; d < delays_.size(); ++d)
+    x[first_delay_ + d] = setup_->sensors[delays_[d]].delay / size_[first_delay_ + d];
+  return x;
+}
+
+std::vector<double> PlantResiduals::off_bounds(std::vector<double> x) const {
+  const auto first = x.begin() + static_cast<std::ptrdiff_t>(plant_unknowns());
+  const auto end = x.begin() + static_cast<std::ptrdiff_t>(first_state_);
+  std::ranges::copy(law_->off_bounds({first, end}), first);
+  return x;
+}
+
+bool PlantResiduals::is_of_law(std::size_t k) const {
+  return k >= plant_unknowns() && k < first_state_;
+}
+
+LawModel PlantResiduals::damper(std::span<const double> x) const {
+  return law_->model(x.subspan(plant_unknowns(), law_->size()));
+}
+
+std::vector<LawUnknowns::Coefficient> PlantResiduals::law_coefficients(
+    std::span<const double> x) const {
+  return law_->coefficients(x.subspan(plant_unknowns(), law_->size()));
+}
+
+std::string PlantResiduals::name(std::size_t k) const {
+  if (k < plant_unknowns()) return setup_->unknown[k].name;
+  if (k >= first_delay_) return "delay of " + setup_->sensors[delays_[k - first_delay_]].channel;
+  if (k >= first_state_) return "state at the beginning";
+  const std::size_t own = k - plant_unknowns();
+  for (const auto& c : law_coefficients(std::vector<double>(size_.size(), 1.0)))
+    if (!c.weights.empty() && own >= c.first && own < c.first + c.weights.size()) {
+      const std::size_t end = c.weights.size() > 1 ? c.name.rfind('_') : std::string::npos;
+      return c.name.substr(0, end);
+    }
+  return "law";
+}
+
+FittedParameter PlantResiduals::described(std::size_t k, std::span<const double> x) const {
+  FittedParameter p{.name = name(k), .unit = {}, .meaning = {}, .value = size_[k] * x[k]};
+  const double margin = 1e-6 * std::max(1.0, std::abs(x[k]));
+  p.at_bound = x[k] <= lower_[k] + margin || x[k] >= upper_[k] - margin;
+
+  // A number of the plant has its row; a delay and a state at the beginning say what they are.
+  if (k < plant_unknowns()) {
+    const auto& rows = setup_->model->parameters;
+    const ParameterRow& row = rows[row_named(rows, p.name, setup_->model->name, "plant")];
+    p.unit = row.unit;
+    p.meaning = row.meaning;
+    return p;
+  }
+  if (k >= first_delay_) {
+    p.unit = "s";
+    return p;
+  }
+  const std::size_t place = (k - first_state_) % states(), c = (k - first_state_) / states();
+  const Plant plant = make_plant(*setup_->model, setup_->known);
+  const std::size_t n = plant.size();
+  const LawModel model = damper(x);
+  p.name = place < n       ? plant.coordinates[place].name
+           : place < 2 * n ? plant.coordinates[place - n].name + "_velocity"
+                           : std::string(model.law().states[place - 2 * n].name);
+  p.unit = place < n       ? "m"
+           : place < 2 * n ? "m/s"
+                           : std::string(model.law().states[place - 2 * n].unit);
+  p.meaning = "at the beginning of " + cases_->all[c].name;
+  return p;
+}
+
+PlantEquations PlantResiduals::equations(std::span<const double> x) const {
+  NamedValues values = setup_->known;
+  for (std::size_t k = 0; k < plant_unknowns(); ++k)
+    values.emplace_back(
+        setup_->unknown[k].name,
+        std::clamp(size_[k] * x[k], setup_->unknown[k].lower, setup_->unknown[k].upper));
+  return PlantEquations(make_plant(*setup_->model, values), setup_->strut, inputs_);
+}
+
+std::vector<double> PlantResiduals::first_state(std::span<const double> x, std::size_t place,
+                                                std::size_t coordinates,
+                                                const LawModel& damper) const {
+  std::vector<double> state(2 * coordinates + damper.state_size());
+  damper.rest({0, 0, cases_->all[place].driving.current.front()},
+              std::span(state).subspan(2 * coordinates));
+  for (std::size_t k = 0; k < states(); ++k) {
+    const std::size_t unknown = first_state_ + place * states() + k;
+    state[k] += size_[unknown] * x[unknown];
+  }
+  return state;
+}
+
+bool PlantResiduals::run(std::span<const double> x, const PlantEquations& plant,
+                         const LawModel& damper, const PlantCase& one, std::size_t place,
+                         std::size_t samples, std::span<const PlantSensorPlace> sensors,
+                         Shown& shown) const {
+  std::vector<double> state = first_state(x, place, plant.size(), damper);
+  if (!plant.run(damper, one.driving, samples, sensors, state, shown)) return false;
+
+  // What a late sensor shows is older.
+  for (std::size_t s = 0; s < sensors_.size() && s < shown.size(); ++s) {
+    double delay = setup_->sensors[s].delay;
+    for (std::size_t d = 0; d < delays_.size(); ++d)
+      if (delays_[d] == s) delay = size_[first_delay_ + d] * x[first_delay_ + d];
+    if (delay != 0) shown[s] = delayed(shown[s], one.driving.sample_time, delay);
+  }
+  return true;
+}
+
+std::size_t PlantResiduals::end_of(const PlantCase& one, std::size_t samples) const {
+  return samples > 0 ? std::min(one.training, one.first + samples) : one.training;
+}
+
+/// First residual of a recording.
+std::size_t PlantResiduals::part_of(std::size_t place, std::size_t samples) const {
+  std::size_t at = 0;
+  for (std::size_t c = 0; c < place; ++c)
+    at += sensors_.size() * (end_of(cases_->all[c], samples) - cases_->all[c].first);
+  return at;
+}
+
+/// The residuals of one recording, which begin at r[0].
+bool PlantResiduals::evaluate_one(std::span<const double> x, std::size_t place, std::size_t samples,
+                                  std::span<double> r) const {
+  const PlantCase& one = cases_->all[place];
+  const std::size_t end = end_of(one, samples), length = end - one.first;
+
+  // A current that never changes leaves constant parameters, which are quicker.
+  LawModel model = damper(x);
+  if (one.steady) {
+    std::vector<double> parameters(model.law().params.size());
+    model.parameters_at(one.driving.current.front(), parameters.data());
+    model = LawModel::constant(model.law(), parameters);
+  }
+  Shown shown;
+  if (!run(x, equations(x), model, one, place, end, sensors_, shown)) return false;
+  for (std::size_t s = 0; s < sensors_.size(); ++s) {
+    const std::span<double> out = r.subspan(s * length, length);
+    for (std::size_t k = 0; k < length; ++k)
+      out[k] = (shown[s][one.first + k] - one.measured[s][one.first + k]) / scale_[s];
+    const double offset = mean_of(out);
+    for (double& value : out) value -= offset;
+  }
+  return true;
+}
+
+bool PlantResiduals::evaluate(std::span<const double> x, std::size_t samples,
+                              std::span<double> r) const {
+  for (std::size_t c = 0; c < cases_->all.size(); ++c)
+    if (!evaluate_one(x, c, samples, r.subspan(part_of(c, samples)))) return false;
+  return true;
+}
+
+/// One column by a forward difference. A state at the beginning acts on its recording alone.
+bool PlantResiduals::difference(std::span<const double> x, std::size_t samples,
+                                std::span<const double> r, std::size_t k,
+                                std::span<double> column) const {
+  constexpr double kStep = 1e-6;
+  const bool of_one = k >= first_state_ && k < first_delay_;
+  const std::size_t own = of_one ? (k - first_state_) / states() : 0;
+  const double length = kStep * std::max(1.0, std::abs(x[k]));
+  std::vector<double> moved(x.begin(), x.end());
+
+  // Up where the bounds leave room, and the other way where the plant diverges there.
+  const bool upward = x[k] + length <= upper_[k];
+  for (const double step : {upward ? length : -length, upward ? -length : length}) {
+    moved[k] = x[k] + step;
+    if (moved[k] < lower_[k] || moved[k] > upper_[k]) continue;
+    bool finite = true;
+    for (std::size_t c = 0; c < cases_->all.size() && finite; ++c) {
+      const std::size_t first = part_of(c, samples), end = part_of(c + 1, samples);
+      if (of_one && c != own) {
+        std::fill(column.begin() + static_cast<std::ptrdiff_t>(first),
+                  column.begin() + static_cast<std::ptrdiff_t>(end), 0.0);
+        continue;
+      }
+      finite = evaluate_one(moved, c, samples, column.subspan(first));
+      for (std::size_t i = first; i < end; ++i) column[i] = (column[i] - r[i]) / step;
+    }
+    if (finite) return true;
+  }
+  return false;
+}
+
+bool PlantResiduals::jacobian(std::span<const double> x, std::size_t samples, std::span<double> r,
+                              std::span<double* const> columns, int threads) const {
+  if (!evaluate(x, samples, r)) return false;
+  std::atomic<bool> complete = true;
+  parallel_for(x.size(), threads, [&](std::size_t k) {
+    if (columns[k] && !difference(x, samples, r, k, {columns[k], r.size()})) complete = false;
+  });
+  return complete;
+}
+
+LeastSquaresProblem PlantResiduals::problem(std::size_t samples, int threads) const {
+  LeastSquaresProblem problem;
+  problem.parts.clear();
+  for (const PlantCase& one : cases_->all)
+    for (std::size_t s = 0; s < sensors_.size(); ++s) {
+      problem.parts.push_back(problem.residuals);
+      problem.residuals += end_of(one, samples) - one.first;
+    }
+  problem.lower = lower_;
+  problem.upper = upper_;
+  problem.residual = [this, samples](std::span<const double> x, std::span<double> r) {
+    return evaluate(x, samples, r);
+  };
+  problem.jacobian = [this, samples, threads](std::span<const double> x, std::span<double> r,
+                                              std::span<double* const> columns) {
+    return jacobian(x, samples, r, columns, threads);
+  };
+  return problem;
+}
+
+double PlantResiduals::reweigh(std::span<const double> x) {
+  const LeastSquaresProblem whole = problem();
+  std::vector<double> r(whole.residuals);
+  if (!evaluate(x, 0, r)) return 0;
+
+  // The rms that is left at each sensor, over all recordings.
+  std::vector<double> squares(sensors_.size()), counts(sensors_.size());
+  for (std::size_t part = 0; part < whole.parts.size(); ++part) {
+    const std::size_t end = part + 1 < whole.parts.size() ? whole.parts[part + 1] : whole.residuals;
+    for (std::size_t k = whole.parts[part]; k < end; ++k)
+      squares[part % sensors_.size()] += r[k] * r[k];
+    counts[part % sensors_.size()] += static_cast<double>(end - whole.parts[part]);
+  }
+  double change = 0;
+  for (std::size_t s = 0; s < sensors_.size(); ++s) {
+    const double rms = std::sqrt(squares[s] / counts[s]);
+    if (setup_->sensors[s].noise > 0 || rms <= 0) continue;
+    scale_[s] *= rms;
+    if (sensors_.size() > 1) change = std::max(change, std::abs(rms - 1));
+  }
+  return change;
+}
+
+Covariance PlantResiduals::covariance_at(const LeastSquaresReport& solved) const {
+  const LeastSquaresProblem whole = problem();
+  std::vector<double> r(whole.residuals);
+  evaluate(solved.x, 0, r);
+  std::vector<std::pair<std::size_t, std::size_t>> segments;
+  for (std::size_t part = 0; part < whole.parts.size(); ++part)
+    segments.emplace_back(
+        whole.parts[part],
+        (part + 1 < whole.parts.size() ? whole.parts[part + 1] : r.size()) - whole.parts[part]);
+  return covariance(solved.part_matrices, independent_variances(r, segments, solved.x.size()),
+                    solved.x.size());
+}
+
+double PlantResiduals::step_error(std::span<const double> x,
+                                  const std::vector<PlantRecording>& recordings) const {
+  const PlantCases finer = make_cases(*setup_, recordings, 2 * cases_->steps);
+  const PlantEquations plant = equations(x);
+  const LawModel model = damper(x);
+  double worst = 0;
+  for (std::size_t c = 0; c < finer.all.size(); ++c) {
+    const PlantCase& one = cases_->all[c];
+    Shown coarse, fine;
+    if (!run(x, plant, model, one, c, one.training, sensors_, coarse) ||
+        !run(x, plant, model, finer.all[c], c, one.training, sensors_, fine))
+      return kUnbounded;
+
+    // The change against the error that is left, both without their means.
+    for (std::size_t s = 0; s < sensors_.size(); ++s) {
+      std::vector<double> change, error;
+      for (std::size_t k = one.first; k < one.training; ++k) {
+        change.push_back(coarse[s][k] - fine[s][k]);
+        error.push_back(coarse[s][k] - one.measured[s][k]);
+      }
+      const double left = rms_about(error, mean_of(error));
+      const double floor = 1e-9 * rms_about(one.measured[s], mean_of(one.measured[s]));
+      worst = std::max(worst, rms_about(change, mean_of(change)) / std::max(left, floor));
+    }
+  }
+  return worst;
+}
+
+void PlantResiduals::describe(std::span<const double> x, std::vector<SensorFigures>& figures,
+                              std::vector<InPlantTrace>& traces) const {
+  // Beside the sensors, the damper's own motion and force.
+  std::vector<PlantSensorPlace> places = sensors_;
+  for (const PlantQuantity own :
+       {PlantQuantity::Deflection, PlantQuantity::DeflectionVelocity, PlantQuantity::DamperForce})
+    places.push_back({own, 0});
+
+  const PlantEquations plant = equations(x);
+  const LawModel model = damper(x);
+  for (std::size_t c = 0; c < cases_->all.size(); ++c) {
+    const PlantCase& one = cases_->all[c];
+    const std::size_t count = one.driving.samples, steps = one.driving.steps;
+    InPlantTrace trace{.recording = one.name,
+                       .sample_time = one.driving.sample_time,
+                       .training = one.training,
+                       .measured = one.measured};
+    Shown shown;
+    const bool finite = run(x, plant, model, one, c, count, places, shown);
+
+    // Each sensor's offset is that of the part which was fitted; its errors with that taken off.
+    for (std::size_t s = 0; s < sensors_.size(); ++s) {
+      SensorFigures figure{.recording = one.name,
+                           .channel = setup_->sensors[s].channel,
+                           .unit = unit_of(sensors_[s].quantity)};
+      std::vector<double> error(count);
+      for (std::size_t k = 0; k < count; ++k) error[k] = one.measured[s][k] - shown[s][k];
+      const std::span<const double> all(error);
+      const std::span<const double> fitted = all.subspan(one.first, one.training - one.first);
+      figure.offset = mean_of(fitted);
+      figure.rms = rms_about(one.measured[s], mean_of(one.measured[s]));
+      figure.training = rms_about(fitted, figure.offset);
+      figure.held_back = one.training < count && finite
+                             ? rms_about(all.subspan(one.training), figure.offset)
+                             : std::numeric_limits<double>::quiet_NaN();
+      for (double& value : shown[s]) value += figure.offset;
+      figures.push_back(figure);
+    }
+
+    // The damper at each sample.
+    const auto last = std::ptrdiff_t(sensors_.size());
+    trace.deflection = shown[sensors_.size()];
+    trace.velocity = shown[sensors_.size() + 1];
+    trace.force = shown[sensors_.size() + 2];
+    for (std::size_t k = 0; k < count; ++k)
+      trace.current.push_back(one.driving.current[2 * steps * k]);
+    trace.modelled.assign(shown.begin(), shown.begin() + last);
+    traces.push_back(std::move(trace));
+  }
+}
+
+}  // namespace dashpot

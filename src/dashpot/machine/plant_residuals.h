@@ -1,0 +1,106 @@
+#pragma once
+#include <span>
+#include <string>
+#include <vector>
+
+#include "dashpot/identify.h"
+#include "dashpot/identify/fit/law_unknowns.h"
+#include "dashpot/identify/fit/uncertainty.h"
+#include "dashpot/machine/in_plant_setup.h"
+#include "dashpot/machine/plant_recording.h"
+#include "dashpot/numerics/least_squares.h"
+
+namespace dashpot {
+
+/// One recording, ready to be run.
+struct PlantCase {
+  std::string name;
+  PlantDriving driving;
+  std::vector<std::vector<double>> measured;  ///< per sensor
+  std::size_t first = 0;                      ///< sample that is compared first
+  std::size_t training = 0;                   ///< samples up to the end of what is fitted
+  bool steady = false;                        ///< the current never changes
+};
+
+struct PlantCases {
+  std::vector<PlantCase> all;
+  std::size_t steps = 1;  ///< of the integrator per sample
+};
+
+/// steps: of the integrator per sample; 0: a first guess. Inputs are band-limited between samples,
+/// the current goes straight. Throws Error at an input that is constant, at a recording too short.
+PlantCases make_cases(const InPlantSetup& setup, const std::vector<PlantRecording>& recordings,
+                      std::size_t steps);
+
+/// What the sensors of a plant would show less what they did show, over their scale, as a function
+/// of all unknowns: the plant's, the law's, per recording the state at its beginning, the sensors'
+/// delays. All that it is made from must outlive it.
+class PlantResiduals {
+ public:
+  /// plant: where the plant's unknowns start, SI; scale: of the damper's motion.
+  PlantResiduals(const InPlantSetup& setup, const PlantCases& cases, const LawUnknowns& law,
+                 const std::vector<double>& plant, const DataScale& scale);
+
+  /// The start: the plant's numbers and, per recording, coordinates and their velocities at its
+  /// beginning (SI; empty: at rest), the law's start or, with `random`, one beside it.
+  std::vector<double> start(const std::vector<double>& plant,
+                            const std::vector<double>& states = {}, Random* random = nullptr) const;
+  /// The unknowns with those of the law that stand at a bound back inside.
+  std::vector<double> off_bounds(std::vector<double> x) const;
+  /// What start() takes as `states`, of these unknowns.
+  std::vector<double> states_of(std::span<const double> x) const;
+  /// At most so many samples of each recording (0: all that may be fitted).
+  LeastSquaresProblem problem(std::size_t samples = 0, int threads = 0) const;
+  /// Takes the rms that is left at each sensor as its scale where no noise was stated; returns the
+  /// largest relative change, 0 where there is only one sensor.
+  double reweigh(std::span<const double> x);
+  Covariance covariance_at(const LeastSquaresReport& solved) const;
+
+  std::size_t plant_unknowns() const { return setup_->unknown.size(); }
+  std::size_t first_delay() const { return first_delay_; }
+  bool is_of_law(std::size_t k) const;
+  std::string name(std::size_t k) const;
+  double size_of(std::size_t k) const { return size_[k]; }  ///< of plant unknowns and nuisances
+  FittedParameter described(std::size_t k, std::span<const double> x) const;
+  std::vector<LawUnknowns::Coefficient> law_coefficients(std::span<const double> x) const;
+  LawModel damper(std::span<const double> x) const;
+
+  /// What half the step changes at the sensors, rms over rms error; the worst sensor.
+  double step_error(std::span<const double> x, const std::vector<PlantRecording>& recordings) const;
+  /// Figures and samples of every sensor over whole recordings, in free run.
+  void describe(std::span<const double> x, std::vector<SensorFigures>& figures,
+                std::vector<InPlantTrace>& traces) const;
+
+ private:
+  using Shown = std::vector<std::vector<double>>;  ///< per sensor
+  PlantEquations equations(std::span<const double> x) const;
+  std::vector<double> first_state(std::span<const double> x, std::size_t place,
+                                  std::size_t coordinates, const LawModel& damper) const;
+  bool run(std::span<const double> x, const PlantEquations& plant, const LawModel& damper,
+           const PlantCase& one, std::size_t place, std::size_t samples,
+           std::span<const PlantSensorPlace> sensors, Shown& shown) const;
+  std::size_t end_of(const PlantCase& one, std::size_t samples) const;
+  bool evaluate(std::span<const double> x, std::size_t samples, std::span<double> r) const;
+  bool evaluate_one(std::span<const double> x, std::size_t place, std::size_t samples,
+                    std::span<double> r) const;
+  bool jacobian(std::span<const double> x, std::size_t samples, std::span<double> r,
+                std::span<double* const> columns, int threads) const;
+  bool difference(std::span<const double> x, std::size_t samples, std::span<const double> r,
+                  std::size_t k, std::span<double> column) const;
+  std::size_t part_of(std::size_t place, std::size_t samples) const;
+  std::size_t states() const { return state_size_.size(); }
+
+  const InPlantSetup* setup_;
+  const PlantCases* cases_;
+  const LawUnknowns* law_;
+  std::vector<PlantInputPlace> inputs_;
+  std::vector<PlantSensorPlace> sensors_;
+  std::vector<double> scale_;  ///< per sensor
+  std::size_t coordinates_ = 0;
+  std::vector<double> state_size_;   ///< of q, q' and the law's states; empty: from rest
+  std::vector<std::size_t> delays_;  ///< sensors whose delay is an unknown
+  std::size_t first_state_ = 0, first_delay_ = 0;  ///< places among the unknowns
+  std::vector<double> size_, lower_, upper_;
+};
+
+}  // namespace dashpot

@@ -1,0 +1,92 @@
+#pragma once
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "dashpot/damper_model.h"
+#include "dashpot/plant.h"
+
+namespace dashpot {
+
+// A linear plant with one damper in it, run under measured inputs by the classical Runge-Kutta
+// method, several steps per sample. What is not linear in it is the damper alone.
+
+/// What moves a plant from outside.
+enum class PlantInput {
+  Force,              ///< N, on a coordinate
+  Ground,             ///< m, height under all tyres and under struts that stand on the ground
+  GroundAcceleration  ///< m/s^2, where the plant's coordinates are relative to the ground
+};
+
+/// One input in use: its kind, and, of a force, the coordinate that it pushes.
+struct PlantInputPlace {
+  PlantInput kind = PlantInput::Force;
+  std::size_t coordinate = 0;
+};
+
+/// What a sensor on a plant shows.
+enum class PlantQuantity {
+  Displacement,        ///< m, of a coordinate (relative to ground that shakes)
+  Velocity,            ///< m/s, likewise
+  Acceleration,        ///< m/s^2, of a coordinate, absolute
+  Deflection,          ///< m, of the damper, extension positive
+  DeflectionVelocity,  ///< m/s
+  DamperForce          ///< N, positive where it resists extension
+};
+
+/// A sensor's quantity and, where it is one of a coordinate, which.
+struct PlantSensorPlace {
+  PlantQuantity quantity = PlantQuantity::Displacement;
+  std::size_t coordinate = 0;
+};
+
+/// The inputs at every instant that the integrator asks for: 2 `steps` points per sample. Each
+/// input has a value and a rate there; the drive of the damper stands beside them.
+struct PlantDriving {
+  double sample_time = 0;
+  std::size_t samples = 0, steps = 1;
+  std::vector<std::vector<double>> value, rate;  ///< per input, per point
+  std::vector<double> current;                   ///< A or V, per point
+
+  std::size_t points() const { return (samples - 1) * 2 * steps + 1; }
+};
+
+/// The plant as numbers: q'' = forcing - C q' - K q - row F, all by the inverse of the mass.
+class PlantEquations {
+ public:
+  /// strut: the one with the damper. Throws Error where the plant is not linear (stops, friction, a
+  /// tyre that lifts), where its tyres meet the road at different times, and where an input finds
+  /// nothing to move.
+  PlantEquations(const Plant& plant, std::size_t strut, std::span<const PlantInputPlace> inputs);
+
+  std::size_t size() const { return size_; }
+
+  /// Runs the plant from `state` (q, q', states of the damper, which flows) over the first so many
+  /// samples; `state` is then that at the last of them. Per sensor `shown` gets the samples. False
+  /// where one of them is not finite.
+  bool run(const DamperModel& damper, const PlantDriving& driving, std::size_t samples,
+           std::span<const PlantSensorPlace> sensors, std::span<double> state,
+           std::vector<std::vector<double>>& shown) const;
+  /// Stiffness along the damper's way, N/m: of the plant alone; and the mass that it moves, kg.
+  double stiffness_along() const;
+  double mass_along() const { return 1 / along(row_, by_force_.data()); }
+
+ private:
+  double rates(const DamperModel& damper, const PlantDriving& driving, std::size_t point,
+               const double* state, double* out) const;
+  DamperInput damper_input(const PlantDriving& driving, std::size_t point,
+                           const double* state) const;
+
+  std::size_t size_ = 0;
+  std::vector<double> damping_, stiffness_;  ///< by the inverse of the mass, n x n
+  std::vector<double> by_force_;             ///< n: of the damper's force
+  /// Per input, n: of its value and of its rate.
+  std::vector<std::vector<double>> by_value_, by_rate_;
+  std::vector<double> row_;        ///< deflection of the damper
+  std::vector<double> on_ground_;  ///< per input: what it takes from the deflection
+  /// Per input, n: what it adds to an absolute acceleration.
+  std::vector<std::vector<double>> carried_;
+};
+
+}  // namespace dashpot

@@ -1,0 +1,77 @@
+#include <cmath>
+
+#include "dashpot/base/file.h"
+#include "dashpot/base/text.h"
+#include "dashpot/model_file.h"
+#include "dashpot/value.h"
+#include "program.h"
+
+using namespace dashpot;
+
+namespace {
+
+/// A mass of 2 kg on 5 N/mm, a dashpot of 30 N*s/m and friction of 4 N, pushed; 1 kHz, integrated
+/// by a method of the test's own.
+std::string pushed_mass() {
+  constexpr double kStep = 1e-5;
+  std::string text = "time [s],push [N],x [mm]\n";
+  double x = 0, v = 0;
+  for (int k = 0; k < 300000; ++k) {
+    const double t = kStep * k;
+    double push = 0;
+    for (int n = 1; n < 9; ++n) push += 12 * std::cos(6.0 * n * t + n * n);
+    if (k % 200 == 0)
+      text +=
+          format_exact(t) + ',' + format_number(push, 9) + ',' + format_number(1000 * x, 9) + '\n';
+    v += kStep / 2 * (push - 5000 * x - 30 * v - 4 * std::tanh(v / 0.01));
+    x += kStep * v;
+  }
+  return text;
+}
+
+}  // namespace
+
+TEST_CASE("identify --in: a damper inside an oscillator becomes a report and a model file") {
+  const TemporaryFolder folder;
+  const std::string data = folder.write("pushed.csv", pushed_mass()).string(),
+                    results = (folder.path() / "results").string();
+  const std::string command =
+      "identify " + data +
+      " --in oscillator,mass=unknown,stiffness=5N/mm,force=push,displacement=x "
+      "--models tanh_guo,viscous_dahl --output " +
+      results;
+  const ProgramResult result = stdout_of_dashpot(command + " --json");
+  REQUIRE(result.exit_code == 0);
+  const Value report = parse_json(result.output, "stdout");
+  const std::vector<Value>& fits = report.find("fits")->items();
+  REQUIRE(fits.size() == 2);
+  const Value& mass = fits[0].find("plant")->items()[0];
+  CHECK(mass.find("name")->as_string() == "mass");
+  CHECK_CLOSE(mass.find("value")->as_number(), 2, 0.03, 0);
+  const Value& sensor = fits[0].find("sensors")->items()[0];
+  CHECK(sensor.find("error_held_back")->as_number() < 0.05 * sensor.find("rms")->as_number());
+
+  // Its files: the page, and a model that others read.
+  CHECK(contains(read_file(results + "/report.html"), "A damper identified in its plant"));
+  const ModelFile model = load_model(results + "/models/tanh_guo.json");
+  CHECK(contains(model.provenance.command, "--in oscillator"));
+  CHECK_CLOSE(model.model->force({0, 1, 0}, {}), 34, 0.2, 0);
+}
+
+TEST_CASE("identify --in: what cannot be used is said before the work") {
+  const TemporaryFolder folder;
+  const std::string data =
+      folder.write("a.csv", "time [s],push [N],x [mm]\n0,1,0\n1,2,1\n2,3,1\n").string();
+  const auto output = [&](const std::string& rest) {
+    return run_dashpot("identify " + data + ' ' + rest).output;
+  };
+  const std::string plant = "--in oscillator,mass=2,force=push,displacement=x";
+  CHECK(contains(output(plant), "--models: is not stated; with --in, name the laws"));
+  CHECK(contains(output(plant + " --models mlp_one_sensor"), "unknown model 'mlp_one_sensor'"));
+  CHECK(contains(output(plant + " --models dahl --leave-out current"),
+                 "--leave-out: has no meaning with --in; 'held_back'"));
+  CHECK(contains(output(plant + " --models dahl --asymmetric"), "--asymmetric: has no meaning"));
+  CHECK(contains(output(plant + " --models dahl"), "leaves 2 samples to fit"));
+  CHECK(contains(output("--in oscillator,mass=2,force=psh,displacement=x --models dahl"),
+                 "has no column 'psh'; it has 'time [s]', 'push [N]', 'x [mm]'"));
+}

@@ -1,0 +1,348 @@
+#include "dashpot/machine/in_plant.h"
+
+#include <numbers>
+
+#include "dashpot/base/random.h"
+#include "dashpot/damper/kinds/law/law_model.h"
+#include "dashpot/damper/law_list.h"
+#include "dashpot/error.h"
+#include "dashpot/machine/between_samples.h"
+#include "dashpot/machine/duhem_law.h"
+#include "dashpot/machine/virtual_recording.h"
+#include "dashpot/simulate.h"
+#include "dashpot/suspension/ground/deterministic.h"
+#include "dashpot/vehicle.h"
+#include "support.h"
+
+using namespace dashpot;
+
+namespace {
+
+/// The truth of the tests: a mass on a spring and a Bouc-Wen hysteresis, integrated by Heun's
+/// method in steps of 10 us, which shares nothing with the library's integrator.
+struct TrueOscillator {
+  double mass = 2, stiffness = 4000, damping = 12, alpha = 150, A = 120, gamma = 3e4, beta = 1e4;
+
+  void rates(double force, double w, const double* y, double* dy) const {
+    const double x = y[0] - w, v = y[1], z = y[2];
+    dy[0] = v;
+    dy[1] = (force - stiffness * x - damping * v - alpha * z) / mass;
+    dy[2] = A * v - gamma * std::abs(v) * z * std::abs(z) - beta * v * z * z;
+  }
+};
+
+double multisine(double t) {
+  double sum = 0;
+  for (int k = 1; k <= 12; ++k)
+    sum += std::cos(2 * std::numbers::pi * 1.3 * k * t + 0.7 * k * k) * (k < 8 ? 14 : 8);
+  return sum;
+}
+
+PlantRecording recorded(const TrueOscillator& truth, double seconds, double noise) {
+  constexpr double kStep = 1e-5;
+  constexpr int kEvery = 250;  // 400 Hz
+  PlantRecording recording{.name = "truth", .sample_time = kStep * kEvery, .channels = {}};
+  recording.channels = {{.name = "push", .unit = "N", .samples = {}, .origin = {}},
+                        {.name = "x", .unit = "m", .samples = {}, .origin = {}},
+                        {.name = "a", .unit = "m/s^2", .samples = {}, .origin = {}}};
+  Random random(5);
+  double y[3] = {}, first[3], second[3], there[3];
+  for (int k = 0; k < static_cast<int>(seconds / kStep); ++k) {
+    const double t = kStep * k;
+    truth.rates(multisine(t), 0, y, first);
+    if (k % kEvery == 0) {
+      recording.channels[0].samples.push_back(multisine(t));
+      recording.channels[1].samples.push_back(y[0] + 3e-4 + noise * random.normal());
+      recording.channels[2].samples.push_back(first[1] + 2000 * noise * random.normal());
+    }
+    for (int i = 0; i < 3; ++i) there[i] = y[i] + kStep * first[i];
+    truth.rates(multisine(t + kStep), 0, there, second);
+    for (int i = 0; i < 3; ++i) y[i] += kStep / 2 * (first[i] + second[i]);
+  }
+  recording.samples = recording.channels[0].samples.size();
+  return recording;
+}
+
+InPlantSetup oscillator_setup() {
+  InPlantSetup setup;
+  setup.model = &find_machine("oscillator", "test");
+  setup.known = {{"stiffness", 4000}};
+  setup.unknown = {{"mass", 1e-3, 1e3, {}}};
+  setup.inputs = {{"push", {PlantInput::Force, 0}}};
+  setup.sensors = {{.channel = "x", .place = {PlantQuantity::Displacement, 0}}};
+  setup.skip = 0.1;
+  return setup;
+}
+
+const FittedParameter& named(const std::vector<FittedParameter>& list, const std::string& name) {
+  return *std::ranges::find(list, name, &FittedParameter::name);
+}
+
+void check_covers(const FittedParameter& p, double truth) {
+  CAPTURE(p.name);
+  CAPTURE(p.value);
+  CAPTURE(p.low);
+  CAPTURE(p.high);
+  const double half = (p.high - p.low) / 2;
+  CHECK(half > 0);
+  CHECK(std::abs(p.value - truth) < 2 * half);  // 4 standard deviations
+}
+
+const PlantRecording& short_recording() {
+  static const PlantRecording kRecording = recorded({}, 5, 2e-5);
+  return kRecording;
+}
+
+}  // namespace
+
+TEST_CASE("between samples: a sine at a fifth of the rate and its derivative; straight lines") {
+  constexpr double kDt = 0.01, kOmega = 2 * std::numbers::pi * 20;
+  std::vector<double> samples;
+  for (int k = 0; k < 200; ++k) samples.push_back(1 + std::sin(kOmega * kDt * k));
+  const FinerSignal finer = band_limited(samples, kDt, 8);
+  REQUIRE(finer.value.size() == 199 * 8 + 1);
+  for (std::size_t k = 8 * 40; k < 8 * 160; ++k) {
+    const double t = kDt / 8 * static_cast<double>(k);
+    CHECK_CLOSE(finer.value[k], 1 + std::sin(kOmega * t), 0, 2e-5);
+    CHECK_CLOSE(finer.rate[k], kOmega * std::cos(kOmega * t), 0, 1e-3 * kOmega);
+  }
+  const FinerSignal lines = straight_lines(std::vector<double>{0, 1, -1}, 0.5, 4);
+  CHECK(lines.value[2] == 0.5);
+  CHECK(lines.value[8] == -1);
+  CHECK(lines.rate[5] == -4);
+  const std::vector<double> late = delayed(samples, kDt, 0.004);
+  CHECK_CLOSE(late[100], 1 + std::sin(kOmega * (kDt * 100 - 0.004)), 0, 2e-5);
+}
+
+TEST_CASE("in plant: mass and Bouc-Wen of an oscillator from its displacement, within intervals") {
+  const InPlantReport report =
+      identify_in_plant(find_law("bouc_wen"), oscillator_setup(), {short_recording()}, {});
+  CAPTURE(report.message);
+  REQUIRE(report.status == FitReport::Status::Converged);
+  const TrueOscillator truth;
+  check_covers(named(report.plant, "mass"), truth.mass);
+  check_covers(named(report.damper, "alpha"), truth.alpha);
+  check_covers(named(report.damper, "c0"), truth.damping);
+  check_covers(named(report.damper, "k0"), 0);
+  check_covers(named(report.damper, "gamma"), truth.gamma);
+  check_covers(named(report.damper, "beta"), truth.beta);
+  CHECK_CLOSE(named(report.plant, "mass").value, truth.mass, 0.01, 0);
+
+  // What is left over on the time held back is the sensor's noise, and the offset is found.
+  CHECK_CLOSE(report.sensors[0].held_back, 2e-5, 0.1, 0);
+  CHECK_CLOSE(report.sensors[0].offset, 3e-4, 0.05, 0);
+  CHECK(report.step_error < 0.05);
+  CHECK(report.knowable.confounded.empty());
+}
+
+TEST_CASE("in plant: the same bits on any number of threads") {
+  InPlantOptions options{.starts = 3, .threads = 1};
+  const InPlantReport one =
+      identify_in_plant(find_law("dahl"), oscillator_setup(), {short_recording()}, options);
+  options.threads = 3;
+  const InPlantReport three =
+      identify_in_plant(find_law("dahl"), oscillator_setup(), {short_recording()}, options);
+  CHECK(one.sensors[0].held_back == three.sensors[0].held_back);
+  CHECK(named(one.plant, "mass").value == named(three.plant, "mass").value);
+}
+
+TEST_CASE("in plant: an acceleration that is late and a displacement, weighed by their noise") {
+  InPlantSetup setup = oscillator_setup();
+  setup.sensors.push_back(
+      {.channel = "a", .place = {PlantQuantity::Acceleration, 0}, .finds_delay = true});
+  PlantRecording recording = short_recording();
+  recording.channels[2].samples =
+      delayed(recording.channels[2].samples, recording.sample_time, 0.003);
+  const InPlantReport report =
+      identify_in_plant(find_law("bouc_wen"), setup, {recording}, {.starts = 6});
+  REQUIRE(report.model);
+  CHECK_CLOSE(named(report.nuisances, "delay of a").value, 0.003, 0.05, 0);
+  CHECK_CLOSE(named(report.plant, "mass").value, 2, 0.02, 0);
+  CHECK_CLOSE(report.sensors[0].held_back, 2e-5, 0.2, 0);
+}
+
+TEST_CASE("in plant: a hysteresis without a name does as well as the law itself") {
+  const InPlantReport report =
+      identify_in_plant(duhem_law(), oscillator_setup(), {short_recording()}, {.starts = 6});
+  REQUIRE(report.model);
+  CHECK(report.sensors[0].held_back < 3e-5);
+}
+
+TEST_CASE("in plant: what cannot be told apart is named, before and after the fit") {
+  InPlantSetup setup = oscillator_setup();
+  setup.known.clear();
+  setup.unknown.push_back({"stiffness", 0, 1e6, 4000});  // beside the law's own spring k0
+  const InPlantReport report =
+      identify_in_plant(find_law("bouc_wen"), setup, {short_recording()}, {.starts = 3});
+  REQUIRE(report.knowable.confounded.size() == 1);
+  const std::vector<std::string>& group = report.knowable.confounded[0];
+  CHECK(std::ranges::count(group, "stiffness") == 1);
+  CHECK(std::ranges::count(group, "k0") == 1);
+  CHECK(named(report.plant, "stiffness").weak);
+  CHECK(named(report.damper, "k0").weak);
+  CHECK_FALSE(named(report.plant, "mass").weak);
+}
+
+TEST_CASE("in plant: refuses what cannot serve, before any work") {
+  const auto refused = [](const InPlantSetup& setup, const PlantRecording& recording,
+                          const InPlantOptions& options = {}) {
+    return message_of(
+        [&] { identify_in_plant(find_law("bouc_wen"), setup, {recording}, options); });
+  };
+  PlantRecording still = short_recording();
+  std::ranges::fill(still.channels[0].samples, 3.0);
+  CHECK(contains(refused(oscillator_setup(), still), "push: is constant: nothing moves the plant"));
+  PlantRecording broken = short_recording();
+  std::ranges::fill(broken.channels[1].samples, 0.0);
+  CHECK(contains(refused(oscillator_setup(), broken), "x: is constant"));
+
+  // A form over a current that never changes.
+  CHECK(contains(refused(oscillator_setup(), short_recording(),
+                         {.choices = {{.law = {}, .parameter = "alpha", .form = Form::Linear}}}),
+                 "form of alpha: cannot be told: the drive is 0"));
+
+  InPlantSetup setup = oscillator_setup();
+  setup.sensors[0].channel = "push";
+  CHECK(contains(refused(setup, short_recording()), "push: is both an input and a sensor"));
+  setup = oscillator_setup();
+  setup.unknown[0].name = "mas";
+  CHECK(contains(refused(setup, short_recording()), "'mas'"));
+  setup = oscillator_setup();
+  setup.known.emplace_back("mass", 2);
+  CHECK(contains(refused(setup, short_recording()), "mass: is stated twice"));
+  setup = oscillator_setup();
+  setup.inputs[0].place.kind = PlantInput::GroundAcceleration;
+  CHECK(contains(refused(setup, short_recording()), "not one that shakes with its ground"));
+  setup = oscillator_setup();
+  setup.sensors.clear();
+  CHECK(contains(refused(setup, short_recording()), "no sensor is stated"));
+  setup = oscillator_setup();
+  setup.held_back = 0.89;
+  setup.skip = 0.5;
+  CHECK(contains(refused(setup, short_recording()), "samples to fit; at least 200"));
+}
+
+TEST_CASE("in plant: a building's damper from its floors' accelerations on shaking ground") {
+  // The truth is integrated by the suspension's own integrator, with the error controlled.
+  VehicleWords words;
+  words.plant = "building";
+  words.values = {"storeys=2"};
+  words.dampers = {"jansen_dyke2000"};
+  words.current = 2;
+  const Vehicle building = make_vehicle(words);
+  std::vector<double> shaken;
+  for (int k = 0; k < 1500; ++k) shaken.push_back(0.02 * multisine(0.004 * k));
+  const GroundPointer ground = shaking_ground("multisine", 0.004, shaken);
+  SimulateOptions options = building.options(5.9);
+  options.output_step = 0.004;
+  const Record trace = simulate(building.on(*ground), options).record;
+
+  // Accelerometers show what is absolute, the trace what is relative to the ground.
+  PlantRecording recording = virtual_recording(
+      trace, {{"ground_acceleration", 0}, {"floor_1_acceleration", 0}, {"floor_2_acceleration", 0}},
+      1);
+  for (std::size_t s = 1; s < 3; ++s)
+    for (std::size_t k = 0; k < recording.samples; ++k)
+      recording.channels[s].samples[k] += recording.channels[0].samples[k];
+  InPlantSetup setup;
+  setup.model = &find_machine("building", "test");
+  setup.known = {{"storeys", 2}, {"mass", 98.3}, {"damping", 50}};
+  setup.unknown = {{"stiffness", 1e5, 1e7, 5e5}};
+  setup.inputs = {{"ground_acceleration", {PlantInput::GroundAcceleration, 0}}};
+  setup.sensors = {{.channel = "floor_1_acceleration", .place = {PlantQuantity::Acceleration, 0}},
+                   {.channel = "floor_2_acceleration", .place = {PlantQuantity::Acceleration, 1}}};
+  const InPlantReport report =
+      identify_in_plant(find_law("viscous_dahl"), setup, {recording}, {.starts = 6});
+  REQUIRE(report.model);
+  CHECK_CLOSE(named(report.plant, "stiffness").value, 6.84e5, 0.03, 0);
+  for (const SensorFigures& sensor : report.sensors) {
+    CAPTURE(sensor.held_back);
+    CHECK(sensor.held_back < 0.1 * sensor.rms);
+  }
+}
+
+TEST_CASE("in plant: a virtual quarter car whose damper is of another structure" *
+          doctest::test_suite("long")) {
+  // The truth: the modified Bouc-Wen damper spencer1997, two voltages, a road of class C.
+  const auto ride = [](double voltage, std::uint64_t seed, const std::vector<std::string>& values,
+                       const ModelFile* damper) {
+    VehicleWords words;
+    words.plant = "quarter_car";
+    words.values = values;
+    words.current = voltage;
+    words.dampers = {"spencer1997"};
+    const Vehicle car = damper ? make_vehicle(words, *damper) : make_vehicle(words);
+    const GroundPointer road = make_ground("iso8608,class=C,speed=20m/s", seed);
+    SimulateOptions options = car.options(8);
+    options.output_step = 0.002;
+    return simulate(car.on(*road), options).record;
+  };
+  std::vector<PlantRecording> recordings;
+  for (const double voltage : {0.0, 2.0})
+    recordings.push_back(virtual_recording(ride(voltage, 1, {}, nullptr),
+                                           {{"tyre_road", 2e-4},
+                                            {"body_acceleration", 0.05},
+                                            {"wheel_acceleration", 0.5},
+                                            {"suspension_deflection", 2e-4},
+                                            {"suspension_current", 0}},
+                                           3));
+  InPlantSetup setup;
+  setup.model = &find_machine("quarter_car", "test");
+  setup.known = {{"unsprung_mass", 139.5}, {"spring_stiffness", 37300}, {"tyre_stiffness", 295200}};
+  setup.unknown = {{"sprung_mass", 100, 1000, 300}};
+  setup.inputs = {{"tyre_road", {PlantInput::Ground, 0}}};
+  setup.sensors = {{.channel = "body_acceleration", .place = {PlantQuantity::Acceleration, 0}},
+                   {.channel = "wheel_acceleration", .place = {PlantQuantity::Acceleration, 1}},
+                   {.channel = "suspension_deflection", .place = {PlantQuantity::Deflection, 0}}};
+  setup.drive = "suspension_current";
+  setup.drive_unit = DriveUnit::Volt;
+  setup.skip = 0.2;
+  const InPlantReport report = identify_in_plant(find_law("bouc_wen"), setup, recordings, {});
+  REQUIRE(report.model);
+  CHECK_CLOSE(named(report.plant, "sprung_mass").value, 387, 0.03, 0);
+
+  // The damper's force on another road.
+  ModelFile file;
+  file.model = report.model->with_offset(0);
+  file.drive_unit = DriveUnit::Volt;
+  file.domain = report.domain;
+  for (const double voltage : {0.0, 2.0}) {
+    const Record truth = ride(voltage, 9, {}, nullptr);
+    const Record modelled = ride(voltage, 9, {}, &file);
+    const std::vector<double>& f = truth.channel("suspension_force").samples;
+    const std::vector<double>& g = modelled.channel("suspension_force").samples;
+    double squares = 0;
+    for (std::size_t k = 0; k < f.size(); ++k) squares += (f[k] - g[k]) * (f[k] - g[k]);
+    const auto [low, high] = std::ranges::minmax(f);
+    CHECK(std::sqrt(squares / static_cast<double>(f.size())) < 0.05 * (high - low));
+  }
+}
+
+TEST_CASE("in plant: Noel and Schoukens' benchmark, all parameters unknown" *
+          doctest::test_suite("long")) {
+  const std::filesystem::path data = shared_data("bouc-wen-benchmark");
+  if (data.empty()) return;
+  const PlantRecording recording =
+      read_plant_recording(data / "train.csv", {"excitation", "displacement"});
+  InPlantSetup setup;
+  setup.model = &find_machine("oscillator", "test");
+  setup.unknown = {{"mass", 1e-6, 1e9, {}}, {"damping", 0, 1e9, {}}, {"stiffness", 0, 1e12, {}}};
+  setup.inputs = {{"excitation", {PlantInput::Force, 0}}};
+  setup.sensors = {{.channel = "displacement", .place = {PlantQuantity::Displacement, 0}}};
+  setup.held_back = 0.2;
+  setup.skip = 0.05;
+  InPlantOptions options;
+  options.choices = {{.law = {}, .parameter = "c0", .fixed = 0.0},
+                     {.law = {}, .parameter = "k0", .fixed = 0.0},
+                     {.law = {}, .parameter = "beta", .bounds = ParameterBounds{-1e13, 1e13}},
+                     {.law = {}, .parameter = "n", .free = true}};
+  const InPlantReport report = identify_in_plant(find_law("bouc_wen"), setup, {recording}, options);
+  REQUIRE(report.model);
+  CHECK_CLOSE(named(report.plant, "mass").value, 2, 0.001, 0);
+  CHECK_CLOSE(named(report.plant, "damping").value, 10, 0.01, 0);
+  CHECK_CLOSE(named(report.plant, "stiffness").value, 5e4, 0.001, 0);
+  CHECK_CLOSE(120 * named(report.damper, "alpha").value, 5e4, 0.002, 0);
+  CHECK_CLOSE(named(report.damper, "gamma").value, 800, 0.005, 0);
+  CHECK_CLOSE(named(report.damper, "beta").value, -1100, 0.005, 0);
+  CHECK(report.sensors[0].held_back < 7.5e-6);  // the noise that the recording holds is 7.3e-6
+}

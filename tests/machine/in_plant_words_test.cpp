@@ -1,0 +1,134 @@
+#include "dashpot/machine/in_plant_words.h"
+
+#include "dashpot/machine/plant_recording.h"
+#include "support.h"
+
+using namespace dashpot;
+
+namespace {
+
+const std::string kCar =
+    "plant: quarter_car\n"
+    "parameters:\n"
+    "  sprung_mass: {about: 350 kg, from: 300 kg, to: 0.5 t}\n"
+    "  unsprung_mass: 40 kg\n"
+    "  spring_stiffness: 20 N/mm\n"
+    "  tyre_stiffness: unknown\n"
+    "inputs:\n"
+    "  - {channel: road, kind: ground}\n"
+    "sensors:\n"
+    "  - {channel: body, quantity: acceleration, at: body, noise: 0.1, delay: unknown}\n"
+    "  - {channel: level, quantity: deflection, noise: 0.2 mm, delay: 2 ms}\n"
+    "current: coil\n"
+    "start: rest\n"
+    "held_back: 0.3\n"
+    "skip: 500 ms\n";
+
+std::string refused(const std::string& text) {
+  return message_of([&] { parse_in_plant_setup(text, "car.yaml"); });
+}
+
+/// kCar with one text in place of another.
+std::string with(const std::string& old, const std::string& other) {
+  std::string text = kCar;
+  const std::size_t at = text.find(old);
+  REQUIRE(at != std::string::npos);
+  return text.replace(at, old.size(), other);
+}
+
+}  // namespace
+
+TEST_CASE("a plant's file: numbers in any unit, ranges, sensors and what drives the damper") {
+  const InPlantSetup setup = parse_in_plant_setup(kCar, "car.yaml");
+  CHECK(setup.model->name == "quarter_car");
+  REQUIRE(setup.unknown.size() == 2);
+  CHECK(setup.unknown[0].about == 350);
+  CHECK(setup.unknown[0].lower == 300);
+  CHECK(setup.unknown[0].upper == 500);
+  CHECK_FALSE(setup.unknown[1].about);
+  CHECK(setup.known[1] == std::pair<std::string, double>{"spring_stiffness", 20000});
+  CHECK(setup.inputs[0].place.kind == PlantInput::Ground);
+  REQUIRE(setup.sensors.size() == 2);
+  CHECK(setup.sensors[0].finds_delay);
+  CHECK(setup.sensors[1].place.quantity == PlantQuantity::Deflection);
+  CHECK_CLOSE(setup.sensors[1].noise, 2e-4, 1e-12, 0);
+  CHECK(setup.sensors[1].delay == 0.002);
+  CHECK(setup.drive == "coil");
+  CHECK(setup.drive_unit == DriveUnit::Ampere);
+  CHECK(setup.from_rest);
+  CHECK(setup.held_back == 0.3);
+  CHECK(setup.skip == 0.5);
+  CHECK(setup.channels() == std::vector<std::string>{"road", "body", "level", "coil"});
+}
+
+TEST_CASE("a plant's file: what is wrong is named with what would be right") {
+  CHECK(contains(refused(with("quarter_car", "quartercar")), "did you mean 'quarter_car'"));
+  CHECK(contains(refused(with("  unsprung_mass: 40 kg\n", "")),
+                 "says nothing of unsprung_mass (wheel and axle); its value in kg, or 'unknown'"));
+  CHECK(contains(refused(with("40 kg", "40 m")), "unsprung_mass"));
+  CHECK(contains(refused(with("40 kg", "-1 kg")), "between"));
+  CHECK(contains(refused(with("to: 0.5 t", "to: 200 kg")), "its range 300 ... 200 is none"));
+  CHECK(contains(refused(with("about: 350 kg", "about: 600 kg")), "'about' lies outside"));
+  CHECK(contains(refused(with("about:", "abuot:")), "abuot"));
+  CHECK(contains(refused(with("kind: ground", "kind: road")), "unknown kind of input 'road'"));
+  CHECK(contains(refused(with("at: body", "at: roof")), "no coordinate 'roof'"));
+  CHECK(contains(refused(with(", at: body", "")), "says not where; at: one of body, wheel"));
+  CHECK(contains(refused(with("quantity: deflection", "quantity: travel")),
+                 "unknown quantity 'travel'"));
+  CHECK(contains(refused(with("0.2 mm", "-1 mm")), "is not above 0"));
+  CHECK(contains(refused(with("start: rest", "start: moving")), "rest or unknown"));
+  CHECK(contains(refused(with("held_back: 0.3", "held_back: 1.3")), "0 to below 0.9"));
+  CHECK(contains(refused(with("current: coil", "current: coil\nvoltage: 1")), "not by both"));
+  CHECK(contains(refused(with("skip:", "skipp:")), "skipp"));
+  CHECK(contains(refused(with("channel: level", "channel: road")), "both an input and a sensor"));
+  CHECK(contains(refused(kCar + "parameters2: 1\n"), "parameters2"));
+
+  // All but the damper must be linear.
+  CHECK(contains(
+      refused(with("  unsprung_mass: 40 kg\n", "  unsprung_mass: 40 kg\n  friction: 30 N\n")),
+      "has stops or friction"));
+}
+
+TEST_CASE("a plant in words: known, unknown, ranges, places and levels") {
+  const InPlantSetup setup = read_in_plant_setup(
+      "quarter_car,sprung_mass=300..500 kg,unsprung_mass=40,spring_stiffness=20N/mm,"
+      "tyre_stiffness=unknown,ground=road,acceleration=az@wheel,deflection=level,current=1.5A");
+  REQUIRE(setup.unknown.size() == 2);
+  CHECK(setup.unknown[0].lower == 300);
+  CHECK(setup.unknown[0].upper == 500);
+  CHECK(setup.sensors[0].channel == "az");
+  CHECK(setup.sensors[0].place.coordinate == 1);
+  CHECK(setup.level == 1.5);
+  CHECK(setup.drive.empty());
+
+  const auto wrong = [](const std::string& words) {
+    return message_of([&] { read_in_plant_setup(words); });
+  };
+  CHECK(contains(wrong("oscillator,mass"), "'mass' has no '='"));
+  CHECK(contains(wrong("oscillator,mas=1"), "unknown key 'mas'; did you mean 'mass'"));
+  CHECK(contains(wrong("oscillator,force=u,displacement=x"), "says nothing of mass"));
+  CHECK(contains(wrong("oscillator,mass=1,displacement=x"), "no input is stated"));
+  CHECK(contains(wrong("nowhere.yaml"), "there is no such file"));
+}
+
+TEST_CASE("a plant's recording: units in the names, one uniform time base, SI") {
+  const TemporaryFolder folder;
+  const auto read = [&](const std::string& text) {
+    return read_plant_recording(folder.write("ride.csv", text), {"level", "push"});
+  };
+  const PlantRecording recording =
+      read("time [ms],level (mm),push,note\n0,1,5,a\n2,2,6,b\n4,4,7,c\n");
+  CHECK(recording.sample_time == 0.002);
+  CHECK(recording.samples == 3);
+  CHECK_CLOSE(recording.channel("level").samples[2], 0.004, 1e-12, 0);
+  CHECK(recording.channel("level").unit == "m");
+  CHECK(contains(recording.channel("push").origin, "taken as SI"));
+  CHECK(contains(message_of([&] { recording.channel("levle"); }), "did you mean 'level'"));
+
+  const auto wrong = [&](const std::string& text) { return message_of([&] { read(text); }); };
+  CHECK(contains(wrong("time,level\n0,1\n1,2\n2,4\n"), "has no column 'push'"));
+  CHECK(contains(wrong("level,push\n0,1\n1,2\n2,4\n"), "has no column of time"));
+  CHECK(contains(wrong("time,level,push\n0,1,1\n1,2,2\n5,4,3\n"), "are not uniform"));
+  CHECK(contains(wrong("time,level,push\n0,1,1\n1,x,2\n2,4,3\n"), "'x', not a number"));
+  CHECK(contains(wrong("time,level [smoot],push\n0,1,1\n1,1,2\n2,4,3\n"), "smoot"));
+}
