@@ -31,7 +31,9 @@ constexpr std::string_view kStudyFamilyExample =
 
 int run_study_family(const StudyFamilySettings& settings, Console& console) {
   prepare_study(settings.results);
-  FamilySamples family = family_samples(load_recordings(settings.data, console));
+  const Dataset recordings = load_recordings(settings.data, console);
+  const bool of_paper = recordings.name == "family-dnn";
+  FamilySamples family = family_samples(recordings);
 
   // Finished trainings are kept, so that an interrupted study goes on.
   std::optional<TrainingStore> store;
@@ -45,11 +47,12 @@ int run_study_family(const StudyFamilySettings& settings, Console& console) {
   FamilyStudyOptions options = settings.options;
   options.monitor = console.monitor();
   for (const FamilyPreset& preset : family_presets()) options.models.emplace_back(preset.name);
+  options.models.emplace_back(kBlindLaw);
   if (store) options.store = &*store;
 
   const FamilyStudy study = study_family(
       std::move(family), family_experiments(static_cast<std::size_t>(settings.seeds)), options);
-  write_study(family_document(study), family_json(study), settings.results, console);
+  write_study(family_document(study, of_paper), family_json(study), settings.results, console);
   if (study.kept > 0) console.note(counted(study.kept, "training") + " kept from before");
   return kDone;
 }

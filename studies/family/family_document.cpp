@@ -102,9 +102,20 @@ std::string median_r2_text(const FamilyOutcome* outcome) {
   return outcome ? decimals(r2_of(outcome->by_seed).median, 4) : "-";
 }
 
-Document family_document(const FamilyStudy& study) {
-  // Title and verdict.
+Document family_document(const FamilyStudy& study, bool of_paper) {
+  // Of other recordings, what the models know of dampers that they have not seen.
   Document document;
+  if (!of_paper) {
+    document.title = "A family of dampers";
+    document.subtitle =
+        fmt::format("{}, one cycle of each, {} samples",
+                    counted(study.family.cycles.size(), "record"), study.family.size());
+    document.verdict = skill_verdict(study);
+    document.sections = {left_out_section(study)};
+    return document;
+  }
+
+  // Title and verdict.
   document.title = "The family paper, repeated";
   document.subtitle =
       fmt::format("{}, one cycle of each, {} samples",

@@ -67,6 +67,9 @@ DocumentSection history_section(const FamilyStudy& study);        // figure 12
 DocumentSection comparison_section(const FamilyStudy& study);     // figures 13 to 16
 DocumentSection determination_section(const FamilyStudy& study);  // R2
 DocumentSection left_out_section(const FamilyStudy& study);  // geometries and fluids never seen
-DocumentSection limits_section(const FamilyStudy& study);    // table 2, and what cannot be repeated
+/// What the best of the models is worth beside those that know nothing of geometry or fluid, or no
+/// more than a line, in words; empty where none of these was judged.
+std::string skill_verdict(const FamilyStudy& study);
+DocumentSection limits_section(const FamilyStudy& study);  // table 2, and what cannot be repeated
 
 }  // namespace dashpot

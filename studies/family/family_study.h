@@ -73,6 +73,10 @@ struct Spread {
 Spread mae_of(const std::vector<ErrorSums>& seeds);  ///< N
 Spread r2_of(const std::vector<ErrorSums>& seeds);
 
+/// A law that reads neither geometry nor fluid, fitted for all dampers: what a family's model has
+/// to beat, as it has to beat kSimplestFamily.
+constexpr std::string_view kBlindLaw = "tanh_kwok", kSimplestFamily = "family_line";
+
 /// A model of the registry beside the networks: it learns from the same samples, which its records
 /// run up to, and is judged on the same.
 struct FamilyModelOutcome {

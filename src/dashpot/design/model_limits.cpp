@@ -21,6 +21,7 @@ bool moves_force(const DesignModel& model, const DamperDescription& from,
                  const DamperDescription& to, const DamperOperation& at) {
   constexpr double kRounding = 1e-9;
   const double a = model.evaluate(from, at).force, b = model.evaluate(to, at).force;
+  if (!std::isfinite(a) || !std::isfinite(b)) return true;  // what is refused tells nothing
   return std::abs(b - a) > kRounding * (std::abs(a) + std::abs(b));
 }
 

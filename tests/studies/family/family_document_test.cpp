@@ -36,3 +36,18 @@ TEST_CASE("the family study's page: the paper's figures beside ours, in every fo
   REQUIRE(left_out != experiments.end());
   CHECK(left_out->find("divisions")->items().size() == 4);
 }
+
+TEST_CASE(
+    "of other recordings the family study says what its models are worth, and nothing of the "
+    "paper") {
+  FamilyStudyOptions options;
+  options.effort = 1e-9;
+  options.models = {"family_gated", "family_line", "tanh_kwok"};
+  const FamilyStudy study =
+      study_family(family_samples(small_family()), family_experiments(2), options);
+  const std::string text = markdown_document(family_document(study, false), "figures");
+  for (const char* figure : {"0.5115", "0.714", "0.9577", "37 ms", "880 experiments"})
+    CHECK_FALSE(contains(text, figure));
+  CHECK(contains(text, "With each geometry left out family_gated leaves"));
+  CHECK(contains(text, "Skill"));
+}
