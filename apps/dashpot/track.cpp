@@ -203,15 +203,14 @@ int run_track(const TrackSettings& settings, Console& console) {
     }
 
   // The limits of the coil are part of the result, so they stand above the table.
-  console.print('\n' + console.bold(damper.name) + ", " + format_number(options.current_min) +
-                " ... " + format_number(options.current_max) + ' ' + to_string(damper.drive_unit) +
-                ", coil lag " +
-                (options.lag_rate > 0 ? format_number(1000 / options.lag_rate) + " ms" : "none") +
-                '\n' +
-                paragraph("Wanted force: " + task.description + ", span " +
-                              format_number(tracked.front().report.span) + " N",
-                          static_cast<std::size_t>(console.width())) +
-                '\n');
+  console.print(
+      '\n' + console.bold(damper.name) + ", " + format_number(options.current_min) + " ... " +
+      format_number(options.current_max) + ' ' + to_string(damper.drive_unit) + ", coil lag " +
+      (options.lag_rate > 0 ? format_number(1000 / options.lag_rate) + " ms" : "none") + '\n' +
+      paragraph("Wanted force: " + task.description + ", span " +
+                    format_number(tracked.front().report.span) + " N",
+                static_cast<std::size_t>(console.width())) +
+      '\n');
   console.print(table_of(tracked, console.width()));
 
   if (!settings.folder.empty())

@@ -329,7 +329,7 @@ TEST_CASE("files as laboratories write them") {
                       300, "Time,x_mm,F_N,i_A\n")}},
        "inspect DIR",
        0,
-       {"times of a clock", "on behind midnight", "1.495"}},
+       {"times of a clock", "of the first, on behind", "1.495"}},
       {"dates",
        {{"r.csv", csv(
                       [](int k, auto& row) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "dashpot/dataset.h"
+#include "dashpot/record/cycle_figures.h"
 #include "dashpot/record/knee.h"
 
 // What a dyno sheet says of a damper, from the recordings alone, with no model fitted: cycle by
@@ -12,34 +13,6 @@
 // with its limits. All in SI and Dashpot's signs: extension (rebound) positive, force positive when
 // it resists extension, so that compression forces are negative.
 namespace dashpot {
-
-/// A stroke between two turning points of the displacement, in one direction.
-struct StrokeFigures {
-  double mid_speed = 0;   ///< m/s, |v| where the rod passes the middle of the stroke
-  double mid_force = 0;   ///< N, there: straight line through the middle fifth of the stroke
-  double peak_speed = 0;  ///< m/s, greatest |v|, smoothed over a fiftieth of the stroke's time
-  double peak_force = 0;  ///< N, of greatest size in this direction, smoothed likewise
-};
-
-/// One cycle: an extension from the lowest displacement, then a compression back to it.
-struct CycleFigures {
-  std::size_t first = 0, middle = 0, last = 0;  ///< samples of its three turning points
-  double start = 0, duration = 0;               ///< s
-  double stroke = 0, centre = 0;                ///< m, from turning point to turning point
-  double drive = 0;                             ///< A or V, its mean; not a number without a drive
-  StrokeFigures rebound, compression;
-  /// N, half of the difference of the mid-stroke forces of the two directions: what is left when
-  /// the gas force is taken off.
-  double damping_force = 0;
-  double static_force = 0;  ///< N, their mean, turned over: positive pushes the rod out
-  double rate = 0;          ///< N/m, slope of the mean force of the directions over displacement
-  /// N, size of the force while speed falls less that while it grows, at half of the mid-stroke
-  /// speed, the rate taken off, mean of the directions: above 0 where force lags behind speed.
-  double hysteresis = 0;
-  double energy = 0;              ///< J, integral of F v dt
-  double equivalent_damping = 0;  ///< N*s/m, of the dashpot that takes out as much in a sine
-  double temperature = 0;         ///< K, its mean; not a number without the channel
-};
 
 /// Cycles of one level of the drive that are alike in speed (within 5 %).
 struct SpeedFigures {
@@ -51,18 +24,6 @@ struct SpeedFigures {
   /// where no record has two.
   double repeatability = kNoNumber;
   double hysteresis = 0, energy = 0, equivalent_damping = 0;  ///< means, as of a cycle
-};
-
-/// What a record says, and what it cannot say.
-struct RecordFigures {
-  std::string name, condition;
-  std::optional<double> drive_level;
-  std::vector<CycleFigures> cycles;
-  double repeatability = kNoNumber;  ///< %, as SpeedFigures, over all its speeds
-  Measured drift;  ///< %, change of damping_force over the record, at equal speeds
-  Measured fade;   ///< %/K, change of damping_force with temperature, at equal speeds
-  std::vector<std::string> remarks;  ///< what cannot be told and why; what to beware of
-  bool is_cyclic() const { return !cycles.empty(); }
 };
 
 /// All cycles at one level of the drive.
@@ -104,10 +65,6 @@ struct CharacteriseOptions {
   /// that were measured and never beyond them. Empty: at those that were measured.
   std::vector<double> speeds;
 };
-
-/// The turning points of a displacement: samples between which it moves by more than `least`, one
-/// way and then the other, the first and the last of them where the motion was already under way.
-std::vector<std::size_t> turning_points(const std::vector<double>& displacement, double least);
 
 /// Characterises every record. One that is at rest, shorter than a cycle, random or without force
 /// is named with the reason in its remarks and takes no part in the levels. Throws Error where a
