@@ -161,13 +161,6 @@ TEST_CASE("in plant: an acceleration that is late and a displacement, weighed by
   CHECK_CLOSE(report.sensors[0].held_back, 2e-5, 0.2, 0);
 }
 
-TEST_CASE("in plant: a hysteresis without a name does as well as the law itself") {
-  const InPlantReport report =
-      identify_in_plant(duhem_law(), oscillator_setup(), {short_recording()}, {.starts = 6});
-  REQUIRE(report.model);
-  CHECK(report.sensors[0].held_back < 3e-5);
-}
-
 TEST_CASE("in plant: what cannot be told apart is named, before and after the fit") {
   InPlantSetup setup = oscillator_setup();
   setup.known.clear();
@@ -344,5 +337,11 @@ TEST_CASE("in plant: Noel and Schoukens' benchmark, all parameters unknown" *
   CHECK_CLOSE(120 * named(report.damper, "alpha").value, 5e4, 0.002, 0);
   CHECK_CLOSE(named(report.damper, "gamma").value, 800, 0.005, 0);
   CHECK_CLOSE(named(report.damper, "beta").value, -1100, 0.005, 0);
-  CHECK(report.sensors[0].held_back < 7.5e-6);  // the noise that the recording holds is 7.3e-6
+  CHECK(report.sensors[0].held_back < 7.5e-6);  // the noise that the recording holds is 7.4e-6
+
+  // Without the law's name: the rms over the noise grows by less than 1e-6 m does.
+  options.choices = {{.law = {}, .parameter = "c", .fixed = 0.0}};
+  const InPlantReport black = identify_in_plant(duhem_law(), setup, {recording}, options);
+  REQUIRE(black.model);
+  CHECK(black.sensors[0].held_back < 7.5e-6);
 }
