@@ -38,7 +38,7 @@ double multisine(double t) {
   return sum;
 }
 
-PlantRecording recorded(const TrueOscillator& truth, double seconds, double noise) {
+PlantRecording recording_of(const TrueOscillator& truth, double seconds, double noise) {
   constexpr double kStep = 1e-5;
   constexpr int kEvery = 250;  // 400 Hz
   PlantRecording recording{.name = "truth", .sample_time = kStep * kEvery, .channels = {}};
@@ -89,7 +89,7 @@ void check_covers(const FittedParameter& p, double truth) {
 }
 
 const PlantRecording& short_recording() {
-  static const PlantRecording kRecording = recorded({}, 5, 2e-5);
+  static const PlantRecording kRecording = recording_of({}, 5, 2e-5);
   return kRecording;
 }
 
