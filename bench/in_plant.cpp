@@ -161,7 +161,7 @@ void run_benchmark(bool grey, const std::string& path) {
 }
 
 /// A ride of the quarter car with a damper at one voltage.
-constexpr double kRate = 500, kRide = 20;  // Hz, s
+constexpr double kRate = 500, kRide = 10;  // Hz, s
 const std::vector<double> kVoltages = {0, 1, 2};
 
 VehicleWords car_words(double voltage) {

@@ -38,7 +38,7 @@ double multisine(double t) {
   return sum;
 }
 
-PlantRecording recorded(const TrueOscillator& truth, double seconds, double noise) {
+PlantRecording recording_of(const TrueOscillator& truth, double seconds, double noise) {
   constexpr double kStep = 1e-5;
   constexpr int kEvery = 250;  // 400 Hz
   PlantRecording recording{.name = "truth", .sample_time = kStep * kEvery, .channels = {}};
@@ -89,7 +89,7 @@ void check_covers(const FittedParameter& p, double truth) {
 }
 
 const PlantRecording& short_recording() {
-  static const PlantRecording kRecording = recorded({}, 5, 2e-5);
+  static const PlantRecording kRecording = recording_of({}, 5, 2e-5);
   return kRecording;
 }
 
@@ -159,13 +159,6 @@ TEST_CASE("in plant: an acceleration that is late and a displacement, weighed by
   CHECK_CLOSE(named(report.nuisances, "delay of a").value, 0.003, 0.05, 0);
   CHECK_CLOSE(named(report.plant, "mass").value, 2, 0.02, 0);
   CHECK_CLOSE(report.sensors[0].held_back, 2e-5, 0.2, 0);
-}
-
-TEST_CASE("in plant: a hysteresis without a name does as well as the law itself") {
-  const InPlantReport report =
-      identify_in_plant(duhem_law(), oscillator_setup(), {short_recording()}, {.starts = 6});
-  REQUIRE(report.model);
-  CHECK(report.sensors[0].held_back < 3e-5);
 }
 
 TEST_CASE("in plant: what cannot be told apart is named, before and after the fit") {
@@ -297,7 +290,7 @@ TEST_CASE("in plant: a virtual quarter car whose damper is of another structure"
   setup.drive = "suspension_current";
   setup.drive_unit = DriveUnit::Volt;
   setup.skip = 0.2;
-  const InPlantReport report = identify_in_plant(find_law("bouc_wen"), setup, recordings, {});
+  const InPlantReport report = identify_in_plant(find_law("tanh_kwok"), setup, recordings, {});
   REQUIRE(report.model);
   CHECK_CLOSE(named(report.plant, "sprung_mass").value, 387, 0.03, 0);
 
@@ -314,7 +307,7 @@ TEST_CASE("in plant: a virtual quarter car whose damper is of another structure"
     double squares = 0;
     for (std::size_t k = 0; k < f.size(); ++k) squares += (f[k] - g[k]) * (f[k] - g[k]);
     const auto [low, high] = std::ranges::minmax(f);
-    CHECK(std::sqrt(squares / static_cast<double>(f.size())) < 0.05 * (high - low));
+    CHECK(std::sqrt(squares / static_cast<double>(f.size())) < 0.02 * (high - low));
   }
 }
 
@@ -344,5 +337,11 @@ TEST_CASE("in plant: Noel and Schoukens' benchmark, all parameters unknown" *
   CHECK_CLOSE(120 * named(report.damper, "alpha").value, 5e4, 0.002, 0);
   CHECK_CLOSE(named(report.damper, "gamma").value, 800, 0.005, 0);
   CHECK_CLOSE(named(report.damper, "beta").value, -1100, 0.005, 0);
-  CHECK(report.sensors[0].held_back < 7.5e-6);  // the noise that the recording holds is 7.3e-6
+  CHECK(report.sensors[0].held_back < 7.5e-6);  // the noise that the recording holds is 7.4e-6
+
+  // Without the law's name: the rms over the noise grows by less than 1e-6 m does.
+  options.choices = {{.law = {}, .parameter = "c", .fixed = 0.0}};
+  const InPlantReport black = identify_in_plant(duhem_law(), setup, {recording}, options);
+  REQUIRE(black.model);
+  CHECK(black.sensors[0].held_back < 7.5e-6);
 }

@@ -92,10 +92,11 @@ Candidate best_start(const Law& law, const InPlantSetup& setup, const PlantCases
   return left.front();
 }
 
-/// So many steps per sample that an explicit method stays stable with the law as it starts: its
-/// fastest rate times the step below 1.
+/// So many steps per sample that the method, whose limit is 2.78, stays stable with the law as it
+/// starts.
 std::size_t stable_steps(const Law& law, const InPlantSetup& setup, const PlantCases& cases,
                          const PlantStart& start, const InPlantOptions& options) {
+  constexpr double kStable = 2;  // fastest rate times step
   if (!law.rate) return cases.steps;
   const LawUnknowns unknowns(law, start.scale, setup.drive_unit, OffsetMode::Record,
                              options.choices);
@@ -104,19 +105,33 @@ std::size_t stable_steps(const Law& law, const InPlantSetup& setup, const PlantC
   const double rate = law.rate(parameters.data(), start.scale.speed);
   std::size_t steps = cases.steps;
   const double sample_time = cases.all.front().driving.sample_time;
-  while (steps < kMostSteps && rate * sample_time > static_cast<double>(steps)) steps *= 2;
+  while (steps < kMostSteps && rate * sample_time > kStable * static_cast<double>(steps))
+    steps *= 2;
   return steps;
 }
 
-/// Names of plant and law unknowns among these; the rest are states at the beginning and delays.
+/// Names of plant and law unknowns among these, each once. States at the beginning are nuisances
+/// that nobody asked for: they are named beside others only.
 std::vector<std::string> names_of(const PlantResiduals& residuals,
                                   const std::vector<std::size_t>& unknowns) {
   std::vector<std::string> names;
+  bool is_asked_for = false;
   for (const std::size_t u : unknowns) {
     const std::string name = residuals.name(u);
+    is_asked_for |= u < residuals.plant_unknowns() || residuals.is_of_law(u);
     if (std::ranges::find(names, name) == names.end()) names.push_back(name);
   }
-  return names;
+  return is_asked_for ? names : std::vector<std::string>{};
+}
+
+/// The same of each group that has one.
+std::vector<std::vector<std::string>> named_groups(const PlantResiduals& residuals,
+                                                   const Covariance& spread) {
+  std::vector<std::vector<std::string>> groups;
+  for (const auto& group : spread.confounded)
+    if (std::vector<std::string> names = names_of(residuals, group); !names.empty())
+      groups.push_back(std::move(names));
+  return groups;
 }
 
 Knowable knowable_at(const PlantResiduals& residuals, const std::vector<double>& x,
@@ -130,8 +145,7 @@ Knowable knowable_at(const PlantResiduals& residuals, const std::vector<double>&
   const std::vector<double> ones(at.part_matrices.size(), 1.0);
   const Covariance spread = covariance(at.part_matrices, ones, n);
   known.without_effect = names_of(residuals, spread.without_effect);
-  for (const auto& group : spread.confounded)
-    known.confounded.push_back(names_of(residuals, group));
+  known.confounded = named_groups(residuals, spread);
 
   // Singular values of the sensitivities, each column scaled to length 1.
   std::vector<std::size_t> active;
@@ -200,11 +214,10 @@ void add_warnings(const Covariance& spread, const PlantResiduals& residuals,
       if (p.at_bound)
         report.warnings.push_back(p.name + " = " + format_number(p.value) + " " + p.unit +
                                   " stands at a bound of its range");
-  if (!spread.without_effect.empty())
-    report.warnings.push_back(join(names_of(residuals, spread.without_effect), ", ") +
-                              ": no sensor shows an effect");
-  for (const auto& group : spread.confounded)
-    report.warnings.push_back(join(names_of(residuals, group), " and ") +
+  if (const auto names = names_of(residuals, spread.without_effect); !names.empty())
+    report.warnings.push_back(join(names, ", ") + ": no sensor shows an effect");
+  for (const auto& names : named_groups(residuals, spread))
+    report.warnings.push_back(join(names, " and ") +
                               " cannot be told apart by these sensors; --fix one of them");
 }
 
