@@ -1,19 +1,25 @@
 #include <memory>
 
+#include "arguments.h"
 #include "commands.h"
 #include "console.h"
+#include "dashpot/base/escape.h"
 #include "dashpot/base/file.h"
+#include "dashpot/error.h"
+#include "dashpot/record/statement_text.h"
 #include "dashpot/report/inspection.h"
 #include "data.h"
 #include "document_text.h"
 #include "results.h"
+
+namespace fs = std::filesystem;
 
 namespace dashpot::cli {
 namespace {
 
 struct InspectSettings {
   DataSettings data;
-  std::string folder;
+  std::string folder, statement;
 };
 
 constexpr std::string_view kInspectExample =
@@ -23,10 +29,28 @@ constexpr std::string_view kInspectExample =
     "# The same with plots of every record, to look for flaws:\n"
     "dashpot inspect recordings/ --output look\n"
     "\n"
-    "# Something wrong? State it in a dataset file and look again:\n"
-    "dashpot inspect recordings/ --dataset recordings.yaml";
+    "# Something wrong? Have it written down, correct it and look again:\n"
+    "dashpot inspect recordings/ --write-dataset recordings.yaml\n"
+    "dashpot inspect recordings.yaml";
+
+/// What was understood, as a dataset file to be corrected. One that is there holds somebody's work.
+void write_statement(const InspectSettings& settings, const Dataset& dataset, Console& console) {
+  if (settings.data.paths.size() != 1)
+    throw UsageError("--write-dataset", "several folders or files",
+                     "name one; each keeps a dataset file of its own");
+  const fs::path given = settings.data.paths.front(), file = settings.statement;
+  const fs::path folder = fs::is_directory(given) ? given : given.parent_path();
+  const fs::path root = fs::absolute(folder).lexically_normal().lexically_relative(
+      fs::absolute(file).lexically_normal().parent_path());
+  write_file(file, statement_text(dataset, root.empty() ? "." : root.string()));
+  console.print("\nWritten  " + file.string() + "; 'dashpot inspect " +
+                shell_quoted(file.string()) + "' reads the recordings by it\n");
+}
 
 int run_inspect(const InspectSettings& settings, Console& console) {
+  if (!settings.statement.empty() && fs::exists(settings.statement))
+    throw Error(settings.statement, "is there already, and may hold corrections",
+                "write to another name, or remove it first");
   LoadOptions options = settings.data.load;
   options.monitor = console.monitor();
   const Dataset dataset =
@@ -47,6 +71,7 @@ int run_inspect(const InspectSettings& settings, Console& console) {
     console.print("\nPlots  " + page + '\n');
   }
 
+  if (!settings.statement.empty()) write_statement(settings, dataset, console);
   if (console.json) console.print_json(document_json(document));
   return kDone;
 }
@@ -75,6 +100,11 @@ Command inspect_command() {
                              .help = "also write DIR/inspect.html with plots of every record",
                              .value = "DIR",
                              .takes = Takes::Folder});
+  command.options.push_back(
+      {.names = "--write-dataset",
+       .target = &settings->statement,
+       .help = "also write what was understood as a dataset file, to be corrected and used",
+       .value = "FILE"});
   return command;
 }
 

@@ -85,3 +85,21 @@ TEST_CASE("a folder that may not be read is an error, not an empty folder") {
   CHECK(contains(result.output, "closed"));
   std::filesystem::permissions(closed, std::filesystem::perms::owner_all);
 }
+
+TEST_CASE("inspect --write-dataset writes a file that reads the same, and never over another") {
+  const TemporaryFolder folder;
+  const std::string file = (folder.path() / "stated.yaml").string();
+  const std::string data = small_campaign().string();
+  const ProgramResult written = run_dashpot("inspect " + data + " --write-dataset " + file);
+  CAPTURE(written.output);
+  CHECK(written.exit_code == 0);
+  const auto records = [](const std::string& source) {
+    const ProgramResult said = stdout_of_dashpot("inspect " + source + " --json");
+    return format_json(*parse_json(said.output, "inspect").find("records"));
+  };
+  CHECK(records(file) == records(data));
+
+  const ProgramResult again = run_dashpot("inspect " + data + " --write-dataset " + file);
+  CHECK(again.exit_code == 1);
+  CHECK(contains(again.output, "is there already, and may hold corrections"));
+}

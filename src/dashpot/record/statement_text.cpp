@@ -1,0 +1,150 @@
+#include "dashpot/record/statement_text.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "dashpot/base/escape.h"
+#include "dashpot/base/text.h"
+#include "dashpot/base/units.h"
+
+namespace dashpot {
+namespace {
+
+constexpr std::string_view kRow = "(row)";  // the column of a time that is counted
+
+/// The records that came from a file, in their order.
+std::vector<const Record*> records_of(const Dataset& dataset, const std::string& file) {
+  std::vector<const Record*> records;
+  for (const Record& record : dataset.records)
+    if (record.source == file || record.source.starts_with(file + ",")) records.push_back(&record);
+  return records;
+}
+
+/// The name of a column, or its number where the file has no names.
+std::string column_name(const std::string& column) {
+  constexpr std::string_view kUnnamed = "column ";
+  const std::string number =
+      column.starts_with(kUnnamed) ? column.substr(kUnnamed.size()) : std::string();
+  const bool is_number =
+      !number.empty() && number.find_first_not_of("0123456789") == std::string::npos;
+  return is_number ? number : yaml_string(column);
+}
+
+/// "{column: "x", unit: mm, sign: -1}": what makes SI of a column.
+std::string column_text(const ColumnReading& reading) {
+  std::string text = "{column: " + column_name(reading.column);
+  const Unit unit = parse_unit(reading.unit).value_or(Unit{});
+  if (!reading.unit.empty()) text += ", unit: " + yaml_string(reading.unit);
+  const double scale = std::abs(reading.factor) / unit.factor;
+  const double offset = reading.raw_offset + unit.offset / reading.factor;
+  if (scale != 1) text += ", scale: " + format_exact(scale);
+  if (offset != 0) text += ", offset: " + format_exact(offset);
+  if (reading.factor < 0) text += ", sign: -1";
+  // A sign that was found, once stated, is not looked for again.
+  if (reading.factor > 0 && reading.channel == "force") text += ", sign: 1";
+  if (reading.basis.find("mean of the record subtracted") != std::string::npos)
+    text += ", centre: mean";
+  return text + "}";
+}
+
+std::string time_text(const ColumnReading& reading, const std::vector<const Record*>& records) {
+  if (reading.column == kRow)
+    return records.empty() || records.front()->sample_time <= 0
+               ? ""
+               : "    time: {sample_time: " + format_exact(records.front()->sample_time) + "}\n";
+  return "    time: {column: " + column_name(reading.column) +
+         (reading.unit.empty() ? "" : ", unit: " + yaml_string(reading.unit)) + "}\n";
+}
+
+/// The constant drive of each record, where no column tells it.
+std::string level_text(const std::vector<const Record*>& records) {
+  std::vector<std::string> levels;
+  for (const Record* record : records)
+    if (record->drive_level) levels.push_back(format_exact(*record->drive_level));
+  if (levels.size() != records.size() || levels.empty()) return "";
+  const bool alike = std::ranges::count(levels, levels.front()) == std::ssize(levels);
+  return "    level: " + (alike ? levels.front() : "[" + join(levels, ", ") + "]") + "\n";
+}
+
+/// What the records of a file have in common.
+std::string condition_text(const std::vector<const Record*>& records) {
+  const auto alike = [&](auto of) {
+    return std::ranges::all_of(records,
+                               [&](const Record* r) { return of(*r) == of(*records.front()); });
+  };
+  if (records.empty()) return "";
+  std::string text;
+  if (alike([](const Record& r) { return r.condition; }) && !records.front()->condition.empty())
+    text += "    condition: " + yaml_string(records.front()->condition) + "\n";
+  if (alike([](const Record& r) { return r.conditions; }) && !records.front()->conditions.empty()) {
+    std::vector<std::string> numbers;
+    for (const auto& [name, value] : records.front()->conditions)
+      numbers.push_back(yaml_string(name) + ": " + format_exact(value));
+    text += "    conditions: {" + join(numbers, ", ") + "}  # SI\n";
+  }
+  return text;
+}
+
+/// All of an entry behind its files.
+std::string entry_text(const Dataset& dataset, const std::string& file) {
+  const std::vector<const Record*> records = records_of(dataset, file);
+  std::string channels, time, unused;
+  bool has_drive = false;
+  for (const ColumnReading& reading : dataset.readings) {
+    if (reading.file != file) continue;
+    if (reading.channel.empty()) {
+      unused += "      # not used: " + yaml_comment(reading.column + ", " + reading.basis) + "\n";
+    } else if (reading.channel == "time") {
+      time = time_text(reading, records);
+    } else {
+      channels += "      " + yaml_string(reading.channel) + ": " + column_text(reading) + "\n";
+      has_drive = has_drive || reading.channel == "current" || reading.channel == "voltage";
+    }
+  }
+  const bool driven = dataset.drive_unit != DriveUnit::None;
+  return "    channels:\n" + channels + unused + time +
+         (has_drive || !driven ? "" : level_text(records)) + condition_text(records);
+}
+
+/// A pattern that matches this name: what would be a pattern in it may be any one character.
+std::string pattern_of(std::string file) {
+  for (char& c : file)
+    if (c == '*' || c == '[' || c == ']') c = '?';
+  return yaml_string(file);
+}
+
+}  // namespace
+
+std::string statement_text(const Dataset& dataset, const std::string& root) {
+  // The files that gave records, those with equal entries together.
+  std::vector<std::pair<std::string, std::vector<std::string>>> entries;
+  for (const SourceFile& file : dataset.files) {
+    if (records_of(dataset, file.path).empty()) continue;
+    const std::string text = entry_text(dataset, file.path);
+    const auto same =
+        std::ranges::find(entries, text, [](const auto& entry) { return entry.first; });
+    if (same == entries.end())
+      entries.push_back({text, {pattern_of(file.path)}});
+    else
+      same->second.push_back(pattern_of(file.path));
+  }
+
+  std::string out =
+      "# What Dashpot understood of these recordings. Correct it, and read them by it:\n"
+      "#   dashpot inspect THIS-FILE\n"
+      "name: " +
+      yaml_string(dataset.name) + "\n";
+  if (!dataset.citation.empty()) out += "citation: " + yaml_string(dataset.citation) + "\n";
+  out += "root: " + yaml_string(root) + "\n";
+  out += "drive: " + name_of(dataset.drive_unit) + "\n";
+  if (dataset.leave_out)
+    out += "leave_out: " + yaml_string(format_leave_out(*dataset.leave_out)) + "\n";
+  out += "files:\n";
+  for (const auto& [text, files] : entries)
+    out += "  - match: [" + join(files, ", ") + "]\n" + text;
+  return out;
+}
+
+}  // namespace dashpot
