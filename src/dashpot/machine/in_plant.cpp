@@ -326,6 +326,10 @@ InPlantReport identify_in_plant(const Law& law, const InPlantSetup& setup,
   // The whole of each recording in free run, with the end that was held back.
   report.model = std::make_shared<LawModel>(residuals.damper(solved.x));
   residuals.describe(solved.x, report.sensors, report.traces);
+  for (const SensorFigures& figure : report.sensors)
+    if (std::isinf(figure.held_back))
+      report.warnings.push_back(figure.recording + ": the plant diverges on the time held back (" +
+                                figure.channel + ")");
   report.domain = {
       INFINITY, -INFINITY, INFINITY, -INFINITY, start.scale.drive.low, start.scale.drive.high};
   for (const InPlantTrace& trace : report.traces) {

@@ -77,10 +77,11 @@ struct InPlantOptions {
 /// How well a sensor was met, in free run from the first sample on.
 struct SensorFigures {
   std::string recording, channel, unit;
-  double rms = 0;        ///< of what it showed, without its mean
-  double training = 0;   ///< rms error
-  double held_back = 0;  ///< rms error over the time that no setting has seen; NaN: none
-  double offset = 0;     ///< found, and taken off
+  double rms = 0;       ///< of what it showed, without its mean
+  double training = 0;  ///< rms error
+  /// rms error over the time that no setting has seen; NaN: none was; infinite: diverged there.
+  double held_back = 0;
+  double offset = 0;  ///< found, and taken off
 };
 
 /// The sensors over one recording, as measured and in free run.

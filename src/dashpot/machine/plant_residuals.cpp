@@ -489,9 +489,10 @@ void PlantResiduals::describe(std::span<const double> x, std::vector<SensorFigur
       figure.offset = mean_of(fitted);
       figure.rms = rms_about(one.measured[s], mean_of(one.measured[s]));
       figure.training = rms_about(fitted, figure.offset);
-      figure.held_back = one.training < count && finite
-                             ? rms_about(all.subspan(one.training), figure.offset)
-                             : std::numeric_limits<double>::quiet_NaN();
+      figure.held_back = std::numeric_limits<double>::quiet_NaN();
+      if (one.training < count)
+        figure.held_back =
+            finite ? rms_about(all.subspan(one.training), figure.offset) : kUnbounded;
       for (double& value : shown[s]) value += figure.offset;
       figures.push_back(figure);
     }
