@@ -60,7 +60,11 @@ void DesignRun::note_limits() {
       throw Error("the request", join(beyond, "; "),
                   "a place within, or a model that marks what lies outside");
     report_.notes.insert(report_.notes.end(), beyond.begin(), beyond.end());
-    if (const std::vector<std::string> unseen = unseen_fields(problem_, *model); !unseen.empty())
+
+    // What it sees is asked of the model as it is, without what would be refused of it.
+    const std::unique_ptr<DesignModel> plain = make_design_model(
+        model == model_.get() ? report_.options.model : report_.options.second, "model", true);
+    if (const std::vector<std::string> unseen = unseen_fields(problem_, *plain); !unseen.empty())
       report_.notes.push_back(model->name() + " does not see " + join(unseen, ", ") +
                               ": in that its force is of the dampers that it was fitted on");
   }
