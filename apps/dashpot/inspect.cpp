@@ -40,9 +40,7 @@ void write_statement(const InspectSettings& settings, const Dataset& dataset, Co
                      "name one; each keeps a dataset file of its own");
   const fs::path given = settings.data.paths.front(), file = settings.statement;
   const fs::path folder = fs::is_directory(given) ? given : given.parent_path();
-  const fs::path root = fs::absolute(folder).lexically_normal().lexically_relative(
-      fs::absolute(file).lexically_normal().parent_path());
-  write_file(file, statement_text(dataset, root.empty() ? "." : root.string()));
+  write_file(file, statement_text(dataset, folder, file.parent_path()));
   console.print("\nWritten  " + file.string() + "; 'dashpot inspect " +
                 shell_quoted(file.string()) + "' reads the recordings by it\n");
 }

@@ -49,7 +49,8 @@ void check_same(const Dataset& a, const Dataset& b) {
 void check_round_trip(const fs::path& data) {
   const Dataset understood = load_dataset({data});
   const TemporaryFolder folder;
-  const fs::path statement = folder.write("stated.yaml", statement_text(understood, data.string()));
+  const fs::path statement =
+      folder.write("stated.yaml", statement_text(understood, data, folder.path()));
   CAPTURE(dashpot::read_file(statement));
   check_same(understood, load_dataset({statement}));
 }
@@ -65,7 +66,7 @@ TEST_CASE("what was understood, written down, reads the same: units, signs, leve
   check_round_trip(folder.path() / "data");
 
   const Dataset dataset = load_dataset({folder.path() / "data"});
-  const std::string text = statement_text(dataset, "data");
+  const std::string text = statement_text(dataset, folder.path() / "data", folder.path());
   CHECK(contains(text, "displacement: {column: \"Pos [in]\", unit: \"in\"}"));
   CHECK(contains(text, "sign: -1"));
   CHECK(contains(text, "level: 0.5"));
@@ -90,8 +91,7 @@ TEST_CASE("the measured sets, read by what was understood of them, are the same"
     plain.recognise = false;
     const Dataset understood = load_dataset({data}, plain);
     const TemporaryFolder folder;
-    check_same(
-        understood,
-        load_dataset({folder.write("stated.yaml", statement_text(understood, data.string()))}));
+    check_same(understood, load_dataset({folder.write(
+                               "stated.yaml", statement_text(understood, data, folder.path()))}));
   }
 }

@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <utility>
 #include <vector>
 
 #include "dashpot/base/escape.h"
 #include "dashpot/base/text.h"
 #include "dashpot/base/units.h"
+
+namespace fs = std::filesystem;
 
 namespace dashpot {
 namespace {
@@ -91,9 +94,11 @@ std::string condition_text(const std::vector<const Record*>& records) {
 std::string entry_text(const Dataset& dataset, const std::string& file) {
   const std::vector<const Record*> records = records_of(dataset, file);
   std::string channels, time, unused;
+  std::set<std::string> told;  // each test of a file has readings of its own, all alike
   bool has_drive = false;
   for (const ColumnReading& reading : dataset.readings) {
-    if (reading.file != file) continue;
+    if (reading.file != file || !told.insert(reading.column + '\n' + reading.channel).second)
+      continue;
     if (reading.channel.empty()) {
       unused += "      # not used: " + yaml_comment(reading.column + ", " + reading.basis) + "\n";
     } else if (reading.channel == "time") {
@@ -108,16 +113,21 @@ std::string entry_text(const Dataset& dataset, const std::string& file) {
          (has_drive || !driven ? "" : level_text(records)) + condition_text(records);
 }
 
-/// A pattern that matches this name: what would be a pattern in it may be any one character.
-std::string pattern_of(std::string file) {
-  for (char& c : file)
+/// A pattern that matches this file of the folder: what would be a pattern in its name may be any
+/// one character.
+std::string pattern_of(const fs::path& file, const fs::path& folder) {
+  const fs::path below = file.lexically_relative(folder);
+  std::string name = (below.empty() || *below.begin() == ".." ? file : below).string();
+  for (char& c : name)
     if (c == '*' || c == '[' || c == ']') c = '?';
-  return yaml_string(file);
+  return yaml_string(name);
 }
+
+fs::path whole(const fs::path& path) { return fs::absolute(path).lexically_normal(); }
 
 }  // namespace
 
-std::string statement_text(const Dataset& dataset, const std::string& root) {
+std::string statement_text(const Dataset& dataset, const fs::path& folder, const fs::path& beside) {
   // The files that gave records, those with equal entries together.
   std::vector<std::pair<std::string, std::vector<std::string>>> entries;
   for (const SourceFile& file : dataset.files) {
@@ -126,9 +136,9 @@ std::string statement_text(const Dataset& dataset, const std::string& root) {
     const auto same =
         std::ranges::find(entries, text, [](const auto& entry) { return entry.first; });
     if (same == entries.end())
-      entries.push_back({text, {pattern_of(file.path)}});
+      entries.push_back({text, {pattern_of(file.path, folder)}});
     else
-      same->second.push_back(pattern_of(file.path));
+      same->second.push_back(pattern_of(file.path, folder));
   }
 
   std::string out =
@@ -137,7 +147,8 @@ std::string statement_text(const Dataset& dataset, const std::string& root) {
       "name: " +
       yaml_string(dataset.name) + "\n";
   if (!dataset.citation.empty()) out += "citation: " + yaml_string(dataset.citation) + "\n";
-  out += "root: " + yaml_string(root) + "\n";
+  const fs::path root = whole(folder).lexically_relative(whole(beside));
+  out += "root: " + yaml_string(root.empty() ? "." : root.string()) + "\n";
   out += "drive: " + name_of(dataset.drive_unit) + "\n";
   if (dataset.leave_out)
     out += "leave_out: " + yaml_string(format_leave_out(*dataset.leave_out)) + "\n";
