@@ -80,9 +80,8 @@ Command identify_command() {
          {{.names = "--in",
            .target = &settings->plant,
            .help = "the plant in which the damper worked when DATA were recorded, and its sensors: "
-                   "a YAML file, or as oscillator,mass=unknown,stiffness=5e4,force=CHANNEL,"
-                   "displacement=CHANNEL; the laws of --models are identified as part of it, with "
-                   "its unknown numbers (docs/in-plant.md)",
+                   "a YAML file or words (docs/in-plant.md); the laws of --models are identified "
+                   "as part of it, with its unknown numbers",
            .value = "PLANT",
            .takes = Takes::File,
            .default_text = "a bench that measures the damper's force"}});

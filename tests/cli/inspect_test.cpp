@@ -95,7 +95,12 @@ TEST_CASE("inspect --write-dataset writes a file that reads the same, and never 
   CHECK(written.exit_code == 0);
   const auto records = [](const std::string& source) {
     const ProgramResult said = stdout_of_dashpot("inspect " + source + " --json");
-    return format_json(*parse_json(said.output, "inspect").find("records"));
+    const Value value = parse_json(said.output, "inspect");
+    std::string text;
+    for (const Value& record : value.find("records")->items())
+      for (const char* key : {"name", "condition", "drive_level", "samples", "channels"})
+        text += format_json(*record.find(key));
+    return text;
   };
   CHECK(records(file) == records(data));
 

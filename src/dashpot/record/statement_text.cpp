@@ -36,7 +36,7 @@ std::string column_name(const std::string& column) {
 }
 
 /// "{column: "x", unit: mm, sign: -1}": what makes SI of a column.
-std::string column_text(const ColumnReading& reading) {
+std::string column_text(const ColumnReading& reading, const std::vector<const Record*>& records) {
   std::string text = "{column: " + column_name(reading.column);
   const Unit unit = parse_unit(reading.unit).value_or(Unit{});
   if (!reading.unit.empty()) text += ", unit: " + yaml_string(reading.unit);
@@ -44,9 +44,13 @@ std::string column_text(const ColumnReading& reading) {
   const double offset = reading.raw_offset + unit.offset / reading.factor;
   if (scale != 1) text += ", scale: " + format_exact(scale);
   if (offset != 0) text += ", offset: " + format_exact(offset);
-  if (reading.factor < 0) text += ", sign: -1";
+
   // A sign that was found, once stated, is not looked for again.
-  if (reading.factor > 0 && reading.channel == "force") text += ", sign: 1";
+  const Channel* const channel = records.empty() ? nullptr : records[0]->find(reading.channel);
+  if (channel && channel->origin.find("sign flipped") != std::string::npos)
+    text += ", sign: -1";
+  else if (reading.channel == "force")
+    text += ", sign: 1";
   if (reading.basis.find("mean of the record subtracted") != std::string::npos)
     text += ", centre: mean";
   return text + "}";
@@ -104,7 +108,8 @@ std::string entry_text(const Dataset& dataset, const std::string& file) {
     } else if (reading.channel == "time") {
       time = time_text(reading, records);
     } else {
-      channels += "      " + yaml_string(reading.channel) + ": " + column_text(reading) + "\n";
+      channels +=
+          "      " + yaml_string(reading.channel) + ": " + column_text(reading, records) + "\n";
       has_drive = has_drive || reading.channel == "current" || reading.channel == "voltage";
     }
   }
