@@ -107,4 +107,11 @@ TEST_CASE("inspect --write-dataset writes a file that reads the same, and never 
   const ProgramResult again = run_dashpot("inspect " + data + " --write-dataset " + file);
   CHECK(again.exit_code == 1);
   CHECK(contains(again.output, "is there already, and may hold corrections"));
+
+  // A name alone is a file of the folder that one works in.
+  const ProgramResult bare = run_program("cd " + folder.path().string() + " && " + program_path() +
+                                         " inspect " + data + " --write-dataset bare.yaml");
+  CAPTURE(bare.output);
+  CHECK(bare.exit_code == 0);
+  CHECK(records((folder.path() / "bare.yaml").string()) == records(data));
 }

@@ -79,7 +79,7 @@ TEST_CASE(
   CHECK(first.exit_code == 0);
   CHECK(contains(first.output, "holds trainings of an older version of Dashpot"));
   CHECK(read_file(older) == "{\"format\": \"dashpot training 1\"}");
-  for (const char* part : {"384 samples", "Each geometry", "report.html"})
+  for (const char* part : {"16 records", "Each geometry", "report.html"})
     CHECK(contains(first.output, part));
 
   // Of other recordings than the paper's, nothing is said that the paper says of its own.

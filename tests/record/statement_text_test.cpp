@@ -31,6 +31,7 @@ void check_same(const Dataset& a, const Dataset& b) {
   for (std::size_t r = 0; r < a.records.size(); ++r) {
     const Record &one = a.records[r], &other = b.records[r];
     CAPTURE(one.name);
+    CHECK(one.name == other.name);
     CHECK(one.condition == other.condition);
     CHECK(one.drive_level == other.drive_level);
     CHECK(one.conditions == other.conditions);
@@ -67,7 +68,7 @@ TEST_CASE("what was understood, written down, reads the same: units, signs, leve
 
   const Dataset dataset = load_dataset({folder.path() / "data"});
   const std::string text = statement_text(dataset, folder.path() / "data", folder.path());
-  CHECK(contains(text, "displacement: {column: \"Pos [in]\", unit: \"in\"}"));
+  CHECK(contains(text, "\"displacement\": {column: \"Pos [in]\", unit: \"in\"}"));
   CHECK(contains(text, "sign: -1"));
   CHECK(contains(text, "level: 0.5"));
 }

@@ -75,6 +75,27 @@ std::string level_text(const std::vector<const Record*>& records) {
   return "    level: " + (alike ? levels.front() : "[" + join(levels, ", ") + "]") + "\n";
 }
 
+/// The names of a file's records as a template, "15 mm 1 Hz, {level} A", where they are others than
+/// the file gives by itself. `level` tells that the entry states the level of each.
+std::string name_text(const std::vector<const Record*>& records, const std::string& file,
+                      bool level) {
+  if (records.empty() || fs::path(file).filename().string().starts_with(records[0]->name))
+    return "";
+  std::set<std::string> templates;
+  for (const Record* record : records) {
+    std::string name = record->name;
+    if (name.find_first_of("{}") != std::string::npos) return "";
+
+    // Behind the motion stands the level; names that differ in it alone share an entry.
+    const std::string number = level ? format_number(*record->drive_level) : "";
+    const std::size_t at = name.rfind(' ' + number + ' ');
+    if (level && at != std::string::npos) name.replace(at + 1, number.size(), "{level}");
+    templates.insert(name);
+  }
+  if (templates.size() > 1) return "";
+  return "    name: " + yaml_string(*templates.begin()) + "\n";
+}
+
 /// What the records of a file have in common.
 std::string condition_text(const std::vector<const Record*>& records) {
   const auto alike = [&](auto of) {
@@ -114,8 +135,9 @@ std::string entry_text(const Dataset& dataset, const std::string& file) {
     }
   }
   const bool driven = dataset.drive_unit != DriveUnit::None;
-  return "    channels:\n" + channels + unused + time +
-         (has_drive || !driven ? "" : level_text(records)) + condition_text(records);
+  const std::string level = has_drive || !driven ? "" : level_text(records);
+  return "    channels:\n" + channels + unused + time + level +
+         name_text(records, file, !level.empty()) + condition_text(records);
 }
 
 /// A pattern that matches this file of the folder: what would be a pattern in its name may be any
@@ -128,7 +150,10 @@ std::string pattern_of(const fs::path& file, const fs::path& folder) {
   return yaml_string(name);
 }
 
-fs::path whole(const fs::path& path) { return fs::absolute(path).lexically_normal(); }
+/// A folder from the root of the file system; "" is the one that Dashpot runs in.
+fs::path whole(const fs::path& folder) {
+  return fs::absolute(folder.empty() ? "." : folder).lexically_normal();
+}
 
 }  // namespace
 
