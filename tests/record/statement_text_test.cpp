@@ -84,7 +84,7 @@ TEST_CASE("files with several tests and gaps are stated with all their levels") 
 }
 
 TEST_CASE("the measured sets, read by what was understood of them, are the same") {
-  for (const char* set : {"utfpr", "sysidentpy-simulated"}) {
+  for (const char* set : {"utfpr", "utfsm"}) {
     const fs::path data = shared_data(set);
     if (data.empty()) return;
     CAPTURE(set);
