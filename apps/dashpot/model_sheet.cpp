@@ -43,8 +43,8 @@ std::string_view fit_name(Fit fit) {
 
 /// The words that follow the form in a table for people.
 std::string words_of(Fit fit) {
-  constexpr std::string_view kWords[] = {"", ", fixed", ", size of the data", " (the coil current)",
-                                         ", force zero"};
+  constexpr std::string_view kWords[] = {
+      "", ", not falling", ", fixed", ", size of the data", " (the coil current)", ", force zero"};
   return std::string(kWords[static_cast<std::size_t>(fit)]);
 }
 
@@ -61,7 +61,7 @@ ParameterLine parameter_line(const ParamInfo& p) {
 LawModel driven_example(const Law& law) {
   Dependence d;
   for (const ParamInfo& param : law.params) {
-    const bool follows = param.fit == Fit::Free && param.form != Form::Constant;
+    const bool follows = is_estimated(param.fit) && param.form != Form::Constant;
     const double pace = 0.3 + 0.05 * static_cast<double>(d.forms.size());
     d.forms.push_back(follows || param.fit == Fit::Drive ? Form::Linear : Form::Constant);
     d.coefficients.push_back(param.fit == Fit::Drive ? std::vector<double>{0, 1}

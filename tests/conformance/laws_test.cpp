@@ -23,7 +23,8 @@ double anywhere(const ParamInfo& info, Random& random) {
 std::vector<double> near_defaults(const Law& law, Random& random) {
   std::vector<double> p;
   for (const ParamInfo& info : law.params) {
-    const double factor = info.fit != Fit::Free ? 1 : std::pow(3.0, random.uniform(-1, 1));
+    const double factor =
+        info.fit != Fit::Free && info.fit != Fit::Rises ? 1 : std::pow(3.0, random.uniform(-1, 1));
     p.push_back(std::clamp(info.value * factor, info.lower, info.upper));
   }
   return p;

@@ -20,6 +20,7 @@ constexpr std::size_t kMaxStates = 8, kMaxParams = 24;
 /// The role that a parameter has in a fit.
 enum class Fit {
   Free,
+  Rises,  ///< free, but never falls over the drive: beyond the data a fall would end in nothing
   Fixed,  ///< keeps its value unless asked for
   Scale,  ///< not fitted: takes the size of the data (start times their half force span, half
           ///< stroke ...)
@@ -27,7 +28,9 @@ enum class Fit {
   Bias    ///< a constant force: replaced by the record offsets during a fit
 };
 
-constexpr bool is_estimated(Fit fit) { return fit == Fit::Free || fit == Fit::Bias; }
+constexpr bool is_estimated(Fit fit) {
+  return fit == Fit::Free || fit == Fit::Rises || fit == Fit::Bias;
+}
 
 /// One row of a law's parameter table. Bounds hold for the parameter at every current in the
 /// domain.

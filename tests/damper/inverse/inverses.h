@@ -23,7 +23,7 @@ inline dashpot::LawModel driven(const dashpot::Law& law, double lag_rate) {
   Dependence d;
   for (const ParamInfo& info : law.params) {
     const bool drives = info.fit == Fit::Drive;
-    const bool follows = drives || (info.form != Form::Constant && info.fit == Fit::Free);
+    const bool follows = drives || (info.form != Form::Constant && is_estimated(info.fit));
     d.forms.push_back(follows ? Form::Linear : Form::Constant);
 
     if (drives)

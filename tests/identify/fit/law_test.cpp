@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -102,6 +103,42 @@ TEST_CASE("a fit that dissipates as it is keeps its bits") {
   CHECK(restriction_of(fit).empty());
   CHECK(fit.training_rmse == free.training_rmse);
   CHECK(format_json(fit.model->to_json()) == format_json(free.model->to_json()));
+}
+
+TEST_CASE("a damping in series does not fall over the drive, unless the user says so") {
+  // A damper whose series damping does fall: what a law is fitted to may be of any kind.
+  const LawModel published = load_parameters("spencer1997");
+  Dependence parameters = published.parameters();
+  const std::size_t c1 = published.law().index_of("c1");
+  parameters.coefficients[c1] = {40000, -12000};
+  BenchOptions bench;
+  bench.motions = {{0.01, 1}, {0.005, 3}};
+  bench.drive_levels = {0, 1, 2};
+  bench.sample_rate = 200;
+  bench.cycles = 1;
+  const std::vector<Record> records =
+      run_virtual_bench(LawModel(published.law(), parameters, DriveUnit::Volt, 0), DriveUnit::Volt,
+                        bench)
+          .records;
+  const auto form_of_c1 = [&](const FitReport& fit) {
+    return fit.model->law_inside()->parameters().forms[c1];
+  };
+  const auto is_told = [](const FitReport& fit) {
+    return std::ranges::any_of(fit.warnings, [](const std::string& warning) {
+      return contains(warning, "c1 would fall over the drive, and is constant instead");
+    });
+  };
+
+  const FitReport held = identify("modified_bouc_wen", records, DriveUnit::Volt, {});
+  CHECK(form_of_c1(held) == Form::Constant);
+  CHECK(is_told(held));
+  CHECK(held.training_rmse < 50);
+
+  const IdentifyOptions asked{.choices = {{.parameter = "c1", .form = Form::Linear}}};
+  const FitReport linear = identify("modified_bouc_wen", records, DriveUnit::Volt, asked);
+  CHECK(form_of_c1(linear) == Form::Linear);
+  CHECK_FALSE(is_told(linear));
+  CHECK(linear.training_rmse < held.training_rmse);
 }
 
 TEST_CASE("a filter whose rate the user has fixed is left alone") {

@@ -32,7 +32,7 @@ const Law kModifiedBoucWen =
                         {&ModifiedBoucWen::c0, "c0", "N*s/m", 2625, 0, 1e8, 0.3, Form::Linear,
                          "damping at high speed"},
                         {&ModifiedBoucWen::c1, "c1", "N*s/m", 28742.5, 0.1, 1e10, 5, Form::Linear,
-                         "damping in series: the roll-off at low speed"},
+                         "damping in series: the roll-off at low speed", Fit::Rises},
                         {&ModifiedBoucWen::k0, "k0", "N/m", 4690, 0, 1e8, 0.05, Form::Constant,
                          "stiffness at high speed"},
                         {&ModifiedBoucWen::k1, "k1", "N/m", 500, 0, 1e8, 0.02, Form::Constant,

@@ -123,6 +123,44 @@ LeastSquaresReport solve_twice(const LawTask& task, const LeastSquaresProblem& p
              : solve(problem, second.x, solver_options(task.options, kIterations, kTolerance));
 }
 
+/// The parameters that must not fall over the drive (Fit::Rises), and do at the end of this fit.
+std::vector<std::string> falling(const LawTask& task, const LawSolution& fit) {
+  std::vector<std::string> names;
+  const Dependence fitted = fit.unknowns.model(fit.solved.x).parameters();
+  const DriveRange drive = data_scale(task.training, task.drive_unit).drive;
+  for (std::size_t p = 0; p < task.law.params.size(); ++p) {
+    const ParamInfo& row = task.law.params[p];
+    const Fit role = with_choice(row, choice_for(task.options.choices, task.model, row)).fit;
+    if (role == Fit::Rises && fitted.at(p, drive.high) < fitted.at(p, drive.low))
+      names.emplace_back(row.name);
+  }
+  return names;
+}
+
+/// The options with which these parameters are constant.
+IdentifyOptions holding_constant(IdentifyOptions options, std::string_view model,
+                                 const std::vector<std::string>& parameters) {
+  for (const std::string& name : parameters)
+    options.choices.push_back(
+        {.law = std::string(model), .parameter = name, .form = Form::Constant});
+  return options;
+}
+
+/// The fit of a task in which `names` are constant, from the end of `free`, in which they fall. A
+/// damping in series that is all but rigid has hardly any effect, so that the data may have it fall
+/// as they like; where it comes near nothing, beyond the data, it takes the force with it.
+LawSolution held_steady(const LawTask& task, const LawSolution& free,
+                        const std::vector<std::string>& names) {
+  if (names.empty() || status_of(free.solved) == FitReport::Status::Failed) return free;
+  LawSolution steady = solve_all(task, task.unknowns.of(free.unknowns.model(free.solved.x)));
+  steady.steadied =
+      join(names, " and ") + " would fall over the drive, and " +
+      (names.size() == 1 ? "is" : "are") + " constant instead: the training RMSE is " +
+      format_number(steady.noise.rms, 3) + " N in place of " + format_number(free.noise.rms, 3) +
+      " N (--form " + names.front() + "=linear keeps that fit)";
+  return steady;
+}
+
 /// Whether the law's filter may be slowed: it has one, and the user has not set its rate.
 bool may_slow_filter(const LawTask& task, std::string_view model) {
   if (!task.law.fastest_rate) return false;
@@ -152,6 +190,7 @@ LawSolution dissipating(LawTask task, LawSolution active) {
       LawSolution slowed = solve_all(task, best_start(task, {start}));
       if (status_of(slowed.solved) == FitReport::Status::Failed || !verdict(slowed).dissipates())
         continue;
+      slowed.steadied = active.steadied;
       slowed.sides = active.sides;
       slowed.restriction = "its filter is slowed to dissipate: as it fits best, " +
                            activity(before, task.drive_unit) + "; the training RMSE is " +
@@ -236,7 +275,7 @@ LawSolution solve_all(const LawTask& task, std::vector<double> x) {
 
   // The first noise is that at the start, and only priors need it.
   const LawResiduals residuals = task.residuals({});
-  LawSolution end{task.unknowns, {}, {}, {}, {}};
+  LawSolution end{task.unknowns, {}, {}, {}, {}, {}};
   if (!task.unknowns.priors().empty()) end.noise = noise_at(task, residuals, x);
 
   // Fit with the noise assumed, measure it again, and stop once the two agree.
@@ -268,11 +307,17 @@ FitReport::Status status_of(const LeastSquaresReport& solved) {
 LawSolution solve_law(const Law& law, const std::vector<Record>& training, DriveUnit drive_unit,
                       const IdentifyOptions& options, std::string_view model) {
   if (model.empty()) model = law.name;
-  const LawTask alike(law, training, drive_unit, options, model);
-  LawSolution best = solve_all(alike, best_start(alike));
+  const LawTask free(law, training, drive_unit, options, model);
+  LawSolution best = solve_all(free, best_start(free));
+
+  // What must not fall over the drive is constant where it would.
+  const std::vector<std::string> fallen = falling(free, best);
+  const IdentifyOptions steady = holding_constant(options, model, fallen);
+  const LawTask alike(law, training, drive_unit, steady, model);
+  best = held_steady(alike, best, fallen);
 
   // Both sides alike, unless the user wants them apart and the data agree.
-  const LawTask apart(with_side(law), training, drive_unit, options, model);
+  const LawTask apart(with_side(law), training, drive_unit, steady, model);
   const bool differs = take_side_apart(alike, apart, best);
   const LawTask& task = differs ? apart : alike;
   if (options.allow_active || !may_slow_filter(task, model)) return best;
@@ -281,7 +326,7 @@ LawSolution solve_law(const Law& law, const std::vector<Record>& training, Drive
 
 FitReport fit_law(const Law& law, const std::vector<Record>& training, DriveUnit drive_unit,
                   const IdentifyOptions& options) {
-  const auto [unknowns, solved, noise, sides, restriction] =
+  const auto [unknowns, solved, noise, steadied, sides, restriction] =
       solve_law(law, training, drive_unit, options);
   FitReport report;
   report.status = status_of(solved);
@@ -297,7 +342,7 @@ FitReport fit_law(const Law& law, const std::vector<Record>& training, DriveUnit
   const auto coefficients = unknowns.coefficients(solved.x);
   report.parameters = fitted_parameters(coefficients, spread);
   report.warnings = unknowns.warnings();
-  for (const std::string& said : {sides, restriction})
+  for (const std::string& said : {steadied, sides, restriction})
     if (!said.empty()) report.warnings.push_back(said);
   for (std::string& warning : warnings_of(coefficients, spread))
     report.warnings.push_back(std::move(warning));

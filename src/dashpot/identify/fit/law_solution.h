@@ -22,6 +22,7 @@ struct LawSolution {
   LawUnknowns unknowns;
   LeastSquaresReport solved;
   Noise noise;
+  std::string steadied;     ///< what was kept from falling over the drive, and its cost; or empty
   std::string sides;        ///< what taking rebound and compression apart brought; or empty
   std::string restriction;  ///< what keeps it from feeding energy in, and its cost; or empty
 };
