@@ -36,16 +36,28 @@ namespace {
 const std::vector<std::string> kColumns = {"parameter", "unit",         "default",
                                            "bounds",    "over current", "meaning"};
 
-std::string_view fit_name(Fit fit) {
-  constexpr std::string_view kNames[] = {"free", "fixed", "scale", "drive", "bias"};
-  return kNames[static_cast<std::size_t>(fit)];
-}
+/// How a role in the fit is called in JSON, and the words that follow the form in a table for
+/// people.
+struct RoleWords {
+  std::string_view name, words;
+};
 
-/// The words that follow the form in a table for people.
-std::string words_of(Fit fit) {
-  constexpr std::string_view kWords[] = {
-      "", ", not falling", ", fixed", ", size of the data", " (the coil current)", ", force zero"};
-  return std::string(kWords[static_cast<std::size_t>(fit)]);
+RoleWords words_of(Fit fit) {
+  switch (fit) {
+    case Fit::Free:
+      return {"free", ""};
+    case Fit::Rises:
+      return {"rises", ", not falling"};
+    case Fit::Fixed:
+      return {"fixed", ", fixed"};
+    case Fit::Scale:
+      return {"scale", ", size of the data"};
+    case Fit::Drive:
+      return {"drive", " (the coil current)"};
+    case Fit::Bias:
+      return {"bias", ", force zero"};
+  }
+  return {};
 }
 
 ParameterLine parameter_line(const ParamInfo& p) {
@@ -53,7 +65,7 @@ ParameterLine parameter_line(const ParamInfo& p) {
           std::string(p.unit),
           format_number(p.value),
           format_number(p.lower) + " ... " + format_number(p.upper),
-          std::string(name_of(p.form)) + words_of(p.fit),
+          std::string(name_of(p.form)) + std::string(words_of(p.fit).words),
           std::string(p.meaning)};
 }
 
@@ -318,7 +330,7 @@ Value sheet_json(const ModelSheet& sheet) {
                                           {"lower", p.lower},
                                           {"upper", p.upper},
                                           {"form", name_of(p.form)},
-                                          {"fit", fit_name(p.fit)},
+                                          {"fit", words_of(p.fit).name},
                                           {"meaning", p.meaning}}));
 
   return Value::object({{"name", sheet.name},

@@ -349,7 +349,7 @@ std::vector<double> plant_response(const Plant& plant, const DamperModel& damper
                                    std::size_t steps) {
   std::vector<PlantInputPlace> inputs;
   for (const PlantInputChannel& input : setup.inputs) inputs.push_back(input.place);
-  const PlantEquations equations(plant, setup.strut, inputs);
+  const DrivenPlant equations(plant, setup.strut, inputs);
   const PlantCases cases = make_cases(setup, {recording}, steps);
   const PlantDriving& driving = cases.all.front().driving;
 

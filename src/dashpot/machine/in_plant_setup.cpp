@@ -74,7 +74,7 @@ void require_setup(const InPlantSetup& setup) {
   for (const PlantSensor& sensor : setup.sensors)
     if (sensor.place.coordinate >= plant.size())
       throw Error(where + ", " + sensor.channel, "stands on a coordinate that is not there");
-  const PlantEquations equations(plant, setup.strut, inputs);
+  const DrivenPlant equations(plant, setup.strut, inputs);
   if (!(setup.held_back >= 0 && setup.held_back < 0.9))
     throw Error(where + ", held_back", "is " + format_number(setup.held_back),
                 "a share of the time from 0 to below 0.9");

@@ -249,13 +249,13 @@ FittedParameter PlantResiduals::described(std::size_t k, std::span<const double>
   return p;
 }
 
-PlantEquations PlantResiduals::equations(std::span<const double> x) const {
+DrivenPlant PlantResiduals::equations(std::span<const double> x) const {
   NamedValues values = setup_->known;
   for (std::size_t k = 0; k < plant_unknowns(); ++k)
     values.emplace_back(
         setup_->unknown[k].name,
         std::clamp(size_[k] * x[k], setup_->unknown[k].lower, setup_->unknown[k].upper));
-  return PlantEquations(make_plant(*setup_->model, values), setup_->strut, inputs_);
+  return DrivenPlant(make_plant(*setup_->model, values), setup_->strut, inputs_);
 }
 
 std::vector<double> PlantResiduals::first_state(std::span<const double> x, std::size_t place,
@@ -271,7 +271,7 @@ std::vector<double> PlantResiduals::first_state(std::span<const double> x, std::
   return state;
 }
 
-bool PlantResiduals::run(std::span<const double> x, const PlantEquations& plant,
+bool PlantResiduals::run(std::span<const double> x, const DrivenPlant& plant,
                          const LawModel& damper, const PlantCase& one, std::size_t place,
                          std::size_t samples, std::span<const PlantSensorPlace> sensors,
                          Shown& shown) const {
@@ -432,7 +432,7 @@ Covariance PlantResiduals::covariance_at(const LeastSquaresReport& solved) const
 double PlantResiduals::step_error(std::span<const double> x,
                                   const std::vector<PlantRecording>& recordings) const {
   const PlantCases finer = make_cases(*setup_, recordings, 2 * cases_->steps);
-  const PlantEquations plant = equations(x);
+  const DrivenPlant plant = equations(x);
   const LawModel model = damper(x);
   double worst = 0;
   for (std::size_t c = 0; c < finer.all.size(); ++c) {
@@ -465,7 +465,7 @@ void PlantResiduals::describe(std::span<const double> x, std::vector<SensorFigur
        {PlantQuantity::Deflection, PlantQuantity::DeflectionVelocity, PlantQuantity::DamperForce})
     places.push_back({own, 0});
 
-  const PlantEquations plant = equations(x);
+  const DrivenPlant plant = equations(x);
   const LawModel model = damper(x);
   for (std::size_t c = 0; c < cases_->all.size(); ++c) {
     const PlantCase& one = cases_->all[c];

@@ -73,10 +73,10 @@ class PlantResiduals {
 
  private:
   using Shown = std::vector<std::vector<double>>;  ///< per sensor
-  PlantEquations equations(std::span<const double> x) const;
+  DrivenPlant equations(std::span<const double> x) const;
   std::vector<double> first_state(std::span<const double> x, std::size_t place,
                                   std::size_t coordinates, const LawModel& damper) const;
-  bool run(std::span<const double> x, const PlantEquations& plant, const LawModel& damper,
+  bool run(std::span<const double> x, const DrivenPlant& plant, const LawModel& damper,
            const PlantCase& one, std::size_t place, std::size_t samples,
            std::span<const PlantSensorPlace> sensors, Shown& shown) const;
   std::size_t end_of(const PlantCase& one, std::size_t samples) const;

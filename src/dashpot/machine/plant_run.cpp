@@ -30,7 +30,7 @@ void require_linear(const Plant& plant) {
 
 }  // namespace
 
-PlantEquations::PlantEquations(const Plant& plant, std::size_t strut,
+DrivenPlant::DrivenPlant(const Plant& plant, std::size_t strut,
                                std::span<const PlantInputPlace> inputs)
     : size_(plant.size()) {
   require_linear(plant);
@@ -77,7 +77,7 @@ PlantEquations::PlantEquations(const Plant& plant, std::size_t strut,
   }
 }
 
-DamperInput PlantEquations::damper_input(const PlantDriving& driving, std::size_t point,
+DamperInput DrivenPlant::damper_input(const PlantDriving& driving, std::size_t point,
                                          const double* state) const {
   DamperInput at{along(row_, state), along(row_, state + size_), driving.current[point]};
   for (std::size_t u = 0; u < on_ground_.size(); ++u) {
@@ -88,7 +88,7 @@ DamperInput PlantEquations::damper_input(const PlantDriving& driving, std::size_
 }
 
 /// The rates of all states at a point in time; returns the damper's force.
-double PlantEquations::rates(const DamperModel& damper, const PlantDriving& driving,
+double DrivenPlant::rates(const DamperModel& damper, const PlantDriving& driving,
                              std::size_t point, const double* state, double* out) const {
   const std::size_t own = damper.state_size();
   const double force = damper.flow(damper_input(driving, point, state), {state + 2 * size_, own},
@@ -105,7 +105,7 @@ double PlantEquations::rates(const DamperModel& damper, const PlantDriving& driv
   return force;
 }
 
-double PlantEquations::stiffness_along() const {
+double DrivenPlant::stiffness_along() const {
   std::vector<double> pulled(size_);
   for (std::size_t i = 0; i < size_; ++i)
     for (std::size_t k = 0; k < size_; ++k) pulled[i] += stiffness_[i * size_ + k] * by_force_[k];
@@ -113,7 +113,7 @@ double PlantEquations::stiffness_along() const {
   return mass * mass * along(row_, pulled.data());
 }
 
-bool PlantEquations::run(const DamperModel& damper, const PlantDriving& driving,
+bool DrivenPlant::run(const DamperModel& damper, const PlantDriving& driving,
                          std::size_t samples, std::span<const PlantSensorPlace> sensors,
                          std::span<double> state, std::vector<std::vector<double>>& shown) const {
   using States = std::array<double, kMostStates>;

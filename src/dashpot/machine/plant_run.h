@@ -53,12 +53,12 @@ struct PlantDriving {
 };
 
 /// The plant as numbers: q'' = forcing - C q' - K q - row F, all by the inverse of the mass.
-class PlantEquations {
+class DrivenPlant {
  public:
   /// strut: the one with the damper. Throws Error where the plant is not linear (stops, friction, a
   /// tyre that lifts), where its tyres meet the road at different times, and where an input finds
   /// nothing to move.
-  PlantEquations(const Plant& plant, std::size_t strut, std::span<const PlantInputPlace> inputs);
+  DrivenPlant(const Plant& plant, std::size_t strut, std::span<const PlantInputPlace> inputs);
 
   std::size_t size() const { return size_; }
 

@@ -162,7 +162,7 @@ PlantStart plant_start(const InPlantSetup& setup, const std::vector<PlantRecordi
     values.emplace_back(setup.unknown[k].name, start.plant[k]);
   std::vector<PlantInputPlace> inputs;
   for (const PlantInputChannel& input : setup.inputs) inputs.push_back(input.place);
-  const PlantEquations plant(make_plant(*setup.model, values), setup.strut, inputs);
+  const DrivenPlant plant(make_plant(*setup.model, values), setup.strut, inputs);
   const double stiffness = plant.stiffness_along(), mass = plant.mass_along();
   scale.stroke = scale.speed = scale.force = 1;
   const double dashpot = 2 * kDampingRatio * std::sqrt(std::max(stiffness, 1e-3 * mass) * mass);
