@@ -31,7 +31,7 @@ void require_linear(const Plant& plant) {
 }  // namespace
 
 DrivenPlant::DrivenPlant(const Plant& plant, std::size_t strut,
-                               std::span<const PlantInputPlace> inputs)
+                         std::span<const PlantInputPlace> inputs)
     : size_(plant.size()) {
   require_linear(plant);
   if (2 * size_ + 16 > kMostStates)
@@ -78,7 +78,7 @@ DrivenPlant::DrivenPlant(const Plant& plant, std::size_t strut,
 }
 
 DamperInput DrivenPlant::damper_input(const PlantDriving& driving, std::size_t point,
-                                         const double* state) const {
+                                      const double* state) const {
   DamperInput at{along(row_, state), along(row_, state + size_), driving.current[point]};
   for (std::size_t u = 0; u < on_ground_.size(); ++u) {
     at.displacement -= on_ground_[u] * driving.value[u][point];
@@ -88,8 +88,8 @@ DamperInput DrivenPlant::damper_input(const PlantDriving& driving, std::size_t p
 }
 
 /// The rates of all states at a point in time; returns the damper's force.
-double DrivenPlant::rates(const DamperModel& damper, const PlantDriving& driving,
-                             std::size_t point, const double* state, double* out) const {
+double DrivenPlant::rates(const DamperModel& damper, const PlantDriving& driving, std::size_t point,
+                          const double* state, double* out) const {
   const std::size_t own = damper.state_size();
   const double force = damper.flow(damper_input(driving, point, state), {state + 2 * size_, own},
                                    {out + 2 * size_, own});
@@ -113,9 +113,9 @@ double DrivenPlant::stiffness_along() const {
   return mass * mass * along(row_, pulled.data());
 }
 
-bool DrivenPlant::run(const DamperModel& damper, const PlantDriving& driving,
-                         std::size_t samples, std::span<const PlantSensorPlace> sensors,
-                         std::span<double> state, std::vector<std::vector<double>>& shown) const {
+bool DrivenPlant::run(const DamperModel& damper, const PlantDriving& driving, std::size_t samples,
+                      std::span<const PlantSensorPlace> sensors, std::span<double> state,
+                      std::vector<std::vector<double>>& shown) const {
   using States = std::array<double, kMostStates>;
   const std::size_t count = 2 * size_ + damper.state_size();
   const double h = driving.sample_time / static_cast<double>(driving.steps);

@@ -17,18 +17,46 @@ std::size_t width(const std::string& text) {
       std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
 }
 
-std::string align(const std::vector<Row>& rows) {
+std::vector<std::size_t> widths_of(const std::vector<Row>& rows) {
   std::vector<std::size_t> widths;
   for (const Row& row : rows) {
     widths.resize(std::max(widths.size(), row.size()), 0);
     for (std::size_t k = 0; k < row.size(); ++k) widths[k] = std::max(widths[k], width(row[k]));
   }
+  return widths;
+}
+
+std::string align(const std::vector<Row>& rows) {
+  const std::vector<std::size_t> widths = widths_of(rows);
   std::string out;
   for (const Row& row : rows) {
     std::string line = " ";
     for (std::size_t k = 0; k < row.size(); ++k)
       line.append(" ").append(row[k]).append(widths[k] - width(row[k]) + 1, ' ');
     out += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
+  }
+  return out;
+}
+
+/// A table that is too wide for a screen goes on in another below it, with its first column again.
+std::string align_in_parts(const std::vector<Row>& rows) {
+  constexpr std::size_t kScreen = 79, kGap = 2;
+  const std::vector<std::size_t> widths = widths_of(rows);
+  std::string out;
+  for (std::size_t first = 1; first < widths.size();) {
+    // As many columns as have room, at least one.
+    std::size_t end = first, taken = kGap + widths[0];
+    while (end < widths.size() && (end == first || taken + kGap + widths[end] <= kScreen))
+      taken += kGap + widths[end++];
+
+    std::vector<Row> part;
+    for (const Row& row : rows) {
+      part.push_back({row.front()});
+      part.back().insert(part.back().end(), row.begin() + static_cast<std::ptrdiff_t>(first),
+                         row.begin() + static_cast<std::ptrdiff_t>(end));
+    }
+    out += (out.empty() ? "" : "\n") + align(part);
+    first = end;
   }
   return out;
 }
@@ -106,14 +134,19 @@ std::string step(const Record& record) {
 
 std::string record_table(const Dataset& dataset) {
   std::vector<Row> rows{{"record", "condition", "drive", "samples", "step ms", "length s",
-                         "displacement mm", "speed m/s", "force N", "role"}};
-  for (const Record& record : dataset.records)
+                         "displacement mm", "speed m/s", "force N"}};
+  const bool has_roles = std::ranges::any_of(
+      dataset.records, [](const Record& record) { return !role(record).empty(); });
+  if (has_roles) rows.front().push_back("role");
+  for (const Record& record : dataset.records) {
     rows.push_back({record.name, record.condition, drive(record, dataset.drive_unit),
                     std::to_string(record.size()), step(record),
                     format_number(record.time.back() - record.time.front()),
-                    range(record, "displacement", 1e3), fastest(record), range(record, "force", 1),
-                    role(record)});
-  return align(rows);
+                    range(record, "displacement", 1e3), fastest(record),
+                    range(record, "force", 1)});
+    if (has_roles) rows.back().push_back(role(record));
+  }
+  return align_in_parts(rows);
 }
 
 /// A note without its numbers: notes of one pattern are shown once.
