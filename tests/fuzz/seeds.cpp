@@ -12,6 +12,7 @@
 #include "dashpot/model_file.h"
 #include "export/example_models.h"
 #include "fuzz.h"
+#include "record/readers/example_workbook.h"
 
 namespace fs = std::filesystem;
 using dashpot::write_file;
@@ -115,6 +116,14 @@ files:
 notes: a note
 )";
 
+std::string xlsx_rows_seed() {
+  std::string rows;
+  for (int k = 0; k < 6; ++k)
+    rows += row_of({number_cell(std::to_string(0.01 * k)), number_cell(std::to_string(k % 3)),
+                    number_cell(std::to_string(7 * k), k % 4)});
+  return rows + "<row r=\"9\"><c r=\"A9\" t=\"e\"><v>#N/A</v></c></row>";
+}
+
 /// Files that come with Dashpot.
 void data_seeds(const fs::path& folder) {
   struct Kind {
@@ -140,6 +149,8 @@ void write_seeds(const fs::path& folder) {
   mat_seed(folder / "mat/5", MAT_FT_MAT5, MAT_COMPRESSION_NONE);
   mat_seed(folder / "mat/5z", MAT_FT_MAT5, MAT_COMPRESSION_ZLIB);
   mat_seed(folder / "mat/73", MAT_FT_MAT73, MAT_COMPRESSION_NONE);
+  write_file(folder / "xlsx/run", example_recording_workbook());
+  write_file(folder / "xlsx_sheet/rows", xlsx_rows_seed());
   write_file(folder / "daq_text/log", daq_seed());
   write_file(folder / "family_json/pair", kFamily);
   write_file(folder / "dataset_yaml/all", kDataset);

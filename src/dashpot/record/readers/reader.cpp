@@ -7,6 +7,7 @@
 #include "dashpot/record/readers/family_json.h"
 #include "dashpot/record/readers/line_source.h"
 #include "dashpot/record/readers/mat.h"
+#include "dashpot/record/readers/xlsx.h"
 
 namespace fs = std::filesystem;
 
@@ -16,6 +17,7 @@ namespace {
 // The most telling content first: CSV takes any text that is left.
 constexpr Reader kReaders[] = {
     {"MAT", ".mat", is_mat, read_mat},
+    {"XLSX", ".xlsx .xlsm", is_xlsx, read_xlsx},
     {"family JSON", ".json with its inp_*.json", is_family_json, read_family_json},
     {"DAQ text log", ".txt", is_daq_text, read_daq_text},
     {"CSV", ".csv .txt .tsv .dat .asc", is_csv, read_csv},
@@ -51,7 +53,7 @@ std::string known_formats() {
   std::vector<std::string> formats;
   for (const Reader& reader : kReaders)
     formats.push_back(std::string(reader.name) + " (" + std::string(reader.extensions) + ")");
-  return join(formats, ", ") + ", each also as .gz except MAT";
+  return join(formats, ", ") + ", those of text also as .gz";
 }
 
 }  // namespace dashpot
