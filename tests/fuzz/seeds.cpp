@@ -12,6 +12,7 @@
 #include "dashpot/model_file.h"
 #include "export/example_models.h"
 #include "fuzz.h"
+#include "record/readers/example_mdf4.h"
 #include "record/readers/example_workbook.h"
 
 namespace fs = std::filesystem;
@@ -149,6 +150,8 @@ void write_seeds(const fs::path& folder) {
   mat_seed(folder / "mat/5", MAT_FT_MAT5, MAT_COMPRESSION_NONE);
   mat_seed(folder / "mat/5z", MAT_FT_MAT5, MAT_COMPRESSION_ZLIB);
   mat_seed(folder / "mat/73", MAT_FT_MAT73, MAT_COMPRESSION_NONE);
+  for (const int way : {0, 1, 2, 3})
+    write_file(folder / "mdf4" / std::to_string(way), example_mdf4(way));
   write_file(folder / "xlsx/run", example_recording_workbook());
   write_file(folder / "xlsx_sheet/rows", xlsx_rows_seed());
   write_file(folder / "daq_text/log", daq_seed());

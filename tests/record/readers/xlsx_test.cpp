@@ -14,14 +14,14 @@ using namespace dashpot;
 
 namespace {
 
-std::vector<RawTable> read_bytes(const std::string& bytes) {
+std::vector<RawTable> read_workbook_bytes(const std::string& bytes) {
   const TemporaryFolder folder;
   return read_tables(folder.write("run.xlsx", bytes));
 }
 
 RawTable read_rows(const std::string& rows, const std::string& strings = "",
                    const std::string& properties = "<workbookPr/>") {
-  return read_bytes(example_workbook({{"run", rows, ""}}, strings, properties)).front();
+  return read_workbook_bytes(example_workbook({{"run", rows, ""}}, strings, properties)).front();
 }
 
 /// The error that a workbook of one sheet is refused with.
@@ -39,7 +39,7 @@ const std::string kNames = row_of({text_cell("t"), text_cell("x"), text_cell("F"
 }  // namespace
 
 TEST_CASE("XLSX: names, units, numbers to the last bit, and what stands beside the table") {
-  const auto tables = read_bytes(example_recording_workbook());
+  const auto tables = read_workbook_bytes(example_recording_workbook());
   REQUIRE(tables.size() == 1);
   const RawTable& table = tables.front();
   REQUIRE(table.columns.size() == 4);
@@ -140,10 +140,10 @@ TEST_CASE("XLSX: what is damaged or no recording is refused with place and reaso
         std::string::npos);
 
   // Entities that refer to each other.
-  CHECK_THROWS_WITH_AS(read_bytes(zip_archive({{"xl/workbook.xml", "<workbook/>"}}, 0)),
+  CHECK_THROWS_WITH_AS(read_workbook_bytes(zip_archive({{"xl/workbook.xml", "<workbook/>"}}, 0)),
                        doctest::Contains("no sheet holds numbers"), Error);
   CHECK_THROWS_WITH_AS(
-      read_bytes(zip_archive(
+      read_workbook_bytes(zip_archive(
           {{"xl/workbook.xml",
             "<workbook xmlns:r=\"r\"><sheets><sheet name=\"a\" r:id=\"1\"/></sheets></workbook>"},
            {"xl/_rels/workbook.xml.rels",
@@ -151,14 +151,14 @@ TEST_CASE("XLSX: what is damaged or no recording is refused with place and reaso
            {"xl/a.xml", "<!DOCTYPE a [<!ENTITY b \"&b;\">]><a>&b;</a>"}},
           0)),
       doctest::Contains("declares a document type"), Error);
-  CHECK_THROWS_WITH_AS(read_bytes(zip_archive({{"word/document.xml", "<a/>"}}, 0)),
+  CHECK_THROWS_WITH_AS(read_workbook_bytes(zip_archive({{"word/document.xml", "<a/>"}}, 0)),
                        doctest::Contains("it is no workbook"), Error);
 }
 
 TEST_CASE("XLSX: cut off, with lying sizes, and as a bomb") {
   const std::string whole = example_recording_workbook();
   for (std::size_t size = 5; size < whole.size(); size += 97)
-    CHECK_THROWS_AS(read_bytes(whole.substr(0, size)), Error);
+    CHECK_THROWS_AS(read_workbook_bytes(whole.substr(0, size)), Error);
 
   // A hundred and fifty megabytes of rows in less than one.
   std::string rows = kNames;
@@ -176,7 +176,7 @@ TEST_CASE("XLSX: flipped bytes are read or refused, and nothing else") {
       bytes[static_cast<std::size_t>(random.uniform() * double(bytes.size()))] ^=
           static_cast<char>(1 << int(8 * random.uniform()));
     try {
-      read_bytes(bytes);
+      read_workbook_bytes(bytes);
     } catch (const Error&) {
     }
   }

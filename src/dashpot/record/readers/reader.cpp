@@ -7,6 +7,8 @@
 #include "dashpot/record/readers/family_json.h"
 #include "dashpot/record/readers/line_source.h"
 #include "dashpot/record/readers/mat.h"
+#include "dashpot/record/readers/mdf4.h"
+#include "dashpot/record/readers/tdms.h"
 #include "dashpot/record/readers/xlsx.h"
 
 namespace fs = std::filesystem;
@@ -17,6 +19,8 @@ namespace {
 // The most telling content first: CSV takes any text that is left.
 constexpr Reader kReaders[] = {
     {"MAT", ".mat", is_mat, read_mat},
+    {"MDF 4", ".mf4 .mdf", is_mdf4, read_mdf4},
+    {"TDMS", ".tdms", is_tdms, read_tdms},
     {"XLSX", ".xlsx .xlsm", is_xlsx, read_xlsx},
     {"family JSON", ".json with its inp_*.json", is_family_json, read_family_json},
     {"DAQ text log", ".txt", is_daq_text, read_daq_text},
