@@ -13,6 +13,7 @@
 #include "export/example_models.h"
 #include "fuzz.h"
 #include "record/readers/example_mdf4.h"
+#include "record/readers/example_tdms.h"
 #include "record/readers/example_workbook.h"
 
 namespace fs = std::filesystem;
@@ -152,6 +153,9 @@ void write_seeds(const fs::path& folder) {
   mat_seed(folder / "mat/73", MAT_FT_MAT73, MAT_COMPRESSION_NONE);
   for (const int way : {0, 1, 2, 3})
     write_file(folder / "mdf4" / std::to_string(way), example_mdf4(way));
+  write_file(folder / "tdms/chunks", example_tdms(false, false));
+  write_file(folder / "tdms/rows", example_tdms(true, true));
+  write_file(folder / "tdms/daqmx", example_tdms_daqmx());
   write_file(folder / "xlsx/run", example_recording_workbook());
   write_file(folder / "xlsx_sheet/rows", xlsx_rows_seed());
   write_file(folder / "daq_text/log", daq_seed());

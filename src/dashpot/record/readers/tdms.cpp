@@ -314,6 +314,9 @@ RawTable table_of_group(std::vector<Channel> channels, const TdmsProperties& gro
     } else if (used.size() == kMostTableColumns) {
       pass_over(channel, "more than " + std::to_string(kMostTableColumns) + " are no recording");
     } else {
+      if (channel.object->is_daqmx && scale.empty())
+        table.notes.push_back("channel '" + channel.name +
+                              "': counts of a converter as they are, since no scale is stated");
       table.columns.push_back(finished_column(channel, scale, length));
       used.push_back(channel);
     }

@@ -16,6 +16,7 @@ class TdmsScale {
 
   /// Why it cannot be applied: a kind that is not read. "" when it can.
   const std::string& unread() const { return unread_; }
+  bool empty() const { return steps_.empty(); }
   double operator()(double raw) const;
 
  private:
