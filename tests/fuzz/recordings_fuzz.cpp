@@ -80,6 +80,7 @@ const FuzzTarget targets[] = {
      [](const std::string& input) { load_fuzzed(fuzz_file("run_10mm_1Hz_0.5A.csv", input)); }},
     {"mat", [](const std::string& input) { load_fuzzed(fuzz_file("run_0.5A.mat", input)); }},
     {"mdf4", [](const std::string& input) { load_fuzzed(fuzz_file("run_0.5A.mf4", input)); }},
+    {"hdf5", [](const std::string& input) { load_fuzzed(fuzz_file("run_0.5A.h5", input)); }},
     {"tdms", [](const std::string& input) { load_fuzzed(fuzz_file("run_0.5A.tdms", input)); }},
     {"xlsx", [](const std::string& input) { load_fuzzed(fuzz_file("run_0.5A.xlsx", input)); }},
     {"xlsx_sheet", xlsx_sheet},

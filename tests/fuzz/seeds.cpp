@@ -12,6 +12,7 @@
 #include "dashpot/model_file.h"
 #include "export/example_models.h"
 #include "fuzz.h"
+#include "record/readers/example_hdf5.h"
 #include "record/readers/example_mdf4.h"
 #include "record/readers/example_tdms.h"
 #include "record/readers/example_workbook.h"
@@ -153,6 +154,8 @@ void write_seeds(const fs::path& folder) {
   mat_seed(folder / "mat/73", MAT_FT_MAT73, MAT_COMPRESSION_NONE);
   for (const int way : {0, 1, 2, 3})
     write_file(folder / "mdf4" / std::to_string(way), example_mdf4(way));
+  fs::create_directories(folder / "hdf5");
+  write_example_hdf5(folder / "hdf5/groups", {"a", "b"});
   write_file(folder / "tdms/chunks", example_tdms(false, false));
   write_file(folder / "tdms/rows", example_tdms(true, true));
   write_file(folder / "tdms/daqmx", example_tdms_daqmx());

@@ -195,9 +195,8 @@ class Loader {
   bool load_table(const SourcePath& file, const FileStatement& statement, RawTable table,
                   std::size_t parts, const std::string& stretch) {
     const std::string stem = without_gz(fs::path(file.relative)).replace_extension().string();
-    const bool is_sheet_of_many = parts > 1 && !table.sheet.empty();
-    const NameParts name =
-        is_sheet_of_many ? split_sheet_name(stem, table.sheet) : split_name(stem);
+    const bool has_name = parts > 1 && !table.part_name.empty();
+    const NameParts name = has_name ? split_part_name(stem, table.part_name) : split_name(stem);
 
     // The drive level as the statement, the manifest or the name has it.
     BuildContext context{&statement,
@@ -208,7 +207,7 @@ class Loader {
 
     // Name and condition, from templates where the dataset file gives them.
     const std::string part = std::to_string(table.part_index + 1), group = table.group;
-    const std::string part_name = is_sheet_of_many ? table.sheet : "part " + part;
+    const std::string part_name = has_name ? table.part_name : "part " + part;
     const auto words = template_words(file, stem, part, group, context.level);
     context.name = !group.empty() ? table.part : parts > 1 ? stem + ", " + part_name : stem;
     if (!statement.name.empty())

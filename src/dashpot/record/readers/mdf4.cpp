@@ -284,7 +284,8 @@ std::vector<RawTable> read_mdf4(const fs::path& path) {
     for (Group& group : data.groups)
       if (!group.channels.empty() && group.table.rows() > 0) {
         group.table.part_index = tables.size();
-        if (!group.name.empty()) group.table.part = group.name;
+        if (!group.name.empty()) group.table.part = "group '" + group.name + "'";
+        group.table.part_name = group.name;
         tables.push_back(std::move(group.table));
       }
   }

@@ -5,6 +5,7 @@
 #include "dashpot/record/readers/csv.h"
 #include "dashpot/record/readers/daq_text.h"
 #include "dashpot/record/readers/family_json.h"
+#include "dashpot/record/readers/hdf5.h"
 #include "dashpot/record/readers/line_source.h"
 #include "dashpot/record/readers/mat.h"
 #include "dashpot/record/readers/mdf4.h"
@@ -19,6 +20,7 @@ namespace {
 // The most telling content first: CSV takes any text that is left.
 constexpr Reader kReaders[] = {
     {"MAT", ".mat", is_mat, read_mat},
+    {"HDF5", ".h5 .hdf5", is_hdf5, read_hdf5},
     {"MDF 4", ".mf4 .mdf", is_mdf4, read_mdf4},
     {"TDMS", ".tdms", is_tdms, read_tdms},
     {"XLSX", ".xlsx .xlsm", is_xlsx, read_xlsx},

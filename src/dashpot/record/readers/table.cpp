@@ -11,13 +11,10 @@ bool RawTable::named() const {
                      [](const RawColumn& c) { return !c.name.empty(); });
 }
 
-std::string RawTable::place() const {
-  if (!sheet.empty()) return file + ", sheet '" + sheet + "'";
-  return part.empty() ? file : file + ", " + part;
-}
+std::string RawTable::place() const { return part.empty() ? file : file + ", " + part; }
 
 std::string RawTable::at_line(std::size_t line) const {
-  return (sheet.empty() ? file : place()) + ":" + std::to_string(line);
+  return (part_name.empty() ? file : place()) + ":" + std::to_string(line);
 }
 
 std::string RawTable::where(std::size_t row) const {

@@ -38,7 +38,7 @@ struct RawTable {
   std::string file;
   std::string part;            ///< "" or what of the file this is: "part 2, rows 9301-17600"
   std::size_t part_index = 0;  ///< counts the parts of one group from 0
-  std::string sheet;           ///< "" or the sheet of a workbook, which counts its own lines
+  std::string part_name;       ///< "" or what the file itself calls the part: a sheet, a group
   std::string group;           ///< "" or what the parts of one group share: a damper's key
   std::vector<RawColumn> columns;
   std::vector<std::pair<std::string, double>> scalars;  ///< single numbers beside the columns: Ts

@@ -374,7 +374,8 @@ std::vector<RawTable> read_tdms(const fs::path& path) {
       notes.insert(notes.end(), table.notes.begin(), table.notes.end());
       continue;
     }
-    table.part = group.name;
+    table.part = "group '" + group.name + "'";
+    table.part_name = group.name;
     table.part_index = tables.size();
     tables.push_back(std::move(table));
   }

@@ -164,7 +164,7 @@ void pass_over_short(std::vector<RawTable>& tables, std::vector<std::string>& no
   std::erase_if(tables, [&](const RawTable& table) {
     const bool is_short = 10 * table.rows() < longest;
     if (is_short)
-      notes.push_back("sheet '" + table.sheet + "' passed over: its rows of numbers are " +
+      notes.push_back(table.part + " passed over: its rows of numbers are " +
                       std::to_string(table.rows()) + ", another's " + std::to_string(longest));
     return is_short;
   });
@@ -188,7 +188,8 @@ std::vector<RawTable> read_xlsx(const fs::path& path) {
   for (const Sheet& sheet : workbook.sheets) {
     RawTable table;
     table.file = file;
-    table.sheet = sheet.name;
+    table.part_name = sheet.name;
+    table.part = "sheet '" + sheet.name + "'";
     try {
       SheetLines lines(parts.open(sheet.part), table.place(), workbook.words);
       read_lines(lines, '\t', table);
