@@ -176,6 +176,21 @@ void Project::take_in(const fs::path& incoming, const std::string& name) {
   }
 }
 
+Value Project::costs() {
+  const std::lock_guard lock(mutex_);
+  const std::string now = fingerprint();
+  if (now == fingerprint_of_costs_) return known_costs_;
+  const ChildEnd end =
+      run_self({"rank", folder_.string(), "--models", "all", "--costs", "--json", "--quiet"}, folder_,
+               kReading);
+  Value list = Value::array();
+  if (!end.out.empty())
+    if (const Value* costs = parse_json(end.out, "dashpot rank").find("costs")) list = *costs;
+  known_costs_ = list;
+  fingerprint_of_costs_ = now;
+  return list;
+}
+
 std::vector<std::string> Project::models() const {
   std::vector<std::string> found;
   std::error_code error;

@@ -46,6 +46,10 @@ class Project {
   /// --traces raw` wrote. `model`: "fits/NAME/models/x.json". Throws Error where it cannot be run.
   std::filesystem::path traces(const std::string& model);
 
+  /// What `dashpot rank --costs` estimates of every model on these recordings: a list of {"model",
+  /// "seconds"}, empty where there are none.
+  Value costs();
+
   /// The model files of all fits, as paths from the folder.
   std::vector<std::string> models() const;
 
@@ -59,7 +63,8 @@ class Project {
   int lock_ = -1;
   std::mutex mutex_;  ///< of what follows, and of the children that read
   std::string known_fingerprint_;
-  Value known_;
+  Value known_, known_costs_;
+  std::string fingerprint_of_costs_;
 };
 
 /// A name of a fit or a part of a file's name: letters, digits and what people write between them;

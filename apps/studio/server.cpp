@@ -273,6 +273,9 @@ class Studio {
     server.Get("/api/fits", [this](const Request&, Response& response) {
       answer(response, Value::object({{"fits", jobs_.list()}}));
     });
+    server.Get("/api/costs", [this](const Request&, Response& response) {
+      answer(response, Value::object({{"costs", project_.costs()}}));
+    });
     server.Get("/api/models", [](const Request&, Response& response) {
       Value list = Value::array();
       for (const std::string& name : model_names()) {

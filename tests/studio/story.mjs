@@ -196,6 +196,10 @@ try {
   await small_and_dark(await restart(page));
   assert.deepEqual(problems, []);
   console.log("the story was played");
+} catch (error) {
+  for (const page of context.pages()) console.log((await page.locator("body").innerText().catch(() => "")).slice(-600));
+  console.log(problems.join("\n"));
+  throw error;
 } finally {
   await context.close();
   await studio.end();

@@ -3,6 +3,7 @@ import {html, useEffect, useState} from "/htm.mjs";
 import {ask} from "/ask.js";
 import {Command} from "/command.js";
 import {Plot} from "/plot.js";
+import {plain} from "/recordings.js";
 
 const kViews = {
   time: ["time", "modelled", "Force in time", "Time (s)", "Force (N)"],
@@ -51,13 +52,13 @@ export function Compare({known, version, theme}) {
       ${fitted.length === 0 ? html`<p class="note">Fitted models come here.</p>` : html`<fieldset class="checks"><legend class="hidden">Models to compare</legend>
         ${fitted.map((model) => html`<label key=${model}><input type="checkbox" checked=${models.includes(model)} onChange=${turn(model)} /><span>${short(model)}</span></label>`)}</fieldset>`}
       <label class="field">Record<select value=${place} onChange=${(event) => { set_at(+event.target.value); set_window(undefined); }}>
-        ${records.map((r, k) => html`<option value=${k}>${r.name}</option>`)}</select></label>
+        ${records.map((r, k) => html`<option value=${k}>${plain(r.name)}</option>`)}</select></label>
       <label class="field">The same plot for all records of this motion<select value=${all_of} onChange=${(event) => set_all_of(event.target.value)}>
         <option value="">off</option>${Object.entries(kViews).map(([key, view]) => html`<option value=${key}>${view[2]}</option>`)}</select></label>
     </div>
     <div class="work">
       ${models.length === 0 || !record ? html`<p class="empty">Choose models to see them over a record.</p>` : html`
-        <div class="row"><h2>${record.name}</h2>${window && html`<button class="plain" onClick=${() => zoom()}>Show all</button>`}</div>
+        <div class="row"><h2>${plain(record.name)}</h2>${window && html`<button class="plain" onClick=${() => zoom()}>Show all</button>`}</div>
         ${error && html`<p class="error" role="alert">${error}</p>`}
         <div class="plots">
           <${Overlay} ...${common} view="time" window=${window} on_zoom=${zoom} height=${260} keep="force-in-time" wide=${true} />
@@ -66,7 +67,7 @@ export function Compare({known, version, theme}) {
           <${Overlay} ...${common} view="residual" window=${window} on_zoom=${zoom} height=${200} keep="residual" wide=${true} />
         </div>
         ${all_of && html`<h2>${kViews[all_of][2]}: all records of ${record.condition || "this motion"}</h2><div class="plots">${of_motion.map(([r, k]) =>
-          html`<${Overlay} key=${r.name} ...${common} at=${k} view=${all_of} title=${r.name} height=${230} keep=${`${all_of}-${k + 1}`} />`)}</div>`}
+          html`<${Overlay} key=${r.name} ...${common} at=${k} view=${all_of} title=${plain(r.name)} height=${230} keep=${`${all_of}-${k + 1}`} />`)}</div>`}
         <h3>The forces in these figures</h3>
         ${models.map((model) => html`<${Command} words=${["evaluate", `${known.folder}/${model}`, known.folder, "--traces", "csv", "--output", "traces"]} />`)}`}
     </div>

@@ -7,20 +7,27 @@ import {Plot} from "/plot.js";
 const kStates = {running: "running", stopped: "stopped; its finished fits are kept", done: "done", failed: "failed"};
 const kUsualColumns = ["model", "rmse_N", "esr_percent", "nrmse_percent", "worst_esr_percent", "parameters", "dissipates"];
 
-// The training error of every fit over its steps, as a share of where it began.
+// The training error of every fit over time. A fit searches several times, with other weights: each search falls from
+// its own 100 %, and the line breaks between them.
 function curves_of(steps) {
   const fits = new Map();
   for (const [what, seconds, cost] of steps) {
-    if (!fits.has(what)) fits.set(what, {x: [], y: [], first: cost});
+    if (!fits.has(what)) fits.set(what, {x: [], y: [], first: cost, last: Infinity});
     const fit = fits.get(what);
+    if (cost > fit.last) {
+      fit.x.push(seconds);
+      fit.y.push(null);
+      fit.first = cost;
+    }
+    fit.last = cost;
     fit.x.push(seconds);
     fit.y.push(100 * Math.sqrt(cost / (fit.first || 1)));
   }
   const models = [...new Set([...fits.keys()].map((what) => what.split(",")[0]))];
+  const is_first = (what) => [...fits.keys()].find((other) => other.split(",")[0] === what.split(",")[0]) === what;
   return [...fits].map(([what, fit]) => {
-    const model = what.split(",")[0], at = models.indexOf(model);
-    const is_first = [...fits.keys()].find((w) => w.split(",")[0] === model) === what;
-    return {label: is_first ? model : "", colour: at + 1, x: fit.x, y: fit.y};
+    const model = what.split(",")[0];
+    return {label: is_first(what) ? model : "", colour: models.indexOf(model) + 1, x: fit.x, y: fit.y};
   });
 }
 
@@ -47,7 +54,7 @@ function Fit({fit, theme, act}) {
     </header>
     ${fit.state === "running" && html`<progress max="1" value=${fit.fraction} aria-label="Progress of ${fit.name}"></progress>`}
     ${fit.message && html`<p class="error">${fit.message}</p>`}
-    ${curves.length > 0 && fit.state !== "done" && html`<${Plot} title="Error of each fit as it falls" x_label="Time (s)" y_label="Error (% of the start)" is_log=${true} series=${curves} theme=${theme} height=${200} />`}
+    ${curves.length > 0 && fit.state !== "done" && html`<${Plot} title="Error of each fit as it falls" x_label="Time (s)" y_label="Error (% of the search's start)" is_log=${true} series=${curves} theme=${theme} height=${200} />`}
     ${fit.leaderboard && fit.state === "done" && html`<${Leaderboard} table=${fit.leaderboard} name=${fit.name} />`}
     ${fit.models.length > 0 && html`<${Command} words=${fit.arguments} />`}
   </section>`;
@@ -57,6 +64,11 @@ export function Fits({known, fits, theme, on_changed}) {
   const [models, set_models] = useState([]), [chosen, set_chosen] = useState(new Set(["bingham", "tanh_kwok"]));
   const [name, set_name] = useState(""), [leave_out, set_leave_out] = useState(""), [error, set_error] = useState("");
   useEffect(() => { ask("/api/models").then((got) => set_models(got.models)); }, []);
+  // What the fits of each model take, as the command line estimates it for these recordings.
+  const [costs, set_costs] = useState(new Map());
+  useEffect(() => { ask("/api/costs").then((got) => set_costs(new Map(got.costs.map((c) => [c.model, c.seconds])))).catch(() => {}); }, [known]);
+  const cost_text = (seconds) => seconds === undefined ? "" : seconds < 90 ? `${Math.max(1, Math.round(seconds))} s` : `${Math.round(seconds / 60)} min`;
+  const total = [...chosen].reduce((sum, model) => sum + (costs.get(model) ?? 0), 0);
   const free_name = () => {
     for (let k = 1; ; ++k) if (!fits.some((fit) => fit.name === `fit-${k}`)) return `fit-${k}`;
   };
@@ -80,12 +92,13 @@ export function Fits({known, fits, theme, on_changed}) {
     <form class="side" onSubmit=${start}>
       <h2>New fit</h2>
       <fieldset class="checks"><legend class="hidden">Models</legend>${models.map((model) => html`<label key=${model.name}>
-        <input type="checkbox" value=${model.name} checked=${chosen.has(model.name)} onChange=${turn(model.name)} /><span>${model.title}</span><small>${model.cost}</small></label>`)}</fieldset>
+        <input type="checkbox" value=${model.name} checked=${chosen.has(model.name)} onChange=${turn(model.name)} /><span>${model.title}</span><small>${cost_text(costs.get(model.name))}</small></label>`)}</fieldset>
       <label class="field">Left out to judge them<select value=${leave_out} onChange=${(event) => set_leave_out(event.target.value)}>
         <option value="">as the recordings allow</option><option value="condition">each motion in turn</option><option value="current">each current in turn</option>
         <option value="record">each record in turn</option><option value="blocks=5">five blocks of time</option><option value="fraction=0.3">the last 30 % of each record</option></select></label>
       <label class="field">Name<input value=${name} placeholder=${free_name()} onInput=${(event) => set_name(event.target.value)} /></label>
       <button class="strong" disabled=${chosen.size === 0 || count === 0}>Fit ${chosen.size} ${chosen.size === 1 ? "model" : "models"} to ${count} records</button>
+      ${total > 0 && html`<p class="note">About ${cost_text(total)} of CPU time, estimated; within a factor of two.</p>`}
       ${error && html`<p class="error" role="alert">${error}</p>`}
     </form>
     <div class="work"><h2>Fits</h2>

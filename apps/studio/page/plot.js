@@ -55,7 +55,7 @@ function options_of({series, x_label, y_label, is_log}, width, height, on_zoom) 
   return {
     mode: 2, width, height, legend: {show: false},
     cursor: {drag: {x: true, y: false, setScale: false}, points: {show: false}, focus: {prox: -1}},
-    scales: {x: {time: false, auto: false, range: (u) => u.wanted_x}, y: {auto: false, range: (u) => u.wanted_y, distr: is_log ? 3 : 1}},
+    scales: {x: {time: false, auto: false, range: (_, low, high) => [low, high]}, y: {auto: false, range: (_, low, high) => [low, high], distr: is_log ? 3 : 1}},
     axes: [{...axis(x_label), size: 26}, {...axis(y_label), size: 46}],
     series: [{}, ...series.map(() => ({paths: path, facets: [{scale: "x", auto: false}, {scale: "y", auto: false}]}))],
     hooks: {setSelect: [(u) => {
@@ -137,20 +137,22 @@ export function Plot({title, x_label, y_label, series, x_range, on_zoom, height 
     if (width < 40) return;
     const shown = series.map((s) => ({...s, stroke: colour(s.colour)}));
     const data = [null, ...shown.map((s) => [s.x, s.y])];
-    const ranges = (u) => {
-      u.wanted_x = x_range ?? extent(shown.map((s) => s.x), 0.02);
-      u.wanted_y = extent(shown.map((s) => s.y), 0.04, is_log);
-    };
+    const range_of = ([min, max]) => ({min, max});
+    const x_shown = range_of(x_range ?? extent(shown.map((s) => s.x), 0.02));
+    const y_shown = range_of(extent(shown.map((s) => s.y), 0.04, is_log));
     if (drawn.current?.key !== key) {
       drawn.current?.plot.destroy();
       const options = options_of({series: shown, x_label, y_label, is_log}, width, height, (from, to) => drawn.current?.on_zoom?.(from, to));
-      options.hooks.init = [ranges];
+      Object.assign(options.scales.x, x_shown);
+      Object.assign(options.scales.y, y_shown);
       drawn.current = {key, plot: new uPlot(options, data, frame.current)};
     } else {
-      ranges(drawn.current.plot);
-      drawn.current.plot.setData(data);
-      drawn.current.plot.setScale("x", {min: 0, max: 1});
-      drawn.current.plot.setScale("y", {min: 0, max: 1});
+      const {plot} = drawn.current;
+      plot.batch(() => {
+        plot.setData(data, false);
+        plot.setScale("x", x_shown);
+        plot.setScale("y", y_shown);
+      });
     }
     drawn.current.on_zoom = on_zoom;
   });

@@ -12,6 +12,9 @@ export const file_of = (record, known) => {
   return {path, relative: path.startsWith(`${known.folder}/`) ? path.slice(known.folder.length + 1) : path};
 };
 
+// A record's name and condition without the folder that all share.
+export const plain = (name) => name.replace(/^recordings\//, "");
+
 // Files of a drop, those in folders too, each with its path.
 async function dropped_files(transfer) {
   const files = [];
@@ -158,15 +161,15 @@ export function Recordings({known, version, theme, on_changed}) {
       <${DropZone} formats=${known?.formats} on_done=${on_changed} />
       ${known?.error && records.length === 0 && html`<p class="note">${known.error}</p>`}
       <ul class="list" aria-label="Records">${records.map((r, k) => html`<li key=${r.name} class=${doubts.has(r.name) ? "doubt" : ""}>
-        <button aria-current=${k === at} onClick=${() => set_chosen(k)}>${r.name}
-          <small>${doubts.get(r.name) ?? [r.condition, r.drive_level === null ? "" : `${+r.drive_level.toPrecision(4)} ${known.drive_unit}`, `${r.samples} samples`].filter(Boolean).join(" · ")}</small></button></li>`)}</ul>
+        <button aria-current=${k === at} onClick=${() => set_chosen(k)}>${plain(r.name)}
+          <small>${doubts.get(r.name) ?? [r.condition === r.name ? "" : plain(r.condition), r.drive_level === null ? "" : `${+r.drive_level.toPrecision(4)} ${known.drive_unit}`, `${r.samples} samples`].filter(Boolean).join(" · ")}</small></button></li>`)}</ul>
       ${known?.unread?.length > 0 && html`<details open><summary>${known.unread.length} not read</summary>${known.unread.map((f) => html`<p class="error">${f.why}</p>`)}</details>`}
       ${known?.passed_over?.length > 0 && html`<details><summary>${known.passed_over.length} passed over</summary>${known.passed_over.map((f) => html`<p class="note">${f.file}: ${f.why}</p>`)}</details>`}
       ${known?.notes?.length > 0 && html`<details><summary>${known.notes.length} notes on all</summary>${known.notes.map((n) => html`<p class="note">${n}</p>`)}</details>`}
     </div>
     <div class="work">
       ${!record ? html`<p class="empty">Drop recordings of a damper to see them.</p>` : html`
-        <div class="row"><h2>${record.name}</h2>${window && html`<button class="plain" onClick=${() => zoom()}>Show all</button>`}
+        <div class="row"><h2>${plain(record.name)}</h2>${window && html`<button class="plain" onClick=${() => zoom()}>Show all</button>`}
           <span class="note">A drag along time zooms; with Ctrl or Shift, the wheel does.</span></div>
         <div class="plots">${in_time.map(([name, label]) => html`<${ChannelPlot} key=${name} record=${at} version=${version} x="time" y=${name} title=${label.replace(/ \(.*/, "")}
           x_label="Time (s)" y_label=${label} window=${window} on_zoom=${zoom} theme=${theme} height=${190} />`)}
