@@ -184,8 +184,10 @@ Value Project::costs() {
       run_self({"rank", folder_.string(), "--models", "all", "--costs", "--json", "--quiet"}, folder_,
                kReading);
   Value list = Value::array();
-  if (!end.out.empty())
-    if (const Value* costs = parse_json(end.out, "dashpot rank").find("costs")) list = *costs;
+  if (!end.out.empty()) {
+    const Value said = parse_json(end.out, "dashpot rank");
+    if (const Value* costs = said.find("costs")) list = *costs;
+  }
   known_costs_ = list;
   fingerprint_of_costs_ = now;
   return list;

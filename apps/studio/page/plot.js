@@ -134,7 +134,11 @@ export function Plot({title, x_label, y_label, series, x_range, on_zoom, height 
   }, []);
   const key = `${width} ${height} ${theme} ${series.map((s) => `${s.label} ${s.colour}`)} ${x_label} ${y_label} ${is_log}`;
   useEffect(() => {
-    if (width < 40) return;
+    if (width < 40 || series.length === 0) {
+      drawn.current?.plot.destroy();
+      drawn.current = undefined;
+      return;
+    }
     const shown = series.map((s) => ({...s, stroke: colour(s.colour)}));
     const data = [null, ...shown.map((s) => [s.x, s.y])];
     const range_of = ([min, max]) => ({min, max});
