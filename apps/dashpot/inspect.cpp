@@ -67,6 +67,13 @@ void write_correction(const InspectSettings& settings, const Dataset& dataset, C
     const Dataset corrected = load_dataset({folder}, options);
     for (const PassedOver& unread : corrected.unread)
       if (unread.file == settings.correct) throw Error(unread.file, unread.why);
+  } catch (const Error& error) {
+    // The place in the trial is that in the file that it would have become.
+    fs::remove(trial);
+    std::string why = error.what();
+    if (const std::size_t at = why.find(trial.string()); at != std::string::npos)
+      why.replace(at, trial.string().size(), file.string());
+    throw Error("", why);
   } catch (...) {
     fs::remove(trial);
     throw;

@@ -181,8 +181,8 @@ Value Project::costs() {
   const std::string now = fingerprint();
   if (now == fingerprint_of_costs_) return known_costs_;
   const ChildEnd end =
-      run_self({"rank", folder_.string(), "--models", "all", "--costs", "--json", "--quiet"}, folder_,
-               kReading);
+      run_self({"rank", folder_.string(), "--models", "all", "--costs", "--json", "--quiet"},
+               folder_, kReading);
   Value list = Value::array();
   if (!end.out.empty()) {
     const Value said = parse_json(end.out, "dashpot rank");

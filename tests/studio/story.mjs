@@ -181,7 +181,8 @@ async function small_and_dark(page) {
   await shoot(page, "7-dark");
   await page.setViewportSize({width: 390, height: 844});
   const [content, window] = await page.evaluate(() => [document.documentElement.scrollWidth, innerWidth]);
-  assert.ok(content <= window, `the page is ${content} px wide in a window of ${window}`);
+  const wide = await page.evaluate(() => [...document.querySelectorAll("body *")].filter((e) => e.getBoundingClientRect().right > innerWidth + 1 && !e.closest(".frame")).map((e) => `${e.tagName}.${e.className}`).slice(0, 8));
+  assert.ok(content <= window, `${wide}: the page is ${content} px wide in a window of ${window}`);
   await shoot(page, "8-phone");
 }
 

@@ -13,6 +13,8 @@ const kViews = {
 };
 const short = (path) => path.replace(/^fits\//, "").replace("/models/", ": ").replace(/\.json$/, "");
 
+const folder_of = (path) => path.split("/")[1];
+
 // One figure: the measured force, and each model over it.
 function Overlay({view, records, at, models, window, on_zoom, theme, height, keep, wide, title, on_error}) {
   const [x, y, heading, x_label, y_label] = kViews[view];
@@ -21,7 +23,7 @@ function Overlay({view, records, at, models, window, on_zoom, theme, height, kee
     let is_old = false;
     const asked = {record: at, x, from: window?.[0], to: window?.[1], width: x === "time" ? 900 : 400};
     const all = models.map((model, k) => ask("/api/traces", {...asked, y, model})
-      .then((got) => ({label: short(model), colour: k + 1, ...got})));
+      .then((got) => ({label: models.every((m) => folder_of(m) === folder_of(model)) ? short(model).split(": ").at(-1) : short(model), colour: k + 1, ...got})));
     // The measured force is the same in all traces.
     if (view !== "residual" && models.length > 0)
       all.unshift(ask("/api/traces", {...asked, y: "measured", model: models[0]}).then((got) => ({label: "measured", colour: 0, width: 2.5, ...got})));
