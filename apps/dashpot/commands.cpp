@@ -5,12 +5,12 @@
 namespace dashpot::cli {
 
 std::vector<Command> all_commands() {
-  return {identify_command(),   rank_command(),         search_command(),  evaluate_command(),
-          inspect_command(),    characterise_command(), compare_command(), models_command(),
-          member_command(),     physics_command(),      design_command(),  invert_command(),
-          track_command(),      simulate_command(),     ride_command(),    sweep_command(),
-          study_command(),      export_command(),       bench_command(),   demo_command(),
-          completion_command(), version_command()};
+  return {identify_command(), rank_command(),         search_command(),  evaluate_command(),
+          inspect_command(),  characterise_command(), compare_command(), models_command(),
+          member_command(),   physics_command(),      design_command(),  invert_command(),
+          track_command(),    simulate_command(),     ride_command(),    sweep_command(),
+          study_command(),    export_command(),       studio_command(),  bench_command(),
+          demo_command(),     completion_command(),   version_command()};
 }
 
 std::vector<Option> common_options(Console& console) {
@@ -19,7 +19,12 @@ std::vector<Option> common_options(Console& console) {
            .help = "print the result as JSON on stdout; all else goes to stderr"},
           {.names = "-q,--quiet",
            .target = &console.quiet,
-           .help = "no progress and no notes on stderr"}};
+           .help = "no progress and no notes on stderr"},
+          {.names = "--progress",
+           .target = &console.progress,
+           .help = "progress on stderr for people, or lines of JSON",
+           .value = "FORMAT",
+           .choices = {"text", "json"}}};
 }
 
 }  // namespace dashpot::cli

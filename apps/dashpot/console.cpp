@@ -98,7 +98,13 @@ void Console::message(std::string_view label, std::string_view colour, std::stri
 Monitor Console::monitor() {
   Monitor monitor;
   monitor.stop = &stop_;
-  if (!quiet) monitor.on_progress = [this](const Progress& progress) { progress_.show(progress); };
+  if (quiet) return monitor;
+  progress_.format = progress;
+  monitor.on_progress = [this](const Progress& now) { progress_.show(now); };
+  if (progress == "json")
+    monitor.on_cost = [this](const std::string& stage, double cost) {
+      progress_.show_cost(stage, cost);
+    };
   return monitor;
 }
 

@@ -20,8 +20,9 @@ class Console {
   /// `stop` is set when the user interrupts.
   Console(std::string command_line, const std::atomic<bool>& stop);
 
-  bool quiet = false;  ///< neither progress nor notes
-  bool json = false;   ///< results for programs
+  bool quiet = false;             ///< neither progress nor notes
+  bool json = false;              ///< results for programs
+  std::string progress = "text";  ///< or "json": lines for a program that draws it
   /// Recordings of a folder could not be read: the work was done on the others, and the exit code
   /// says so.
   bool files_unread = false;

@@ -14,6 +14,7 @@
 #include "dashpot/identify/judge/extrapolation.h"
 #include "dashpot/rank.h"
 #include "dashpot/record/record_file.h"
+#include "dashpot/record/sample_columns.h"
 #include "dashpot/report/report_json.h"
 #include "dashpot/report/words.h"
 #include "data.h"
@@ -71,6 +72,7 @@ std::string file_name(std::string name) {
 /// Motion, drive, and the forces measured, modelled and between them, record by record.
 void write_traces(const EvaluateSettings& settings, const Evaluation& evaluation,
                   DriveUnit drive_unit, Console& console) {
+  std::vector<Record> traces;
   for (std::size_t k = 0; k < evaluation.records.size(); ++k) {
     const RecordResult& r = evaluation.records[k];
     Record trace;
@@ -90,13 +92,20 @@ void write_traces(const EvaluateSettings& settings, const Evaluation& evaluation
       residual.push_back(r.measured[i] - r.modelled[i]);
     add("residual", "N", residual);
 
+    if (settings.traces == "raw") {
+      traces.push_back(std::move(trace));
+      continue;
+    }
+
     // The place among the records keeps names apart that files cannot tell apart.
     const auto file = std::filesystem::path(settings.folder) /
                       fmt::format("{:03}_{}.{}", k + 1, file_name(r.record), settings.traces);
     (settings.traces == "mat" ? save_mat : save_csv)(trace, file);
   }
-  console.print(fmt::format("\nTraces  {}/ ({})\n", settings.folder,
-                            counted(evaluation.records.size(), "file")));
+  if (settings.traces == "raw") write_sample_columns(traces, settings.folder);
+  console.print(fmt::format(
+      "\nTraces  {}/ ({})\n", settings.folder,
+      counted(evaluation.records.size(), settings.traces == "raw" ? "record" : "file")));
 }
 
 int run_evaluate(const EvaluateSettings& settings, Console& console) {
@@ -192,9 +201,10 @@ Command evaluate_command() {
         .takes = Takes::File},
        {.names = "--traces",
         .target = &settings->traces,
-        .help = "also write measured, modelled and residual force of every record",
+        .help = "also write measured, modelled and residual force of every record; raw: plain "
+                "doubles, for programs that draw",
         .value = "FORMAT",
-        .choices = {"csv", "mat"}},
+        .choices = {"csv", "mat", "raw"}},
        {.names = "-o,--output",
         .target = &settings->folder,
         .help = "folder of the traces",

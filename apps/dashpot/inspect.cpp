@@ -6,6 +6,8 @@
 #include "dashpot/base/escape.h"
 #include "dashpot/base/file.h"
 #include "dashpot/error.h"
+#include "dashpot/record/correction.h"
+#include "dashpot/record/sample_columns.h"
 #include "dashpot/record/statement_text.h"
 #include "dashpot/report/inspection.h"
 #include "data.h"
@@ -19,7 +21,7 @@ namespace {
 
 struct InspectSettings {
   DataSettings data;
-  std::string folder, statement;
+  std::string folder, statement, correct, set, samples;
 };
 
 constexpr std::string_view kInspectExample =
@@ -45,7 +47,46 @@ void write_statement(const InspectSettings& settings, const Dataset& dataset, Co
                 shell_quoted(file.string()) + "' reads the recordings by it\n");
 }
 
+/// Writes a correction by hand into the dataset file of the folder, once the recordings can be read
+/// by it.
+void write_correction(const InspectSettings& settings, const Dataset& dataset, Console& console) {
+  const fs::path folder = settings.data.paths.front(), file = folder / "dataset.yaml";
+  if (settings.data.paths.size() != 1 || !fs::is_directory(folder))
+    throw UsageError("--correct", "DATA is no folder", "name the folder that holds the recordings");
+  const std::string text =
+      corrected_statement(fs::exists(file) ? read_file(file) : "", dataset, folder,
+                          settings.correct, parse_corrections(settings.set));
+
+  // Read by a trial first: a wrong unit leaves the dataset file as it was.
+  const fs::path trial = folder / ".dataset-trial.yaml";
+  write_file(trial, text);
+  try {
+    LoadOptions options = settings.data.load;
+    options.dataset_file = trial.string();
+    options.monitor = console.monitor();
+    const Dataset corrected = load_dataset({folder}, options);
+    for (const PassedOver& unread : corrected.unread)
+      if (unread.file == settings.correct) throw Error(unread.file, unread.why);
+  } catch (const Error& error) {
+    // The place in the trial is that in the file that it would have become.
+    fs::remove(trial);
+    std::string why = error.what();
+    if (const std::size_t at = why.find(trial.string()); at != std::string::npos)
+      why.replace(at, trial.string().size(), file.string());
+    throw Error("", why);
+  } catch (...) {
+    fs::remove(trial);
+    throw;
+  }
+  fs::remove(trial);
+  write_file(file, text);
+  console.print("\nCorrected  " + settings.correct + " in " + file.string() + '\n');
+}
+
 int run_inspect(const InspectSettings& settings, Console& console) {
+  if (settings.correct.empty() != settings.set.empty())
+    throw UsageError("--correct", "a file and --set belong together",
+                     "as --correct run3.csv --set 'force.unit=kN; force.sign=-1'");
   if (!settings.statement.empty() && fs::exists(settings.statement))
     throw Error(settings.statement, "is there already, and may hold corrections",
                 "write to another name, or remove it first");
@@ -70,6 +111,8 @@ int run_inspect(const InspectSettings& settings, Console& console) {
   }
 
   if (!settings.statement.empty()) write_statement(settings, dataset, console);
+  if (!settings.samples.empty()) write_sample_columns(dataset.records, settings.samples, &dataset);
+  if (!settings.correct.empty()) write_correction(settings, dataset, console);
   if (console.json) console.print_json(document_json(document));
   return kDone;
 }
@@ -103,6 +146,21 @@ Command inspect_command() {
        .target = &settings->statement,
        .help = "also write what was understood as a dataset file, to be corrected and used",
        .value = "FILE"});
+  append(command.options,
+         {{.names = "--correct",
+           .target = &settings->correct,
+           .help = "write what --set says of this file of the folder DATA into DATA/dataset.yaml",
+           .value = "FILE"},
+          {.names = "--set",
+           .target = &settings->set,
+           .help = "corrections of that file, as 'force.unit=kN; force.sign=-1; level=0.5; "
+                   "cut=0.5:3'",
+           .value = "LIST"},
+          {.names = "--samples",
+           .target = &settings->samples,
+           .help = "also write all samples as plain doubles, for programs that draw",
+           .value = "DIR",
+           .takes = Takes::Folder}});
   return command;
 }
 

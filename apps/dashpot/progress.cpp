@@ -6,22 +6,37 @@
 
 #include <fmt/core.h>
 
+#include "dashpot/value.h"
 #include "layout.h"
 
 namespace dashpot::cli {
 namespace {
 
 using namespace std::chrono_literals;
-constexpr auto kRedraw = 100ms;  // fast enough to look alive
-constexpr auto kLogLine = 5s;    // slow enough for a log to stay readable
-constexpr auto kSettle = 3s;     // no forecast before this
+constexpr auto kRedraw = 100ms;   // fast enough to look alive
+constexpr auto kLogLine = 5s;     // slow enough for a log to stay readable
+constexpr auto kCostLine = 20ms;  // as fast as an eye follows
+constexpr auto kSettle = 3s;      // no forecast before this
 constexpr int kBarColumns = 24;
 constexpr int kLeastBarColumns = 50;  // narrower terminals get no bar, only words
 
 }  // namespace
 
+void ProgressLine::show_cost(const std::string& stage, double cost) {
+  const Clock::time_point now = Clock::now();
+  if (format != "json" || !std::isfinite(cost) || now - last_cost_ < kCostLine) return;
+  last_cost_ = now;
+  const Value line = Value::object({{"stage", stage}, {"cost", cost}});
+  fmt::print(stderr, "{}\n", format_json(line, false));
+}
+
 void ProgressLine::show(const Progress& progress) {
   const Clock::time_point now = Clock::now();
+  if (format == "json") {
+    const Value line = Value::object({{"stage", progress.stage}, {"fraction", progress.fraction}});
+    fmt::print(stderr, "{}\n", format_json(line, false));
+    return;
+  }
   if (!started_) {
     started_ = true;
     start_ = now;

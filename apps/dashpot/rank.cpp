@@ -8,6 +8,8 @@
 #include "console.h"
 #include "dashpot/base/file.h"
 #include "dashpot/base/parallel.h"
+#include "dashpot/identify/rank/divisions.h"
+#include "dashpot/identify/rank/model_choice.h"
 #include "dashpot/report/words.h"
 #include "document_text.h"
 #include "ranking_run.h"
@@ -21,7 +23,7 @@ namespace fs = std::filesystem;
 struct RankSettings {
   RankingSettings ranking;
   RideRankSettings ride;
-  bool markdown = false;
+  bool markdown = false, costs = false;
 };
 
 constexpr std::string_view kRankExample =
@@ -47,8 +49,27 @@ std::string time_line(const Ranking& ranking, int threads) {
                          : fmt::format("; {} kept from before", counted(ranking.kept_fits, "fit")));
 }
 
+/// What each model is estimated to cost on these recordings; nothing is fitted.
+int print_costs(const RankingSettings& asked, Console& console) {
+  const Dataset dataset = load_recordings(asked.data, console);
+  const std::optional<LeaveOut> stated = stated_leave_out(asked.leave_out);
+  const Divisions divisions = divide(dataset, stated ? *stated : default_leave_out(dataset));
+  const ChosenModels models = choose_models(asked.fit.models, dataset.records);
+  Value list = Value::array();
+  std::string text;
+  for (const std::string& model : models.names) {
+    const double seconds = expected_seconds(model, divisions, dataset.drive_unit);
+    list.push_back(Value::object({{"model", model}, {"seconds", seconds}}));
+    text += fmt::format("{:>10} s  {}\n", number_text(seconds), model);
+  }
+  console.print(text);
+  if (console.json) console.print_json(Value::object({{"costs", std::move(list)}}));
+  return kDone;
+}
+
 int run_rank(const RankSettings& settings, Console& console) {
   const RankingSettings& asked = settings.ranking;
+  if (settings.costs) return print_costs(asked, console);
   const std::optional<RideRankOptions> ride = stated_ride(settings.ride, asked, console);
   const RankingData data = ranking_data(asked, console);
   const fs::path folder = asked.results.folder;
@@ -100,6 +121,10 @@ Command rank_command() {
   append(command.options,
          {budget_option(settings->ranking.fit, budget_of_groups()),
           fresh_option(settings->ranking),
+          {.names = "--costs",
+           .target = &settings->costs,
+           .help = "print the CPU time that the fits of each model are estimated to take, and fit "
+                   "none"},
           {.names = "--markdown",
            .target = &settings->markdown,
            .help = "print the tables as a part of a Markdown page, without a date"}});

@@ -10,12 +10,25 @@ void Monitor::check() const {
   if (stop && stop->load(std::memory_order_relaxed)) throw Interrupted();
 }
 
-void Monitor::report(const std::string& stage, double fraction) const {
+namespace {
+
+std::mutex one_at_a_time;
+
+}  // namespace
+
+// The parameter is what is being done now; a monitor's own stage is that of its fit.
+void Monitor::report(const std::string& now, double fraction) const {
   check();
   if (!on_progress) return;
-  static std::mutex one_at_a_time;
   const std::lock_guard lock(one_at_a_time);
-  on_progress({stage, fraction});
+  on_progress({now, fraction});
+}
+
+void Monitor::report_cost(double cost) const {
+  check();
+  if (!on_cost) return;
+  const std::lock_guard lock(one_at_a_time);
+  on_cost(stage, cost);
 }
 
 }  // namespace dashpot

@@ -196,6 +196,7 @@ FileStatement read_files(const Value& value) {
   FileStatement out;
   out.where = value.where();
   out.match = texts(reader.required("match"));
+  out.states_nothing = value.members().size() == 1;
 
   // Time and channels.
   if (const Value* time = reader.optional("time")) read_time(*time, out);

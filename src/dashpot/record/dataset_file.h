@@ -52,6 +52,7 @@ struct FileStatement {
   LevelStatement level;
   std::vector<std::pair<std::string, double>> conditions;  ///< SI
   std::vector<RoleStatement> roles;
+  bool states_nothing = false;  ///< 'match' is all: read as without a dataset file
   std::string where;
 };
 

@@ -163,7 +163,7 @@ class Loader {
     // Recordings that the dataset file or the manifest leaves out, and files of another format in a
     // folder.
     if (!statement) return pass_over(file, "no 'match' in " + stated_in_ + " fits it");
-    const bool stated = !stated_in_.empty();
+    const bool stated = !stated_in_.empty() && !statement->states_nothing;
     if (!stated && !file.named && !manifest_.empty() && !manifest_.lists(file))
       return pass_over(file, "not in manifest.csv");
     if (!stated && !file.named && fs::file_size(file.path) > 0 && !find_reader(file.path))
@@ -217,7 +217,8 @@ class Loader {
 
     BuiltRecord built = build_record(std::move(table), context);
     if (!built.refusal.empty()) {
-      if (file.named || !stated_in_.empty()) throw Error(file.path.string(), built.refusal);
+      if (file.named || (!stated_in_.empty() && !statement.states_nothing))
+        throw Error(file.path.string(), built.refusal);
       pass_over(file, built.refusal);
       return false;
     }

@@ -16,6 +16,9 @@ namespace fs = std::filesystem;
 namespace dashpot {
 namespace {
 
+/// A folder that holds a file of this name is not searched: results lie there, no recordings.
+constexpr std::string_view kNoRecordings = ".no-recordings";
+
 /// Lists the files below a folder. Folders behind links are searched too, each folder once, so that
 /// a link to a folder above ends the search instead of turning it in circles.
 class FolderSearch {
@@ -29,6 +32,7 @@ class FolderSearch {
     std::error_code error;
     const fs::path real = fs::canonical(folder, error);
     if (!error && !seen_.insert(real).second) return;
+    if (folder != root_ && fs::exists(folder / kNoRecordings, error)) return;
     fs::directory_iterator at(folder, error), end;
     for (; !error && at != end; at.increment(error)) take(at->path());
     if (error) throw Error(folder.string(), "cannot be read: " + error.message());

@@ -157,6 +157,10 @@ fs::path whole(const fs::path& folder) {
 
 }  // namespace
 
+std::string file_statement_text(const Dataset& dataset, const std::string& file) {
+  return entry_text(dataset, file);
+}
+
 std::string statement_text(const Dataset& dataset, const fs::path& folder, const fs::path& beside) {
   // The files that gave records, those with equal entries together.
   std::vector<std::pair<std::string, std::vector<std::string>>> entries;

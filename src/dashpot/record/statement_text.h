@@ -14,4 +14,8 @@ namespace dashpot {
 std::string statement_text(const Dataset& dataset, const std::filesystem::path& folder,
                            const std::filesystem::path& beside);
 
+/// The keys of the entry that states what was understood of one file, as YAML indented by four
+/// spaces: all of the entry but its 'match'.
+std::string file_statement_text(const Dataset& dataset, const std::string& file);
+
 }  // namespace dashpot

@@ -295,7 +295,7 @@ LeastSquaresOptions solver_options(const IdentifyOptions& options, int iteration
   solver.max_iterations = iterations;
   solver.function_tolerance = tolerance;
   solver.threads = options.threads;
-  solver.on_iteration = [&options](int, double) { options.monitor.check(); };
+  solver.on_iteration = [&options](int, double cost) { options.monitor.report_cost(cost); };
   return solver;
 }
 

@@ -140,7 +140,7 @@ class RankingRun {
         return static_cast<double>(done) / static_cast<double>(tasks.size());
       };
       options_.monitor.report("fitting " + stage, share());
-      *task.report = fit(task.model->name, task.fold ? task.fold->training : training_);
+      *task.report = fit(task.model->name, stage, task.fold ? task.fold->training : training_);
       ++done;
       options_.monitor.report("fitted " + stage, share());
     });
@@ -182,7 +182,8 @@ class RankingRun {
 
   /// As it was kept, or made now and kept. A model that these records cannot serve is no end of the
   /// others: its report says why.
-  FitReport fit(const std::string& model, const std::vector<Record>& training) {
+  FitReport fit(const std::string& model, const std::string& stage,
+                const std::vector<Record>& training) {
     const FitStore::Request request{model, training, dataset_.drive_unit, options_};
     if (store_)
       if (std::optional<FitReport> kept = store_->load(request)) {
@@ -191,7 +192,9 @@ class RankingRun {
       }
     FitReport report;
     try {
-      report = identify(model, training, dataset_.drive_unit, options_);
+      IdentifyOptions options = options_;
+      options.monitor.stage = stage;
+      report = identify(model, training, dataset_.drive_unit, options);
     } catch (const Error& error) {
       ++refused_;
       report.message = error.what();

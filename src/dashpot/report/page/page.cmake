@@ -2,12 +2,13 @@
 set(DASHPOT_PAGE_DIR ${CMAKE_CURRENT_LIST_DIR})
 set(DASHPOT_UPLOT_DIR ${PROJECT_SOURCE_DIR}/node_modules/uplot)
 
-if(NOT EXISTS ${DASHPOT_UPLOT_DIR}/dist/uPlot.iife.min.js)
+# htm and Preact are the studio's (apps/CMakeLists.txt).
+if(NOT EXISTS ${DASHPOT_UPLOT_DIR}/dist/uPlot.iife.min.js OR NOT EXISTS ${PROJECT_SOURCE_DIR}/node_modules/htm)
   find_program(NPM npm)
   if(NOT NPM)
-    message(FATAL_ERROR "uPlot is not in node_modules and npm is missing; install npm, or run 'npm ci --ignore-scripts --omit=dev' elsewhere")
+    message(FATAL_ERROR "uPlot or htm is not in node_modules and npm is missing; install npm, or run 'npm ci --ignore-scripts --omit=dev' elsewhere")
   endif()
-  message(STATUS "Getting uPlot: npm ci --ignore-scripts --omit=dev")
+  message(STATUS "Getting uPlot and htm: npm ci --ignore-scripts --omit=dev")
   execute_process(COMMAND ${NPM} ci --ignore-scripts --omit=dev WORKING_DIRECTORY ${PROJECT_SOURCE_DIR}
     RESULT_VARIABLE npm_status OUTPUT_QUIET ERROR_VARIABLE npm_error)
   if(NOT npm_status EQUAL 0)

@@ -1,0 +1,44 @@
+#pragma once
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace dashpot::studio {
+
+/// What of a request decides whether it is let in. Texts are "" where the header is missing.
+struct Asked {
+  std::string method, path, host, origin, fetch_site, cookie, content_type;
+};
+
+/// Why a request is refused, and the status that says so.
+struct Refusal {
+  int status;
+  std::string why;
+};
+
+/// Lets in who holds the session's cookie, from the studio's own page, under its own name. The
+/// cookie is given once for each token; a token is 256 random bits and dies when it is used. Safe
+/// from several threads.
+class Guard {
+ public:
+  explicit Guard(int port);
+
+  /// A new token, which can be exchanged once.
+  std::string make_token();
+  /// The text of the cookie to set for a token that is alive; the token is dead afterwards.
+  std::optional<std::string> exchange(std::string_view token);
+  /// Nothing where the request may pass.
+  std::optional<Refusal> refuse(const Asked& asked) const;
+
+ private:
+  std::string cookie_name() const;
+  bool has_session(std::string_view cookie_header) const;
+
+  int port_;
+  std::string session_;  ///< the value of the cookie
+  mutable std::mutex mutex_;
+  std::string token_;  ///< "" when there is none alive
+};
+
+}  // namespace dashpot::studio

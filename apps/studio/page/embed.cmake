@@ -1,0 +1,39 @@
+# Writes OUTPUT: a C++ file that holds the studio's files, each served under its name.
+function(append_asset name type path)
+  file(READ ${path} text)
+  # A literal may not be longer than 64 KiB everywhere; its parts are joined by the compiler.
+  set(literal "")
+  string(LENGTH "${text}" length)
+  set(at 0)
+  while(at LESS length)
+    string(SUBSTRING "${text}" ${at} 12000 part)
+    string(APPEND literal "\n    R\"studio_page(${part})studio_page\"")
+    math(EXPR at "${at} + 12000")
+  endwhile()
+  set(assets "${assets}    {\"${name}\", \"${type}\",${literal}},\n" PARENT_SCOPE)
+endfunction()
+
+set(script "text/javascript; charset=utf-8")
+append_asset(/ "text/html; charset=utf-8" ${PAGE_DIR}/index.html)
+file(GLOB modules ${PAGE_DIR}/*.js)
+foreach(module ${modules})
+  get_filename_component(name ${module} NAME)
+  append_asset(/${name} "${script}" ${module})
+endforeach()
+append_asset(/studio.css "text/css; charset=utf-8" ${PAGE_DIR}/studio.css)
+append_asset(/htm.mjs "${script}" ${MODULES_DIR}/htm/preact/standalone.module.js)
+append_asset(/uplot.js "${script}" ${MODULES_DIR}/uplot/dist/uPlot.iife.min.js)
+append_asset(/uplot.css "text/css; charset=utf-8" ${MODULES_DIR}/uplot/dist/uPlot.min.css)
+
+file(WRITE ${OUTPUT} "#include \"assets.h\"
+
+namespace dashpot::studio {
+
+std::span<const Asset> assets() {
+  static constexpr Asset kAssets[] = {
+${assets}  };
+  return kAssets;
+}
+
+}  // namespace dashpot::studio
+")
