@@ -160,11 +160,16 @@ TEST_CASE("XLSX: cut off, with lying sizes, and as a bomb") {
   for (std::size_t size = 5; size < whole.size(); size += 97)
     CHECK_THROWS_AS(read_workbook_bytes(whole.substr(0, size)), Error);
 
-  // A hundred and fifty megabytes of rows in less than one.
+  // A hundred and fifty megabytes of rows in less than one, and the same of small sheets.
   std::string rows = kNames;
   const std::string row = row_of({number_cell("0"), number_cell("1"), number_cell("2")});
   while (rows.size() < (std::size_t{150} << 20)) rows += row;
   CHECK(refusal(rows).find("unpacks to far more than a recording") != std::string::npos);
+  rows.resize(std::size_t{4} << 20);
+  rows.resize(rows.rfind("<row>"));
+  const std::vector<ExampleSheet> sheets(40, {"run", rows, ""});
+  CHECK_THROWS_WITH_AS(read_workbook_bytes(example_workbook(sheets)),
+                       doctest::Contains("unpacks to far more than a recording"), Error);
 }
 
 TEST_CASE("XLSX: flipped bytes are read or refused, and nothing else") {

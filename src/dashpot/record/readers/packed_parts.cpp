@@ -12,8 +12,8 @@ constexpr std::size_t kWholePart = std::size_t{16} << 20;  // of a part that is 
 
 }  // namespace
 
-PackedPart::PackedPart(zip_file* file, std::string place, std::size_t size, std::size_t packed)
-    : file_(file, zip_fclose), place_(std::move(place)), size_(size), packed_(packed) {}
+PackedPart::PackedPart(zip_file* file, std::string place, std::size_t size, std::size_t& left)
+    : file_(file, zip_fclose), place_(std::move(place)), size_(size), left_(left) {}
 
 std::size_t PackedPart::read(char* to, std::size_t room) {
   const zip_int64_t got = zip_fread(file_.get(), to, room);
@@ -21,15 +21,18 @@ std::size_t PackedPart::read(char* to, std::size_t room) {
     throw Error(place_, std::string("is damaged: ") + zip_file_strerror(file_.get()),
                 "copy the file again from its source");
 
-  unpacked_ += static_cast<std::size_t>(got);
-  if (unpacked_ > most_unpacked(packed_))
+  const auto count = static_cast<std::size_t>(got);
+  if (count > left_)
     throw Error(place_, "unpacks to far more than a recording of its size",
                 "save the table as CSV, if it is what it should be");
-  return static_cast<std::size_t>(got);
+  left_ -= count;
+  return count;
 }
 
 PackedParts::PackedParts(const std::filesystem::path& path)
-    : path_(path.string()), zip_(nullptr, zip_discard) {
+    : path_(path.string()),
+      zip_(nullptr, zip_discard),
+      left_(most_unpacked(std::filesystem::file_size(path))) {
   int code = 0;
   zip_.reset(zip_open(path.c_str(), ZIP_RDONLY | ZIP_CHECKCONS, &code));
   if (!zip_)
@@ -41,7 +44,7 @@ bool PackedParts::has(const std::string& name) const {
   return zip_name_locate(zip_.get(), name.c_str(), ZIP_FL_NOCASE) >= 0;
 }
 
-PackedPart PackedParts::open(const std::string& name) const {
+PackedPart PackedParts::open(const std::string& name) {
   const std::string place = path_ + ", " + name;
   const zip_int64_t index = zip_name_locate(zip_.get(), name.c_str(), ZIP_FL_NOCASE);
   if (index < 0)
@@ -51,8 +54,7 @@ PackedPart PackedParts::open(const std::string& name) const {
   zip_stat_t about;
   zip_stat_init(&about);
   const auto at = static_cast<zip_uint64_t>(index);
-  if (zip_stat_index(zip_.get(), at, 0, &about) != 0 || !(about.valid & ZIP_STAT_SIZE) ||
-      !(about.valid & ZIP_STAT_COMP_SIZE))
+  if (zip_stat_index(zip_.get(), at, 0, &about) != 0 || !(about.valid & ZIP_STAT_SIZE))
     throw Error(place, "states no size", "save the file anew");
   if ((about.valid & ZIP_STAT_ENCRYPTION_METHOD) && about.encryption_method != ZIP_EM_NONE)
     throw Error(place, "is encrypted", "save the file without a password");
@@ -61,10 +63,10 @@ PackedPart PackedParts::open(const std::string& name) const {
   if (!file)
     throw Error(place, std::string("cannot be unpacked: ") + zip_strerror(zip_.get()),
                 "copy the file again from its source");
-  return {file, place, about.size, about.comp_size};
+  return {file, place, about.size, left_};
 }
 
-std::string PackedParts::text(const std::string& name) const {
+std::string PackedParts::text(const std::string& name) {
   if (!has(name)) return {};
   PackedPart part = open(name);
   std::string text;

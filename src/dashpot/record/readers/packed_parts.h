@@ -13,20 +13,23 @@ namespace dashpot {
 class PackedPart {
  public:
   /// Fills `to` with up to `room` bytes and returns how many; 0 at the end. Throws Error on a
-  /// damaged part, and on one that unpacks to far more than any recording of its size.
+  /// damaged part, and where all parts together unpack to far more than any recording of the
+  /// file's size.
   std::size_t read(char* to, std::size_t room);
   std::size_t size() const { return size_; }  ///< unpacked, as the file states it
 
  private:
   friend class PackedParts;
-  PackedPart(zip_file* file, std::string place, std::size_t size, std::size_t packed);
+  PackedPart(zip_file* file, std::string place, std::size_t size, std::size_t& left);
 
   std::unique_ptr<zip_file, int (*)(zip_file*)> file_;
   std::string place_;
-  std::size_t size_, packed_, unpacked_ = 0;
+  std::size_t size_;
+  std::size_t& left_;  ///< of what all parts may unpack to
 };
 
-/// The parts of a zip file by their names. Nothing is unpacked before it is read.
+/// The parts of a zip file by their names. Nothing is unpacked before it is read. It must outlive
+/// its parts, which share what the file may unpack to.
 class PackedParts {
  public:
   /// Throws Error when the file is no whole zip file.
@@ -34,14 +37,15 @@ class PackedParts {
 
   bool has(const std::string& name) const;
   /// Throws Error when there is none of that name.
-  PackedPart open(const std::string& name) const;
+  PackedPart open(const std::string& name);
   /// A small part as a whole; "" when there is none of that name. Throws Error on one of more than
   /// 16 MiB.
-  std::string text(const std::string& name) const;
+  std::string text(const std::string& name);
 
  private:
   std::string path_;
   std::unique_ptr<zip, void (*)(zip*)> zip_;
+  std::size_t left_;
 };
 
 }  // namespace dashpot

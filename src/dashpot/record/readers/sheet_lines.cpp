@@ -62,6 +62,7 @@ std::optional<std::size_t> column_of(std::string_view reference) {
 /// A text as a cell between tabs: in quotes, so that "#N/A" begins no comment.
 std::string quoted(std::string text) {
   std::ranges::replace(text, '"', '\'');
+  std::ranges::replace_if(text, [](char c) { return c == '\n' || c == '\r' || c == '\t'; }, ' ');
   return '"' + text + '"';
 }
 
@@ -175,7 +176,7 @@ struct SheetLines::Parser final : XmlPart {
     if (value_.empty()) return has_formula_ ? quoted("a formula without a kept value") : "";
     if (type_ == "s") return shared_string();
     if (type_ == "b") return value_ == "1" ? "1" : "0";
-    if (type_ == "d") return value_;
+    if (type_ == "d") return quoted(value_);
     if (type_ == "inlineStr" || type_ == "str" || type_ == "e") return quoted(value_);
     const auto number = parse_number(value_);
     if (!number) return quoted(value_);

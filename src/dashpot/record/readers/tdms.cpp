@@ -105,8 +105,11 @@ class Gatherer {
     }
     if (chunk == 0) fail(segment, "raw data of no values");
 
+    // What has no values in a chunk would cost time in each.
+    std::vector<std::size_t> filled = segment.objects;
+    std::erase_if(filled, [&](std::size_t number) { return objects[number].bytes == 0; });
     for (std::uint64_t left = segment.data_bytes; left > 0;) {
-      for (const std::size_t number : segment.objects) {
+      for (const std::size_t number : filled) {
         const TdmsObject& object = objects[number];
         const std::uint64_t bytes = std::min(object.bytes, left);
         if (bytes < object.bytes && !segment.unfinished)
@@ -169,7 +172,9 @@ class Gatherer {
           buffer.channels.size() > 2 * buffer.width)
         fail(segment, "rows of " + std::to_string(buffer.width) + " bytes");
       chunk += buffer.rows * buffer.width;
+      if (chunk > (std::uint64_t{1} << 62)) fail(segment, "values without end");
     }
+    std::erase_if(buffers, [](const Buffer& b) { return b.rows * b.width == 0; });
     if (chunk == 0) fail(segment, "raw data of no values");
 
     for (std::uint64_t left = segment.data_bytes; left > 0;) {
@@ -178,12 +183,12 @@ class Gatherer {
         if (bytes < buffer.rows * buffer.width && !segment.unfinished)
           fail(segment, "a buffer that ends too early");
         left -= bytes;
-        for (std::uint64_t k = 0; buffer.width > 0 && k < bytes / buffer.width; ++k) {
+        for (std::uint64_t k = 0; k < bytes / buffer.width; ++k) {
           const char* row = raw.take(buffer.width);
           for (const std::size_t number : buffer.channels)
             append(number, objects[number], row + objects[number].offset, segment.big_endian);
         }
-        if (buffer.width > 0) raw.skip(bytes % buffer.width);
+        raw.skip(bytes % buffer.width);
       }
     }
   }

@@ -30,8 +30,7 @@ struct Workbook {
 };
 
 /// Small parts are read whole; large ones, of which there may be thousands of kilobytes, never are.
-pugi::xml_document parse(const PackedParts& parts, const std::string& name,
-                         const std::string& file) {
+pugi::xml_document parse(PackedParts& parts, const std::string& name, const std::string& file) {
   pugi::xml_document document;
   const std::string text = parts.text(name);
   const auto result = document.load_buffer(text.data(), text.size());
@@ -117,7 +116,7 @@ std::string part_of_target(const std::string& target) {
   return (fs::path("xl") / target).lexically_normal().generic_string();
 }
 
-Workbook read_workbook(const PackedParts& parts, const std::string& file) {
+Workbook read_workbook(PackedParts& parts, const std::string& file) {
   Workbook workbook;
   const std::string kBook = "xl/workbook.xml", kStrings = "xl/sharedStrings.xml";
   if (!parts.has(kBook))
@@ -180,7 +179,7 @@ std::vector<RawTable> read_xlsx(const fs::path& path) {
   const std::string file = path.string();
   if (lower(path.extension().string()) == ".gz")
     throw Error(file, "is a packed workbook", "unpack it with gunzip first");
-  const PackedParts parts(path);
+  PackedParts parts(path);
   Workbook workbook = read_workbook(parts, file);
 
   // A table of each sheet that holds one.
