@@ -16,8 +16,8 @@ constexpr std::size_t kNotesInBrief = 6;
 std::vector<Option> data_options(DataSettings& settings) {
   return {{.names = "DATA",
            .target = &settings.paths,
-           .help = "recordings: files or folders (CSV, DAQ text, MAT, JSON; also .gz), or a "
-                   "dataset file (.yaml)",
+           .help = "recordings: files or folders (CSV, XLSX, MDF 4, TDMS, HDF5, "
+                   "MAT, text logs, JSON), or a dataset file (.yaml)",
            .takes = Takes::File,
            .required = true},
 

@@ -2,6 +2,7 @@
 #include "dashpot/record/conditions.h"
 #include "dashpot/record/readers/family_json.h"
 #include "fuzz.h"
+#include "record/readers/example_workbook.h"
 
 // Everything that recordings are read from.
 
@@ -50,6 +51,12 @@ void dataset_yaml(const std::string& input) {
   load_fuzzed(data, fuzz_file("dataset.yaml", input).string());
 }
 
+/// The rows of a sheet as XML, which mutated zip files hardly ever show.
+void xlsx_sheet(const std::string& input) {
+  const std::string names = row_of({text_cell("t [s]"), text_cell("x [mm]"), text_cell("F [N]")});
+  load_fuzzed(fuzz_file("run_0.5A.xlsx", example_workbook({{"run", names + input, ""}})));
+}
+
 /// The recordings, a line of one '#', the dampers.
 void family_json(const std::string& input) {
   const std::size_t at = input.find("\n#\n");
@@ -72,6 +79,11 @@ const FuzzTarget targets[] = {
     {"csv",
      [](const std::string& input) { load_fuzzed(fuzz_file("run_10mm_1Hz_0.5A.csv", input)); }},
     {"mat", [](const std::string& input) { load_fuzzed(fuzz_file("run_0.5A.mat", input)); }},
+    {"mdf4", [](const std::string& input) { load_fuzzed(fuzz_file("run_0.5A.mf4", input)); }},
+    {"hdf5", [](const std::string& input) { load_fuzzed(fuzz_file("run_0.5A.h5", input)); }},
+    {"tdms", [](const std::string& input) { load_fuzzed(fuzz_file("run_0.5A.tdms", input)); }},
+    {"xlsx", [](const std::string& input) { load_fuzzed(fuzz_file("run_0.5A.xlsx", input)); }},
+    {"xlsx_sheet", xlsx_sheet},
     {"daq_text", daq_text},
     {"dataset_yaml", dataset_yaml},
     {"family_json", family_json},

@@ -12,6 +12,10 @@
 #include "dashpot/model_file.h"
 #include "export/example_models.h"
 #include "fuzz.h"
+#include "record/readers/example_hdf5.h"
+#include "record/readers/example_mdf4.h"
+#include "record/readers/example_tdms.h"
+#include "record/readers/example_workbook.h"
 
 namespace fs = std::filesystem;
 using dashpot::write_file;
@@ -115,6 +119,14 @@ files:
 notes: a note
 )";
 
+std::string xlsx_rows_seed() {
+  std::string rows;
+  for (int k = 0; k < 6; ++k)
+    rows += row_of({number_cell(std::to_string(0.01 * k)), number_cell(std::to_string(k % 3)),
+                    number_cell(std::to_string(7 * k), k % 4)});
+  return rows + "<row r=\"9\"><c r=\"A9\" t=\"e\"><v>#N/A</v></c></row>";
+}
+
 /// Files that come with Dashpot.
 void data_seeds(const fs::path& folder) {
   struct Kind {
@@ -140,6 +152,15 @@ void write_seeds(const fs::path& folder) {
   mat_seed(folder / "mat/5", MAT_FT_MAT5, MAT_COMPRESSION_NONE);
   mat_seed(folder / "mat/5z", MAT_FT_MAT5, MAT_COMPRESSION_ZLIB);
   mat_seed(folder / "mat/73", MAT_FT_MAT73, MAT_COMPRESSION_NONE);
+  for (const int way : {0, 1, 2, 3})
+    write_file(folder / "mdf4" / std::to_string(way), example_mdf4(way));
+  fs::create_directories(folder / "hdf5");
+  write_example_hdf5(folder / "hdf5/groups", {"a", "b"});
+  write_file(folder / "tdms/chunks", example_tdms(false, false));
+  write_file(folder / "tdms/rows", example_tdms(true, true));
+  write_file(folder / "tdms/daqmx", example_tdms_daqmx());
+  write_file(folder / "xlsx/run", example_recording_workbook());
+  write_file(folder / "xlsx_sheet/rows", xlsx_rows_seed());
   write_file(folder / "daq_text/log", daq_seed());
   write_file(folder / "family_json/pair", kFamily);
   write_file(folder / "dataset_yaml/all", kDataset);

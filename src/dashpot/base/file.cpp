@@ -46,7 +46,7 @@ namespace {
 
 constexpr std::size_t kMostBytes = std::size_t{1} << 30;  // of a file that is read at once
 
-// What a gzip file may unpack to: more than recordings do, less than fills a memory.
+// What may come out of packed bytes: more than recordings do, less than fills a memory.
 constexpr std::size_t kAlwaysUnpacked = std::size_t{64} << 20, kMostUnpackedPerByte = 25;
 
 constexpr std::string_view kTemporaryMark = ".part-";
@@ -238,7 +238,7 @@ struct InputFile::State {
 
     const std::size_t got = wanted - stream.avail_out;
     unpacked += got;
-    if (unpacked > kAlwaysUnpacked && unpacked / kMostUnpackedPerByte > size)
+    if (unpacked > most_unpacked(size))
       throw Error(
           path, "unpacks to more than " + std::to_string(kMostUnpackedPerByte) + " times its size",
           "unpack it with gunzip first, if it is what it should be");
@@ -274,6 +274,10 @@ std::size_t InputFile::read(char* to, std::size_t room) {
   State& state = *state_;
   if (!state.begun) state.begin();
   return state.is_packed ? state.unpack(to, room) : state.plain(to, room);
+}
+
+std::size_t most_unpacked(std::size_t packed) {
+  return std::max(kAlwaysUnpacked, kMostUnpackedPerByte * packed);
 }
 
 std::string read_file(const fs::path& path) {

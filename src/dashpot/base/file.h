@@ -27,6 +27,10 @@ class InputFile {
   std::unique_ptr<State> state_;
 };
 
+/// How many bytes a packed file or a part of one may unpack to: more is an attack on memory or
+/// time, no recording.
+std::size_t most_unpacked(std::size_t packed);
+
 /// The whole file, gunzipped when its content is gzip. Throws Error when it cannot be read or
 /// holds more than any file that is read at once.
 std::string read_file(const std::filesystem::path& path);

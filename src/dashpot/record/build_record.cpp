@@ -563,7 +563,7 @@ BuiltRecord build_record(RawTable table, const BuildContext& context) {
   // Name and conditions: those of the file, then those of the dataset file.
   Record& record = built.record;
   record.name = context.name;
-  record.source = table.part.empty() ? table.file : table.file + ", " + table.part;
+  record.source = table.place();
   record.conditions = table.conditions;
   record.conditions.insert(record.conditions.end(), context.statement->conditions.begin(),
                            context.statement->conditions.end());

@@ -143,14 +143,14 @@ void doubt_digits(NamedLevel& found, std::string_view name, std::size_t at, std:
 }
 
 /// The drive levels in the name of a file or folder, which begins at `offset` of the whole path. A
-/// level is a number followed by A, mA, V or mV as a word of its own; in the name of a folder the
-/// number begins a word.
+/// level is a number followed by A, mA, V or mV as a word of its own; in the name of a folder or a
+/// part the number begins a word.
 std::vector<NamedLevel> levels_in(std::string_view name, std::size_t offset,
                                   const std::string& basis) {
   std::vector<NamedLevel> all;
   for (std::size_t k = 0; k < name.size(); ++k) {
     if (!is_digit(name[k]) || (k > 0 && (is_digit(name[k - 1]) || name[k - 1] == '.'))) continue;
-    if (basis == "folder name" && k > 0 && is_letter(name[k - 1]) && name[k - 1] != 'p') continue;
+    if (basis != "file name" && k > 0 && is_letter(name[k - 1]) && name[k - 1] != 'p') continue;
 
     const std::size_t end = end_of_number(name, k);
     const auto value = parse_number(name.substr(k, end - k));
@@ -216,6 +216,26 @@ NameParts split_name(std::string_view stem) {
               tail = strip_separators(std::string(stem.substr(first.end)));
   if (!rest.empty() && !tail.empty()) rest += "_";
   return {settled(found), rest + tail};
+}
+
+NameParts split_part_name(std::string_view stem, std::string_view part) {
+  NameParts parts = split_name(stem);
+
+  // A blank between a number and its unit is usual where nobody types names into a terminal.
+  std::string name;
+  for (std::size_t k = 0; k < part.size(); ++k) {
+    const bool before_unit = k > 0 && is_digit(part[k - 1]) && k + 1 < part.size() &&
+                             std::string_view("AVm").find(part[k + 1]) != std::string_view::npos;
+    if (part[k] != ' ' || !before_unit) name += part[k];
+  }
+
+  const std::vector<NamedLevel> found = levels_in(name, 0, "name of a part");
+  if (found.empty()) return {parts.level, parts.rest + "_" + std::string(part)};
+  KnownLevel level = settled(found);
+  if (parts.level && parts.level->value != level.value && level.doubt.empty())
+    level.doubt = "both " + words_of_level(level) + " and " + words_of_level(*parts.level) +
+                  " are stated by names";
+  return {level, parts.rest};
 }
 
 std::optional<KnownLevel> level_of_folder(std::string_view name) {

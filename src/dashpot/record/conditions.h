@@ -17,6 +17,10 @@ struct NameParts {
 };
 NameParts split_name(std::string_view stem);
 
+/// The same for one of several sheets or groups that a file names: their names speak before the
+/// file's, and may have a blank before the unit, "0.5 A".
+NameParts split_part_name(std::string_view stem, std::string_view part);
+
 /// The level that the name of a folder states, with the words "folder name" as its basis.
 std::optional<KnownLevel> level_of_folder(std::string_view name);
 

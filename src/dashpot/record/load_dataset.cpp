@@ -194,8 +194,9 @@ class Loader {
   /// records of a table that has gaps; "" for a whole one.
   bool load_table(const SourcePath& file, const FileStatement& statement, RawTable table,
                   std::size_t parts, const std::string& stretch) {
-    const NameParts name =
-        split_name(without_gz(fs::path(file.relative)).replace_extension().string());
+    const std::string stem = without_gz(fs::path(file.relative)).replace_extension().string();
+    const bool has_name = parts > 1 && !table.part_name.empty();
+    const NameParts name = has_name ? split_part_name(stem, table.part_name) : split_name(stem);
 
     // The drive level as the statement, the manifest or the name has it.
     BuildContext context{&statement,
@@ -205,10 +206,10 @@ class Loader {
                          options_.velocity_cutoff_hz};
 
     // Name and condition, from templates where the dataset file gives them.
-    const std::string stem = without_gz(fs::path(file.relative)).replace_extension().string();
     const std::string part = std::to_string(table.part_index + 1), group = table.group;
+    const std::string part_name = has_name ? table.part_name : "part " + part;
     const auto words = template_words(file, stem, part, group, context.level);
-    context.name = !group.empty() ? table.part : parts > 1 ? stem + ", part " + part : stem;
+    context.name = !group.empty() ? table.part : parts > 1 ? stem + ", " + part_name : stem;
     if (!statement.name.empty())
       context.name = fill_template(statement.name, words, statement.where);
     context.name += stretch;

@@ -18,6 +18,7 @@ namespace dashpot {
 namespace {
 
 constexpr std::size_t kSniffedLines = 300;
+constexpr std::size_t kMissingCells = 1'000'000;  // beyond as many as there are
 
 /// The common case (a plain number with a point) without the checks that parse_number adds.
 double number_or_nan(std::string_view cell, const CsvDialect& dialect) {
@@ -31,12 +32,9 @@ double number_or_nan(std::string_view cell, const CsvDialect& dialect) {
       .value_or(std::numeric_limits<double>::quiet_NaN());
 }
 
-RawTable empty_table(const CsvDialect& dialect, const std::string& file) {
-  RawTable table;
-  table.file = file;
+void add_empty_columns(RawTable& table, const CsvDialect& dialect) {
   for (std::size_t k = 0; k < dialect.names.size(); ++k)
     table.columns.push_back({dialect.names[k], dialect.units[k], {}, {}});
-  return table;
 }
 
 /// Takes a number of so many digits, at least `least`, off the front; nothing where they are not
@@ -179,23 +177,30 @@ class RowAppender {
   void require_cell_count(std::size_t line) {
     while (cells_.size() > table_.columns.size() && cells_.back().empty()) cells_.pop_back();
     const std::size_t expected = table_.columns.size();
-    if (cells_.size() <= expected) return;
-    throw Error(table_.file + ":" + std::to_string(line),
-                "has " + std::to_string(cells_.size()) + " cells, the table has " +
-                    std::to_string(expected) + " columns",
-                "write one sample per line with the same separator everywhere");
+    if (cells_.size() > expected)
+      throw Error(table_.at_line(line),
+                  "has " + std::to_string(cells_.size()) + " cells, the table has " +
+                      std::to_string(expected) + " columns",
+                  "write one sample per line with the same separator everywhere");
+
+    // Cells that are not there cost no byte of the file and eight of memory each.
+    given_ += cells_.size(), missing_ += expected - cells_.size();
+    if (missing_ > given_ + kMissingCells)
+      throw Error(
+          table_.at_line(line), "most lines up to here lack most of their cells",
+          "the first lines have " + std::to_string(expected) + " columns: is another table below?");
   }
 
   RawTable& table_;
   const CsvDialect& dialect_;
   std::vector<std::string_view> cells_;
-  std::size_t next_line_ = 0;
+  std::size_t next_line_ = 0, given_ = 0, missing_ = 0;
   std::map<std::size_t, Clock> clocks_;  ///< by column
 };
 
 /// Room for the rest of the file at once, so that growing does not hold every column twice.
-void reserve_rows(RawTable& table, const LineSource& source) {
-  const double rows = source.bytes_in_file() / std::max(source.bytes_per_line(), 1.0);
+void reserve_rows(RawTable& table, const Lines& source) {
+  const double rows = source.expected_lines();
   if (rows > 1e5 && rows < 1e10)
     for (RawColumn& column : table.columns)
       column.values.reserve(static_cast<std::size_t>(1.1 * rows));
@@ -216,7 +221,7 @@ void refuse_moved_columns(const RawTable& table, const CsvDialect& dialect) {
   const RawColumn& last = table.columns.back();
   if (dialect.separator != ',' || !table.named() || !last.name.empty() || last.values.empty())
     return;
-  throw Error(table.file + ":" + std::to_string(table.lines.empty() ? 1 : table.lines[0].second),
+  throw Error(table.at_line(table.lines.empty() ? 1 : table.lines[0].second),
               "its lines hold " + std::to_string(table.columns.size()) +
                   " numbers, and there are names for one fewer: a comma within the numbers?",
               "separate the columns by semicolons or tabs, or quote numbers like \"1,093.60\"");
@@ -237,22 +242,32 @@ bool is_csv(const fs::path&, std::string_view extension, std::string_view head) 
 
 std::vector<RawTable> read_csv(const fs::path& path) {
   LineSource source(path);
+  RawTable table;
+  table.file = path.string();
+  read_lines(source, {}, table);
+  std::vector<RawTable> tables;
+  tables.push_back(std::move(table));
+  return tables;
+}
 
+void read_lines(Lines& source, std::optional<char> separator, RawTable& table) {
   // Understand the dialect from the first lines.
   std::vector<std::string> head;
+  std::vector<std::size_t> numbers;
   while (head.size() < kSniffedLines) {
     const auto line = source.next();
     if (!line) break;
     head.emplace_back(*line);
+    numbers.push_back(source.line());
   }
-  const CsvDialect dialect = sniff_dialect(head, path.string());
+  const CsvDialect dialect = sniff_dialect(head, table.place(), separator);
 
   // Then one line at a time: those already read, and the rest of the file.
-  RawTable table = empty_table(dialect, path.string());
+  add_empty_columns(table, dialect);
   reserve_rows(table, source);
   RowAppender appender(table, dialect);
   for (std::size_t k = dialect.first_data_line; k < head.size(); ++k)
-    appender.append(head[k], k + 1);
+    appender.append(head[k], numbers[k]);
   while (const auto line = source.next()) appender.append(*line, source.line());
   appender.settle_clocks();
 
@@ -261,9 +276,6 @@ std::vector<RawTable> read_csv(const fs::path& path) {
   if (dialect.thousands)
     table.notes.push_back(std::string("numbers are read with '") + dialect.thousands +
                           "' between thousands and '" + dialect.decimal + "' as decimal sign");
-  std::vector<RawTable> tables;
-  tables.push_back(std::move(table));
-  return tables;
 }
 
 TextTable read_text_table(const fs::path& path) {

@@ -1,8 +1,10 @@
 #pragma once
 #include <filesystem>
+#include <optional>
 #include <string_view>
 #include <vector>
 
+#include "dashpot/record/readers/line_source.h"
 #include "dashpot/record/readers/table.h"
 
 namespace dashpot {
@@ -15,6 +17,10 @@ bool is_csv(const std::filesystem::path& path, std::string_view extension, std::
 /// numbers become NaN and are an error only when their column is used. Throws Error when a line has
 /// more cells than the table, and NoTable when no line holds numbers.
 std::vector<RawTable> read_csv(const std::filesystem::path& path);
+
+/// The same from lines of any origin, into a table that has its place and no columns yet.
+/// `separator` is the cells' where it is known.
+void read_lines(Lines& source, std::optional<char> separator, RawTable& table);
 
 /// A small table of texts, such as a manifest: the names of the first line, then rows of cells,
 /// each row at least as long as `names`. Throws Error(file:line, ...) on a shorter row.

@@ -222,11 +222,13 @@ void split_cells(std::string_view line, char separator, std::vector<std::string_
   }
 }
 
-CsvDialect sniff_dialect(const std::vector<std::string>& lines, const std::string& file) {
+CsvDialect sniff_dialect(const std::vector<std::string>& lines, const std::string& file,
+                         std::optional<char> known_separator) {
   constexpr std::array<std::pair<char, char>, 7> kCandidates{
       {{'\t', '.'}, {';', '.'}, {',', '.'}, {'\t', ','}, {';', ','}, {' ', '.'}, {' ', ','}}};
   Guess best;
   for (const auto& [separator, decimal] : kCandidates) {
+    if (known_separator && separator != *known_separator) continue;
     Guess guess = try_dialect(lines, separator, decimal);
     if (guess.rank() > best.rank()) best = std::move(guess);
   }

@@ -29,8 +29,9 @@ std::optional<double> number_of_cell(std::string_view cell, char decimal, char t
 bool is_comment(std::string_view line);
 
 /// Understands a table from its first lines: tries seven pairs of separator and decimal sign, and
-/// keeps the one under which most lines hold numbers in equally many cells. Throws NoTable(file,
-/// ...) when no line holds numbers.
-CsvDialect sniff_dialect(const std::vector<std::string>& lines, const std::string& file);
+/// keeps the one under which most lines hold numbers in equally many cells. `separator` leaves the
+/// decimal sign alone open. Throws NoTable(file, ...) when no line holds numbers.
+CsvDialect sniff_dialect(const std::vector<std::string>& lines, const std::string& file,
+                         std::optional<char> separator = {});
 
 }  // namespace dashpot

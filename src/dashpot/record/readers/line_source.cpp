@@ -52,8 +52,10 @@ std::optional<std::string_view> LineSource::next() {
   }
 }
 
-double LineSource::bytes_per_line() const {
-  return line_ == 0 ? 0 : static_cast<double>(consumed_) / static_cast<double>(line_);
+double LineSource::expected_lines() const {
+  const double per_line =
+      static_cast<double>(consumed_) / static_cast<double>(std::max<std::size_t>(line_, 1));
+  return static_cast<double>(file_.size()) / std::max(per_line, 1.0);
 }
 
 /// Moves the unfinished line to the front and reads on; false at the end of the file.

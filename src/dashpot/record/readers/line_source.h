@@ -9,19 +9,28 @@
 
 namespace dashpot {
 
+/// The lines of a table, one after the other.
+class Lines {
+ public:
+  virtual ~Lines() = default;
+
+  /// The next line without its end, or nothing behind the last. Valid until the next call. Throws
+  /// Error on a damaged file.
+  virtual std::optional<std::string_view> next() = 0;
+  virtual std::size_t line() const = 0;       ///< number of the line that next() gave, from 1
+  virtual double expected_lines() const = 0;  ///< in all, guessed from what has been read
+};
+
 /// The lines of a text file (plain or gzip), read block by block: memory does not grow with the
-/// file. UTF-16 with a byte order mark is given as UTF-8.
-class LineSource {
+/// file. UTF-16 with a byte order mark is given as UTF-8. Lines end with LF, CRLF or both mixed,
+/// with CR in a file without LF; one too long for a table of numbers is an Error.
+class LineSource final : public Lines {
  public:
   explicit LineSource(const std::filesystem::path& path);
 
-  /// The next line without its end (LF, CRLF or both mixed; CR in a file without LF), or nothing at
-  /// the end. Valid until the next call. Throws Error on a damaged file, and on a line too long for
-  /// a table of numbers.
-  std::optional<std::string_view> next();
-  std::size_t line() const { return line_; }  ///< number of the line that next() gave, from 1
-  double bytes_per_line() const;              ///< mean so far
-  double bytes_in_file() const { return static_cast<double>(file_.size()); }
+  std::optional<std::string_view> next() override;
+  std::size_t line() const override { return line_; }
+  double expected_lines() const override;
 
  private:
   enum class Encoding { Bytes, Utf16Little, Utf16Big };

@@ -11,6 +11,7 @@
 
 #include "dashpot/base/file.h"
 #include "dashpot/error.h"
+#include "dashpot/record/readers/hdf5_guard.h"
 #include "dashpot/record/readers/line_source.h"
 #include "dashpot/record/readers/mat_guard.h"
 
@@ -194,7 +195,7 @@ std::vector<RawTable> read_mat(const fs::path& path) {
   const std::string head = read_head(path, kMat73Head);
   if (head.starts_with("MATLAB 7.3")) {
     check_mat73(head, fs::file_size(path), file);
-    check_mat73_content(file, fs::file_size(path));
+    check_hdf5(file, fs::file_size(path));
   } else {
     check_mat(read_file(path), file);
   }

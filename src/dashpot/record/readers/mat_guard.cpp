@@ -6,8 +6,6 @@
 #include <vector>
 #include <zlib.h>
 
-#include <hdf5.h>
-
 #include "dashpot/error.h"
 
 namespace dashpot {
@@ -269,56 +267,6 @@ void check_version5(std::string_view bytes, const std::string& file) {
   }
 }
 
-/// A handle of HDF5, closed at its end.
-class Opened {
- public:
-  Opened(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {}
-  ~Opened() {
-    if (id_ >= 0) close_(id_);
-  }
-  Opened(const Opened&) = delete;
-  Opened& operator=(const Opened&) = delete;
-  operator hid_t() const { return id_; }  // NOLINT(google-explicit-constructor)
-
- private:
-  hid_t id_;
-  herr_t (*close_)(hid_t);
-};
-
-/// What is wrong with a file of HDF5, found link by link; an exception must not pass through it.
-struct Links {
-  std::size_t values_left;
-  std::size_t links_left = 100000;
-  enum class Fault { None, Outside, Bomb } fault = Fault::None;
-
-  herr_t stop(Fault found) {
-    fault = found;
-    return 1;
-  }
-};
-
-herr_t look_at_link(hid_t group, const char* name, const H5L_info_t* link, void* data) {
-  Links& links = *static_cast<Links*>(data);
-  if (links.links_left-- == 0) return links.stop(Links::Fault::Bomb);
-  if (link->type == H5L_TYPE_SOFT) return 0;
-  if (link->type != H5L_TYPE_HARD) return links.stop(Links::Fault::Outside);
-  const Opened object(H5Oopen(group, name, H5P_DEFAULT), H5Oclose);
-  if (object < 0 || H5Iget_type(object) != H5I_DATASET) return 0;
-
-  // A dataset can take its numbers from other files, or state more of them than the file has.
-  const Opened creation(H5Dget_create_plist(object), H5Pclose);
-  if (creation >= 0 &&
-      (H5Pget_external_count(creation) > 0 || H5Pget_layout(creation) == H5D_VIRTUAL))
-    return links.stop(Links::Fault::Outside);
-  const Opened space(H5Dget_space(object), H5Sclose), type(H5Dget_type(object), H5Tclose);
-  const hssize_t count = space < 0 ? 0 : H5Sget_simple_extent_npoints(space);
-  const std::size_t width = type < 0 ? 1 : std::max<std::size_t>(H5Tget_size(type) / 8, 1);
-  const auto values = static_cast<std::size_t>(std::max<hssize_t>(count, 0));
-  if (values > links.values_left / width) return links.stop(Links::Fault::Bomb);
-  links.values_left -= values * width;
-  return 0;
-}
-
 /// Version 4: a header of five integers before each matrix, and no signature.
 void check_version4(std::string_view bytes, const std::string& file) {
   if (bytes.size() < 20) damaged(file, "it ends inside its header");
@@ -370,19 +318,6 @@ void check_mat73(std::string_view head, std::uintmax_t file_size, const std::str
   if (length > file_size)
     damaged(file, "it should have " + std::to_string(length) + " bytes and has " +
                       std::to_string(file_size));
-}
-
-void check_mat73_content(const std::string& file, std::uintmax_t file_size) {
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // HDF5 prints otherwise
-  const Opened opened(H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
-  if (opened < 0) damaged(file, "HDF5 cannot open it");
-  Links links{.values_left = largest_unpacked(file_size) / sizeof(double)};
-  const herr_t end = H5Lvisit(opened, H5_INDEX_NAME, H5_ITER_NATIVE, look_at_link, &links);
-  if (links.fault == Links::Fault::Bomb) refuse_bomb(file);
-  if (links.fault == Links::Fault::Outside)
-    throw Error(file, "takes numbers from other files, which Dashpot does not follow",
-                "save it as one file");
-  if (end < 0) damaged(file, "HDF5 cannot list what it holds");
 }
 
 }  // namespace dashpot

@@ -18,8 +18,4 @@ inline constexpr std::size_t kMat73Head = 512 + 64;
 /// empty one: compares the length that its superblock states with the bytes that are there.
 void check_mat73(std::string_view head, std::uintmax_t file_size, const std::string& file);
 
-/// The rest of version 7.3, before the MAT library opens it: throws Error on numbers that lie in
-/// other files, and on datasets that state far more numbers than a file of this size has.
-void check_mat73_content(const std::string& file, std::uintmax_t file_size);
-
 }  // namespace dashpot

@@ -5,8 +5,12 @@
 #include "dashpot/record/readers/csv.h"
 #include "dashpot/record/readers/daq_text.h"
 #include "dashpot/record/readers/family_json.h"
+#include "dashpot/record/readers/hdf5.h"
 #include "dashpot/record/readers/line_source.h"
 #include "dashpot/record/readers/mat.h"
+#include "dashpot/record/readers/mdf4.h"
+#include "dashpot/record/readers/tdms.h"
+#include "dashpot/record/readers/xlsx.h"
 
 namespace fs = std::filesystem;
 
@@ -16,6 +20,10 @@ namespace {
 // The most telling content first: CSV takes any text that is left.
 constexpr Reader kReaders[] = {
     {"MAT", ".mat", is_mat, read_mat},
+    {"HDF5", ".h5 .hdf5", is_hdf5, read_hdf5},
+    {"MDF 4", ".mf4 .mdf", is_mdf4, read_mdf4},
+    {"TDMS", ".tdms", is_tdms, read_tdms},
+    {"XLSX", ".xlsx .xlsm", is_xlsx, read_xlsx},
     {"family JSON", ".json with its inp_*.json", is_family_json, read_family_json},
     {"DAQ text log", ".txt", is_daq_text, read_daq_text},
     {"CSV", ".csv .txt .tsv .dat .asc", is_csv, read_csv},
@@ -51,7 +59,7 @@ std::string known_formats() {
   std::vector<std::string> formats;
   for (const Reader& reader : kReaders)
     formats.push_back(std::string(reader.name) + " (" + std::string(reader.extensions) + ")");
-  return join(formats, ", ") + ", each also as .gz except MAT";
+  return join(formats, ", ") + ", those of text also as .gz";
 }
 
 }  // namespace dashpot

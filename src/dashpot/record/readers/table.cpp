@@ -11,13 +11,18 @@ bool RawTable::named() const {
                      [](const RawColumn& c) { return !c.name.empty(); });
 }
 
+std::string RawTable::place() const { return part.empty() ? file : file + ", " + part; }
+
+std::string RawTable::at_line(std::size_t line) const {
+  return (part_name.empty() ? file : place()) + ":" + std::to_string(line);
+}
+
 std::string RawTable::where(std::size_t row) const {
-  const std::string place = part.empty() ? file : file + ", " + part;
-  if (lines.empty()) return place + ", row " + std::to_string(row + 1);
+  if (lines.empty()) return place() + ", row " + std::to_string(row + 1);
   auto jump = std::upper_bound(lines.begin(), lines.end(), row,
                                [](std::size_t r, const auto& line) { return r < line.first; });
   if (jump != lines.begin()) --jump;
-  return file + ":" + std::to_string(jump->second + row - jump->first);
+  return at_line(jump->second + row - jump->first);
 }
 
 std::string RawTable::column_list() const {

@@ -38,6 +38,7 @@ struct RawTable {
   std::string file;
   std::string part;            ///< "" or what of the file this is: "part 2, rows 9301-17600"
   std::size_t part_index = 0;  ///< counts the parts of one group from 0
+  std::string part_name;       ///< "" or what the file itself calls the part: a sheet, a group
   std::string group;           ///< "" or what the parts of one group share: a damper's key
   std::vector<RawColumn> columns;
   std::vector<std::pair<std::string, double>> scalars;  ///< single numbers beside the columns: Ts
@@ -49,7 +50,9 @@ struct RawTable {
   std::vector<std::string> notes;
 
   std::size_t rows() const { return columns.empty() ? 0 : columns.front().values.size(); }
-  bool named() const;  ///< some column has a name
+  bool named() const;                           ///< some column has a name
+  std::string place() const;                    ///< "run3.csv", or "tests.xlsx, sheet 'run 3'"
+  std::string at_line(std::size_t line) const;  ///< "run3.csv:118"
   /// "run3.csv:118", or "run3.mat, row 117" where there are no lines.
   std::string where(std::size_t row) const;
   /// "'t_s', 'x_mm'", or "3 columns without names".

@@ -1,0 +1,20 @@
+#pragma once
+#include <filesystem>
+#include <string_view>
+#include <vector>
+
+#include "dashpot/record/readers/table.h"
+
+namespace dashpot {
+
+/// A file of HDF5 that is no MAT file: .h5, .hdf5 and others by its beginning.
+bool is_hdf5(const std::filesystem::path& path, std::string_view extension, std::string_view head);
+
+/// Reads each group: its datasets of the commonest length are the columns of a table, by their
+/// names, in the units of their attributes "unit" or "units"; a matrix of up to 64 columns is as
+/// many of them, "F(1)"; single numbers stand beside the table. Texts, compounds and arrays of more
+/// dimensions are passed over with a note. Throws Error on damage and on what check_hdf5 refuses,
+/// and NoTable when no group holds numbers.
+std::vector<RawTable> read_hdf5(const std::filesystem::path& path);
+
+}  // namespace dashpot

@@ -1,0 +1,84 @@
+#include "dashpot/record/readers/hdf5.h"
+
+#include <hdf5.h>
+
+#include "dashpot/base/file.h"
+#include "dashpot/base/random.h"
+#include "dashpot/dataset.h"
+#include "dashpot/error.h"
+#include "dashpot/record/readers/reader.h"
+#include "example_hdf5.h"
+#include "support.h"
+
+using namespace dashpot;
+
+TEST_CASE("HDF5: groups are recordings, datasets columns, attributes units") {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "day.h5";
+  write_example_hdf5(path, {"at 0.5A", "at 1A"});
+  const auto tables = read_tables(path);
+  REQUIRE(tables.size() == 2);
+  CHECK(tables[0].place().ends_with("day.h5, group 'at 0.5A'"));
+  REQUIRE(tables[1].columns.size() == 4);
+  for (const RawColumn& column : tables[1].columns) {
+    REQUIRE(column.values.size() == 40);
+    if (column.name == "t") CHECK(column.values[39] == 0.01 * 39);
+    if (column.name == "x") CHECK(column.unit == "mm");
+    if (column.name == "F(1)") CHECK(column.values[3] == 3);
+    if (column.name == "F(2)") CHECK(column.values[3] == double(0.1f));
+  }
+  REQUIRE(tables[1].scalars.size() == 1);
+  CHECK(tables[1].scalars[0].second == 7);
+  REQUIRE(tables[1].notes.size() == 1);
+  CHECK(tables[1].notes[0] == "dataset 'at 1A/words' passed over: it holds no plain numbers");
+}
+
+TEST_CASE("HDF5: what is damaged, elsewhere or far too large is refused") {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "run.h5";
+  write_example_hdf5(path, {"a"});
+  const std::string whole = read_file(path);
+  for (const std::size_t size : {whole.size() / 4, whole.size() / 2, whole.size() - 9})
+    CHECK_THROWS_AS(read_tables(folder.write("cut.h5", whole.substr(0, size))), Error);
+
+  // A dataset, and a chunk, of more numbers than the file can have.
+  for (const bool by_chunk : {false, true}) {
+    const auto bomb = folder.path() / (by_chunk ? "chunk.h5" : "extent.h5");
+    const hid_t file = H5Fcreate(bomb.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+    const hsize_t extent = by_chunk ? 10 : 1'000'000'000, chunk = by_chunk ? 100'000'000 : 1000;
+    const hsize_t limit = H5S_UNLIMITED;
+    const hid_t space = H5Screate_simple(1, &extent, &limit);
+    const hid_t creation = H5Pcreate(H5P_DATASET_CREATE);
+    H5Pset_chunk(creation, 1, &chunk);
+    H5Pset_deflate(creation, 9);
+    const hid_t set =
+        H5Dcreate2(file, "F", H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, creation, H5P_DEFAULT);
+    H5Dclose(set), H5Pclose(creation), H5Sclose(space), H5Fclose(file);
+    CHECK_THROWS_WITH_AS(read_tables(bomb), doctest::Contains("unpacks to far more"), Error);
+  }
+
+  // Numbers of another file.
+  const auto link = folder.path() / "link.h5";
+  const hid_t file = H5Fcreate(link.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+  H5Lcreate_external("run.h5", "/a/t", file, "t", H5P_DEFAULT, H5P_DEFAULT);
+  H5Fclose(file);
+  CHECK_THROWS_WITH_AS(read_tables(link), doctest::Contains("from other files"), Error);
+}
+
+TEST_CASE("HDF5: flipped bytes are read or refused, and nothing else") {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "run.h5";
+  write_example_hdf5(path, {"a"});
+  const std::string whole = read_file(path);
+  Random random(17);
+  for (int k = 0; k < 200; ++k) {
+    std::string bytes = whole;
+    for (int flips = 0; flips < 3; ++flips)
+      bytes[static_cast<std::size_t>(random.uniform() * double(bytes.size()))] ^=
+          static_cast<char>(1 << int(8 * random.uniform()));
+    try {
+      read_tables(folder.write("flipped.h5", bytes));
+    } catch (const Error&) {
+    }
+  }
+}
