@@ -49,6 +49,9 @@ class RawBytes {
     piece_.resize(had + more);
     file_.read(at_, piece_.data() + had, more);
     at_ += more, left_ -= more;
+    if (piece_.size() < count)
+      throw Error(file_.path(), "is damaged: raw data that end too early",
+                  "copy it again from its source");
   }
 
   const ByteFile& file_;
@@ -152,7 +155,8 @@ class Gatherer {
     std::vector<Buffer> buffers(objects[segment.objects.front()].widths.size());
     for (const std::size_t number : segment.objects) {
       const TdmsObject& object = objects[number];
-      if (object.widths.size() != buffers.size()) fail(segment, "buffers that differ");
+      if (object.widths != objects[segment.objects.front()].widths)
+        fail(segment, "channels that do not agree on their buffers");
       if (object.buffer >= buffers.size()) fail(segment, "a buffer that is not there");
       Buffer& buffer = buffers[object.buffer];
       buffer.rows = std::max(buffer.rows, object.values);

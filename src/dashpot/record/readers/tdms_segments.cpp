@@ -151,7 +151,11 @@ void take_daqmx_index(Metadata& metadata, std::uint32_t kind, TdmsObject& object
 bool take_index(Metadata& metadata, TdmsObject& object) {
   const auto length = metadata.take<std::uint32_t>();
   if (length == kNoData) return false;
-  if (length == kAsBefore) return true;
+  if (length == kAsBefore) {
+    if (object.type == TdmsType::Other && object.unread.empty())
+      metadata.fail("values as before, and nothing was before");
+    return true;
+  }
   object.unread.clear();
   object.is_daqmx = false;
   if (length == kFormatChanging || length == kDigitalLine) {
