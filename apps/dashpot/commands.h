@@ -22,6 +22,7 @@ Command design_command();
 Command simulate_command();
 Command ride_command();
 Command sweep_command();
+Command merge_command();
 Command bench_command();
 Command demo_command();
 Command study_command();
