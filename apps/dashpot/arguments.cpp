@@ -128,7 +128,7 @@ bool parse_arguments(const std::string& command, const std::vector<Option>& opti
   // A misspelled option is a leftover of the parser; it is reported before one that is missing.
   refuse_leftovers(command, options, app.remaining());
   for (const Option& option : options)
-    if (option.required && app.count(option.names) == 0)
+    if (option.required && app.count(option.long_name()) == 0)
       throw UsageError(command, option.long_name() + " is missing", option.help);
   return true;
 }

@@ -9,7 +9,8 @@ std::vector<Command> all_commands() {
           inspect_command(),  characterise_command(), compare_command(), models_command(),
           member_command(),   physics_command(),      design_command(),  invert_command(),
           track_command(),    simulate_command(),     ride_command(),    sweep_command(),
-          study_command(),    export_command(),       studio_command(),  bench_command(),
+           merge_command(),    study_command(),        export_command(),  studio_command(),
+           bench_command(),
           demo_command(),     completion_command(),   version_command()};
 }
 

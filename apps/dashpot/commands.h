@@ -23,6 +23,7 @@ Command simulate_command();
 Command ride_command();
 Command sweep_command();
 Command studio_command();
+Command merge_command();
 Command bench_command();
 Command demo_command();
 Command study_command();

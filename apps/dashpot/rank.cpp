@@ -12,6 +12,7 @@
 #include "dashpot/identify/rank/model_choice.h"
 #include "dashpot/report/words.h"
 #include "document_text.h"
+#include "many_machines.h"
 #include "ranking_run.h"
 #include "ride_rank_options.h"
 
@@ -23,6 +24,7 @@ namespace fs = std::filesystem;
 struct RankSettings {
   RankingSettings ranking;
   RideRankSettings ride;
+  ManyMachines machines;
   bool markdown = false, costs = false;
 };
 
@@ -70,14 +72,20 @@ int print_costs(const RankingSettings& asked, Console& console) {
 int run_rank(const RankSettings& settings, Console& console) {
   const RankingSettings& asked = settings.ranking;
   if (settings.costs) return print_costs(asked, console);
+  const Part part = settle_machines(settings.machines);
+  if (!part.is_all() && asked.fresh)
+    throw UsageError("--part", "keeps its fits, and --fresh keeps none", "leave one of them out");
   const std::optional<RideRankOptions> ride = stated_ride(settings.ride, asked, console);
   const RankingData data = ranking_data(asked, console);
   const fs::path folder = asked.results.folder;
 
   const std::unique_ptr<FitStore> store = fit_store(asked, console);
   const ChosenModels models = chosen_models(asked.fit, data.dataset, data.leave_out, console);
-  Ranking ranking = rank(models.names, data.dataset, data.leave_out,
-                         identify_options(asked.fit, models.names, console), store.get());
+  const IdentifyOptions options = identify_options(asked.fit, models.names, console);
+  if (!part.is_all())
+    return finish_part(rank_part(models.names, data.dataset, data.leave_out, options, *store, part),
+                       part, "fit", folder / "fits.sqlite", console);
+  Ranking ranking = rank(models.names, data.dataset, data.leave_out, options, store.get());
   ranking.budget = models.budget;
   ride_models(ranking, data.dataset, ride, console);
   const ReportInput input = report_input(data.dataset, ranking, console);
@@ -129,6 +137,7 @@ Command rank_command() {
            .target = &settings->markdown,
            .help = "print the tables as a part of a Markdown page, without a date"}});
   append(command.options, ride_rank_options(settings->ride));
+  append(command.options, many_machines_options(settings->machines));
   return command;
 }
 

@@ -17,6 +17,7 @@
 #include "dashpot/report/words.h"
 #include "document_text.h"
 #include "live_table.h"
+#include "many_machines.h"
 #include "ranking_run.h"
 
 namespace dashpot::cli {
@@ -30,6 +31,7 @@ struct SearchSettings {
   std::vector<std::string> over;
   std::string method = "random", effort = "samples";
   std::uint64_t trials = SearchOptions().trials, steps = SearchOptions().steps;
+  ManyMachines machines;
   bool fresh = false;
 };
 
@@ -171,12 +173,18 @@ std::string time_line(const SearchReport& report) {
 }
 
 int run_in(const fs::path& folder, const RankingData& data, const SearchOptions& options,
-           const SearchSettings& settings, Console& console) {
+           const SearchSettings& settings, const Part& part, Console& console) {
   const fs::path file = folder / "search.sqlite";
   if (settings.fresh) Store::remove(file);
   console.talk("search: " + search_plan(search_rungs(options), options.effort) + '\n');
 
   // Trials kept from an interrupted search are not fitted again.
+  if (!part.is_all()) {
+    TrialStore store(file, describe_search(data.dataset, data.leave_out, options, program_id()));
+    tell_dropped(store.dropped(), file, console);
+    return finish_part(search_part(data.dataset, data.leave_out, options, store, part), part, "fit",
+                       file, console);
+  }
   const SearchReport report = run_search(data, options, file, console);
   const SearchInput input{data.dataset, report, console.command_line(), DASHPOT_VERSION,
                           date_now()};
@@ -198,11 +206,12 @@ int run_in(const fs::path& folder, const RankingData& data, const SearchOptions&
 }
 
 int run_search(const SearchSettings& settings, Console& console) {
+  const Part part = settle_machines(settings.machines);
   const SearchOptions options = search_options(settings, console);
   const RankingData data = ranking_data(settings.ranking, console);
   const fs::path folder = settings.ranking.results.folder;
   try {
-    return run_in(folder, data, options, settings, console);
+    return run_in(folder, data, options, settings, part, console);
   } catch (const Interrupted&) {
     console.note("every finished fit is kept in " + folder.string() +
                  "; the same command goes on from there");
@@ -284,6 +293,7 @@ Command search_command() {
   const auto data_end = std::ranges::find(command.options, "--leave-out", &Option::names);
   const std::vector<Option> own = own_options(*settings);
   command.options.insert(data_end, own.begin(), own.end());
+  append(command.options, many_machines_options(settings->machines));
   return command;
 }
 

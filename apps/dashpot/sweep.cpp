@@ -12,6 +12,7 @@
 #include "dashpot/report/sweep_report.h"
 #include "dashpot/report/words.h"
 #include "dashpot/suspension/sweep/request_file.h"
+#include "many_machines.h"
 #include "results.h"
 #include "study_results.h"
 
@@ -26,6 +27,7 @@ struct SweepSettings {
   std::uint64_t samples = 0, seed = 0;
   double duration = 0;
   int threads = 0;
+  ManyMachines machines;
   bool measures = false;
 };
 
@@ -74,9 +76,13 @@ void write_tables(const Sweep& result, const fs::path& folder, Console& console)
                 " (also quantiles.csv, ratios.csv, correlations.csv; all in sweep.h5)\n");
 }
 
+fs::path store_file(const SweepSettings& settings) {
+  return fs::path(settings.results.folder) / "sweep.sqlite";
+}
+
 /// Runs the request; each block of rides is kept in the folder of the results as it ends.
 Sweep run_sweep(const SweepRequest& request, const SweepSettings& settings, Console& console) {
-  const fs::path file = fs::path(settings.results.folder) / "sweep.sqlite";
+  const fs::path file = store_file(settings);
   if (settings.results.fresh) Store::remove(file);
   SweepStore store(file, request, program_id());
   tell_dropped(store.dropped(), file, console);
@@ -86,7 +92,19 @@ Sweep run_sweep(const SweepRequest& request, const SweepSettings& settings, Cons
   return sweep(request, store, {settings.threads, console.monitor()});
 }
 
+/// The same for the blocks of one part.
+int run_sweep_part(const SweepRequest& request, const SweepSettings& settings, const Part& part,
+                   Console& console) {
+  const fs::path file = store_file(settings);
+  if (settings.results.fresh) Store::remove(file);
+  SweepStore store(file, request, program_id());
+  tell_dropped(store.dropped(), file, console);
+  return finish_part(sweep_part(request, store, {settings.threads, console.monitor()}, part), part,
+                     "block", file, console);
+}
+
 int run_sweep(const SweepSettings& settings, Console& console) {
+  const Part part = settle_machines(settings.machines);
   if (settings.measures) {
     console.print(measures_text(console.width()));
     return kDone;
@@ -97,6 +115,7 @@ int run_sweep(const SweepSettings& settings, Console& console) {
   prepare_study(settings.results);
 
   try {
+    if (!part.is_all()) return run_sweep_part(request, settings, part, console);
     const Sweep result = run_sweep(request, settings, console);
     write_study(sweep_document(result), sweep_json(result), settings.results, console);
     write_tables(result, settings.results.folder, console);
@@ -154,6 +173,7 @@ std::vector<Option> options_of(SweepSettings& settings) {
                    {.names = "--measures",
                     .target = &settings.measures,
                     .help = "list the measures of a ride"}});
+  append(options, many_machines_options(settings.machines));
   return options;
 }
 

@@ -18,6 +18,8 @@
 namespace dashpot {
 
 class FitStore;
+struct Part;
+struct PartReport;
 
 /// How far a model's pooled ESR lies behind that of another one, over the same left-out units.
 struct PairedDifference {
@@ -130,6 +132,11 @@ struct Ranking {
 /// of its training held back.
 Ranking rank(const std::vector<std::string>& models, const Dataset& dataset,
              const LeaveOut& leave_out, const IdentifyOptions& options, FitStore* store = nullptr);
+/// Makes and keeps the fits of one part of that ranking (base/part.h), and judges nothing: once all
+/// parts lie in one store, rank() finds its fits there.
+PartReport rank_part(const std::vector<std::string>& models, const Dataset& dataset,
+                     const LeaveOut& leave_out, const IdentifyOptions& options, FitStore& store,
+                     const Part& part);
 
 /// The origin of a model that this command made from these records of the dataset.
 Provenance provenance_of(const Dataset& dataset, std::vector<std::string> records,

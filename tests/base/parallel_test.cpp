@@ -2,10 +2,16 @@
 
 #include <atomic>
 #include <chrono>
+#include <filesystem>
+#include <mutex>
 #include <numeric>
+#include <set>
 #include <stdexcept>
 #include <thread>
+#include <unistd.h>
 #include <vector>
+
+#include <sys/wait.h>
 
 #include "dashpot/error.h"
 #include "dashpot/monitor.h"
@@ -25,6 +31,61 @@ TEST_CASE("farms may be nested") {
   std::atomic<int> count = 0;
   parallel_for(4, 4, [&](std::size_t) { parallel_for(10, 4, [&](std::size_t) { ++count; }); });
   CHECK(count == 40);
+}
+
+TEST_CASE("nested farms use no more threads than the outermost asked for, and its idle ones") {
+  std::atomic<int> at_work = 0, most = 0, inner_threads = 0;
+  const auto count_in = [&] {
+    const int now = ++at_work;
+    for (int seen = most; now > seen && !most.compare_exchange_weak(seen, now);) continue;
+  };
+  parallel_for(16, 16, [](std::size_t) {});  // so that there are more threads than may be used
+  parallel_for(3, 3, [&](std::size_t k) {
+    if (k != 0) return;  // two threads have nothing to do soon
+    std::mutex guard;
+    std::set<std::thread::id> seen;
+    parallel_for(30, 0, [&](std::size_t) {
+      count_in();
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+      --at_work;
+      const std::lock_guard lock(guard);
+      seen.insert(std::this_thread::get_id());
+    });
+    inner_threads = static_cast<int>(seen.size());
+  });
+  CHECK(most <= 3);
+  if (default_threads() > 1) CHECK(inner_threads > 1);
+}
+
+TEST_CASE("threads live on: a thousand farms start none") {
+  const auto threads_now = [] {
+    return std::distance(std::filesystem::directory_iterator("/proc/self/task"), {});
+  };
+  parallel_for(8, 4, [](std::size_t) {});
+  const auto before = threads_now();
+  std::set<std::thread::id> seen;
+  std::mutex guard;
+  for (int k = 0; k < 1000; ++k)
+    parallel_for(8, 4, [&](std::size_t) {
+      const std::lock_guard lock(guard);
+      seen.insert(std::this_thread::get_id());
+    });
+  CHECK(threads_now() == before);
+  CHECK(seen.size() <= static_cast<std::size_t>(before));
+}
+
+TEST_CASE("a child that was forked works without the threads of its parent") {
+  parallel_for(8, 4, [](std::size_t) {});
+  const pid_t child = fork();
+  if (child == 0) {
+    std::atomic<int> count = 0;
+    parallel_for(10, 4, [&](std::size_t) { ++count; });
+    _exit(count == 10 ? 0 : 1);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  CHECK(WIFEXITED(status));
+  CHECK(WEXITSTATUS(status) == 0);
 }
 
 TEST_CASE("the exception of the lowest index comes out") {

@@ -254,6 +254,32 @@ struct Store::Connection {
   std::mutex guard;
 };
 
+StoreMark store_mark(const std::filesystem::path& path) {
+  const std::string file = path.string();
+  if (!std::filesystem::is_regular_file(path)) throw Error(file, "there is no such file");
+  constexpr StoreFormat kAny{"Dashpot's", 0, "leave it out"};
+  try {
+    SQLite::Database database(file, SQLite::OPEN_READWRITE);
+    database.exec(kLock);
+    if (database.execAndGet("PRAGMA application_id").getInt() != kApplication)
+      throw Error(file, "holds no results of Dashpot",
+                  "give files such as fits.sqlite, search.sqlite or sweep.sqlite");
+
+    StoreMark mark;
+    SQLite::Statement format(database, "SELECT format, version FROM store");
+    if (!format.executeStep())
+      throw Error(file, "is damaged: it does not say what it holds", std::string(kAny.renewal));
+    mark.format = format.getColumn(0).getString();
+    mark.version = format.getColumn(1).getInt();
+    SQLite::Statement row(database, "SELECT name, value FROM basis ORDER BY name");
+    while (row.executeStep())
+      mark.basis.emplace_back(row.getColumn(0).getString(), row.getColumn(1).getString());
+    return mark;
+  } catch (const SQLite::Exception& failure) {
+    throw explained(file, kAny, failure);
+  }
+}
+
 Store::Store(const std::filesystem::path& path, const StoreFormat& format,
              const NamedTexts& basis) {
   try {

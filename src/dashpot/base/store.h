@@ -22,6 +22,15 @@ struct StoreFormat {
   std::string_view renewal;  ///< how the user begins anew: "begin anew with --fresh"
 };
 
+/// What a store says of itself.
+struct StoreMark {
+  std::string format;
+  int version = 0;
+  NamedTexts basis;  ///< by name
+};
+/// Throws Error where the file is missing, in use, or no store.
+StoreMark store_mark(const std::filesystem::path& path);
+
 /// Finished results of long work in one file, so that an interrupted command goes on where it
 /// stopped. A result is some bytes under a key. The key, together with the basis that all results
 /// of the file share, says everything that the result depends on: whoever finds it need not make

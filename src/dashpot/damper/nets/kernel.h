@@ -1,5 +1,6 @@
 #pragma once
 #include <cstddef>
+#include <string_view>
 #include <vector>
 
 #include "dashpot/damper/nets/activation.h"
@@ -20,6 +21,11 @@ namespace dashpot {
 enum class SimdLevel { Baseline, Avx2, Avx512 };
 /// Those that this processor runs, the fastest last.
 const std::vector<SimdLevel>& simd_levels();
+/// "sse2" (on other processors: whatever the compiler takes as the least), "avx2", "avx512".
+std::string_view name_of(SimdLevel level);
+/// From now on simd_levels() ends at this level, so that unlike processors give the same bits. To
+/// be called before any work begins. Throws Error where this processor does not run it.
+void use_simd(std::string_view name);
 
 constexpr std::size_t kMaxWidth = 128;  ///< of a layer
 

@@ -1,9 +1,12 @@
 // Chooses the kernel for an instruction set. It stands apart from kernel.h so that simd/tables.h,
 // which it includes, may include kernel.h without a circle.
+#include <string>
 #include <type_traits>
 
+#include "dashpot/base/text.h"
 #include "dashpot/damper/nets/kernel.h"
 #include "dashpot/damper/nets/simd/tables.h"
+#include "dashpot/error.h"
 
 namespace dashpot {
 namespace {
@@ -17,10 +20,8 @@ const KernelTables& tables(SimdLevel level) {
   return baseline_kernel();
 }
 
-}  // namespace
-
-const std::vector<SimdLevel>& simd_levels() {
-  static const std::vector<SimdLevel> kLevels = [] {
+std::vector<SimdLevel>& levels_in_use() {
+  static std::vector<SimdLevel> levels_found = [] {
     std::vector<SimdLevel> levels{SimdLevel::Baseline};
 #if defined(__x86_64__)
     if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
@@ -34,7 +35,28 @@ const std::vector<SimdLevel>& simd_levels() {
 #endif
     return levels;
   }();
-  return kLevels;
+  return levels_found;
+}
+
+}  // namespace
+
+const std::vector<SimdLevel>& simd_levels() { return levels_in_use(); }
+
+std::string_view name_of(SimdLevel level) {
+  return level == SimdLevel::Avx512 ? "avx512" : level == SimdLevel::Avx2 ? "avx2" : "sse2";
+}
+
+void use_simd(std::string_view name) {
+  std::vector<SimdLevel>& levels = levels_in_use();
+  std::vector<std::string> known;
+  for (std::size_t k = 0; k < levels.size(); ++k) {
+    known.emplace_back(name_of(levels[k]));
+    if (name_of(levels[k]) != name) continue;
+    levels.resize(k + 1);
+    return;
+  }
+  throw Error("--simd", "this processor does not run " + std::string(name),
+              "it runs " + join(known, ", "));
 }
 
 template <class Real>

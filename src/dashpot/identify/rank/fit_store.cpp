@@ -5,6 +5,7 @@
 #include "dashpot/base/any_number.h"
 #include "dashpot/base/file.h"
 #include "dashpot/base/text.h"
+#include "dashpot/damper/nets/kernel.h"
 #include "dashpot/error.h"
 #include "dashpot/identify/rank/fit_identity.h"
 #include "dashpot/model_file.h"
@@ -95,7 +96,8 @@ FitStore::FitStore(const std::filesystem::path& path, std::string program)
 
 std::string FitStore::key_of(const Request& request) const {
   std::vector<std::string> parts{program_, request.model, fingerprint(request.training),
-                                 to_string(request.drive_unit)};
+                                 to_string(request.drive_unit),
+                                 std::string(name_of(simd_levels().back()))};
   for (const auto& [name, value] : describe_options(request.options)) parts.push_back(value);
   return request.model + ' ' + sha256(join(parts, "\n"));
 }

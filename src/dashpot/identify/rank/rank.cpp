@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "dashpot/base/parallel.h"
+#include "dashpot/base/part.h"
 #include "dashpot/base/text.h"
 #include "dashpot/damper/kinds/law/law_model.h"
 #include "dashpot/damper/registry.h"
@@ -130,8 +131,47 @@ class RankingRun {
   Ranking run() {
     const auto begin = std::chrono::steady_clock::now();
 
-    // All fits of all models in one farm.
     const std::vector<Task> tasks = tasks_by_cost();
+    make(tasks);
+    if (refused_ == tasks.size()) throw Error("", ranking_.models.front().fit.message);
+
+    // Then judge and sort. What a step costs is measured when nothing else runs.
+    std::vector<RankedModel>& models = ranking_.models;
+    parallel_for(models.size(), options_.threads, [&](std::size_t k) { judge(models[k]); });
+    for (RankedModel& ranked : models)
+      if (ranked.fit.model)
+        ranked.nanoseconds_per_step =
+            step_cost(*ranked.fit.model, training_.front(), dataset_.drive_unit);
+    std::stable_sort(ranking_.models.begin(), ranking_.models.end(), better);
+    compare_with_first();
+    ranking_.kept_fits = kept_;
+    ranking_.wall_seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    return std::move(ranking_);
+  }
+
+  /// The fits of one part, for the store alone.
+  PartReport run_part(const Part& part) {
+    std::vector<Task> tasks = tasks_by_cost();
+    PartReport report{.all = tasks.size()};
+    std::erase_if(tasks, [&](const Task& task) { return !part.has(task.number); });
+    make(tasks);
+    report.tasks = tasks.size();
+    report.kept = kept_;
+    return report;
+  }
+
+ private:
+  struct Task {
+    std::size_t number;  ///< in the order of models and folds, which no measured cost changes
+    const RankedModel* model;
+    const Fold* fold;  ///< none: the final fit
+    FitReport* report;
+    double cost;
+  };
+
+  /// All fits of all models in one farm.
+  void make(const std::vector<Task>& tasks) {
     std::atomic<std::size_t> done = 0;
     parallel_for(tasks.size(), options_.threads, [&](std::size_t k) {
       const Task& task = tasks[k];
@@ -144,36 +184,21 @@ class RankingRun {
       ++done;
       options_.monitor.report("fitted " + stage, share());
     });
-    if (refused_ == tasks.size()) throw Error("", ranking_.models.front().fit.message);
-
-    // Then judge and sort.
-    for (RankedModel& ranked : ranking_.models) judge(ranked);
-    std::stable_sort(ranking_.models.begin(), ranking_.models.end(), better);
-    compare_with_first();
-    ranking_.kept_fits = kept_;
-    ranking_.wall_seconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    return std::move(ranking_);
   }
-
- private:
-  struct Task {
-    const RankedModel* model;
-    const Fold* fold;  ///< none: the final fit
-    FitReport* report;
-    double cost;
-  };
 
   /// The longest first, so that no core waits for it at the end.
   std::vector<Task> tasks_by_cost() {
     std::vector<Task> tasks;
     for (RankedModel& ranked : ranking_.models) {
       const double cost = expected_cost(ranked.name, training_.front(), dataset_.drive_unit);
-      tasks.push_back({&ranked, nullptr, &ranked.fit, cost});
+      const auto add = [&](const Fold* fold, FitReport& report) {
+        tasks.push_back({tasks.size(), &ranked, fold, &report, cost});
+      };
+      add(nullptr, ranked.fit);
       for (std::size_t f = 0; f < ranked.fold_fits.size(); ++f)
-        tasks.push_back({&ranked, &folds_[f], &ranked.fold_fits[f], cost});
+        add(&folds_[f], ranked.fold_fits[f]);
       for (std::size_t f = 0; f < held_back_.size(); ++f)
-        tasks.push_back({&ranked, &held_back_[f], &ranked.held_back_fits[f], cost});
+        add(&held_back_[f], ranked.held_back_fits[f]);
     }
     std::stable_sort(tasks.begin(), tasks.end(),
                      [](const Task& a, const Task& b) { return a.cost > b.cost; });
@@ -249,8 +274,6 @@ class RankingRun {
     if (!ranked.dissipation.dissipates())
       ranked.fit.warnings.push_back(activity(ranked.dissipation, dataset_.drive_unit) +
                                     "; it is not recommended");
-    ranked.nanoseconds_per_step =
-        step_cost(*ranked.fit.model, training_.front(), dataset_.drive_unit);
   }
 
   /// A model on a fold: the shape of its errors on the training part, and its errors on the rest
@@ -370,6 +393,12 @@ std::vector<const RankedModel*> Ranking::by_ride() const {
 Ranking rank(const std::vector<std::string>& models, const Dataset& dataset,
              const LeaveOut& leave_out, const IdentifyOptions& options, FitStore* store) {
   return RankingRun(models, dataset, leave_out, options, store).run();
+}
+
+PartReport rank_part(const std::vector<std::string>& models, const Dataset& dataset,
+                     const LeaveOut& leave_out, const IdentifyOptions& options, FitStore& store,
+                     const Part& part) {
+  return RankingRun(models, dataset, leave_out, options, &store).run_part(part);
 }
 
 Provenance provenance_of(const Dataset& dataset, std::vector<std::string> records,

@@ -119,19 +119,40 @@ class SearchRun {
     return std::move(report_);
   }
 
+  /// The results of one part, for the store alone.
+  PartReport run_part(const Part& part) {
+    std::vector<Trial> trials = trials_of(first_designs(report_.options), 0);
+    const std::size_t all = trials.size() * folds_.size();
+    std::vector<std::size_t> tasks;
+    for (std::size_t k = 0; k < all; ++k)
+      if (part.has(k)) tasks.push_back(k);
+    work_ = static_cast<double>(tasks.size());
+    parallel_for(tasks.size(), report_.options.fit.threads, [&](std::size_t k) {
+      run_fold(trials[tasks[k] / folds_.size()], tasks[k] / folds_.size(),
+               tasks[k] % folds_.size());
+    });
+    return {.tasks = tasks.size(), .all = all, .kept = report_.kept};
+  }
+
  private:
-  std::vector<Trial> run_rung(const std::vector<NetworkDesign>& designs, std::size_t rung) {
+  /// Trials of these designs, with a place for each fold, and what they train on at this rung.
+  std::vector<Trial> trials_of(const std::vector<NetworkDesign>& designs, std::size_t rung) {
     share_ = report_.rungs[rung].share;
     training_.clear();
     for (const Fold& fold : folds_)
       training_.push_back(by_samples() ? first_part(fold.training, share_) : fold.training);
 
-    // Each fold of each trial is a task.
     std::vector<Trial> trials;
     for (const NetworkDesign& design : designs)
       trials.push_back(
           {.design = design, .rung = rung, .folds = std::vector<FoldResult>(folds_.size())});
     missing_.assign(designs.size(), folds_.size());
+    return trials;
+  }
+
+  /// Each fold of each trial is a task.
+  std::vector<Trial> run_rung(const std::vector<NetworkDesign>& designs, std::size_t rung) {
+    std::vector<Trial> trials = trials_of(designs, rung);
     parallel_for(designs.size() * folds_.size(), report_.options.fit.threads, [&](std::size_t k) {
       run_fold(trials[k / folds_.size()], k / folds_.size(), k % folds_.size());
     });
@@ -301,8 +322,7 @@ NamedTexts describe_search(const Dataset& dataset, const LeaveOut& leave_out,
   if (options.method == SearchMethod::Halving)
     texts.emplace_back("effort", options.effort == SearchEffort::Samples ? "samples" : "epochs");
   // Another instruction set rounds otherwise.
-  texts.emplace_back("processor",
-                     "SIMD level " + std::to_string(static_cast<int>(simd_levels().back())));
+  texts.emplace_back("processor", "SIMD level " + std::string(name_of(simd_levels().back())));
   texts.emplace_back("program", program);
   return texts;
 }
@@ -310,6 +330,16 @@ NamedTexts describe_search(const Dataset& dataset, const LeaveOut& leave_out,
 SearchReport search(const Dataset& dataset, const LeaveOut& leave_out, const SearchOptions& options,
                     TrialStore* store, const OnTrial& on_trial) {
   return SearchRun(dataset, leave_out, options, store, on_trial).run();
+}
+
+PartReport search_part(const Dataset& dataset, const LeaveOut& leave_out,
+                       const SearchOptions& options, TrialStore& store, const Part& part) {
+  if (options.method == SearchMethod::Halving && !part.is_all())
+    throw Error("--part", "does not go with --method halving",
+                "its later rounds need all results of the one before: search by chance or on a "
+                "grid");
+  const OnTrial nobody;
+  return SearchRun(dataset, leave_out, options, &store, nobody).run_part(part);
 }
 
 IdentifyOptions options_of(const NetworkDesign& design, const SearchOptions& options) {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "dashpot/base/part.h"
 #include "dashpot/identify.h"
 #include "dashpot/identify/search/search_space.h"
 #include "dashpot/identify/search/trial_store.h"
@@ -95,6 +96,11 @@ using OnTrial = std::function<void(const Trial&, const SearchReport&)>;
 /// a failed trial.
 SearchReport search(const Dataset& dataset, const LeaveOut& leave_out, const SearchOptions& options,
                     TrialStore* store = nullptr, const OnTrial& on_trial = {});
+
+/// Makes and keeps the results of one part of that search, and judges nothing: once all parts lie
+/// in one store, search() finds its results there. Throws Error for a part of a halving.
+PartReport search_part(const Dataset& dataset, const LeaveOut& leave_out,
+                       const SearchOptions& options, TrialStore& store, const Part& part);
 
 /// As the fits of this design were made: its network and seed in place.
 IdentifyOptions options_of(const NetworkDesign& design, const SearchOptions& options);

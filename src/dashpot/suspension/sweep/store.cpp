@@ -9,6 +9,7 @@
 
 #include "dashpot/base/file.h"
 #include "dashpot/base/text.h"
+#include "dashpot/damper/nets/kernel.h"
 
 namespace dashpot {
 namespace {
@@ -66,6 +67,7 @@ NamedTexts basis_of(const SweepRequest& request, const std::string& program) {
   for (const SweepInput& input : request.inputs) inputs.push_back(input_text(input, request));
   const VehicleWords& words = request.controllers.front().words;
   return {{"program", program},
+          {"processor", "SIMD level " + std::string(name_of(simd_levels().back()))},
           {"plant", with_files(words.plant)},
           {"values", join(words.values, ", ")},
           {"road", with_files(request.road)},

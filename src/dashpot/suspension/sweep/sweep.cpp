@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <functional>
 #include <mutex>
 
 #include "dashpot/base/parallel.h"
@@ -17,11 +18,15 @@ constexpr std::size_t kBlock = 32;
 
 using Tasks = std::vector<SweepRider::Task>;
 
-/// The rides that are not there yet.
-std::vector<Tasks> blocks_of(const std::vector<std::vector<char>>& there) {
+/// Whether a ride is there, by controller and vehicle.
+using There = std::vector<std::vector<char>>;
+
+/// The rides of a part that are not there yet.
+std::vector<Tasks> blocks_of(const There& there, const Part& part) {
   std::vector<Tasks> blocks;
   const std::size_t vehicles = there.front().size();
   for (std::size_t first = 0; first < vehicles; first += kBlock) {
+    if (!part.has(first / kBlock)) continue;
     Tasks tasks;
     for (std::size_t c = 0; c < there.size(); ++c)
       for (std::size_t k = first; k < std::min(first + kBlock, vehicles); ++k)
@@ -34,8 +39,9 @@ std::vector<Tasks> blocks_of(const std::vector<std::vector<char>>& there) {
 /// Counts rides as they end.
 class Tally {
  public:
-  Tally(const Sweep& sweep, const Monitor& monitor)
-      : monitor_(monitor), ended_(sweep.kept), all_(sweep.ride_count()) {}
+  /// `all` of which `ended` have ended.
+  Tally(std::size_t ended, std::size_t all, const Monitor& monitor)
+      : monitor_(monitor), ended_(ended), all_(all) {}
   void add(std::size_t rides) {
     const std::lock_guard lock(guard_);
     ended_ += rides;
@@ -48,6 +54,19 @@ class Tally {
   std::size_t ended_, all_;
   std::mutex guard_;
 };
+
+/// Rides block by block, keeps each as it ends and gives it to `take`.
+void ride_blocks(const std::vector<Tasks>& blocks, const SweepRider& rider, SweepStore& store,
+                 const SweepOptions& options, Tally& tally,
+                 const std::function<void(const SweepStore::Ride&)>& take) {
+  parallel_for(blocks.size(), options.threads, [&](std::size_t b) {
+    options.monitor.check();
+    const std::vector<SweepStore::Ride> rides = rider.ride(blocks[b], options.monitor);
+    store.save(rides);
+    for (const SweepStore::Ride& ride : rides) take(ride);
+    tally.add(rides.size());
+  });
+}
 
 }  // namespace
 
@@ -63,7 +82,7 @@ Sweep sweep(const SweepRequest& request, SweepStore& store, const SweepOptions& 
 
   // Take over the rides that are kept.
   result.rides.assign(controllers, std::vector<RideMeasures>(vehicles));
-  std::vector<std::vector<char>> there(controllers, std::vector<char>(vehicles));
+  There there(controllers, std::vector<char>(vehicles));
   for (const SweepStore::Ride& ride : store.load()) {
     result.rides[ride.controller][ride.vehicle] = ride.measures;
     there[ride.controller][ride.vehicle] = 1;
@@ -71,20 +90,33 @@ Sweep sweep(const SweepRequest& request, SweepStore& store, const SweepOptions& 
   }
 
   // Ride the others, block by block.
-  const std::vector<Tasks> blocks = blocks_of(there);
-  Tally tally(result, options.monitor);
-  parallel_for(blocks.size(), options.threads, [&](std::size_t b) {
-    options.monitor.check();
-    const std::vector<SweepStore::Ride> rides = rider.ride(blocks[b], options.monitor);
-    store.save(rides);
-    for (const SweepStore::Ride& ride : rides)
-      result.rides[ride.controller][ride.vehicle] = ride.measures;
-    tally.add(rides.size());
-  });
+  Tally tally(result.kept, result.ride_count(), options.monitor);
+  ride_blocks(blocks_of(there, Part()), rider, store, options, tally,
+              [&](const SweepStore::Ride& ride) {
+                result.rides[ride.controller][ride.vehicle] = ride.measures;
+              });
 
   result.wall_seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return result;
+}
+
+PartReport sweep_part(const SweepRequest& request, SweepStore& store, const SweepOptions& options,
+                      const Part& part) {
+  const std::size_t vehicles = request.vehicles(), controllers = request.controllers.size();
+  const SweepRider rider(request);
+
+  // The blocks of the part, before and after those that are kept are taken away.
+  There there(controllers, std::vector<char>(vehicles));
+  const std::size_t all = blocks_of(there, Part()).size(), tasks = blocks_of(there, part).size();
+  for (const SweepStore::Ride& ride : store.load()) there[ride.controller][ride.vehicle] = 1;
+  const std::vector<Tasks> blocks = blocks_of(there, part);
+
+  std::size_t rides = 0;
+  for (const Tasks& block : blocks) rides += block.size();
+  Tally tally(0, rides, options.monitor);
+  ride_blocks(blocks, rider, store, options, tally, [](const SweepStore::Ride&) {});
+  return {.tasks = tasks, .all = all, .kept = tasks - blocks.size()};
 }
 
 }  // namespace dashpot

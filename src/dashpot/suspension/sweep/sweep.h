@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "dashpot/base/part.h"
 #include "dashpot/monitor.h"
 #include "dashpot/suspension/sweep/draw.h"
 #include "dashpot/suspension/sweep/store.h"
@@ -30,5 +31,9 @@ struct Sweep {
 /// the same bit for bit for any number of threads and interruptions. Throws Error naming the
 /// vehicle that cannot be made, and Interrupted when the monitor stops it.
 Sweep sweep(const SweepRequest& request, SweepStore& store, const SweepOptions& options);
+/// Drives and keeps the blocks of one part of that sweep, and evaluates nothing: once all parts lie
+/// in one store, sweep() finds its rides there. Counts blocks of vehicles.
+PartReport sweep_part(const SweepRequest& request, SweepStore& store, const SweepOptions& options,
+                      const Part& part);
 
 }  // namespace dashpot

@@ -1,0 +1,25 @@
+#pragma once
+#include <filesystem>
+#include <string>
+
+#include "command.h"
+#include "dashpot/base/part.h"
+
+namespace dashpot::cli {
+
+/// How the work of one command goes over several machines.
+struct ManyMachines {
+  std::string part, simd;
+};
+
+std::vector<Option> many_machines_options(ManyMachines& settings);
+
+/// Settles the instruction set, before any work, and gives the part, all of the work unless stated.
+/// Throws UsageError.
+Part settle_machines(const ManyMachines& settings);
+
+/// Says what was made and how the parts become one; the exit code.
+int finish_part(const PartReport& report, const Part& part, const std::string& what,
+                const std::filesystem::path& store, Console& console);
+
+}  // namespace dashpot::cli
