@@ -55,6 +55,8 @@ Dataset sines_for(const ModelFile& file) {
   if (!(amplitude > 0 && std::isfinite(amplitude) && fastest > 0 && std::isfinite(fastest)))
     throw Error("compare", "the first model does not say which motion it is for",
                 "recordings before it, which it is then run over");
+
+  // A bench without noise, at the drives of the data.
   BenchOptions bench{.motions = {},
                      .drive_levels = {d.current_min},
                      .force_noise = 0,
@@ -67,10 +69,13 @@ Dataset sines_for(const ModelFile& file) {
     bench.drive_levels.push_back((d.current_min + d.current_max) / 2);
     bench.drive_levels.push_back(d.current_max);
   }
+
+  // The amplitude stays, the frequency gives the speed.
   for (int k = 0; k < kSpeeds; ++k) {
     const double speed = fastest * std::pow(kSlowest, 1 - k / (kSpeeds - 1.0));
     bench.motions.push_back({amplitude, speed / (2 * std::numbers::pi * amplitude)});
   }
+
   bench.sample_rate = std::max(500.0, 200 * bench.motions.back().frequency);
   Dataset dataset = run_virtual_bench(*file.model, file.drive_unit, bench);
   dataset.name = "sines";
@@ -82,11 +87,14 @@ ComparedThing run_model(const std::string& path, const Dataset& dataset, bool is
                         int threads) {
   const ModelFile file = load_model(path);
   require_same_drive(file, dataset, path);
+
+  // Recordings have an offset of the load cell each; sines of the bench have none.
   ComparedThing thing{.name = path, .dataset = dataset, .is_model = true};
   Evaluation evaluation = evaluate(*file.model, dataset.records, dataset.drive_unit,
                                    {.offset = is_measured ? OffsetMode::Record : OffsetMode::None,
                                     .known_offsets = {},
                                     .threads = threads});
+
   for (std::size_t r = 0; r < dataset.records.size(); ++r) {
     Record& record = thing.dataset.records[r];
     const RecordResult& result = evaluation.records[r];
@@ -95,6 +103,7 @@ ComparedThing run_model(const std::string& path, const Dataset& dataset, bool is
                   "a model that stays finite; dashpot physics shows where it does not");
     record.find("force")->samples = result.modelled;
   }
+
   if (is_measured) {
     thing.seen = seen_records(file.provenance, dataset);
     thing.evaluation = std::move(evaluation);
@@ -154,15 +163,19 @@ int run_compare(const CompareSettings& settings, Console& console) {
   if (settings.things.size() < 2)
     throw UsageError("compare", "one thing cannot be compared",
                      "two or more model files and recordings: dashpot compare before/ after/");
+
   const std::vector<double> speeds = parse_speeds(settings.speeds);
   const std::vector<ComparedThing> things = gather(settings, console);
   const Document document =
       comparison_document({things, speeds, console.command_line(), DASHPOT_VERSION, date_now()});
   print_document(document, console);
+
+  // A model that has seen the recordings is not judged by them.
   for (const ComparedThing& thing : things)
     if (thing.seen > 0)
       console.warn(fmt::format("{} was taught by {} of the recordings: this is no judgement",
                                thing.name, counted(thing.seen, "record")));
+
   if (console.json) console.print_json(document_json(document));
   if (!settings.report.empty()) {
     write_file(settings.report, html_document(document));

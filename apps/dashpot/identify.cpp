@@ -39,17 +39,23 @@ constexpr std::string_view kIdentifyExample =
 int run_identify(const IdentifySettings& asked, Console& console) {
   const RankingSettings& settings = asked.ranking;
   if (!asked.plant.empty()) return run_in_plant(asked.plant, settings, console);
+
+  // All that may be refused is read before the first fit.
   const std::optional<RideRankOptions> ride = stated_ride(asked.ride, settings, console);
   const RankingData data = ranking_data(settings, console);
   const std::unique_ptr<FitStore> store = fit_store(settings, console);
   const ChosenModels models = chosen_models(settings.fit, data.dataset, data.leave_out, console);
+
   Ranking ranking = rank(models.names, data.dataset, data.leave_out,
                          identify_options(settings.fit, models.names, console), store.get());
   if (ranking.kept_fits > 0)
     console.note(counted(ranking.kept_fits, "fit") +
                  " kept from before; with --fresh they are made again");
+
   ranking.budget = models.budget;
   ride_models(ranking, data.dataset, ride, console);
+
+  // One document behind the terminal, the folder of results and JSON.
   const ReportInput input = report_input(data.dataset, ranking, console);
   const Document report = ranking_document(input);
   print_results(report, ranking, console);

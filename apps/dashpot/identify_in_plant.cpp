@@ -173,23 +173,28 @@ Value json_of(const FittedParameter& p) {
                         {"weak", p.weak}});
 }
 
+Value json_of(const SensorFigures& s) {
+  return Value::object({{"recording", s.recording},
+                        {"sensor", s.channel},
+                        {"unit", s.unit},
+                        {"rms", s.rms},
+                        {"error_fitted", s.training},
+                        {"error_held_back", s.held_back},
+                        {"offset", s.offset}});
+}
+
+template <class T>
+Value json_of(const std::vector<T>& all) {
+  Value list = Value::array();
+  for (const T& one : all) list.push_back(json_of(one));
+  return list;
+}
+
 Value json_of(const InPlantFit& fit) {
   const InPlantReport& r = fit.report;
-  const auto list = [](const std::vector<FittedParameter>& parameters) {
-    Value values = Value::array();
-    for (const FittedParameter& p : parameters) values.push_back(json_of(p));
-    return values;
-  };
-  Value sensors = Value::array(), confounded = Value::array();
-  for (const SensorFigures& s : r.sensors)
-    sensors.push_back(Value::object({{"recording", s.recording},
-                                     {"sensor", s.channel},
-                                     {"unit", s.unit},
-                                     {"rms", s.rms},
-                                     {"error_fitted", s.training},
-                                     {"error_held_back", s.held_back},
-                                     {"offset", s.offset}}));
+  Value confounded = Value::array();
   for (const auto& group : r.knowable.confounded) confounded.push_back(Value::array(group));
+
   return Value::object({{"law", fit.law},
                         {"converged", r.status == FitReport::Status::Converged},
                         {"message", r.message},
@@ -197,13 +202,13 @@ Value json_of(const InPlantFit& fit) {
                         {"cpu_seconds", r.seconds},
                         {"steps_per_sample", r.steps},
                         {"step_error", r.step_error},
-                        {"plant", list(r.plant)},
-                        {"damper", list(r.damper)},
-                        {"nuisances", list(r.nuisances)},
+                        {"plant", json_of(r.plant)},
+                        {"damper", json_of(r.damper)},
+                        {"nuisances", json_of(r.nuisances)},
                         {"singular_values", Value::array(r.knowable.singular_values)},
                         {"without_effect", Value::array(r.knowable.without_effect)},
                         {"confounded", std::move(confounded)},
-                        {"sensors", std::move(sensors)},
+                        {"sensors", json_of(r.sensors)},
                         {"warnings", Value::array(r.warnings)}});
 }
 
@@ -253,9 +258,7 @@ Document in_plant_document(const std::vector<InPlantFit>& fits, const InPlantSet
     section.remarks = knowable_lines(best.report);
     document.sections.push_back(std::move(section));
   }
-  Value all = Value::array();
-  for (const InPlantFit& fit : fits) all.push_back(json_of(fit));
-  document.data = Value::object({{"plant", setup.model->name}, {"fits", std::move(all)}});
+  document.data = Value::object({{"plant", setup.model->name}, {"fits", json_of(fits)}});
   return document;
 }
 
@@ -268,6 +271,8 @@ void save_damper(const InPlantFit& fit, const InPlantSetup& setup,
   file.drive_unit = setup.drive_unit;
   file.sample_time = sample_time;
   file.domain = fit.report.domain;
+
+  // What it was fitted to, so that it is not judged by that unawares.
   file.provenance.created = date_now();
   file.provenance.command = console.command_line();
   file.provenance.dataset = "identified in a plant: " + std::string(setup.model->name);
@@ -275,6 +280,7 @@ void save_damper(const InPlantFit& fit, const InPlantSetup& setup,
     file.provenance.files.push_back({path, sha256_of_file(path)});
     file.provenance.training_records.push_back(fs::path(path).filename().string());
   }
+
   file.dissipation = dissipation(*file.model, file.domain);
   if (!file.dissipation->dissipates())
     console.warn(fit.law + ": " + activity(*file.dissipation, file.drive_unit));

@@ -68,7 +68,7 @@ std::optional<RideRankOptions> stated_ride(const RideRankSettings& settings,
 void ride_models(Ranking& ranking, const Dataset& dataset,
                  const std::optional<RideRankOptions>& ride, Console& console) {
   if (!ride) return;
-  foresee_rides(ranking, dataset, *ride);
+  predict_rides(ranking, dataset, *ride);
   if (!ranking.ridden) console.warn("no model can be ridden; the table says why");
 }
 

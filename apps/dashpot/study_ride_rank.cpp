@@ -48,12 +48,12 @@ Command ride_rank_study() {
   RideRankStudyOptions& options = settings->options;
   Command command{
       .name = "study ride-rank",
-      .title = "Does the error that 'rank --plant' foresees tell the true one?",
+      .title = "Does the error that 'rank --plant' predicts tell the true one?",
       .description =
           "Records dampers that are built otherwise than any model (series springs, lopsided "
           "valves, friction, lag, gas, fading) on the virtual bench, ranks models as 'rank "
           "--plant' does, and then rides the true damper, which no user can. Says how well the "
-          "foreseen order of the models tells that of their true errors, and how well ESR does.",
+          "predicted order of the models tells that of their true errors, and how well ESR does.",
       .options = {{.names = "--truths",
                    .target = &options.truths,
                    .help = "the true dampers, separated by commas, as the page names them",

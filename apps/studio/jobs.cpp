@@ -231,11 +231,13 @@ Value Jobs::list() const {
   const std::lock_guard lock(mutex_);
   Value list = Value::array();
   for (const Job& job : jobs_) {
-    const fs::path folder = project_.folder() / "fits" / job.request.name;
+    // How far it has come: the error of each model over the time, as it reported it.
     Value steps = Value::array();
     for (const Job::Step& step : job.steps)
       steps.push_back(Value::array({Value(step.what), Value(step.seconds), Value(step.cost)}));
-    std::vector<std::string> words = arguments(job.request);
+
+    const fs::path folder = project_.folder() / "fits" / job.request.name;
+    const std::vector<std::string> words = arguments(job.request);
     list.push_back(Value::object({{"name", job.request.name},
                                   {"models", Value::array(job.request.models)},
                                   {"state", job.state},

@@ -264,12 +264,34 @@ class Studio {
         "application/json");
   }
 
+  /// "start" of new fits, or "stop" and "go_on" of those with that name.
+  void act_on_fits(const Value& body) {
+    ObjectReader reader(body, "a fit");
+    const std::string action = reader.string("action"), name = reader.string("name");
+    if (action == "start") {
+      FitRequest fit{name, {}, reader.string("leave_out", "")};
+      for (const Value& model : reader.required("models").items())
+        fit.models.push_back(model.as_string());
+      reader.finish();
+      jobs_.start(fit);
+      return;
+    }
+
+    reader.finish();
+    if (action != "stop" && action != "go_on")
+      throw Error("'" + action + "'", "is no action", "start, stop or go_on");
+    action == "stop" ? jobs_.stop(name) : jobs_.go_on(name);
+  }
+
   void fits(httplib::Server& server) {
+    // Answered when something is newer than what the page knows, or after a while.
     server.Get("/api/changes", [this](const Request& request, Response& response) {
       const std::size_t version =
           jobs_.wait(static_cast<std::size_t>(std::max(0.0, number_of(request, "since", 0))));
       answer(response, Value::object({{"version", version}}));
     });
+
+    // What there is, and what can be fitted at which cost.
     server.Get("/api/fits", [this](const Request&, Response& response) {
       answer(response, Value::object({{"fits", jobs_.list()}}));
     });
@@ -284,22 +306,9 @@ class Studio {
       }
       answer(response, Value::object({{"models", std::move(list)}}));
     });
+
     server.Post("/api/fits", [this](const Request& request, Response& response) {
-      const Value body = body_of(request);
-      ObjectReader reader(body, "a fit");
-      const std::string action = reader.string("action"), name = reader.string("name");
-      if (action == "start") {
-        FitRequest fit{name, {}, reader.string("leave_out", "")};
-        for (const Value& model : reader.required("models").items())
-          fit.models.push_back(model.as_string());
-        reader.finish();
-        jobs_.start(fit);
-      } else {
-        reader.finish();
-        if (action != "stop" && action != "go_on")
-          throw Error("'" + action + "'", "is no action", "start, stop or go_on");
-        action == "stop" ? jobs_.stop(name) : jobs_.go_on(name);
-      }
+      act_on_fits(body_of(request));
       answer(response, Value::object({{"done", true}}));
     });
   }

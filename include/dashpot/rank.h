@@ -36,8 +36,8 @@ struct Estimate {
 
 /// How far the ride of a model will lie from that of the damper, as far as the recordings tell
 /// (machine/ride_rank.h). Worst tyre, worst strut.
-struct ForeseenRide {
-  std::string refusal;  ///< why nothing is foreseen; the figures then say nothing
+struct PredictedRide {
+  std::string refusal;  ///< why nothing is predicted; the figures then say nothing
 
   /// %, root mean square of the three that follow, each over its rms in the damper's ride: what
   /// models are ranked by.
@@ -80,7 +80,7 @@ struct RankedModel {
   std::vector<double> esr_parts;
   std::optional<PairedDifference> behind;  ///< to the first model; none for itself
   /// Where the models were ridden: whoever rode them states it here.
-  std::optional<ForeseenRide> ride;
+  std::optional<PredictedRide> ride;
 };
 /// Fitted, and finite on every left-out record.
 bool is_usable(const RankedModel& model);
@@ -121,7 +121,7 @@ struct Ranking {
   /// The models that may be called best: the first, and those whose difference to it cannot be told
   /// from 0, in their order. One: the winner. None: no model can be recommended.
   std::vector<const RankedModel*> leaders() const;
-  /// The models whose ride is foreseen, the least error first.
+  /// The models whose ride is predicted, the least error first.
   std::vector<const RankedModel*> by_ride() const;
 };
 

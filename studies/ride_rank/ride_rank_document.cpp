@@ -29,9 +29,9 @@ DocumentTable quality_table(std::string title, std::string first) {
   return {.title = std::move(title),
           .columns = {{.title = std::move(first), .elastic = true},
                       {.title = "rides", .numeric = true},
-                      {.title = "foreseen", .numeric = true},
+                      {.title = "predicted", .numeric = true},
                       {.title = "ESR", .numeric = true},
-                      {.title = "foreseen picks", .numeric = true},
+                      {.title = "predicted picks", .numeric = true},
                       {.title = "ESR picks", .numeric = true},
                       {.title = "covered %", .numeric = true, .priority = 1}},
           .rows = {}};
@@ -41,8 +41,8 @@ void add_quality(DocumentTable& table, const std::string& name, const Cases& cas
   const RideRankQuality q = quality_of(cases);
   if (q.cases == 0) return;
   const auto two = [](double value) { return fmt::format("{:.2f}", value); };
-  table.rows.push_back({name, std::to_string(q.cases), two(q.foreseen.correlation),
-                        two(q.esr.correlation), two(q.foreseen.regret), two(q.esr.regret),
+  table.rows.push_back({name, std::to_string(q.cases), two(q.predicted.correlation),
+                        two(q.esr.correlation), two(q.predicted.regret), two(q.esr.regret),
                         percent_text(100 * q.covered)});
 }
 
@@ -67,7 +67,7 @@ DocumentTable ride_table(std::span<const RideRankCase> cases) {
                                   {"controller"},
                                   {"model"},
                                   {"ESR %", true},
-                                  {"foreseen %", true},
+                                  {"predicted %", true},
                                   {"low", true},
                                   {"high", true},
                                   {"true %", true}},
@@ -76,10 +76,10 @@ DocumentTable ride_table(std::span<const RideRankCase> cases) {
 
   // A row for each model in each ride.
   for (const RideRankCase& one : cases)
-    for (const ForeseenAndTrue& m : one.models)
+    for (const PredictedAndTrue& m : one.models)
       table.rows.push_back({one.truth, one.road, one.controller, m.model, percent_text(m.esr),
-                            percent_text(m.foreseen.value), percent_text(m.foreseen.low),
-                            percent_text(m.foreseen.high), percent_text(m.truth)});
+                            percent_text(m.predicted.value), percent_text(m.predicted.low),
+                            percent_text(m.predicted.high), percent_text(m.truth)});
   return table;
 }
 
@@ -87,11 +87,11 @@ std::string verdict_of(const RideRankQuality& all) {
   if (all.cases == 0)
     return "No ride had three models that can be ridden: there is no order to tell.";
   return fmt::format(
-      "Rank correlation with the true error of the ride: {:.2f} of the foreseen error, {:.2f} "
-      "of the ESR on the bench. The model that is foreseen to be best has {:.2f} times the "
+      "Rank correlation with the true error of the ride: {:.2f} of the predicted error, {:.2f} "
+      "of the ESR on the bench. The model that is predicted to be best has {:.2f} times the "
       "error of the best there is, the one of least ESR {:.2f} times. {} % of the true errors "
-      "lie within the foreseen 90 % intervals.",
-      all.foreseen.correlation, all.esr.correlation, all.foreseen.regret, all.esr.regret,
+      "lie within the predicted 90 % intervals.",
+      all.predicted.correlation, all.esr.correlation, all.predicted.regret, all.esr.regret,
       percent_text(100 * all.covered));
 }
 
@@ -114,8 +114,8 @@ Document ride_rank_document(std::span<const RideRankCase> cases,
   add_quality(parts, "the others, which judge it", those(cases, std::not_fn(was_chosen_on)));
   parts.note =
       "Spearman's rank correlation with the true error of the ride, mean over the rides: of the "
-      "foreseen error and of ESR. Picks: the true error of the model that stands first, over the "
-      "least of all models. Covered: true errors within the foreseen 90 % intervals.";
+      "predicted error and of ESR. Picks: the true error of the model that stands first, over the "
+      "least of all models. Covered: true errors within the predicted 90 % intervals.";
   document.sections.push_back(
       {.name = "orders",
        .title = "Which order is right",
@@ -143,12 +143,12 @@ Value ride_rank_json(std::span<const RideRankCase> cases) {
   Value list = Value::array();
   for (const RideRankCase& one : cases) {
     Value models = Value::array();
-    for (const ForeseenAndTrue& m : one.models)
+    for (const PredictedAndTrue& m : one.models)
       models.push_back(Value::object({{"model", m.model},
                                       {"esr_percent", m.esr},
-                                      {"foreseen_percent", m.foreseen.value},
-                                      {"low_percent", m.foreseen.low},
-                                      {"high_percent", m.foreseen.high},
+                                      {"predicted_percent", m.predicted.value},
+                                      {"low_percent", m.predicted.low},
+                                      {"high_percent", m.predicted.high},
                                       {"true_percent", m.truth}}));
     list.push_back(Value::object({{"damper", one.truth},
                                   {"road", one.road},
@@ -157,9 +157,9 @@ Value ride_rank_json(std::span<const RideRankCase> cases) {
   }
 
   const RideRankQuality all = quality_of(cases);
-  return Value::object({{"foreseen_correlation", all.foreseen.correlation},
+  return Value::object({{"predicted_correlation", all.predicted.correlation},
                         {"esr_correlation", all.esr.correlation},
-                        {"foreseen_regret", all.foreseen.regret},
+                        {"predicted_regret", all.predicted.regret},
                         {"esr_regret", all.esr.regret},
                         {"covered", all.covered},
                         {"rides", std::move(list)}});

@@ -6,7 +6,7 @@
 
 namespace dashpot {
 
-/// Rank correlations with the true error of the ride, of what was foreseen and of ESR: over all
+/// Rank correlations with the true error of the ride, of what was predicted and of ESR: over all
 /// cases, by true damper, road and controller; and each model in each ride.
 Document ride_rank_document(std::span<const RideRankCase> cases,
                             const RideRankStudyOptions& options);

@@ -68,23 +68,23 @@ std::vector<Candidate> candidates_of(const Dataset& dataset, const RideRankStudy
 }
 
 /// Each model beside the dampers that the recordings allow, and beside the truth.
-std::vector<ForeseenAndTrue> ridden(const std::vector<Candidate>& candidates,
-                                    const std::shared_ptr<const DamperModel>& truth,
-                                    const RideRankOptions& riding, int threads) {
+std::vector<PredictedAndTrue> ridden(const std::vector<Candidate>& candidates,
+                                     const std::shared_ptr<const DamperModel>& truth,
+                                     const RideRankOptions& riding, int threads) {
   const Candidate& known = *std::ranges::min_element(
       candidates, {}, [](const Candidate& one) { return one.errors.unexplained(); });
   const std::vector<OtherDamper> dampers = possible_dampers(known.file, known.errors, riding);
   const GroundPointer ground = make_ground(riding.road, riding.seed, "--roads");
-  std::vector<ForeseenAndTrue> rows(candidates.size());
+  std::vector<PredictedAndTrue> rows(candidates.size());
   parallel_for(candidates.size(), threads, [&](std::size_t k) {
     const Candidate& one = candidates[k];
     const RiddenModel model(one.file, *ground, riding);
-    const ForeseenRide foreseen = model.foreseen(dampers);
+    const PredictedRide predicted = model.predicted(dampers);
     const std::optional<RideDifference> real = model.against({truth});
-    if (foreseen.refusal.empty() && real)
-      rows[k] = {one.name, one.esr, foreseen.error, real->share};
+    if (predicted.refusal.empty() && real)
+      rows[k] = {one.name, one.esr, predicted.error, real->share};
   });
-  std::erase_if(rows, [](const ForeseenAndTrue& row) { return row.model.empty(); });
+  std::erase_if(rows, [](const PredictedAndTrue& row) { return row.model.empty(); });
   return rows;
 }
 
@@ -97,21 +97,21 @@ RideRankQuality quality_of(std::span<const RideRankCase> cases) {
     if (one.models.size() < kFewestModels) continue;
     ++quality.cases;
 
-    std::vector<double> foreseen, esr, truth;
-    for (const ForeseenAndTrue& m : one.models) {
-      foreseen.push_back(m.foreseen.value);
+    std::vector<double> predicted, esr, truth;
+    for (const PredictedAndTrue& m : one.models) {
+      predicted.push_back(m.predicted.value);
       esr.push_back(m.esr);
       truth.push_back(m.truth);
-      inside += m.foreseen.low <= m.truth && m.truth <= m.foreseen.high;
+      inside += m.predicted.low <= m.truth && m.truth <= m.predicted.high;
       ++all;
     }
-    add_order(quality.foreseen, foreseen, truth);
+    add_order(quality.predicted, predicted, truth);
     add_order(quality.esr, esr, truth);
   }
 
   if (quality.cases == 0) return quality;
   const auto n = static_cast<double>(quality.cases);
-  for (OrderQuality* order : {&quality.foreseen, &quality.esr})
+  for (OrderQuality* order : {&quality.predicted, &quality.esr})
     order->correlation /= n, order->regret /= n;
   quality.covered = inside / all;
   return quality;

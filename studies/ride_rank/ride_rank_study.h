@@ -12,7 +12,7 @@ namespace dashpot {
 
 class FitStore;
 
-/// A test of what `rank --plant` foresees: dampers whose truth is known, of other structure than
+/// A test of what `rank --plant` predicts: dampers whose truth is known, of other structure than
 /// the models, are recorded on the virtual bench and ranked; then the truth itself is ridden.
 struct RideRankStudyOptions {
   std::vector<std::string> truths;  ///< of true_dampers(); empty: all
@@ -31,17 +31,17 @@ struct RideRankStudyOptions {
 };
 
 /// A model in one ride.
-struct ForeseenAndTrue {
+struct PredictedAndTrue {
   std::string model;
-  double esr = 0;     ///< %, on the bench, left out
-  Estimate foreseen;  ///< %, ForeseenRide::error
-  double truth = 0;   ///< %, RideDifference::share against the true damper
+  double esr = 0;      ///< %, on the bench, left out
+  Estimate predicted;  ///< %, PredictedRide::error
+  double truth = 0;    ///< %, RideDifference::share against the true damper
 };
 
 /// One true damper on one road under one controller.
 struct RideRankCase {
   std::string truth, road, controller;
-  std::vector<ForeseenAndTrue> models;
+  std::vector<PredictedAndTrue> models;
 };
 
 /// How well an order of models tells the order of their true ride errors; mean over cases.
@@ -52,8 +52,8 @@ struct OrderQuality {
 /// What came out of some cases, those of two models at least.
 struct RideRankQuality {
   std::size_t cases = 0;
-  OrderQuality foreseen, esr;
-  double covered = 0;  ///< share of the models whose true error lies within the foreseen interval
+  OrderQuality predicted, esr;
+  double covered = 0;  ///< share of the models whose true error lies within the predicted interval
 };
 RideRankQuality quality_of(std::span<const RideRankCase> cases);
 

@@ -27,7 +27,8 @@ TEST_CASE("invert: a file that track follows with, near the search on the model"
   CHECK(schemes[1].find("reachable")->find("rms_span_percent")->as_number() < 5);
 }
 
-TEST_CASE("invert: recordings teach it, and what was not measured is said") {
+TEST_CASE("invert: recordings teach it, and what was not measured is said" *
+          doctest::test_suite("long")) {
   const TemporaryFolder folder;
   const std::string file = (folder.path() / "mine.json").string();
   const ProgramResult made = run_dashpot("invert --recordings " + small_campaign().string() +

@@ -36,7 +36,8 @@ TEST_CASE("exported controllers: in single precision within 1e-5, without a doub
 
 TEST_CASE(
     "exported inverses: every scheme of dampers that suit it gives the library's currents, in both "
-    "precisions") {
+    "precisions" *
+    doctest::test_suite("long")) {
   if (!is_there("cc")) return;
   const TemporaryFolder folder;
   for (const BlockCase& one : inverse_cases())

@@ -79,7 +79,8 @@ void check_model_exchange(const LoadedFmu& fmu, const DamperModel& model) {
 }  // namespace
 
 TEST_CASE(
-    "FMUs of every kind of model give the library's numbers in co-simulation and model exchange") {
+    "FMUs of every kind of model give the library's numbers in co-simulation and model exchange" *
+    doctest::test_suite("long")) {
   if (!has_compiler()) return;
   const std::vector<ExampleModel> models = example_models();
   // Every model once, as FMI 3 or FMI 2 in turn, and one of each kind as both.

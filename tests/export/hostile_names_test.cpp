@@ -42,10 +42,11 @@ const std::vector<std::string> kHostile{
 /// for each comment and for all blanks.
 std::string code_alone(const std::string& text) {
   std::string whole;
+  whole.reserve(text.size());
   for (std::size_t k = 0; k < text.size(); ++k) {
-    std::string next(1, text[k]);
-    if (text.compare(k, 3, "?\?/") == 0) next = "\\", k += 2;
-    if (next == "\\" && text.compare(k + 1, 1, "\n") == 0)
+    char next = text[k];
+    if (next == '?' && text.compare(k, 3, "?\?/") == 0) next = '\\', k += 2;
+    if (next == '\\' && text.compare(k + 1, 1, "\n") == 0)
       ++k;
     else
       whole += next;
@@ -231,9 +232,12 @@ TEST_CASE("hostile names: every exporter of every kind of model writes the same 
       const bool takes_any = message_of([&] { files_of("plain", m, ""); }).empty();
       const std::vector<ExportedFile> expected = files_of(takes_any ? "plain" : "", m, "plain");
       REQUIRE(!expected.empty());
-      for (const std::string& name : kHostile)
-        if (name.size() < 1000 || m == 1)
+      // Each name meets a third of the kinds, and each kind a third of the names.
+      for (std::size_t k = 0; k < std::size(kHostile); ++k) {
+        const std::string& name = kHostile[k];
+        if ((k + m) % 3 == 0 && (name.size() < 1000 || m < 3))
           check_same_code(files_of(takes_any ? name : "", m, name), expected);
+      }
     }
   }
 }

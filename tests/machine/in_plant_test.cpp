@@ -146,7 +146,8 @@ TEST_CASE("in plant: the same bits on any number of threads") {
   CHECK(named(one.plant, "mass").value == named(three.plant, "mass").value);
 }
 
-TEST_CASE("in plant: an acceleration that is late and a displacement, weighed by their noise") {
+TEST_CASE("in plant: an acceleration that is late and a displacement, weighed by their noise" *
+          doctest::test_suite("long")) {
   InPlantSetup setup = oscillator_setup();
   setup.sensors.push_back(
       {.channel = "a", .place = {PlantQuantity::Acceleration, 0}, .finds_delay = true});

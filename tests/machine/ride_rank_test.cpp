@@ -71,11 +71,11 @@ TEST_CASE("a model rides like itself, and unlike a stronger damper, in equilibri
   CHECK(ridden.against({std::make_shared<LawModel>(stronger)})->share > 3);
 }
 
-TEST_CASE("rides are foreseen for what may be recommended; the rest says why not") {
+TEST_CASE("rides are predicted for what may be recommended; the rest says why not") {
   Ranking ranking = example().ranking;
   RankedModel& active = ranking.models.back();
   active.dissipation = {.is_tested = true, .damping = -1, .share = -1};
-  foresee_rides(ranking, example().dataset, short_ride());
+  predict_rides(ranking, example().dataset, short_ride());
   REQUIRE(ranking.ridden);
   CHECK(ranking.ridden->draws == 3);
   CHECK(active.ride->refusal ==
@@ -84,7 +84,7 @@ TEST_CASE("rides are foreseen for what may be recommended; the rest says why not
   REQUIRE(order.size() == 2);
   CHECK(order[0]->ride->error.value <= order[1]->ride->error.value);
   for (const RankedModel* model : order) {
-    const ForeseenRide& ride = *model->ride;
+    const PredictedRide& ride = *model->ride;
     for (const Estimate& figure :
          {ride.error, ride.acceleration, ride.tyre_load, ride.travel, ride.travel_excess}) {
       CHECK(figure.low <= figure.value);
@@ -98,7 +98,7 @@ TEST_CASE("rides are foreseen for what may be recommended; the rest says why not
   again.models.back().dissipation = active.dissipation;
   RideRankOptions options = short_ride();
   options.threads = 1;
-  foresee_rides(again, example().dataset, options);
+  predict_rides(again, example().dataset, options);
   CHECK(again.by_ride()[0]->ride->error.value == order[0]->ride->error.value);
 }
 
@@ -106,7 +106,7 @@ TEST_CASE("where every model feeds energy in, nothing is ridden and each says wh
   Ranking ranking = example().ranking;
   for (RankedModel& model : ranking.models)
     model.dissipation = {.is_tested = true, .damping = -1, .share = -1};
-  foresee_rides(ranking, example().dataset, short_ride());
+  predict_rides(ranking, example().dataset, short_ride());
   CHECK(!ranking.ridden);
   CHECK(ranking.by_ride().empty());
   for (const RankedModel& model : ranking.models)

@@ -158,15 +158,15 @@ std::optional<RideDifference> RiddenModel::against(const OtherDamper& damper) co
                                             usual_discard(ground_, options_.duration)));
 }
 
-ForeseenRide RiddenModel::foreseen(std::span<const OtherDamper> dampers) const {
-  ForeseenRide foreseen{.warnings = warnings_};
+PredictedRide RiddenModel::predicted(std::span<const OtherDamper> dampers) const {
+  PredictedRide predicted{.warnings = warnings_};
   std::vector<RideDifference> differences;
   for (const OtherDamper& damper : dampers)
     if (const std::optional<RideDifference> difference = against(damper))
       differences.push_back(*difference);
   if (differences.size() < dampers.size()) {
-    foreseen.refusal = "the ride diverges with a damper that the recordings allow";
-    return foreseen;
+    predicted.refusal = "the ride diverges with a damper that the recordings allow";
+    return predicted;
   }
 
   const auto over_dampers = [&](const auto& figure) {
@@ -174,24 +174,24 @@ ForeseenRide RiddenModel::foreseen(std::span<const OtherDamper> dampers) const {
     for (const RideDifference& one : differences) values.push_back(figure(one));
     return estimate_of(std::move(values));
   };
-  foreseen.error = widened(over_dampers([](const RideDifference& d) { return d.share; }));
-  const std::array traces{&foreseen.acceleration, &foreseen.tyre_load, &foreseen.travel};
-  const std::array excesses{&foreseen.acceleration_excess, &foreseen.tyre_load_excess,
-                            &foreseen.travel_excess};
+  predicted.error = widened(over_dampers([](const RideDifference& d) { return d.share; }));
+  const std::array traces{&predicted.acceleration, &predicted.tyre_load, &predicted.travel};
+  const std::array excesses{&predicted.acceleration_excess, &predicted.tyre_load_excess,
+                            &predicted.travel_excess};
   for (std::size_t q = 0; q < kRideQuantities; ++q) {
     *traces[q] = widened(over_dampers([q](const RideDifference& d) { return d.trace[q]; }));
     *excesses[q] =
         widened(over_dampers([q](const RideDifference& d) { return d.excess[q]; }), *traces[q]);
   }
-  return foreseen;
+  return predicted;
 }
 
-void foresee_rides(Ranking& ranking, const Dataset& dataset, const RideRankOptions& options) {
+void predict_rides(Ranking& ranking, const Dataset& dataset, const RideRankOptions& options) {
   // What each model's errors tell, and which of them tells most of the damper.
   std::vector<std::optional<ErrorModel>> errors(ranking.models.size());
   parallel_for(errors.size(), options.threads, [&](std::size_t m) {
     RankedModel& model = ranking.models[m];
-    model.ride = ForeseenRide{.refusal = refusal_of(model)};
+    model.ride = PredictedRide{.refusal = refusal_of(model)};
     if (model.ride->refusal.empty()) errors[m].emplace(model.left_out.records);
   });
   const auto unexplained = [](const std::optional<ErrorModel>& one) {
@@ -212,7 +212,7 @@ void foresee_rides(Ranking& ranking, const Dataset& dataset, const RideRankOptio
                            static_cast<double>(m) / static_cast<double>(errors.size()));
     try {
       model.ride =
-          RiddenModel(to_model_file(model, dataset, ""), *ground, options).foreseen(dampers);
+          RiddenModel(to_model_file(model, dataset, ""), *ground, options).predicted(dampers);
     } catch (const Error& error) {
       model.ride->refusal = error.what();
     }

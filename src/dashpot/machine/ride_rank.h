@@ -84,7 +84,7 @@ class RiddenModel {
   std::optional<RideDifference> against(const OtherDamper& damper) const;
   /// The same against each of them: medians, and intervals between their 5 % and 95 % quantiles,
   /// widened for what a vehicle asks beyond the bench.
-  ForeseenRide foreseen(std::span<const OtherDamper> dampers) const;
+  PredictedRide predicted(std::span<const OtherDamper> dampers) const;
 
  private:
   Trace ride(const std::vector<MountedDamper>& dampers) const;
@@ -99,6 +99,6 @@ class RiddenModel {
 /// Rides each model of the ranking that may be recommended, and states in it what came out
 /// (RankedModel::ride); of the others, why not. Without any, Ranking::ridden stays empty. The same
 /// bits on any number of threads.
-void foresee_rides(Ranking& ranking, const Dataset& dataset, const RideRankOptions& options);
+void predict_rides(Ranking& ranking, const Dataset& dataset, const RideRankOptions& options);
 
 }  // namespace dashpot

@@ -140,6 +140,29 @@ DocumentTable range_table(const Characterisation& all) {
   return table;
 }
 
+/// "12", or "8 ... 12" where the least and the greatest differ as they are printed.
+std::string range_text(double least, double greatest, int digits) {
+  const std::string low = number_text(least, digits), high = number_text(greatest, digits);
+  return low == high ? low : low + " ... " + high;
+}
+
+std::vector<std::string> record_row(const RecordFigures& r) {
+  if (!r.is_cyclic()) return {r.name, "0", "-", "-", "-", "-", "-", "-"};
+  const auto speed = [](const CycleFigures& c) { return c.rebound.mid_speed; };
+  const auto [shortest, longest] = std::ranges::minmax(r.cycles, {}, &CycleFigures::stroke);
+  const auto [quickest, slowest] = std::ranges::minmax(r.cycles, {}, &CycleFigures::duration);
+  const auto [least, most] = std::ranges::minmax(r.cycles, {}, speed);
+
+  return {r.name,
+          std::to_string(r.cycles.size()),
+          range_text(kMilli * shortest.stroke, kMilli * longest.stroke, 3),
+          range_text(1 / slowest.duration, 1 / quickest.duration, 3),
+          range_text(kMilli * speed(least), kMilli * speed(most), 3),
+          repeat_text(r.repeatability),
+          change_text(r.drift),
+          estimate_text(r.fade, 1, 2)};
+}
+
 DocumentTable record_sheet(const Characterisation& all) {
   DocumentTable table{.title = {},
                       .columns = {{"Record", false, 0, true},
@@ -152,29 +175,14 @@ DocumentTable record_sheet(const Characterisation& all) {
                                   {"Fade %/K", true, 1}},
                       .rows = {}};
   bool has_fade = false;
-  const auto between = [](double a, double b, int digits) {
-    const std::string low = number_text(a, digits), high = number_text(b, digits);
-    return low == high ? low : low + " ... " + high;
-  };
   for (const RecordFigures& r : all.records) {
-    if (!r.is_cyclic()) {
-      table.rows.push_back({r.name, "0", "-", "-", "-", "-", "-", "-"});
-    } else {
-      const auto [shortest, longest] = std::ranges::minmax(r.cycles, {}, &CycleFigures::stroke);
-      const auto [quickest, slowest] = std::ranges::minmax(r.cycles, {}, &CycleFigures::duration);
-      const auto speed = [](const CycleFigures& c) { return c.rebound.mid_speed; };
-      const auto [least, most] = std::ranges::minmax(r.cycles, {}, speed);
-      table.rows.push_back({r.name, std::to_string(r.cycles.size()),
-                            between(kMilli * shortest.stroke, kMilli * longest.stroke, 3),
-                            between(1 / slowest.duration, 1 / quickest.duration, 3),
-                            between(kMilli * speed(least), kMilli * speed(most), 3),
-                            repeat_text(r.repeatability), change_text(r.drift),
-                            estimate_text(r.fade, 1, 2)});
-      has_fade = has_fade || r.fade.is_told();
-    }
+    table.rows.push_back(record_row(r));
     table.warnings.push_back(!r.remarks.empty());
     table.chooses.push_back({{"record", table.chooses.size()}});
+    has_fade = has_fade || (r.is_cyclic() && r.fade.is_told());
   }
+
+  // A column of nothing is for those who wonder, on the page.
   if (!has_fade) {
     table.columns.back().audience = Audience::Page;
     table.columns.back().hint = "needs a temperature channel that changes by 2 K";
@@ -183,6 +191,7 @@ DocumentTable record_sheet(const Characterisation& all) {
   table.note =
       "Repeats to: standard deviation of the damping force between cycles of like speed. "
       "Drift: its change from the first cycle to the last.";
+
   const std::size_t rows = table.rows.size();
   if (rows > kRowsInBrief)
     for (std::size_t k = 0; k < kRowsInBrief; ++k)
@@ -270,6 +279,7 @@ std::vector<DocumentFigure> loop_figures(const CharacterisationInput& input,
               time = blank_panel("Force over time", "Time (s)", "Force (N)", 240);
   const auto points = static_cast<std::size_t>(
       kPointsOfLoops / static_cast<double>(std::max<std::size_t>(1, input.dataset.records.size())));
+
   for (std::size_t r = 0; r < input.dataset.records.size(); ++r) {
     const Record& record = input.dataset.records[r];
     std::vector<double> integrated;
@@ -279,6 +289,8 @@ std::vector<DocumentFigure> loop_figures(const CharacterisationInput& input,
     } catch (const Error&) {
       continue;  // The record's remark says why it has no loops.
     }
+
+    // As few samples as the eye needs, the same of every channel.
     const std::vector<std::size_t> chosen =
         thinned_indices({c.time, c.displacement, c.velocity, c.force}, points);
     const auto keep = [&](std::span<const double> values, double factor, bool is_exact = false) {
@@ -287,6 +299,7 @@ std::vector<DocumentFigure> loop_figures(const CharacterisationInput& input,
       samples.push_back(std::move(shared));
       return samples.size() - 1;
     };
+
     const std::size_t f = keep(c.force, 1);
     for (const auto& [to, x] : {std::pair{&velocity, keep(c.velocity, kMilli)},
                                 {&displacement, keep(c.displacement, kMilli)},
@@ -323,6 +336,8 @@ DocumentFigure drift_figure(const Characterisation& all) {
                          .mark = FigureSeries::Mark::Dots,
                          .width = 2.5};
     FigureSeries in_heat = in_time;
+
+    // The cycles of this level, beside the level's force at their speed.
     for (const RecordFigures& record : all.records)
       for (const CycleFigures& cycle : record.cycles) {
         if (level.drive && !(std::abs(cycle.drive - *level.drive) <= 0.02 * std::abs(*level.drive)))
@@ -337,9 +352,12 @@ DocumentFigure drift_figure(const Characterisation& all) {
         in_heat.x.push_back(cycle.temperature - kCelsius);
         in_heat.y.push_back(share);
       }
+
     if (!in_time.x.empty()) over_time.series.push_back(std::move(in_time));
     if (!in_heat.x.empty()) over_heat.series.push_back(std::move(in_heat));
   }
+
+  // Temperature has a panel where it was measured.
   DocumentFigure figure{.name = "drift", .title = {}, .caption = {}, .panels = {over_time}};
   if (!over_heat.series.empty()) {
     figure.panels.push_back(std::move(over_heat));
@@ -395,38 +413,44 @@ Value level_json(const LevelFigures& level) {
                         {"remarks", Value::array(level.remarks)}});
 }
 
+Value cycle_json(const CycleFigures& c) {
+  return Value::object({{"start", c.start},
+                        {"duration", c.duration},
+                        {"stroke", c.stroke},
+                        {"centre", c.centre},
+                        {"drive", told(c.drive)},
+                        {"rebound", stroke_json(c.rebound)},
+                        {"compression", stroke_json(c.compression)},
+                        {"gas_force", c.static_force},
+                        {"gas_rate", told(c.rate)},
+                        {"hysteresis", told(c.hysteresis)},
+                        {"energy", c.energy},
+                        {"equivalent_damping", c.equivalent_damping},
+                        {"temperature", told(c.temperature)}});
+}
+
+Value record_json(const RecordFigures& r) {
+  Value cycles = Value::array();
+  for (const CycleFigures& c : r.cycles) cycles.push_back(cycle_json(c));
+  return Value::object({{"name", r.name},
+                        {"condition", r.condition},
+                        {"repeatability_percent", told(r.repeatability)},
+                        {"drift_percent", estimate_json(r.drift)},
+                        {"fade_percent_per_K", estimate_json(r.fade)},
+                        {"remarks", Value::array(r.remarks)},
+                        {"cycles", std::move(cycles)}});
+}
+
 Value characterisation_json(const CharacterisationInput& input) {
   Value levels = Value::array(), records = Value::array(), range = Value::array();
   for (const LevelFigures& level : input.figures.levels) levels.push_back(level_json(level));
-  for (const RecordFigures& r : input.figures.records) {
-    Value cycles = Value::array();
-    for (const CycleFigures& c : r.cycles)
-      cycles.push_back(Value::object({{"start", c.start},
-                                      {"duration", c.duration},
-                                      {"stroke", c.stroke},
-                                      {"centre", c.centre},
-                                      {"drive", told(c.drive)},
-                                      {"rebound", stroke_json(c.rebound)},
-                                      {"compression", stroke_json(c.compression)},
-                                      {"gas_force", c.static_force},
-                                      {"gas_rate", told(c.rate)},
-                                      {"hysteresis", told(c.hysteresis)},
-                                      {"energy", c.energy},
-                                      {"equivalent_damping", c.equivalent_damping},
-                                      {"temperature", told(c.temperature)}}));
-    records.push_back(Value::object({{"name", r.name},
-                                     {"condition", r.condition},
-                                     {"repeatability_percent", told(r.repeatability)},
-                                     {"drift_percent", estimate_json(r.drift)},
-                                     {"fade_percent_per_K", estimate_json(r.fade)},
-                                     {"remarks", Value::array(r.remarks)},
-                                     {"cycles", std::move(cycles)}}));
-  }
+  for (const RecordFigures& r : input.figures.records) records.push_back(record_json(r));
   for (const DynamicRange& r : input.figures.range)
     range.push_back(Value::object({{"speed", r.speed},
                                    {"ratio", r.ratio},
                                    {"lowest_force", r.lowest_force},
                                    {"highest_force", r.highest_force}}));
+
   return Value::object({{"name", input.dataset.name},
                         {"units", "SI"},
                         {"drive_unit", to_string(input.figures.drive_unit)},

@@ -212,66 +212,80 @@ std::string curve_label(const ComparedThing& thing, std::size_t record) {
              : fmt::format("{}, fit {} %", thing.name, percent_text(result.metrics.fit));
 }
 
-std::vector<DocumentFigure> overlay_figures(const std::vector<ComparedThing>& things,
-                                            std::vector<SharedSamples>& samples) {
+/// The three panels of curves that are laid over each other.
+struct OverlayPanels {
   FigurePanel time{.title = "Force over time",
                    .x_label = "Time (s)",
                    .y_label = "Force (N)",
                    .series = {},
                    .reads_along_x = true,
-                   .height = 280},
-      velocity{.title = "Force over velocity",
-               .x_label = "Velocity (mm/s)",
-               .y_label = "Force (N)",
-               .series = {},
-               .height = 320},
-      displacement{.title = "Force over displacement",
-                   .x_label = "Displacement (mm)",
-                   .y_label = "Force (N)",
-                   .series = {},
-                   .height = 320};
+                   .height = 280};
+  FigurePanel velocity{.title = "Force over velocity",
+                       .x_label = "Velocity (mm/s)",
+                       .y_label = "Force (N)",
+                       .series = {},
+                       .height = 320};
+  FigurePanel displacement{.title = "Force over displacement",
+                           .x_label = "Displacement (mm)",
+                           .y_label = "Force (N)",
+                           .series = {},
+                           .height = 320};
+};
+
+/// Draws what thing k has to record r of the first one, where it has something.
+void lay_over(const std::vector<ComparedThing>& things, std::size_t r, std::size_t k,
+              std::size_t points, OverlayPanels& panels, std::vector<SharedSamples>& samples) {
+  const std::optional<std::size_t> partner = partner_of(things.front(), r, things[k]);
+  if (!partner) return;
+  std::vector<double> integrated;
+  DynoChannels c;
+  try {
+    c = dyno_channels(things[k].dataset.records[*partner], things[k].dataset.drive_unit,
+                      integrated);
+  } catch (const Error&) {
+    return;  // A record that has no displacement to be drawn over.
+  }
+
+  // As few samples as the eye needs, the same of every channel.
+  const std::vector<std::size_t> chosen =
+      thinned_indices({c.time, c.displacement, c.velocity, c.force}, points);
+  const auto keep = [&](std::span<const double> values, double factor, double offset = 0) {
+    SharedSamples shared{{}, offset != 0};
+    for (const std::size_t i : chosen) shared.values.push_back(factor * values[i] + offset);
+    samples.push_back(std::move(shared));
+    return samples.size() - 1;
+  };
+
+  // Recordings of one motion begin their cycles at the same time; a model ran over the first one's.
+  const double shift = things[k].is_model ? 0
+                                          : start_of(things.front().figures.records[r]) -
+                                                start_of(things[k].figures.records[*partner]);
+  const std::size_t force = keep(c.force, 1);
+  for (const auto& [panel, x] : {std::pair{&panels.time, keep(c.time, 1, shift)},
+                                 {&panels.velocity, keep(c.velocity, kMillimetres)},
+                                 {&panels.displacement, keep(c.displacement, kMillimetres)}})
+    panel->series.push_back({.label = curve_label(things[k], *partner),
+                             .colour = thing_colour(k),
+                             .x = {},
+                             .y = {},
+                             .shared = SharedCurve{.x = x, .y = force},
+                             .when = {{"record", {r}}}});
+}
+
+std::vector<DocumentFigure> overlay_figures(const std::vector<ComparedThing>& things,
+                                            std::vector<SharedSamples>& samples) {
   const std::size_t records = things.front().dataset.records.size();
   const auto points = static_cast<std::size_t>(
       kPointsOfOverlays / static_cast<double>(std::max<std::size_t>(1, records * things.size())));
+  OverlayPanels panels;
   for (std::size_t r = 0; r < records; ++r)
-    for (std::size_t k = 0; k < things.size(); ++k) {
-      const std::optional<std::size_t> partner = partner_of(things.front(), r, things[k]);
-      if (!partner) continue;
-      const Record& record = things[k].dataset.records[*partner];
-      std::vector<double> integrated;
-      DynoChannels c;
-      try {
-        c = dyno_channels(record, things[k].dataset.drive_unit, integrated);
-      } catch (const Error&) {
-        continue;  // A record that has no displacement to be drawn over.
-      }
-      const std::vector<std::size_t> chosen =
-          thinned_indices({c.time, c.displacement, c.velocity, c.force}, points);
-      const double shift = start_of(things.front().figures.records[r]) -
-                           start_of(things[k].figures.records[*partner]);
-      const auto keep = [&](std::span<const double> values, double factor, double offset = 0) {
-        SharedSamples shared{{}, offset != 0};
-        for (const std::size_t i : chosen) shared.values.push_back(factor * values[i] + offset);
-        samples.push_back(std::move(shared));
-        return samples.size() - 1;
-      };
-      const std::size_t force = keep(c.force, 1);
-      const bool same_motion = things[k].is_model;
-      for (const auto& [panel, x] : {std::pair{&time, keep(c.time, 1, same_motion ? 0 : shift)},
-                                     {&velocity, keep(c.velocity, kMillimetres)},
-                                     {&displacement, keep(c.displacement, kMillimetres)}})
-        panel->series.push_back({.label = curve_label(things[k], *partner),
-                                 .colour = thing_colour(k),
-                                 .x = {},
-                                 .y = {},
-                                 .shared = SharedCurve{.x = x, .y = force},
-                                 .when = {{"record", {r}}}});
-    }
-  return {{.name = "force-time", .title = {}, .caption = {}, .panels = {time}},
+    for (std::size_t k = 0; k < things.size(); ++k) lay_over(things, r, k, points, panels, samples);
+
+  return {{.name = "force-time", .title = {}, .caption = {}, .panels = {panels.time}},
           {.name = "loops",
            .title = {},
            .caption = {},
-           .panels = {velocity, displacement},
+           .panels = {panels.velocity, panels.displacement},
            .columns = 2}};
 }
 

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "dashpot/identify/judge/left_inertia.h"
-#include "dashpot/report/foreseen_section.h"
+#include "dashpot/report/predicted_ride_section.h"
 #include "dashpot/report/provenance.h"
 #include "dashpot/report/ranking_figures.h"
 #include "dashpot/report/ranking_tables.h"
@@ -227,7 +227,7 @@ Document ranking_document(const ReportInput& input) {
   // A ranking without models has only its protocol.
   std::string display;
   if (!ranking.models.empty()) {
-    for (DocumentSection& section : foreseen_sections(ranking))
+    for (DocumentSection& section : predicted_ride_sections(ranking))
       document.sections.push_back(std::move(section));
     document.sections.push_back(ranking_section(ranking));
     for (DocumentSection& section : interval_sections(ranking))
@@ -281,7 +281,7 @@ Document leaderboard_document(const ReportInput& input) {
                                         {"dissipates", 1},
                                         {"status"}}),
                   breakdown_table(ranking, input.dataset.drive_unit)}});
-  for (auto sections : {foreseen_sections(ranking), interval_sections(ranking)})
+  for (auto sections : {predicted_ride_sections(ranking), interval_sections(ranking)})
     for (DocumentSection& section : sections) document.sections.push_back(std::move(section));
 
   if (const std::optional<std::string> untried = budget_note(ranking))

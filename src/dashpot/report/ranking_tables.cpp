@@ -13,7 +13,7 @@
 #include "dashpot/identify/judge/conformal.h"
 #include "dashpot/identify/judge/stress.h"
 #include "dashpot/numerics/constants.h"
-#include "dashpot/report/foreseen_section.h"
+#include "dashpot/report/predicted_ride_section.h"
 #include "dashpot/report/words.h"
 
 namespace dashpot {
@@ -451,7 +451,7 @@ std::string csv_leaderboard(const ReportInput& input) {
       ",stress_finite,stress_largest_spans,diverged_records,behind_percent,behind_low_percent,"
       "behind_high_percent,told_apart,forgets,forgets_after_s,dissipates,least_share,"
       "wall_seconds_of_all" +
-      foreseen_csv_titles(input.ranking) + "\n";
+      predicted_csv_titles(input.ranking) + "\n";
 
   // Figures of models that were not judged stay empty.
   std::size_t rank = 0;
@@ -476,7 +476,7 @@ std::string csv_leaderboard(const ReportInput& input) {
                    model.dissipation.dissipates() ? "yes" : "no",
                    model.dissipation.is_tested ? format_exact(model.dissipation.share) : "",
                    format_exact(input.ranking.wall_seconds)});
-    text += join(fields, ",") + foreseen_csv(input.ranking, model) + "\n";
+    text += join(fields, ",") + predicted_csv(input.ranking, model) + "\n";
   }
   return text;
 }

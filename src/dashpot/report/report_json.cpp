@@ -8,7 +8,7 @@
 #include "dashpot/damper/force_band.h"
 #include "dashpot/identify/judge/stress.h"
 #include "dashpot/identify/rank/paired_difference.h"
-#include "dashpot/report/foreseen_section.h"
+#include "dashpot/report/predicted_ride_section.h"
 #include "dashpot/report/words.h"
 
 namespace dashpot {
@@ -111,7 +111,7 @@ Value model_json(const RankedModel& model, const std::vector<std::string>& folds
                      {"fold_fits", std::move(fold_fits)},
                      {"left_out", evaluation_json(model.left_out)},
                      {"training", evaluation_json(model.training)}});
-  if (model.ride) object.add("ride", foreseen_json(model));
+  if (model.ride) object.add("ride", predicted_json(model));
   return object;
 }
 

@@ -2,6 +2,7 @@
 
 #include "damper/kinds/family/example_family.h"
 #include "dashpot/identify.h"
+#include "dashpot/rank.h"
 #include "dashpot/split.h"
 #include "support.h"
 #include "virtual_family.h"
@@ -67,17 +68,28 @@ TEST_CASE("a recording of another damper is told from one of a build") {
                  "is of a damper whose gap is 0.0012 m, not 0.0013"));
 }
 
-// Acceptance of issue 18: 13 numbers with half a belief in the same record leave 1.02 %.
-TEST_CASE("measured dampers never seen: the record without current tells of the other levels" *
-          doctest::test_suite("long")) {
+// What is predicted of a geometry that is left out, and what its record without current adds. Of
+// issue 18: a line of 13 numbers leaves 1.35 % from the drawing, and 1.02 % with half a belief in
+// that record.
+TEST_CASE(
+    "measured dampers of a geometry never seen: the record without current tells of the rest" *
+    doctest::test_suite("long")) {
   const auto folder = shared_data("family-dnn");
   if (folder.empty()) return;
   const Dataset data = load_dataset({folder});
-  ErrorSums alone, with_record;
+  ErrorSums all_levels, alone, with_record;
+  const auto add = [](const DamperModel& model, const std::vector<Record>& records,
+                      ErrorSums& sums) {
+    for (const RecordResult& record :
+         evaluate(model, records, DriveUnit::Ampere, {.offset = OffsetMode::None}).records)
+      sums.add(record.sums);
+  };
+
   for (const Fold& fold : split(data, parse_leave_out("each=gap,pole_length"))) {
     const std::vector<Record>& left = fold.left_out;
     const FitReport fit =
         identify("family_physics", fold.training, DriveUnit::Ampere, {.offset = OffsetMode::None});
+    add(*fit.model, left, all_levels);
     for (const Record& zero : left) {
       if (zero.drive_level != 0) continue;
       std::vector<Record> others;
@@ -85,19 +97,27 @@ TEST_CASE("measured dampers never seen: the record without current tells of the 
         if (record.condition == zero.condition && record.drive_level != 0) others.push_back(record);
       const auto member =
           std::dynamic_pointer_cast<const FamilyModel>(fit.model->specialised(zero.conditions));
-      const BuildReport report = measure_build(*member, {zero}, DriveUnit::Ampere);
-      const auto add = [&](const FamilyModel& model, ErrorSums& sums) {
-        for (const RecordResult& record :
-             evaluate(model, others, DriveUnit::Ampere, {.offset = OffsetMode::None}).records)
-          sums.add(record.sums);
-      };
-      add(*member, alone);
-      add(*report.model, with_record);
+      add(*member, others, alone);
+      add(*measure_build(*member, {zero}, DriveUnit::Ampere).model, others, with_record);
     }
   }
-  MESSAGE("ESR % of the other levels: " << metrics(alone).esr << " from the drawing, "
-                                        << metrics(with_record).esr << " with one record");
+
+  MESSAGE("ESR %, from the drawing: "
+          << metrics(all_levels).esr << "; of the levels with current: " << metrics(alone).esr
+          << ", with the record without it: " << metrics(with_record).esr);
+  CHECK(metrics(all_levels).esr <= 1.7);
   CHECK(metrics(with_record).esr < metrics(alone).esr);
+}
+
+TEST_CASE("measured dampers of a geometry never seen are recommended a line" *
+          doctest::test_suite("long")) {
+  const auto folder = shared_data("family-dnn");
+  if (folder.empty()) return;
+  const Ranking ranking =
+      rank({"family_line"}, load_dataset({folder}), parse_leave_out("each=gap,pole_length"),
+           {.offset = OffsetMode::None});
+  CHECK(ranking.models.front().left_out.pooled.esr <= 1.7);
+  CHECK(is_recommendable(ranking.models.front()));
 }
 
 TEST_CASE("a family that knows no builds takes no recording of one") {

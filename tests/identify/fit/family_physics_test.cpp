@@ -1,7 +1,6 @@
 #include "dashpot/damper/kinds/family/family_model.h"
 #include "dashpot/damper/kinds/family/physics_family.h"
 #include "dashpot/identify.h"
-#include "dashpot/rank.h"
 #include "support.h"
 #include "virtual_family.h"
 
@@ -29,7 +28,7 @@ VirtualFamily small_family() {
 
 }  // namespace
 
-TEST_CASE("a family of physics foretells a gap beyond those of its fit") {
+TEST_CASE("a family of physics predicts a gap beyond those of its fit") {
   const FitReport report = fit_virtual(virtual_family(small_family()));
   REQUIRE(report.model);
   VirtualFamily wide = small_family();
@@ -57,18 +56,4 @@ TEST_CASE("a new piston area changes the force of a family of physics as plate f
   twice.bores = {2};
   twice.scatter = 0;
   CHECK(virtual_esr(*report.model, virtual_family(twice)) <= 3);
-}
-
-TEST_CASE("measured dampers of a geometry never seen are foretold by physics and by a line" *
-          doctest::test_suite("long")) {
-  const auto folder = shared_data("family-dnn");
-  if (folder.empty()) return;
-  const Ranking ranking =
-      rank({"family_physics", "family_line"}, load_dataset({folder}),
-           parse_leave_out("each=gap,pole_length"), {.offset = OffsetMode::None});
-  for (const RankedModel& model : ranking.models) {
-    CAPTURE(model.name);
-    CHECK(model.left_out.pooled.esr <= 1.7);
-    CHECK(is_recommendable(model));
-  }
 }

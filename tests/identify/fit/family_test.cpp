@@ -67,7 +67,7 @@ double spread_of(const Dataset& data) {
 
 }  // namespace
 
-TEST_CASE("a gated family foretells geometries that it has not seen") {
+TEST_CASE("a gated family predicts geometries that it has not seen") {
   const Ranking ranking =
       rank({"family_gated"}, family_data(0), parse_leave_out("each=gap,pole_length"),
            {.offset = OffsetMode::None});
@@ -82,7 +82,8 @@ TEST_CASE("the spread of builds is found from left-out designs") {
   CHECK(spread < 0.3);
 }
 
-TEST_CASE("the paper's network learns a small family, the same for the same seed") {
+TEST_CASE("the paper's network learns a small family, the same for the same seed" *
+          doctest::test_suite("long")) {
   const Dataset data = family_data(0);
   IdentifyOptions options{.offset = OffsetMode::None};
   options.network.epochs = 60;
@@ -108,7 +109,7 @@ TEST_CASE("records without a member's conditions are refused") {
 }
 
 // Acceptance of the family model: a plain ridge on interpolated features has 0.974 and 1.27 N.
-TEST_CASE("measured dampers of geometries never seen are foretold, with intervals that hold" *
+TEST_CASE("measured dampers of geometries never seen are predicted, with intervals that hold" *
           doctest::test_suite("long")) {
   const auto folder = shared_data("family-dnn");
   if (folder.empty()) return;

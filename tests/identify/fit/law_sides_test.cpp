@@ -76,7 +76,8 @@ TEST_CASE(
   CHECK(side_force(law, p.data(), -0.5) == doctest::Approx(-300));
 }
 
-TEST_CASE("asked to, laws take rebound and compression apart where the damper has them so") {
+TEST_CASE("asked to, laws take rebound and compression apart where the damper has them so" *
+          doctest::test_suite("long")) {
   for (const std::string law : {"bouc_wen", "modified_bouc_wen", "tanh_acceleration"}) {
     CAPTURE(law);
     const FitReport fit = fit_of(law, 0.4, {.asymmetric = true}), alike = fit_of(law, 0.4);

@@ -36,14 +36,14 @@ TEST_CASE("quality of orders, by hand") {
       "c",
       {{"a", 1, {30, 25, 35}, 32}, {"b", 2, {10, 5, 15}, 16}, {"c", 3, {20, 15, 25}, 24}}};
   const RideRankQuality quality = quality_of(std::span(&one, 1));
-  CHECK(quality.foreseen.correlation == doctest::Approx(1));
+  CHECK(quality.predicted.correlation == doctest::Approx(1));
   CHECK(quality.esr.correlation == doctest::Approx(-0.5));
-  CHECK(quality.foreseen.regret == doctest::Approx(1));
+  CHECK(quality.predicted.regret == doctest::Approx(1));
   CHECK(quality.esr.regret == doctest::Approx(2));
   CHECK(quality.covered == doctest::Approx(2.0 / 3));
 }
 
-TEST_CASE("what is foreseen of rides tells their true order better than ESR does" *
+TEST_CASE("what is predicted of rides tells their true order better than ESR does" *
           doctest::test_suite("long")) {
   // A small part of what `dashpot study ride-rank` does: one damper that judges, two rides.
   RideRankStudyOptions options;
@@ -56,8 +56,8 @@ TEST_CASE("what is foreseen of rides tells their true order better than ESR does
   const std::vector<RideRankCase> cases = study_ride_rank(options, nullptr);
   REQUIRE(cases.size() == 2);
   const RideRankQuality quality = quality_of(cases);
-  CHECK(quality.foreseen.correlation > 0.7);
-  CHECK(quality.foreseen.correlation > quality.esr.correlation);
+  CHECK(quality.predicted.correlation > 0.7);
+  CHECK(quality.predicted.correlation > quality.esr.correlation);
 
   const Document document = ride_rank_document(cases, options);
   CHECK(contains(document.verdict, "Rank correlation with the true error of the ride"));

@@ -22,7 +22,7 @@ namespace dashpot {
 // What holds. Samples of a record are correlated, and records that were left out together (a
 // condition, a level of the drive) share what makes them unlike the rest: at best such parts are
 // exchangeable. Each part therefore counts as one, and within it each record, whatever its length.
-// Parts differ in how hard they are, which a quantile over all of them does not foresee for the
+// Parts differ in how hard they are, which a quantile over all of them does not predict for the
 // next one: the factor is widened by as much as bands from all parts but one must be to cover, on
 // average, the one that they were made without. In simulation, with errors of parts spread by a
 // factor of up to 2 (log-normal, 0.7), that covers 90 to 92 % of a new part from 3 parts on, where

@@ -304,7 +304,7 @@ ErrorModel::ErrorModel(const std::vector<RecordResult>& left_out) {
   const auto terms = std::make_shared<ErrorTerms>(terms_of(stretches));
   for (const Stretch& stretch : stretches) regression_.units.push_back(sums_over(stretch, *terms));
 
-  // The penalty that foretells best what was left out; the greatest leaves no b at all.
+  // The penalty that predicts best what was left out; the greatest leaves no b at all.
   constexpr std::size_t kParts = RidgeRegression::kParts;
   double least = INFINITY;
   for (const double penalty : {1e-5, 1e-4, 1e-3, 1e-2, 1e-1, 1.0, 1e9}) {

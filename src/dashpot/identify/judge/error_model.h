@@ -20,7 +20,7 @@ namespace dashpot {
 // displacement. Of a sum each variable stays within what the bench has shown where their
 // combination is new. Each function is a polygon between knots, constant beyond them, and linear in
 // the drive between three of its values. Ridge regression fits all of them, with the penalty that
-// foretells best what was left out of it: where motion says nothing of the error, b vanishes.
+// predicts best what was left out of it: where motion says nothing of the error, b vanishes.
 //
 // What b leaves, on records left out of its fit, is noise: its size and its colour, a first-order
 // autoregression, go by speed and drive. White noise beside it is the load cell's; it moves no

@@ -10,8 +10,6 @@
 namespace dashpot {
 namespace {
 
-constexpr std::size_t kMostConversionNumbers = 100'000;
-
 /// The stored bits as an integer, from up to 9 bytes.
 std::uint64_t stored_bits(const Mdf4Channel& channel, const char* record) {
   const auto* from = reinterpret_cast<const unsigned char*>(record + channel.byte);
@@ -71,7 +69,6 @@ std::string read_conversion(Mdf4Blocks& blocks, std::uint64_t at, Mdf4Channel& c
   const std::string head = blocks.data(block, kBefore);
   const auto kind = static_cast<unsigned char>(head[0]);
   const auto count = number_at<std::uint16_t>(head.data() + 6);
-  if (count > kMostConversionNumbers) blocks.fail(at, "too long a table of conversion");
   const std::string numbers = blocks.data(block, kBefore + 8 * count);
   for (std::size_t k = 0; k < count; ++k)
     channel.conversion.numbers.push_back(number_at<double>(numbers.data() + kBefore + 8 * k));

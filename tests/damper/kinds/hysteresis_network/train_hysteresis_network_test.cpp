@@ -56,7 +56,7 @@ TEST_CASE("the gradient is that of the cost, rates, offsets and decays included"
 }
 
 TEST_CASE(
-    "training finds a network that foretells motions it has not seen, and the same one again") {
+    "training finds a network that predicts motions it has not seen, and the same one again") {
   const std::vector<FreeRunRecord> records = measured(example_hysteresis_network(), 400);
   const HysteresisNetworkTrainOptions options{.max_iterations = 80, .weight_decay = 1e-7};
   const std::vector<const FreeRunRecord*> seen{&records[0], &records[2]};

@@ -53,7 +53,7 @@ TEST_CASE("the gradient is that of the cost over windows, encoder included") {
   check_gradient({.weight_decay = 0.01, .rate_decay = 0.02, .offset_decay = 0.3, .window = 30});
 }
 
-TEST_CASE("windows, then whole records: a state space foretells motions it has not seen") {
+TEST_CASE("windows, then whole records: a state space predicts motions it has not seen") {
   const std::vector<FreeRunRecord> records = measured(400);
   const std::vector<const FreeRunRecord*> seen{&records[0], &records[2]};
   const auto trained = [&] {

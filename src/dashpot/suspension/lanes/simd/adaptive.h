@@ -72,7 +72,7 @@ class AdaptiveSteps {
     const LaneMask arrived = accepted & last;
     if constexpr (kLags == 1)
       state.currents.coil =
-          arrived & (car_.numbers.driver_lag > 0) ? state.currents.inner : state.currents.coil;
+          (arrived & (car_.numbers.driver_lag > 0)) ? state.currents.inner : state.currents.coil;
     return arrived;
   }
 

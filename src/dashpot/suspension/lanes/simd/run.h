@@ -107,7 +107,7 @@ class LaneRun {
 
     // A coil without a lag follows at once, and forces are others from here on.
     state_.currents.coil =
-        changed & !(car_.numbers.driver_lag > 0) ? command_ : state_.currents.coil;
+        (changed & !(car_.numbers.driver_lag > 0)) ? command_ : state_.currents.coil;
     car_.damper.set_current(car_.driving(state_.currents));
     steps_.refresh(state_, command_, changed, road_.node[0]);
   }

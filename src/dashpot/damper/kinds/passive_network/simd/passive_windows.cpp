@@ -414,7 +414,7 @@ class Pass {
   }
 
   /// A gate that is held at an end does not move.
-  static V within(V gate, V slope) { return (gate > 6.2e-6f) & (gate < 2980.0f) ? slope : V{}; }
+  static V within(V gate, V slope) { return ((gate > 6.2e-6f) & (gate < 2980.0f)) ? slope : V{}; }
 
   /// Adds everything to the gradient.
   void gather() {

@@ -1,4 +1,4 @@
-#include "dashpot/report/foreseen_section.h"
+#include "dashpot/report/predicted_ride_section.h"
 
 #include <algorithm>
 #include <array>
@@ -14,30 +14,30 @@ namespace dashpot {
 namespace {
 
 /// A figure of the ride: its names, and how people see it.
-struct ForeseenFigure {
+struct PredictedFigure {
   const char *key, *title, *hint;
-  Estimate ForeseenRide::* figure;
+  Estimate PredictedRide::* figure;
   int priority;
 };
-constexpr std::array kForeseenFigures{
-    ForeseenFigure{"ride_error_percent", "Ride error %",
-                   "Root mean square of the next three, each over its rms in the damper's ride",
-                   &ForeseenRide::error, 0},
-    ForeseenFigure{"weighted_acceleration", "a_w m/s^2",
-                   "rms over time of the error of the body's acceleration, weighted by Wk",
-                   &ForeseenRide::acceleration, 0},
-    ForeseenFigure{"tyre_load_percent", "Tyre load %",
-                   "rms error of the worst tyre's load, of its static load",
-                   &ForeseenRide::tyre_load, 1},
-    ForeseenFigure{"travel_mm", "Travel mm", "rms error of the worst strut's travel",
-                   &ForeseenRide::travel, 1},
-    ForeseenFigure{"weighted_acceleration_excess", "a_w m/s^2",
-                   "Above 0, the damper rides better than the model says",
-                   &ForeseenRide::acceleration_excess, 0},
-    ForeseenFigure{"tyre_load_excess_percent", "Tyre load %", "Of the static load",
-                   &ForeseenRide::tyre_load_excess, 0},
-    ForeseenFigure{"travel_excess_mm", "Travel mm", "Of the worst strut",
-                   &ForeseenRide::travel_excess, 0}};
+constexpr std::array kPredictedFigures{
+    PredictedFigure{"ride_error_percent", "Ride error %",
+                    "Root mean square of the next three, each over its rms in the damper's ride",
+                    &PredictedRide::error, 0},
+    PredictedFigure{"weighted_acceleration", "a_w m/s^2",
+                    "rms over time of the error of the body's acceleration, weighted by Wk",
+                    &PredictedRide::acceleration, 0},
+    PredictedFigure{"tyre_load_percent", "Tyre load %",
+                    "rms error of the worst tyre's load, of its static load",
+                    &PredictedRide::tyre_load, 1},
+    PredictedFigure{"travel_mm", "Travel mm", "rms error of the worst strut's travel",
+                    &PredictedRide::travel, 1},
+    PredictedFigure{"weighted_acceleration_excess", "a_w m/s^2",
+                    "Above 0, the damper rides better than the model says",
+                    &PredictedRide::acceleration_excess, 0},
+    PredictedFigure{"tyre_load_excess_percent", "Tyre load %", "Of the static load",
+                    &PredictedRide::tyre_load_excess, 0},
+    PredictedFigure{"travel_excess_mm", "Travel mm", "Of the worst strut",
+                    &PredictedRide::travel_excess, 0}};
 constexpr std::size_t kTraces = 4;  // of them are errors over time, the first ones
 
 /// "13.5 (9 ... 121)".
@@ -75,13 +75,13 @@ std::string orders_of(const Ranking& ranking) {
 }
 
 /// One row per ridden model, with these of the figures.
-DocumentTable foreseen_table(const Ranking& ranking, std::string title,
-                             std::span<const ForeseenFigure> figures) {
+DocumentTable predicted_table(const Ranking& ranking, std::string title,
+                              std::span<const PredictedFigure> figures) {
   DocumentTable table{.title = std::move(title),
                       .columns = {{.title = "Model", .elastic = true}},
                       .rows = {},
                       .leads_to = "closer"};
-  for (const ForeseenFigure& figure : figures)
+  for (const PredictedFigure& figure : figures)
     table.columns.push_back(
         {.title = figure.title, .numeric = true, .priority = figure.priority, .hint = figure.hint});
   table.columns.push_back({.title = "ESR %", .numeric = true});
@@ -91,7 +91,7 @@ DocumentTable foreseen_table(const Ranking& ranking, std::string title,
   for (const RankedModel* model : ranking.by_ride()) {
     const std::size_t place = place_of(ranking, *model);
     std::vector<DocumentCell> row{{model->name}};
-    for (const ForeseenFigure& column : figures) {
+    for (const PredictedFigure& column : figures) {
       const Estimate& figure = (*model->ride).*column.figure;
       row.push_back({interval_text(figure), figure.value});
     }
@@ -145,7 +145,7 @@ Value estimate_json(const Estimate& figure) {
 
 }  // namespace
 
-std::vector<DocumentSection> foreseen_sections(const Ranking& ranking) {
+std::vector<DocumentSection> predicted_ride_sections(const Ranking& ranking) {
   DocumentSection section{.name = "ride",
                           .title = "Ranking by the ride",
                           .paragraphs = {},
@@ -154,10 +154,10 @@ std::vector<DocumentSection> foreseen_sections(const Ranking& ranking) {
                               "as far as the recordings tell."};
   if (ranking.ridden) {
     section.paragraphs = {orders_of(ranking), setting_of(ranking)};
-    const std::span all(kForeseenFigures);
-    section.tables = {foreseen_table(ranking, "Error over time", all.first(kTraces)),
-                      foreseen_table(ranking, "Error of the rms itself, above 0: too high",
-                                     all.subspan(kTraces))};
+    const std::span all(kPredictedFigures);
+    section.tables = {predicted_table(ranking, "Error over time", all.first(kTraces)),
+                      predicted_table(ranking, "Error of the rms itself, above 0: too high",
+                                      all.subspan(kTraces))};
     section.tables.front().note = "Medians with 90 % intervals.";
     section.tables.back().audience = Audience::Files;
     section.figures.push_back(bench_and_ride_figure(ranking));
@@ -175,11 +175,11 @@ std::vector<DocumentSection> foreseen_sections(const Ranking& ranking) {
   return {std::move(section)};
 }
 
-Value foreseen_json(const RankedModel& model) {
+Value predicted_json(const RankedModel& model) {
   if (!model.ride) return {};
   if (!model.ride->refusal.empty()) return Value::object({{"refusal", model.ride->refusal}});
   Value ride = Value::object();
-  for (const ForeseenFigure& column : kForeseenFigures)
+  for (const PredictedFigure& column : kPredictedFigures)
     ride.add(column.key, estimate_json((*model.ride).*column.figure));
   ride.add("warnings", Value::array(model.ride->warnings));
   return ride;
@@ -200,19 +200,19 @@ Value ridden_json(const Ranking& ranking) {
                         {"order", std::move(order)}});
 }
 
-std::string foreseen_csv_titles(const Ranking& ranking) {
+std::string predicted_csv_titles(const Ranking& ranking) {
   std::string text;
   if (!ranking.ridden) return text;
-  for (const ForeseenFigure& column : kForeseenFigures)
+  for (const PredictedFigure& column : kPredictedFigures)
     for (const char* end : {"", "_low", "_high"}) text += std::string(",") + column.key + end;
   return text;
 }
 
-std::string foreseen_csv(const Ranking& ranking, const RankedModel& model) {
+std::string predicted_csv(const Ranking& ranking, const RankedModel& model) {
   std::string text;
   if (!ranking.ridden) return text;
   const bool is_ridden = model.ride && model.ride->refusal.empty();
-  for (const ForeseenFigure& column : kForeseenFigures)
+  for (const PredictedFigure& column : kPredictedFigures)
     for (double Estimate::* part : {&Estimate::value, &Estimate::low, &Estimate::high})
       text += ',' + (is_ridden ? format_exact((*model.ride).*column.figure.*part) : std::string());
   return text;
