@@ -31,6 +31,8 @@ std::string project_file(const std::string& path) { return DASHPOT_PROJECT_DIR "
 
 std::string program_path() { return DASHPOT_PROGRAM; }
 
+std::string own_c_compiler() { return DASHPOT_C_COMPILER; }
+
 fs::path shared_data(const std::string& folder) {
   const fs::path path = fs::path(project_file("../shared/data")) / folder;
   if (fs::exists(path)) return path;

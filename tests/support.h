@@ -57,6 +57,8 @@ std::filesystem::path shared_data(const std::string& folder);
 std::string project_file(const std::string& path);
 /// The program under test.
 std::string program_path();
+/// The C compiler of the build that made the tests.
+std::string own_c_compiler();
 
 /// A program's exit code and what it printed (stdout and stderr together).
 struct ProgramResult {

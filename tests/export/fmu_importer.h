@@ -199,10 +199,12 @@ inline std::string shipped_fmu_of(const dashpot::ExportedModel& model, int versi
 
 /// Its library compiled quickly, and with sanitizers where the tests are.
 inline dashpot::ExportOptions compiled_quickly(dashpot::ExportOptions options) {
-  options.compiler += " -O0";
 #ifdef __SANITIZE_ADDRESS__
-  options.compiler += " -fsanitize=address,undefined -fno-sanitize-recover=undefined -Wl,-z,undefs";
+  // By the compiler of the tests: sanitizers of two compilers cannot be in one program.
+  options.compiler = own_c_compiler() +
+                     " -fsanitize=address,undefined -fno-sanitize-recover=undefined -Wl,-z,undefs";
 #endif
+  options.compiler += " -O0";
   return options;
 }
 
