@@ -24,6 +24,8 @@ std::string first_difference(const Value& a, const Value& b, const std::string& 
   const auto named = [&](const std::string& name) {
     return where.empty() ? name : where + '.' + name;
   };
+
+  // Members of the one, then those that only the other has. The time that a task took may differ.
   if (a.kind() == Value::Kind::Object && b.kind() == Value::Kind::Object) {
     for (const auto& [name, value] : a.members()) {
       if (where.empty() && name == "seconds") continue;
@@ -36,6 +38,7 @@ std::string first_difference(const Value& a, const Value& b, const std::string& 
       if (!a.find(name)) return named(name) + " is in the second alone";
     return {};
   }
+
   if (a.kind() == Value::Kind::Array && b.kind() == Value::Kind::Array &&
       a.items().size() == b.items().size()) {
     for (std::size_t k = 0; k < a.items().size(); ++k)
@@ -45,6 +48,7 @@ std::string first_difference(const Value& a, const Value& b, const std::string& 
         return found;
     return {};
   }
+
   const std::string left = format_json(a, false), right = format_json(b, false);
   return left == right ? "" : where + " is " + shortened(left) + " and " + shortened(right);
 }

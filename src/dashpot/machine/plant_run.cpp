@@ -126,6 +126,7 @@ bool DrivenPlant::run(const DamperModel& damper, const PlantDriving& driving, st
   const auto show = [&](std::size_t sample, std::size_t point, double force) {
     const DamperInput at = damper_input(driving, point, state.data());
     bool finite = true;
+
     for (std::size_t s = 0; s < sensors.size(); ++s) {
       const std::size_t q = sensors[s].coordinate;
       double value = 0;
@@ -137,6 +138,7 @@ bool DrivenPlant::run(const DamperModel& damper, const PlantDriving& driving, st
           value = state[size_ + q];
           break;
         case PlantQuantity::Acceleration:
+          // What an input that changes by leaps carries along comes on top of the state's rate.
           value = first[size_ + q];
           for (std::size_t u = 0; u < carried_.size(); ++u)
             value += carried_[u][q] * driving.value[u][point];

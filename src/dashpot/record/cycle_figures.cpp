@@ -99,7 +99,7 @@ double rate_of(const DynoChannels& c, const CycleFigures& cycle) {
   const auto add = [&](std::size_t from, std::size_t to, std::size_t direction) {
     for (std::size_t k = from; k <= to; ++k) {
       const double share = (c.displacement[k] - cycle.centre + range) / (2 * range);
-      if (share < 0 || share >= 1) continue;
+      if (!(share >= 0 && share < 1)) continue;
       const auto bin = static_cast<std::size_t>(share * kRateBins);
       sums[direction][bin] += c.force[k];
       counts[direction][bin] += 1;
@@ -199,6 +199,7 @@ std::vector<std::vector<std::size_t>> groups_by_speed(const std::vector<CycleFig
 /// Slope of the damping force, in % of its mean at that speed, over some quantity of a cycle; each
 /// speed has its own mean of both.
 Measured common_slope(const std::vector<CycleFigures>& cycles, double CycleFigures::* quantity) {
+  // Quantity and force of each cycle, as they differ from the means of its group.
   std::vector<double> u, y;
   double groups = 0;
   for (const auto& group : groups_by_speed(cycles)) {
@@ -214,6 +215,8 @@ Measured common_slope(const std::vector<CycleFigures>& cycles, double CycleFigur
     }
     ++groups;
   }
+
+  // One line through all of them, which passes through 0.
   const double left = static_cast<double>(u.size()) - groups - 1;
   double uu = 0, uy = 0, squares = 0;
   for (std::size_t k = 0; k < u.size(); ++k) uu += u[k] * u[k], uy += u[k] * y[k];
@@ -385,6 +388,8 @@ DynoChannels dyno_channels(const Record& record, DriveUnit drive_unit,
                  .force = record.channel("force").samples,
                  .drive = {},
                  .temperature = {}};
+
+  // A displacement that was not recorded is integrated.
   if (const Channel* displacement = record.find("displacement")) {
     c.displacement = displacement->samples;
   } else {
@@ -395,6 +400,7 @@ DynoChannels dyno_channels(const Record& record, DriveUnit drive_unit,
     integrated = integrate_without_drift(c.velocity, record.sample_time).x;
     c.displacement = integrated;
   }
+
   if (drive_unit != DriveUnit::None)
     if (const Channel* drive = record.find(drive_channel(drive_unit))) c.drive = drive->samples;
   if (const Channel* temperature = record.find("temperature")) c.temperature = temperature->samples;

@@ -96,6 +96,8 @@ RawTable without_bad_rows(RawTable table, const ColumnUses& uses, bool drop) {
 RawTable without_repeated_stamps(RawTable table, std::size_t time) {
   constexpr double kFew = 0.01;
   const std::vector<double>& t = table.columns[time].values;
+
+  // The rows between repeated stamps; a repetition that tells something else is counted.
   std::size_t repeated = 0, different = 0;
   std::vector<Rows> kept;
   std::size_t first = 0;
@@ -109,9 +111,11 @@ RawTable without_repeated_stamps(RawTable table, std::size_t time) {
     if (row > first) kept.emplace_back(first, row);
     first = row + 1;
   }
+
   if (repeated == 0 || t.size() < kFewestSamples ||
       static_cast<double>(different) > kFew * static_cast<double>(t.size()))
     return table;
+
   kept.emplace_back(first, t.size());
   std::erase_if(kept, [](const Rows& rows) { return rows.first >= rows.second; });
   table.notes.push_back(std::to_string(repeated) + (repeated == 1 ? " row" : " rows") +

@@ -136,7 +136,7 @@ void resample(Record& record, double rate_hz) {
   const double duration = record.time.back() - record.time.front();
   const double count = std::floor(duration * rate_hz * (1 + 1e-12)) + 1;
 
-  if (count < 2 || count > 1e9)
+  if (!(count >= 2 && count <= 1e9))
     throw Error(record.name, "resampling to " + format_number(rate_hz) + " Hz gives " +
                                  format_number(count, 12) + " samples");
 

@@ -209,10 +209,13 @@ std::vector<std::string> all_remarks(const Characterisation& all) {
     else
       same->second.push_back(who);
   };
+
+  // Those of records and of levels; what is said of all stands first.
   for (const RecordFigures& record : all.records)
     for (const std::string& remark : record.remarks) say(record.name, remark);
   for (const LevelFigures& level : all.levels)
     for (const std::string& remark : level.remarks) say(level_name(level, all.drive_unit), remark);
+
   std::vector<std::string> lines = all.remarks;
   constexpr std::size_t kNamed = 3;
   for (auto& [what, who] : said) {
@@ -470,6 +473,8 @@ std::string sheet_verdict(const Characterisation& all) {
   if (cycles == 0)
     return "No cycle was found in " + counted(all.records.size(), "record") +
            ": a dyno sheet needs cyclic motion, and what cannot be told stands below.";
+
+  // What was seen: cycles, speeds, levels.
   std::string text = fmt::format("{} in {} of {}", counted(cycles, "cycle"), cyclic,
                                  counted(all.records.size(), "record"));
   if (all.levels.empty()) return text + ", none of them at a steady drive.";
@@ -478,6 +483,7 @@ std::string sheet_verdict(const Characterisation& all) {
                       speed_text(first.speeds.back().speed));
   if (all.levels.size() > 1) text += ", " + counted(all.levels.size(), "level") + " of drive";
   text += '.';
+
   if (!all.range.empty()) {
     const DynamicRange& widest = *std::ranges::max_element(all.range, {}, &DynamicRange::ratio);
     text += fmt::format(

@@ -84,6 +84,8 @@ DocumentTable number_table(const std::vector<LevelDifference>& levels, DriveUnit
                                   {"Noise", true},
                                   {"Clear"}},
                       .rows = {}};
+
+  // What a fit did not find is NaN, and has no row.
   for (const LevelDifference& level : levels) {
     const auto add = [&](const std::string& what, const Difference& d, double factor) {
       if (!std::isfinite(d.value())) return;
@@ -116,6 +118,7 @@ DocumentTable force_table(const std::vector<LevelDifference>& levels, DriveUnit 
                                   {"Noise N", true},
                                   {"Clear"}},
                       .rows = {}};
+
   for (const LevelDifference& level : levels)
     for (const SpeedDifference& s : level.speeds)
       add_row(table,
@@ -129,6 +132,7 @@ DocumentTable force_table(const std::vector<LevelDifference>& levels, DriveUnit 
                {fmt::format("{:+.1f}", s.damping_force.percent()), s.damping_force.percent()},
                {number_text(s.damping_force.noise, 2), s.damping_force.noise},
                {clear_text(s.damping_force)}});
+
   table.note =
       "Mid-stroke forces, N. Change: of half of the difference of the directions, which holds no "
       "gas force. Noise: the scatter from cycle to cycle of both. Clear: more than twice it.";
@@ -146,10 +150,13 @@ FigurePanel peak_panel(const std::vector<ComparedThing>& things, const LevelFigu
   double greatest = 0;
   for (const LevelFigures& one : things.front().figures.levels)
     greatest = std::max(greatest, std::abs(one.drive.value_or(0)));
+
   for (std::size_t k = 0; k < things.size(); ++k)
     for (const LevelFigures& other : things[k].figures.levels) {
       if (level.drive && other.drive && std::abs(*level.drive - *other.drive) > 0.02 * greatest)
         continue;
+
+      // Compression from the quickest on, a gap, rebound to the quickest.
       FigureSeries line{.label = things[k].name, .colour = thing_colour(k), .x = {}, .y = {}};
       for (auto s = other.speeds.rbegin(); s != other.speeds.rend(); ++s) {
         line.x.push_back(-kMillimetres * s->compression.mid_speed);
@@ -161,6 +168,8 @@ FigurePanel peak_panel(const std::vector<ComparedThing>& things, const LevelFigu
         line.x.push_back(kMillimetres * s.rebound.mid_speed);
         line.y.push_back(s.rebound.mid_force);
       }
+
+      // The same as dots, which the legend and the reading of values leave out.
       FigureSeries dots = line;
       dots.mark = FigureSeries::Mark::Dots;
       dots.width = 3;
@@ -178,8 +187,10 @@ std::optional<std::size_t> partner_of(const ComparedThing& first, std::size_t re
   const auto& records = thing.dataset.records;
   for (std::size_t k = 0; k < records.size(); ++k)
     if (records[k].name == first.dataset.records[record].name) return k;
+
   const RecordFigures& wanted = first.figures.records[record];
   if (!wanted.is_cyclic()) return std::nullopt;
+
   std::optional<std::size_t> best;
   double least = 0.1;
   for (std::size_t k = 0; k < records.size(); ++k) {
@@ -188,6 +199,7 @@ std::optional<std::size_t> partner_of(const ComparedThing& first, std::size_t re
     const CycleFigures &a = wanted.cycles.front(), &b = other.cycles.front();
     if (std::isfinite(a.drive) && std::abs(a.drive - b.drive) > 0.02 * std::abs(a.drive) + 1e-9)
       continue;
+
     const double apart =
         std::max(std::abs(b.stroke / a.stroke - 1), std::abs(b.duration / a.duration - 1));
     if (apart < least) {
@@ -327,6 +339,8 @@ std::string difference_sentence(const std::string& name, const std::vector<Level
   std::size_t count = 0, clear = 0, known = 0, quiet = 0;
   const SpeedDifference* most = nullptr;
   std::optional<double> where;
+
+  // Noise of less than a thousandth is that of arithmetic: a model was computed.
   for (const LevelDifference& level : levels)
     for (const SpeedDifference& s : level.speeds) {
       ++count;
@@ -338,6 +352,7 @@ std::string difference_sentence(const std::string& name, const std::vector<Level
       most = &s;
       where = level.drive;
     }
+
   if (!most) return name + " has no speed and drive in common with the first.";
   const std::string told = quiet == count ? "computed, with hardly any noise"
                            : known == 0

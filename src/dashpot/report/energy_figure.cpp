@@ -71,6 +71,8 @@ std::vector<DocumentFigure> energy_figures(const Ranking& ranking) {
       .empty =
           "The energy of this model cannot be told apart: it is no passive "
           "network."};
+
+  // A balance for each passive network over each record that a reader can choose.
   const std::vector<std::string> records = judged_records(ranking);
   for (std::size_t m = 0; m < ranking.models.size(); ++m) {
     const RankedModel& ranked = ranking.models[m];
@@ -84,6 +86,7 @@ std::vector<DocumentFigure> energy_figures(const Ranking& ranking) {
       add_balance(panel, *model, record, {{"model", {m}}, {"record", {r}}});
     }
   }
+
   if (panel.series.empty()) return {};
   return {{.name = "energy", .title = {}, .caption = {}, .panels = {std::move(panel)}}};
 }

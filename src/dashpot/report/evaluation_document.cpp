@@ -77,6 +77,7 @@ DocumentSection residual_section(const std::vector<ResidualTest>& tests) {
                       .rows = {}};
   for (const std::string input : {"displacement", "velocity", "drive"})
     table.columns.push_back({"With " + input, true});
+
   for (const ResidualTest& test : tests) {
     if (!test.is_tested()) continue;
     std::vector<std::string> row{test.record, test.is_white() ? "yes" : "no",
@@ -90,6 +91,7 @@ DocumentSection residual_section(const std::vector<ResidualTest>& tests) {
     }
     table.rows.push_back(std::move(row));
   }
+
   table.note =
       "White: the Ljung-Box test over 20 samples. Memory: until the autocorrelation falls below "
       "0.5. With an input: the largest correlation up to a hundredth of the record later; * where "

@@ -178,6 +178,7 @@ Value residual_tests_json(const std::vector<ResidualTest>& tests) {
                                       {"t", with.statistic},
                                       {"limit", with.limit},
                                       {"independent", with.is_independent()}}));
+
     list.push_back(Value::object({{"record", test.record},
                                   {"samples", test.samples},
                                   {"lags", test.lags},

@@ -148,6 +148,7 @@ class PhysicsProblem {
   }
 
   LeastSquaresReport solve_with(const Ridges& ridges, std::vector<double> x, int iterations) const {
+    // The physical numbers have ranges; what corrects them has none but its ridges.
     LeastSquaresProblem problem;
     problem.residuals = samples_ + unknowns();
     for (std::size_t k = 0; k < unknowns(); ++k) {
@@ -155,6 +156,7 @@ class PhysicsProblem {
       problem.lower.push_back(is_number ? FamilyPhysics::table()[k].low : -INFINITY);
       problem.upper.push_back(is_number ? FamilyPhysics::table()[k].high : INFINITY);
     }
+
     problem.residual = [&](std::span<const double> at, std::span<double> r) {
       residuals(at, ridges, r);
       return true;
@@ -164,6 +166,7 @@ class PhysicsProblem {
       jacobian(at, ridges, r, columns);
       return true;
     };
+
     LeastSquaresOptions options;
     options.max_iterations = iterations;
     options.function_tolerance = 1e-4;

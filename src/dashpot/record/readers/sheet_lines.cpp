@@ -155,8 +155,8 @@ struct SheetLines::Parser final : XmlPart {
                       std::to_string(kSheetColumns) + " columns are read",
                   "delete what stands beside the table");
     type_ = attributes["t"];
-    style_ =
-        static_cast<std::size_t>(std::clamp(parse_number(attributes["s"]).value_or(0), 0.0, 1e6));
+    const double style = parse_number(attributes["s"]).value_or(0);
+    style_ = style >= 0 && style < 1e6 ? static_cast<std::size_t>(style) : 0;
     value_.clear();
     has_formula_ = false;
     in_cell_ = true;
