@@ -3,6 +3,7 @@
 #include "commands.h"
 #include "console.h"
 #include "dashpot/base/text.h"
+#include "dashpot/report/words.h"
 #include "identify_in_plant.h"
 #include "ranking_run.h"
 #include "ride_rank_options.h"

@@ -1,9 +1,12 @@
 #include <cmath>
 
 #include "damper/kinds/passive_network/passive_network_example.h"
+#include "dashpot/base/text.h"
 #include "dashpot/damper/parameter_set.h"
 #include "dashpot/damper/registry.h"
+#include "dashpot/evaluate.h"
 #include "dashpot/ground_motion.h"
+#include "dashpot/identify.h"
 #include "dashpot/model_file.h"
 #include "dashpot/vehicle.h"
 #include "identify/small_campaign.h"
