@@ -99,6 +99,15 @@ TEST_CASE("what JSON cannot hold becomes null, however deep") {
         "{\"a\":[1,null],\"b\":null,\"c\xEF\xBF\xBD\":\"d\xEF\xBF\xBD\"}");
 }
 
+TEST_CASE("a value as JavaScript is ASCII that neither ends a script nor a line") {
+  const Value value = Value::object(
+      {{"a", "</script><!-- \" \\ \n \x7F \xC3\xA9 \xE2\x80\xA8 \xF0\x9F\x98\x80 \xFF"},
+       {"b", Value::array(std::vector<double>{0.1, -std::numeric_limits<double>::infinity()})}});
+  CHECK(
+      js_value(value).text() ==
+      R"({"a":"\u003c/script>\u003c!-- \" \\ \n \u007f \u00e9 \u2028 \ud83d\ude00 \ufffd","b":[0.1,null]})");
+}
+
 TEST_CASE("a template is filled once: what is filled in is not looked at again") {
   CHECK(fill_template("<{{a}}|{{b}}>", {{"a", "{{b}}"}, {"b", "2"}}) == "<{{b}}|2>");
   CHECK(message_of([] { fill_template("{{c}}", {{"a", "1"}}); }) ==

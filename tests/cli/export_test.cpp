@@ -98,9 +98,10 @@ TEST_CASE("export says what is wrong") {
     CHECK(contains(result.output, of));
   };
   const std::string damper = "--parameters spencer1997 ";
-  complains(damper,
-            "--to: is missing; one or more of c, dpr, fmu2, fmu3, mex, modelica, onnx, sfunction, "
-            "tables");
+  complains(
+      damper,
+      "--to: is missing; one or more of c, dpr, fmu2, fmu3, js, mex, modelica, onnx, sfunction, "
+      "tables");
   complains("--to c", "needs one damper");
   complains(damper + "--to d", "unknown format 'd'");
   complains(damper + "--to c --name 2x", "cannot begin names in C");

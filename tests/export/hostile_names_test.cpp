@@ -151,8 +151,11 @@ void check_same_code(const std::vector<ExportedFile>& made,
         CHECK(code_alone(here) == code_alone(there));
       CHECK(here.find_first_of(std::string("\0\r\x07", 3)) == std::string::npos);
       CHECK(!contains(here, "\xE2\x80\xAE"));
-    } else if (kind == ".mo") {
+    } else if (kind == ".mo" || kind == ".mjs") {
+      // JavaScript, too, has its strings between double quotes, and no comment with text in it.
       CHECK(modelica_alone(here) == modelica_alone(there));
+      if (kind == ".mjs")
+        CHECK(std::ranges::all_of(here, [](char c) { return c > 0 && c < 0x7F; }));
     } else if (kind == ".xml" || kind == ".html") {
       CHECK(structure_of(here) == structure_of(there));
       CHECK(here.find_first_of(std::string("\0\x07", 2)) == std::string::npos);

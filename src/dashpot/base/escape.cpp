@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+
+#include <fmt/format.h>
 
 namespace dashpot {
 namespace {
@@ -19,6 +22,15 @@ std::size_t sequence_length(std::string_view text) {
   if ((lead == 0xE0 && byte(1) < 0xA0) || (lead == 0xED && byte(1) > 0x9F)) return 0;
   if ((lead == 0xF0 && byte(1) < 0x90) || (lead == 0xF4 && byte(1) > 0x8F)) return 0;
   return length;
+}
+
+/// What a well-formed UTF-8 sequence stands for.
+std::uint32_t code_point(std::string_view sequence) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(sequence[i]); };
+  if (sequence.size() == 1) return byte(0);
+  std::uint32_t code = byte(0) & (0x7FU >> sequence.size());
+  for (std::size_t i = 1; i < sequence.size(); ++i) code = (code << 6) | (byte(i) & 0x3FU);
+  return code;
 }
 
 constexpr std::string_view kReplacement = "\xEF\xBF\xBD";
@@ -192,6 +204,27 @@ HtmlText script_json(const Value& value) {
       result += c;
   }
   return HtmlText::own(result);
+}
+
+JsText js_value(const Value& value) {
+  // Beyond ASCII, too, signs stand inside strings alone: they become units of UTF-16.
+  std::string result;
+  const auto unit = [&](unsigned code) { result += fmt::format("\\u{:04x}", code); };
+  const std::string json = format_json(presentable(value), false);
+  for (std::string_view left = json; !left.empty();) {
+    const std::string_view sign = left.substr(0, sequence_length(left));
+    const std::uint32_t code = code_point(sign);
+    if (code >= 0x10000) {
+      unit(0xD7C0 + (code >> 10));
+      unit(0xDC00 + (code & 0x3FF));
+    } else if (code >= 0x7F || code == '<') {
+      unit(code);
+    } else {
+      result += sign;
+    }
+    left.remove_prefix(sign.size());
+  }
+  return JsText::own(result);
 }
 
 std::string xml_text(std::string_view text) {

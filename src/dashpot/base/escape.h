@@ -46,6 +46,7 @@ using CText = Escaped<struct CLanguage>;
 using ModelicaText = Escaped<struct ModelicaLanguage>;
 using GnuplotText = Escaped<struct GnuplotLanguage>;
 using HtmlText = Escaped<struct HtmlLanguage>;
+using JsText = Escaped<struct JsLanguage>;
 
 /// The inside of a comment of C: one line that neither ends nor begins a comment, holds no trigraph
 /// and no sign that changes the order in which a reader sees the rest.
@@ -73,6 +74,10 @@ GnuplotText gnuplot_label(std::string_view text);
 HtmlText html_text(std::string_view text);
 /// JSON that may stand inside a <script> element: no '<' remains, so no text can end the element.
 HtmlText script_json(const Value& value);
+
+/// A value as an expression of JavaScript, in a file of its own or inside a <script> element: ASCII
+/// alone, without '<'.
+JsText js_value(const Value& value);
 
 /// Text as XML can hold it, before the library escapes it: valid UTF-8 without control characters.
 std::string xml_text(std::string_view text);

@@ -8,6 +8,7 @@
 #include "dashpot/export/c/c_source.h"
 #include "dashpot/export/c/c_wrappers.h"
 #include "dashpot/export/fmu/fmu.h"
+#include "dashpot/export/js/js.h"
 #include "dashpot/export/onnx/onnx.h"
 #include "dashpot/export/tables/force_map.h"
 
@@ -33,6 +34,8 @@ constexpr std::array kExporters{
         "fmu3", "FMU of FMI 3.0 for a simulator",
         "every model, inverse and controller; model exchange for laws and models without a state",
         "NAME_fmi3.fmu with its sources and a binary for Linux", write_fmu3, write_fmu3_block},
+    Exporter{"js", "JavaScript for a page or Node", "every model",
+             "NAME.mjs, a module that steps it; a law's parameters can be set", write_js},
     Exporter{"mex", "C for MATLAB and Octave", "every model",
              "NAME.h, NAME.c and NAME_mex.c, which takes a matrix of inputs", write_mex},
     Exporter{"modelica", "Modelica package", "every model",

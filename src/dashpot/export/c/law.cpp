@@ -55,8 +55,8 @@ std::string constants(const LawModel& model, bool settable) {
     code +=
         "static inline const LawModel* law_behind(const double* state) {\n"
         "  return (const LawModel*)(const void*)(state + @size@);\n}\n\n"
-        "static void @stem@_defaults(double* state) { memcpy(state + @size@, &kLaw, sizeof kLaw); "
-        "}\n\n";
+        "static void @stem@_defaults(double* state) {\n"
+        "  LawModel* law = (LawModel*)(void*)(state + @size@);\n  *law = kLaw;\n}\n\n";
   return filled(code, {{"size", CText::own(std::to_string(model.state_size()))}});
 }
 
@@ -266,10 +266,9 @@ CModel c_law(const LawModel& model, const std::string& stem, bool settable) {
   const Law& law = model.law();
   const std::string name(law.name);
   if (!has_c_text(name + ".h")) throw Error(name, "its law has no C text in this build of Dashpot");
-  std::string code = (settable ? "#include <string.h>\n\n#include \"" : "#include \"") + name +
-                     ".h\"\n" + "typedef " + pascal_case(name) + " LawParameters;\n\n" +
-                     constants(model, settable) + parameter_function(model, settable) +
-                     side_function(model, settable);
+  std::string code = "#include \"" + name + ".h\"\n" + "typedef " + pascal_case(name) +
+                     " LawParameters;\n\n" + constants(model, settable) +
+                     parameter_function(model, settable) + side_function(model, settable);
 
   // The integrator of the states, where there are any.
   if (model.state_size() > 0)
