@@ -9,6 +9,7 @@
 #include "dashpot/base/file.h"
 #include "dashpot/report/words.h"
 #include "document_text.h"
+#include "report_sliders.h"
 
 namespace dashpot::cli {
 namespace {
@@ -101,7 +102,8 @@ void write_results(const ReportInput& input, const Document& report, const Resul
   std::string where = "\n";
   if (settings.report) {
     console.check_stop();
-    where += write_document(report, folder, "report", false, csv_report(input));
+    where +=
+        write_document(with_sliders(report, input), folder, "report", false, csv_report(input));
   }
   where += "Models   " + (folder / "models").string() + "/\n";
   if (settings.figures) {

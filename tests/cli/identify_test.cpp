@@ -137,6 +137,15 @@ TEST_CASE("evaluate: a saved model runs on recordings again, with the error that
               file.find("quality")->find("training")->find("rmse_N")->as_number(), 1e-3, 0);
 }
 
+TEST_CASE("identify: its models run in the report's page") {
+  const std::string page = read_file(small_results() / "report.html");
+  const std::size_t programs =
+      page.find("const page_programs = [\n() => (() => {\nconst model = {");
+  CHECK(programs != std::string::npos);
+  CHECK(page.find("function damper_advance(", programs) != std::string::npos);
+  CHECK(contains(page, "\"title\":\"Beyond the records\""));
+}
+
 TEST_CASE("evaluate: says where recordings leave the model's range") {
   const TemporaryFolder folder;
   const std::string data = (folder.path() / "fast").string();

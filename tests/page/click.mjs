@@ -156,6 +156,34 @@ async function search({page, done}) {
   await done();
 }
 
+// Models that run in the page: handles move by mouse and keyboard, loops follow, and what leaves the data is said.
+async function sliders({page, done}) {
+  const handle = (name) => page.getByRole("slider", {name, exact: true});
+  const picture = (title) => plot(page, title).locator("canvas").evaluate((canvas) => canvas.toDataURL());
+  const moves = async (act, what) => {
+    const before = await picture("Force over velocity");
+    await act();
+    await page.evaluate(() => new Promise((next) => requestAnimationFrame(() => requestAnimationFrame(next))));
+    assert.notEqual(await picture("Force over velocity"), before, `${what} is seen in the loop`);
+  };
+  for (const title of ["Force over velocity", "Force over displacement"]) assert.ok(await has_ink(plot(page, title)), title);
+  assert.equal(await page.locator(".beyond").textContent(), "");
+  const first = await picture("Force over velocity");
+  for (const name of ["Current", "Amplitude", "Frequency", "alpha_a"])
+    await moves(async () => { await handle(name).focus(); for (let k = 0; k < 20; ++k) await page.keyboard.press("ArrowLeft"); }, name);
+  assert.match(await handle("Current").getAttribute("aria-valuetext"), /^0\.847 A$/);
+  assert.match(await plot(page, "Force over velocity").locator(".legend").textContent(), /as identified.*as set/);
+  await moves(async () => { await handle("Current").focus(); await page.keyboard.press("End"); }, "the greatest current");
+  assert.match(await page.locator(".beyond").textContent(), /Outside the data: current 3 A, recorded 0 to 2\. /);
+  await moves(() => page.getByRole("button", {name: "As identified", exact: true}).click(), "the reset");
+  assert.equal(await page.locator(".beyond").textContent(), "");
+  assert.equal(await picture("Force over velocity"), first, "the reset brings the first picture back");
+  await moves(() => page.selectOption("#moved", "1"), "another model");
+  assert.equal(await page.locator(".slider").count(), 3, "a network has no parameters to be set");
+  assert.match(await page.locator("#sliders").textContent(), /Force −[\d.]+ to −?[\d.]+ N; [\d.]+ J (taken out|fed in) in a cycle/);
+  await done();
+}
+
 try {
   const report = await open("report.html");
   for (const step of [ranking, choosing, zooming, theme]) await step(report.page);
@@ -166,6 +194,9 @@ try {
 
   await search(await open("search.html"));
   await (await open("search.html", {width: 390})).done();
+
+  await sliders(await open("sliders.html"));
+  for (const options of [{scheme: "dark"}, {width: 1056}, {width: 390}]) await (await open("sliders.html", options)).done();
 
   const inspect = await open("inspect.html");
   await inspect.page.selectOption("#record", "1");

@@ -3,9 +3,35 @@
 #include <filesystem>
 
 #include "dashpot/base/file.h"
+#include "dashpot/export/js/js.h"
 #include "dashpot/report/inspection.h"
+#include "export/example_models.h"
 #include "report/example_ranking.h"
 #include "report/example_search.h"
+
+namespace {
+
+/// A law and a network that run in their page.
+dashpot::Document sliders_document() {
+  dashpot::DocumentSliders sliders;
+  const auto add = [&](const dashpot::DamperModel& model) {
+    sliders.models.push_back({model.name(), dashpot::js_program(exported(model), {})});
+  };
+  add(example_law(dashpot::find_law("bouc_wen")));
+  add(dashpot::NetworkModel("mlp_one_sensor", {"velocity", "current"}, {example_mlp(1)}));
+  return {.title = "Sliders",
+          .subtitle = {},
+          .verdict = "Two models that run in their page.",
+          .sections = {{.name = "sliders",
+                        .title = "Beyond the records",
+                        .paragraphs = {},
+                        .sliders = std::move(sliders)}},
+          .command = {},
+          .version = "0.1.0",
+          .date = "2026-11-21"};
+}
+
+}  // namespace
 
 int main(int count, char** arguments) {
   if (count < 2) return 2;
@@ -14,6 +40,7 @@ int main(int count, char** arguments) {
   example.dataset.records[1].notes = {"<script>alert('a note')</script>"};
   dashpot::write_file(folder / "report.html",
                       dashpot::html_document(dashpot::ranking_document(example.input())));
+  dashpot::write_file(folder / "sliders.html", dashpot::html_document(sliders_document()));
   const ExampleRanking crowded = crowded_ranking(30);
   dashpot::write_file(folder / "crowded.html",
                       dashpot::html_document(dashpot::ranking_document(crowded.input())));

@@ -185,6 +185,14 @@ Value plane_json(const DocumentPlane& plane) {
                         {"choice", plane.choice}});
 }
 
+/// `first`: the place of its first program among those of the page.
+Value sliders_json(const DocumentSliders& sliders, std::size_t first) {
+  Value models = Value::array();
+  for (const DocumentSliders::Model& model : sliders.models)
+    models.push_back(Value::object({{"name", model.name}, {"program", first++}}));
+  return Value::object({{"models", std::move(models)}});
+}
+
 /// Those of the parts that a page shows.
 template <typename Part, typename ToJson>
 Value parts_json(const std::vector<Part>& parts, const ToJson& to_json) {
@@ -197,10 +205,18 @@ Value parts_json(const std::vector<Part>& parts, const ToJson& to_json) {
   return list;
 }
 
-Value section_json(const DocumentSection& section) {
+/// `programs`: those of the page so far, to which its own come.
+Value section_json(const DocumentSection& section, std::vector<JsText>& programs) {
   Value facts = Value::array();
   for (const auto& [name, meaning] : section.facts)
     facts.push_back(Value::array(std::vector<std::string>{name, meaning}));
+
+  Value sliders;
+  if (section.sliders) {
+    sliders = sliders_json(*section.sliders, programs.size());
+    for (const DocumentSliders::Model& model : section.sliders->models)
+      programs.push_back(model.program);
+  }
 
   // In the order in which a page draws them.
   return Value::object({{"name", section.name},
@@ -209,6 +225,7 @@ Value section_json(const DocumentSection& section) {
                         {"paragraphs", Value::array(section.paragraphs)},
                         {"choices", parts_json(section.choices, choice_json)},
                         {"plane", section.plane ? plane_json(*section.plane) : Value()},
+                        {"sliders", std::move(sliders)},
                         {"tables", parts_json(section.tables, table_json)},
                         {"figures", parts_json(section.figures, figure_json)},
                         {"remarks", Value::array(section.remarks)},
@@ -225,16 +242,19 @@ Value samples_json(const SharedSamples& samples) {
   return samples.is_exact ? pack_float32(samples.values, all) : pack_int16(samples.values, all);
 }
 
-/// All that page/document.js draws.
-Value page_json(const Document& document) {
+/// All that page/document.js draws; the programs that it runs come to `programs`.
+Value page_json(const Document& document, std::vector<JsText>& programs) {
+  const auto to_json = [&](const DocumentSection& section) {
+    return section_json(section, programs);
+  };
   return presentable(
       Value::object({{"kind", document.kind},
                      {"title", document.title},
                      {"subtitle", document.subtitle},
                      {"verdict", document.verdict},
                      {"key_figures", parts_json(document.key_figures, key_figure_json)},
-                     {"sections", parts_json(document.sections, section_json)},
-                     {"provenance", section_json(document.provenance)},
+                     {"sections", parts_json(document.sections, to_json)},
+                     {"provenance", to_json(document.provenance)},
                      {"samples", parts_json(document.samples, samples_json)},
                      {"command", document.command},
                      {"version", document.version},
@@ -255,7 +275,9 @@ void add_row(DocumentTable& table, const std::vector<DocumentCell>& cells) {
 }
 
 std::string html_document(const Document& document) {
-  return make_page(document.title, document_text(document, 100), page_json(document));
+  std::vector<JsText> programs;
+  const Value data = page_json(document, programs);
+  return make_page(document.title, document_text(document, 100), data, programs);
 }
 
 Value document_json(const Document& document) {

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "dashpot/base/escape.h"
 #include "dashpot/report/text_table.h"
 #include "dashpot/value.h"
 
@@ -123,6 +124,16 @@ struct DocumentPlane {
   std::string choice;  ///< its chosen option is the point to be marked
 };
 
+/// Models that run in a page: the reader sets a motion and the parameters of a law, and sees the
+/// loops of force at once. On a page only.
+struct DocumentSliders {
+  struct Model {
+    std::string name;
+    JsText program;  ///< as export/js/js.h writes it
+  };
+  std::vector<Model> models;
+};
+
 /// Lines of words. Without a title one paragraph each, else a list below the title.
 struct DocumentList {
   std::string title;
@@ -132,7 +143,7 @@ struct DocumentList {
   bool folded = false;
 };
 
-/// In this order: words, choices, tables, figures, remarks, lists, facts.
+/// In this order: words, choices, plane, sliders, tables, figures, remarks, lists, facts.
 struct DocumentSection {
   std::string name, title;
   std::vector<std::string> paragraphs;
@@ -142,6 +153,7 @@ struct DocumentSection {
   std::string lead = {};  ///< how to use this part of a page; on a page only, before all else
   std::vector<DocumentChoice> choices = {};
   std::optional<DocumentPlane> plane = {};  ///< after the choices
+  std::optional<DocumentSliders> sliders = {};
   std::vector<DocumentList> lists = {};
   std::vector<std::pair<std::string, std::string>> facts = {};  ///< a term and what it means
   std::string plain = {};  ///< text with lines of its own, for terminal and Markdown, before tables

@@ -25,9 +25,15 @@ std::string fill_template(std::string_view text,
   return result.append(text.substr(at));
 }
 
-std::string make_page(const std::string& title, const std::string& summary, const Value& data) {
+std::string make_page(const std::string& title, const std::string& summary, const Value& data,
+                      const std::vector<JsText>& programs) {
+  std::string functions;
+  for (const JsText& program : programs) functions += "() => " + program.text() + ",\n";
   std::vector<std::pair<std::string_view, HtmlText>> values{
-      {"title", html_text(title)}, {"summary", html_text(summary)}, {"data", script_json(data)}};
+      {"title", html_text(title)},
+      {"summary", html_text(summary)},
+      {"data", script_json(data)},
+      {"programs", HtmlText::own(std::move(functions))}};
   const auto assets = page_assets();
   for (const auto& [name, text] : assets)
     values.emplace_back(name, HtmlText::own(std::string(text)));

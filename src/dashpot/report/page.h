@@ -13,8 +13,9 @@ namespace dashpot {
 std::vector<std::pair<std::string_view, std::string_view>> page_assets();
 
 /// One self-contained page. `summary`: what a reader without JavaScript sees. `data`: what
-/// page/start.js reads.
-std::string make_page(const std::string& title, const std::string& summary, const Value& data);
+/// page/start.js reads. `programs`: expressions that the page computes when it wants them.
+std::string make_page(const std::string& title, const std::string& summary, const Value& data,
+                      const std::vector<JsText>& programs = {});
 
 /// Replaces every {{name}} of the template once; what is filled in is not looked at again.
 /// Throws Error on a name that is not among `values`.

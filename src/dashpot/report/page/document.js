@@ -68,12 +68,13 @@ function facts(pairs) {
 }
 
 function document_section(part, ...before) {
-  const {name, title, lead, paragraphs, choices, plane, tables, figures, remarks, lists} = part;
+  const {name, title, lead, paragraphs, choices, plane, sliders, tables, figures, remarks, lists} = part;
   const words = lists.filter(({title: own}) => !own), named = lists.filter(({title: own}) => own);
   return section(name, title, lead, ...before,
     paragraphs.map((text) => element("p", {class: "lead"}, text)),
     choices.length ? element("div", {class: "choices"}, choices.map(choice_select)) : null,
     plane ? document_plane(plane) : null,
+    sliders ? document_sliders(sliders) : null,
     living(words, document_list, {"aria-live": "polite"}),
     living(tables, document_table), figures.map(document_figure),
     remarks.length ? element("ul", {class: "warnings"}, remarks.map((text) => element("li", {}, text))) : null,

@@ -31,6 +31,21 @@ class Plot {
     this.draw();
   }
 
+  // The same series with other numbers, on the plot that stands: for what moves under the reader's hand.
+  move(make_spec) {
+    this.make_spec = make_spec;
+    const spec = make_spec(), visible = spec.series.filter((series) => !this.hidden.has(series.label));
+    if (!this.u || visible.length !== this.u.series.length - 1 || spec.series.length !== this.spec.series.length) return this.draw();
+    this.spec = spec;
+    this.readout.hidden = true;
+    const fresh = full_view(visible, spec);
+    this.full = {x: kept_range(this.full.x, fresh.x), y: kept_range(this.full.y, fresh.y)};
+    this.u.batch(() => {
+      this.u.setData([null, ...visible.map((series) => [series.x, series.y])], false);
+      this.set_view(this.view ?? this.full);
+    });
+  }
+
   draw() {
     if (!this.make_spec || !this.canvas.clientWidth) return;
     this.spec = this.make_spec();
