@@ -220,4 +220,18 @@ fs::path Project::traces(const std::string& model) {
   return place;
 }
 
+fs::path Project::module(const std::string& model) {
+  const fs::path file = inside(model);
+  const fs::path place =
+      folder_ / ".studio" / "modules" / sha256_of_file(file).substr(0, 32) / "model.mjs";
+
+  const std::lock_guard lock(mutex_);
+  if (fs::exists(place)) return place;
+  const ChildEnd end = run_self({"export", file.string(), "--to", "js", "--name", "model",
+                                 "--quiet", "--output", place.parent_path().string()},
+                                folder_, kReading);
+  if (!fs::exists(place)) throw Error("", without_folder(error_of(end), folder_));
+  return place;
+}
+
 }  // namespace dashpot::studio

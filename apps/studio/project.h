@@ -46,6 +46,10 @@ class Project {
   /// --traces raw` wrote. `model`: "fits/NAME/models/x.json". Throws Error where it cannot be run.
   std::filesystem::path traces(const std::string& model);
 
+  /// A model as the module of JavaScript that `dashpot export --to js` wrote. `model` as above.
+  /// Throws Error where it cannot become one.
+  std::filesystem::path module(const std::string& model);
+
   /// What `dashpot rank --costs` estimates of every model on these recordings: a list of {"model",
   /// "seconds"}, empty where there are none.
   Value costs();

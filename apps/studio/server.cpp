@@ -317,6 +317,11 @@ class Studio {
     server.Get("/api/fitted", [this](const Request&, Response& response) {
       answer(response, Value::object({{"models", Value::array(project_.models())}}));
     });
+    // A model as a module that the page runs.
+    server.Get("/api/module", [this](const Request& request, Response& response) {
+      response.set_content(read_file(project_.module(request.get_param_value("model"))),
+                           "text/javascript; charset=utf-8");
+    });
     // As /api/view, of the forces that a model gave: channels measured, modelled, residual.
     server.Get("/api/traces", [this](const Request& request, Response& response) {
       const SampleView view(project_.traces(request.get_param_value("model")));

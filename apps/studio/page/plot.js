@@ -67,7 +67,7 @@ function options_of({series, x_label, y_label, is_log}, width, height, on_zoom) 
   };
 }
 
-function extent(lists, share = 0.04, is_log = false) {
+export function extent(lists, share = 0.04, is_log = false) {
   let low = Infinity, high = -Infinity;
   for (const list of lists) for (const value of list) if (value !== null && (!is_log || value > 0)) { low = Math.min(low, value); high = Math.max(high, value); }
   if (low > high) return is_log ? [0.1, 1] : [0, 1];
@@ -123,8 +123,8 @@ export function save(name, content, type) {
   setTimeout(() => URL.revokeObjectURL(link.href), 1000);
 }
 
-// title, x_label, y_label, series: [{label, colour, x, y}], x_range, on_zoom(from, to), theme.
-export function Plot({title, x_label, y_label, series, x_range, on_zoom, height = 220, theme, keep, is_log, wide}) {
+// title, x_label, y_label, series: [{label, colour, x, y}], x_range, y_range, on_zoom(from, to), theme.
+export function Plot({title, x_label, y_label, series, x_range, y_range, on_zoom, height = 220, theme, keep, is_log, wide}) {
   const frame = useRef(), drawn = useRef();
   const [width, set_width] = useState(0);
   useEffect(() => {
@@ -143,7 +143,7 @@ export function Plot({title, x_label, y_label, series, x_range, on_zoom, height 
     const data = [null, ...shown.map((s) => [s.x, s.y])];
     const range_of = ([min, max]) => ({min, max});
     const x_shown = range_of(x_range ?? extent(shown.map((s) => s.x), 0.02));
-    const y_shown = range_of(extent(shown.map((s) => s.y), 0.04, is_log));
+    const y_shown = range_of(y_range ?? extent(shown.map((s) => s.y), 0.04, is_log));
     if (drawn.current?.key !== key) {
       drawn.current?.plot.destroy();
       const options = options_of({series: shown, x_label, y_label, is_log}, width, height, (from, to) => drawn.current?.on_zoom?.(from, to));

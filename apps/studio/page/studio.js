@@ -1,11 +1,13 @@
-// The studio: three views of one folder, kept up to date by one request that waits for news.
+// The studio: views of one folder, kept up to date by one request that waits for news.
 import {html, render, useEffect, useRef, useState} from "/htm.mjs";
 import {ask, open_session, tell} from "/ask.js";
 import {Compare} from "/compare.js";
 import {Fits} from "/fits.js";
 import {Recordings} from "/recordings.js";
+import {Sliders} from "/sliders.js";
 
-const kViews = [["recordings", "Recordings", Recordings], ["fits", "Fits", Fits], ["compare", "Compare", Compare]];
+const kViews = [["recordings", "Recordings", Recordings], ["fits", "Fits", Fits], ["compare", "Compare", Compare],
+  ["sliders", "Sliders", Sliders]];
 const kThemeKey = "dashpot-theme";
 
 function useTheme() {

@@ -1,0 +1,124 @@
+// The sliders of the studio in headless Chromium: a fitted model moves under the hand, and how long a move takes until it
+// is seen. usage: node sliders.mjs DASHPOT [FOLDER_FOR_SCREENSHOTS]; exit 77: skipped.
+import assert from "node:assert/strict";
+import {execFileSync} from "node:child_process";
+import {existsSync} from "node:fs";
+import {join} from "node:path";
+import {make_folder, open as open_session, remove_folder, send, start} from "./studio.mjs";
+
+const kChromium = "/usr/bin/chromium", kMoves = 100, kLongest = 50;  // ms
+const kFlags = ["--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
+  "--disable-background-networking", "--disable-component-update", "--disable-sync"];
+
+function skip(reason) {
+  console.log(`SKIPPED: ${reason}`);
+  process.exit(77);
+}
+
+const [program, screenshots] = process.argv.slice(2);
+const playwright = await import("playwright-core").catch(() => skip("playwright-core is not in node_modules; run 'npm ci --ignore-scripts'"));
+if (!existsSync(kChromium)) skip(`${kChromium} is missing; install chromium`);
+
+// A few recordings of the virtual bench, and three models fitted as the studio fits them.
+const scratch = make_folder(), folder = join(scratch, "project");
+const run = (...words) => execFileSync(program, words, {stdio: "ignore"});
+run("bench", "--motions", "10x1,5x3", "--levels", "0,1,2", "--cycles", "2", "--sample-rate", "200", "--output", join(folder, "recordings"));
+run("rank", folder, "--models", "bingham,tanh_kwok,bouc_wen", "--output", join(folder, "fits", "first"));
+const studio = await start(program, folder);
+const context = await playwright.chromium.launchPersistentContext(join(scratch, "profile"),
+  {executablePath: kChromium, args: kFlags, viewport: {width: 1400, height: 1000}, colorScheme: "light"});
+const problems = [];
+const page = await context.newPage();
+page.on("pageerror", (error) => problems.push(error.stack));
+page.on("console", (message) => { if (message.type() === "error") problems.push(message.text()); });
+page.on("request", (request) => { if (!/^(http:\/\/127\.0\.0\.1:|data:|blob:)/.test(request.url())) problems.push(`asked for ${request.url()}`); });
+page.setDefaultTimeout(30000);
+
+const plot = (title) => page.locator("figure", {has: page.getByRole("heading", {name: title, exact: true})});
+const handle = (name) => page.getByRole("slider", {name, exact: true});
+const picture = () => plot("Force over velocity").locator("canvas").evaluate((canvas) => canvas.toDataURL());
+async function moves(act, what) {
+  const before = await picture();
+  await act();
+  await page.waitForTimeout(100);
+  assert.notEqual(await picture(), before, `${what} is seen in the loop`);
+}
+
+// ms from a move of the handle to the first frame with another picture, many times.
+const latencies = (name) => handle(name).evaluate(async (input, count) => {
+  const canvas = document.querySelector("figure canvas"), ink = () => {
+    const {data} = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+    let sum = 0;
+    for (let i = 0; i < data.length; i += 52) sum = (sum * 31 + data[i]) | 0;
+    return sum;
+  };
+  const frame = () => new Promise((next) => requestAnimationFrame(next));
+  const found = [];
+  for (let k = 0; k < count; ++k) {
+    const before = ink();
+    await frame();
+    const begin = performance.now();
+    input.value = 120 + 160 * ((k * 37) % count) / count;
+    input.dispatchEvent(new Event("input", {bubbles: true}));
+    do await frame(); while (ink() === before && performance.now() - begin < 1000);
+    found.push(performance.now() - begin);
+  }
+  return found.sort((a, b) => a - b);
+}, kMoves);
+
+try {
+  await page.goto(studio.address);
+  await page.waitForSelector("html[data-ready]");
+  await page.getByRole("tab", {name: "Sliders"}).click();
+  await page.getByRole("radio", {name: "first: bouc_wen"}).check();
+  await handle("alpha_a").waitFor();
+  assert.equal(await page.locator(".beyond").textContent(), "", "the view opens within the data");
+
+  // Every sort of slider, by the keyboard; what leaves the data is said; and back.
+  const first = await picture();
+  for (const name of ["Voltage", "Amplitude", "Frequency", "alpha_a"])
+    await moves(async () => { await handle(name).focus(); for (let k = 0; k < 20; ++k) await page.keyboard.press("ArrowRight"); }, name);
+  await moves(async () => { await handle("Frequency").focus(); await page.keyboard.press("End"); }, "the greatest frequency");
+  assert.match(await page.locator(".beyond").textContent(), /Outside the data: .*speed to \d+ mm\/s, recorded −[\d.]+ to [\d.]+\. /);
+  if (screenshots) await page.screenshot({path: join(screenshots, "sliders-beyond.png")});
+  await moves(() => page.getByRole("button", {name: "As identified", exact: true}).click(), "the reset");
+  assert.equal(await picture(), first, "the reset brings the first picture back");
+  assert.match(await page.locator(".command").textContent(), /dashpot export .*bouc_wen\.json --to js/);
+
+  const found = await latencies("Amplitude"), median = found[kMoves / 2], late = found[Math.ceil(0.99 * kMoves) - 1];
+  console.log(`a move is seen after ${median.toFixed(0)} ms (median), ${late.toFixed(0)} ms (99th percentile of ${kMoves})`);
+  assert.ok(median <= kLongest, `a move is seen after ${median} ms`);
+
+  // Another model; the sizes and themes that people have.
+  await page.getByRole("radio", {name: "first: bingham"}).check();
+  await page.getByRole("heading", {name: "Bingham", exact: true}).waitFor();
+  await page.getByRole("radio", {name: "first: bouc_wen"}).check();
+  await handle("alpha_a").waitFor();
+  for (const [theme, width] of [["light", 1400], ["dark", 1400], ["light", 1056], ["light", 390], ["dark", 390]]) {
+    await page.setViewportSize({width, height: 1000});
+    await page.evaluate((name) => { if (document.documentElement.dataset.theme !== name) [...document.querySelectorAll("button")].find((b) => ["Light", "Dark"].includes(b.textContent)).click(); }, theme);
+    await page.waitForTimeout(200);
+    const [content, window] = await page.evaluate(() => [document.documentElement.scrollWidth, innerWidth]);
+    assert.ok(content <= window, `the page is ${content} px wide in a window of ${window}`);
+    if (screenshots) await page.screenshot({path: join(screenshots, `sliders-${theme}-${width}.png`), fullPage: true});
+  }
+
+  // What is no model becomes no module, and whoever has no cookie gets none.
+  const own = await open_session(await second_address());
+  const answers = async (model, headers) => (await send(studio.port, {path: `/api/module?model=${encodeURIComponent(model)}`, headers})).status;
+  assert.equal(await answers("fits/first/models/bingham.json", own), 200);
+  assert.equal(await answers("fits/first/models/bingham.json", {Host: own.Host}), 401);
+  for (const model of ["fits/first/models/none.json", "../secret.json", "fits/first/report.json", ""]) assert.equal(await answers(model, own), 400, model);
+  assert.deepEqual(problems, []);
+  console.log("the sliders work");
+} finally {
+  await context.close();
+  await studio.end();
+  remove_folder(scratch);
+}
+
+// A session of its own, from a token that the page asks for.
+async function second_address() {
+  const token = await page.evaluate(async () => (await (await fetch("/api/token", {method: "POST", headers: {"Content-Type": "application/json"}, body: "{}"})).json()).token);
+  return {port: studio.port, token};
+}
