@@ -25,7 +25,7 @@ await send(studio.port, {path: "/api/recordings", headers: own});
 
 const nasty = ["..", "../", "%2e%2e%2f", "%00", "\0", "/etc/passwd", "secret", "-1", "1e309", "nan", "9".repeat(400), "{", "[[[[", "\"", "$(id)", ";id", "\r\n", "\xff\xfe", "x".repeat(3000), "", "--output", "&", "=", "%", "%f"];
 const paths = ["/", "/studio.js", "/api/fits", "/api/recordings", "/api/models", "/api/fitted", "/report/x", "/api/session", "/api/token", "/api/upload?name=a.csv",
-  "/api/view?record=0&x=time&y=force&from=0&to=1&width=100", "/api/view?record=0&x=velocity&y=force&width=9", "/api/traces?model=fits%2Fx%2Fmodels%2Fa.json"];
+  "/api/view?record=0&x=time&y=force&from=0&to=1&width=100", "/api/view?record=0&x=velocity&y=force&width=9", "/api/traces?model=fits%2Fx%2Fmodels%2Fa.json", "/api/module?model=fits%2Fx%2Fmodels%2Fa.json"];
 const bodies = ["{}", `{"token":"x"}`, `{"action":"stop","name":"x"}`, `{"action":"start","name":"","models":["x"]}`, `{"action":"go_on","name":"../x"}`];
 const heads = Object.entries(own).map(([name, value]) => `${name}: ${value}`);
 

@@ -56,6 +56,10 @@ const cases = [
   ["a method that is not known", {method: "DELETE", path: "/api/fits", headers: own}, 405],
   ["a question before another origin asks", {method: "OPTIONS", path: "/api/fits", headers: {Host: host, Origin: "http://evil.example"}}, 403],
   // Ways out of the project
+  ["a module of a file above", {path: "/api/module?model=..%2fsecret.csv", headers: own}, 400],
+  ["a module through a link", {path: "/api/module?model=fits%2fway-out%2fsecret.csv", headers: own}, 400],
+  ["a module of what is no model", {path: "/api/module?model=fits%2fown%2freport.html", headers: own}, 400],
+  ["a module without the cookie", {path: "/api/module?model=fits%2fown%2freport.html", headers: stranger}, 401],
   ["a report above", {path: "/report/..%2f..", headers: own}, 404],
   ["a report through a link", {path: "/report/way-out", headers: own}, 400],
   ["a file of the machine", {path: "/../../../../etc/passwd", headers: own}, 404],

@@ -19,10 +19,11 @@ function resolved(name) {
 
 // Three digits tell a place on an axis; a narrow window needs more.
 function tick_text(values) {
-  const span = Math.abs(values.at(-1) - values[0]) / Math.max(1, values.length - 1);
+  const is_round = (value, digits) => Math.abs(value * 10 ** digits - Math.round(value * 10 ** digits)) < 1e-6;
   const largest = Math.max(...values.map(Math.abs));
   if (largest !== 0 && (largest >= 1e5 || largest < 1e-3)) return values.map((v) => v === 0 ? "0" : v.toExponential(1));
-  const digits = span > 0 ? Math.max(0, Math.min(9, -Math.floor(Math.log10(span) + 1e-9))) : 0;
+  let digits = 0;
+  while (digits < 9 && !values.every((value) => is_round(value, digits))) digits++;
   return values.map((value) => value.toFixed(digits));
 }
 

@@ -4,11 +4,11 @@ import {html, useEffect, useMemo, useRef, useState} from "/htm.mjs";
 import {ask} from "/ask.js";
 import {Command} from "/command.js";
 import {extent, Plot} from "/plot.js";
-import {beyond, kept_range, loop_of, loop_words, motion_sliders, parameter_sliders, place_of, value_at} from "/loops.js";
+import {beyond, kept_range, loop_of, loop_words, motion_sliders, parameter_sliders, place_of, three_digits, value_at} from "/loops.js";
 
 const kHandle = 400;  // places of a slider
 const short = (path) => path.replace(/^fits\//, "").replace("/models/", ": ").replace(/\.json$/, "");
-const shown = ({scale, unit}, value) => `${String(Number((scale * value).toPrecision(3))).replace("-", "−")} ${unit}`.trim();
+const shown = ({scale, unit}, value) => `${three_digits(scale * value)} ${unit}`.trim();
 
 function Slider({slider, value, on_move}) {
   const id = `set-${slider.key}`, text = shown(slider, value);
@@ -24,7 +24,7 @@ function Loops({loop, before, theme}) {
     const series = [...before ? [{label: "as identified", colour: 0, x: before[key], y: before.force}] : [],
       {label: "as set", colour: 1, width: 2, x: loop[key], y: loop.force}];
     const range = (name, lists) => ranges.current[`${key} ${name}`] = kept_range(ranges.current[`${key} ${name}`], extent(lists));
-    return html`<${Plot} title=${title} x_label=${x_label} y_label="Force (N)" series=${series} theme=${theme} height=${300} keep=${`sliders-${key}`}
+    return html`<${Plot} title=${title} x_label=${x_label} y_label="Force (N)" series=${series} theme=${theme} height=${360} keep=${`sliders-${key}`}
       x_range=${range("x", series.map((s) => s.x))} y_range=${range("y", series.map((s) => s.y))} />`;
   };
   return html`<div class="plots">${plot("velocity", "Force over velocity", "Velocity (mm/s)")}${plot("displacement", "Force over displacement", "Displacement (mm)")}</div>`;

@@ -3,6 +3,12 @@
 
 const kPerCycle = 360, kMostCycles = 8, kMostTime = 25;  // samples; cycles to settle in; ms
 
+// Three digits, with an exponent where a number is very large or small.
+function three_digits(value) {
+  const size = Math.abs(value), is_plain = size === 0 || (size >= 1e-4 && size < 1e6);
+  return (is_plain ? String(Number(value.toPrecision(3))) : Number(value.toPrecision(3)).toExponential()).replace("e+", "e").replaceAll("-", "−");
+}
+
 // A slider: {key, label, unit, scale (shown = scale * value), low, high, value, is_log?, meaning?}.
 function motion_sliders({inputs: [displacement, velocity, current]}) {
   const stroke = half_stroke(displacement), top = Math.max(Math.abs(velocity.low), Math.abs(velocity.high));
@@ -44,16 +50,15 @@ function value_at({low, high, is_log}, place) {
 
 // Where a motion leaves the data of the model, in words, one for each way.
 function beyond({inputs: [displacement, velocity, current]}, setting) {
-  const text = (value) => String(Number(value.toPrecision(3))).replace("-", "−");
   const outside = (least, most, {low, high}) => least < low - 1e-9 * Math.abs(low) || most > high + 1e-9 * Math.abs(high);
   const middle = (displacement.low + displacement.high) / 2, speed = 2 * Math.PI * setting.frequency * setting.amplitude;
   const words = [];
   if (outside(setting.current, setting.current, current))
-    words.push(`${current.unit === "V" ? "voltage" : "current"} ${text(setting.current)} ${current.unit}, recorded ${text(current.low)} to ${text(current.high)}`);
+    words.push(`${current.unit === "V" ? "voltage" : "current"} ${three_digits(setting.current)} ${current.unit}, recorded ${three_digits(current.low)} to ${three_digits(current.high)}`);
   if (outside(middle - setting.amplitude, middle + setting.amplitude, displacement))
-    words.push(`amplitude ${text(1e3 * setting.amplitude)} mm, recorded to ${text(500 * (displacement.high - displacement.low))}`);
+    words.push(`amplitude ${three_digits(1e3 * setting.amplitude)} mm, recorded to ${three_digits(500 * (displacement.high - displacement.low))}`);
   if (outside(-speed, speed, velocity))
-    words.push(`speed to ${text(1e3 * speed)} mm/s, recorded ${text(1e3 * velocity.low)} to ${text(1e3 * velocity.high)}`);
+    words.push(`speed to ${three_digits(1e3 * speed)} mm/s, recorded ${three_digits(1e3 * velocity.low)} to ${three_digits(1e3 * velocity.high)}`);
   return words;
 }
 
@@ -62,7 +67,7 @@ function kept_range(old, [least, most]) {
   return old && least >= old[0] && most <= old[1] && most - least >= 0.5 * (old[1] - old[0]) ? old : [least, most];
 }
 
-// One cycle after as many as it takes to close: displacement mm, velocity mm/s and force N along it, the energy that it
+// One cycle after as many as it takes to close, or as there is time for: displacement mm, velocity mm/s and force N along it, the energy that it
 // takes out, J, and whether it closes. Begins at rest at the lower end.
 function loop_of({model, create, reset, advance}, {current, amplitude, frequency}, parameters) {
   const [{low, high}] = model.inputs, middle = (low + high) / 2, rate = 2 * Math.PI * frequency, begin = performance.now();
@@ -83,7 +88,7 @@ function loop_of({model, create, reset, advance}, {current, amplitude, frequency
       greatest = Math.max(greatest, force[k]);
     }
     closes = cycle > 0 && Math.abs(force[kPerCycle] - force[0]) <= 1e-3 * (greatest - least);
-    if (cycle > 1 && performance.now() - begin > kMostTime) break;
+    if (cycle > 0 && performance.now() - begin > kMostTime) break;
   }
 
   let energy = 0;
@@ -93,7 +98,6 @@ function loop_of({model, create, reset, advance}, {current, amplitude, frequency
 
 // What is seen of a loop, in words.
 function loop_words({least, greatest, energy, closes}) {
-  const text = (value) => String(Number(value.toPrecision(3))).replace("-", "−");
   if (!Number.isFinite(least + greatest)) return "The model diverges here.";
-  return `Force ${text(least)} to ${text(greatest)} N; ${text(Math.abs(energy))} J ${energy < 0 ? "fed in" : "taken out"} in a cycle${closes ? "" : "; the loop is not closed yet"}.`;
+  return `Force ${three_digits(least)} to ${three_digits(greatest)} N; ${three_digits(Math.abs(energy))} J ${energy < 0 ? "fed in" : "taken out"} in a cycle${closes ? "" : "; the loop is not closed yet"}.`;
 }

@@ -3,7 +3,7 @@
 const kHandle = 400;  // places of a slider
 
 function slider_node(slider, on_move) {
-  const id = `set-${slider.key}`, shown = (value) => `${short_text(slider.scale * value)} ${slider.unit}`.trim();
+  const id = `set-${slider.key}`, shown = (value) => `${three_digits(slider.scale * value)} ${slider.unit}`.trim();
   const text = element("output", {for: id});
   const input = element("input", {type: "range", id, min: 0, max: kHandle, step: 1, title: slider.meaning,
     oninput: () => show(value_at(slider, input.value / kHandle), true)});
