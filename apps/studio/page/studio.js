@@ -1,11 +1,15 @@
-// The studio: three views of one folder, kept up to date by one request that waits for news.
+// The studio: views of one folder, kept up to date by one request that waits for news.
 import {html, render, useEffect, useRef, useState} from "/htm.mjs";
 import {ask, open_session, tell} from "/ask.js";
 import {Compare} from "/compare.js";
+import {Design} from "/design.js";
+import {Export} from "/export.js";
 import {Fits} from "/fits.js";
+import {Machine} from "/machine.js";
 import {Recordings} from "/recordings.js";
 
-const kViews = [["recordings", "Recordings", Recordings], ["fits", "Fits", Fits], ["compare", "Compare", Compare]];
+const kViews = [["recordings", "Recordings", Recordings], ["fits", "Fits", Fits], ["compare", "Compare", Compare],
+  ["machine", "Machine", Machine], ["design", "Design", Design], ["export", "Export", Export]];
 const kThemeKey = "dashpot-theme";
 
 function useTheme() {
@@ -74,7 +78,7 @@ function Studio() {
       ${address && html`<span class="note" role="status">Opens once: <code>${address}</code></span>`}
     </header>
     ${problem && html`<p class="error bar" role="alert">${problem}</p>`}
-    <${View} known=${known} version=${version} fits=${fits} theme=${theme} on_changed=${() => { reload(); reload_fits(); }} />`;
+    <${View} known=${known} version=${version} fits=${fits} theme=${theme} go=${set_view} on_changed=${() => { reload(); reload_fits(); }} />`;
 }
 
 await open_session();
