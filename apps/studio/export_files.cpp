@@ -24,6 +24,8 @@ constexpr ChildLimits kExporting{
     .memory = std::size_t{4} << 30, .cpu_seconds = 300, .file = std::size_t{256} << 20};
 constexpr std::size_t kMostBytes = std::size_t{256} << 20, kMostFiles = 1000;
 
+std::mutex exports_mutex;  // one export is written or read at a time
+
 /// "fits/run 1/models/bingham.json" becomes "run 1, bingham".
 std::string export_folder(const std::string& model) {
   std::vector<std::string> parts;
@@ -93,9 +95,8 @@ Value export_model(const Project& project, const Value& asked) {
   reader.finish();
   words.insert(words.end(), {"--output", folder.string()});
 
-  // An export takes the place of the one before; one at a time.
-  static std::mutex one_at_a_time;
-  const std::lock_guard lock(one_at_a_time);
+  // An export takes the place of the one before.
+  const std::lock_guard lock(exports_mutex);
   fs::remove_all(folder);
   project.make_result("exports", folder_name);
   const ChildEnd end = run_self(words, project.folder(), kExporting);
@@ -112,6 +113,7 @@ Value export_model(const Project& project, const Value& asked) {
 
 Download exported(const Project& project, const std::string& folder, const std::string& file) {
   const fs::path place = project.inside("exports/" + folder);
+  const std::lock_guard lock(exports_mutex);
   const std::vector<std::string> names = files_below(place);
   if (!file.empty()) {
     if (std::ranges::find(names, file) == names.end())

@@ -154,7 +154,7 @@ void Jobs::begin(Job& job) {
   job.stage = job.kind->name == "fit" ? "reading the recordings" : "";
   job.message.clear();
   job.steps.clear();
-  job.parameters = {};
+  job.judged.clear();
   job.fraction = 0;
   job.stop_asked = false;
   project_.make_result(job.kind->folder, job.name);
@@ -187,8 +187,7 @@ void Jobs::take_line(Job& job, std::string_view line, double seconds) {
   if (const Value* fraction = value.find("fraction")) job.fraction = fraction->as_number();
   if (const Value* cost = value.find("cost"); cost && job.steps.size() < kMostSteps)
     job.steps.push_back({job.stage, seconds, cost->as_number()});
-  if (const Value* parameters = value.find("parameters"))
-    job.parameters = Value::object({{"of", job.stage}, {"values", *parameters}});
+  if (const Value* row = value.find("judged")) job.judged.push_back(*row);
   ++version_;
   condition_.notify_all();
 }
@@ -252,7 +251,7 @@ Value Jobs::list(const JobKind& kind) const {
                                   {"fraction", job.fraction},
                                   {"message", job.message},
                                   {"steps", std::move(steps)},
-                                  {"parameters", job.parameters},
+                                  {"judged", Value::array(job.judged)},
                                   {"arguments", Value::array(job.words)},
                                   {"has_report", fs::exists(folder / kind.result)},
                                   {"leaderboard", leaderboard(folder)}}));

@@ -51,8 +51,8 @@ class Jobs {
       std::string what;
       double seconds, cost;
     };
-    std::vector<Step> steps;  ///< how the errors of its fits fell
-    Value parameters;         ///< of the fit that reported last, as it has them then
+    std::vector<Step> steps;    ///< how the errors of its fits fell
+    std::vector<Value> judged;  ///< rows of the leaderboard to come, as its models end
     std::atomic<int> pid = 0;
     std::jthread thread;
     bool stop_asked = false;

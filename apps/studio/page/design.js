@@ -21,7 +21,7 @@ function Rows({title, rows, on_change, empty, children}) {
 
 function Form({rows, set, known}) {
   const change = (key) => (event) => set({...rows, [key]: event.target.value});
-  const box = (row, set_row, key, label, placeholder) => html`<input aria-label="${label} of ${row.name || "the new row"}" placeholder=${placeholder ?? label} value=${row[key] ?? ""} onInput=${(event) => set_row({[key]: event.target.value})} />`;
+  const box = (row, set_row, key, label, placeholder) => html`<input class=${key === "list" || key === "terms" ? "long" : ""} aria-label="${label} of ${row.name || "the new row"}" placeholder=${placeholder ?? label} value=${row[key] ?? ""} onInput=${(event) => set_row({[key]: event.target.value})} />`;
   const choice = (row, set_row, list, label) => html`<select aria-label=${label} value=${row.name} onChange=${(event) => set_row({name: event.target.value})}>
     <option value="">choose ...</option>${list.map((one) => html`<option key=${one.name} value=${one.name} title=${one.meaning}>${spoken(one.name)}</option>`)}</select>`;
   const fields = [...known.fields, {name: "fluid", meaning: "magnetorheological fluid"}];

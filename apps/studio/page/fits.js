@@ -31,6 +31,13 @@ function curves_of(steps) {
   });
 }
 
+// The models that have ended, the best first, before the leaderboard is there.
+function table_of(judged) {
+  const columns = Object.keys(judged[0]);
+  const rows = [...judged].sort((a, b) => (a.esr_percent ?? Infinity) - (b.esr_percent ?? Infinity)).map((row) => columns.map((column) => String(row[column] ?? "")));
+  return {columns, rows};
+}
+
 function Leaderboard({table, name}) {
   const [all, set_all] = useState(false);
   const known = table.columns.map((column, k) => [column, k]);
@@ -55,6 +62,7 @@ function Fit({fit, theme, act}) {
     ${fit.state === "running" && html`<progress max="1" value=${fit.fraction} aria-label="Progress of ${fit.name}"></progress>`}
     ${fit.message && html`<p class="error">${fit.message}</p>`}
     ${curves.length > 0 && fit.state !== "done" && html`<${Plot} title="Error of each fit as it falls" x_label="Time (s)" y_label="Error (% of the search's start)" is_log=${true} series=${curves} theme=${theme} height=${200} />`}
+    ${fit.state === "running" && fit.judged.length > 0 && html`<${Leaderboard} table=${table_of(fit.judged)} name=${fit.name} />`}
     ${fit.leaderboard && fit.state === "done" && html`<${Leaderboard} table=${fit.leaderboard} name=${fit.name} />`}
     ${fit.arguments.length > 0 && html`<${Command} words=${fit.arguments} />`}
   </section>`;

@@ -11,6 +11,18 @@ function extent(values) {
   return [low - room, high + room];
 }
 
+// Where the words of points stand: beside them, and a line lower or higher where others stand already.
+function places_of_words(points, px, py, width) {
+  const taken = [];
+  return points.map((p) => {
+    const is_right = px(p.x) > width - 110, x = px(p.x) + (is_right ? -8 : 8), reach = 6.2 * p.label.length, from = is_right ? x - reach : x;
+    const is_free = (y) => taken.every((t) => Math.abs(t.y - y) > 11 || t.from > from + reach || t.from + t.reach < from);
+    const y = [-6, 12, -18, 24, -30, 36].map((shift) => py(p.y) + shift).find(is_free) ?? py(p.y) - 6;
+    taken.push({y, from, reach});
+    return {x, y, anchor: is_right ? "end" : "start", label: p.label};
+  });
+}
+
 // points: [{x, y, label, colour, size, is_faint}], lines: [{x, y, label, colour, dash}]; chosen: the place of a point.
 export function Scatter({title, x_label, y_label, points, lines = [], chosen, on_choose, keep, height = 340, theme, wide}) {
   const frame = useRef(), [width, set_width] = useState(0);
@@ -54,7 +66,7 @@ export function Scatter({title, x_label, y_label, points, lines = [], chosen, on
       ${ys.map((y, i) => html`<g><path d="M${kEdge.left} ${py(y)}H${width - kEdge.right}" stroke=${grid} /><text x=${kEdge.left - 6} y=${py(y) + 4} text-anchor="end" fill=${muted}>${y_texts[i]}</text></g>`)}
       ${lines.map((line) => html`<path d=${path(line)} fill="none" stroke=${colour(line.colour)} stroke-width="1.5" stroke-dasharray=${line.dash ?? "none"} />`)}
       ${points.filter(is_inside).map((p) => html`<circle cx=${px(p.x)} cy=${py(p.y)} r=${p.size ?? 4} fill=${colour(p.colour)} fill-opacity=${p.is_faint ? 0.28 : 0.9}><title>${p.label}</title></circle>`)}
-      ${points.filter((p) => is_inside(p) && p.is_named).map((p) => html`<text x=${px(p.x) + (px(p.x) > width - 110 ? -8 : 8)} y=${py(p.y) - 6} text-anchor=${px(p.x) > width - 110 ? "end" : "start"} fill=${ink}>${p.label}</text>`)}
+      ${places_of_words(points.filter((p) => is_inside(p) && p.is_named), px, py, width).map((word) => html`<text x=${word.x} y=${word.y} text-anchor=${word.anchor} fill=${ink}>${word.label}</text>`)}
       ${mark && is_inside(mark) && html`<circle cx=${px(mark.x)} cy=${py(mark.y)} r="9" fill="none" stroke=${ink} stroke-width="2" />`}
       <text x=${(kEdge.left + width - kEdge.right) / 2} y=${height - 8} text-anchor="middle" font-size="12" fill=${muted}>${x_label}</text>
       <text transform="translate(14 ${(kEdge.top + height - kEdge.bottom) / 2}) rotate(-90)" text-anchor="middle" font-size="12" fill=${muted}>${y_label}</text></svg>`}
