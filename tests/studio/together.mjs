@@ -10,7 +10,7 @@ const program = process.argv[2], scratch = make_folder(), folder = join(scratch,
 mkdirSync(folder);
 const wave = (k) => "time (s),displacement (mm),force (N)\n" + Array.from({length: 600}, (_, i) =>
   `${i / 200},${(8 * Math.sin(i / 12)).toFixed(4)},${(300 * Math.tanh(4 * Math.cos(i / 12)) + k).toFixed(3)}`).join("\n");
-const files = Array.from({length: 6}, (_, k) => `run_${k}_1A.csv`);
+const files = Array.from({length: 6}, (_, k) => `${"abcdef"[k]}_1A.csv`);
 for (const [k, name] of files.entries()) writeFileSync(join(folder, name), wave(k));
 
 let studio = await start(program, folder);
@@ -37,9 +37,9 @@ try {
 
   // Two contents under one name: one is taken, whole, and the other refused.
   const contents = [wave(100), wave(200)];
-  const sent = await Promise.all(browsers.map((own, k) => send(studio.port, {method: "POST", path: "/api/upload?name=new.csv", headers: {...own, "Content-Type": "application/octet-stream"}, body: contents[k]})));
+  const sent = await Promise.all(browsers.map((own, k) => send(studio.port, {method: "POST", path: "/api/upload?name=new_1A.csv", headers: {...own, "Content-Type": "application/octet-stream"}, body: contents[k]})));
   assert.deepEqual(sent.map((answer) => answer.status).sort(), [200, 400]);
-  assert.equal(readFileSync(join(folder, "recordings", "new.csv"), "utf8"), contents[sent.findIndex((answer) => answer.status === 200)]);
+  assert.equal(readFileSync(join(folder, "recordings", "new_1A.csv"), "utf8"), contents[sent.findIndex((answer) => answer.status === 200)]);
 
   // One name for a fit, a ride and a design: one of each is begun.
   const vehicle = {plant: "savaresi_spelta", road: "step", duration: 1};
