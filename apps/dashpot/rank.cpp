@@ -1,5 +1,6 @@
 #include "dashpot/rank.h"
 
+#include <cmath>
 #include <memory>
 
 #include <fmt/core.h>
@@ -10,6 +11,7 @@
 #include "dashpot/base/parallel.h"
 #include "dashpot/identify/rank/divisions.h"
 #include "dashpot/identify/rank/model_choice.h"
+#include "dashpot/identify/rank/rank_and_tell.h"
 #include "dashpot/report/words.h"
 #include "document_text.h"
 #include "many_machines.h"
@@ -69,6 +71,19 @@ int print_costs(const RankingSettings& asked, Console& console) {
   return kDone;
 }
 
+/// What is known of a model before all others have ended, under the leaderboard's names: a line for
+/// a program that draws the progress.
+void tell_judged(const RankedModel& model, Console& console) {
+  if (console.progress != "json" || !model.fit.model) return;
+  const auto number = [](double value) { return std::isfinite(value) ? Value(value) : Value(); };
+  const Value row = Value::object({{"model", model.name},
+                                   {"usable", is_usable(model) ? "yes" : "no"},
+                                   {"esr_percent", number(model.left_out.pooled.esr)},
+                                   {"worst_esr_percent", number(model.left_out.worst_esr)},
+                                   {"dissipates", model.dissipation.dissipates() ? "yes" : "no"}});
+  console.talk(format_json(Value::object({{"judged", row}}), false) + "\n");
+}
+
 int run_rank(const RankSettings& settings, Console& console) {
   const RankingSettings& asked = settings.ranking;
   if (settings.costs) return print_costs(asked, console);
@@ -85,7 +100,8 @@ int run_rank(const RankSettings& settings, Console& console) {
   if (!part.is_all())
     return finish_part(rank_part(models.names, data.dataset, data.leave_out, options, *store, part),
                        part, "fit", folder / "fits.sqlite", console);
-  Ranking ranking = rank(models.names, data.dataset, data.leave_out, options, store.get());
+  Ranking ranking = rank_and_tell(models.names, data.dataset, data.leave_out, options, store.get(),
+                                  [&](const RankedModel& model) { tell_judged(model, console); });
   ranking.budget = models.budget;
   ride_models(ranking, data.dataset, ride, console);
   const ReportInput input = report_input(data.dataset, ranking, console);

@@ -5,6 +5,7 @@
 #include "console.h"
 #include "dashpot/base/escape.h"
 #include "dashpot/record/record_file.h"
+#include "dashpot/record/sample_columns.h"
 #include "dashpot/report/simulation_document.h"
 #include "document_text.h"
 #include "study_results.h"
@@ -20,7 +21,7 @@ struct SimulateSettings {
   VehicleChoice vehicle;
   RoadChoice road;
   StudyResults results;
-  std::string list, against;
+  std::string list, against, samples;
   double allowed_outside = 5, tolerance = 1e-6, step = 0;  // %, 1, ms
   bool mat = false;
 };
@@ -83,6 +84,13 @@ int run_simulate(const SimulateSettings& settings, Console& console) {
   const Simulation simulation = simulate_choice(settings, console);
   const Document document = simulation_document(simulation);
   const Value data = simulation_json(simulation);
+
+  // What programs draw: the run, and the one that it is compared with.
+  if (!settings.samples.empty()) {
+    std::vector<Record> runs{simulation.run.trace.record};
+    if (simulation.against) runs.push_back(simulation.against->trace.record);
+    write_sample_columns(runs, settings.samples);
+  }
 
   // Without a folder the terminal has the table alone.
   if (settings.results.folder.empty()) {
@@ -155,6 +163,11 @@ Command simulate_command() {
        {.names = "--mat",
         .target = &settings->mat,
         .help = "traces as MATLAB files instead of CSV"},
+       {.names = "--samples",
+        .target = &settings->samples,
+        .help = "also write all samples of the traces as plain doubles, for programs that draw",
+        .value = "DIR",
+        .takes = Takes::Folder},
        {.names = "--figures",
         .target = &settings->results.figures,
         .help = "also draw the figures as SVG and PDF (needs gnuplot)"},

@@ -6,9 +6,6 @@
 
 #include "child.h"
 #include "dashpot/base/file.h"
-#include "dashpot/base/text.h"
-#include "dashpot/damper/registry.h"
-#include "dashpot/dataset.h"
 #include "dashpot/error.h"
 #include "dashpot/record/readers/csv.h"
 
@@ -35,50 +32,48 @@ Value leaderboard(const fs::path& folder) {
   }
 }
 
-/// What a studio wrote of a fit.
-std::optional<FitRequest> read_request(const fs::path& folder, std::string& state) {
+/// What a studio wrote of a piece of work: what was asked for, and its state.
+std::optional<Value> read_asked(const fs::path& folder, std::string& state) {
   const fs::path file = folder / "studio.json";
   if (!fs::exists(file)) return std::nullopt;
   try {
     const Value value = parse_json(read_file(file), file.string());
-    ObjectReader reader(value, "a fit");
-    FitRequest request{folder.filename().string(), {}, reader.string("leave_out", "")};
-    for (const Value& model : reader.required("models").items())
-      request.models.push_back(model.as_string());
-    state = reader.string("state", "stopped");
-    return request;
+    Value asked = Value::object();
+    for (const auto& [key, member] : value.members())
+      key == "state" ? void(state = member.as_string()) : asked.add(key, member);
+    return asked;
   } catch (const Error&) {
     return std::nullopt;
   }
 }
 
-void require_models(const std::vector<std::string>& models) {
-  std::vector<std::string> known = model_names();
-  for (const std::string& more : more_model_names()) known.push_back(more);
-  known.insert(known.end(), {"usual", "all", "family"});
-  if (models.empty()) throw Error("models", "none is chosen");
-  for (const std::string& model : models)
-    if (std::ranges::find(known, model) == known.end())
-      throw Error("'" + model + "'", "is no model", suggest(model, known));
-}
-
 }  // namespace
 
 Jobs::Jobs(const Project& project) : project_(project) {
-  // Fits of earlier studios and of the command line. One that ran when its studio ended is stopped.
-  std::error_code error;
-  for (const fs::directory_entry& entry :
-       fs::directory_iterator(project_.folder() / "fits", error)) {
-    if (!entry.is_directory(error)) continue;
-    std::string state = "done";
-    const auto request = read_request(entry.path(), state);
-    if (!request && !fs::exists(entry.path() / "models")) continue;
-    Job& job = jobs_.emplace_back();
-    job.request = request.value_or(FitRequest{entry.path().filename().string(), {}, ""});
-    job.state = state == "running" ? "stopped" : state;
-    job.fraction = job.state == "done" ? 1 : 0;
+  // Work of earlier studios and of the command line. What ran when its studio ended is stopped.
+  for (const JobKind& kind : job_kinds()) {
+    std::error_code error;
+    for (const fs::directory_entry& entry :
+         fs::directory_iterator(project_.folder() / kind.folder, error)) {
+      std::error_code none;
+      if (!entry.is_directory(none)) continue;
+      std::string state = "done";
+      const auto asked = read_asked(entry.path(), state);
+      if (!asked && !fs::exists(entry.path() / "models") && !fs::exists(entry.path() / kind.result))
+        continue;
+      Job& job = jobs_.emplace_back();
+      job.kind = &kind;
+      job.name = entry.path().filename().string();
+      job.asked = asked.value_or(Value());
+      if (asked) try {
+          job.words = words_of(job);
+        } catch (const Error&) {  // of a folder from elsewhere: it cannot go on
+        }
+      job.state = state == "running" ? "stopped" : state;
+      job.fraction = job.state == "done" ? 1 : 0;
+    }
   }
-  jobs_.sort([](const Job& a, const Job& b) { return a.request.name < b.request.name; });
+  jobs_.sort([](const Job& a, const Job& b) { return a.name < b.name; });
 }
 
 Jobs::~Jobs() {
@@ -93,37 +88,41 @@ Jobs::~Jobs() {
     if (job.thread.joinable()) job.thread.join();
 }
 
-Jobs::Job* Jobs::find(const std::string& name) {
-  const auto at = std::ranges::find_if(jobs_, [&](const Job& j) { return j.request.name == name; });
+Jobs::Job* Jobs::find(const JobKind& kind, const std::string& name) {
+  const auto at = std::ranges::find_if(
+      jobs_, [&](const Job& job) { return job.kind == &kind && job.name == name; });
   return at == jobs_.end() ? nullptr : &*at;
 }
 
-std::vector<std::string> Jobs::arguments(const FitRequest& request) const {
-  std::vector<std::string> words{"rank",     project_.folder().string(),
-                                 "--models", join(request.models, ","),
-                                 "--output", (project_.folder() / "fits" / request.name).string()};
-  if (!request.leave_out.empty()) words.insert(words.end(), {"--leave-out", request.leave_out});
+fs::path Jobs::folder_of(const Job& job) const {
+  return project_.folder() / job.kind->folder / job.name;
+}
+
+std::vector<std::string> Jobs::words_of(const Job& job) const {
+  const fs::path folder = folder_of(job);
+  std::vector<std::string> words = job.kind->words(project_, folder, job.asked);
+  words.insert(words.end(), {"--output", folder.string()});
   return words;
 }
 
 void Jobs::save(const Job& job) const {
-  write_file(project_.folder() / "fits" / job.request.name / "studio.json",
-             format_json(Value::object({{"models", Value::array(job.request.models)},
-                                        {"leave_out", job.request.leave_out},
-                                        {"state", job.state}})));
+  Value value = job.asked;
+  value.add("state", job.state);
+  write_file(folder_of(job) / "studio.json", format_json(value));
 }
 
-void Jobs::start(const FitRequest& request) {
-  // What can be refused is refused before a folder is made.
-  if (!is_plain_name(request.name)) throw Error("'" + request.name + "'", "is no name for a fit");
-  require_models(request.models);
-  if (!request.leave_out.empty()) parse_leave_out(request.leave_out);
+void Jobs::start(const JobKind& kind, const std::string& name, const Value& asked) {
+  if (!is_plain_name(name))
+    throw Error("'" + name + "'", "is no name for a " + std::string(kind.name));
 
   const std::lock_guard lock(mutex_);
-  if (find(request.name) || fs::exists(project_.folder() / "fits" / request.name))
-    throw Error("'" + request.name + "'", "is a fit already", "give the new one another name");
+  if (find(kind, name) || fs::exists(project_.folder() / kind.folder / name))
+    throw Error("'" + name + "'", "is a " + std::string(kind.name) + " already",
+                "give the new one another name");
   Job& job = jobs_.emplace_back();
-  job.request = request;
+  job.kind = &kind;
+  job.name = name;
+  job.asked = asked;
   try {
     begin(job);
   } catch (...) {
@@ -132,10 +131,11 @@ void Jobs::start(const FitRequest& request) {
   }
 }
 
-void Jobs::go_on(const std::string& name) {
+void Jobs::go_on(const JobKind& kind, const std::string& name) {
   const std::lock_guard lock(mutex_);
-  Job* job = find(name);
-  if (!job || job->request.models.empty()) throw Error("'" + name + "'", "is no fit of the studio");
+  Job* job = find(kind, name);
+  if (!job || job->asked.is_null())
+    throw Error("'" + name + "'", "is no " + std::string(kind.name) + " of the studio");
   if (job->state == "running") throw Error("'" + name + "'", "is running");
   begin(*job);
 }
@@ -144,25 +144,31 @@ void Jobs::go_on(const std::string& name) {
 void Jobs::begin(Job& job) {
   const auto running = std::ranges::count(jobs_, std::string("running"), &Job::state);
   if (ending_ || static_cast<std::size_t>(running) >= kMostRunning)
-    throw Error("", std::to_string(running) + " fits are running", "wait for one, or stop one");
+    throw Error("", std::to_string(running) + " of fits, rides and designs are running",
+                "wait for one, or stop one");
+
+  // What can be refused is refused before a folder is made.
+  job.words = words_of(job);
   if (job.thread.joinable()) job.thread.join();
   job.state = "running";
-  job.stage = "reading the recordings";
+  job.stage = job.kind->name == "fit" ? "reading the recordings" : "";
   job.message.clear();
   job.steps.clear();
+  job.judged.clear();
   job.fraction = 0;
   job.stop_asked = false;
-  make_folder(project_.folder() / "fits" / job.request.name);
+  project_.make_result(job.kind->folder, job.name);
+  if (job.kind->prepare) job.kind->prepare(folder_of(job), job.asked);
   save(job);
   job.thread = std::jthread([this, &job] { run(job); });
   ++version_;
   condition_.notify_all();
 }
 
-void Jobs::stop(const std::string& name) {
+void Jobs::stop(const JobKind& kind, const std::string& name) {
   const std::lock_guard lock(mutex_);
-  Job* job = find(name);
-  if (!job) throw Error("'" + name + "'", "is no fit here");
+  Job* job = find(kind, name);
+  if (!job) throw Error("'" + name + "'", "is no " + std::string(kind.name) + " here");
   job->stop_asked = true;
   if (const int pid = job->pid; pid > 0) kill(pid, SIGTERM);
 }
@@ -181,6 +187,7 @@ void Jobs::take_line(Job& job, std::string_view line, double seconds) {
   if (const Value* fraction = value.find("fraction")) job.fraction = fraction->as_number();
   if (const Value* cost = value.find("cost"); cost && job.steps.size() < kMostSteps)
     job.steps.push_back({job.stage, seconds, cost->as_number()});
+  if (const Value* row = value.find("judged")) job.judged.push_back(*row);
   ++version_;
   condition_.notify_all();
 }
@@ -188,12 +195,12 @@ void Jobs::take_line(Job& job, std::string_view line, double seconds) {
 void Jobs::run(Job& job) {
   using Clock = std::chrono::steady_clock;
   const Clock::time_point begun = Clock::now();
-  std::vector<std::string> words = arguments(job.request);
-  words.insert(words.end(), {"--progress", "json"});
+  std::vector<std::string> arguments = job.words;
+  arguments.insert(arguments.end(), {"--progress", "json"});
   ChildEnd end;
   try {
     end = run_self(
-        words, project_.folder(), {},
+        arguments, project_.folder(), {},
         [&](std::string_view line) {
           take_line(job, line, std::chrono::duration<double>(Clock::now() - begun).count());
         },
@@ -204,7 +211,7 @@ void Jobs::run(Job& job) {
 
   // How it ended: of itself, by a hand, with the studio, or by a fault.
   const std::lock_guard lock(mutex_);
-  const bool has_result = fs::exists(project_.folder() / "fits" / job.request.name / "report.html");
+  const bool has_result = fs::exists(folder_of(job) / job.kind->result);
   constexpr int kNotUsable = 3, kFilesUnread = 4;
   if (job.stop_asked || ending_) {
     job.state = "stopped";
@@ -214,9 +221,7 @@ void Jobs::run(Job& job) {
     job.fraction = 1;
   } else {
     job.state = "failed";
-    const std::size_t at = end.err.rfind("error: ");
-    job.message = at == std::string::npos ? "it ended with " + std::to_string(end.exit_code)
-                                          : end.err.substr(at + 7);
+    job.message = project_.without_folder(error_of(end));
   }
   try {
     save(job);
@@ -227,26 +232,28 @@ void Jobs::run(Job& job) {
   condition_.notify_all();
 }
 
-Value Jobs::list() const {
+Value Jobs::list(const JobKind& kind) const {
   const std::lock_guard lock(mutex_);
   Value list = Value::array();
   for (const Job& job : jobs_) {
+    if (job.kind != &kind) continue;
+
     // How far it has come: the error of each model over the time, as it reported it.
     Value steps = Value::array();
     for (const Job::Step& step : job.steps)
       steps.push_back(Value::array({Value(step.what), Value(step.seconds), Value(step.cost)}));
 
-    const fs::path folder = project_.folder() / "fits" / job.request.name;
-    const std::vector<std::string> words = arguments(job.request);
-    list.push_back(Value::object({{"name", job.request.name},
-                                  {"models", Value::array(job.request.models)},
+    const fs::path folder = folder_of(job);
+    list.push_back(Value::object({{"name", job.name},
+                                  {"asked", job.asked},
                                   {"state", job.state},
                                   {"stage", job.stage},
                                   {"fraction", job.fraction},
                                   {"message", job.message},
                                   {"steps", std::move(steps)},
-                                  {"arguments", Value::array(words)},
-                                  {"has_report", fs::exists(folder / "report.html")},
+                                  {"judged", Value::array(job.judged)},
+                                  {"arguments", Value::array(job.words)},
+                                  {"has_report", fs::exists(folder / kind.result)},
                                   {"leaderboard", leaderboard(folder)}}));
   }
   return list;

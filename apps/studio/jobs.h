@@ -8,20 +8,15 @@
 #include <vector>
 
 #include "dashpot/value.h"
+#include "job_kinds.h"
 #include "project.h"
 
 namespace dashpot::studio {
 
-/// What a fit is asked for.
-struct FitRequest {
-  std::string name;                 ///< of its folder below fits/
-  std::vector<std::string> models;  ///< names and groups, as `dashpot rank --models` takes them
-  std::string leave_out;            ///< "": as the recordings allow
-};
-
-/// The fits of a project: each is a child, `dashpot rank`, with a folder of its own. What it was
-/// asked for lies there in studio.json; its finished fits are kept by the command itself, so that
-/// one which was stopped, or whose studio ended, goes on where it was. Safe from several threads.
+/// The long work of a project: fits, rides, designs (job_kinds.h). Each is a child with a folder of
+/// its own; what it was asked for lies there in studio.json. A command that keeps what is finished
+/// goes on where it was stopped, or where its studio ended; another begins anew. Safe from several
+/// threads.
 class Jobs {
  public:
   explicit Jobs(const Project& project);
@@ -30,14 +25,14 @@ class Jobs {
   Jobs(const Jobs&) = delete;
   Jobs& operator=(const Jobs&) = delete;
 
-  /// Starts a fit. Throws Error on a name that is taken, or a request that cannot be one.
-  void start(const FitRequest& request);
-  void stop(const std::string& name);
-  void go_on(const std::string& name);
+  /// Starts one. Throws Error on a name that is taken, or where `asked` cannot be such work.
+  void start(const JobKind& kind, const std::string& name, const Value& asked);
+  void stop(const JobKind& kind, const std::string& name);
+  void go_on(const JobKind& kind, const std::string& name);
 
-  /// Every fit of the folder, those of the command line too: name, state ("running", "stopped",
-  /// "done", "failed"), command, progress, steps of the fits, leaderboard.
-  Value list() const;
+  /// All of a kind in the folder, those of the command line too: name, state ("running", "stopped",
+  /// "done", "failed"), what was asked for, command, progress, steps of fits, leaderboard.
+  Value list(const JobKind& kind) const;
 
   /// A number that grows with every change; returns when it is above `seen`, or after a while.
   std::size_t wait(std::size_t seen);
@@ -46,23 +41,28 @@ class Jobs {
 
  private:
   struct Job {
-    FitRequest request;
+    const JobKind* kind;
+    std::string name;
+    Value asked;                     ///< null: of the command line
+    std::vector<std::string> words;  ///< of its command; empty: it cannot go on
     std::string state, stage, message;
     double fraction = 0;
     struct Step {
       std::string what;
       double seconds, cost;
     };
-    std::vector<Step> steps;  ///< how the sums of squares of its fits fell
+    std::vector<Step> steps;    ///< how the errors of its fits fell
+    std::vector<Value> judged;  ///< rows of the leaderboard to come, as its models end
     std::atomic<int> pid = 0;
     std::jthread thread;
     bool stop_asked = false;
   };
-  Job* find(const std::string& name);
+  Job* find(const JobKind& kind, const std::string& name);
+  std::filesystem::path folder_of(const Job& job) const;
   void run(Job& job);
   void begin(Job& job);
   void take_line(Job& job, std::string_view line, double seconds);
-  std::vector<std::string> arguments(const FitRequest& request) const;
+  std::vector<std::string> words_of(const Job& job) const;
   void save(const Job& job) const;
 
   const Project& project_;

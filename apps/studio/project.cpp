@@ -1,6 +1,7 @@
 #include "project.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cerrno>
 #include <cstring>
@@ -26,27 +27,17 @@ constexpr ChildLimits kReading{
 constexpr ChildLimits kRunning{
     .memory = std::size_t{6} << 30, .cpu_seconds = 600, .file = std::size_t{2} << 30};
 
-/// The last line that says what went wrong, without its label.
-std::string error_of(const ChildEnd& end) {
-  constexpr std::string_view kLabel = "error: ";
-  const std::size_t at = end.err.rfind(kLabel);
-  if (at != std::string::npos) {
-    std::string text = end.err.substr(at + kLabel.size());
-    while (text.ends_with('\n')) text.pop_back();
-    return text;
-  }
-  if (end.exit_code > 128)
-    return "reading took more memory or time than it may (signal " +
-           std::to_string(end.exit_code - 128) + ")";
-  return "it ended with " + std::to_string(end.exit_code);
+/// The parts of the folder that hold results.
+constexpr std::array<std::string_view, 4> kResultFolders{"fits", "rides", "designs", "exports"};
+
+bool is_result_folder(std::string_view name) {
+  return std::ranges::find(kResultFolders, name) != kResultFolders.end();
 }
 
-/// A path that a person reads: without the folder of the project before it.
-std::string without_folder(std::string text, const fs::path& folder) {
-  const std::string before = folder.string() + "/";
-  for (std::size_t at; (at = text.find(before)) != std::string::npos;)
-    text.erase(at, before.size());
-  return text;
+/// Results are no recordings, wherever somebody searches for those.
+void mark_results(const fs::path& folder) {
+  const fs::path mark = folder / ".no-recordings";
+  if (!fs::exists(mark)) write_file(mark, "");
 }
 
 }  // namespace
@@ -60,15 +51,39 @@ bool is_plain_name(std::string_view name) {
   });
 }
 
+std::string error_of(const ChildEnd& end) {
+  constexpr std::string_view kLabel = "error: ";
+  const std::size_t at = end.err.rfind(kLabel);
+  if (at != std::string::npos) {
+    std::string text = end.err.substr(at + kLabel.size());
+    while (text.ends_with('\n')) text.pop_back();
+    return text;
+  }
+  if (end.exit_code > 128)
+    return "it took more memory or time than it may (signal " +
+           std::to_string(end.exit_code - 128) + ")";
+  return "it ended with " + std::to_string(end.exit_code);
+}
+
+fs::path Project::make_result(std::string_view results, const std::string& name) const {
+  mark_results(folder_ / results);
+  const fs::path folder = inside(std::string(results) + "/" + name);
+  make_folder(folder);
+  return folder;
+}
+
+std::string Project::without_folder(std::string text) const {
+  const std::string before = folder_.string() + "/";
+  for (std::size_t at; (at = text.find(before)) != std::string::npos;)
+    text.erase(at, before.size());
+  return text;
+}
+
 Project::Project(const fs::path& folder) {
   make_folder(folder);
   folder_ = fs::canonical(folder);
   make_folder(folder_ / ".studio");
-  make_folder(folder_ / "fits");
-
-  // Results are no recordings, wherever somebody searches for those.
-  const fs::path mark = folder_ / "fits" / ".no-recordings";
-  if (!fs::exists(mark)) write_file(mark, "");
+  mark_results(folder_ / "fits");
 
   lock_ =
       open((folder_ / ".studio" / "lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0600);
@@ -107,7 +122,7 @@ std::string Project::fingerprint() const {
       end;
   for (; !error && at != end; at.increment(error)) {
     const std::string name = at->path().filename().string();
-    const bool is_own = at.depth() == 0 && (name == ".studio" || name == "fits");
+    const bool is_own = at.depth() == 0 && (name == ".studio" || is_result_folder(name));
     if (at->is_directory(error)) {
       if (is_own || name.starts_with('.')) at.disable_recursion_pending();
       continue;
@@ -137,7 +152,7 @@ Value Project::recordings() {
     for (const char* key : {"unread", "suspects"})
       if (const Value* list = drawn.find(key)) value.add(key, *list);
   } else {
-    value.add("error", without_folder(error_of(end), folder_));
+    value.add("error", without_folder(error_of(end)));
   }
   value.add("folder", folder_.string());
   value.add("dataset_file", fs::exists(folder_ / "dataset.yaml"));
@@ -154,7 +169,7 @@ Value Project::correct(const std::string& file, const std::string& corrections) 
                folder_, kReading);
   constexpr int kFilesUnread = 4;
   if (end.exit_code == 0 || end.exit_code == kFilesUnread) return Value::object({{"done", true}});
-  return Value::object({{"error", without_folder(error_of(end), folder_)}});
+  return Value::object({{"error", without_folder(error_of(end))}});
 }
 
 fs::path Project::incoming() const {
@@ -193,12 +208,12 @@ Value Project::costs() {
   return list;
 }
 
-std::vector<std::string> Project::models() const {
+std::vector<std::string> Project::models(std::string_view results) const {
   std::vector<std::string> found;
   std::error_code error;
-  for (const fs::directory_entry& fit : fs::directory_iterator(folder_ / "fits", error)) {
+  for (const fs::directory_entry& result : fs::directory_iterator(folder_ / results, error)) {
     std::error_code none;
-    for (const fs::directory_entry& model : fs::directory_iterator(fit.path() / "models", none))
+    for (const fs::directory_entry& model : fs::directory_iterator(result.path() / "models", none))
       if (model.path().extension() == ".json")
         found.push_back(model.path().lexically_relative(folder_).string());
   }
@@ -216,7 +231,7 @@ fs::path Project::traces(const std::string& model) {
   const ChildEnd end = run_self({"evaluate", file.string(), folder_.string(), "--quiet", "--traces",
                                  "raw", "--output", place.string()},
                                 folder_, kRunning);
-  if (!fs::exists(place / "samples.json")) throw Error("", without_folder(error_of(end), folder_));
+  if (!fs::exists(place / "samples.json")) throw Error("", without_folder(error_of(end)));
   return place;
 }
 

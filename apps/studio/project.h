@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "child.h"
 #include "dashpot/value.h"
 
 namespace dashpot::studio {
@@ -14,7 +15,9 @@ namespace dashpot::studio {
 ///   recordings/, or files that lie beside it     what was measured
 ///   dataset.yaml                                 what was corrected by hand
 ///   fits/NAME/                                   results of `dashpot rank`: models, report, kept
-///   fits .studio/                                     what is drawn from, and can be made again
+///                                                fits
+///   rides/NAME/, designs/NAME/, exports/NAME/    results of `dashpot ride`, `design`, `export`
+///   .studio/                                     what is drawn from, and can be made again
 /// Everything is read by children of this program with limits of memory and time. One studio has a
 /// project at a time. Safe from several threads.
 class Project {
@@ -54,8 +57,14 @@ class Project {
   /// "seconds"}, empty where there are none.
   Value costs();
 
-  /// The model files of all fits, as paths from the folder.
-  std::vector<std::string> models() const;
+  /// The model files of all results in "fits" or "designs", as paths from the folder.
+  std::vector<std::string> models(std::string_view results = "fits") const;
+
+  /// Makes the folder of a result, "fits" / "name", where no command looks for recordings.
+  std::filesystem::path make_result(std::string_view results, const std::string& name) const;
+
+  /// A text for people: paths in it without the folder before them.
+  std::string without_folder(std::string text) const;
 
   /// A path below the folder; throws Error where it leaves it, or runs through a link.
   std::filesystem::path inside(const std::string& relative) const;
@@ -74,5 +83,8 @@ class Project {
 /// A name of a fit or a part of a file's name: letters, digits and what people write between them;
 /// not hidden, no way out.
 bool is_plain_name(std::string_view name);
+
+/// What a child said that went wrong: its last error without the label, or how it ended.
+std::string error_of(const ChildEnd& end);
 
 }  // namespace dashpot::studio

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <sys/socket.h>
 
+#include "answers.h"
 #include "assets.h"
 #include "dashpot/base/file.h"
 #include "dashpot/base/text.h"
@@ -17,11 +18,13 @@
 #include "dashpot/record/readers/reader.h"
 #include "dashpot/value.h"
 #include "guard.h"
+#include "job_kinds.h"
 #include "jobs.h"
 #include "project.h"
 #include "sample_view.h"
 #include "studio.h"
 #include "task_queue.h"
+#include "work_routes.h"
 
 namespace fs = std::filesystem;
 
@@ -31,49 +34,19 @@ namespace {
 using httplib::Request, httplib::Response;
 
 constexpr std::size_t kThreads = 24, kMostWaiting = 128;
-constexpr std::size_t kMostUpload = std::size_t{1} << 30, kMostBody = 1 << 16;
+constexpr std::size_t kMostUpload = std::size_t{1} << 30;
 constexpr int kTimeout = 10;  // s without a byte
 
 /// Of the studio's own pages: they load what the studio serves, and run no script in their text.
 constexpr const char* kPolicy =
     "default-src 'none'; script-src 'self'; style-src 'self'; connect-src 'self'; "
     "img-src 'self' data: blob:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
-/// Of reports, which are whole in themselves: they have an origin of their own, and reach nothing.
-constexpr const char* kReportPolicy =
-    "sandbox allow-scripts; default-src 'none'; style-src 'unsafe-inline'; "
-    "script-src 'unsafe-inline'; img-src data:; base-uri 'none'; form-action 'none'; "
-    "frame-ancestors 'none'";
-
-void answer(Response& response, const Value& value, int status = 200) {
-  response.status = status;
-  response.set_content(format_json(value, false), "application/json");
-}
-
-void refuse(Response& response, int status, const std::string& why) {
-  answer(response, Value::object({{"error", why}}), status);
-}
-
-/// A whole number of a query; `fallback` where it is missing.
-double number_of(const Request& request, const char* name, double fallback) {
-  if (!request.has_param(name)) return fallback;
-  const auto number = parse_number(request.get_param_value(name));
-  if (!number || !std::isfinite(*number)) throw Error(name, "is no number");
-  return *number;
-}
-
-/// Numbers as a plot needs them: seven digits.
-std::string numbers(const std::vector<double>& values) {
-  std::string text = "[";
-  for (const double value : values)
-    text += (text.size() > 1 ? "," : "") +
-            (std::isfinite(value) ? fmt::format("{:.7g}", value) : std::string("null"));
-  return text + "]";
-}
 
 /// Everything that the studio answers.
 class Studio {
  public:
-  Studio(const fs::path& folder) : project_(folder), jobs_(project_) {}
+  Studio(const fs::path& folder)
+      : project_(folder), jobs_(project_), work_routes_(project_, jobs_) {}
 
   void serve(httplib::Server& server, Guard& guard) {
     limit(server);
@@ -109,6 +82,7 @@ class Studio {
     recordings(server);
     fits(server);
     comparison(server);
+    work_routes_.add(server);
   }
 
  private:
@@ -136,10 +110,7 @@ class Studio {
                                         std::string(asset.type).c_str());
                  });
     server.Get("/report/([^/]+)", [this](const Request& request, Response& response) {
-      const std::string text =
-          read_file(project_.inside("fits/" + request.matches[1].str() + "/report.html"));
-      response.set_header("Content-Security-Policy", kReportPolicy);
-      response.set_content(text, "text/html; charset=utf-8");
+      answer_report(response, project_.inside("fits/" + request.matches[1].str() + "/report.html"));
     });
   }
 
@@ -163,11 +134,6 @@ class Studio {
     server.Post("/api/token", [&guard](const Request&, Response& response) {
       answer(response, Value::object({{"token", guard.make_token()}}));
     });
-  }
-
-  static Value body_of(const Request& request) {
-    if (request.body.size() > kMostBody) throw Error("", "the request is too long");
-    return parse_json(request.body, "request");
   }
 
   void recordings(httplib::Server& server) {
@@ -240,49 +206,6 @@ class Studio {
     answer(response, Value::object({{"done", true}}));
   }
 
-  /// {"x": [...], "y": [...]} of ?record=0&x=time&y=force&from=&to=&width=800.
-  static void draw(const SampleView& view, const Request& request, Response& response) {
-    constexpr double kWidest = 4000;
-    const auto record = static_cast<std::size_t>(std::max(0.0, number_of(request, "record", 0)));
-    const std::string x_name = request.get_param_value("x"), y_name = request.get_param_value("y");
-    const auto width =
-        static_cast<std::size_t>(std::clamp(number_of(request, "width", 800), 10.0, kWidest));
-    const auto time = view.column(record, "time"), x = view.column(record, x_name),
-               y = view.column(record, y_name);
-    if (x.empty() || y.empty() || time.empty())
-      return answer(response, Value::object({{"x", Value::array()}, {"y", Value::array()}}));
-
-    // The part of it that is looked at, as few points as it takes.
-    const auto [first, last] = window_of(time, number_of(request, "from", time.front()),
-                                         number_of(request, "to", time.back()));
-    const auto part = [&](std::span<const double> all) { return all.subspan(first, last - first); };
-    const Curve curve = x_name == "time" ? thin_in_time(part(x), part(y), width)
-                                         : thin_along_arc(part(x), part(y), width);
-    response.set_content(
-        fmt::format(R"({{"x":{},"y":{},"samples":{},"first":{:.9g},"last":{:.9g}}})",
-                    numbers(curve.x), numbers(curve.y), last - first, time.front(), time.back()),
-        "application/json");
-  }
-
-  /// "start" of new fits, or "stop" and "go_on" of those with that name.
-  void act_on_fits(const Value& body) {
-    ObjectReader reader(body, "a fit");
-    const std::string action = reader.string("action"), name = reader.string("name");
-    if (action == "start") {
-      FitRequest fit{name, {}, reader.string("leave_out", "")};
-      for (const Value& model : reader.required("models").items())
-        fit.models.push_back(model.as_string());
-      reader.finish();
-      jobs_.start(fit);
-      return;
-    }
-
-    reader.finish();
-    if (action != "stop" && action != "go_on")
-      throw Error("'" + action + "'", "is no action", "start, stop or go_on");
-    action == "stop" ? jobs_.stop(name) : jobs_.go_on(name);
-  }
-
   void fits(httplib::Server& server) {
     // Answered when something is newer than what the page knows, or after a while.
     server.Get("/api/changes", [this](const Request& request, Response& response) {
@@ -293,7 +216,7 @@ class Studio {
 
     // What there is, and what can be fitted at which cost.
     server.Get("/api/fits", [this](const Request&, Response& response) {
-      answer(response, Value::object({{"fits", jobs_.list()}}));
+      answer(response, Value::object({{"fits", jobs_.list(job_kind("fit"))}}));
     });
     server.Get("/api/costs", [this](const Request&, Response& response) {
       answer(response, Value::object({{"costs", project_.costs()}}));
@@ -308,7 +231,7 @@ class Studio {
     });
 
     server.Post("/api/fits", [this](const Request& request, Response& response) {
-      act_on_fits(body_of(request));
+      act_on_job(jobs_, job_kind("fit"), body_of(request));
       answer(response, Value::object({{"done", true}}));
     });
   }
@@ -333,6 +256,7 @@ class Studio {
   std::atomic<int> uploads_ = 0;
   Project project_;
   Jobs jobs_;
+  WorkRoutes work_routes_;
 };
 
 }  // namespace

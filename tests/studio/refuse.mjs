@@ -13,6 +13,12 @@ const outside = make_folder(), folder = join(outside, "project");
 mkdirSync(join(folder, "fits", "own", "models"), {recursive: true});
 writeFileSync(join(outside, "secret.csv"), "hush");
 writeFileSync(join(folder, "fits", "own", "report.html"), "<p>report</p>");
+writeFileSync(join(folder, "fits", "own", "models", "plain.json"), "{}");
+// Work that nobody of this studio asked for, in a folder from elsewhere.
+for (const [kind, asked] of [["fits", {models: ["--output=/tmp/x"], leave_out: "", state: "stopped"}], ["designs", {request: "damper: ../../../secret.csv\nvary: {gap: {from: 1 mm, to: 2 mm}}\ngoals: [{minimise: mass}]", state: "stopped"}]]) {
+  mkdirSync(join(folder, kind, "planted"), {recursive: true});
+  writeFileSync(join(folder, kind, "planted", "studio.json"), JSON.stringify(asked));
+}
 symlinkSync(join(outside), join(folder, "fits", "way-out"));
 const studio = await start(program, folder);
 const {port} = studio;
@@ -25,6 +31,8 @@ const own = await open(studio);
 const {Cookie, ...stranger} = own;
 const host = own.Host, json = (value) => JSON.stringify(value);
 const upload = {...own, "Content-Type": "application/octet-stream"};
+const drive = (more) => json({plant: "savaresi_spelta", road: "step", duration: 1, ...more});
+const design = (request, more) => json({action: "start", name: "x", request, ...more});
 const cases = [
   // [what, request, status]
   ["its own page", {headers: {Host: host}}, 200],
@@ -77,6 +85,54 @@ const cases = [
   ["a model that is an option", {method: "POST", path: "/api/fits", headers: own, body: json({action: "start", name: "x", models: ["--network"]})}, 400],
   ["records left out by an option", {method: "POST", path: "/api/fits", headers: own, body: json({action: "start", name: "x", models: ["bingham"], leave_out: "$(id)"})}, 400],
   ["a correction above the project", {method: "POST", path: "/api/correct", headers: own, body: json({file: "../x.csv", set: "level=1"})}, 400],
+  ["work from elsewhere that is an option", {method: "POST", path: "/api/fits", headers: own, body: json({action: "go_on", name: "planted"})}, 400],
+  ["work from elsewhere that leaves the project", {method: "POST", path: "/api/work/design", headers: own, body: json({action: "go_on", name: "planted"})}, 400],
+  // The machine
+  ["a drive without the cookie", {method: "POST", path: "/api/drive", headers: stranger, body: drive({})}, 401],
+  ["a drive by a form", {method: "POST", path: "/api/drive", headers: {...own, "Content-Type": "text/plain"}, body: drive({})}, 415],
+  ["a plant that is a file", {method: "POST", path: "/api/drive", headers: own, body: drive({plant: "/etc/passwd"})}, 400],
+  ["a plant that is an option", {method: "POST", path: "/api/drive", headers: own, body: drive({plant: "--list"})}, 400],
+  ["values of a plant that are a path", {method: "POST", path: "/api/drive", headers: own, body: drive({values: "sprung_mass=/etc/passwd"})}, 400],
+  ["a damper above the project", {method: "POST", path: "/api/drive", headers: own, body: drive({damper: "../secret.csv"})}, 400],
+  ["a damper of the machine", {method: "POST", path: "/api/drive", headers: own, body: drive({damper: "/etc/passwd"})}, 400],
+  ["a damper through a link", {method: "POST", path: "/api/drive", headers: own, body: drive({damper: "fits/way-out/secret.csv"})}, 400],
+  ["two dampers in one", {method: "POST", path: "/api/drive", headers: own, body: drive({damper: "viscous;/etc/passwd"})}, 400],
+  ["settings of a damper that are a file", {method: "POST", path: "/api/drive", headers: own, body: drive({damper: "viscous", settings: "file=/etc/passwd"})}, 400],
+  ["a road that is a file", {method: "POST", path: "/api/drive", headers: own, body: drive({road: "measured,file=/etc/passwd"})}, 400],
+  ["a road with a file", {method: "POST", path: "/api/drive", headers: own, body: drive({road: "iso8608,file=../secret.csv"})}, 400],
+  ["a controller that is none", {method: "POST", path: "/api/drive", headers: own, body: drive({controller: "$(id)"})}, 400],
+  ["a controller with a second one behind it", {method: "POST", path: "/api/drive", headers: own, body: drive({controller: "mix1,crossover=2;id"})}, 400],
+  ["a drive for ever", {method: "POST", path: "/api/drive", headers: own, body: drive({duration: 1e9})}, 400],
+  ["a road of more waves than there may be", {method: "POST", path: "/api/drive", headers: own, body: drive({road: "iso8608,waves=1e15"})}, 400],
+  ["a drive that does not last", {method: "POST", path: "/api/drive", headers: own, body: json({plant: "savaresi_spelta", road: "step", duration: "1"})}, 400],
+  ["a drive with more than it has", {method: "POST", path: "/api/drive", headers: own, body: drive({output: "/tmp/x"})}, 400],
+  ["a drive of 1 MB", {method: "POST", path: "/api/drive", headers: own, body: drive({values: "x".repeat(1 << 20)})}, 400],
+  ["traces above the project", {path: "/api/driven?key=..%2F..%2F..&x=time&y=force", headers: own}, 400],
+  ["traces that nobody drove", {path: `/api/driven?key=${"0".repeat(32)}&x=time&y=force`, headers: own}, 400],
+  ["work of an unknown kind", {method: "POST", path: "/api/work/shell", headers: own, body: json({action: "start", name: "x"})}, 400],
+  ["a ride above the project", {method: "POST", path: "/api/work/ride", headers: own, body: json({action: "start", name: "../x", plant: "savaresi_spelta", road: "step", controllers: ["skyhook"]})}, 400],
+  ["a ride with an option for a controller", {method: "POST", path: "/api/work/ride", headers: own, body: json({action: "start", name: "x", plant: "savaresi_spelta", road: "step", controllers: ["--bound"]})}, 400],
+  // Designs
+  ["a design above the project", {method: "POST", path: "/api/work/design", headers: own, body: design("damper: passenger_car", {name: "../x"})}, 400],
+  ["a damper's file above the project", {method: "POST", path: "/api/work/design", headers: own, body: design("damper: ../../../secret.yaml")}, 400],
+  ["a damper's file of the machine", {method: "POST", path: "/api/work/design", headers: own, body: design("damper: /etc/passwd")}, 400],
+  ["a request that is no YAML", {method: "POST", path: "/api/work/design", headers: own, body: design("{{{{")}, 400],
+  ["a request that grows", {method: "POST", path: "/api/work/design", headers: own, body: design(`a: &a [1,1,1,1,1,1,1,1,1,1]\n${Array.from({length: 12}, (_, k) => `${"bcdefghijklm"[k]}: &${"bcdefghijklm"[k]} [${Array(10).fill(`*${"abcdefghijkl"[k]}`)}]`).join("\n")}`)}, 400],
+  ["a design of 10^9 generations", {method: "POST", path: "/api/work/design", headers: own, body: design("damper: passenger_car", {generations: 1e9})}, 400],
+  ["a result above the project", {path: "/api/result/design/..", headers: own}, 400],
+  ["a report of a design without the cookie", {path: "/report/design/x", headers: stranger}, 401],
+  ["a report through a link", {path: "/report/fit/way-out", headers: own}, 400],
+  // Exports
+  ["an export of a file above the project", {method: "POST", path: "/api/export", headers: own, body: json({model: "../secret.csv", formats: ["c"]})}, 400],
+  ["an export through a link", {method: "POST", path: "/api/export", headers: own, body: json({model: "fits/way-out/models/x.json", formats: ["c"]})}, 400],
+  ["an export of what is no model", {method: "POST", path: "/api/export", headers: own, body: json({model: "fits/own/report.html", formats: ["c"]})}, 400],
+  ["a format that is an option", {method: "POST", path: "/api/export", headers: own, body: json({model: "fits/own/models/plain.json", formats: ["--compiler"]})}, 400],
+  ["a name that is a path", {method: "POST", path: "/api/export", headers: own, body: json({model: "fits/own/models/plain.json", formats: ["c"], name: "../x"})}, 400],
+  ["a sample time that is a command", {method: "POST", path: "/api/export", headers: own, body: json({model: "fits/own/models/plain.json", formats: ["c"], sample_time: "$(id)"})}, 400],
+  ["a compiler", {method: "POST", path: "/api/export", headers: own, body: json({model: "fits/own/models/plain.json", formats: ["fmu3"], compiler: "sh -c id"})}, 400],
+  ["an exported file above the project", {path: "/api/exported?folder=own%2C%20plain&file=..%2F..%2F..%2Fsecret.csv", headers: own}, 400],
+  ["a folder of exports above the project", {path: "/api/exported?folder=..%2F..&file=secret.csv", headers: own}, 400],
+  ["an exported file without the cookie", {path: "/api/exported?folder=own%2C%20plain", headers: stranger}, 401],
   // What is too much or nothing at all
   ["a body that is no JSON", {method: "POST", path: "/api/fits", headers: own, body: "{"}, 400],
   ["an unknown key", {method: "POST", path: "/api/correct", headers: own, body: json({file: "x", set: "level=1", shell: "id"})}, 400],
@@ -94,6 +150,14 @@ try {
     assert.ok(!answer.text.includes("root:") && !answer.text.includes("hush"), `${what} gives a file of others away`);
     assert.equal(answer.headers["access-control-allow-origin"], undefined, what);
   }
+
+  // None of these left anything behind.
+  for (const results of ["rides", "exports"]) assert.ok(!existsSync(join(folder, results)) || readdirSync(join(folder, results)).every((name) => name === ".no-recordings" || name === "own, plain"), results);
+  assert.deepEqual(readdirSync(join(folder, "designs")), ["planted"]);
+
+  // The licences of what others made lie beside it.
+  const licences = await send(port, {path: "/licences.txt", headers: {Host: host}});
+  for (const text of [/Apache License\s+Version 2\.0/, /Jason Miller/, /Leon Sorokin/]) assert.match(licences.text, text);
 
   // Headers of what it serves.
   const page = await send(port, {headers: {Host: host}});

@@ -30,9 +30,16 @@ string(REPLACE "\nfunction " "" names "${names}")
 string(REPLACE ";" ", " names "${names}")
 append_text(/loops.js "${script}" "${loops}\nexport {${names}};\n")
 append_asset(/studio.css "text/css; charset=utf-8" ${PAGE_DIR}/studio.css)
-append_asset(/htm.mjs "${script}" ${MODULES_DIR}/htm/preact/standalone.module.js)
+# Libraries of others, with their licences beside them.
+file(READ ${MODULES_DIR}/htm/preact/standalone.module.js htm)
+append_text(/htm.mjs "${script}" "/*! htm (Apache-2.0) with Preact (MIT): /licences.txt */\n${htm}")
 append_asset(/uplot.js "${script}" ${MODULES_DIR}/uplot/dist/uPlot.iife.min.js)
 append_asset(/uplot.css "text/css; charset=utf-8" ${MODULES_DIR}/uplot/dist/uPlot.min.css)
+file(READ ${MODULES_DIR}/htm/LICENSE of_htm)
+file(READ ${PAGE_DIR}/preact.licence of_preact)
+file(READ ${MODULES_DIR}/uplot/LICENSE of_uplot)
+append_text(/licences.txt "text/plain; charset=utf-8"
+  "What the studio's page is made of, by others.\n\nhtm\n\n${of_htm}\n\nPreact\n\n${of_preact}\n\nuPlot\n\n${of_uplot}")
 
 file(WRITE ${OUTPUT} "#include \"assets.h\"
 

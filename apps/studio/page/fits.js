@@ -31,6 +31,13 @@ function curves_of(steps) {
   });
 }
 
+// The models that have ended, the best first, before the leaderboard is there.
+function table_of(judged) {
+  const columns = Object.keys(judged[0]);
+  const rows = [...judged].sort((a, b) => (a.esr_percent ?? Infinity) - (b.esr_percent ?? Infinity)).map((row) => columns.map((column) => String(row[column] ?? "")));
+  return {columns, rows};
+}
+
 function Leaderboard({table, name}) {
   const [all, set_all] = useState(false);
   const known = table.columns.map((column, k) => [column, k]);
@@ -49,14 +56,15 @@ function Fit({fit, theme, act}) {
   return html`<section class="fit" aria-label="Fit ${fit.name}">
     <header><h3>${fit.name}</h3><span class="state" role="status">${kStates[fit.state] ?? fit.state}${fit.state === "running" && fit.stage ? `: ${fit.stage}` : ""}</span>
       ${fit.state === "running" && html`<button class="plain" onClick=${() => act("stop", fit.name)}>Stop</button>`}
-      ${(fit.state === "stopped" || fit.state === "failed") && fit.models.length > 0 && html`<button class="plain" onClick=${() => act("go_on", fit.name)}>Go on</button>`}
+      ${(fit.state === "stopped" || fit.state === "failed") && fit.arguments.length > 0 && html`<button class="plain" onClick=${() => act("go_on", fit.name)}>Go on</button>`}
       ${fit.has_report && html`<a href="/report/${encodeURIComponent(fit.name)}" target="_blank" rel="noopener">Report</a>`}
     </header>
     ${fit.state === "running" && html`<progress max="1" value=${fit.fraction} aria-label="Progress of ${fit.name}"></progress>`}
     ${fit.message && html`<p class="error">${fit.message}</p>`}
     ${curves.length > 0 && fit.state !== "done" && html`<${Plot} title="Error of each fit as it falls" x_label="Time (s)" y_label="Error (% of the search's start)" is_log=${true} series=${curves} theme=${theme} height=${200} />`}
+    ${fit.state === "running" && fit.judged.length > 0 && html`<${Leaderboard} table=${table_of(fit.judged)} name=${fit.name} />`}
     ${fit.leaderboard && fit.state === "done" && html`<${Leaderboard} table=${fit.leaderboard} name=${fit.name} />`}
-    ${fit.models.length > 0 && html`<${Command} words=${fit.arguments} />`}
+    ${fit.arguments.length > 0 && html`<${Command} words=${fit.arguments} />`}
   </section>`;
 }
 

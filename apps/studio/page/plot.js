@@ -8,7 +8,7 @@ export function colour(index) {
   const name = index === 0 ? "--measured" : `--series-${(index - 1) % 6 + 1}`;
   return resolved(name);
 }
-function resolved(name) {
+export function resolved(name) {
   const probe = document.createElement("i");
   probe.style.color = `var(${name})`;
   document.body.append(probe);
@@ -18,13 +18,21 @@ function resolved(name) {
 }
 
 // Three digits tell a place on an axis; a narrow window needs more.
-function tick_text(values) {
-  const is_round = (value, digits) => Math.abs(value * 10 ** digits - Math.round(value * 10 ** digits)) < 1e-6;
+export function tick_text(values) {
+  const span = Math.abs(values.at(-1) - values[0]) / Math.max(1, values.length - 1);
   const largest = Math.max(...values.map(Math.abs));
   if (largest !== 0 && (largest >= 1e5 || largest < 1e-3)) return values.map((v) => v === 0 ? "0" : v.toExponential(1));
-  let digits = 0;
-  while (digits < 9 && !values.every((value) => is_round(value, digits))) digits++;
+  let digits = span > 0 ? Math.max(0, Math.min(9, -Math.floor(Math.log10(span) + 1e-9))) : 0;
+  while (digits < 9 && values.some((value) => Math.abs(value - value.toFixed(digits)) > 0.01 * span)) ++digits;  // steps of 2.5
   return values.map((value) => value.toFixed(digits));
+}
+
+// Places of ticks from a to b, about `count` of them, at 1, 2 or 5 times a power of ten.
+export function nice_ticks(a, b, count = 6) {
+  const rough = (b - a) / count, unit = 10 ** Math.floor(Math.log10(rough)), step = [1, 2, 5, 10].find((k) => k * unit >= rough) * unit;
+  const list = [];
+  for (let v = Math.ceil(a / step) * step; v <= b; v += step) list.push(Math.abs(v) < step / 1e6 ? 0 : v);
+  return list;
 }
 
 // One curve per series over its own x; uPlot's mode 2 draws such.
@@ -85,16 +93,10 @@ export function svg_of({title, series, x_label, y_label, x_range, is_log}) {
   const px = (x) => left + (x - x0) / (x1 - x0) * (width - left - right);
   const py = (y) => height - bottom - (y_of(y) - y_of(y0)) / (y_of(y1) - y_of(y0)) * (height - top - bottom);
   const text = (s) => String(s).replace(/[&<>"]/g, (c) => `&#${c.charCodeAt(0)};`);
-  const ticks = (a, b) => {
-    const rough = (b - a) / 6, unit = 10 ** Math.floor(Math.log10(rough)), step = [1, 2, 5, 10].find((k) => k * unit >= rough) * unit;
-    const list = [];
-    for (let v = Math.ceil(a / step) * step; v <= b; v += step) list.push(Math.abs(v) < step / 1e6 ? 0 : v);
-    return list;
-  };
   const lines = [`<svg xmlns="http://www.w3.org/2000/svg" width="${width}" height="${height}" viewBox="0 0 ${width} ${height}" font-family="sans-serif" font-size="12">`,
     `<title>${text(title)}</title><rect width="${width}" height="${height}" fill="white"/>`,
     `<clipPath id="c"><rect x="${left}" y="${top}" width="${width - left - right}" height="${height - top - bottom}"/></clipPath>`];
-  const xs = ticks(x0, x1), ys = is_log ? [y0 * 1.3, y1 / 1.3] : ticks(y0, y1);
+  const xs = nice_ticks(x0, x1), ys = is_log ? [y0 * 1.3, y1 / 1.3] : nice_ticks(y0, y1);
   const x_texts = tick_text(xs), y_texts = tick_text(ys);
   xs.forEach((x, i) => lines.push(`<path d="M${px(x)} ${top}V${height - bottom}" stroke="#e5e5e5"/><text x="${px(x)}" y="${height - bottom + 16}" text-anchor="middle">${x_texts[i]}</text>`));
   ys.forEach((y, i) => lines.push(`<path d="M${left} ${py(y)}H${width - right}" stroke="#e5e5e5"/><text x="${left - 6}" y="${py(y) + 4}" text-anchor="end">${y_texts[i]}</text>`));

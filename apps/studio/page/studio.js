@@ -2,12 +2,15 @@
 import {html, render, useEffect, useRef, useState} from "/htm.mjs";
 import {ask, open_session, tell} from "/ask.js";
 import {Compare} from "/compare.js";
+import {Design} from "/design.js";
+import {Export} from "/export.js";
 import {Fits} from "/fits.js";
+import {Machine} from "/machine.js";
 import {Recordings} from "/recordings.js";
 import {Sliders} from "/sliders.js";
 
 const kViews = [["recordings", "Recordings", Recordings], ["fits", "Fits", Fits], ["compare", "Compare", Compare],
-  ["sliders", "Sliders", Sliders]];
+  ["sliders", "Sliders", Sliders], ["machine", "Machine", Machine], ["design", "Design", Design], ["export", "Export", Export]];
 const kThemeKey = "dashpot-theme";
 
 function useTheme() {
@@ -76,7 +79,7 @@ function Studio() {
       ${address && html`<span class="note" role="status">Opens once: <code>${address}</code></span>`}
     </header>
     ${problem && html`<p class="error bar" role="alert">${problem}</p>`}
-    <${View} known=${known} version=${version} fits=${fits} theme=${theme} on_changed=${() => { reload(); reload_fits(); }} />`;
+    <${View} known=${known} version=${version} fits=${fits} theme=${theme} go=${set_view} on_changed=${() => { reload(); reload_fits(); }} />`;
 }
 
 await open_session();

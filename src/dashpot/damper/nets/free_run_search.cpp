@@ -160,7 +160,7 @@ FreeRunSearchResult search(const FreeRunProblem& problem, const FreeRunSearchOpt
   // Until the cost stays level over so many taken steps, or no step is small enough to be taken.
   std::vector<double> costs{search.cost()};
   while (!result.converged && result.iterations < options.max_iterations) {
-    if (options.on_iteration) options.on_iteration();
+    if (options.on_iteration) options.on_iteration(search.cost());
     ++result.iterations;
     if (search.step()) costs.push_back(search.cost());
     const bool level = costs.size() > kWindow && costs[costs.size() - 1 - kWindow] - costs.back() <

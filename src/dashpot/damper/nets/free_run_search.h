@@ -46,7 +46,7 @@ struct FreeRunSearchOptions {
   double tolerance = 1e-4;     ///< stop when the cost falls by less than this share over 3 steps
   bool offsets = true;         ///< one free offset per record, eliminated exactly
   double offset_decay = 1e-3;  ///< weight of a record's squared offset, per sample of it
-  std::function<void()> on_iteration;  ///< may throw to stop
+  std::function<void(double cost)> on_iteration;  ///< before each step; may throw to stop
 };
 
 struct FreeRunSearchResult {

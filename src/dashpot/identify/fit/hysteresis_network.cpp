@@ -95,7 +95,7 @@ class HysteresisNetworkFit {
   std::vector<Member> members() const {
     std::vector<Member> members(members_);
     parallel_for(members.size(), options_.threads, [&](std::size_t k) {
-      members[k] = fit(all_, kBankSamples, {decay_, iterations_, k});
+      members[k] = fit(all_, kBankSamples, {decay_, iterations_, k, k == 0});
     });
     return members;
   }
@@ -118,6 +118,7 @@ class HysteresisNetworkFit {
     double decay;
     int iterations;
     std::uint64_t start = 0;
+    bool is_watched = false;  ///< how its error falls is reported; of several at once only one is
   };
   Member fit(const Records& records, std::size_t most_samples, Effort effort) const {
     const HysteresisNetworkTrainOptions options{
@@ -125,7 +126,9 @@ class HysteresisNetworkFit {
         .weight_decay = effort.decay,
         .offsets = options_.offset == OffsetMode::Record,
         .stride = (scored_samples(records) + most_samples - 1) / most_samples,
-        .on_iteration = [this] { options_.monitor.check(); }};
+        .on_iteration = [this, effort](double cost) {
+          effort.is_watched ? options_.monitor.report_cost(cost) : options_.monitor.check();
+        }};
     Member member{start_, {}};
     member.network.network.initialise(hidden_, options_.seed + effort.start);
     member.report = train(member.network, records, options);

@@ -85,9 +85,15 @@ class Training {
  public:
   Training(const IdentifyOptions& options, double decay) : options_(options), decay_(decay) {}
 
-  TrainReport run(Mlp& mlp, const Lesson& lesson, std::uint64_t seed) const {
+  /// is_watched: how its error falls is reported; of several at once only one is.
+  TrainReport run(Mlp& mlp, const Lesson& lesson, std::uint64_t seed,
+                  bool is_watched = false) const {
     const NetworkDesign& design = options_.network;
     const Trainer trainer = design.trainer.value_or(Trainer::LevenbergMarquardt);
+
+    const auto follow = [this, is_watched](int, double rmse) {
+      is_watched ? options_.monitor.report_cost(rmse * rmse) : options_.monitor.check();
+    };
 
     // Early stopping, where something is held back.
     Stopping stopping;
@@ -95,11 +101,11 @@ class Training {
       stopping = {&lesson.held_back, static_cast<int>(*design.patience)};
 
     // The trainer that the design names, with its own options.
-    if (trains_on_batches(trainer)) return on_batches(mlp, lesson.samples, stopping, seed);
+    if (trains_on_batches(trainer)) return on_batches(mlp, lesson.samples, stopping, seed, follow);
     if (trainer == Trainer::Lbfgs) {
       LbfgsOptions how{.weight_decay = decay_, .threads = options_.threads, .stopping = stopping};
       if (design.epochs) how.max_iterations = static_cast<int>(*design.epochs);
-      how.on_iteration = [this](int, double) { options_.monitor.check(); };
+      how.on_iteration = follow;
       return train_lbfgs(mlp, lesson.samples, how);
     }
 
@@ -108,13 +114,13 @@ class Training {
                      .bayesian = trainer == Trainer::Bayesian,
                      .stopping = stopping};
     if (design.epochs) how.max_iterations = static_cast<int>(*design.epochs);
-    how.on_iteration = [this](int, double) { options_.monitor.check(); };
+    how.on_iteration = follow;
     return train(mlp, lesson.samples, how);
   }
 
  private:
   TrainReport on_batches(Mlp& mlp, const TrainingSamples& samples, const Stopping& stopping,
-                         std::uint64_t seed) const {
+                         std::uint64_t seed, const std::function<void(int, double)>& follow) const {
     const NetworkDesign& design = options_.network;
     BatchTrainOptions how{
         .optimiser = optimiser_of(*design.trainer), .seed = seed, .stopping = stopping};
@@ -126,7 +132,7 @@ class Training {
     how.l1 = design.l1.value_or(0);
     // The decay is that of |w|^2, whose slope is 2 w.
     (how.optimiser == Optimiser::AdamW ? how.decay : how.l2) = 2 * decay_;
-    how.on_epoch = [this](int, double) { options_.monitor.check(); };
+    how.on_epoch = follow;
     TrainReport report = train_batches(mlp, samples, how);
     report.converged = !report.stopped_early;
     return report;
@@ -219,7 +225,7 @@ TrainedEnsemble train_networks(const Mlp& start, const std::vector<Record>& trai
   const auto starts = static_cast<std::size_t>(std::max(1, options.starts));
   std::vector<TrainedMlp> trained = train_from_starts(
       start, members * starts, options.seed, options.threads, [&](Mlp& mlp, std::size_t k) {
-        return one.run(mlp, lessons[k / starts % lessons.size()], options.seed + k);
+        return one.run(mlp, lessons[k / starts % lessons.size()], options.seed + k, k == 0);
       });
 
   TrainedEnsemble ensemble;

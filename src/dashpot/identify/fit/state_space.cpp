@@ -118,7 +118,8 @@ class StateSpaceFit {
     std::vector<Member> members(preset_.members);
     parallel_for(members.size(), options_.threads, [&](std::size_t k) {
       members[k].network = from_windows(all_, {decay_, kWindowIterations, kWindowSteps, k});
-      members[k].report = train(members[k].network, all_, finish(decay_, kFinishIterations));
+      members[k].report =
+          train(members[k].network, all_, finish(decay_, kFinishIterations, k == 0));
     });
     return members;
   }
@@ -146,13 +147,16 @@ class StateSpaceFit {
         });
   }
 
-  StateSpaceTrainOptions finish(double decay, int iterations) const {
+  /// is_watched: how its error falls is reported; of several at once only one is.
+  StateSpaceTrainOptions finish(double decay, int iterations, bool is_watched = false) const {
     return {.max_iterations = static_cast<int>(options_.network.epochs.value_or(iterations)),
             .tolerance = kStateSpaceTolerance,
             .weight_decay = decay,
             .offsets = options_.offset == OffsetMode::Record,
             .stride = (scored_samples(all_) + kStateSpaceSamples - 1) / kStateSpaceSamples,
-            .on_iteration = [this] { options_.monitor.check(); }};
+            .on_iteration = [this, is_watched](double cost) {
+              is_watched ? options_.monitor.report_cost(cost) : options_.monitor.check();
+            }};
   }
 
   StateSpaceNetwork from_windows(const Records& records, Effort effort) const {

@@ -4,7 +4,9 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <mutex>
 
 #include "dashpot/base/parallel.h"
 #include "dashpot/base/part.h"
@@ -19,6 +21,7 @@
 #include "dashpot/identify/rank/divisions.h"
 #include "dashpot/identify/rank/fit_store.h"
 #include "dashpot/identify/rank/paired_difference.h"
+#include "dashpot/identify/rank/rank_and_tell.h"
 
 namespace dashpot {
 namespace {
@@ -107,10 +110,12 @@ std::string forgetting_warning(const Forgetting& result) {
 class RankingRun {
  public:
   RankingRun(const std::vector<std::string>& models, const Dataset& dataset,
-             const LeaveOut& leave_out, const IdentifyOptions& options, FitStore* store)
+             const LeaveOut& leave_out, const IdentifyOptions& options, FitStore* store,
+             OnJudged on_judged = {})
       : dataset_(dataset),
         options_(options),
         store_(store),
+        on_judged_(std::move(on_judged)),
         divisions_(divide(dataset, leave_out)),
         domain_(domain_of(training_, dataset.drive_unit)),
         force_span_(force_span(training_)) {
@@ -131,14 +136,22 @@ class RankingRun {
   Ranking run() {
     const auto begin = std::chrono::steady_clock::now();
 
+    // Each model is judged as soon as its last fit has ended.
     const std::vector<Task> tasks = tasks_by_cost();
-    make(tasks);
+    std::vector<std::atomic<std::size_t>> left(ranking_.models.size());
+    for (const Task& task : tasks) ++left[place_of(task)];
+    make(tasks, [&](const Task& task) {
+      if (--left[place_of(task)] > 0) return;
+      RankedModel& ranked = ranking_.models[place_of(task)];
+      judge(ranked);
+      if (!on_judged_) return;
+      const std::lock_guard lock(telling_);
+      on_judged_(ranked);
+    });
     if (refused_ == tasks.size()) throw Error("", ranking_.models.front().fit.message);
 
-    // Then judge and sort. What a step costs is measured when nothing else runs.
-    std::vector<RankedModel>& models = ranking_.models;
-    parallel_for(models.size(), options_.threads, [&](std::size_t k) { judge(models[k]); });
-    for (RankedModel& ranked : models)
+    // Then sort. What a step costs is measured when nothing else runs.
+    for (RankedModel& ranked : ranking_.models)
       if (ranked.fit.model)
         ranked.nanoseconds_per_step =
             step_cost(*ranked.fit.model, training_.front(), dataset_.drive_unit);
@@ -155,7 +168,7 @@ class RankingRun {
     std::vector<Task> tasks = tasks_by_cost();
     PartReport report{.all = tasks.size()};
     std::erase_if(tasks, [&](const Task& task) { return !part.has(task.number); });
-    make(tasks);
+    make(tasks, [](const Task&) {});
     report.tasks = tasks.size();
     report.kept = kept_;
     return report;
@@ -170,8 +183,12 @@ class RankingRun {
     double cost;
   };
 
-  /// All fits of all models in one farm.
-  void make(const std::vector<Task>& tasks) {
+  std::size_t place_of(const Task& task) const {
+    return static_cast<std::size_t>(task.model - ranking_.models.data());
+  }
+
+  /// All fits of all models in one farm; `then` is called after each, from its thread.
+  void make(const std::vector<Task>& tasks, const std::function<void(const Task&)>& then) {
     std::atomic<std::size_t> done = 0;
     parallel_for(tasks.size(), options_.threads, [&](std::size_t k) {
       const Task& task = tasks[k];
@@ -183,6 +200,7 @@ class RankingRun {
       *task.report = fit(task.model->name, stage, task.fold ? task.fold->training : training_);
       ++done;
       options_.monitor.report("fitted " + stage, share());
+      then(task);
     });
   }
 
@@ -352,6 +370,8 @@ class RankingRun {
   const Dataset& dataset_;
   const IdentifyOptions& options_;
   FitStore* store_;
+  OnJudged on_judged_;
+  std::mutex telling_;  ///< one model at a time
   const Divisions divisions_;
   const std::vector<Fold>& folds_ = divisions_.folds;
   const std::vector<Fold>& held_back_ = divisions_.held_back;
@@ -393,6 +413,12 @@ std::vector<const RankedModel*> Ranking::by_ride() const {
 Ranking rank(const std::vector<std::string>& models, const Dataset& dataset,
              const LeaveOut& leave_out, const IdentifyOptions& options, FitStore* store) {
   return RankingRun(models, dataset, leave_out, options, store).run();
+}
+
+Ranking rank_and_tell(const std::vector<std::string>& models, const Dataset& dataset,
+                      const LeaveOut& leave_out, const IdentifyOptions& options, FitStore* store,
+                      OnJudged on_judged) {
+  return RankingRun(models, dataset, leave_out, options, store, std::move(on_judged)).run();
 }
 
 PartReport rank_part(const std::vector<std::string>& models, const Dataset& dataset,

@@ -17,7 +17,7 @@ struct HysteresisNetworkTrainOptions {
   double offset_decay = 1e-3;  ///< as TrainOptions::offset_decay
   bool offsets = true;         ///< one free offset per record, a declared nuisance
   std::size_t stride = 1;      ///< score every stride-th sample; the states see all
-  std::function<void()> on_iteration;  ///< may throw to stop
+  std::function<void(double cost)> on_iteration;  ///< may throw to stop
 };
 
 /// Levenberg-Marquardt over weights and logarithms of rates together, in free run over whole

@@ -21,7 +21,7 @@ struct StateSpaceTrainOptions {
   /// of velocity and force at a few past moments.
   std::size_t window = 0;
   std::size_t most_steps = 12000;  ///< of all windows: every k-th is taken
-  std::function<void()> on_iteration;
+  std::function<void(double cost)> on_iteration;
 };
 
 /// Levenberg-Marquardt over cell and network together, in free run over windows or, from rest, over

@@ -1,0 +1,129 @@
+#include "job_kinds.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "dashpot/base/file.h"
+#include "dashpot/base/text.h"
+#include "dashpot/damper/physics/damper_description.h"
+#include "dashpot/damper/registry.h"
+#include "dashpot/dataset.h"
+#include "dashpot/design/design_request.h"
+#include "dashpot/error.h"
+#include "vehicle_words.h"
+
+namespace fs = std::filesystem;
+
+namespace dashpot::studio {
+namespace {
+
+constexpr const char* kRequestFile = "request.yaml";
+
+std::vector<std::string> strings(const Value& list) {
+  std::vector<std::string> texts;
+  for (const Value& item : list.items()) texts.push_back(item.as_string());
+  return texts;
+}
+
+void require_models(const std::vector<std::string>& models) {
+  std::vector<std::string> known = model_names();
+  for (const std::string& more : more_model_names()) known.push_back(more);
+  known.insert(known.end(), {"usual", "all", "family"});
+  if (models.empty()) throw Error("models", "none is chosen");
+  for (const std::string& model : models)
+    if (std::ranges::find(known, model) == known.end())
+      throw Error("'" + model + "'", "is no model", suggest(model, known));
+}
+
+std::vector<std::string> fit_command(const Project& project, const fs::path&, const Value& asked) {
+  ObjectReader reader(asked, "a fit");
+  const std::vector<std::string> models = strings(reader.required("models"));
+  const std::string leave_out = reader.string("leave_out", "");
+  reader.finish();
+  require_models(models);
+  std::vector<std::string> words{"rank", project.folder().string(), "--models", join(models, ",")};
+  if (!leave_out.empty()) {
+    parse_leave_out(leave_out);
+    words.insert(words.end(), {"--leave-out", leave_out});
+  }
+  return words;
+}
+
+std::vector<std::string> ride_command(const Project& project, const fs::path&, const Value& asked) {
+  ObjectReader reader(asked, "a ride");
+  const std::vector<std::string> controllers = strings(reader.required("controllers"));
+  const bool bound = reader.boolean("bound", false);
+  std::vector<std::string> words{"ride"};
+  const std::vector<std::string> vehicle = vehicle_words(project, reader);
+  reader.finish();
+  words.insert(words.end(), vehicle.begin(), vehicle.end());
+  if (controllers.empty()) throw Error("controllers", "none is chosen");
+  for (const std::string& controller : controllers) require_controller(controller);
+  words.insert(words.end(), {"--controllers", join(controllers, ";")});
+  if (bound) words.emplace_back("--bound");
+  return words;
+}
+
+/// A whole number as it was asked for; throws Error where it does not lie within the limits.
+std::string count_word(double value, double low, double high, const std::string& what) {
+  if (!(value >= low && value <= high) || value != std::floor(value))
+    throw Error(what, "is " + format_number(value),
+                "a whole number from " + format_number(low) + " to " + format_number(high));
+  return format_number(value, 10);
+}
+
+/// The request's text; throws Error where it is none, or names a file: what it starts from comes
+/// with Dashpot.
+std::string checked_request(const Value& asked) {
+  const std::string text = asked.find("request") ? asked.find("request")->as_string() : "";
+  const Value request = parse_yaml(text, kRequestFile);
+  const Value* damper = request.kind() == Value::Kind::Object ? request.find("damper") : nullptr;
+  const std::vector<std::string> known = description_names();
+  if (!damper || damper->kind() != Value::Kind::String)
+    throw Error(kRequestFile, "names no damper to start from", join(known, ", "));
+  if (std::ranges::find(known, damper->as_string()) == known.end())
+    throw Error(damper->where(),
+                "'" + damper->as_string() + "' is no damper that comes with Dashpot",
+                join(known, ", "));
+  parse_request(text, kRequestFile);
+  return text;
+}
+
+std::vector<std::string> design_command(const Project&, const fs::path& folder,
+                                        const Value& asked) {
+  ObjectReader reader(asked, "a design");
+  reader.required("request");
+  const std::string points = count_word(reader.number("points", 60), 4, 400, "points"),
+                    generations =
+                        count_word(reader.number("generations", 100), 1, 2000, "generations"),
+                    seed = count_word(reader.number("seed", 1), 0, 1e9, "seed");
+  reader.finish();
+  checked_request(asked);
+  return {"design",        (folder / kRequestFile).string(),
+          "--points",      points,
+          "--generations", generations,
+          "--seed",        seed};
+}
+
+void write_request(const fs::path& folder, const Value& asked) {
+  write_file(folder / kRequestFile, asked.find("request")->as_string());
+}
+
+constexpr std::array kJobKinds{
+    JobKind{"fit", "fits", "report.html", fit_command, nullptr},
+    JobKind{"ride", "rides", "report.html", ride_command, nullptr},
+    JobKind{"design", "designs", "design.html", design_command, write_request}};
+
+}  // namespace
+
+std::span<const JobKind> job_kinds() { return kJobKinds; }
+
+const JobKind& job_kind(std::string_view name) {
+  const auto at = std::ranges::find(kJobKinds, name, &JobKind::name);
+  if (at == kJobKinds.end())
+    throw Error("'" + std::string(name) + "'", "is no kind of work", "fit, ride or design");
+  return *at;
+}
+
+}  // namespace dashpot::studio
