@@ -91,7 +91,7 @@ void model_seeds(const fs::path& folder) {
   const LawModel law = load_parameters("spencer1997");
   write_file(folder / "law", model_seed(law.with_offset(0), law.drive_unit()));
   for (const ExampleModel& example : example_models())
-    if (example.model->kind() != ModelKind::Law)
+    if (example.model->kind() != ModelKind::Law || example.name.starts_with("law_of_file"))
       write_file(folder / example.name,
                  model_seed(example.model->with_offset(0), DriveUnit::Ampere));
 }

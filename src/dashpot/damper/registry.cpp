@@ -98,7 +98,11 @@ std::vector<std::string> more_model_names() {
 }
 
 std::string model_named(const std::string& word) {
-  if (!is_law_file(word)) return word;
+  if (!is_law_file(word)) {
+    if (word.find_first_of("./") == std::string::npos) return word;
+    throw Error(word, "is neither a model nor the file of a law",
+                "such a file's name ends in .yaml, .yml or .json");
+  }
   const std::string name(know_law(word).name);
   if (std::ranges::find(models(), name, &ModelInfo::name) != models().end())
     throw Error(word, "'" + name + "' is a model of Dashpot's own", "give the law another name");

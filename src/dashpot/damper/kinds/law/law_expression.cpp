@@ -203,7 +203,11 @@ class EquationParser {
 
   std::uint16_t negated() {
     const Level level(*this);
-    if (take("-")) return make(LawOp::Negate, negated());
+    if (take("-")) {
+      const std::uint16_t node = negated();
+      if (nodes_[node].op != LawOp::Number) return make(LawOp::Negate, node);
+      return nodes_.add({.op = LawOp::Number, .number = -nodes_[node].number}, where_);
+    }
     const std::uint16_t base = primary();
     return take("^") ? make(LawOp::Power, base, negated()) : base;
   }

@@ -45,10 +45,22 @@ enum class LawOp : std::uint8_t {
   Or,
   Where,  ///< a condition, the value where it holds, the value where it does not
 
-  // Of programs only (law_program.h): they join the two ways of a where().
+  // Of programs only (law_program.h). They join the two ways of a where(); they do what their like
+  // above does with the outcome of the operation before, which need not come from memory.
   Move,
   Jump,
-  JumpUnless
+  JumpUnless,
+  NegateIt,
+  AbsOfIt,
+  AddToIt,
+  SubtractFromIt,  // it - b
+  SubtractIt,      // a - it
+  MultiplyIt,
+  DivideIt,    // it / b
+  DivideByIt,  // a / it
+  PowerOfIt,
+  MultiplyAdd,   // a * b + c
+  MultiplyItAdd  // it * b + c
 };
 
 struct LawNode {

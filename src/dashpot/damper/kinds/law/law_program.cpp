@@ -14,11 +14,27 @@ namespace {
 #include "dashpot/damper/c_text/law_functions.h"
 
 constexpr std::uint16_t kNowhere = std::numeric_limits<std::uint16_t>::max();
-constexpr std::size_t kInputs = 3 + kMaxStates;  // x, v, travel, states
+// Inputs: x, v, the travel, the states; of a step x and v three times, h / 2, h and h / 6.
+constexpr std::size_t kStates = 3, kStepX = kStates + kMaxStates, kStepV = kStepX + 3,
+                      kHalf = kStepV + 3, kInputs = kHalf + 3;
 /// Of one piece. A where() repeats what both of its ways need; beyond, both ways are computed.
 constexpr std::size_t kMostOperations = 1000;
 constexpr std::size_t kRegisters =
-    2 * LawNodes::kMost + kMaxParams + kInputs + kMostOperations + LawNodes::kMost;
+    2 * LawNodes::kMost + kMaxParams + kInputs + kMostOperations + 5 * LawNodes::kMost;
+
+/// An operation in its form for numbers in registers, and in those that take the outcome of the
+/// operation before as first or as second operand.
+struct FormWithIt {
+  LawOp plain, first, second;
+};
+constexpr std::array kFormsWithIt{
+    FormWithIt{LawOp::Negate, LawOp::NegateIt, LawOp::Negate},
+    FormWithIt{LawOp::Abs, LawOp::AbsOfIt, LawOp::Abs},
+    FormWithIt{LawOp::Add, LawOp::AddToIt, LawOp::AddToIt},
+    FormWithIt{LawOp::Subtract, LawOp::SubtractFromIt, LawOp::SubtractIt},
+    FormWithIt{LawOp::Multiply, LawOp::MultiplyIt, LawOp::MultiplyIt},
+    FormWithIt{LawOp::Divide, LawOp::DivideIt, LawOp::DivideByIt},
+    FormWithIt{LawOp::Power, LawOp::PowerOfIt, LawOp::Power}};
 
 /// What a thread computes in, and whose constants stand in it.
 struct Machine {
@@ -33,7 +49,13 @@ thread_local Machine machine;
 class LawProgram::Compiler {
  public:
   Compiler(const LawNodes& nodes, std::vector<std::uint16_t> places, std::size_t free, bool jumps)
-      : nodes_(nodes), places_(std::move(places)), free_(free), jumps_(jumps) {}
+      : nodes_(nodes), places_(std::move(places)), free_(free), jumps_(jumps), uses_(nodes.size()) {
+    for (std::size_t k = 0; k < nodes.size(); ++k)
+      for (std::size_t a = 0; a < nodes[k].arguments(); ++a) ++uses_[nodes[k].of[a]];
+  }
+
+  /// A node whose value is wanted as it is.
+  void keep(std::uint16_t node) { ++uses_[node]; }
 
   /// The register with the value of a node.
   std::uint16_t value(std::uint16_t place) {
@@ -44,8 +66,20 @@ class LawProgram::Compiler {
     return to;
   }
 
+  /// The register with the outcome of one more operation.
+  std::uint16_t apply(LawOp op, std::uint16_t a, std::uint16_t b) {
+    return push({op, 0, a, b, 0}, false);
+  }
+  /// a * b + c
+  std::uint16_t multiply_add(std::uint16_t a, std::uint16_t b, std::uint16_t c) {
+    apply(LawOp::Multiply, a, b);
+    return push({LawOp::Add, 0, operations.back().to, c, 0}, true);
+  }
+
+  /// From here on a node stands in this register, or nowhere yet.
+  void place(std::size_t node, std::uint16_t in) { places_[node] = in; }
+
   bool is_too_long() const { return operations.size() > kMostOperations; }
-  std::uint16_t place_of(std::uint16_t node) const { return places_[node]; }
   std::size_t first_free() const { return free_; }
 
   std::vector<Operation> operations;
@@ -57,9 +91,47 @@ class LawProgram::Compiler {
     std::array<std::uint16_t, 3> from{};
     for (std::size_t k = 0; k < node.arguments() && !is_too_long(); ++k)
       from[k] = value(node.of[k]);
-    const std::uint16_t to = new_register();
-    operations.push_back({node.op, to, from[0], from[1], from[2]});
-    return to;
+
+    // A product that has just been computed for this sum alone becomes a part of it, and stands
+    // nowhere by itself.
+    bool joins = false;
+    if (node.op == LawOp::Add && operations.size() > label_) {
+      const std::size_t k = operations.back().to == from[0] ? 0 : 1;
+      joins = operations.back().to == from[k] && uses_[node.of[k]] == 1 &&
+              nodes_[node.of[k]].op == LawOp::Multiply;
+      if (joins) places_[node.of[k]] = kNowhere;
+    }
+    return push({node.op, 0, from[0], from[1], from[2]}, joins);
+  }
+
+  /// Adds an operation, in the form that takes the outcome of the one before from where it is.
+  std::uint16_t push(Operation made, bool joins) {
+    made.to = new_register();
+    if (operations.size() > label_) {
+      Operation& before = operations.back();
+      const bool first = before.to == made.a, second = before.to == made.b;
+      if (joins && made.op == LawOp::Add && first != second &&
+          (before.op == LawOp::Multiply || before.op == LawOp::MultiplyIt)) {
+        before.c = first ? made.b : made.a;
+        before.op = before.op == LawOp::Multiply ? LawOp::MultiplyAdd : LawOp::MultiplyItAdd;
+        before.to = made.to;
+        return made.to;
+      }
+      if (first != second && yields(before.op)) made = with_it(made, first);
+    }
+    operations.push_back(made);
+    return made.to;
+  }
+
+  static bool yields(LawOp op) { return op != LawOp::Jump && op != LawOp::JumpUnless; }
+
+  /// The form that takes the outcome before as its first operand or as its second.
+  static Operation with_it(Operation made, bool first) {
+    const auto form = std::ranges::find(kFormsWithIt, made.op, &FormWithIt::plain);
+    if (form == kFormsWithIt.end()) return made;
+    made.op = first ? form->first : form->second;
+    if (!first && form->first == form->second) std::swap(made.a, made.b);
+    return made;
   }
 
   /// Only the way that the condition chooses is worked through, so what one of them has computed
@@ -71,14 +143,19 @@ class LawProgram::Compiler {
 
     const std::size_t unless = operations.size();
     operations.push_back({LawOp::JumpUnless, 0, condition, 0, 0});
-    operations.push_back({LawOp::Move, to, value(node.of[1]), 0, 0});
+    label_ = operations.size();
+    const std::uint16_t yes = value(node.of[1]);
+    operations.push_back({LawOp::Move, to, yes, 0, 0});
     places_ = before;
 
     const std::size_t jump = operations.size();
     operations.push_back({LawOp::Jump, 0, 0, 0, 0});
     operations[unless].b = static_cast<std::uint16_t>(operations.size() - unless);
-    operations.push_back({LawOp::Move, to, value(node.of[2]), 0, 0});
+    label_ = operations.size();
+    const std::uint16_t no = value(node.of[2]);
+    operations.push_back({LawOp::Move, to, no, 0, 0});
     operations[jump].b = static_cast<std::uint16_t>(operations.size() - jump);
+    label_ = operations.size();
     places_ = before;
     return to;
   }
@@ -87,6 +164,8 @@ class LawProgram::Compiler {
   std::vector<std::uint16_t> places_;
   std::size_t free_;
   bool jumps_;
+  std::vector<int> uses_;  ///< how many nodes and outputs take a node
+  std::size_t label_ = 0;  ///< where several ways meet last: what was before is not known there
 };
 
 LawProgram::LawProgram(const LawNodes& nodes, std::size_t parameters, std::size_t states)
@@ -113,7 +192,7 @@ LawProgram::LawProgram(const LawNodes& nodes, std::size_t parameters, std::size_
                               : node.op == LawOp::Displacement ? first_input_
                               : node.op == LawOp::Velocity     ? first_input_ + 1
                               : node.op == LawOp::Travel       ? first_input_ + 2
-                              : node.op == LawOp::State        ? first_input_ + 3 + node.index
+                              : node.op == LawOp::State        ? first_input_ + kStates + node.index
                                                                : kNowhere;
     if (place != kNowhere) places_[k] = static_cast<std::uint16_t>(place);
   }
@@ -127,7 +206,9 @@ LawProgram::LawProgram(const LawNodes& nodes, std::size_t parameters, std::size_
     if (node.arguments() == 0) continue;
     fixed[k] = true;
     for (std::size_t a = 0; a < node.arguments(); ++a) fixed[k] = fixed[k] && fixed[node.of[a]];
-    if (fixed[k]) places_[k] = compiler.value(static_cast<std::uint16_t>(k));
+    if (!fixed[k]) continue;
+    compiler.keep(static_cast<std::uint16_t>(k));
+    places_[k] = compiler.value(static_cast<std::uint16_t>(k));
   }
   of_parameters_ = std::move(compiler.operations);
   first_free_ = compiler.first_free();
@@ -137,14 +218,83 @@ LawProgram::Piece LawProgram::add(std::span<const std::uint16_t> outputs) {
   for (const bool jumps : {true, false}) {
     Compiler compiler(nodes_, places_, first_free_, jumps);
     Piece piece;
+    for (const std::uint16_t output : outputs) compiler.keep(output);
     for (const std::uint16_t output : outputs) piece.outputs.push_back(compiler.value(output));
     if (jumps && compiler.is_too_long()) continue;
-    piece.first = operations_.size();
-    operations_.insert(operations_.end(), compiler.operations.begin(), compiler.operations.end());
-    piece.last = operations_.size();
-    return piece;
+    return finished(std::move(piece), compiler);
   }
   return {};
+}
+
+LawProgram::Piece LawProgram::add_step(std::span<const std::uint16_t> rates) {
+  const auto input = [&](std::size_t k) { return static_cast<std::uint16_t>(first_input_ + k); };
+  const std::vector<bool> moves = moving();
+  for (const bool jumps : {true, false}) {
+    Compiler compiler(nodes_, places_, first_free_, jumps);
+    for (const std::uint16_t rate : rates) compiler.keep(rate);
+    std::vector<std::uint16_t> start;
+    for (std::size_t k = 0; k < states_; ++k) start.push_back(input(kStates + k));
+
+    // The rates at a place of the step. The middle is met twice: what no state moves stays then.
+    std::size_t last_place = kMostOperations;
+    const auto rates_at = [&](std::size_t place, const std::vector<std::uint16_t>& states) {
+      for (std::size_t k = 0; k < nodes_.size(); ++k) {
+        const LawNode& node = nodes_[k];
+        const bool again = place == last_place && !moves[k];
+        if (node.op == LawOp::State)
+          compiler.place(k, states[node.index]);
+        else if (node.op == LawOp::Displacement)
+          compiler.place(k, input(kStepX + place));
+        else if (node.op == LawOp::Velocity)
+          compiler.place(k, input(kStepV + place));
+        else if (!again)
+          compiler.place(k, places_[k]);
+      }
+      last_place = place;
+      std::vector<std::uint16_t> slopes;
+      for (const std::uint16_t rate : rates) slopes.push_back(compiler.value(rate));
+      return slopes;
+    };
+    const auto moved = [&](std::uint16_t length, const std::vector<std::uint16_t>& slopes) {
+      std::vector<std::uint16_t> states;
+      for (std::size_t k = 0; k < states_; ++k)
+        states.push_back(compiler.multiply_add(slopes[k], length, start[k]));
+      return states;
+    };
+
+    // Slopes at the start, twice in the middle, and at the end; then their mean.
+    const auto k1 = rates_at(0, start);
+    const auto k2 = rates_at(1, moved(input(kHalf), k1));
+    const auto k3 = rates_at(1, moved(input(kHalf), k2));
+    const auto k4 = rates_at(2, moved(input(kHalf + 1), k3));
+    std::vector<std::uint16_t> sums;
+    for (std::size_t k = 0; k < states_; ++k) {
+      const std::uint16_t middle = compiler.apply(LawOp::Add, k2[k], k3[k]),
+                          twice = compiler.apply(LawOp::Add, middle, middle);
+      sums.push_back(compiler.apply(LawOp::Add, compiler.apply(LawOp::Add, k1[k], twice), k4[k]));
+    }
+    Piece piece{.outputs = moved(input(kHalf + 2), sums)};
+    if (jumps && compiler.is_too_long()) continue;
+    return finished(std::move(piece), compiler);
+  }
+  return {};
+}
+
+std::vector<bool> LawProgram::moving() const {
+  std::vector<bool> moves(nodes_.size());
+  for (std::size_t k = 0; k < nodes_.size(); ++k) {
+    moves[k] = nodes_[k].op == LawOp::State;
+    for (std::size_t a = 0; a < nodes_[k].arguments(); ++a)
+      moves[k] = moves[k] || moves[nodes_[k].of[a]];
+  }
+  return moves;
+}
+
+LawProgram::Piece LawProgram::finished(Piece piece, const Compiler& compiler) {
+  piece.first = operations_.size();
+  operations_.insert(operations_.end(), compiler.operations.begin(), compiler.operations.end());
+  piece.last = operations_.size();
+  return piece;
 }
 
 double* LawProgram::registers(const double* p) const {
@@ -167,106 +317,157 @@ void LawProgram::run(const Piece& piece, double* r, double x, double v, const do
   inputs[0] = x;
   inputs[1] = v;
   inputs[2] = travel;
-  for (std::size_t k = 0; k < states_; ++k) inputs[3 + k] = z[k];
+  for (std::size_t k = 0; k < states_; ++k) inputs[kStates + k] = z[k];
   work(operations_.data() + piece.first, operations_.data() + piece.last, r);
 }
 
+void LawProgram::step(const Piece& piece, double* r, const double* x, const double* v, double h,
+                      double* z) const {
+  double* const inputs = r + first_input_;
+  for (std::size_t k = 0; k < states_; ++k) inputs[kStates + k] = z[k];
+  for (std::size_t k = 0; k < 3; ++k) {
+    inputs[kStepX + k] = x[k];
+    inputs[kStepV + k] = v[k];
+  }
+  inputs[kHalf] = h / 2;
+  inputs[kHalf + 1] = h;
+  inputs[kHalf + 2] = h / 6;
+  work(operations_.data() + piece.first, operations_.data() + piece.last, r);
+  for (std::size_t k = 0; k < states_; ++k) z[k] = r[piece.outputs[k]];
+}
+
 void LawProgram::work(const Operation* at, const Operation* end, double* r) {
+  double it = 0;  // the outcome of the operation before
   for (; at != end; ++at) {
-    const double a = r[at->a];
+    const auto a = [&] { return r[at->a]; };
+    const auto b = [&] { return r[at->b]; };
     switch (at->op) {
+      case LawOp::Negate:
+        it = -a();
+        break;
+      case LawOp::NegateIt:
+        it = -it;
+        break;
+      case LawOp::Add:
+        it = a() + b();
+        break;
+      case LawOp::AddToIt:
+        it = it + b();
+        break;
+      case LawOp::Subtract:
+        it = a() - b();
+        break;
+      case LawOp::SubtractFromIt:
+        it = it - b();
+        break;
+      case LawOp::SubtractIt:
+        it = a() - it;
+        break;
+      case LawOp::Multiply:
+        it = a() * b();
+        break;
+      case LawOp::MultiplyIt:
+        it = it * b();
+        break;
+      case LawOp::MultiplyAdd:
+        it = a() * b() + r[at->c];
+        break;
+      case LawOp::MultiplyItAdd:
+        it = it * b() + r[at->c];
+        break;
+      case LawOp::Divide:
+        it = a() / b();
+        break;
+      case LawOp::DivideIt:
+        it = it / b();
+        break;
+      case LawOp::DivideByIt:
+        it = a() / it;
+        break;
+      case LawOp::Power:
+        it = law_power(a(), b());
+        break;
+      case LawOp::PowerOfIt:
+        it = law_power(it, b());
+        break;
+      case LawOp::Abs:
+        it = fabs(a());
+        break;
+      case LawOp::AbsOfIt:
+        it = fabs(it);
+        break;
+      case LawOp::Sign:
+        it = law_sign(a());
+        break;
+      case LawOp::Sqrt:
+        it = sqrt(a());
+        break;
+      case LawOp::Exp:
+        it = exp(a());
+        break;
+      case LawOp::Log:
+        it = log(a());
+        break;
+      case LawOp::Sin:
+        it = sin(a());
+        break;
+      case LawOp::Cos:
+        it = cos(a());
+        break;
+      case LawOp::Tan:
+        it = tan(a());
+        break;
+      case LawOp::Tanh:
+        it = tanh(a());
+        break;
+      case LawOp::Atan:
+        it = atan(a());
+        break;
+      case LawOp::Atanh:
+        it = atanh(a());
+        break;
+      case LawOp::Min:
+        it = fmin(a(), b());
+        break;
+      case LawOp::Max:
+        it = fmax(a(), b());
+        break;
+      case LawOp::Less:
+        it = a() < b() ? 1 : 0;
+        break;
+      case LawOp::LessOrEqual:
+        it = a() <= b() ? 1 : 0;
+        break;
+      case LawOp::Equal:
+        it = a() == b() ? 1 : 0;
+        break;
+      case LawOp::And:
+        it = a() != 0 && b() != 0 ? 1 : 0;
+        break;
+      case LawOp::Or:
+        it = a() != 0 || b() != 0 ? 1 : 0;
+        break;
+      case LawOp::Where:
+        it = a() != 0 ? b() : r[at->c];
+        break;
+      case LawOp::Move:
+        it = a();
+        break;
+      case LawOp::Jump:
+        at += at->b - 1;
+        continue;
+      case LawOp::JumpUnless:
+        if (a() == 0) at += at->b - 1;
+        continue;
       case LawOp::Number:
       case LawOp::Parameter:
       case LawOp::State:
       case LawOp::Displacement:
       case LawOp::Velocity:
       case LawOp::Travel:
-        break;  // they stand in registers
-      case LawOp::Negate:
-        r[at->to] = -a;
-        break;
-      case LawOp::Add:
-        r[at->to] = a + r[at->b];
-        break;
-      case LawOp::Subtract:
-        r[at->to] = a - r[at->b];
-        break;
-      case LawOp::Multiply:
-        r[at->to] = a * r[at->b];
-        break;
-      case LawOp::Divide:
-        r[at->to] = a / r[at->b];
-        break;
-      case LawOp::Power:
-        r[at->to] = law_power(a, r[at->b]);
-        break;
-      case LawOp::Abs:
-        r[at->to] = fabs(a);
-        break;
-      case LawOp::Sign:
-        r[at->to] = law_sign(a);
-        break;
-      case LawOp::Sqrt:
-        r[at->to] = sqrt(a);
-        break;
-      case LawOp::Exp:
-        r[at->to] = exp(a);
-        break;
-      case LawOp::Log:
-        r[at->to] = log(a);
-        break;
-      case LawOp::Sin:
-        r[at->to] = sin(a);
-        break;
-      case LawOp::Cos:
-        r[at->to] = cos(a);
-        break;
-      case LawOp::Tan:
-        r[at->to] = tan(a);
-        break;
-      case LawOp::Tanh:
-        r[at->to] = tanh(a);
-        break;
-      case LawOp::Atan:
-        r[at->to] = atan(a);
-        break;
-      case LawOp::Atanh:
-        r[at->to] = atanh(a);
-        break;
-      case LawOp::Min:
-        r[at->to] = fmin(a, r[at->b]);
-        break;
-      case LawOp::Max:
-        r[at->to] = fmax(a, r[at->b]);
-        break;
-      case LawOp::Less:
-        r[at->to] = a < r[at->b] ? 1 : 0;
-        break;
-      case LawOp::LessOrEqual:
-        r[at->to] = a <= r[at->b] ? 1 : 0;
-        break;
-      case LawOp::Equal:
-        r[at->to] = a == r[at->b] ? 1 : 0;
-        break;
-      case LawOp::And:
-        r[at->to] = a != 0 && r[at->b] != 0 ? 1 : 0;
-        break;
-      case LawOp::Or:
-        r[at->to] = a != 0 || r[at->b] != 0 ? 1 : 0;
-        break;
-      case LawOp::Where:
-        r[at->to] = a != 0 ? r[at->b] : r[at->c];
-        break;
-      case LawOp::Move:
-        r[at->to] = a;
-        break;
-      case LawOp::Jump:
-        at += at->b - 1;
-        break;
-      case LawOp::JumpUnless:
-        if (a == 0) at += at->b - 1;
-        break;
+        continue;  // they stand in registers
     }
+    r[at->to] = it;
   }
 }
 

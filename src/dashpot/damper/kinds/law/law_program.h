@@ -27,12 +27,18 @@ class LawProgram {
   /// Adds the operations for these nodes; their values come in this order. All pieces are added
   /// before the first run.
   Piece add(std::span<const std::uint16_t> outputs);
+  /// Adds a whole step of classical Runge-Kutta (c_text/law_runge_kutta.h, operation by operation)
+  /// for states with these rates, while the parameters stay.
+  Piece add_step(std::span<const std::uint16_t> rates);
 
   /// The registers of this thread with these parameters in them.
   double* registers(const double* p) const;
   /// The values of a piece at x, v and the states; `travel` is the displacement for a closed form.
   void run(const Piece& piece, double* registers, double x, double v, const double* z,
            double travel = 0) const;
+  /// Brings the states over a step of length h, with x and v at its start, middle and end.
+  void step(const Piece& piece, double* registers, const double* x, const double* v, double h,
+            double* z) const;
 
  private:
   struct Operation {
@@ -40,6 +46,8 @@ class LawProgram {
     std::uint16_t to, a, b, c;
   };
   class Compiler;
+  std::vector<bool> moving() const;  ///< which nodes follow from a state
+  Piece finished(Piece piece, const Compiler& compiler);
   static void work(const Operation* from, const Operation* end, double* r);
 
   const LawNodes& nodes_;

@@ -149,6 +149,11 @@ struct LawTextRun {
 
   static void runge_kutta(const void* with, const double* const* p, const double* x,
                           const double* v, double h, std::size_t count, double* z) {
+    const LawText& t = text(with);
+    if (p[0] == p[1] && p[1] == p[2]) {
+      t.program_->step(t.step_piece_, t.program_->registers(p[0]), x, v, h, z);
+      return;
+    }
     const LawParameters stages[] = {{with, p[0]}, {with, p[1]}, {with, p[2]}};
     const LawParameters* const at[] = {&stages[0], &stages[1], &stages[2]};
     law_runge_kutta(at, x, v, h, static_cast<int>(count), z);
@@ -633,6 +638,7 @@ class LawTextReader {
     text_.force_piece_ = program.add(force);
     if (law_.states.empty()) return;
     text_.rates_piece_ = program.add(text_.rates_);
+    text_.step_piece_ = program.add_step(text_.rates_);
     text_.rests_piece_ = program.add(text_.rests_);
     const std::array rate{text_.rate_};
     text_.rate_piece_ = program.add(rate);

@@ -57,7 +57,7 @@ class LawText : public std::enable_shared_from_this<LawText> {
   std::optional<Travel> travel_;
 
   std::unique_ptr<LawProgram> program_;
-  LawProgram::Piece rates_piece_, rests_piece_, force_piece_, flow_piece_, rate_piece_,
+  LawProgram::Piece rates_piece_, rests_piece_, force_piece_, flow_piece_, rate_piece_, step_piece_,
       travel_piece_, holds_piece_;
 };
 
