@@ -147,6 +147,8 @@ void data_seeds(const fs::path& folder) {
 }  // namespace
 
 void write_seeds(const fs::path& folder) {
+  write_file(folder / "law_yaml" / "two_states", kExampleLawText);
+  write_file(folder / "law_yaml" / "travels", kTravellingLawText);
   csv_seeds(folder / "csv");
   mat_seed(folder / "mat/4", MAT_FT_MAT4, MAT_COMPRESSION_NONE);
   mat_seed(folder / "mat/5", MAT_FT_MAT5, MAT_COMPRESSION_NONE);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "dashpot/base/escape.h"
 #include "dashpot/base/file.h"
 #include "dashpot/base/text.h"
 #include "dashpot/base/units.h"
@@ -249,8 +250,9 @@ class LawTextReader {
     if (value->as_string().size() > kLongestRemark)
       throw Error(value->where(),
                   key + " is longer than " + std::to_string(kLongestRemark) + " characters");
-    define(key, *value);
-    return keep(value->as_string());
+    const std::string words = valid_utf8(value->as_string());
+    define(key, words);
+    return keep(words);
   }
 
   /// A new name of the equations.
@@ -330,7 +332,7 @@ class LawTextReader {
     const double start = reader.number("start", 1);
     const Value* form = reader.optional("form");
     const Value* role = reader.optional("fit");
-    const std::string meaning = reader.string("meaning", "parameter " + name);
+    const std::string meaning = valid_utf8(reader.string("meaning", "parameter " + name));
     reader.finish();
     const std::string si = si_unit(unit);
 
@@ -362,7 +364,9 @@ class LawTextReader {
   static Value defined_parameter(const Value& parameter) {
     Value own = Value::object();
     for (const char* key : {"unit", "value", "bounds", "start", "form", "fit", "meaning"})
-      if (const Value* part = parameter.find(key); part && !part->is_null()) own.add(key, *part);
+      if (const Value* part = parameter.find(key); part && !part->is_null())
+        own.add(key,
+                part->kind() == Value::Kind::String ? Value(valid_utf8(part->as_string())) : *part);
     return own;
   }
 
