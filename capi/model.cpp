@@ -16,7 +16,7 @@ dashpot_model::dashpot_model(ModelFile model_file)
       state_size(damper->state_size()),
       name(damper->name()),
       kind(name_of(damper->kind())),
-      title(model_info(name).title) {}
+      title(info_of(*damper).title) {}
 
 namespace {
 

@@ -4,6 +4,7 @@
 
 #include "dashpot.h"
 #include "dashpot/base/text.h"
+#include "dashpot/damper/registry.h"
 #include "dashpot/error.h"
 
 namespace dashpot::capi {
@@ -46,7 +47,10 @@ FitOptions read_fit_options(const char* text) {
 
   // The words are those of the command line, so that both mean the same.
   FitWords& words = out.words;
-  if (reader.optional("models")) words.models = texts(reader, "models");
+  if (reader.optional("models")) {
+    words.models = texts(reader, "models");
+    for (std::string& model : words.models) model = model_named(model);
+  }
   words.budget = reader.number("budget", words.budget);
   words.force_offset = reader.string("force_offset", words.force_offset);
   words.forms = texts(reader, "form");

@@ -34,12 +34,16 @@ Integer integer_in(const std::string& text, const Option& option) {
   return static_cast<Integer>(value);
 }
 
-void check_choice(const std::string& word, const Option& option) {
+/// What the word means, which is one of the option's choices where it has such.
+std::string chosen_word(const std::string& word, const Option& option) {
   const auto is_among = [&](const std::vector<std::string>& words) {
     return std::ranges::find(words, word) != words.end();
   };
-  if (option.takes == Takes::File && is_path(word)) return;
-  if (option.choices.empty() || is_among(option.choices) || is_among(option.more_choices)) return;
+  if (option.meaning)
+    if (std::string meant = option.meaning(word); meant != word) return meant;
+  if (option.takes == Takes::File && is_path(word)) return word;
+  if (option.choices.empty() || is_among(option.choices) || is_among(option.more_choices))
+    return word;
   throw UsageError(option.is_positional() ? "" : option.long_name(),
                    "unknown " + option.noun + " '" + word + "'",
                    suggest(word, option.choices, option.more_choices));
@@ -56,20 +60,15 @@ struct StoreWords {
     *target = integer_in<std::uint64_t>(words.back(), option);
   }
   void operator()(double* target) const { *target = number_in(words.back(), option, false); }
-  void operator()(std::string* target) const {
-    check_choice(words.back(), option);
-    *target = words.back();
-  }
+  void operator()(std::string* target) const { *target = chosen_word(words.back(), option); }
   void operator()(std::vector<std::string>* target) const {
     target->clear();
     for (const std::string& word : words) {
       // Paths may hold commas; lists of names are separated by them.
       const std::vector<std::string> parts =
           option.is_positional() ? std::vector<std::string>{word} : split(word, ',');
-      for (const std::string& part : parts) {
-        check_choice(std::string(trim(part)), option);
-        target->emplace_back(trim(part));
-      }
+      for (const std::string& part : parts)
+        target->push_back(chosen_word(std::string(trim(part)), option));
     }
   }
 };

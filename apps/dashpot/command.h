@@ -40,6 +40,9 @@ struct Option {
   std::vector<std::string> more_choices = {};  ///< allowed too, and not listed in the help
   std::string noun = "value";                  ///< what a message calls a word: "unknown model 'x'"
   Takes takes = Takes::Word;
+  /// What a word means before it is looked for among the choices: the name of the law that stands
+  /// in a file, for options that take models. Null: itself.
+  std::string (*meaning)(const std::string& word) = nullptr;
   std::optional<double> minimum = {};  ///< least number allowed
   std::string default_text = {};       ///< in words, where the variable's value does not say it
   bool required = false;

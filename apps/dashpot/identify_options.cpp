@@ -29,7 +29,8 @@ std::vector<Option> fit_options(FitSettings& settings) {
       // The models, and the force zero that they are fitted beside.
       {.names = "--models",
        .target = &settings.models,
-       .help = "the models to fit, separated by commas; 'usual' stands for " +
+       .help = "the models to fit, separated by commas, a law of your own by its file "
+               "(docs/laws-from-a-file.md); 'usual' stands for " +
                join(usual_models(), ", ") +
                " (passive_network_one_sensor where the records have no displacement), as far as "
                "the time allows; 'all' for every model of one damper that 'dashpot models' lists, "
@@ -39,6 +40,8 @@ std::vector<Option> fit_options(FitSettings& settings) {
        .choices = names_and_groups(),
        .more_choices = more_model_names(),
        .noun = "model",
+       .takes = Takes::File,
+       .meaning = model_named,
        .default_text = join(settings.models, ",")},
       {.names = "--force-offset",
        .target = &settings.force_offset,

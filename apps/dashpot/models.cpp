@@ -19,7 +19,10 @@ constexpr std::string_view kModelsExample =
     "dashpot models\n"
     "\n"
     "# The equation, parameters and source of one of them:\n"
-    "dashpot models modified_bouc_wen";
+    "dashpot models modified_bouc_wen\n"
+    "\n"
+    "# Is a law of your own read as it is meant?\n"
+    "dashpot models my_law.yaml";
 
 std::string overview_table(int width) {
   Table table({"name", "kind", ">to fit", ">states", "title"});
@@ -72,10 +75,12 @@ Command models_command() {
 
           .options = {{.names = "NAME",
                        .target = &settings->name,
-                       .help = "the model to show",
+                       .help = "the model to show, or the file of a law (.yaml), which is checked",
                        .choices = model_names(),
                        .more_choices = more_model_names(),
-                       .noun = "model"},
+                       .noun = "model",
+                       .takes = Takes::File,
+                       .meaning = model_named},
                       {.names = "--markdown",
                        .target = &settings->markdown,
                        .help = "print a page for the documentation"}},

@@ -6,6 +6,7 @@
 #include "damper/kinds/family/example_family.h"
 #include "damper/kinds/hybrid/hybrid_model_example.h"
 #include "damper/kinds/hysteresis_network/hysteresis_network_example.h"
+#include "damper/kinds/law/example_law_text.h"
 #include "damper/kinds/narx/narx_example.h"
 #include "damper/kinds/passive_network/passive_network_example.h"
 #include "damper/kinds/state_space/state_space_example.h"
@@ -61,7 +62,7 @@ inline dashpot::FuzzyModel example_fuzzy() {
           sugeno};
 }
 
-/// Every law and every other kind of model.
+/// Every law, laws from files, and every other kind of model.
 inline std::vector<ExampleModel> example_models() {
   using namespace dashpot;
   std::vector<ExampleModel> models;
@@ -71,6 +72,9 @@ inline std::vector<ExampleModel> example_models() {
   for (const Law* law : laws()) add(std::string(law->name), example_law(*law));
   for (const char* law : {"bingham", "bouc_wen"})
     add(std::string(law) + "_apart", example_law(with_side(find_law(law))));
+  add("law_of_file", example_law(example_law_text()->law()));
+  add("law_of_file_apart", example_law(with_side(example_law_text()->law())));
+  add("law_of_file_travels", example_law(travelling_law_text()->law()));
   const std::vector<std::string> inputs{"velocity", "current"};
   add("mlp", NetworkModel("mlp_one_sensor", inputs, {example_mlp(1)}));
   add("mlp_ensemble", NetworkModel("mlp_one_sensor", inputs, {example_mlp(1), example_mlp(2)}, 3));

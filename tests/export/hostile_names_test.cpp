@@ -163,6 +163,35 @@ void check_same_code(const std::vector<ExportedFile>& made,
   }
 }
 
+/// A law from a file that says this wherever it may say anything.
+LawModel law_saying(const std::string& words) {
+  constexpr std::size_t kMost = 2000;
+  const std::string said = words.substr(0, kMost);
+  Value definition = Value::object({{"title", said}, {"source", said}, {"remarks", said}});
+  for (const auto& [key, value] : travelling_law_text()->definition().members()) {
+    if (key == "source") continue;
+    if (key != "parameters") {
+      definition.add(key, value);
+      continue;
+    }
+    Value parameters = Value::object();
+    for (const auto& [name, parameter] : value.members()) {
+      Value row = parameter;
+      row.add("meaning", said);
+      parameters.add(name, std::move(row));
+    }
+    definition.add(key, std::move(parameters));
+  }
+  const auto text = LawText::make(definition);
+  LawModel model = example_law(text->law());
+
+  // What a model file holds of it reads back.
+  ModelFile file;
+  file.model = model.with_offset(0);
+  CHECK(format_model(parse_model(format_model(file), "m.json")) == format_model(file));
+  return model;
+}
+
 /// A model of each kind; those that carry a name of their own under this one, or, where it is
 /// empty, under one that the registry knows.
 std::vector<ExampleModel> models_named(const std::string& name) {
@@ -185,6 +214,7 @@ std::vector<ExampleModel> models_named(const std::string& name) {
   add("fuzzy", FuzzyModel(or_known("takagi_sugeno"), fuzzy.inputs(), fuzzy.sugeno()));
   add("hybrid", example_hybrid());
   add("family", example_family());
+  add("law_of_file", law_saying(name.empty() ? "plain" : name));
   return models;
 }
 

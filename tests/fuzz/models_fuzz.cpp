@@ -1,9 +1,12 @@
 #include <memory>
 
 #include "dashpot/damper/inverse/inverse_file.h"
+#include "dashpot/damper/kinds/law/law_model.h"
+#include "dashpot/damper/kinds/law/law_text.h"
 #include "dashpot/damper/parameter_set.h"
 #include "dashpot/damper/physics/damper_physics.h"
 #include "dashpot/design/design_problem.h"
+#include "dashpot/export/c/law_equations.h"
 #include "dashpot/model_file.h"
 #include "fuzz.h"
 
@@ -53,6 +56,18 @@ void parameter_set_json(const std::string& input) {
   require_runs(set.model);
 }
 
+/// What is understood has numbers or none, and is written as it is read.
+void law_yaml(const std::string& input) {
+  const auto text = dashpot::parse_law_text(input, "fuzz.yaml");
+  const std::string definition = dashpot::format_json(text->definition());
+  const auto again = dashpot::parse_law_text(definition, "again.json");
+  require_true(dashpot::format_json(again->definition()) == definition);
+  std::vector<double> values;
+  for (const dashpot::ParamInfo& row : text->law().params) values.push_back(row.value);
+  require_runs(dashpot::LawModel::constant(text->law(), values));
+  require_true(!dashpot::c_law_equations(text->law()).empty());
+}
+
 /// Its text reads back as the same, and the chain from coil to force has an answer.
 void damper_yaml(const std::string& input) {
   const dashpot::DamperDescription description = dashpot::parse_description(input, "fuzz.yaml");
@@ -75,6 +90,7 @@ void design_yaml(const std::string& input) {
 const FuzzTarget targets[] = {{"model_json", model_json},
                               {"inverse_json", inverse_json},
                               {"design_yaml", design_yaml},
+                              {"law_yaml", law_yaml},
                               {"parameter_set_json", parameter_set_json},
                               {"damper_yaml", damper_yaml}};
 

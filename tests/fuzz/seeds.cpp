@@ -91,7 +91,7 @@ void model_seeds(const fs::path& folder) {
   const LawModel law = load_parameters("spencer1997");
   write_file(folder / "law", model_seed(law.with_offset(0), law.drive_unit()));
   for (const ExampleModel& example : example_models())
-    if (example.model->kind() != ModelKind::Law)
+    if (example.model->kind() != ModelKind::Law || example.name.starts_with("law_of_file"))
       write_file(folder / example.name,
                  model_seed(example.model->with_offset(0), DriveUnit::Ampere));
 }
@@ -147,6 +147,8 @@ void data_seeds(const fs::path& folder) {
 }  // namespace
 
 void write_seeds(const fs::path& folder) {
+  write_file(folder / "law_yaml" / "two_states", kExampleLawText);
+  write_file(folder / "law_yaml" / "travels", kTravellingLawText);
   csv_seeds(folder / "csv");
   mat_seed(folder / "mat/4", MAT_FT_MAT4, MAT_COMPRESSION_NONE);
   mat_seed(folder / "mat/5", MAT_FT_MAT5, MAT_COMPRESSION_NONE);

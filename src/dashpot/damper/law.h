@@ -1,8 +1,10 @@
 #pragma once
+#include <cstddef>
 #include <cstring>
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 #include "dashpot/damper/dependence.h"
@@ -45,6 +47,33 @@ struct ParamInfo {
   std::string_view meaning;
 };
 
+/// A function of a law: plain code, or code that works on something, as on the equations of a law
+/// from a file. Allocates nothing, so that it may be called while a model steps.
+template <class Signature>
+class LawFunction;
+template <class Result, class... Arguments>
+class LawFunction<Result(Arguments...)> {
+ public:
+  LawFunction(std::nullptr_t = nullptr) {}  // NOLINT(google-explicit-constructor)
+  /// Written like a pointer to a function, so converting.
+  template <class Code>
+    requires std::is_empty_v<Code>
+  LawFunction(Code)  // NOLINT(google-explicit-constructor)
+      : call_([](const void*, Arguments... arguments) -> Result { return Code{}(arguments...); }) {}
+  /// Code that gets `with` before its arguments; `with` outlives the function.
+  LawFunction(const void* with, Result (*code)(const void*, Arguments...))
+      : with_(with), call_(code) {}
+
+  Result operator()(Arguments... arguments) const { return call_(with_, arguments...); }
+  explicit operator bool() const { return call_ != nullptr; }
+
+ private:
+  const void* with_ = nullptr;
+  Result (*call_)(const void*, Arguments...) = nullptr;
+};
+
+class LawText;
+
 /// A force law as the rest of Dashpot sees it: a table and functions of
 /// (parameters at the present current, displacement m, velocity m/s, internal state).
 struct Law {
@@ -58,24 +87,25 @@ struct Law {
   bool needs_displacement = true;  ///< false: neither force nor states depend on x
   /// Internal state of a damper that starts at x, v without a memory; that of a long rest when v =
   /// 0.
-  void (*rest)(const double* p, double x, double v, double* z) = nullptr;
-  void (*derivative)(const double* p, double x, double v, const double* z, double* dz) = nullptr;
-  double (*force)(const double* p, double x, double v, const double* z) = nullptr;
+  LawFunction<void(const double* p, double x, double v, double* z)> rest;
+  LawFunction<void(const double* p, double x, double v, const double* z, double* dz)> derivative;
+  LawFunction<double(const double* p, double x, double v, const double* z)> force;
   /// The forces of many samples with the same parameters; null with states.
-  void (*forces)(const double* p, std::span<const DamperInput> inputs, double* force) = nullptr;
+  LawFunction<void(const double* p, std::span<const DamperInput> inputs, double* force)> forces;
   /// Force and derivative at once; null without states.
-  double (*flow)(const double* p, double x, double v, const double* z, double* dz) = nullptr;
+  LawFunction<double(const double* p, double x, double v, const double* z, double* dz)> flow;
   /// One classical Runge-Kutta step of length h of `count` states, with p, x and v at its start,
   /// middle and end.
-  void (*runge_kutta)(const double* const* p, const double* x, const double* v, double h,
-                      std::size_t count, double* z) = nullptr;
+  LawFunction<void(const double* const* p, const double* x, const double* v, double h,
+                   std::size_t count, double* z)>
+      runge_kutta;
   /// Bound of the fastest internal rate, 1/s: an explicit integrator keeps rate * step below its
   /// limit.
-  double (*rate)(const double* p, double v) = nullptr;
+  LawFunction<double(const double* p, double v)> rate;
   /// Optional: one step of the law's own integrator, stable at any length h, with x[0], v[0] at its
   /// start and x[1], v[1] at its end. Returns 0 where it does not apply. Taken where the explicit
   /// one would need many steps.
-  int (*step)(const double* p, const double* x, const double* v, double h, double* z) = nullptr;
+  LawFunction<int(const double* p, const double* x, const double* v, double h, double* z)> step;
   /// One `step` of any length is as good as many while the parameters stay: taken wherever they do.
   bool exact_step = false;
   /// Which of its parameters take energy out of every motion at constant drive, and why, in plain
@@ -83,11 +113,14 @@ struct Law {
   std::string_view dissipates;
   /// For a law with a filter: the fastest rate, 1/s, with which it dissipates beside its other
   /// parameters; infinity where any does, 0 where none. Null: the rate is not what decides.
-  double (*fastest_rate)(const double* p) = nullptr;
+  LawFunction<double(const double* p)> fastest_rate;
   std::size_t rate_parameter = 0;  ///< the row of that rate
   /// First row of the valve that makes rebound and compression differ (law_side.h), which the
   /// functions above know nothing of; 0: the law is as its table has it.
   std::size_t side_row = 0;
+  /// The equations of a law from a file (law_text.h); null for a law of Dashpot's own.
+  const LawText* text = nullptr;
+  const Law* sided = nullptr;  ///< with_side() of a law from a file; null for others
 
   std::size_t index_of(std::string_view param) const;  ///< throws Error naming the known ones
 };
@@ -200,7 +233,10 @@ Law state_law(const LawTable<P>& table) {
     const P own = detail::from_array<P>(p);
     Rest(&own, x, v, z);
   };
-  law.runge_kutta = detail::ExplicitStep<P, Derivative>::step;
+  law.runge_kutta = [](const double* const* p, const double* x, const double* v, double h,
+                       std::size_t count, double* z) {
+    detail::ExplicitStep<P, Derivative>::step(p, x, v, h, count, z);
+  };
   law.rate = [](const double* p, double v) {
     const P own = detail::from_array<P>(p);
     return Rate(&own, v);

@@ -20,23 +20,25 @@ constexpr std::array kSideRows{
               "speed over which f_side sets in"},
 };
 
-Law extended(const Law& law) {
+}  // namespace
+
+Law extended_by_side(const Law& law) {
   Law sided = law;
   sided.side_row = law.params.size();
   sided.params.insert(sided.params.end(), kSideRows.begin(), kSideRows.end());
   return sided;
 }
 
-}  // namespace
-
 const Law& with_side(const Law& law) {
   static std::mutex guard;
   static std::map<std::string_view, Law> made;  // its nodes stay where they are
 
   if (law.side_row > 0) return law;
+  if (law.sided) return *law.sided;
   const std::lock_guard lock(guard);
   const auto found = made.find(law.name);
-  return found != made.end() ? found->second : made.emplace(law.name, extended(law)).first->second;
+  return found != made.end() ? found->second
+                             : made.emplace(law.name, extended_by_side(law)).first->second;
 }
 
 std::span<const ParamInfo> side_rows() { return kSideRows; }

@@ -12,6 +12,9 @@ inline constexpr std::string_view kSideFriction = "f_side", kSideViscous = "c_si
 /// as long as the program; safe to call from several threads.
 const Law& with_side(const Law& law);
 
+/// A copy of the law with those rows, for who keeps it himself.
+Law extended_by_side(const Law& law);
+
 /// Those rows, for who chooses parameters before a law has them.
 std::span<const ParamInfo> side_rows();
 

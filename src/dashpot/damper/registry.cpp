@@ -12,6 +12,7 @@
 #include "dashpot/damper/kinds/hysteresis_network/hysteresis_network_model.h"
 #include "dashpot/damper/kinds/hysteresis_network/presets.h"
 #include "dashpot/damper/kinds/law/law_model.h"
+#include "dashpot/damper/kinds/law/law_text.h"
 #include "dashpot/damper/kinds/narx/narx_model.h"
 #include "dashpot/damper/kinds/narx/presets.h"
 #include "dashpot/damper/kinds/network/network_model.h"
@@ -71,7 +72,7 @@ const std::vector<ModelInfo>& models() {
 
 const ModelInfo* info_named(std::string_view name) {
   const auto found = std::ranges::find(models(), name, &ModelInfo::name);
-  return found == models().end() ? nullptr : &*found;
+  return found == models().end() ? file_law_info(name) : &*found;
 }
 
 std::vector<std::string> names(bool usual) {
@@ -90,7 +91,28 @@ const ModelInfo& model_info(std::string_view name, const std::string& where) {
 
 std::vector<std::string> model_names() { return names(true); }
 
-std::vector<std::string> more_model_names() { return names(false); }
+std::vector<std::string> more_model_names() {
+  std::vector<std::string> more = names(false);
+  for (const std::string& law : laws_of_files()) more.push_back(law);
+  return more;
+}
+
+std::string model_named(const std::string& word) {
+  if (!is_law_file(word)) {
+    if (word.find_first_of("./") == std::string::npos) return word;
+    throw Error(word, "is neither a model nor the file of a law",
+                "such a file's name ends in .yaml, .yml or .json");
+  }
+  const std::string name(know_law(word).name);
+  if (std::ranges::find(models(), name, &ModelInfo::name) != models().end())
+    throw Error(word, "'" + name + "' is a model of Dashpot's own", "give the law another name");
+  return name;
+}
+
+ModelInfo info_of(const DamperModel& model) {
+  const auto* law = model_as<LawModel>(model);
+  return law ? info_of(law->law()) : model_info(model.name());
+}
 
 const Law* law_inside(std::string_view name) {
   const ModelInfo* info = info_named(name);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "dashpot/base/parallel.h"
+#include "dashpot/damper/kinds/law/law_model.h"
 #include "dashpot/damper/registry.h"
 #include "dashpot/error.h"
 #include "dashpot/identify/fit/fit.h"
@@ -38,9 +39,10 @@ void settle_offsets(FitReport& report, const std::vector<Record>& training, Driv
     report.offsets.emplace_back(r.record, r.offset - mean);
 
   // A law has a parameter for the bias: report the mean there, with its 95 % interval.
-  if (!is_law(report.model->name())) return;
+  const auto* law = model_as<LawModel>(*report.model);
+  if (!law) return;
   const double spread = n > 1 ? 1.96 * std::sqrt(square / (n - 1) / n) : 0;
-  for (const ParamInfo& param : find_law(report.model->name()).params) {
+  for (const ParamInfo& param : law->law().params) {
     if (param.fit != Fit::Bias) continue;
     for (FittedParameter& fitted : report.parameters)
       if (fitted.name == param.name)

@@ -149,6 +149,7 @@ std::vector<CSource::Variable> states_of(const DamperModel& model) {
 }  // namespace
 
 std::string title_of(const DamperModel& model) {
+  if (const auto* law = model_as<LawModel>(model)) return std::string(law->law().title);
   for (const std::vector<std::string>& names : {model_names(), more_model_names()})
     if (std::ranges::find(names, model.name()) != names.end())
       return std::string(model_info(model.name()).title);

@@ -2,10 +2,12 @@
 
 #include "dashpot/base/escape.h"
 #include "dashpot/damper/kinds/law/law_model.h"
+#include "dashpot/damper/kinds/law/law_text.h"
 #include "dashpot/damper/law_side.h"
 #include "dashpot/error.h"
 #include "dashpot/export/c/c_model.h"
 #include "dashpot/export/c/c_text.h"
+#include "dashpot/export/c/law_equations.h"
 
 namespace dashpot {
 namespace {
@@ -40,7 +42,7 @@ std::string constants(const LawModel& model, bool settable) {
   if (settable)
     for (const CParameter& parameter : c_parameters(model)) {
       if (parameter.name == kLagRate) continue;
-      fields += "  double " + parameter.name + "; /* " + parameter.unit + " */\n";
+      fields += "  double " + parameter.name + "; /* " + c_comment(parameter.unit).text() + " */\n";
       values += c_number(parameter.value) + ", ";
     }
 
@@ -67,7 +69,7 @@ std::string parameter_function(const LawModel& model, bool settable) {
   for (std::size_t k = 0; k < own; ++k) {
     const ParamInfo& info = model.law().params[k];
     lines += "  p->" + std::string(info.name) + " = " + expression(model, k, settable) + "; /* " +
-             std::string(info.unit) + ", " + std::string(info.meaning) + " */\n";
+             c_comment(info.unit).text() + ", " + c_comment(info.meaning).text() + " */\n";
   }
   return "/* The parameters at a current in the coil. */\n"
          "static inline void law_parameters(const LawModel* m, double current, LawParameters* p) "
@@ -126,17 +128,26 @@ static inline void law_explicit_step(const LawModel* m, const LawParameters* con
 )";
 
 std::string own_step(const Law& law) {
-  const std::string name(law.name);
+  const std::string name = c_law_name(law);
   if (!law.step) return "  (void)p;\n  (void)x;\n  (void)v;\n  (void)h;\n  (void)z;\n  return 0;\n";
   if (!law.exact_step) return "  return " + name + "_step(p, x, v, h, z);\n";
-  const bool filters = c_text(name + ".h").find(' ' + name + "_filter(") != std::string_view::npos;
-  return "  (void)x;\n  z[0] = law_travel_step(p, v, h, z[0]);\n" +
-         std::string(filters ? "  " + name + "_filter(p, v, h, z);\n" : "") + "  return 1;\n";
+  const std::string travels = "  (void)x;\n  z[0] = law_travel_step(p, v, h, z[0]);\n";
+  if (!law.text) {
+    const bool filters =
+        c_text(name + ".h").find(' ' + name + "_filter(") != std::string_view::npos;
+    return travels + (filters ? "  " + name + "_filter(p, v, h, z);\n" : "") + "  return 1;\n";
+  }
+
+  // The closed form of a law from a file may ask for certain parameters.
+  if (!law.text->travel()->holds) return travels + "  return 1;\n";
+  return "  int done = 0;\n  (void)x;\n  if (" + name +
+         "_travel_holds(p) != 0) {\n    z[0] = law_travel_step(p, v, h, z[0]);\n    done = 1;\n"
+         "  }\n  return done;\n";
 }
 
 /// From the law's derivative to law_advance().
 std::string integration(const Law& law) {
-  const std::string name(law.name), states = std::to_string(law.states.size());
+  const std::string name = c_law_name(law), states = std::to_string(law.states.size());
   std::string code =
       "#define LAW_MOST_STATES " + states +
       "\n\nstatic inline void law_derivative(const LawParameters* p, double x, double v, const "
@@ -264,11 +275,13 @@ std::vector<CParameter> c_parameters(const LawModel& model) {
 
 CModel c_law(const LawModel& model, const std::string& stem, bool settable) {
   const Law& law = model.law();
-  const std::string name(law.name);
-  if (!has_c_text(name + ".h")) throw Error(name, "its law has no C text in this build of Dashpot");
-  std::string code = "#include \"" + name + ".h\"\n" + "typedef " + pascal_case(name) +
-                     " LawParameters;\n\n" + constants(model, settable) +
-                     parameter_function(model, settable) + side_function(model, settable);
+  const std::string name = c_law_name(law);
+  if (!law.text && !has_c_text(name + ".h"))
+    throw Error(name, "its law has no C text in this build of Dashpot");
+  std::string code = (law.text ? c_law_equations(law) : "#include \"" + name + ".h\"\n") +
+                     "typedef " + pascal_case(name) + " LawParameters;\n\n" +
+                     constants(model, settable) + parameter_function(model, settable) +
+                     side_function(model, settable);
 
   // The integrator of the states, where there are any.
   if (model.state_size() > 0)

@@ -114,7 +114,7 @@ std::string domain_text(const ExportedModel& model) {
 }
 
 void describe(const ExportedModel& model, Fmu& fmu) {
-  const ModelInfo info = model_info(model.model.name());
+  const ModelInfo info = info_of(model.model);
   fmu.title = info.title;
   fmu.equation = info.equation;
   fmu.origin = model.origin;

@@ -83,6 +83,7 @@ constexpr std::array kFunctions{
     Function{"log", of_one<Op::Log>},
     Function{"log1p", [](Graph& g, std::span<const Node> a) { return log1p(g, a[0]); }},
     Function{"pow", [](Graph& g, std::span<const Node> a) { return g.power(a[0], a[1]); }},
+    Function{"sin", of_one<Op::Sin>},
     Function{"sqrt", of_one<Op::Sqrt>},
     Function{"tan",
              [](Graph& g, std::span<const Node> a) {

@@ -5,7 +5,9 @@
 #include "dashpot/base/any_number.h"
 #include "dashpot/base/file.h"
 #include "dashpot/base/text.h"
+#include "dashpot/damper/kinds/law/law_text.h"
 #include "dashpot/damper/nets/kernel.h"
+#include "dashpot/damper/registry.h"
 #include "dashpot/error.h"
 #include "dashpot/identify/rank/fit_identity.h"
 #include "dashpot/model_file.h"
@@ -99,6 +101,8 @@ std::string FitStore::key_of(const Request& request) const {
                                  to_string(request.drive_unit),
                                  std::string(name_of(simd_levels().back()))};
   for (const auto& [name, value] : describe_options(request.options)) parts.push_back(value);
+  if (const Law* law = law_inside(request.model); law && law->text)
+    parts.push_back(format_json(law->text->definition()));
   return request.model + ' ' + sha256(join(parts, "\n"));
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "dashpot/base/text.h"
+#include "dashpot/damper/kinds/law/law_text.h"
 #include "dashpot/damper/law_side.h"
 #include "dashpot/error.h"
 
@@ -40,7 +41,11 @@ void require_shape(const Law& law, const Dependence& parameters) {
 }  // namespace
 
 LawModel::LawModel(const Law& law, Dependence parameters, DriveUnit drive_unit, double lag_rate)
-    : law_(&law), parameters_(std::move(parameters)), drive_unit_(drive_unit), lag_rate_(lag_rate) {
+    : law_(&law),
+      text_(law.text ? law.text->shared_from_this() : nullptr),
+      parameters_(std::move(parameters)),
+      drive_unit_(drive_unit),
+      lag_rate_(lag_rate) {
   require_shape(law, parameters_);
   if (!(lag_rate_ >= 0 && std::isfinite(lag_rate_)))
     throw Error("lag_rate", "is " + format_number(lag_rate_), "write a rate in 1/s, 0 for none");

@@ -12,6 +12,8 @@
 
 namespace dashpot {
 
+class LawText;
+
 /// A law at work: its parameters as functions of the coil current, the coil's first-order lag and
 /// an RK4 integrator whose number of steps follows from the law's rate.
 class LawModel final : public DamperModel {
@@ -69,6 +71,7 @@ class LawModel final : public DamperModel {
 
  private:
   const Law* law_;
+  std::shared_ptr<const LawText> text_;  ///< of a law from a file, which ends with its last model
   Dependence parameters_;
   DriveUnit drive_unit_;
   double lag_rate_;

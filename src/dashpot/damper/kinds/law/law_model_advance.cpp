@@ -19,7 +19,7 @@ inline void law_parameters(const LawModel* m, double current, LawParameters* p) 
 inline double law_rate(const LawModel* m, const LawParameters* p, double speed) {
   return m->law().rate(p->data(), speed);
 }
-inline int law_has_own_step(const LawModel* m) { return m->law().step != nullptr; }
+inline int law_has_own_step(const LawModel* m) { return static_cast<bool>(m->law().step); }
 inline int law_own_step_is_exact(const LawModel* m) { return m->law().exact_step; }
 inline int law_own_step(const LawModel* m, const LawParameters* p, const double* x, const double* v,
                         double h, double* z) {

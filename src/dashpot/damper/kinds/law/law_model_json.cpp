@@ -1,6 +1,7 @@
 #include "dashpot/base/units.h"
 #include "dashpot/damper/file_parts.h"
 #include "dashpot/damper/kinds/law/law_model.h"
+#include "dashpot/damper/kinds/law/law_text.h"
 #include "dashpot/damper/law_list.h"
 #include "dashpot/damper/law_side.h"
 #include "dashpot/error.h"
@@ -48,20 +49,29 @@ Value LawModel::to_json() const {
                    Value::object({{"form", name_of(parameters_.forms[k])},
                                   {"coefficients", Value::array(parameters_.coefficients[k])},
                                   {"unit", law_->params[k].unit}}));
-  return Value::object({{"law", law_->name},
-                        {"drive_unit", name_of(drive_unit_)},
-                        {"lag_rate", lag_rate_},
-                        {"parameters", parameters}});
+  Value value = Value::object({{"law", law_->name},
+                               {"drive_unit", name_of(drive_unit_)},
+                               {"lag_rate", lag_rate_},
+                               {"parameters", parameters}});
+  if (text_) value.add("definition", text_->definition());
+  return value;
 }
 
 std::unique_ptr<LawModel> law_model_from_json(const Value& value) {
   ObjectReader reader(value, "a law model");
   const Value& name = reader.required("law");
-  const Law& own = find_law(name.as_string(), name.where());
+  const Value* definition = reader.optional("definition");
   const DriveUnit drive_unit = read_drive_unit(reader);
   const double lag_rate = reader.number("lag_rate");
   const Value& parameters = reader.required("parameters");
   reader.finish();
+
+  // A law from a file travels with the model.
+  const std::shared_ptr<const LawText> text = definition ? LawText::make(*definition) : nullptr;
+  if (text && text->law().name != name.as_string())
+    throw Error(name.where(), "is '" + name.as_string() + "', but '" +
+                                  std::string(text->law().name) + "' in its definition");
+  const Law& own = text ? text->law() : find_law(name.as_string(), name.where());
 
   // A law with rebound and compression apart is told by its rows.
   const Law& law = parameters.find(kSideFriction) ? with_side(own) : own;
