@@ -99,6 +99,10 @@ DASHPOT_API dashpot_status dashpot_model_parse(const char* text, dashpot_model**
 DASHPOT_API dashpot_status dashpot_model_published(const char* name, dashpot_model** model);
 DASHPOT_API dashpot_status dashpot_model_save(const dashpot_model* model, const char* path);
 DASHPOT_API dashpot_status dashpot_model_text(const dashpot_model* model, char** text);
+/// The numbers of a law as JSON: {"parameters": [{"name", "unit", "meaning", "value", "low",
+/// "high"}], "covariance": [[...]]}, in SI; the 95 % intervals and the covariance matrix are null
+/// where the file does not have them of a fit. No parameters where the model is no law.
+DASHPOT_API dashpot_status dashpot_model_parameters(const dashpot_model* model, char** text);
 DASHPOT_API dashpot_status dashpot_model_get_info(const dashpot_model* model,
                                                   dashpot_model_info* info);
 DASHPOT_API void dashpot_model_free(dashpot_model** model);
@@ -218,9 +222,9 @@ typedef struct dashpot_monitor {
 /// {"models": ["bingham"], "force_offset": "record", "form": ["alpha=exponential"], "fix": [...],
 /// "free":
 /// [...], "bounds": [...], "prior": [...], "allow_active": false, "asymmetric": false, "network":
-/// [...], "starts": 4, "search": 0, "seed": 1, "threads": 0, "command": "TEXT that the model file
-/// keeps"}; "models" has one here, the others may be absent. The report (null: not wanted) has
-/// status, parameters with 95 % intervals, offsets and warnings.
+/// [...], "from": ["MODEL FILE"], "starts": 4, "search": 0, "seed": 1, "threads": 0, "command":
+/// "TEXT that the model file keeps"}; "models" has one here, the others may be absent. The report
+/// (null: not wanted) has status, parameters with 95 % intervals, offsets and warnings.
 DASHPOT_API dashpot_status dashpot_fit(const dashpot_recordings* recordings, const char* options,
                                        const dashpot_monitor* monitor, dashpot_model** model,
                                        char** report);
@@ -250,6 +254,33 @@ DASHPOT_API void dashpot_ranking_free(dashpot_ranking** ranking);
 DASHPOT_API dashpot_status dashpot_evaluate(const dashpot_model* model,
                                             const dashpot_recordings* recordings,
                                             const char* options, char** report);
+
+/// The same runs, sample by sample: a recording each with motion, drive and the forces "measured",
+/// "modelled" and "residual", the record's force zero included. Options as for dashpot_evaluate.
+DASHPOT_API dashpot_status dashpot_traces(const dashpot_model* model,
+                                          const dashpot_recordings* recordings, const char* options,
+                                          dashpot_recordings** made);
+
+// ---- Without a fit ----------------------------------------------------------
+
+/// What recordings say by themselves: `dashpot characterise`. Options (null: none): {"speeds":
+/// [m/s,
+/// ...], "format": "json", "html", "markdown", "text" or "csv" (every cycle), "command": "TEXT that
+/// the page keeps"}.
+DASHPOT_API dashpot_status dashpot_characterise(const dashpot_recordings* recordings,
+                                                const char* options, char** text);
+
+/// A model or recordings, the other one null.
+typedef struct dashpot_thing {
+  const char* name;  ///< for people
+  const dashpot_model* model;
+  const dashpot_recordings* recordings;
+} dashpot_thing;
+
+/// The first of two or more things beside each of the others: `dashpot compare`. Options as for
+/// dashpot_characterise, without "csv".
+DASHPOT_API dashpot_status dashpot_compare(const dashpot_thing* things, size_t count,
+                                           const char* options, char** text);
 
 // ---- Export -----------------------------------------------------------------
 

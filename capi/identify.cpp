@@ -2,6 +2,7 @@
 
 #include "dashpot/base/date.h"
 #include "dashpot/base/escape.h"
+#include "dashpot/identify/judge/traces.h"
 #include "dashpot/identify/rank/model_choice.h"
 #include "dashpot/report/report_json.h"
 #include "dashpot/report/words.h"
@@ -44,6 +45,7 @@ void fit(const Dataset& dataset, FitOptions options, const dashpot_monitor* moni
 
   // The fit runs beside the caller's thread, which may cancel it.
   options.words.options = identify_options(options.words, names, "options, ");
+  options.words.options.from = first_starts(options.words, names, dataset);
   FitReport fitted;
   run_watched(monitor, [&](const Monitor& watched) {
     options.words.options.monitor = watched;
@@ -65,6 +67,7 @@ Ranking rank_watched(const Dataset& dataset, FitOptions& options, const dashpot_
       throw Error(name, "needs a displacement, which not every recording has",
                   "record it, or leave this model out");
   IdentifyOptions asked = identify_options(options.words, models.names, "options, ");
+  asked.from = first_starts(options.words, models.names, dataset);
   Ranking ranking;
   run_watched(monitor, [&](const Monitor& watched) {
     asked.monitor = watched;
@@ -153,6 +156,29 @@ dashpot_status dashpot_ranking_report(const dashpot_ranking* ranking, const char
 }
 
 void dashpot_ranking_free(dashpot_ranking** ranking) { give_back(ranking); }
+
+dashpot_status dashpot_traces(const dashpot_model* model, const dashpot_recordings* recordings,
+                              const char* options, dashpot_recordings** made) {
+  return guarded([&] {
+    require(made, "made");
+    *made = nullptr;
+    require(model, "model");
+    const Dataset dataset = usable_dataset(recordings);
+    require_same_drive(model->file, dataset, model->name);
+    const Evaluation evaluation = evaluate(*model->damper, dataset.records, dataset.drive_unit,
+                                           read_evaluate_options(options));
+
+    // They come even where the model diverged, and show how.
+    auto forces = std::make_unique<dashpot_recordings>();
+    forces->dataset.name = dataset.name;
+    forces->dataset.drive_unit = dataset.drive_unit;
+    forces->dataset.records = traces(evaluation.records, dataset.drive_unit);
+    *made = forces.release();
+    if (evaluation.diverged > 0)
+      throw NotUsable(model->name, "diverged on " + std::to_string(evaluation.diverged) + " of " +
+                                       counted(evaluation.records.size(), "recording"));
+  });
+}
 
 dashpot_status dashpot_evaluate(const dashpot_model* model, const dashpot_recordings* recordings,
                                 const char* options, char** report) {

@@ -1,9 +1,11 @@
 #include <cmath>
 #include <span>
 
+#include "dashpot/base/escape.h"
 #include "dashpot/base/text.h"
 #include "dashpot/damper/parameter_set.h"
 #include "dashpot/damper/registry.h"
+#include "dashpot/report/parameter_files.h"
 #include "handles.h"
 #include "status.h"
 
@@ -77,6 +79,15 @@ dashpot_status dashpot_model_text(const dashpot_model* model, char** text) {
     *text = nullptr;
     require(model, "model");
     *text = copy_text(format_model(model->file));
+  });
+}
+
+dashpot_status dashpot_model_parameters(const dashpot_model* model, char** text) {
+  return guarded([&] {
+    require(text, "text");
+    *text = nullptr;
+    require(model, "model");
+    *text = copy_text(format_json(presentable(parameters_json(model->file))));
   });
 }
 

@@ -1,5 +1,6 @@
 #include "words.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "dashpot.h"
@@ -61,6 +62,7 @@ FitOptions read_fit_options(const char* text) {
   words.options.allow_active = reader.boolean("allow_active", words.options.allow_active);
   words.options.asymmetric = reader.boolean("asymmetric", words.options.asymmetric);
   words.network = texts(reader, "network");
+  words.from = texts(reader, "from");
 
   // The effort of the fits, and their random numbers.
   words.options.starts = whole_int(reader, "starts", words.options.starts, 1);
@@ -87,6 +89,21 @@ LoadOptions read_load_options(const char* text) {
   options.recognise = reader.boolean("recognise", options.recognise);
   options.velocity_cutoff_hz = reader.number("velocity_cutoff", 0);
   reader.finish();
+  return options;
+}
+
+LookOptions read_look_options(const char* text) {
+  const Value value = parse_options(text);
+  ObjectReader reader(value, "the options");
+  LookOptions options;
+  if (const Value* speeds = reader.optional("speeds")) options.speeds = speeds->as_numbers();
+  options.format = reader.string("format", options.format);
+  options.command = reader.string("command", "");
+  reader.finish();
+  for (const double speed : options.speeds)
+    if (!(speed > 0) || !std::isfinite(speed))
+      throw Error("options, speeds", "holds " + format_number(speed), "m/s, above 0");
+  std::ranges::sort(options.speeds);
   return options;
 }
 

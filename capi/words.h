@@ -18,6 +18,13 @@ struct FitOptions {
 FitOptions read_fit_options(const char* text);
 
 LoadOptions read_load_options(const char* text);
+/// How recordings are looked at without a fit.
+struct LookOptions {
+  std::vector<double> speeds;  ///< m/s
+  std::string format = "json", command;
+};
+LookOptions read_look_options(const char* text);
+
 EvaluateOptions read_evaluate_options(const char* text);
 
 /// The options of dashpot_export.

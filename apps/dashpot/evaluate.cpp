@@ -1,7 +1,5 @@
 #include <algorithm>
-#include <cctype>
 #include <cmath>
-#include <filesystem>
 #include <memory>
 
 #include <fmt/core.h>
@@ -13,13 +11,12 @@
 #include "dashpot/identify/fit/fit_words.h"
 #include "dashpot/identify/judge/extrapolation.h"
 #include "dashpot/rank.h"
-#include "dashpot/record/record_file.h"
-#include "dashpot/record/sample_columns.h"
 #include "dashpot/report/report_json.h"
 #include "dashpot/report/words.h"
 #include "data.h"
 #include "document_text.h"
 #include "results.h"
+#include "traces.h"
 
 namespace dashpot::cli {
 namespace {
@@ -60,52 +57,6 @@ Ranking as_ranking(const std::string& name, ModelFile file, const Dataset& datas
   ranking.folds = {"all records, nothing fitted"};
   ranking.models.push_back(std::move(ranked));
   return ranking;
-}
-
-/// A record's name as that of a file.
-std::string file_name(std::string name) {
-  for (char& c : name)
-    if (!std::isalnum(static_cast<unsigned char>(c)) && c != '.' && c != '-') c = '_';
-  return name;
-}
-
-/// Motion, drive, and the forces measured, modelled and between them, record by record.
-void write_traces(const EvaluateSettings& settings, const Evaluation& evaluation,
-                  DriveUnit drive_unit, Console& console) {
-  std::vector<Record> traces;
-  for (std::size_t k = 0; k < evaluation.records.size(); ++k) {
-    const RecordResult& r = evaluation.records[k];
-    Record trace;
-    trace.name = r.record;
-    trace.time = r.time;
-    const auto add = [&](const std::string& name, const std::string& unit,
-                         const std::vector<double>& samples) {
-      if (samples.size() == r.time.size()) trace.channels.push_back({name, unit, samples, ""});
-    };
-    add("displacement", "m", r.displacement);
-    add("velocity", "m/s", r.velocity);
-    add(drive_channel(drive_unit), unit_of(drive_unit), r.drive);
-    add("measured", "N", r.measured);
-    add("modelled", "N", r.modelled);
-    std::vector<double> residual;
-    for (std::size_t i = 0; i < r.measured.size(); ++i)
-      residual.push_back(r.measured[i] - r.modelled[i]);
-    add("residual", "N", residual);
-
-    if (settings.traces == "raw") {
-      traces.push_back(std::move(trace));
-      continue;
-    }
-
-    // The place among the records keeps names apart that files cannot tell apart.
-    const auto file = std::filesystem::path(settings.folder) /
-                      fmt::format("{:03}_{}.{}", k + 1, file_name(r.record), settings.traces);
-    (settings.traces == "mat" ? save_mat : save_csv)(trace, file);
-  }
-  if (settings.traces == "raw") write_sample_columns(traces, settings.folder);
-  console.print(fmt::format(
-      "\nTraces  {}/ ({})\n", settings.folder,
-      counted(evaluation.records.size(), settings.traces == "raw" ? "record" : "file")));
 }
 
 int run_evaluate(const EvaluateSettings& settings, Console& console) {
@@ -151,7 +102,12 @@ int run_evaluate(const EvaluateSettings& settings, Console& console) {
     write_file(settings.report, html_document(document));
     console.print("\nReport  " + settings.report + '\n');
   }
-  if (!settings.traces.empty()) write_traces(settings, evaluation, dataset.drive_unit, console);
+  if (!settings.traces.empty()) {
+    const std::size_t written =
+        write_traces(evaluation.records, dataset.drive_unit, settings.traces, settings.folder);
+    console.print(fmt::format("\nTraces  {}/ ({})\n", settings.folder,
+                              counted(written, settings.traces == "raw" ? "record" : "file")));
+  }
   if (is_infinite) return kNotUsable;
   if (evaluation.diverged == 0) return kDone;
   console.error(fmt::format("the model diverged on {} of {} records", evaluation.diverged,
@@ -199,12 +155,7 @@ Command evaluate_command() {
         .help = "also write a report page",
         .value = "FILE",
         .takes = Takes::File},
-       {.names = "--traces",
-        .target = &settings->traces,
-        .help = "also write measured, modelled and residual force of every record; raw: plain "
-                "doubles, for programs that draw",
-        .value = "FORMAT",
-        .choices = {"csv", "mat", "raw"}},
+       traces_option(settings->traces),
        {.names = "-o,--output",
         .target = &settings->folder,
         .help = "folder of the traces",

@@ -14,7 +14,9 @@ namespace {
 struct IdentifySettings {
   RankingSettings ranking;
   RideRankSettings ride;
-  std::string plant;  ///< in which the damper works; empty: on a bench
+  KitSettings kit;
+  std::string validate;  ///< further recordings, never fitted; empty: none
+  std::string plant;     ///< in which the damper works; empty: on a bench
 };
 
 constexpr std::string_view kIdentifyExample =
@@ -28,6 +30,10 @@ constexpr std::string_view kIdentifyExample =
     "dashpot identify recordings/ --budget 10\n"
     "dashpot identify recordings/ --models all\n"
     "\n"
+    "# The next damper of the series: start from its neighbour's model, and judge on another day:\n"
+    "dashpot identify second/ --models tanh_kwok --from results/models/tanh_kwok.json \\\n"
+    "    --validate second-day-two/\n"
+    "\n"
     "# Interrupted? The same command goes on where it stopped.\n"
     "dashpot identify recordings/ --models all\n"
     "\n"
@@ -37,18 +43,48 @@ constexpr std::string_view kIdentifyExample =
     "# Then read results/report.html, and use the best model:\n"
     "dashpot evaluate results/models/tanh_kwok.json more-recordings/";
 
+/// The options that only the fit of a measured force follows.
+void require_bench(const IdentifySettings& asked) {
+  const auto refuse = [](bool is_stated, const std::string& option) {
+    if (is_stated)
+      throw UsageError(option, "has no meaning with --in", "leave it out: no force is measured");
+  };
+  refuse(!asked.kit.traces.empty(), "--traces");
+  refuse(!asked.kit.covariance.empty(), "--covariance");
+  refuse(!asked.validate.empty(), "--validate");
+  refuse(!asked.ranking.fit.from.empty(), "--from");
+}
+
+/// Recordings that no fit sees, refused before the first one where they cannot be used.
+std::optional<Dataset> further_recordings(const IdentifySettings& asked, const Dataset& fitted,
+                                          Console& console) {
+  if (asked.validate.empty()) return std::nullopt;
+  DataSettings settings = asked.ranking.data;
+  settings.paths = {asked.validate};
+  settings.load.dataset_file.clear();
+  Dataset further = load_recordings(settings, console);
+  require_further(further, fitted);
+  return further;
+}
+
 int run_identify(const IdentifySettings& asked, Console& console) {
   const RankingSettings& settings = asked.ranking;
-  if (!asked.plant.empty()) return run_in_plant(asked.plant, settings, console);
+  if (!asked.plant.empty()) {
+    require_bench(asked);
+    return run_in_plant(asked.plant, settings, console);
+  }
 
   // All that may be refused is read before the first fit.
   const std::optional<RideRankOptions> ride = stated_ride(asked.ride, settings, console);
   const RankingData data = ranking_data(settings, console);
   const std::unique_ptr<FitStore> store = fit_store(settings, console);
   const ChosenModels models = chosen_models(settings.fit, data.dataset, data.leave_out, console);
+  const std::optional<Dataset> further = further_recordings(asked, data.dataset, console);
+  IdentifyOptions options = identify_options(settings.fit, models.names, console);
+  options.from = first_starts(settings.fit, models.names, data.dataset);
 
-  Ranking ranking = rank(models.names, data.dataset, data.leave_out,
-                         identify_options(settings.fit, models.names, console), store.get());
+  Ranking ranking = rank(models.names, data.dataset, data.leave_out, options, store.get());
+  if (further) validate(ranking, *further, options);
   if (ranking.kept_fits > 0)
     console.note(counted(ranking.kept_fits, "fit") +
                  " kept from before; with --fresh they are made again");
@@ -61,6 +97,7 @@ int run_identify(const IdentifySettings& asked, Console& console) {
   const Document report = ranking_document(input);
   print_results(report, ranking, console);
   write_results(input, report, settings.results, console);
+  write_kit(input, asked.kit, settings.results, console);
   if (console.json) console.print_json(document_json(report));
   return exit_code_of(ranking, console);
 }
@@ -82,6 +119,21 @@ Command identify_command() {
       .run = [settings](Console& console) { return run_identify(*settings, console); }};
   append(command.options, {budget_option(settings->ranking.fit, budget_of_groups()),
                            fresh_option(settings->ranking)});
+  append(command.options,
+         {{.names = "--from",
+           .target = &settings->ranking.fit.from,
+           .help = "model files of laws whose numbers are the first start of these laws' fits, as "
+                   "of a damper of the same series; with --starts 1 the only one",
+           .value = "MODEL",
+           .takes = Takes::File,
+           .default_text = "the size of the data alone"},
+          {.names = "--validate",
+           .target = &settings->validate,
+           .help = "further recordings that no fit sees: the final models are judged on them "
+                   "beside the records left out",
+           .value = "FOLDER",
+           .takes = Takes::File}});
+  append(command.options, kit_options(settings->kit));
   append(command.options, ride_rank_options(settings->ride));
   append(command.options,
          {{.names = "--in",

@@ -7,9 +7,11 @@
 
 #include "console.h"
 #include "dashpot/base/file.h"
+#include "dashpot/report/parameter_files.h"
 #include "dashpot/report/words.h"
 #include "document_text.h"
 #include "report_sliders.h"
+#include "traces.h"
 
 namespace dashpot::cli {
 namespace {
@@ -112,6 +114,54 @@ void write_results(const ReportInput& input, const Document& report, const Resul
   }
 
   say == Say::Result ? console.print(where) : console.talk(where);
+}
+
+std::vector<Option> kit_options(KitSettings& settings) {
+  return {
+      traces_option(settings.traces),
+      {.names = "--covariance",
+       .target = &settings.covariance,
+       .help = "also write the parameters of every law with their 95 % intervals and covariance "
+               "matrix",
+       .value = "FORMAT",
+       .choices = {"csv", "mat", "json"}}};
+}
+
+void write_kit(const ReportInput& input, const KitSettings& kit, const ResultSettings& settings,
+               Console& console) {
+  const fs::path folder = settings.folder;
+  std::string where;
+
+  // Each model on the records that a page shows, apart by what the model knows of them.
+  std::size_t written = 0;
+  for (const RankedModel& ranked : input.ranking.models) {
+    if (kit.traces.empty()) break;
+    for (const auto& [part, records] : {std::pair{"left-out", &ranked.left_out.records},
+                                        std::pair{"validation", &ranked.validation.records},
+                                        std::pair{"training", &ranked.training.records}}) {
+      console.check_stop();
+      if (std::ranges::any_of(*records, [](const RecordResult& r) { return !r.time.empty(); }))
+        written += write_traces(*records, input.dataset.drive_unit, kit.traces,
+                                folder / "traces" / ranked.name / part);
+    }
+  }
+  if (!kit.traces.empty())
+    where +=
+        "Traces   " + (folder / "traces").string() + "/ (" + counted(written, "record") + ")\n";
+
+  // The laws' numbers; other models have none with a meaning of their own.
+  std::size_t laws = 0;
+  for (const RankedModel& ranked : input.ranking.models) {
+    if (kit.covariance.empty() || ranked.fit.covariance.empty()) continue;
+    write_file(folder / "parameters" / (ranked.name + '.' + kit.covariance),
+               parameter_file(ranked.fit, kit.covariance));
+    ++laws;
+  }
+  if (laws > 0)
+    where += "Numbers  " + (folder / "parameters").string() + "/ (" + counted(laws, "law") + ")\n";
+  if (!kit.covariance.empty() && laws == 0)
+    console.note("no law was fitted: the numbers of other models have no covariance");
+  console.print(where);
 }
 
 int exit_code_of(const Ranking& ranking, Console& console) {

@@ -32,6 +32,16 @@ void prepare_results(const ResultSettings& settings);
 /// beside a page that is the result.
 enum class Say { Result, Aside };
 
+/// What a researcher takes along of an identification, where it is asked for.
+struct KitSettings {
+  std::string traces, covariance;  ///< formats; empty: not written
+};
+std::vector<Option> kit_options(KitSettings& settings);
+/// Writes the traces of every record that is shown, model by model, and the laws' numbers with
+/// their covariance, into folders of their own, and prints where they are.
+void write_kit(const ReportInput& input, const KitSettings& kit, const ResultSettings& settings,
+               Console& console);
+
 /// Writes model files, report and figures, and prints where they are.
 void write_results(const ReportInput& input, const Document& report, const ResultSettings& settings,
                    Console& console, Say say = Say::Result);

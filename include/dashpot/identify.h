@@ -26,6 +26,8 @@ struct IdentifyOptions {
   NetworkDesign network;    ///< networks only
   int starts = 4;           ///< of which the best is taken
   int search = 0;           ///< evaluations of a global search that gives one more start; 0: none
+  /// Laws only: models whose numbers are the first start of the fit of the law that they are of.
+  std::vector<std::shared_ptr<const DamperModel>> from = {};
   std::uint64_t seed = 1;
   int threads = 0;  ///< 0: as many as the machine has
   Monitor monitor;
@@ -48,6 +50,9 @@ struct FitReport {
   std::string message;
   std::shared_ptr<const DamperModel> model;  ///< with the mean record offset as its bias
   std::vector<FittedParameter> parameters;
+  /// Of the parameters in their order and units, row by row; zeros for fixed ones; empty where the
+  /// fit has none: networks, hybrids and families.
+  std::vector<double> covariance = {};
   /// N, per training record, beyond the model's bias.
   std::vector<std::pair<std::string, double>> offsets;
   std::vector<std::string> warnings;  ///< identifiability, bounds, divergence, in words

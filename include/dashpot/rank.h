@@ -61,11 +61,24 @@ struct RiddenThrough {
   std::size_t draws = 0;  ///< of such errors
 };
 
+/// What a law's final fit leaves on its own records: what information criteria are made of.
+struct FitLikelihood {
+  std::size_t samples = 0;        ///< scored ones of all records
+  double squares = 0;             ///< N^2, sum of the squared residuals
+  double correlation_length = 1;  ///< samples in a row that count as one
+  std::size_t parameters = 0;     ///< free numbers, force zeros of records and the variance
+};
+
 /// One model, fitted on all records and judged on those that its fits had not seen.
 struct RankedModel {
   std::string name, title;
-  FitReport fit;        ///< on all records: the model that is saved
-  Evaluation training;  ///< of `fit` on all its records
+  FitReport fit;  ///< on all records: the model that is saved
+  /// Of `fit` on all its records. Curves only of those that are not judged as left out.
+  Evaluation training;
+  /// Of `fit` on further recordings (validate()), which no fit has seen; empty where there are
+  /// none.
+  Evaluation validation;
+  std::optional<FitLikelihood> likelihood;  ///< of a law that was fitted by it alone
   std::vector<FitReport> fold_fits;
   /// Of a single fold: fits on parts of its training, for the interval.
   std::vector<FitReport> held_back_fits;
@@ -115,6 +128,7 @@ struct Ranking {
   /// Where models were chosen within a budget: whoever chose them states it here.
   std::optional<FitBudget> budget;
   std::optional<RiddenThrough> ridden;  ///< where the models were ridden, likewise
+  std::string validated_on;             ///< the further recordings of validate(); empty: none
   std::size_t kept_fits = 0;            ///< found in the store
   double wall_seconds = 0;              ///< from the first fit to the last figure
 
@@ -132,6 +146,12 @@ struct Ranking {
 /// of its training held back.
 Ranking rank(const std::vector<std::string>& models, const Dataset& dataset,
              const LeaveOut& leave_out, const IdentifyOptions& options, FitStore* store = nullptr);
+/// Throws Error where the further recordings share a file with those of the fit, or have another
+/// drive: what validate() cannot use, told before any fit.
+void require_further(const Dataset& further, const Dataset& fitted);
+/// Judges the final model of each on further recordings, with its interval: fills `validation`. A
+/// model that they cannot serve gets a warning that says why.
+void validate(Ranking& ranking, const Dataset& further, const IdentifyOptions& options);
 /// Makes and keeps the fits of one part of that ranking (base/part.h), and judges nothing: once all
 /// parts lie in one store, rank() finds its fits there.
 PartReport rank_part(const std::vector<std::string>& models, const Dataset& dataset,

@@ -44,6 +44,7 @@ std::map<std::string, Call> null_calls() {
       {"model_parse", [] { return dashpot_model_parse(nullptr, nullptr); }},
       {"model_published", [] { return dashpot_model_published(nullptr, nullptr); }},
       {"model_save", [] { return dashpot_model_save(nullptr, nullptr); }},
+      {"model_parameters", [] { return dashpot_model_parameters(nullptr, nullptr); }},
       {"model_text", [] { return dashpot_model_text(nullptr, nullptr); }},
       {"model_get_info", [] { return dashpot_model_get_info(nullptr, nullptr); }},
       {"rest", [] { return dashpot_rest(nullptr, nullptr, nullptr, 0); }},
@@ -62,6 +63,9 @@ std::map<std::string, Call> null_calls() {
       {"ranking_model", [] { return dashpot_ranking_model(nullptr, 0, nullptr); }},
       {"ranking_report", [] { return dashpot_ranking_report(nullptr, nullptr, nullptr); }},
       {"evaluate", [] { return dashpot_evaluate(nullptr, nullptr, nullptr, nullptr); }},
+      {"traces", [] { return dashpot_traces(nullptr, nullptr, nullptr, nullptr); }},
+      {"characterise", [] { return dashpot_characterise(nullptr, nullptr, nullptr); }},
+      {"compare", [] { return dashpot_compare(nullptr, 0, nullptr, nullptr); }},
       {"export", [] { return dashpot_export(nullptr, nullptr, nullptr); }},
       {"simulate", [] { return dashpot_simulate(nullptr, nullptr, nullptr, nullptr); }},
   };
@@ -209,6 +213,10 @@ TEST_CASE("what is taken from a ranking, from recordings and from names that are
   const Model model = published();
   check_refused("nothing to evaluate",
                 [&] { return dashpot_evaluate(model, recordings, nullptr, &text); });
+  const dashpot_thing both[] = {{"model", model, nullptr}, {"both", model, recordings}};
+  check_refused("one thing alone", [&] { return dashpot_compare(both, 1, nullptr, &text); });
+  check_refused("a model and recordings in one",
+                [&] { return dashpot_compare(both, 2, nullptr, &text); });
   CHECK(text == nullptr);
   CHECK(ranking == nullptr);
 }

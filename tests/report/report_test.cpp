@@ -68,7 +68,8 @@ TEST_CASE("HTML report: one file that asks for nothing and cannot be broken by a
   ExampleRanking example = example_ranking();
   const std::string name = "</script><script>alert(1)</script>\xE4";
   example.dataset.name = name;
-  for (RankedModel& model : example.ranking.models) model.left_out.records[0].record = name;
+  for (RankedModel& model : example.ranking.models)
+    model.left_out.records[0].record = model.training.records[0].record = name;
   const std::string html = html_document(ranking_document(example.input()));
   CHECK(!contains(html, "<script>alert"));
   CHECK(contains(html, "default-src 'none'"));

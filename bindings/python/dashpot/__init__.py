@@ -8,9 +8,11 @@
 Units are SI. Extension is positive; a force is positive when it resists extension.
 """
 
+from . import plot
 from ._core import DamperModel, Error, NotUsable, __version__
 from ._identify import Ranking, identify
 from ._learn import Identifier
+from ._looks import characterise, compare
 from ._recordings import Recordings
 from ._simulate import Trace, simulate
 
@@ -26,8 +28,11 @@ __all__ = [
     "Recordings",
     "Trace",
     "__version__",
+    "characterise",
+    "compare",
     "identify",
     "load",
+    "plot",
     "published",
     "simulate",
 ]

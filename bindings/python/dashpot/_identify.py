@@ -26,6 +26,7 @@ def fit_options(
     allow_active: bool = False,
     asymmetric: bool = False,
     network: Words = (),
+    start_from: Words = (),
     starts: int = 4,
     search: int = 0,
     seed: int = 1,
@@ -33,6 +34,7 @@ def fit_options(
 ) -> dict:
     """The options of a fit, as the C boundary takes them."""
     lists = {"form": form, "fix": fix, "free": free, "bounds": bounds, "prior": prior, "network": network}
+    lists["from"] = start_from
     numbers = {"starts": starts, "search": search, "seed": seed, "threads": threads}
     plain = {"force_offset": force_offset, "allow_active": bool(allow_active), "asymmetric": bool(asymmetric)}
     return {**plain, **{key: words(given) for key, given in lists.items()}, **numbers}
@@ -123,7 +125,8 @@ def identify(
     progress: called with (stage, fraction 0 ... 1).
     options: force_offset ("record" or "none"), form, fix, free, bounds, prior, network (lists as the command
     line has them: ["alpha=exponential"]), allow_active (keep laws that feed energy in), asymmetric (take rebound and
-    compression of laws apart where it pays), starts, search, seed, threads (0: all cores).
+    compression of laws apart where it pays), start_from (model files of laws: their numbers are the first start),
+    starts, search, seed, threads (0: all cores).
 
     Other Python threads run meanwhile; Ctrl-C stops it. Raises Error on what cannot be used.
     """

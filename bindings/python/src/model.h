@@ -33,6 +33,12 @@ class Model : public Owner<dashpot_model, dashpot_model_free> {
     return text.take();
   }
 
+  std::string parameters() const {
+    Text text;
+    check(dashpot_model_parameters(get(), text.out()));
+    return text.take();
+  }
+
   py::object predict(const py::object& x, const py::object& sample_time, bool interval) const {
     if (!py::isinstance<py::array>(x) && py::hasattr(x, "columns"))
       return py::module_::import("dashpot._frames").attr("predict")(this, x, sample_time, interval);

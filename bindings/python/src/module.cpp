@@ -50,6 +50,47 @@ std::string evaluate(const Model& model, const Recordings& recordings, const std
   return report.take();
 }
 
+Recordings traces(const Model& model, const Recordings& recordings, const std::string& options) {
+  Recordings made;
+  dashpot_status status = DASHPOT_OK;
+  {
+    const py::gil_scoped_release others_may_run;
+    status = dashpot_traces(model.get(), recordings.get(), options.c_str(), made.out());
+  }
+  check(status);
+  return made;
+}
+
+std::string characterise(const Recordings& recordings, const std::string& options) {
+  Text text;
+  dashpot_status status = DASHPOT_OK;
+  {
+    const py::gil_scoped_release others_may_run;
+    status = dashpot_characterise(recordings.get(), options.c_str(), text.out());
+  }
+  check(status);
+  return text.take();
+}
+
+/// `things`: (name, Model or Recordings) each.
+std::string compare(const std::vector<std::pair<std::string, py::object>>& things,
+                    const std::string& options) {
+  std::vector<dashpot_thing> named;
+  for (const auto& [name, thing] : things) {
+    const bool is_model = py::isinstance<Model>(thing);
+    named.push_back({name.c_str(), is_model ? thing.cast<const Model&>().get() : nullptr,
+                     is_model ? nullptr : thing.cast<const Recordings&>().get()});
+  }
+  Text text;
+  dashpot_status status = DASHPOT_OK;
+  {
+    const py::gil_scoped_release others_may_run;
+    status = dashpot_compare(named.data(), named.size(), options.c_str(), text.out());
+  }
+  check(status);
+  return text.take();
+}
+
 std::string export_files(const Model& model, const std::string& options) {
   Text report;
   dashpot_status status = DASHPOT_OK;
@@ -105,6 +146,32 @@ void bind_model(py::module_& module) {
                   "A parameter set of the literature by its name, as \"spencer1997\".")
       .def("save", &Model::save, arg("path"), "Writes a model file (JSON).")
       .def("to_json", &Model::text, "The text of its model file.")
+      .def("_parameters", &Model::parameters)
+      .def_property_readonly(
+          "parameters",
+          [](const py::object& self) {
+            return py::module_::import("dashpot._looks").attr("parameters")(self);
+          },
+          "The numbers of a law, a dict by name: value, unit, meaning, and low and high of the 95 "
+          "% "
+          "interval\n"
+          "(None where the file has none of a fit). Empty where the model is no law.")
+      .def_property_readonly(
+          "covariance",
+          [](const py::object& self) {
+            return py::module_::import("dashpot._looks").attr("covariance")(self);
+          },
+          "Their covariance matrix, in the order of `parameters`; None where the file has none.")
+      .def(
+          "traces",
+          [](const py::object& self, const py::object& recordings, const py::kwargs& options) {
+            return py::module_::import("dashpot._looks")
+                .attr("traces")(self, recordings, **options);
+          },
+          arg("recordings"),
+          "What evaluate() judges, sample by sample: Recordings with \"measured [N]\", \"modelled "
+          "[N]\" and\n"
+          "\"residual [N]\" beside motion and drive. Options as for evaluate().")
       .def_property_readonly("name", reading(&dashpot_model_info::name), "\"tanh_kwok\"")
       .def_property_readonly("kind", reading(&dashpot_model_info::kind),
                              "\"law\", \"network\", \"narx\" ...")
@@ -234,6 +301,9 @@ PYBIND11_MODULE(_core, module) {
   module.def("fit", &fit);
   module.def("identify", &identify);
   module.def("evaluate", &evaluate);
+  module.def("traces", &traces);
+  module.def("characterise", &characterise);
+  module.def("compare", &compare);
   module.def("export", &export_files);
   module.def("simulate", &simulate);
   module.def("understand_column", &understand_column);

@@ -44,10 +44,14 @@ void settle_offsets(FitReport& report, const std::vector<Record>& training, Driv
   const double spread = n > 1 ? 1.96 * std::sqrt(square / (n - 1) / n) : 0;
   for (const ParamInfo& param : law->law().params) {
     if (param.fit != Fit::Bias) continue;
-    for (FittedParameter& fitted : report.parameters)
-      if (fitted.name == param.name)
-        fitted = {fitted.name, fitted.unit,   "mean force offset of the records",
-                  mean,        mean - spread, mean + spread};
+    const std::size_t count = report.parameters.size();
+    for (std::size_t k = 0; k < count; ++k) {
+      FittedParameter& fitted = report.parameters[k];
+      if (fitted.name != param.name) continue;
+      fitted = {fitted.name, fitted.unit,   "mean force offset of the records",
+                mean,        mean - spread, mean + spread};
+      report.covariance[k * count + k] = spread * spread / (1.96 * 1.96);
+    }
   }
 }
 

@@ -73,17 +73,16 @@ std::vector<DocumentFigure> energy_figures(const Ranking& ranking) {
           "network."};
 
   // A balance for each passive network over each record that a reader can choose.
-  const std::vector<std::string> records = judged_records(ranking);
+  const std::vector<ShownRecord> records = shown_records(ranking);
   for (std::size_t m = 0; m < ranking.models.size(); ++m) {
     const RankedModel& ranked = ranking.models[m];
     const auto* model =
         ranked.fit.model ? model_as<PassiveNetworkModel>(*ranked.fit.model) : nullptr;
     if (!model) continue;
-    for (const RecordResult& record : ranked.left_out.records) {
-      const auto place = std::ranges::find(records, record.record);
-      if (place == records.end() || record.velocity.empty()) continue;
-      const auto r = static_cast<std::size_t>(place - records.begin());
-      add_balance(panel, *model, record, {{"model", {m}}, {"record", {r}}});
+    for (std::size_t r = 0; r < records.size(); ++r) {
+      const RecordResult* record = records[r].of(ranked);
+      if (!record || record->velocity.empty()) continue;
+      add_balance(panel, *model, *record, {{"model", {m}}, {"record", {r}}});
     }
   }
 

@@ -1,11 +1,9 @@
-#include <algorithm>
-
 #include <fmt/format.h>
 
 #include "dashpot/base/text.h"
-#include "dashpot/identify/judge/residual_test.h"
 #include "dashpot/report/ranking_tables.h"
 #include "dashpot/report/report.h"
+#include "dashpot/report/residual_section.h"
 
 namespace dashpot {
 namespace {
@@ -69,40 +67,6 @@ DocumentTable band_table(const Evaluation& evaluation) {
   return table;
 }
 
-/// What the model leaves over, record by record; a page has room for it, a terminal for the
-/// verdict.
-DocumentSection residual_section(const std::vector<ResidualTest>& tests) {
-  DocumentTable table{.title = {},
-                      .columns = {{"Record"}, {"White"}, {"Q / limit", true}, {"Memory ms", true}},
-                      .rows = {}};
-  for (const std::string input : {"displacement", "velocity", "drive"})
-    table.columns.push_back({"With " + input, true});
-
-  for (const ResidualTest& test : tests) {
-    if (!test.is_tested()) continue;
-    std::vector<std::string> row{test.record, test.is_white() ? "yes" : "no",
-                                 format_number(test.portmanteau / test.limit, 3),
-                                 format_number(1000 * test.memory, 3)};
-    for (const std::string input : {"displacement", "velocity", "drive"}) {
-      const auto with = std::ranges::find(test.inputs, input, &InputCorrelation::input);
-      row.push_back(with == test.inputs.end() ? "-"
-                                              : fmt::format("{:+.2f}{}", with->largest,
-                                                            with->is_independent() ? "" : " *"));
-    }
-    table.rows.push_back(std::move(row));
-  }
-
-  table.note =
-      "White: the Ljung-Box test over 20 samples. Memory: until the autocorrelation falls below "
-      "0.5. With an input: the largest correlation up to a hundredth of the record later; * where "
-      "the means of ten blocks tell it from 0.";
-  return {.name = "residual-tests",
-          .title = "What the model leaves over",
-          .paragraphs = {residual_verdict(tests)},
-          .tables = {std::move(table)},
-          .audience = Audience::Page};
-}
-
 }  // namespace
 
 Document evaluation_document(const ReportInput& input) {
@@ -131,12 +95,9 @@ Document evaluation_document(const ReportInput& input) {
         " %.");
   if (const std::string sentence = interval_sentence(evaluation); !sentence.empty())
     errors.remarks.push_back(sentence);
-  std::vector<ResidualTest> tests;
-  for (const RecordResult& r : evaluation.records) tests.push_back(test_residual(r));
-  if (const std::string words = residual_verdict(tests); !words.empty()) {
+  if (const std::string words = residual_verdict(residual_tests(input.ranking).front());
+      !words.empty())
     errors.remarks.push_back(words);
-    document.sections.push_back(residual_section(tests));
-  }
   document.sections.insert(document.sections.begin(), std::move(errors));
   return document;
 }

@@ -8,6 +8,7 @@
 #include "dashpot/report/ranking_figures.h"
 #include "dashpot/report/ranking_tables.h"
 #include "dashpot/report/report.h"
+#include "dashpot/report/residual_section.h"
 #include "dashpot/report/words.h"
 
 namespace dashpot {
@@ -37,44 +38,60 @@ std::vector<std::string> inertia_remarks(const Ranking& ranking) {
       number_text(left.mass, 2))};
 }
 
+/// Without the column of further recordings where there are none.
+std::vector<ColumnChoice> chosen_columns(const Ranking& ranking,
+                                         std::vector<ColumnChoice> columns) {
+  if (ranking.validated_on.empty())
+    std::erase_if(columns, [](const ColumnChoice& choice) {
+      return choice.name == std::string_view("validation_esr_percent");
+    });
+  return columns;
+}
+
 /// Every column of the page; identify's own selection on a terminal.
 DocumentSection ranking_section(const Ranking& ranking) {
   constexpr Audience kPage = Audience::Page, kText = Audience::Text;
-  DocumentTable table = model_table(ranking, {{"model", 0, kText},
-                                              {"title", 0, kPage},
-                                              {"esr_percent"},
-                                              {"behind_percent", 2},
-                                              {"told_apart"},
-                                              {"rmse_N"},
-                                              {"fit_percent"},
-                                              {"r2", 6},
-                                              {"rms_half_span_percent", 4},
-                                              {"mean_esr_percent", 0, kPage},
-                                              {"worst_esr_percent"},
-                                              {"worst_record", 5, kText},
-                                              {"pre_yield_rmse_N", 0, kPage},
-                                              {"energy_error_percent", 0, kPage},
-                                              {"no_offset_esr_percent", 1},
-                                              {"training_esr_percent", 2},
-                                              {"coverage_percent", 0, kPage},
-                                              {"interval_width_N", 0, kPage},
-                                              {"parameters", 3},
-                                              {"nanoseconds_per_step", 7},
-                                              {"fit_cpu_seconds", 3},
-                                              {"largest_spans", 0, kPage},
-                                              {"forgets", 0, kPage},
-                                              {"dissipates", 1},
-                                              {"status"}});
+  DocumentTable table =
+      model_table(ranking, chosen_columns(ranking, {{"model", 0, kText},
+                                                    {"title", 0, kPage},
+                                                    {"esr_percent"},
+                                                    {"behind_percent", 2},
+                                                    {"told_apart"},
+                                                    {"validation_esr_percent"},
+                                                    {"rmse_N"},
+                                                    {"fit_percent"},
+                                                    {"r2", 6},
+                                                    {"rms_half_span_percent", 4},
+                                                    {"mean_esr_percent", 0, kPage},
+                                                    {"worst_esr_percent"},
+                                                    {"worst_record", 5, kText},
+                                                    {"pre_yield_rmse_N", 0, kPage},
+                                                    {"energy_error_percent", 0, kPage},
+                                                    {"no_offset_esr_percent", 1},
+                                                    {"training_esr_percent", 2},
+                                                    {"coverage_percent", 0, kPage},
+                                                    {"interval_width_N", 0, kPage},
+                                                    {"parameters", 3},
+                                                    {"nanoseconds_per_step", 7},
+                                                    {"fit_cpu_seconds", 3},
+                                                    {"largest_spans", 0, kPage},
+                                                    {"forgets", 0, kPage},
+                                                    {"dissipates", 1},
+                                                    {"status"}}));
 
   // A click on a row shows the model below.
   table.leads_to = "closer";
   table.note = difference_note(ranking).value_or("");
   if (const std::optional<std::string> one_step = one_step_note(ranking))
     table.note += (table.note.empty() ? "" : " ") + *one_step;
-  const std::optional<std::string> untried = budget_note(ranking);
+  std::vector<std::string> paragraphs;
+  if (const std::optional<std::string> untried = budget_note(ranking))
+    paragraphs.push_back(*untried);
+  if (const std::optional<std::string> validated = validation_note(ranking))
+    paragraphs.push_back(*validated);
   return {.name = "ranking",
           .title = "Ranking",
-          .paragraphs = untried ? std::vector{*untried} : std::vector<std::string>(),
+          .paragraphs = std::move(paragraphs),
           .tables = {std::move(table)},
           .remarks = inertia_remarks(ranking),
           .lead =
@@ -108,32 +125,35 @@ std::string result_text(const RankedModel& model, const RecordResult& result) {
 DocumentSection closer_section(const ReportInput& input, std::vector<SharedSamples>& samples,
                                std::string& display) {
   const Ranking& ranking = input.ranking;
-  const std::vector<std::string> records = judged_records(ranking);
-  DocumentChoice model{"model", "Model", {}}, record{"record", "Record", records};
+  const std::vector<ShownRecord> records = shown_records(ranking);
+  DocumentChoice model{"model", "Model", {}}, record{"record", "Record", {}};
+  for (const ShownRecord& one : records) record.options.push_back(one.label());
   DocumentSection section{
       .name = "closer",
       .title = "A closer look",
       .paragraphs = {},
-      .lead = "One model on one left-out record; the loops show all records of the same motion.",
+      .lead =
+          "One model on one record, left out unless it is marked; the loops show all records of "
+          "the same motion.",
       .audience = Audience::Page};
 
   // A sentence for each model on each record.
   for (std::size_t m = 0; m < ranking.models.size(); ++m) {
     model.options.push_back(fmt::format("{}. {}", m + 1, display_name(ranking.models[m])));
     for (std::size_t r = 0; r < records.size(); ++r) {
-      const auto& results = ranking.models[m].left_out.records;
-      const auto result = std::ranges::find(results, records[r], &RecordResult::record);
+      const RecordResult* result = records[r].of(ranking.models[m]);
       section.lists.push_back(
           {.title = {},
-           .lines = {result == results.end() ? display_name(ranking.models[m]) +
-                                                   " was not judged on " + records[r] + "."
-                                             : result_text(ranking.models[m], *result)},
+           .lines = {result ? result_text(ranking.models[m], *result)
+                            : display_name(ranking.models[m]) + " was not judged on " +
+                                  records[r].name + "."},
            .when = {{"model", {m}}, {"record", {r}}}});
     }
   }
 
   // The page opens with the best model on its worst record.
-  const auto worst = std::ranges::find(records, ranking.models.front().left_out.worst_record);
+  const auto worst =
+      std::ranges::find(records, ranking.models.front().left_out.worst_record, &ShownRecord::name);
   if (worst != records.end()) record.chosen = static_cast<std::size_t>(worst - records.begin());
   section.choices = {std::move(model), std::move(record)};
   section.figures = record_figures(input, samples, display);
@@ -190,6 +210,13 @@ DocumentSection fitted_section(const Ranking& ranking) {
     section.tables.back().title = "Left-out records, " + display_name(model);
     section.tables.back().when = here;
     section.tables.back().audience = Audience::Files;
+    if (!model.validation.records.empty()) {
+      section.tables.push_back(record_table(model.validation, "Further record"));
+      section.tables.back().title =
+          "Further records, which no fit has seen, " + display_name(model);
+      section.tables.back().when = here;
+      section.tables.back().audience = Audience::Files;
+    }
     section.lists.push_back({.title = "Warnings",
                              .lines = warnings_of(model, ranking.folds),
                              .when = here,
@@ -241,6 +268,8 @@ Document ranking_document(const ReportInput& input) {
                                  .lead = "Where the error lies: by motion, by drive and by speed.",
                                  .audience = Audience::Page});
     document.sections.push_back(fitted_section(ranking));
+    if (DocumentSection section = residual_section(ranking); !section.tables.empty())
+      document.sections.push_back(std::move(section));
   }
   document.sections.push_back(judged_section(protocol(ranking), ranking.folds, judged_terms()));
   document.provenance = provenance_section(input.dataset, display);

@@ -24,7 +24,8 @@ constexpr std::size_t kMostBars = 5;
 
 /// The results of all models on one record; the first one gives motion and measured force.
 struct RecordCurves {
-  std::size_t record = 0;  ///< its place among judged_records()
+  std::size_t record = 0;  ///< its place among shown_records()
+  ShownRecord::Part part = ShownRecord::Part::LeftOut;
   const RecordResult* first = nullptr;
   std::vector<std::pair<std::size_t, const RecordResult*>> models;  ///< by place in the ranking
   std::vector<std::size_t> chosen;                                  ///< the samples that are shown
@@ -33,19 +34,18 @@ struct RecordCurves {
 /// One for every record that some model was run on.
 std::vector<RecordCurves> curves_by_record(const Ranking& ranking) {
   std::vector<RecordCurves> curves;
-  const std::vector<std::string> records = judged_records(ranking);
+  const std::vector<ShownRecord> records = shown_records(ranking);
   for (std::size_t r = 0; r < records.size(); ++r) {
-    RecordCurves here{.record = r, .models = {}, .chosen = {}};
+    RecordCurves here{.record = r, .part = records[r].part, .models = {}, .chosen = {}};
 
     // Only forces over the same samples can share their time.
-    for (std::size_t m = 0; m < ranking.models.size(); ++m)
-      for (const RecordResult& result : ranking.models[m].left_out.records) {
-        if (result.record != records[r] || result.time.empty() ||
-            result.modelled.size() != result.time.size())
-          continue;
-        if (!here.first) here.first = &result;
-        if (result.time.size() == here.first->time.size()) here.models.emplace_back(m, &result);
-      }
+    for (std::size_t m = 0; m < ranking.models.size(); ++m) {
+      const RecordResult* result = records[r].of(ranking.models[m]);
+      if (!result || result->time.empty() || result->modelled.size() != result->time.size())
+        continue;
+      if (!here.first) here.first = result;
+      if (result->time.size() == here.first->time.size()) here.models.emplace_back(m, result);
+    }
     if (here.first) curves.push_back(std::move(here));
   }
   return curves;
@@ -485,8 +485,8 @@ std::vector<DocumentFigure> record_figures(const ReportInput& input,
   for (const RecordCurves& one : curves) {
     std::vector<const RecordCurves*> together;
     for (const RecordCurves& other : curves)
-      if (&other == &one ||
-          (!one.first->condition.empty() && one.first->condition == other.first->condition))
+      if (&other == &one || (one.part == other.part && !one.first->condition.empty() &&
+                             one.first->condition == other.first->condition))
         together.push_back(&other);
     panels.add(one, together);
   }

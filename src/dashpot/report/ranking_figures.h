@@ -3,7 +3,7 @@
 #include "dashpot/report/report.h"
 
 // The figures of a ranking's page. They follow the choices "model" and "record", whose options are
-// the ranking's models and judged_records().
+// the ranking's models and shown_records().
 namespace dashpot {
 
 /// Force, loops and residual of the chosen model on the chosen record. The curves, thinned so that

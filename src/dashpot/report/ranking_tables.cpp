@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cmath>
 #include <functional>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -103,6 +104,13 @@ const std::vector<ModelColumn>& model_columns() {
             "ESR of the worst left-out record; a click on the row shows it",
             [](Model m) { return m.left_out.worst_esr; }, percent_text),
         words("worst_record", "Worst record", "", [](Model m) { return m.left_out.worst_record; }),
+        figure(
+            "validation_esr_percent", "Valid. %",
+            "ESR of the final fit on the further recordings, which no fit has seen",
+            [](Model m) {
+              return m.validation.pooled.samples ? m.validation.pooled.esr : kNoNumber;
+            },
+            percent_text),
         figure("pre_yield_rmse_N", "Slow N",
                "RMS error in the band of least speed: the pre-yield region", pre_yield_rmse,
                three_digits),
@@ -230,14 +238,23 @@ constexpr MetricColumn kMetricColumns[] = {{"rmse_N", &Metrics::rmse},
                                            {"mae_N", &Metrics::mae},
                                            {"max_error_N", &Metrics::max_error}};
 
-std::string csv_line(const RankedModel& model, const RecordResult& record, bool left_out) {
+const std::vector<RecordResult>& results_of(const RankedModel& model, ShownRecord::Part part) {
+  return part == ShownRecord::Part::LeftOut      ? model.left_out.records
+         : part == ShownRecord::Part::Validation ? model.validation.records
+                                                 : model.training.records;
+}
+
+std::string csv_line(const RankedModel& model, const RecordResult& record,
+                     const std::string& left_out) {
   const auto optional_text = [](const std::optional<double>& value) {
     return value ? format_exact(*value) : std::string();
   };
-  std::vector<std::string> fields = {
-      csv_field(model.name),       csv_field(record.record),
-      csv_field(record.condition), optional_text(record.drive_level),
-      left_out ? "yes" : "no",     std::to_string(record.metrics.samples)};
+  std::vector<std::string> fields = {csv_field(model.name),
+                                     csv_field(record.record),
+                                     csv_field(record.condition),
+                                     optional_text(record.drive_level),
+                                     left_out,
+                                     std::to_string(record.metrics.samples)};
   for (const auto& [name, member] : kMetricColumns)
     fields.push_back(format_exact(record.metrics.*member));
   for (const double value : {record.metrics_without_offset.esr, record.offset, record.energy_error})
@@ -248,12 +265,30 @@ std::string csv_line(const RankedModel& model, const RecordResult& record, bool 
 
 }  // namespace
 
-std::vector<std::string> judged_records(const Ranking& ranking) {
-  std::vector<std::string> names;
-  for (const RankedModel& model : ranking.models)
-    for (const RecordResult& result : model.left_out.records)
-      if (std::ranges::find(names, result.record) == names.end()) names.push_back(result.record);
-  return names;
+std::string ShownRecord::label() const {
+  return name + (part == Part::LeftOut      ? ""
+                 : part == Part::Validation ? " (validation)"
+                                            : " (training)");
+}
+
+const RecordResult* ShownRecord::of(const RankedModel& model) const {
+  const auto& results = results_of(model, part);
+  const auto found = std::ranges::find(results, name, &RecordResult::record);
+  return found == results.end() ? nullptr : &*found;
+}
+
+std::vector<ShownRecord> shown_records(const Ranking& ranking) {
+  using enum ShownRecord::Part;
+  std::vector<ShownRecord> records;
+  std::set<std::pair<ShownRecord::Part, std::string>> known;
+  for (const ShownRecord::Part part : {LeftOut, Validation, Training})
+    for (const RankedModel& model : ranking.models)
+      for (const RecordResult& result : results_of(model, part))
+        if ((part == LeftOut || !result.time.empty()) &&
+            !(part == Training && known.contains({LeftOut, result.record})) &&
+            known.emplace(part, result.record).second)
+          records.push_back({result.record, part});
+  return records;
 }
 
 DocumentTable model_table(const Ranking& ranking, const std::vector<ColumnChoice>& columns) {
@@ -266,7 +301,7 @@ DocumentTable model_table(const Ranking& ranking, const std::vector<ColumnChoice
     table.columns.push_back(look);
   }
 
-  const std::vector<std::string> records = judged_records(ranking);
+  const std::vector<ShownRecord> records = shown_records(ranking);
   const std::vector<const RankedModel*> leaders = ranking.leaders();
   for (const RankedModel& model : ranking.models) {
     const std::size_t place = table.rows.size();
@@ -278,7 +313,7 @@ DocumentTable model_table(const Ranking& ranking, const std::vector<ColumnChoice
     table.warnings.push_back(!is_recommendable(model));
     table.leaders.push_back(std::ranges::find(leaders, &model) != leaders.end());
     table.chooses.push_back({{"model", place}});
-    const auto worst = std::ranges::find(records, model.left_out.worst_record);
+    const auto worst = std::ranges::find(records, model.left_out.worst_record, &ShownRecord::name);
     if (worst != records.end())
       table.chooses.back().emplace_back("record",
                                         static_cast<std::size_t>(worst - records.begin()));
@@ -357,10 +392,10 @@ DocumentTable parameter_table(const FitReport& fit) {
   return table;
 }
 
-DocumentTable record_table(const Evaluation& evaluation) {
+DocumentTable record_table(const Evaluation& evaluation, const std::string& title) {
   DocumentTable table{
       .title = {},
-      .columns = {{.title = "Left-out record", .elastic = true},
+      .columns = {{.title = title, .elastic = true},
                   {"ESR %", true},
                   {"RMSE N", true},
                   {.title = "Fit %", .numeric = true, .descending = true},
@@ -435,9 +470,11 @@ std::string csv_report(const ReportInput& input) {
   for (const auto& [name, member] : kMetricColumns) text += std::string(",") + name;
   text += ",esr_without_offset_percent,offset_N,energy_error_percent,diverged_at_s\n";
   for (const RankedModel& model : input.ranking.models) {
-    for (const RecordResult& record : model.left_out.records) text += csv_line(model, record, true);
-    for (const RecordResult& record : model.training.records)
-      text += csv_line(model, record, false);
+    for (const RecordResult& record : model.left_out.records)
+      text += csv_line(model, record, "yes");
+    for (const RecordResult& record : model.validation.records)
+      text += csv_line(model, record, "validation");
+    for (const RecordResult& record : model.training.records) text += csv_line(model, record, "no");
   }
   return text;
 }

@@ -15,8 +15,19 @@ struct ColumnChoice {
   Audience audience = Audience::Everyone;
 };
 
-/// Every record that a model of the ranking was judged on, once: the options of a page's choice.
-std::vector<std::string> judged_records(const Ranking& ranking);
+/// A record whose curves a page has: an option of its choice.
+struct ShownRecord {
+  enum class Part { LeftOut, Validation, Training };
+  std::string name;
+  Part part = Part::LeftOut;
+  std::string label() const;  ///< "5 mm 2 Hz", "5 mm 3 Hz (training)"
+  /// A model's result on it; null where it was not run there.
+  const RecordResult* of(const RankedModel& model) const;
+};
+
+/// Every record that a page can show, once: those that models were judged on, further ones, and of
+/// the training records those that no division leaves out.
+std::vector<ShownRecord> shown_records(const Ranking& ranking);
 
 /// One row per model, best first; a click on it looks closer at the model and its worst record.
 DocumentTable model_table(const Ranking& ranking, const std::vector<ColumnChoice>& columns);
@@ -26,8 +37,9 @@ DocumentTable breakdown_table(const Ranking& ranking, DriveUnit drive_unit);
 DocumentTable interval_table(const Ranking& ranking);
 /// Value, 95 % interval and remarks of each fitted parameter.
 DocumentTable parameter_table(const FitReport& fit);
-/// A model's errors on each left-out record.
-DocumentTable record_table(const Evaluation& evaluation);
+/// A model's errors on each record; `title`: of the records.
+DocumentTable record_table(const Evaluation& evaluation,
+                           const std::string& title = "Left-out record");
 
 /// "The 90 % interval of the model covers 88.1 % of the samples, ..."; empty without intervals.
 std::string interval_sentence(const Evaluation& evaluation);

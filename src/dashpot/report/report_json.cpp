@@ -7,8 +7,10 @@
 #include "dashpot/damper/file_parts.h"
 #include "dashpot/damper/force_band.h"
 #include "dashpot/identify/judge/stress.h"
+#include "dashpot/identify/rank/information.h"
 #include "dashpot/identify/rank/paired_difference.h"
 #include "dashpot/report/predicted_ride_section.h"
+#include "dashpot/report/residual_section.h"
 #include "dashpot/report/words.h"
 
 namespace dashpot {
@@ -84,7 +86,21 @@ Value behind_json(const std::optional<PairedDifference>& behind) {
                         {"told_apart", !behind->holds_zero()}});
 }
 
-Value model_json(const RankedModel& model, const std::vector<std::string>& folds) {
+Value information_json(const RankedModel& model,
+                       const std::optional<InformationCriteria>& criteria) {
+  if (!criteria) return {};
+  return Value::object({{"samples", model.likelihood->samples},
+                        {"correlation_length", model.likelihood->correlation_length},
+                        {"independent_samples", criteria->independent},
+                        {"parameters", model.likelihood->parameters},
+                        {"log_likelihood", criteria->log_likelihood},
+                        {"aic", criteria->aic},
+                        {"bic", criteria->bic}});
+}
+
+Value model_json(const RankedModel& model, const std::vector<std::string>& folds,
+                 const std::vector<ResidualTest>& tests,
+                 const std::optional<InformationCriteria>& criteria) {
   Value fold_fits = Value::array();
   for (std::size_t i = 0; i < model.fold_fits.size(); ++i) {
     Value fit = fit_json(model.fold_fits[i]);
@@ -110,7 +126,11 @@ Value model_json(const RankedModel& model, const std::vector<std::string>& folds
                      {"fit", fit_json(model.fit)},
                      {"fold_fits", std::move(fold_fits)},
                      {"left_out", evaluation_json(model.left_out)},
-                     {"training", evaluation_json(model.training)}});
+                     {"training", evaluation_json(model.training)},
+                     {"residual_tests", residual_tests_json(tests)},
+                     {"information", information_json(model, criteria)}});
+  if (!model.validation.records.empty())
+    object.add("validation", evaluation_json(model.validation));
   if (model.ride) object.add("ride", predicted_json(model));
   return object;
 }
@@ -199,12 +219,21 @@ Value fit_json(const FitReport& fit) {
     parameters.push_back(parameter_json(parameter));
   for (const auto& [record, offset] : fit.offsets)
     offsets.push_back(Value::object({{"record", record}, {"offset_N", offset}}));
+  // Row by row, in the order of the parameters and in their units.
+  Value covariance = Value::array();
+  for (std::size_t k = 0; k * fit.parameters.size() < fit.covariance.size(); ++k) {
+    Value row = Value::array();
+    for (std::size_t j = 0; j < fit.parameters.size(); ++j)
+      row.push_back(fit.covariance[k * fit.parameters.size() + j]);
+    covariance.push_back(std::move(row));
+  }
   return Value::object({{"status", status_name(fit.status)},
                         {"message", fit.message},
                         {"iterations", fit.iterations},
                         {"seconds", fit.seconds},
                         {"training_rmse_N", fit.training_rmse},
                         {"parameters", std::move(parameters)},
+                        {"covariance", std::move(covariance)},
                         {"offsets", std::move(offsets)},
                         {"warnings", Value::array(fit.warnings)}});
 }
@@ -239,9 +268,11 @@ Value budget_json(const Ranking& ranking) {
 
 Value json_report(const ReportInput& input) {
   const Ranking& ranking = input.ranking;
+  const std::vector<std::vector<ResidualTest>> tests = residual_tests(ranking);
+  const std::vector<std::optional<InformationCriteria>> criteria = information_criteria(ranking);
   Value models = Value::array();
-  for (const RankedModel& model : ranking.models)
-    models.push_back(model_json(model, ranking.folds));
+  for (std::size_t k = 0; k < ranking.models.size(); ++k)
+    models.push_back(model_json(ranking.models[k], ranking.folds, tests[k], criteria[k]));
   Value leaders = Value::array();
   for (const RankedModel* model : ranking.leaders()) leaders.push_back(model->name);
   const std::optional<std::string> one_step = one_step_note(ranking);
@@ -265,6 +296,7 @@ Value json_report(const ReportInput& input) {
 
   // Only a ranking whose models Dashpot chose has a budget.
   if (ranking.budget) report.add("budget", budget_json(ranking));
+  if (!ranking.validated_on.empty()) report.add("validated_on", ranking.validated_on);
   if (ranking.ridden) report.add("ride", ridden_json(ranking));
   return presentable(std::move(report));
 }

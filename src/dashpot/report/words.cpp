@@ -291,6 +291,23 @@ std::optional<std::string> budget_note(const Ranking& ranking) {
                      models.size() == 1 ? "it too" : "all");
 }
 
+std::optional<std::string> validation_note(const Ranking& ranking) {
+  if (ranking.validated_on.empty() || ranking.models.empty()) return std::nullopt;
+  const RankedModel& best = ranking.models.front();
+  const Evaluation& further = best.validation;
+  if (further.pooled.samples == 0)
+    return "On " + ranking.validated_on + ", which no fit has seen, " + display_name(best) +
+           " gives no force that can be judged.";
+  return fmt::format(
+      "On {} of {}, which no fit has seen, the final fit of {} leaves {} % of the force's power "
+      "unexplained, an RMS error of {} N (left out: {} % and {} N); its worst record there is {} "
+      "with {} %.",
+      counted(further.records.size(), "further record"), ranking.validated_on, display_name(best),
+      percent_text(further.pooled.esr), number_text(further.pooled.rmse),
+      percent_text(best.left_out.pooled.esr), number_text(best.left_out.pooled.rmse),
+      further.worst_record, percent_text(further.worst_esr));
+}
+
 std::optional<std::string> one_step_note(const Ranking& ranking) {
   std::vector<std::string> figures;
   bool all_known = !ranking.models.empty();

@@ -1,9 +1,13 @@
 #include "dashpot/identify/fit/fit_words.h"
 
+#include <algorithm>
+
+#include "dashpot/base/text.h"
 #include "dashpot/error.h"
 #include "dashpot/identify/fit/fit.h"
 #include "dashpot/identify/fit/network_design.h"
 #include "dashpot/identify/fit/parameter_choice.h"
+#include "dashpot/identify/judge/extrapolation.h"
 
 namespace dashpot {
 namespace {
@@ -47,6 +51,28 @@ IdentifyOptions identify_options(const FitWords& words, const std::vector<std::s
     parse_network_setting(text, prefix + "network", options.network);
   require_design(options.network, models);
   return options;
+}
+
+std::vector<std::shared_ptr<const DamperModel>> first_starts(const FitWords& words,
+                                                             const std::vector<std::string>& models,
+                                                             const Dataset& dataset) {
+  std::vector<std::shared_ptr<const DamperModel>> starts;
+  for (const std::string& path : words.from) {
+    ModelFile file = load_model(path);
+    const std::string name = file.model->name();
+    if (file.model->kind() != ModelKind::Law)
+      throw Error(path, "is a " + name + ", which is no law",
+                  "a law's file: its parameters are where the fit starts");
+    if (std::ranges::find(models, name) == models.end())
+      throw Error(path, "is a " + name + ", which is not among the models to fit",
+                  "those are " + join(models, ", "));
+    if (std::ranges::any_of(starts, [&](const auto& other) { return other->name() == name; }))
+      throw Error(path, "is a " + name + ", as another of the files to start from is",
+                  "one file for each law");
+    require_same_drive(file, dataset, path);
+    starts.push_back(std::move(file.model));
+  }
+  return starts;
 }
 
 }  // namespace dashpot

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "dashpot/dataset.h"
 #include "dashpot/identify.h"
 
 namespace dashpot {
@@ -16,6 +17,7 @@ struct FitWords {
   std::string force_offset = "record";                           ///< or "none"
   std::vector<std::string> forms, fixed, freed, bounds, priors;  ///< as "parameter=..."
   std::vector<std::string> network;                              ///< as "setting=..."
+  std::vector<std::string> from;                                 ///< model files, of one law each
   IdentifyOptions options;
 };
 
@@ -26,5 +28,11 @@ OffsetMode offset_mode(const std::string& word, const std::string& where);
 /// `prefix` stands before the option's name in messages: "--".
 IdentifyOptions identify_options(const FitWords& words, const std::vector<std::string>& models,
                                  const std::string& prefix);
+
+/// The models of `words.from`, for IdentifyOptions::from. Throws Error where a file holds no law
+/// among `models`, a law that another file has, or one with another drive than these recordings.
+std::vector<std::shared_ptr<const DamperModel>> first_starts(const FitWords& words,
+                                                             const std::vector<std::string>& models,
+                                                             const Dataset& dataset);
 
 }  // namespace dashpot

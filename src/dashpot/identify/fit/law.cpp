@@ -37,6 +37,15 @@ std::vector<double> searched_start(const LawTask& task, const LeastSquaresProble
                        task.options.seed);
 }
 
+/// The model that the fit of this task starts from first; null where the user names none.
+const LawModel* stated_start(const LawTask& task) {
+  if (task.model != task.law.name) return nullptr;
+  for (const auto& model : task.options.from)
+    if (const LawModel* start = model_as<LawModel>(*model); start && start->name() == task.model)
+      return start;
+  return nullptr;
+}
+
 /// The most promising end of short fits to a part of the data, from the starts given or, where
 /// there are none, from several.
 std::vector<double> best_start(const LawTask& task, std::vector<std::vector<double>> starts = {}) {
@@ -47,10 +56,13 @@ std::vector<double> best_start(const LawTask& task, std::vector<std::vector<doub
   const LawResiduals residuals = task.residuals(task.trial_thinning());
   const LeastSquaresProblem problem = residuals.problem(0, task.options.threads);
 
-  // The starts: the expected sizes, what a global search finds, and random ones.
+  // The starts: a model of the user's, the expected sizes, what a global search finds, and random
+  // ones. A single start is the user's alone.
   if (starts.empty()) {
     Random random(task.options.seed);
-    starts.push_back(task.unknowns.start());
+    const LawModel* stated = stated_start(task);
+    if (stated) starts.push_back(task.unknowns.of(*stated));
+    if (!stated || task.options.starts > 1) starts.push_back(task.unknowns.start());
     if (task.options.search > 0) starts.push_back(searched_start(task, problem));
     while (starts.size() < static_cast<std::size_t>(task.options.starts))
       starts.push_back(task.unknowns.start(&random));
@@ -202,6 +214,19 @@ LawSolution dissipating(LawTask task, LawSolution active) {
   return active;
 }
 
+/// Of the coefficients, in their order, row by row.
+std::vector<double> coefficient_covariance(
+    const std::vector<LawUnknowns::Coefficient>& coefficients, const Covariance& covariance) {
+  const std::size_t count = coefficients.size();
+  std::vector<double> matrix(count * count);
+  for (std::size_t i = 0; i < count; ++i)
+    for (std::size_t j = 0; j <= i; ++j)
+      matrix[i * count + j] = matrix[j * count + i] =
+          covariance.between(coefficients[i].first, coefficients[i].weights, coefficients[j].first,
+                             coefficients[j].weights);
+  return matrix;
+}
+
 std::vector<FittedParameter> fitted_parameters(
     const std::vector<LawUnknowns::Coefficient>& coefficients, const Covariance& covariance) {
   std::vector<FittedParameter> parameters;
@@ -341,6 +366,7 @@ FitReport fit_law(const Law& law, const std::vector<Record>& training, DriveUnit
   const Covariance spread = covariance(solved.part_matrices, variances, unknowns.size());
   const auto coefficients = unknowns.coefficients(solved.x);
   report.parameters = fitted_parameters(coefficients, spread);
+  report.covariance = coefficient_covariance(coefficients, spread);
   report.warnings = unknowns.warnings();
   for (const std::string& said : {steadied, sides, restriction})
     if (!said.empty()) report.warnings.push_back(said);

@@ -50,6 +50,13 @@ std::vector<double> lagrange(std::size_t node, std::size_t count, double first, 
   return c;
 }
 
+/// Coefficients of an exponential that is `first` without drive and `last` at `drive`, where it has
+/// come most of its way.
+std::vector<double> exponential_through(double first, double last, double drive) {
+  const double left = std::exp(-1.0);
+  return {first, (last - left * first) / (1 - left), 1 / (drive != 0 ? drive : 1)};
+}
+
 double half_span(const std::vector<double>& samples) {
   const auto [low, high] = std::minmax_element(samples.begin(), samples.end());
   return (*high - *low) / 2;
@@ -245,7 +252,11 @@ std::vector<double> LawUnknowns::of(const LawModel& model) const {
   std::vector<double> unknowns = start_;
   for (std::size_t p = 0; p < rows_.size(); ++p) {
     const Row& row = rows_[p];
-    const std::vector<double>& c = model.parameters().coefficients[p];
+    std::vector<double> c = model.parameters().coefficients[p];
+    if (row.form == Form::Exponential && is_polynomial(model.parameters().forms[p]))
+      c = exponential_through(model.parameters().at(p, 0),
+                              model.parameters().at(p, drive_min_ + drive_span()),
+                              drive_min_ + drive_span());
 
     // An exponential by its ends and rate, a polynomial by its values at the nodes.
     for (std::size_t k = 0; k < row.count; ++k) {

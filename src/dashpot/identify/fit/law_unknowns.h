@@ -42,7 +42,8 @@ class LawUnknowns {
   /// The unknowns, with those that stand at a bound back inside.
   std::vector<double> off_bounds(std::vector<double> unknowns) const;
   LawModel model(std::span<const double> unknowns) const;
-  /// The unknowns of a model of this law and of these forms.
+  /// The unknowns of a model of this law; a parameter of another form by its values over the drive
+  /// of the data.
   std::vector<double> of(const LawModel& model) const;
   /// The form in which these unknowns describe a parameter.
   Form form_of(std::size_t parameter) const { return rows_[parameter].form; }

@@ -30,10 +30,15 @@ double correlation_length(std::span<const double> residuals,
 }
 
 double Covariance::variance(std::size_t first, std::span<const double> weights) const {
+  return between(first, weights, first, weights);
+}
+
+double Covariance::between(std::size_t first_a, std::span<const double> a, std::size_t first_b,
+                           std::span<const double> b) const {
   double sum = 0;
-  for (std::size_t i = 0; i < weights.size(); ++i)
-    for (std::size_t j = 0; j < weights.size(); ++j)
-      sum += weights[i] * weights[j] * matrix[(first + i) * n + first + j];
+  for (std::size_t i = 0; i < a.size(); ++i)
+    for (std::size_t j = 0; j < b.size(); ++j)
+      sum += a[i] * b[j] * matrix[(first_a + i) * n + first_b + j];
   return sum;
 }
 

@@ -28,6 +28,9 @@ struct Covariance {
       confounded;  ///< groups that can be traded against each other
   double variance(std::size_t first,
                   std::span<const double> weights) const;  ///< of sum weights[k] x[first + k]
+  /// Covariance of two such sums.
+  double between(std::size_t first_a, std::span<const double> a, std::size_t first_b,
+                 std::span<const double> b) const;
 };
 
 /// part_matrices: J'J (n x n) of each part of the residuals. variances: of one independent residual

@@ -12,6 +12,12 @@ std::string_view bytes_of(const std::vector<double>& samples) {
   return {reinterpret_cast<const char*>(samples.data()), samples.size() * sizeof(double)};
 }
 
+std::string text_of(const std::vector<std::shared_ptr<const DamperModel>>& models) {
+  std::string text;
+  for (const auto& model : models) text += format_json(model->to_json(), false) + ';';
+  return text;
+}
+
 std::string text_of(const std::vector<ParameterChoice>& choices) {
   std::string text;
   for (const auto& [law, parameter, form, fixed, free, bounds, prior] : choices) {
@@ -46,17 +52,20 @@ std::string fingerprint(const std::vector<Record>& records) {
 NamedTexts describe_options(const IdentifyOptions& identify_options) {
   // All members by name, so that a new option does not compile until it is dealt with here. Threads
   // and monitor do not change a fit.
-  const auto& [offset, choices, allow_active, asymmetric, network, starts, search, seed, threads,
-               monitor] = identify_options;
+  const auto& [offset, choices, allow_active, asymmetric, network, starts, search, from, seed,
+               threads, monitor] = identify_options;
   (void)threads, (void)monitor;
-  return {{"force offset", offset == OffsetMode::Record ? "an offset per record" : "no offsets"},
-          {"parameter choices", text_of(choices)},
-          {"laws that feed energy in", allow_active ? "kept" : "refitted"},
-          {"rebound and compression", asymmetric ? "apart where it pays" : "alike"},
-          {"network", format_design(network)},
-          {"starts", std::to_string(starts)},
-          {"global search", std::to_string(search)},
-          {"seed", std::to_string(seed)}};
+  NamedTexts texts{
+      {"force offset", offset == OffsetMode::Record ? "an offset per record" : "no offsets"},
+      {"parameter choices", text_of(choices)},
+      {"laws that feed energy in", allow_active ? "kept" : "refitted"},
+      {"rebound and compression", asymmetric ? "apart where it pays" : "alike"},
+      {"network", format_design(network)},
+      {"starts", std::to_string(starts)},
+      {"global search", std::to_string(search)},
+      {"seed", std::to_string(seed)}};
+  if (!from.empty()) texts.emplace_back("first start", text_of(from));
+  return texts;
 }
 
 }  // namespace dashpot

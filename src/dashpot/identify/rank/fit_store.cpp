@@ -40,14 +40,16 @@ std::string model_text(const FitStore::Request& request, const FitReport& fit) {
 }
 
 std::string format_fit(const FitStore::Request& request, const FitReport& fit) {
-  Value parameters = Value::array(), offsets = Value::array();
+  Value parameters = Value::array(), covariance = Value::array(), offsets = Value::array();
   for (const FittedParameter& p : fit.parameters) parameters.push_back(to_json(p));
+  for (const double c : fit.covariance) covariance.push_back(any_number(c));
   for (const auto& [record, offset] : fit.offsets) offsets.push_back(offset);
 
   return format_json(Value::object({{"converged", fit.status == FitReport::Status::Converged},
                                     {"message", fit.message},
                                     {"model", model_text(request, fit)},
                                     {"parameters", std::move(parameters)},
+                                    {"covariance", std::move(covariance)},
                                     {"offsets", std::move(offsets)},
                                     {"warnings", Value::array(fit.warnings)},
                                     {"iterations", fit.iterations},
@@ -81,6 +83,11 @@ FitReport parse_fit(const std::string& text, const std::string& key,
   // Its figures.
   for (const Value& p : reader.required("parameters").items())
     fit.parameters.push_back(read_parameter(p));
+  for (const Value& c : reader.required("covariance").items())
+    fit.covariance.push_back(read_any_number(c));
+  if (const std::size_t count = fit.parameters.size();
+      !fit.covariance.empty() && fit.covariance.size() != count * count)
+    throw Error(value.where(), "holds a covariance of other parameters");
   read_offsets(reader.required("offsets"), training, fit);
   for (const Value& warning : reader.required("warnings").items())
     fit.warnings.push_back(warning.as_string());

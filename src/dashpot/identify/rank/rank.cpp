@@ -20,6 +20,7 @@
 #include "dashpot/identify/judge/stress.h"
 #include "dashpot/identify/rank/divisions.h"
 #include "dashpot/identify/rank/fit_store.h"
+#include "dashpot/identify/rank/information.h"
 #include "dashpot/identify/rank/paired_difference.h"
 #include "dashpot/identify/rank/rank_and_tell.h"
 
@@ -52,14 +53,21 @@ double force_span(const std::vector<Record>& records) {
   return high - low;
 }
 
-/// The curves of training records are shown nowhere, and those of dozens of models would fill the
-/// memory.
-void drop_curves(Evaluation& evaluation) {
-  for (RecordResult& r : evaluation.records)
+/// Every record is shown once: the curves of training records that are shown as left-out ones would
+/// fill the memory with those of dozens of models.
+void drop_curves(Evaluation& training, const Evaluation& left_out, const LeaveOut& leave_out) {
+  const auto is_shown = [&](const RecordResult& r) {
+    return leave_out.by == LeaveOut::By::Blocks ||
+           std::ranges::find(left_out.records, r.record, &RecordResult::record) !=
+               left_out.records.end();
+  };
+  for (RecordResult& r : training.records) {
+    if (!is_shown(r)) continue;
     for (auto curve : {&RecordResult::time, &RecordResult::displacement, &RecordResult::velocity,
                        &RecordResult::drive, &RecordResult::measured, &RecordResult::modelled,
                        &RecordResult::spread})
       (r.*curve) = {};
+  }
 }
 
 /// How long a fit takes beside the others: the unknowns, times what a force costs, times the number
@@ -93,6 +101,26 @@ std::string unit_of(const LeaveOut& leave_out, const std::vector<Fold>& folds) {
 void name_block(RecordResult& result) {
   result.record += ", " + format_number(result.time[result.warm_up], 3) + " to " +
                    format_number(result.time.back(), 3) + " s";
+}
+
+/// What a law's fit knows of its numbers, for its file: intervals and, row by row, the covariance.
+Value numbers_json(const FitReport& fit) {
+  Value names = Value::array(), low = Value::array(), high = Value::array(),
+        covariance = Value::array();
+  const auto number = [](double value) { return std::isfinite(value) ? Value(value) : Value(); };
+  const std::size_t count = fit.parameters.size();
+  for (std::size_t k = 0; k < count; ++k) {
+    names.push_back(fit.parameters[k].name);
+    low.push_back(number(fit.parameters[k].low));
+    high.push_back(number(fit.parameters[k].high));
+    Value row = Value::array();
+    for (std::size_t j = 0; j < count; ++j) row.push_back(number(fit.covariance[k * count + j]));
+    covariance.push_back(std::move(row));
+  }
+  return Value::object({{"names", std::move(names)},
+                        {"low", std::move(low)},
+                        {"high", std::move(high)},
+                        {"covariance", std::move(covariance)}});
 }
 
 /// What is wrong with a model that does not forget.
@@ -282,7 +310,8 @@ class RankingRun {
     if (!ranked.fit.model) return fail(ranked, "all records", ranked.fit.message);
     ranked.training = evaluate_fit(ranked.fit, training_);
     ranked.band = conformal_band(error_shape(ranked.training.records), errors);
-    drop_curves(ranked.training);
+    ranked.likelihood = likelihood_of(ranked, options_);
+    drop_curves(ranked.training, ranked.left_out, ranking_.leave_out);
     ranked.stress = stress(*ranked.fit.model, domain_, force_span_);
     ranked.forgetting = forgetting(*ranked.fit.model, training_, dataset_.drive_unit, force_span_,
                                    options_.threads);
@@ -421,6 +450,38 @@ Ranking rank_and_tell(const std::vector<std::string>& models, const Dataset& dat
   return RankingRun(models, dataset, leave_out, options, store, std::move(on_judged)).run();
 }
 
+void require_further(const Dataset& further, const Dataset& fitted) {
+  for (const SourceFile& file : further.files)
+    if (const auto same = std::ranges::find(fitted.files, file.sha256, &SourceFile::sha256);
+        same != fitted.files.end())
+      throw Error(file.path,
+                  "is among the recordings that the models are fitted on" +
+                      (same->path == file.path ? "" : ", as " + same->path),
+                  "validate on recordings that no fit sees");
+  if (further.drive_unit != fitted.drive_unit)
+    throw Error(further.name,
+                "is driven in " + name_of(further.drive_unit) + ", the recordings of the fit in " +
+                    name_of(fitted.drive_unit),
+                "further recordings with the same drive");
+}
+
+void validate(Ranking& ranking, const Dataset& further, const IdentifyOptions& options) {
+  ranking.validated_on = further.name;
+  parallel_for(ranking.models.size(), options.threads, [&](std::size_t k) {
+    RankedModel& ranked = ranking.models[k];
+    if (!ranked.fit.model) return;
+    try {
+      ranked.validation = evaluate(*ranked.fit.model, further.records, further.drive_unit,
+                                   {.offset = options.offset,
+                                    .known_offsets = {},
+                                    .band = ranked.band,
+                                    .threads = options.threads});
+    } catch (const Error& error) {
+      ranked.fit.warnings.push_back(std::string("not validated: ") + error.what());
+    }
+  });
+}
+
 PartReport rank_part(const std::vector<std::string>& models, const Dataset& dataset,
                      const LeaveOut& leave_out, const IdentifyOptions& options, FitStore& store,
                      const Part& part) {
@@ -474,6 +535,9 @@ ModelFile to_model_file(const RankedModel& ranked, const Dataset& dataset,
   file.provenance = provenance_of(dataset, std::move(names), command);
   file.quality = Value::object({{"training", to_json(ranked.training.pooled)},
                                 {"left_out", to_json(ranked.left_out.pooled)}});
+  if (ranked.validation.pooled.samples > 0)
+    file.quality.add("validation", to_json(ranked.validation.pooled));
+  if (!ranked.fit.covariance.empty()) file.quality.add("parameters", numbers_json(ranked.fit));
   file.interval = ranked.band;
   if (ranked.dissipation.is_tested) file.dissipation = ranked.dissipation;
   return file;

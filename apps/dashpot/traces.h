@@ -1,0 +1,19 @@
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "command.h"
+#include "dashpot/evaluate.h"
+
+namespace dashpot::cli {
+
+/// --traces FORMAT.
+Option traces_option(std::string& format);
+
+/// Motion, drive, and the forces measured, modelled and between them, a file per record and all in
+/// one for "raw". Returns how many records were written.
+std::size_t write_traces(const std::vector<RecordResult>& results, DriveUnit drive_unit,
+                         const std::string& format, const std::filesystem::path& folder);
+
+}  // namespace dashpot::cli
