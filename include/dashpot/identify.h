@@ -27,6 +27,9 @@ struct IdentifyOptions {
   int starts = 4;           ///< of which the best is taken
   int search = 0;           ///< evaluations of a global search that gives one more start; 0: none
   std::uint64_t seed = 1;
+  /// Laws, also within hybrids: a fitted model of the same law and forms, whose parameters are the
+  /// only start of the fit, in place of `starts` and `search`. Null, or of another law: not used.
+  std::shared_ptr<const DamperModel> warm_start = {};
   int threads = 0;  ///< 0: as many as the machine has
   Monitor monitor;
 };

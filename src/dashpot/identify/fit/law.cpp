@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 #include "dashpot/base/text.h"
 #include "dashpot/damper/law_side.h"
@@ -121,6 +122,17 @@ LeastSquaresReport solve_twice(const LawTask& task, const LeastSquaresProblem& p
   return second.converged
              ? second
              : solve(problem, second.x, solver_options(task.options, kIterations, kTolerance));
+}
+
+/// The unknowns of the model that the options start from; nothing where it is of another law or of
+/// other forms.
+std::optional<std::vector<double>> warm_start(const LawTask& task) {
+  if (!task.options.warm_start) return std::nullopt;
+  const LawModel* model = task.options.warm_start->law_inside();
+  if (!model || model->law().name != task.law.name) return std::nullopt;
+  for (std::size_t p = 0; p < task.law.params.size(); ++p)
+    if (model->parameters().forms[p] != task.unknowns.form_of(p)) return std::nullopt;
+  return task.unknowns.of(*model);
 }
 
 /// The parameters that must not fall over the drive (Fit::Rises), and do at the end of this fit.
@@ -308,7 +320,8 @@ LawSolution solve_law(const Law& law, const std::vector<Record>& training, Drive
                       const IdentifyOptions& options, std::string_view model) {
   if (model.empty()) model = law.name;
   const LawTask free(law, training, drive_unit, options, model);
-  LawSolution best = solve_all(free, best_start(free));
+  const std::optional<std::vector<double>> warm = warm_start(free);
+  LawSolution best = solve_all(free, warm ? *warm : best_start(free));
 
   // What must not fall over the drive is constant where it would.
   const std::vector<std::string> fallen = falling(free, best);

@@ -46,17 +46,20 @@ std::string fingerprint(const std::vector<Record>& records) {
 NamedTexts describe_options(const IdentifyOptions& identify_options) {
   // All members by name, so that a new option does not compile until it is dealt with here. Threads
   // and monitor do not change a fit.
-  const auto& [offset, choices, allow_active, asymmetric, network, starts, search, seed, threads,
-               monitor] = identify_options;
+  const auto& [offset, choices, allow_active, asymmetric, network, starts, search, seed, warm_start,
+               threads, monitor] = identify_options;
   (void)threads, (void)monitor;
-  return {{"force offset", offset == OffsetMode::Record ? "an offset per record" : "no offsets"},
-          {"parameter choices", text_of(choices)},
-          {"laws that feed energy in", allow_active ? "kept" : "refitted"},
-          {"rebound and compression", asymmetric ? "apart where it pays" : "alike"},
-          {"network", format_design(network)},
-          {"starts", std::to_string(starts)},
-          {"global search", std::to_string(search)},
-          {"seed", std::to_string(seed)}};
+  NamedTexts texts{
+      {"force offset", offset == OffsetMode::Record ? "an offset per record" : "no offsets"},
+      {"parameter choices", text_of(choices)},
+      {"laws that feed energy in", allow_active ? "kept" : "refitted"},
+      {"rebound and compression", asymmetric ? "apart where it pays" : "alike"},
+      {"network", format_design(network)},
+      {"starts", std::to_string(starts)},
+      {"global search", std::to_string(search)},
+      {"seed", std::to_string(seed)}};
+  if (warm_start) texts.emplace_back("warm start", format_json(warm_start->to_json(), false));
+  return texts;
 }
 
 }  // namespace dashpot
