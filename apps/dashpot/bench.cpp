@@ -8,6 +8,7 @@
 #include "dashpot/base/text.h"
 #include "dashpot/report/provenance.h"
 #include "data.h"
+#include "production_line.h"
 #include "sequence_sheet.h"
 
 namespace dashpot::cli {
@@ -17,6 +18,7 @@ struct BenchSettings {
   CampaignSettings campaign;
   std::string folder = "dashpot-bench";
   bool list_sequences = false;
+  LineSettings line;
 };
 
 constexpr std::string_view kBenchExample =
@@ -29,7 +31,10 @@ constexpr std::string_view kBenchExample =
     "\n"
     "# Transients: a chirp under random levels; an experiment of the one-sensor paper:\n"
     "dashpot bench --damper mr1 --motion FM,duration=20 --drive APRBS --output transient\n"
-    "dashpot bench --damper mr1 --experiment one-sensor-2 --output stepped";
+    "dashpot bench --damper mr1 --experiment one-sensor-2 --output stepped\n"
+    "\n"
+    "# A production line: 100 dampers, some of them faulty, for 'dashpot identify-many line':\n"
+    "dashpot bench --dampers 100 --motions 10x2 --levels 0,1 --cycles 2 --output line";
 
 int list_sequences(Console& console) {
   if (console.json)
@@ -50,6 +55,9 @@ std::string first_infinite(const Dataset& campaign) {
 
 int run_bench(const BenchSettings& settings, Console& console) {
   if (settings.list_sequences) return list_sequences(console);
+
+  if (settings.line.dampers > 0)
+    return record_line(settings.line, settings.campaign, settings.folder, console);
 
   // The whole campaign is recorded before the first file is written.
   const ParameterSet damper = load_parameter_set(settings.campaign.damper);
@@ -101,6 +109,7 @@ Command bench_command() {
                              .help = "folder for the recordings",
                              .value = "DIR",
                              .takes = Takes::Folder});
+  append(command.options, line_options(settings->line));
   command.options.push_back(
       {.names = "--sequences",
        .target = &settings->list_sequences,

@@ -74,6 +74,7 @@ struct Command {
   std::string example;  ///< worked, with comments: what to type and what comes of it
   std::function<int(Console&)> run;
   std::vector<Command> subcommands = {};  ///< of a group, which has neither options nor `run`
+  bool over_ranks = false;                ///< shares its work among the processes of mpirun
 
   std::string last_word() const;
 };

@@ -6,6 +6,7 @@
 namespace dashpot::cli {
 
 Command identify_command();
+Command identify_many_command();
 Command rank_command();
 Command search_command();
 Command evaluate_command();

@@ -14,6 +14,7 @@
 #include "arguments.h"
 #include "commands.h"
 #include "console.h"
+#include "dashpot/base/ranks.h"
 #include "dashpot/base/text.h"
 #include "help.h"
 
@@ -23,6 +24,7 @@ namespace {
 std::atomic<bool> stop_asked = false;
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler writes it");
 std::atomic<int> stop_signal = 0;
+std::atomic<bool> speaks = true;  // rank 0 of mpirun does so for the others
 
 constexpr std::string_view kOutOfMemory = "error: out of memory\n";
 constexpr std::string_view kInterrupted =
@@ -53,7 +55,7 @@ void on_signal(int number) {
 void on_moment_over(int) {
   constexpr std::string_view kBegin = "\nerror: ",
                              kEnd = "; where work is kept, the same command goes on from there\n";
-  write_to_stderr({kBegin, kInterrupted, kEnd});
+  if (speaks) write_to_stderr({kBegin, kInterrupted, kEnd});
   _exit(128 + stop_signal);
 }
 
@@ -103,8 +105,25 @@ Command named_command(std::vector<std::string>& words) {
   return command;
 }
 
+/// Enters the job of mpirun, if there is one. Rank 0 alone speaks.
+void join_job(const Command& command, Console& console) {
+  if (ranks_started() == 1) return;
+  join_ranks(std::filesystem::read_symlink("/proc/self/exe").parent_path().string());
+  if (ranks().is_worker()) {
+    speaks = false;
+    console.quiet = true;
+    const int nowhere = open("/dev/null", O_WRONLY);
+    dup2(nowhere, STDOUT_FILENO);
+    close(nowhere);
+  }
+  if (!command.over_ranks)
+    throw UsageError(command.name, "does not share its work among the processes of mpirun",
+                     "start it alone; rank, search, sweep and identify-many share theirs");
+}
+
 int run_command(std::vector<std::string> words, Console& console) {
   const Command command = named_command(words);
+  join_job(command, console);
   const std::vector<Option> common = common_options(console);
   std::vector<Option> options = command.options;
   append(options, common);
@@ -153,29 +172,36 @@ std::string help_for(const std::vector<std::string>& words) {
   return known ? "dashpot " + words.front() + " --help" : "dashpot --help";
 }
 
+/// What went wrong, told by rank 0 also where it went wrong in another process of mpirun.
+void explain(std::string_view message, Console& console) {
+  if (ranks().is_worker()) fail_rank(std::string(message));
+  console.error(message);
+}
+
 int run_and_explain(const std::vector<std::string>& words, Console& console) {
   try {
     const int code = run_words(words, console);
     console.finish();
+    leave_ranks();
     return code == kDone && console.files_unread ? static_cast<int>(kFilesUnread) : code;
   } catch (const ReaderGone&) {
     // Nothing went wrong with the work: its reader has left, or below, the user stopped it.
     return 128 + SIGPIPE;
   } catch (const Interrupted&) {
-    console.error(kInterrupted);
+    explain(kInterrupted, console);
     return 128 + stop_signal;
   } catch (const UsageError& error) {
     // A UsageError is an Error too, but one that the help can answer.
-    console.error(error.what());
+    explain(error.what(), console);
     console.talk("'" + help_for(words) + "' explains.\n");
     return kUsage;
   } catch (const Error& error) {
     // From here on the input cannot be used, or the machine cannot do it.
-    console.error(error.what());
+    explain(error.what(), console);
   } catch (const std::bad_alloc&) {
-    console.error("out of memory; fewer records at once need less");
+    explain("out of memory; fewer records at once need less", console);
   } catch (const std::exception& error) {
-    console.error(std::string("unexpected: ") + error.what());
+    explain(std::string("unexpected: ") + error.what(), console);
   }
   return kUnusableInput;
 }
@@ -193,7 +219,9 @@ int main(int argc, char** argv) {
     std::string line = "dashpot";
     for (const std::string& word : words) line += ' ' + shell_quoted(word);
     Console console(line, stop_asked);
-    return run_and_explain(words, console);
+    const int code = run_and_explain(words, console);
+    dashpot::end_ranks(code);
+    return code;
   } catch (const std::bad_alloc&) {
     // Not even the message of an error has room.
     write_to_stderr({kOutOfMemory});

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include "console.h"
+#include "dashpot/base/ranks.h"
 #include "dashpot/damper/nets/kernel.h"
 #include "dashpot/report/words.h"
 
@@ -32,6 +33,8 @@ Part settle_machines(const ManyMachines& settings) {
     throw UsageError({}, error.what());
   }
 }
+
+bool are_dealt_out(const Part& part) { return !part.is_all() || !ranks().is_alone(); }
 
 int finish_part(const PartReport& report, const Part& part, const std::string& what,
                 const std::filesystem::path& store, Console& console) {

@@ -9,6 +9,7 @@
 #include "dashpot/base/file.h"
 #include "dashpot/base/merge_stores.h"
 #include "dashpot/base/text.h"
+#include "dashpot/identify/many/many.h"
 #include "dashpot/identify/rank/fit_store.h"
 #include "dashpot/identify/search/trial_store.h"
 #include "dashpot/report/words.h"
@@ -62,6 +63,7 @@ std::vector<MergedFormat> merged_formats() {
   return {{FitStore::kFormat, json_difference},
           {TrialStore::kFormat, json_difference},
           {TrainingStore::kFormat, json_difference},
+          {kManyFormat, json_difference},
           {SweepStore::kFormat, ride_difference}};
 }
 

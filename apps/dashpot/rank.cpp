@@ -9,6 +9,7 @@
 #include "console.h"
 #include "dashpot/base/file.h"
 #include "dashpot/base/parallel.h"
+#include "dashpot/base/ranks.h"
 #include "dashpot/identify/rank/divisions.h"
 #include "dashpot/identify/rank/model_choice.h"
 #include "dashpot/identify/rank/rank_and_tell.h"
@@ -88,8 +89,9 @@ int run_rank(const RankSettings& settings, Console& console) {
   const RankingSettings& asked = settings.ranking;
   if (settings.costs) return print_costs(asked, console);
   const Part part = settle_machines(settings.machines);
-  if (!part.is_all() && asked.fresh)
-    throw UsageError("--part", "keeps its fits, and --fresh keeps none", "leave one of them out");
+  if (are_dealt_out(part) && asked.fresh)
+    throw UsageError("--fresh", "keeps no fits, and --part and mpirun share those that are kept",
+                     "leave one of them out");
   const std::optional<RideRankOptions> ride = stated_ride(settings.ride, asked, console);
   const RankingData data = ranking_data(asked, console);
   const fs::path folder = asked.results.folder;
@@ -97,9 +99,14 @@ int run_rank(const RankSettings& settings, Console& console) {
   const std::unique_ptr<FitStore> store = fit_store(asked, console);
   const ChosenModels models = chosen_models(asked.fit, data.dataset, data.leave_out, console);
   const IdentifyOptions options = identify_options(asked.fit, models.names, console);
-  if (!part.is_all())
-    return finish_part(rank_part(models.names, data.dataset, data.leave_out, options, *store, part),
-                       part, "fit", folder / "fits.sqlite", console);
+  if (are_dealt_out(part)) {
+    const PartReport made =
+        rank_part(models.names, data.dataset, data.leave_out, options, *store, part);
+    if (ranks().is_worker()) return kDone;
+    if (!part.is_all()) return finish_part(made, part, "fit", folder / "fits.sqlite", console);
+  }
+
+  // All of it, or what is left to do when the tasks have been shared: to judge.
   Ranking ranking = rank_and_tell(models.names, data.dataset, data.leave_out, options, store.get(),
                                   [&](const RankedModel& model) { tell_judged(model, console); });
   ranking.budget = models.budget;
@@ -154,6 +161,7 @@ Command rank_command() {
            .help = "print the tables as a part of a Markdown page, without a date"}});
   append(command.options, ride_rank_options(settings->ride));
   append(command.options, many_machines_options(settings->machines));
+  command.over_ranks = true;
   return command;
 }
 

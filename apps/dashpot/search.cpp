@@ -9,6 +9,7 @@
 #include "commands.h"
 #include "console.h"
 #include "dashpot/base/file.h"
+#include "dashpot/base/ranks.h"
 #include "dashpot/base/text.h"
 #include "dashpot/damper/registry.h"
 #include "dashpot/identify/fit/fit.h"
@@ -179,11 +180,12 @@ int run_in(const fs::path& folder, const RankingData& data, const SearchOptions&
   console.talk("search: " + search_plan(search_rungs(options), options.effort) + '\n');
 
   // Trials kept from an interrupted search are not fitted again.
-  if (!part.is_all()) {
+  if (are_dealt_out(part)) {
     TrialStore store(file, describe_search(data.dataset, data.leave_out, options, program_id()));
     tell_dropped(store.dropped(), file, console);
-    return finish_part(search_part(data.dataset, data.leave_out, options, store, part), part, "fit",
-                       file, console);
+    const PartReport made = search_part(data.dataset, data.leave_out, options, store, part);
+    if (ranks().is_worker()) return kDone;
+    if (!part.is_all()) return finish_part(made, part, "fit", file, console);
   }
   const SearchReport report = run_search(data, options, file, console);
   const SearchInput input{data.dataset, report, console.command_line(), DASHPOT_VERSION,
@@ -294,6 +296,7 @@ Command search_command() {
   const std::vector<Option> own = own_options(*settings);
   command.options.insert(data_end, own.begin(), own.end());
   append(command.options, many_machines_options(settings->machines));
+  command.over_ranks = true;
   return command;
 }
 

@@ -8,6 +8,7 @@
 #include "commands.h"
 #include "console.h"
 #include "dashpot/base/file.h"
+#include "dashpot/base/ranks.h"
 #include "dashpot/base/text.h"
 #include "dashpot/report/sweep_report.h"
 #include "dashpot/report/words.h"
@@ -81,26 +82,12 @@ fs::path store_file(const SweepSettings& settings) {
 }
 
 /// Runs the request; each block of rides is kept in the folder of the results as it ends.
-Sweep run_sweep(const SweepRequest& request, const SweepSettings& settings, Console& console) {
-  const fs::path file = store_file(settings);
-  if (settings.results.fresh) Store::remove(file);
-  SweepStore store(file, request, program_id());
-  tell_dropped(store.dropped(), file, console);
+Sweep run_sweep(const SweepRequest& request, SweepStore& store, const SweepSettings& settings,
+                Console& console) {
   console.talk(fmt::format("sweep: {}, {} each, {} s\n", counted(request.vehicles(), "vehicle"),
                            counted(request.controllers.size(), "controller"),
                            format_number(request.duration)));
   return sweep(request, store, {settings.threads, console.monitor()});
-}
-
-/// The same for the blocks of one part.
-int run_sweep_part(const SweepRequest& request, const SweepSettings& settings, const Part& part,
-                   Console& console) {
-  const fs::path file = store_file(settings);
-  if (settings.results.fresh) Store::remove(file);
-  SweepStore store(file, request, program_id());
-  tell_dropped(store.dropped(), file, console);
-  return finish_part(sweep_part(request, store, {settings.threads, console.monitor()}, part), part,
-                     "block", file, console);
 }
 
 int run_sweep(const SweepSettings& settings, Console& console) {
@@ -115,8 +102,17 @@ int run_sweep(const SweepSettings& settings, Console& console) {
   prepare_study(settings.results);
 
   try {
-    if (!part.is_all()) return run_sweep_part(request, settings, part, console);
-    const Sweep result = run_sweep(request, settings, console);
+    const fs::path file = store_file(settings);
+    if (settings.results.fresh) Store::remove(file);
+    SweepStore store(file, request, program_id());
+    tell_dropped(store.dropped(), file, console);
+    if (are_dealt_out(part)) {
+      const PartReport made =
+          sweep_part(request, store, {settings.threads, console.monitor()}, part);
+      if (ranks().is_worker()) return kDone;
+      if (!part.is_all()) return finish_part(made, part, "block", file, console);
+    }
+    const Sweep result = run_sweep(request, store, settings, console);
     write_study(sweep_document(result), sweep_json(result), settings.results, console);
     write_tables(result, settings.results.folder, console);
     console.note(fmt::format("{} in {} s{}", counted(result.ride_count(), "ride"),
@@ -195,7 +191,8 @@ Command sweep_command() {
 
       .options = options_of(*settings),
       .example = std::string(kSweepExample),
-      .run = [settings](Console& console) { return run_sweep(*settings, console); }};
+      .run = [settings](Console& console) { return run_sweep(*settings, console); },
+      .over_ranks = true};
 }
 
 }  // namespace dashpot::cli

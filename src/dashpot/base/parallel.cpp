@@ -9,15 +9,27 @@
 #include <pthread.h>
 #include <sched.h>
 #include <thread>
+#include <unistd.h>
 #include <utility>
 #include <vector>
 
 namespace dashpot {
 
+namespace {
+
+std::atomic<int> sharing_processes = 1;
+
+}  // namespace
+
 int default_threads() {
+  const auto all = static_cast<int>(std::max(1L, sysconf(_SC_NPROCESSORS_ONLN)));
   cpu_set_t allowed;
-  if (sched_getaffinity(0, sizeof allowed, &allowed) == 0) return std::max(1, CPU_COUNT(&allowed));
-  return static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  const int own = sched_getaffinity(0, sizeof allowed, &allowed) == 0 ? CPU_COUNT(&allowed) : all;
+  return std::max(1, own < all ? own : all / sharing_processes);
+}
+
+void share_cores(std::size_t processes) {
+  sharing_processes = static_cast<int>(std::max<std::size_t>(1, processes));
 }
 
 namespace {

@@ -4,8 +4,13 @@
 
 namespace dashpot {
 
-/// Threads to use when the caller asks for 0: the cores this process may run on.
+/// Threads to use when the caller asks for 0: the cores this process may run on, or its share of
+/// them.
 int default_threads();
+
+/// From here on this process is one of so many that share all cores of the machine, where it has
+/// not been given some of them alone.
+void share_cores(std::size_t processes);
 
 /// Calls task(0) ... task(count - 1), each once, on up to `threads` threads (0: default_threads()).
 /// Tasks write only to their own slot, so results do not depend on the number of threads. The

@@ -1,5 +1,7 @@
 #include "dashpot/base/store.h"
 
+#include <cstdint>
+#include <cstring>
 #include <map>
 #include <mutex>
 
@@ -7,6 +9,7 @@
 #include <sqlite3.h>
 
 #include "dashpot/base/file.h"
+#include "dashpot/base/ranks.h"
 #include "dashpot/base/text.h"
 #include "dashpot/error.h"
 
@@ -89,6 +92,27 @@ std::string differences(const std::map<std::string, std::string>& there, const N
                         : name + ": " + before + " there, " + now + " here");
   }
   return join(parts, "; ");
+}
+
+/// Texts one after the other, each behind its length.
+void pack(std::string& packed, std::string_view text) {
+  const std::uint64_t size = text.size();
+  packed.append(reinterpret_cast<const char*>(&size), sizeof size).append(text);
+}
+
+/// The first of them, taken off.
+std::string_view unpack(std::string_view& packed) {
+  std::uint64_t size = 0;
+  std::memcpy(&size, packed.data(), sizeof size);
+  const std::string_view text = packed.substr(sizeof size, size);
+  packed.remove_prefix(sizeof size + size);
+  return text;
+}
+
+std::string identity_of(const StoreFormat& format, const NamedTexts& basis) {
+  std::string text = std::string(format.name) + ' ' + std::to_string(format.version);
+  for (const auto& [name, value] : basis) text.append("\n").append(name).append("=").append(value);
+  return text;
 }
 
 }  // namespace
@@ -280,8 +304,9 @@ StoreMark store_mark(const std::filesystem::path& path) {
   }
 }
 
-Store::Store(const std::filesystem::path& path, const StoreFormat& format,
-             const NamedTexts& basis) {
+Store::Store(const std::filesystem::path& path, const StoreFormat& format, const NamedTexts& basis)
+    : identity_(identity_of(format, basis)) {
+  if (ranks().is_worker()) return;
   try {
     connection_ = std::make_unique<Connection>(path, format, basis);
   } catch (const SQLite::Exception& failure) {
@@ -292,7 +317,7 @@ Store::Store(const std::filesystem::path& path, const StoreFormat& format,
 Store::~Store() = default;
 
 void Store::remove(const std::filesystem::path& path) {
-  if (!std::filesystem::exists(path)) return;
+  if (ranks().is_worker() || !std::filesystem::exists(path)) return;
 
   // Another process that has it open holds the lock. A file that is damaged or no database cannot
   // be locked and goes as well.
@@ -308,6 +333,10 @@ void Store::remove(const std::filesystem::path& path) {
 }
 
 std::optional<std::string> Store::load(const std::string& key) const {
+  if (!connection_) {
+    const std::string answer = ranks().ask(kLoad, key);
+    return answer.empty() ? std::nullopt : std::optional(answer.substr(1));
+  }
   Connection& open = *connection_;
   return open.run([&] {
     open.select->tryReset();
@@ -320,11 +349,21 @@ std::optional<std::string> Store::load(const std::string& key) const {
 }
 
 void Store::save(const std::string& key, std::string_view bytes) {
+  if (!connection_) return save(std::array{Result{key, std::string(bytes)}});
   Connection& open = *connection_;
   open.run([&] { open.write(key, bytes); });
 }
 
 void Store::save(std::span<const Result> results) {
+  if (!connection_) {
+    std::string packed;
+    for (const auto& [key, bytes] : results) {
+      pack(packed, key);
+      pack(packed, bytes);
+    }
+    ranks().ask(kSave, packed);
+    return;
+  }
   Connection& open = *connection_;
   open.run([&] {
     SQLite::Transaction transaction(open.database);
@@ -333,7 +372,17 @@ void Store::save(std::span<const Result> results) {
   });
 }
 
+void Store::save_packed(std::string_view packed) {
+  std::vector<Result> results;
+  while (!packed.empty()) {
+    const std::string_view key = unpack(packed), bytes = unpack(packed);
+    results.push_back({std::string(key), std::string(bytes)});
+  }
+  save(results);
+}
+
 void Store::for_each(const Use& use, const std::optional<std::string>& end) const {
+  if (!connection_) return;
   Connection& open = *connection_;
   open.run([&] {
     SQLite::Statement select(open.database, std::string("SELECT key, bytes FROM result ") +
@@ -348,6 +397,7 @@ void Store::for_each(const Use& use, const std::optional<std::string>& end) cons
 }
 
 std::size_t Store::size() const {
+  if (!connection_) return 0;
   Connection& open = *connection_;
   return open.run([&] {
     return static_cast<std::size_t>(
@@ -355,6 +405,6 @@ std::size_t Store::size() const {
   });
 }
 
-std::size_t Store::dropped() const { return connection_->dropped; }
+std::size_t Store::dropped() const { return connection_ ? connection_->dropped : 0; }
 
 }  // namespace dashpot

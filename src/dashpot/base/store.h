@@ -44,6 +44,10 @@ StoreMark store_mark(const std::filesystem::path& path);
 /// are found when the file is opened, and dropped: to the caller they are not there, so that they
 /// are made again.
 ///
+/// Under mpirun the file is open in rank 0 alone. In a worker a Store is a hand that reaches into
+/// that of rank 0 while a farm_out() runs there: load and save do what they do, by a message each,
+/// and the others find nothing.
+///
 /// The file is an SQLite database, at rest a single file: `store` holds the format and its version,
 /// `basis` the basis, `result` the keys, bytes and checksums.
 class Store {
@@ -71,6 +75,8 @@ class Store {
   void save(const std::string& key, std::string_view bytes);
   /// Keeps all of these results or, when it throws, none: many times faster than one by one.
   void save(std::span<const Result> results);
+  /// The same results as a worker sends them.
+  void save_packed(std::string_view packed);
 
   /// Calls `use` with each key and its bytes, in the order of the keys as bytes; with `end`, only
   /// keys that are less. `use` must not call this store.
@@ -79,10 +85,13 @@ class Store {
 
   std::size_t size() const;     ///< results
   std::size_t dropped() const;  ///< results that were damaged when the file was opened
+  /// Format and basis: what all of its results depend on.
+  const std::string& identity() const { return identity_; }
 
  private:
   struct Connection;
-  std::unique_ptr<Connection> connection_;
+  std::string identity_;
+  std::unique_ptr<Connection> connection_;  ///< none in a worker
 };
 
 }  // namespace dashpot

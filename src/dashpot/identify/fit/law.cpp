@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 #include "dashpot/base/text.h"
 #include "dashpot/damper/law_side.h"
@@ -37,12 +38,17 @@ std::vector<double> searched_start(const LawTask& task, const LeastSquaresProble
                        task.options.seed);
 }
 
-/// The model that the fit of this task starts from first; null where the user names none.
+/// The model that the fit of this task starts from first; null where none of the same law and
+/// forms is named.
 const LawModel* stated_start(const LawTask& task) {
-  if (task.model != task.law.name) return nullptr;
+  const auto fits = [&](const LawModel& model) {
+    if (model.law().name != task.law.name) return false;
+    for (std::size_t p = 0; p < task.law.params.size(); ++p)
+      if (model.parameters().forms[p] != task.unknowns.form_of(p)) return false;
+    return true;
+  };
   for (const auto& model : task.options.from)
-    if (const LawModel* start = model_as<LawModel>(*model); start && start->name() == task.model)
-      return start;
+    if (const LawModel* start = model->law_inside(); start && fits(*start)) return start;
   return nullptr;
 }
 
@@ -62,6 +68,7 @@ std::vector<double> best_start(const LawTask& task, std::vector<std::vector<doub
     Random random(task.options.seed);
     const LawModel* stated = stated_start(task);
     if (stated) starts.push_back(task.unknowns.of(*stated));
+    if (stated && task.options.starts == 1 && task.options.search == 0) return starts.front();
     if (!stated || task.options.starts > 1) starts.push_back(task.unknowns.start());
     if (task.options.search > 0) starts.push_back(searched_start(task, problem));
     while (starts.size() < static_cast<std::size_t>(task.options.starts))

@@ -32,6 +32,8 @@ class FitStore {
   /// Throws Error when the disk cannot take it. A fit without a model is not kept.
   void save(const Request& request, const FitReport& fit);
   std::size_t dropped() const { return store_.dropped(); }  ///< as Store has it
+  Store& store() { return store_; }                         ///< for farm_out()
+  const std::string& program() const { return program_; }
 
  private:
   std::string key_of(const Request& request) const;

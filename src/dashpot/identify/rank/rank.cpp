@@ -6,12 +6,15 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <map>
 #include <mutex>
 
 #include "dashpot/base/parallel.h"
 #include "dashpot/base/part.h"
+#include "dashpot/base/task_farm.h"
 #include "dashpot/base/text.h"
 #include "dashpot/damper/kinds/law/law_model.h"
+#include "dashpot/damper/nets/kernel.h"
 #include "dashpot/damper/registry.h"
 #include "dashpot/error.h"
 #include "dashpot/identify.h"
@@ -19,6 +22,7 @@
 #include "dashpot/identify/judge/forgetting.h"
 #include "dashpot/identify/judge/stress.h"
 #include "dashpot/identify/rank/divisions.h"
+#include "dashpot/identify/rank/fit_identity.h"
 #include "dashpot/identify/rank/fit_store.h"
 #include "dashpot/identify/rank/information.h"
 #include "dashpot/identify/rank/paired_difference.h"
@@ -196,7 +200,17 @@ class RankingRun {
     std::vector<Task> tasks = tasks_by_cost();
     PartReport report{.all = tasks.size()};
     std::erase_if(tasks, [&](const Task& task) { return !part.has(task.number); });
-    make(tasks, [](const Task&) {});
+
+    // Processes agree on a task by its number, whatever they measured.
+    std::vector<std::size_t> numbers;
+    std::map<std::size_t, const Task*> by_number;
+    for (const Task& task : tasks) {
+      numbers.push_back(task.number);
+      by_number[task.number] = &task;
+    }
+    std::atomic<std::size_t> done = 0;
+    farm_out(numbers, options_.threads, store_->store(), identity(),
+             [&](std::size_t number) { make(*by_number.at(number), done, tasks.size()); });
     report.tasks = tasks.size();
     report.kept = kept_;
     return report;
@@ -219,17 +233,29 @@ class RankingRun {
   void make(const std::vector<Task>& tasks, const std::function<void(const Task&)>& then) {
     std::atomic<std::size_t> done = 0;
     parallel_for(tasks.size(), options_.threads, [&](std::size_t k) {
-      const Task& task = tasks[k];
-      const std::string stage = task.model->name + (task.fold ? ", " + task.fold->name : "");
-      const auto share = [&] {
-        return static_cast<double>(done) / static_cast<double>(tasks.size());
-      };
-      options_.monitor.report("fitting " + stage, share());
-      *task.report = fit(task.model->name, stage, task.fold ? task.fold->training : training_);
-      ++done;
-      options_.monitor.report("fitted " + stage, share());
-      then(task);
+      make(tasks[k], done, tasks.size());
+      then(tasks[k]);
     });
+  }
+
+  /// One fit; `done` of `all` have ended.
+  void make(const Task& task, std::atomic<std::size_t>& done, std::size_t all) {
+    const std::string stage = task.model->name + (task.fold ? ", " + task.fold->name : "");
+    const auto share = [&] { return static_cast<double>(done) / static_cast<double>(all); };
+    options_.monitor.report("fitting " + stage, share());
+    *task.report = fit(task.model->name, stage, task.fold ? task.fold->training : training_);
+    ++done;
+    options_.monitor.report("fitted " + stage, share());
+  }
+
+  /// All that the tasks of a part depend on, in whatever process.
+  std::string identity() const {
+    std::vector<std::string> parts{
+        store_->program(), fingerprint(training_), to_string(dataset_.drive_unit),
+        format_leave_out(ranking_.leave_out), std::string(name_of(simd_levels().back()))};
+    for (const RankedModel& model : ranking_.models) parts.push_back(model.name);
+    for (const auto& [name, value] : describe_options(options_)) parts.push_back(value);
+    return join(parts, "\n");
   }
 
   /// The longest first, so that no core waits for it at the end.

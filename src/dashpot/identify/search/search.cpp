@@ -10,6 +10,7 @@
 
 #include "dashpot/base/file.h"
 #include "dashpot/base/parallel.h"
+#include "dashpot/base/task_farm.h"
 #include "dashpot/base/text.h"
 #include "dashpot/damper/nets/kernel.h"
 #include "dashpot/error.h"
@@ -127,9 +128,8 @@ class SearchRun {
     for (std::size_t k = 0; k < all; ++k)
       if (part.has(k)) tasks.push_back(k);
     work_ = static_cast<double>(tasks.size());
-    parallel_for(tasks.size(), report_.options.fit.threads, [&](std::size_t k) {
-      run_fold(trials[tasks[k] / folds_.size()], tasks[k] / folds_.size(),
-               tasks[k] % folds_.size());
+    farm_out(tasks, report_.options.fit.threads, store_->store(), "", [&](std::size_t k) {
+      run_fold(trials[k / folds_.size()], k / folds_.size(), k % folds_.size());
     });
     return {.tasks = tasks.size(), .all = all, .kept = report_.kept};
   }
@@ -334,8 +334,8 @@ SearchReport search(const Dataset& dataset, const LeaveOut& leave_out, const Sea
 
 PartReport search_part(const Dataset& dataset, const LeaveOut& leave_out,
                        const SearchOptions& options, TrialStore& store, const Part& part) {
-  if (options.method == SearchMethod::Halving && !part.is_all())
-    throw Error("--part", "does not go with --method halving",
+  if (options.method == SearchMethod::Halving)
+    throw Error("--method", "halving is not shared among processes",
                 "its later rounds need all results of the one before: search by chance or on a "
                 "grid");
   const OnTrial nobody;

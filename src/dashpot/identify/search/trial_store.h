@@ -41,6 +41,7 @@ class TrialStore {
   void save(const Key& key, const FoldResult& result);
   std::size_t size() const { return store_.size(); }        ///< results
   std::size_t dropped() const { return store_.dropped(); }  ///< as Store has it
+  Store& store() { return store_; }                         ///< for farm_out()
 
  private:
   Store store_;

@@ -172,6 +172,7 @@ std::vector<RawTable> read_hdf5(const fs::path& path) {
   const std::string file = path.string();
   if (lower(path.extension().string()) == ".gz")
     throw Error(file, "is a packed file of HDF5", "unpack it with gunzip first");
+  const std::lock_guard turn(hdf5_turn());
   check_hdf5(file, fs::file_size(path));
 
   Gathered all;

@@ -61,6 +61,11 @@ herr_t look_at_link(hid_t group, const char* name, const H5L_info_t* link, void*
 
 }  // namespace
 
+std::mutex& hdf5_turn() {
+  static std::mutex turn;
+  return turn;
+}
+
 void check_hdf5(const std::string& file, std::uintmax_t file_size) {
   constexpr std::uintmax_t kAlways = std::uintmax_t{64} << 20, kPerByte = 12;
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // HDF5 prints otherwise

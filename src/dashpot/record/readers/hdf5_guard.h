@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <mutex>
 #include <string>
 
 #include <hdf5.h>
@@ -21,6 +22,9 @@ class Hdf5Handle {
   hid_t id_;
   herr_t (*close_)(hid_t);
 };
+
+/// HDF5, and the MAT library above it, serve one thread at a time: held while a file is read.
+std::mutex& hdf5_turn();
 
 /// Before anything of an HDF5 file is read: throws Error on numbers that lie in other files, on
 /// datasets and chunks that state far more numbers than a file of this size has, and on a file that

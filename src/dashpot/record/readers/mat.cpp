@@ -192,6 +192,7 @@ std::vector<RawTable> read_mat(const fs::path& path) {
     throw Error(file, "is a packed MAT file", "unpack it with gunzip first");
 
   // Check sizes before the MAT library sees the file, since it believes them.
+  const std::lock_guard turn(hdf5_turn());
   const std::string head = read_head(path, kMat73Head);
   if (head.starts_with("MATLAB 7.3")) {
     check_mat73(head, fs::file_size(path), file);

@@ -31,6 +31,7 @@ class SweepStore {
   /// Keeps all of them or, when it throws, none. Throws Error when the disk cannot take them.
   void save(const std::vector<Ride>& rides);
   std::size_t dropped() const { return store_.dropped(); }  ///< as Store has it
+  Store& store() { return store_; }                         ///< for farm_out()
 
  private:
   std::vector<std::string> keys_;  ///< one per controller: a hash of everything that defines it

@@ -7,6 +7,7 @@
 #include <mutex>
 
 #include "dashpot/base/parallel.h"
+#include "dashpot/base/task_farm.h"
 #include "dashpot/suspension/sweep/rides.h"
 
 namespace dashpot {
@@ -21,18 +22,21 @@ using Tasks = std::vector<SweepRider::Task>;
 /// Whether a ride is there, by controller and vehicle.
 using There = std::vector<std::vector<char>>;
 
-/// The rides of a part that are not there yet.
-std::vector<Tasks> blocks_of(const There& there, const Part& part) {
-  std::vector<Tasks> blocks;
-  const std::size_t vehicles = there.front().size();
-  for (std::size_t first = 0; first < vehicles; first += kBlock) {
-    if (!part.has(first / kBlock)) continue;
-    Tasks tasks;
-    for (std::size_t c = 0; c < there.size(); ++c)
-      for (std::size_t k = first; k < std::min(first + kBlock, vehicles); ++k)
-        if (!there[c][k]) tasks.push_back({c, k});
-    if (!tasks.empty()) blocks.push_back(std::move(tasks));
-  }
+/// The rides of a block that are not there yet.
+Tasks block_of(const There& there, std::size_t block) {
+  Tasks tasks;
+  const std::size_t first = block * kBlock, vehicles = there.front().size();
+  for (std::size_t c = 0; c < there.size(); ++c)
+    for (std::size_t k = first; k < std::min(first + kBlock, vehicles); ++k)
+      if (!there[c][k]) tasks.push_back({c, k});
+  return tasks;
+}
+
+/// The numbers of a part's blocks in which rides are missing.
+std::vector<std::size_t> blocks_of(const There& there, const Part& part) {
+  std::vector<std::size_t> blocks;
+  for (std::size_t block = 0; block * kBlock < there.front().size(); ++block)
+    if (part.has(block) && !block_of(there, block).empty()) blocks.push_back(block);
   return blocks;
 }
 
@@ -55,17 +59,15 @@ class Tally {
   std::mutex guard_;
 };
 
-/// Rides block by block, keeps each as it ends and gives it to `take`.
-void ride_blocks(const std::vector<Tasks>& blocks, const SweepRider& rider, SweepStore& store,
-                 const SweepOptions& options, Tally& tally,
-                 const std::function<void(const SweepStore::Ride&)>& take) {
-  parallel_for(blocks.size(), options.threads, [&](std::size_t b) {
-    options.monitor.check();
-    const std::vector<SweepStore::Ride> rides = rider.ride(blocks[b], options.monitor);
-    store.save(rides);
-    for (const SweepStore::Ride& ride : rides) take(ride);
-    tally.add(rides.size());
-  });
+/// Rides what is missing of a block, keeps it as it ends and gives it to `take`.
+void ride_block(const There& there, std::size_t block, const SweepRider& rider, SweepStore& store,
+                const SweepOptions& options, Tally& tally,
+                const std::function<void(const SweepStore::Ride&)>& take) {
+  options.monitor.check();
+  const std::vector<SweepStore::Ride> rides = rider.ride(block_of(there, block), options.monitor);
+  store.save(rides);
+  for (const SweepStore::Ride& ride : rides) take(ride);
+  tally.add(rides.size());
 }
 
 }  // namespace
@@ -91,10 +93,12 @@ Sweep sweep(const SweepRequest& request, SweepStore& store, const SweepOptions& 
 
   // Ride the others, block by block.
   Tally tally(result.kept, result.ride_count(), options.monitor);
-  ride_blocks(blocks_of(there, Part()), rider, store, options, tally,
-              [&](const SweepStore::Ride& ride) {
-                result.rides[ride.controller][ride.vehicle] = ride.measures;
-              });
+  const std::vector<std::size_t> blocks = blocks_of(there, Part());
+  parallel_for(blocks.size(), options.threads, [&](std::size_t b) {
+    ride_block(there, blocks[b], rider, store, options, tally, [&](const SweepStore::Ride& ride) {
+      result.rides[ride.controller][ride.vehicle] = ride.measures;
+    });
+  });
 
   result.wall_seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -110,12 +114,15 @@ PartReport sweep_part(const SweepRequest& request, SweepStore& store, const Swee
   There there(controllers, std::vector<char>(vehicles));
   const std::size_t all = blocks_of(there, Part()).size(), tasks = blocks_of(there, part).size();
   for (const SweepStore::Ride& ride : store.load()) there[ride.controller][ride.vehicle] = 1;
-  const std::vector<Tasks> blocks = blocks_of(there, part);
+  const std::vector<std::size_t> blocks = blocks_of(there, part);
 
+  // A worker of mpirun does not see the store: it is told by rank 0 which blocks are missing.
   std::size_t rides = 0;
-  for (const Tasks& block : blocks) rides += block.size();
+  for (const std::size_t block : blocks) rides += block_of(there, block).size();
   Tally tally(0, rides, options.monitor);
-  ride_blocks(blocks, rider, store, options, tally, [](const SweepStore::Ride&) {});
+  farm_out(blocks, options.threads, store.store(), std::to_string(all), [&](std::size_t block) {
+    ride_block(there, block, rider, store, options, tally, [](const SweepStore::Ride&) {});
+  });
   return {.tasks = tasks, .all = all, .kept = tasks - blocks.size()};
 }
 

@@ -1,0 +1,165 @@
+#include "dashpot/base/task_farm.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <exception>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "dashpot/base/file.h"
+#include "dashpot/base/parallel.h"
+#include "dashpot/base/ranks.h"
+#include "dashpot/base/store.h"
+#include "dashpot/error.h"
+
+namespace dashpot {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr const char *kWait = "wait", *kEnd = "end";
+
+int loops_of(int threads) { return threads > 0 ? threads : default_threads(); }
+
+/// What a worker tells of its work, so that rank 0 can refuse another one.
+std::string greeting(const Store& store, const std::string& work) {
+  return sha256(store.identity() + '\n' + work);
+}
+
+/// Rank 0: hands out tasks to itself and the workers, and keeps what they make.
+class FarmHost {
+ public:
+  FarmHost(std::span<const std::size_t> numbers, Store& store, const std::string& work)
+      : numbers_(numbers), store_(store), greeting_(greeting(store, work)) {}
+
+  void run(int threads, const std::function<void(std::size_t)>& task) {
+    std::jthread server([this] { serve(); });
+    const auto loops = static_cast<std::size_t>(loops_of(threads));
+    try {
+      parallel_for(loops, threads, [&](std::size_t) {
+        while (const auto number = claim()) {
+          task(*number);
+          ++done_;
+        }
+      });
+    } catch (...) {
+      stop_ = true;
+      throw;
+    }
+    server.join();
+    if (failure_) std::rethrow_exception(failure_);
+  }
+
+ private:
+  std::optional<std::size_t> claim() {
+    const std::size_t k = next_.fetch_add(1);
+    if (k >= numbers_.size()) return std::nullopt;
+    return numbers_[k];
+  }
+
+  /// Answers the workers until all of them have left. A failure ends the tasks.
+  void serve() {
+    constexpr auto kLongest = 1ms;
+    auto pause = 20us;
+    try {
+      std::size_t left = 0;
+      while (left + 1 < ranks().count() && !stop_) {
+        if (const auto message = ranks().next()) {
+          left += answer(*message);
+          pause = 20us;
+          continue;
+        }
+        std::this_thread::sleep_for(pause);
+        if (pause < kLongest) pause *= 2;
+      }
+    } catch (...) {
+      failure_ = std::current_exception();
+      next_ = numbers_.size();
+    }
+  }
+
+  /// Whether the worker has left with this.
+  bool answer(const Ranks::Message& message) {
+    const auto& [from, tag, bytes] = message;
+    switch (tag) {
+      case kHello:
+        if (bytes != greeting_)
+          throw Error("rank " + std::to_string(from),
+                      "has other recordings, options, instructions or another program than rank 0",
+                      "let all machines see the same files, install one build, and give --simd "
+                      "avx2 where processors differ");
+        return false;
+      case kNext: {
+        done_ += bytes.size();
+        const auto number = claim();
+        // Whoever finds no task waits for the last ones: what they make is needed by all.
+        ranks().send(from, kTask,
+                     number                    ? std::to_string(*number)
+                     : done_ < numbers_.size() ? kWait
+                                               : kEnd);
+        return false;
+      }
+      case kSave:
+        store_.save_packed(bytes);
+        ranks().send(from, kSaved, {});
+        return false;
+      case kLoad: {
+        const auto found = store_.load(bytes);
+        ranks().send(from, kLoaded, found ? '1' + *found : std::string());
+        return false;
+      }
+      case kFailed: {
+        const std::size_t end = bytes.find('\n');
+        throw Error(bytes.substr(0, end), bytes.substr(end + 1));
+      }
+      default:
+        return tag == kLeft;
+    }
+  }
+
+  std::span<const std::size_t> numbers_;
+  Store& store_;
+  const std::string greeting_;
+  std::atomic<std::size_t> next_ = 0, done_ = 0;
+  std::atomic<bool> stop_ = false;
+  std::exception_ptr failure_;
+};
+
+/// A worker: asks rank 0 for one task after the other.
+void work_for_host(int threads, const Store& store, const std::string& work,
+                   const std::function<void(std::size_t)>& task) {
+  constexpr auto kShortest = 5ms, kLongest = 200ms;
+  ranks().tell(kHello, greeting(store, work));
+  parallel_for(static_cast<std::size_t>(loops_of(threads)), threads, [&](std::size_t) {
+    auto pause = kShortest;
+    for (std::string ended;;) {
+      const std::string answer = ranks().ask(kNext, ended);
+      ended.clear();
+      if (answer == kEnd) break;
+      if (answer == kWait) {
+        std::this_thread::sleep_for(pause);
+        pause = std::min(kLongest, 2 * pause);
+        continue;
+      }
+      task(std::stoul(answer));
+      ended = "1";
+    }
+  });
+  ranks().tell(kLeft, {});
+}
+
+}  // namespace
+
+void farm_out(std::span<const std::size_t> numbers, int threads, Store& store,
+              const std::string& work, const std::function<void(std::size_t)>& task) {
+  if (ranks().is_alone())
+    parallel_for(numbers.size(), threads, [&](std::size_t k) { task(numbers[k]); });
+  else if (ranks().is_worker())
+    work_for_host(threads, store, work, task);
+  else
+    FarmHost(numbers, store, work).run(threads, task);
+}
+
+}  // namespace dashpot
