@@ -2,9 +2,9 @@
 
 #include "dashpot/damper/inverse/inverse_file.h"
 #include "dashpot/damper/parameter_set.h"
-#include "dashpot/damper/physics/damper_physics.h"
 #include "dashpot/design/design_problem.h"
 #include "dashpot/model_file.h"
+#include "dashpot/physics/damper_physics.h"
 #include "fuzz.h"
 
 // Files of models, of inverses and of dampers.
